@@ -1,0 +1,388 @@
+/* frond.h - plants that bend, for worlds simulated by the Bullet physics engine. Compiles as C99 and as C++.
+ *
+ * This header is the manual. A plant is made in three steps: a *model* (shape and material, read-only, shared), a *world*
+ * (a Bullet world; Frond makes one, or frond_bullet.hpp attaches to yours), and a *plant* (one instance that moves).
+ *
+ * Units      SI everywhere: metre, kilogram, second, radian, newton, pascal.
+ * Numbers    double in the simulation, float in what goes to a GPU. Right-handed. A model's own up axis is +y after
+ *            import; in the world gravity alone decides what is down.
+ * Defaults   Make every def with its frond_default_*_def(), then change fields.
+ * Ownership  Each *_create, *_load or *_from_* has one *_destroy. Defs, arrays and strings passed in are copied.
+ *            Pointers inside a *_view are borrowed: those of a model live as long as the model, those of a plant die at
+ *            the next step or destroy.
+ * Errors     Zero (FROND_OK) is success. On failure the call changed nothing, out parameters are zeroed, and
+ *            frond_last_error() says what was wrong and what to do. Wrong input never aborts the program.
+ * Threads    One world, one thread at a time. Different worlds may be used from different threads. Models are
+ *            read-only and may be shared by all of them.
+ */
+#ifndef FROND_H
+#define FROND_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifndef FROND_API
+#if defined(__GNUC__)
+#define FROND_API __attribute__((visibility("default")))
+#else
+#define FROND_API
+#endif
+#endif
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- results ------------------------------------------------------------------------------------------- */
+
+/* One list gives the codes, frond_result_name() and the table in the manual. */
+#define FROND_RESULTS(X)                                                                                       \
+    X(OK, "ok")                                                                                                \
+    X(BAD_ARGUMENT, "an argument is null, not finite or out of range")                                         \
+    X(BAD_HANDLE, "the handle is null, destroyed or of another kind")                                          \
+    X(BAD_DEF, "the def was not made by its frond_default_*_def function")                                     \
+    X(FILE_NOT_FOUND, "the file does not exist or cannot be read")                                             \
+    X(FILE_FORMAT, "the file is damaged or in a format this build does not read")                              \
+    X(BAD_GEOMETRY, "the geometry cannot be made into a body")                                                 \
+    X(UNSUPPORTED, "these options do not go together")                                                         \
+    X(OUT_OF_MEMORY, "out of memory")                                                                          \
+    X(INTERNAL, "a bug in frond, please report it")
+
+#define FROND_RESULT_ENUM(code, text) FROND_##code,
+typedef enum frond_result { FROND_RESULTS(FROND_RESULT_ENUM) FROND_RESULT_COUNT } frond_result;
+#undef FROND_RESULT_ENUM
+
+FROND_API const char* frond_version_string(void);
+/* "ok", "an argument is null ...": the text of the table above. "unknown result" when out of range. */
+FROND_API const char* frond_result_name(frond_result result);
+/* Text of this thread's last failed call: what was wrong and what to do. Never null; "" if none failed yet.
+ * Borrowed until the next failing call on this thread. */
+FROND_API const char* frond_last_error(void);
+typedef void frond_log_fn(const char* message, void* user);
+/* Where warnings go. Null silences them. Default: stderr. */
+FROND_API void frond_set_log(frond_log_fn* log, void* user);
+
+/* ---- values and handles -------------------------------------------------------------------------------- */
+
+typedef struct frond_vec3 {
+    double x, y, z;
+} frond_vec3;
+typedef struct frond_quat {
+    double x, y, z, w;
+} frond_quat;
+
+/* Handles are values. All-zero is null. A destroyed object's handle is recognised, never dereferenced. */
+typedef struct frond_world {
+    uint64_t id;
+} frond_world;
+typedef struct frond_model {
+    uint64_t id;
+} frond_model;
+typedef struct frond_plant {
+    uint64_t id;
+} frond_plant;
+typedef struct frond_grab {
+    uint64_t id;
+} frond_grab;
+
+/* ---- choices ------------------------------------------------------------------------------------------- */
+
+/* What a scene pays for. An effect runs only if its bit is set on the world AND on the plant. */
+typedef uint32_t frond_effects;
+enum {
+    FROND_GRAVITY = 1 << 0,
+    FROND_DAMPING = 1 << 1,    /* mass_damping and stiffness_damping of the plant's def */
+    FROND_USER_FORCE = 1 << 2, /* frond_plant_add_force and grabs */
+    FROND_SURFACE = 1 << 3,    /* deform the render mesh */
+    FROND_NORMALS = 1 << 4,    /* and its normals; needs FROND_SURFACE */
+    FROND_ALL_EFFECTS = (1 << 5) - 1
+};
+
+/* What moves by itself. Every model has a chain and a cage; with these the cage moves and the chain follows. */
+#define FROND_MECHANICS(X)                                                                                     \
+    X(TET_LINEAR, "tet_linear") /* the paper's equation (1): right for small deflections only */               \
+    X(TET_COROTATIONAL, "tet_corotational") /* linear in each tet's own rotated frame: bends far */
+/* How a step in time is taken. */
+#define FROND_INTEGRATORS(X) X(IMPLICIT_EULER, "implicit_euler")
+/* How a linear system is solved. */
+#define FROND_LINEAR_SOLVERS(X)                                                                                \
+    X(DIRECT, "direct") /* sparse LDLT, the symbolic part kept: exact and, for plants, quickest */             \
+    X(PCG_JACOBI, "pcg_jacobi") /* the paper's conjugate gradients, preconditioned by the diagonal */
+/* How the mass of a tet is given to its nodes. */
+#define FROND_MASSES(X) X(LUMPED, "lumped") X(CONSISTENT, "consistent")
+
+#define FROND_MECHANICS_ENUM(code, text) FROND_##code,
+typedef enum frond_mechanics { FROND_MECHANICS(FROND_MECHANICS_ENUM) FROND_MECHANICS_COUNT } frond_mechanics;
+typedef enum frond_integrator { FROND_INTEGRATORS(FROND_MECHANICS_ENUM) FROND_INTEGRATOR_COUNT } frond_integrator;
+typedef enum frond_linear_solver {
+    FROND_LINEAR_SOLVERS(FROND_MECHANICS_ENUM) FROND_LINEAR_SOLVER_COUNT
+} frond_linear_solver;
+typedef enum frond_mass { FROND_MASSES(FROND_MECHANICS_ENUM) FROND_MASS_COUNT } frond_mass;
+#undef FROND_MECHANICS_ENUM
+
+/* Short lower-case names, for reports. "?" when out of range. */
+FROND_API const char* frond_mechanics_name(frond_mechanics mechanics);
+FROND_API const char* frond_integrator_name(frond_integrator integrator);
+FROND_API const char* frond_linear_solver_name(frond_linear_solver solver);
+FROND_API const char* frond_mass_name(frond_mass mass);
+
+/* ---- world --------------------------------------------------------------------------------------------- */
+
+typedef struct frond_world_def {
+    frond_vec3 gravity;    /* [m/s^2], default (0, -9.81, 0) */
+    frond_effects effects; /* a mask over every plant's, default FROND_ALL_EFFECTS */
+    double max_substep;    /* longest step that the solver takes [s], default 1/60 */
+    uint32_t cookie;       /* do not set */
+} frond_world_def;
+
+/* What the last substep did and cost. Each bit of `trouble` has a cause, an effect and a remedy. */
+enum {
+    /* Cause: the linear solver or Newton hit its limit. Effect: the step is less accurate.
+     * Remedy: raise max_iterations or newton_iterations, or use FROND_DIRECT. */
+    FROND_TROUBLE_NOT_CONVERGED = 1 << 0,
+    /* Cause: a plant's state became non-finite or its system could not be solved. Effect: it was put back to its
+     * last good state and brought to rest. Remedy: smaller steps, weaker forces. */
+    FROND_TROUBLE_REWOUND = 1 << 1,
+    /* Cause: a tet turned inside out. Effect: none lasting with FROND_TET_COROTATIONAL. Remedy: smaller steps. */
+    FROND_TROUBLE_INVERTED = 1 << 2
+};
+typedef struct frond_report {
+    uint32_t trouble;
+    int plant_count, node_count, tet_count; /* in the world */
+    int solver_iterations;                  /* of all plants in the last substep; a direct solve counts as one */
+    double residual;                        /* largest relative residual of a linear solve in the last substep [-] */
+    double time;                            /* simulated [s] */
+    /* Wall clock of the last substep [ms]: all of it, then its parts in the order in which they run. */
+    double ms_step, ms_effects, ms_assembly, ms_solve, ms_capsules, ms_surface;
+} frond_report;
+
+typedef struct frond_ray_hit {
+    frond_plant plant; /* null: nothing was hit */
+    int capsule;       /* which of the plant's capsules */
+    int node;          /* the cage node nearest to the point */
+    frond_vec3 point;  /* [m] */
+    double distance;   /* from the origin [m] */
+} frond_ray_hit;
+
+FROND_API frond_world_def frond_default_world_def(void);
+/* Makes a btDiscreteDynamicsWorld of its own with nothing in it. To use a world that you have, see frond_bullet.hpp. */
+FROND_API frond_result frond_world_create(const frond_world_def* def, frond_world* out);
+/* Destroys its plants and grabs too. Null and stale handles are ignored. */
+FROND_API void frond_world_destroy(frond_world world);
+FROND_API bool frond_world_is_valid(frond_world world);
+/* Advances by exactly dt [s], 0..1, in equal substeps no longer than max_substep. The same calls give the same bits.
+ * UNSUPPORTED for a world that was attached: its owner steps it. */
+FROND_API frond_result frond_world_step(frond_world world, double dt);
+FROND_API frond_result frond_world_set_gravity(frond_world world, frond_vec3 gravity);
+FROND_API frond_result frond_world_set_effects(frond_world world, frond_effects effects);
+FROND_API frond_result frond_world_get_report(frond_world world, frond_report* out);
+/* Equal for two worlds that simulated identically with the same binary. */
+FROND_API frond_result frond_world_get_state_hash(frond_world world, uint64_t* out);
+/* Nearest plant along a ray, through Bullet's own ray test against the capsules. direction need not have length one;
+ * max_distance [m] > 0. A miss is FROND_OK with a null out->plant. */
+FROND_API frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin, frond_vec3 direction,
+                                            double max_distance, frond_ray_hit* out);
+
+/* ---- model: shape at rest, built once, read-only, shared by many plants ------------------------------------ */
+
+/* One set of physical constants for every mechanics, so that they can be compared. */
+typedef struct frond_material {
+    double density;   /* of the fresh tissue [kg/m^3] */
+    double young;     /* along the organ [Pa] */
+    double poisson;   /* [-], 0 .. 0.499 */
+    double thickness; /* of a blade, or the wall of what is drawn as an open sheet [m] */
+} frond_material;
+/* A material for the organs of one kind or name: see frond_model_def.organs. */
+typedef struct frond_organ_material {
+    const char* organ; /* the organ's name, or its kind: "stem", "blade" ... */
+    frond_material material;
+} frond_organ_material;
+/* Published values for the kinds "stem", "petiole", "blade", "midrib", "peduncle", "flower", "fruit", "branch", "root",
+ * "tendril"; sources stand in plugin/src/model/materials.cpp. BAD_ARGUMENT names the kinds there are. */
+FROND_API frond_result frond_material_preset(const char* kind, frond_material* out);
+
+typedef struct frond_model_def {
+    double scale;           /* metres per file unit; 0 (default) trusts the file unless the plant would be shorter than
+                             * 2 cm or taller than 50 m, then takes the unit that makes sense and warns */
+    frond_vec3 up;          /* of the file; (0,0,0) (default) takes what the file declares, else guesses +y or +z */
+    double capsule_height;  /* h of the paper [m]; 0 chooses from the shape */
+    double capsule_radius;  /* r of the paper [m]; 0 fits the shape */
+    double cage_size;       /* wanted edge length of the cage's cells [m]; 0 chooses from the shape */
+    double cage_offset;     /* how far the cage reaches outside the surface [m]; 0 is the default */
+    double cage_smoothness; /* 0 cells as they are .. 1 (default 0.5) boundary drawn close to the surface */
+    const frond_organ_material* organs; /* override presets, by organ name or kind; the last match wins */
+    int organ_count;
+    uint32_t cookie; /* do not set */
+} frond_model_def;
+
+/* One tapered straight piece. parent is an index into the same array (smaller than its own), or -1 for a root. */
+typedef struct frond_stem {
+    int parent;
+    frond_vec3 begin, end;          /* [m] */
+    double radius_begin, radius_end; /* [m] */
+} frond_stem;
+
+typedef struct frond_model_info {
+    /* surface */
+    int vertex_count, triangle_count; /* of the render mesh */
+    int part_count, texture_count, organ_count;
+    int component_count;      /* pieces of surface that do not touch by sharing vertices */
+    int joint_count;          /* places where the cage joins such pieces */
+    int dropped_triangles;    /* with bad indices, without area, or given twice */
+    int repaired_vertices;    /* not finite, or normals that had to be made */
+    double scale;             /* metres per file unit that was used */
+    frond_vec3 up;            /* file axis that became +y */
+    frond_vec3 lower, upper;  /* bounding box [m] */
+    /* cage */
+    int node_count, tet_count;
+    double min_dihedral, max_dihedral; /* over all tets [degree] */
+    double min_volume;                 /* smallest tet [m^3] */
+    double contained;                  /* share of vertices that lie inside the cage [-]; the rest are bound from outside */
+    double binding_error;              /* largest distance of a bound vertex from its place at rest [m] */
+    double volume;                     /* of the cage [m^3] */
+    double mass;                       /* of the plant [kg] */
+    /* chain */
+    int chain_node_count, capsule_count, root_count, fork_count;
+    double chain_length; /* of all capsules [m] */
+    /* cost of building [ms] */
+    double ms_import, ms_cage, ms_chain, ms_total;
+} frond_model_info;
+
+/* A run of triangles of one look and one organ. */
+typedef struct frond_part {
+    const char* name;     /* node or group in the file */
+    const char* material; /* in the file */
+    const char* organ;    /* organ name that Frond gave it */
+    const char* kind;     /* kind of organ: "stem", "blade" ... */
+    int first_triangle, triangle_count;
+    float color[4]; /* base colour, linear RGBA */
+    int texture;    /* index of the base-colour texture, -1: none */
+} frond_part;
+/* A texture as it came: the bytes of an image file (PNG, JPEG ...), to be decoded by the renderer. */
+typedef struct frond_texture_view {
+    const char* name; /* path or name in the file */
+    const uint8_t* bytes;
+    size_t byte_count;
+} frond_texture_view;
+typedef struct frond_cage_view {
+    const double* nodes; /* node_count*3, at rest [m] */
+    const int32_t* tets; /* tet_count*4, positive volume */
+    int node_count, tet_count;
+} frond_cage_view;
+typedef struct frond_chain_view {
+    const double* nodes;    /* node_count*3, at rest [m] */
+    const double* radii;    /* node_count [m] */
+    const int32_t* parents; /* node_count; -1 at a root. A node with a parent is the end of a capsule. */
+    int node_count;
+} frond_chain_view;
+
+FROND_API frond_model_def frond_default_model_def(void);
+/* Mesh files that assimp reads (.obj .ply .glb .gltf .fbx .dae .stl) and tet meshes (.msh .vtk). Reading runs in a
+ * process of its own with limits on time and memory, so that a damaged file cannot bring down the program. */
+FROND_API frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out);
+/* xyz: vertex_count*3. indices: triangle_count*3, each in 0..vertex_count-1. The triangles may be a soup. */
+FROND_API frond_result frond_model_from_triangles(const float* xyz, int vertex_count, const int32_t* indices,
+                                                  int triangle_count, const frond_model_def* def, frond_model* out);
+/* A tree of tapered pieces; the surface is made too. */
+FROND_API frond_result frond_model_from_stems(const frond_stem* stems, int stem_count, const frond_model_def* def,
+                                              frond_model* out);
+/* The caller's own tets, simulated as they are, node by node. xyz: node_count*3 [m]; tets: tet_count*4, in either
+ * orientation. The surface is the tets' boundary. scale and up of the def apply, the cage fields do not. */
+FROND_API frond_result frond_model_from_tets(const double* xyz, int node_count, const int32_t* tets, int tet_count,
+                                             const frond_model_def* def, frond_model* out);
+/* Plants made from it keep what they need. Null and stale handles are ignored. */
+FROND_API void frond_model_destroy(frond_model model);
+FROND_API bool frond_model_is_valid(frond_model model);
+FROND_API frond_result frond_model_get_info(frond_model model, frond_model_info* out);
+FROND_API frond_result frond_model_get_part(frond_model model, int part, frond_part* out);
+FROND_API frond_result frond_model_get_texture(frond_model model, int texture, frond_texture_view* out);
+FROND_API frond_result frond_model_get_cage(frond_model model, frond_cage_view* out);
+FROND_API frond_result frond_model_get_chain(frond_model model, frond_chain_view* out);
+
+/* ---- plant: one instance, which moves ---------------------------------------------------------------------- */
+
+typedef struct frond_plant_def {
+    frond_vec3 position; /* of the model's origin [m] */
+    frond_quat rotation; /* need not have length one; default identity */
+    frond_mechanics mechanics;         /* default FROND_TET_COROTATIONAL */
+    frond_integrator integrator;       /* default FROND_IMPLICIT_EULER */
+    frond_linear_solver linear_solver; /* default FROND_DIRECT */
+    frond_mass mass;                   /* default FROND_LUMPED */
+    int newton_iterations;    /* solves per step at most, 1..100, default 1 */
+    double newton_tolerance;  /* stop when the residual force is below this share of the first one [-], default 1e-6 */
+    int max_iterations;       /* of an iterative linear solver, default 10000 */
+    double tolerance;         /* of an iterative linear solver, relative residual [-], default 1e-6 */
+    double mass_damping;      /* Rayleigh: D = mass_damping M + stiffness_damping K [1/s], default 0.1 */
+    double stiffness_damping; /* [s], default 0.002 */
+    double root_height;       /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
+                               * from the shape; negative pins none */
+    frond_effects effects;    /* default FROND_ALL_EFFECTS */
+    void* user;
+    uint32_t cookie; /* do not set */
+} frond_plant_def;
+
+typedef struct frond_energy {
+    double kinetic, elastic, gravity; /* [J]; gravity is zero at the height of the world's origin */
+} frond_energy;
+
+/* The render mesh in the world's frame, ready for vertex buffers. */
+typedef struct frond_surface_view {
+    const float* positions; /* vertex_count*3 [m] */
+    const float* normals;   /* vertex_count*3, length one */
+    const float* uvs;       /* vertex_count*2, or null */
+    const uint8_t* colors;  /* vertex_count*4 RGBA, or null */
+    const int32_t* indices; /* triangle_count*3 */
+    int vertex_count, triangle_count;
+} frond_surface_view;
+
+/* The capsules as they are now in the world's frame. */
+typedef struct frond_capsule {
+    frond_vec3 begin, end; /* centres of the two half spheres [m] */
+    double radius;         /* [m] */
+} frond_capsule;
+
+FROND_API frond_plant_def frond_default_plant_def(void);
+FROND_API frond_result frond_plant_create(frond_world world, frond_model model, const frond_plant_def* def,
+                                          frond_plant* out);
+/* Destroys its grabs too. Null and stale handles are ignored. */
+FROND_API void frond_plant_destroy(frond_plant plant);
+FROND_API bool frond_plant_is_valid(frond_plant plant);
+/* Null for an invalid handle. */
+FROND_API void* frond_plant_get_user(frond_plant plant);
+FROND_API frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects);
+/* 0 for an invalid handle. */
+FROND_API int frond_plant_get_node_count(frond_plant plant);
+FROND_API int frond_plant_get_capsule_count(frond_plant plant);
+/* node_count must be the plant's. Either array may be null. positions [m], velocities [m/s], node_count*3, in the
+ * world's frame. Setting moves pinned nodes too: they stay where they are put. */
+FROND_API frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count);
+FROND_API frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
+                                             int node_count);
+/* Holds a cage node where it is, or lets it go. */
+FROND_API frond_result frond_plant_pin(frond_plant plant, int node);
+FROND_API frond_result frond_plant_unpin(frond_plant plant, int node);
+/* Moves a pinned node [m] within the next step. BAD_ARGUMENT if it is not pinned. */
+FROND_API frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 position);
+/* [N], for the next frond_world_step (all its substeps) only. Forces on one node add up. */
+FROND_API frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force);
+FROND_API frond_result frond_plant_get_energy(frond_plant plant, frond_energy* out);
+FROND_API frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out);
+/* capsule_count must be the plant's; out: capsule_count. */
+FROND_API frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int capsule_count);
+/* The highest point of the surface against gravity [m]. */
+FROND_API frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out);
+
+/* ---- grab: a spring between a point of a plant and a moving point, the mouse ---------------------------------- */
+
+/* Takes hold of the surface vertex nearest to `point` [m]. stiffness [N/m] > 0. The target starts at that vertex. */
+FROND_API frond_result frond_grab_create(frond_plant plant, frond_vec3 point, double stiffness, frond_grab* out);
+FROND_API frond_result frond_grab_move(frond_grab grab, frond_vec3 target);
+/* Where it holds the plant now, where it pulls to [m], and with what force on the plant [N]. Any may be null. */
+FROND_API frond_result frond_grab_get(frond_grab grab, frond_vec3* point, frond_vec3* target, frond_vec3* force);
+FROND_API void frond_grab_destroy(frond_grab grab);
+FROND_API bool frond_grab_is_valid(frond_grab grab);
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* FROND_H */

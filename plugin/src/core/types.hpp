@@ -1,0 +1,26 @@
+// Scalar and vector types. Everything inside is double; only what goes to a GPU is float.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace frond {
+
+using Vec2f = Eigen::Vector2f;
+using Vec3f = Eigen::Vector3f;
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Quat = Eigen::Quaterniond;
+using VecX = Eigen::VectorXd;
+using Triangle = std::array<int, 3>;
+using Tet = std::array<int, 4>;
+using Color = std::array<uint8_t, 4>;  // RGBA, sRGB
+
+// The i-th point of a vector that holds x y z x y z ...
+inline auto point(VecX& x, int i) { return x.segment<3>(3 * Eigen::Index(i)); }
+inline auto point(const VecX& x, int i) { return x.segment<3>(3 * Eigen::Index(i)); }
+
+}  // namespace frond

@@ -1,0 +1,35 @@
+// Import: files and the caller's arrays -> Surface (or tets). The only place that sees assimp.
+#pragma once
+
+#include "model/cage.hpp"
+
+namespace frond {
+
+struct ImportOptions {
+    double scale = 0;       // 0: guess
+    Vec3 up = Vec3::Zero();  // zero: guess
+};
+
+// A tet mesher's output: nodes and tets as they stand, and their boundary as surface.
+struct TetMesh {
+    std::vector<Vec3> nodes;
+    std::vector<Tet> tets;
+    std::vector<int> tet_region;            // index into regions
+    std::vector<std::string> regions;       // names, at least one
+};
+
+// Mesh files, through assimp in a child process with limits: see import_process.cpp.
+Surface import_surface(const std::string& path, const ImportOptions& options);
+// Gmsh .msh (2.2 and 4.1, text and binary) and legacy .vtk unstructured grids.
+bool is_tet_file(const std::string& path);
+TetMesh import_tets(const std::string& path);
+
+// Scales and turns to metres and +y up, guessing what the options leave open; then cleans.
+void place_surface(Surface& surface, const ImportOptions& options);
+Surface surface_from_triangles(const float* xyz, int vertex_count, const int32_t* indices, int triangle_count);
+// Tubes with rounded ends around the pieces; one part a stem.
+Surface surface_from_stems(const frond_stem* stems, int stem_count);
+// Checks, orients, scales and turns the tets; their boundary becomes the surface, bound to its own nodes.
+void take_tets(TetMesh mesh, const ImportOptions& options, Surface& surface, Cage& cage, Embedding& embedding);
+
+}  // namespace frond

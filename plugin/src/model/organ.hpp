@@ -1,0 +1,30 @@
+// Organs: the parts of a plant that have a name, a kind and a material.
+#pragma once
+
+#include <string>
+
+#include "frond/frond.h"
+#include "model/topology.hpp"
+
+namespace frond {
+
+using Material = frond_material;
+
+struct Organ {
+    std::string name;  // "leaf_3"
+    std::string kind;  // a row of the table in materials.cpp: "stem", "blade" ...
+    Material material;
+};
+
+// Published values by kind; null if there is no such kind.
+const Material* material_preset(const std::string& kind);
+// "stem, petiole, blade ...", for error texts.
+std::string material_kinds();
+
+// Tells organs by node and material names, and by shape where the names say nothing (thin open sheets are blades,
+// tubes are stems). Sets Part::organ and splits parts whose components are of different kinds. `overrides` replace
+// materials by organ name or kind; an override that matches no organ is an error that names the organs there are.
+std::vector<Organ> find_organs(Surface& surface, const Topology& topology, const frond_organ_material* overrides,
+                               int override_count);
+
+}  // namespace frond

@@ -1,0 +1,50 @@
+// Surface: the render mesh as it came in, cleaned, in metres with +y up. A soup: nothing says that it is closed,
+// manifold or oriented.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace frond {
+
+// A run of triangles that came from one node and one material of the file.
+struct Part {
+    std::string name, material;
+    std::array<float, 4> color = {0.5f, 0.6f, 0.35f, 1.0f};  // linear RGBA
+    int texture = -1;
+    int first_triangle = 0, triangle_count = 0;
+    int organ = -1;  // index into Model::organs, set by find_organs()
+};
+
+struct Texture {
+    std::string name;
+    std::vector<uint8_t> bytes;  // of an image file
+};
+
+struct Surface {
+    std::vector<Vec3> positions;
+    std::vector<Vec3f> normals;   // one a vertex, length one
+    std::vector<Vec2f> uvs;       // empty or one a vertex
+    std::vector<Color> colors;    // empty or one a vertex
+    std::vector<Triangle> triangles;  // ordered by part
+    std::vector<Part> parts;          // cover the triangles without gap
+    std::vector<Texture> textures;
+
+    // What the import put right.
+    int dropped_triangles = 0, repaired_vertices = 0;
+    double scale = 1;       // metres per file unit
+    Vec3 up = Vec3::UnitY();  // file axis that became +y
+
+    Vec3 lower() const;
+    Vec3 upper() const;
+    double size() const { return (upper() - lower()).norm(); }
+    double height() const { return upper().y() - lower().y(); }
+};
+
+// Drops triangles with bad indices, without area or given twice, and vertices that nothing uses; makes normals where they
+// are missing; keeps the order of what is left. Throws BAD_GEOMETRY when nothing is left or coordinates are absurd.
+void clean_surface(Surface& surface);
+
+}  // namespace frond

@@ -1,0 +1,70 @@
+// Solve: one step in time. Integrators and linear solvers are rows of tables indexed by the public enums.
+#pragma once
+
+#include <memory>
+
+#include "mechanics/mechanics.hpp"
+
+namespace frond {
+
+// What all plants of one model share: elements, masses, sparsity and elimination order.
+struct System;
+std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mass mass);
+const TetElements& elements_of(const System& system);
+const VecX& node_mass_of(const System& system);  // lumped, one a node [kg]
+
+// A spring between a point of a tet and a fixed target; stiffness [N/m].
+struct Spring {
+    int tet;
+    std::array<double, 4> weights;
+    Vec3 target;
+    double stiffness;
+};
+
+struct SolveSettings {
+    frond_mechanics mechanics;
+    frond_integrator integrator;
+    frond_linear_solver linear_solver;
+    int newton_iterations, max_iterations;
+    double newton_tolerance, tolerance;
+    double mass_damping, stiffness_damping;  // zero when the damping effect is off
+};
+
+// Everything of a plant that a step changes. Nodes in the world's frame.
+struct Motion {
+    VecX x, v;                   // node_count*3 [m], [m/s]
+    std::vector<uint8_t> pinned;  // node_count
+    VecX pin_target;             // where pinned nodes are at the end of the step, node_count*3 [m]
+};
+
+// What acts during a step, gathered by the effects.
+struct Loads {
+    VecX force;                   // node_count*3 [N]
+    Vec3 gravity = Vec3::Zero();  // [m/s^2]; applied through the mass matrix
+    std::vector<Spring> springs;
+};
+
+struct SolveReport {
+    bool ok = false;         // false: the system could not be solved; motion is unchanged
+    bool converged = true;
+    int iterations = 0;      // of the linear solver
+    int inverted = 0;        // tets
+    double residual = 0;     // relative, of the last linear solve
+    double ms_assembly = 0, ms_solve = 0;
+};
+
+// Scratch space of one plant: matrix values, factor, vectors. Kept from step to step.
+struct Workspace;
+struct WorkspaceDeleter {
+    void operator()(Workspace* workspace) const;
+};
+using WorkspacePtr = std::unique_ptr<Workspace, WorkspaceDeleter>;
+WorkspacePtr make_workspace(std::shared_ptr<const System> system);
+
+// Advances motion by h [s].
+SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, const Loads& loads, double h, Motion& motion);
+
+// Kinetic energy with the system's mass, elastic energy with its mechanics [J].
+double kinetic_energy(const System& system, const VecX& v);
+
+}  // namespace frond
