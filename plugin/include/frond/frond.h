@@ -1,7 +1,8 @@
 /* frond.h - plants that bend, for worlds simulated by the Bullet physics engine. Compiles as C99 and as C++.
  *
- * This header is the manual. A plant is made in three steps: a *model* (shape and material, read-only, shared), a *world*
- * (a Bullet world; Frond makes one, or frond_bullet.hpp attaches to yours), and a *plant* (one instance that moves).
+ * This header is the manual. A plant is made in three steps: a *model* (shape and material, read-only, shared), a
+ * *world* (a Bullet world; Frond makes one, or frond_bullet.hpp attaches to yours), and a *plant* (one instance that
+ * moves).
  *
  * Units      SI everywhere: metre, kilogram, second, radian, newton, pascal.
  * Numbers    double in the simulation, float in what goes to a GPU. Right-handed. A model's own up axis is +y after
@@ -36,16 +37,16 @@ extern "C" {
 /* ---- results ------------------------------------------------------------------------------------------- */
 
 /* One list gives the codes, frond_result_name() and the table in the manual. */
-#define FROND_RESULTS(X)                                                                                       \
-    X(OK, "ok")                                                                                                \
-    X(BAD_ARGUMENT, "an argument is null, not finite or out of range")                                         \
-    X(BAD_HANDLE, "the handle is null, destroyed or of another kind")                                          \
-    X(BAD_DEF, "the def was not made by its frond_default_*_def function")                                     \
-    X(FILE_NOT_FOUND, "the file does not exist or cannot be read")                                             \
-    X(FILE_FORMAT, "the file is damaged or in a format this build does not read")                              \
-    X(BAD_GEOMETRY, "the geometry cannot be made into a body")                                                 \
-    X(UNSUPPORTED, "these options do not go together")                                                         \
-    X(OUT_OF_MEMORY, "out of memory")                                                                          \
+#define FROND_RESULTS(X)                                                          \
+    X(OK, "ok")                                                                   \
+    X(BAD_ARGUMENT, "an argument is null, not finite or out of range")            \
+    X(BAD_HANDLE, "the handle is null, destroyed or of another kind")             \
+    X(BAD_DEF, "the def was not made by its frond_default_*_def function")        \
+    X(FILE_NOT_FOUND, "the file does not exist or cannot be read")                \
+    X(FILE_FORMAT, "the file is damaged or in a format this build does not read") \
+    X(BAD_GEOMETRY, "the geometry cannot be made into a body")                    \
+    X(UNSUPPORTED, "these options do not go together")                            \
+    X(OUT_OF_MEMORY, "out of memory")                                             \
     X(INTERNAL, "a bug in frond, please report it")
 
 #define FROND_RESULT_ENUM(code, text) FROND_##code,
@@ -99,14 +100,14 @@ enum {
 };
 
 /* What moves by itself. Every model has a chain and a cage; with these the cage moves and the chain follows. */
-#define FROND_MECHANICS(X)                                                                                     \
-    X(TET_LINEAR, "tet_linear") /* the paper's equation (1): right for small deflections only */               \
+#define FROND_MECHANICS(X)                                                                                   \
+    X(TET_LINEAR, "tet_linear")             /* the paper's equation (1): right for small deflections only */ \
     X(TET_COROTATIONAL, "tet_corotational") /* linear in each tet's own rotated frame: bends far */
 /* How a step in time is taken. */
 #define FROND_INTEGRATORS(X) X(IMPLICIT_EULER, "implicit_euler")
 /* How a linear system is solved. */
-#define FROND_LINEAR_SOLVERS(X)                                                                                \
-    X(DIRECT, "direct") /* sparse LDLT, the symbolic part kept: exact and, for plants, quickest */             \
+#define FROND_LINEAR_SOLVERS(X)                                                                            \
+    X(DIRECT, "direct")         /* sparse LDLT, the symbolic part kept: exact and, for plants, quickest */ \
     X(PCG_JACOBI, "pcg_jacobi") /* the paper's conjugate gradients, preconditioned by the diagonal */
 /* How the mass of a tet is given to its nodes. */
 #define FROND_MASSES(X) X(LUMPED, "lumped") X(CONSISTENT, "consistent")
@@ -119,6 +120,9 @@ typedef enum frond_linear_solver {
 } frond_linear_solver;
 typedef enum frond_mass { FROND_MASSES(FROND_MECHANICS_ENUM) FROND_MASS_COUNT } frond_mass;
 #undef FROND_MECHANICS_ENUM
+/* Which shape the file shows: the plant as it stands under 9.81 m/s^2 along the model's -y, for which Frond finds the
+ * shape without gravity, or as it would be without gravity, so that it droops. */
+typedef enum frond_rest { FROND_REST_STANDS_AS_MODELLED, FROND_REST_WITHOUT_GRAVITY, FROND_REST_COUNT } frond_rest;
 
 /* Short lower-case names, for reports. "?" when out of range. */
 FROND_API const char* frond_mechanics_name(frond_mechanics mechanics);
@@ -198,7 +202,9 @@ typedef struct frond_organ_material {
     frond_material material;
 } frond_organ_material;
 /* Published values for the kinds "stem", "petiole", "blade", "midrib", "peduncle", "flower", "fruit", "branch", "root",
- * "tendril"; sources stand in plugin/src/model/materials.cpp. BAD_ARGUMENT names the kinds there are. */
+ * "tendril" and "support" (stakes, pots), and for "grass_stem" and "grass_blade", which stems and blades get whose name
+ * or material names a grass ("maize_blade"). Sources stand in plugin/src/model/materials.cpp. BAD_ARGUMENT names the
+ * kinds there are. */
 FROND_API frond_result frond_material_preset(const char* kind, frond_material* out);
 
 typedef struct frond_model_def {
@@ -210,6 +216,7 @@ typedef struct frond_model_def {
     double cage_size;       /* wanted edge length of the cage's cells [m]; 0 chooses from the shape */
     double cage_offset;     /* how far the cage reaches outside the surface [m]; 0 is the default */
     double cage_smoothness; /* 0 cells as they are .. 1 (default 0.5) boundary drawn close to the surface */
+    frond_rest rest; /* default FROND_REST_STANDS_AS_MODELLED; tets of the caller's are taken as without gravity */
     const frond_organ_material* organs; /* override presets, by organ name or kind; the last match wins */
     int organ_count;
     uint32_t cookie; /* do not set */
@@ -218,7 +225,7 @@ typedef struct frond_model_def {
 /* One tapered straight piece. parent is an index into the same array (smaller than its own), or -1 for a root. */
 typedef struct frond_stem {
     int parent;
-    frond_vec3 begin, end;          /* [m] */
+    frond_vec3 begin, end;           /* [m] */
     double radius_begin, radius_end; /* [m] */
 } frond_stem;
 
@@ -226,21 +233,22 @@ typedef struct frond_model_info {
     /* surface */
     int vertex_count, triangle_count; /* of the render mesh */
     int part_count, texture_count, organ_count;
-    int component_count;      /* pieces of surface that do not touch by sharing vertices */
-    int joint_count;          /* places where the cage joins such pieces */
-    int dropped_triangles;    /* with bad indices, without area, or given twice */
-    int repaired_vertices;    /* not finite, or normals that had to be made */
-    double scale;             /* metres per file unit that was used */
-    frond_vec3 up;            /* file axis that became +y */
-    frond_vec3 lower, upper;  /* bounding box [m] */
+    int component_count;     /* pieces of surface that do not touch by sharing vertices */
+    int joint_count;         /* places where the cage joins such pieces */
+    int dropped_triangles;   /* with bad indices, without area, or given twice */
+    int repaired_vertices;   /* not finite, or normals that had to be made */
+    double scale;            /* metres per file unit that was used */
+    frond_vec3 up;           /* file axis that became +y */
+    frond_vec3 lower, upper; /* bounding box [m] */
     /* cage */
     int node_count, tet_count;
     double min_dihedral, max_dihedral; /* over all tets [degree] */
     double min_volume;                 /* smallest tet [m^3] */
-    double contained;                  /* share of vertices that lie inside the cage [-]; the rest are bound from outside */
-    double binding_error;              /* largest distance of a bound vertex from its place at rest [m] */
-    double volume;                     /* of the cage [m^3] */
-    double mass;                       /* of the plant [kg] */
+    double contained;     /* share of vertices that lie inside the cage [-]; the rest are bound from outside */
+    double binding_error; /* largest distance of a bound vertex from its place at rest [m] */
+    double volume;        /* of the cage [m^3] */
+    double mass;          /* of the plant [kg] */
+    double stiffened;     /* how much stiffer than its materials the plant was made so that it stands [-] */
     /* chain */
     int chain_node_count, capsule_count, root_count, fork_count;
     double chain_length; /* of all capsules [m] */
@@ -302,13 +310,13 @@ FROND_API frond_result frond_model_get_chain(frond_model model, frond_chain_view
 /* ---- plant: one instance, which moves ---------------------------------------------------------------------- */
 
 typedef struct frond_plant_def {
-    frond_vec3 position; /* of the model's origin [m] */
-    frond_quat rotation; /* need not have length one; default identity */
+    frond_vec3 position;               /* of the model's origin [m] */
+    frond_quat rotation;               /* need not have length one; default identity */
     frond_mechanics mechanics;         /* default FROND_TET_COROTATIONAL */
     frond_integrator integrator;       /* default FROND_IMPLICIT_EULER */
     frond_linear_solver linear_solver; /* default FROND_DIRECT */
     frond_mass mass;                   /* default FROND_LUMPED */
-    int newton_iterations;    /* solves per step at most, 1..100, default 1 */
+    int newton_iterations;             /* solves per step at most, 1..100, default 1 */
     double newton_tolerance;  /* stop when the residual force is below this share of the first one [-], default 1e-6 */
     int max_iterations;       /* of an iterative linear solver, default 10000 */
     double tolerance;         /* of an iterative linear solver, relative residual [-], default 1e-6 */

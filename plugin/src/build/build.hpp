@@ -12,7 +12,13 @@ std::shared_ptr<const Model> build_from_file(const std::string& path, const fron
 std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_model_def& def);
 std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def& def);
 
-// Sets tet_density, tet_young and tet_poisson of a model whose chain, organs and cage stand.
-void calibrate(Model& model);
+// Set tet_density, tet_young and tet_poisson of a model whose organs, cage and root stand: as the materials are, for
+// tets that the caller brought; or so that a cage of Frond's own bends as its organs do (which needs the chain too).
+// With `must_stand`, organs that could not carry their weight are made stiffer, with a warning.
+void take_materials(Model& model);
+void calibrate(Model& model, bool must_stand);
+// Sets rest_positions so that the plant stands under gravity as it was modelled; where it would topple, after making
+// all of it stiffer, with a warning.
+void find_rest_shapes(Model& model);
 
 }  // namespace frond

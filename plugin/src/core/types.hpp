@@ -20,7 +20,11 @@ using Tet = std::array<int, 4>;
 using Color = std::array<uint8_t, 4>;  // RGBA, sRGB
 
 // The i-th point of a vector that holds x y z x y z ...
-inline auto point(VecX& x, int i) { return x.segment<3>(3 * Eigen::Index(i)); }
-inline auto point(const VecX& x, int i) { return x.segment<3>(3 * Eigen::Index(i)); }
+inline auto point(VecX& x, int i) {
+    return x.segment<3>(3 * Eigen::Index(i));
+}
+inline auto point(const VecX& x, int i) {
+    return x.segment<3>(3 * Eigen::Index(i));
+}
 
 }  // namespace frond

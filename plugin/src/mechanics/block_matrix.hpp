@@ -12,12 +12,20 @@ struct BlockPattern {
     int node_count = 0;
     std::vector<int> start, row;
     int slot(int i, int j) const;  // of the block of nodes i and j (either order); -1 if they share no element
+    int block_count() const { return int(row.size()); }
 };
+
+// Every node has its diagonal block, and every two nodes that share an element have theirs.
+BlockPattern make_block_pattern(int node_count, const std::vector<Tet>& tets);
 
 struct BlockMatrix {
     const BlockPattern* pattern = nullptr;
     std::vector<double> values;  // 9 a block, column-major; block (i, j) of the lower triangle, i >= j
+    // Takes the pattern and makes room for it; allocates only the first time.
+    void set_pattern(const BlockPattern& new_pattern);
     void set_zero();
+    Eigen::Map<Mat3> block(int slot) { return Eigen::Map<Mat3>(values.data() + 9 * size_t(slot)); }
+    Eigen::Map<const Mat3> block(int slot) const { return Eigen::Map<const Mat3>(values.data() + 9 * size_t(slot)); }
     // y = A x
     void multiply(const VecX& x, VecX& y) const;
 };

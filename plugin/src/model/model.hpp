@@ -6,19 +6,39 @@
 
 namespace frond {
 
+// The chain in arrays, for those who read it through the C API.
+struct ChainArrays {
+    std::vector<double> positions, radii;  // node_count*3 and node_count [m]
+    std::vector<int32_t> parents;          // node_count
+};
+
 struct Model {
     Surface surface;
     Topology topology;
     std::vector<Organ> organs;
     Chain chain;
+    ChainArrays chain_view;
+    std::vector<std::array<int, 2>> capsules;  // chain nodes at the two ends; a root alone is both ends
     Cage cage;
-    Embedding embedding;          // surface vertices in the cage
-    Embedding chain_embedding;    // chain nodes in the cage
+    Embedding embedding;              // surface vertices in the cage
+    Embedding chain_embedding;        // chain nodes in the cage
     std::vector<double> tet_density;  // of the cage's tets, so that the organ weighs what it should [kg/m^3]
     std::vector<double> tet_young;    // so that it bends as it should [Pa]
     std::vector<double> tet_poisson;
+    std::vector<uint8_t> root;  // cage nodes that the ground holds unless a plant says otherwise, node_count
+    // Cage nodes without gravity, by mechanics, node_count*3 [m]; empty: as modelled.
+    std::array<VecX, FROND_MECHANICS_COUNT> rest_positions;
+    double stiffened = 1;  // how much stiffer the organs were made so that the plant stands [-]
     CageReport cage_report;
     double ms_import = 0, ms_cage = 0, ms_chain = 0, ms_total = 0;
+
+    double mass() const;  // [kg]
 };
+
+// The cage nodes of the tets that hold the foot of the chain's roots: a drooping leaf that touches the ground stays
+// free.
+std::vector<uint8_t> find_root_nodes(const Model& model);
+// Fills capsules, chain_view and chain_embedding of a model whose surface, chain and cage stand.
+void bind_chain(Model& model);
 
 }  // namespace frond

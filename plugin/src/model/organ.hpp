@@ -11,7 +11,7 @@ namespace frond {
 using Material = frond_material;
 
 struct Organ {
-    std::string name;  // "leaf_3"
+    std::string name;  // "leaf_3"; no two organs of a model share one
     std::string kind;  // a row of the table in materials.cpp: "stem", "blade" ...
     Material material;
 };
@@ -20,11 +20,14 @@ struct Organ {
 const Material* material_preset(const std::string& kind);
 // "stem, petiole, blade ...", for error texts.
 std::string material_kinds();
+// Fails with BAD_ARGUMENT, naming `who`, unless every number is finite and in range.
+void check_material(const Material& material, const std::string& who);
 
 // Tells organs by node and material names, and by shape where the names say nothing (thin open sheets are blades,
-// tubes are stems). Sets Part::organ and splits parts whose components are of different kinds. `overrides` replace
-// materials by organ name or kind; an override that matches no organ is an error that names the organs there are.
-std::vector<Organ> find_organs(Surface& surface, const Topology& topology, const frond_organ_material* overrides,
+// tubes are stems). Sets Part::organ and splits parts whose pieces are of different kinds: triangles are then put in a
+// new order, in the surface and in the topology alike. `overrides` replace materials by organ name or kind, the last
+// match wins; an override that matches no organ is an error that names the organs there are.
+std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond_organ_material* overrides,
                                int override_count);
 
 }  // namespace frond

@@ -9,7 +9,8 @@
 
 namespace frond {
 
-// A run of triangles that came from one node and one material of the file.
+// A run of triangles that came from one node and one material of the file. What it looks like: color times texture
+// times vertex colors, as far as there are any.
 struct Part {
     std::string name, material;
     std::array<float, 4> color = {0.5f, 0.6f, 0.35f, 1.0f};  // linear RGBA
@@ -25,17 +26,20 @@ struct Texture {
 
 struct Surface {
     std::vector<Vec3> positions;
-    std::vector<Vec3f> normals;   // one a vertex, length one
-    std::vector<Vec2f> uvs;       // empty or one a vertex
-    std::vector<Color> colors;    // empty or one a vertex
+    std::vector<Vec3f> normals;       // one a vertex, length one
+    std::vector<Vec2f> uvs;           // empty or one a vertex; v = 0 is the texture's top row
+    std::vector<Color> colors;        // empty or one a vertex
     std::vector<Triangle> triangles;  // ordered by part
     std::vector<Part> parts;          // cover the triangles without gap
     std::vector<Texture> textures;
 
     // What the import put right.
     int dropped_triangles = 0, repaired_vertices = 0;
-    double scale = 1;       // metres per file unit
+    double scale = 1;         // metres per file unit
     Vec3 up = Vec3::UnitY();  // file axis that became +y
+    // For place_surface(): the file says which way is up; scale and up are final, so that placing again changes
+    // nothing.
+    bool up_declared = false, placed = false;
 
     Vec3 lower() const;
     Vec3 upper() const;
@@ -43,8 +47,13 @@ struct Surface {
     double height() const { return upper().y() - lower().y(); }
 };
 
-// Drops triangles with bad indices, without area or given twice, and vertices that nothing uses; makes normals where they
-// are missing; keeps the order of what is left. Throws BAD_GEOMETRY when nothing is left or coordinates are absurd.
+// Drops triangles with bad indices, without area or given twice, and vertices that nothing uses; makes normals where
+// they are missing; keeps the order of what is left. Throws BAD_GEOMETRY when nothing is left or coordinates are
+// absurd.
 void clean_surface(Surface& surface);
+// Normals for the vertices flagged in `missing`: smooth over all triangles at the same place, weighted by area.
+void make_normals(Surface& surface, const std::vector<char>& missing);
+
+constexpr int MAX_TRIANGLES = 5000000;
 
 }  // namespace frond

@@ -14,12 +14,12 @@ struct Joint {
 };
 
 struct Topology {
-    std::vector<Vec3> points;              // welded positions
-    std::vector<int> vertex_point;         // surface vertex -> point
-    std::vector<Triangle> triangles;       // surface triangles by point (a corner may repeat after welding)
+    std::vector<Vec3> points;         // welded positions
+    std::vector<int> vertex_point;    // surface vertex -> point
+    std::vector<Triangle> triangles;  // surface triangles by point (a corner may repeat after welding)
     std::vector<int> triangle_component;
     int component_count = 0;
-    std::vector<Joint> joints;             // a spanning tree over the components, roots (lowest parts) tied last
+    std::vector<Joint> joints;  // a spanning tree over the components, roots (lowest parts) tied last
 };
 
 Topology make_topology(const Surface& surface);

@@ -9,7 +9,8 @@ namespace frond {
 
 // What all plants of one model share: elements, masses, sparsity and elimination order.
 struct System;
-std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mass mass);
+// One a mechanics, since each has a rest shape of its own.
+std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass);
 const TetElements& elements_of(const System& system);
 const VecX& node_mass_of(const System& system);  // lumped, one a node [kg]
 
@@ -27,14 +28,14 @@ struct SolveSettings {
     frond_linear_solver linear_solver;
     int newton_iterations, max_iterations;
     double newton_tolerance, tolerance;
-    double mass_damping, stiffness_damping;  // zero when the damping effect is off
+    double mass_damping, stiffness_damping;  // zero when the damping effect is off [1/s], [s]
 };
 
-// Everything of a plant that a step changes. Nodes in the world's frame.
+// Everything of a plant that a step changes. Nodes in the frame of the rest positions.
 struct Motion {
-    VecX x, v;                   // node_count*3 [m], [m/s]
+    VecX x, v;                    // node_count*3 [m], [m/s]
     std::vector<uint8_t> pinned;  // node_count
-    VecX pin_target;             // where pinned nodes are at the end of the step, node_count*3 [m]
+    VecX pin_target;              // where pinned nodes are at the end of the step, node_count*3 [m]
 };
 
 // What acts during a step, gathered by the effects.
@@ -45,11 +46,11 @@ struct Loads {
 };
 
 struct SolveReport {
-    bool ok = false;         // false: the system could not be solved; motion is unchanged
+    bool ok = false;  // false: the system could not be solved; motion is unchanged
     bool converged = true;
-    int iterations = 0;      // of the linear solver
-    int inverted = 0;        // tets
-    double residual = 0;     // relative, of the last linear solve
+    int iterations = 0;   // of the linear solver
+    int inverted = 0;     // tets
+    double residual = 0;  // relative, of the last linear solve
     double ms_assembly = 0, ms_solve = 0;
 };
 
@@ -62,9 +63,10 @@ using WorkspacePtr = std::unique_ptr<Workspace, WorkspaceDeleter>;
 WorkspacePtr make_workspace(std::shared_ptr<const System> system);
 
 // Advances motion by h [s].
-SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, const Loads& loads, double h, Motion& motion);
+SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, const Loads& loads, double h,
+                       Motion& motion);
 
-// Kinetic energy with the system's mass, elastic energy with its mechanics [J].
+// With the system's mass [J].
 double kinetic_energy(const System& system, const VecX& v);
 
 }  // namespace frond

@@ -1,0 +1,64 @@
+// Call: the frame of every public function. Checks arguments; turns whatever is thrown into a result and a text.
+#pragma once
+
+#include <cmath>
+#include <new>
+
+#include "core/error.hpp"
+#include "core/types.hpp"
+
+namespace frond {
+
+// Remembers the text of a failed call for frond_last_error(); returns the code.
+frond_result report_failure(frond_result code, const char* text) noexcept;
+
+template <class Body>
+frond_result call(Body&& body) noexcept {
+    try {
+        body();
+        return FROND_OK;
+    } catch (const Error& error) {
+        return report_failure(error.code, error.what());
+    } catch (const std::bad_alloc&) {
+        return report_failure(FROND_OUT_OF_MEMORY, "out of memory; use a coarser cage or fewer plants");
+    } catch (const std::exception& error) {
+        return report_failure(FROND_INTERNAL, error.what());
+    } catch (...) {
+        return report_failure(FROND_INTERNAL, "an unknown exception");
+    }
+}
+
+inline Vec3 to_vec(const frond_vec3& p) {
+    return Vec3(p.x, p.y, p.z);
+}
+inline frond_vec3 from_vec(const Vec3& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+// Arguments. `name` is what the header calls the argument.
+template <class T>
+void check_pointer(const T* pointer, const char* name) {
+    if (!pointer) fail(FROND_BAD_ARGUMENT, "%s is null; pass a valid pointer", name);
+}
+inline void check_finite(double value, const char* name) {
+    if (!std::isfinite(value)) fail(FROND_BAD_ARGUMENT, "%s is not finite; pass a number", name);
+}
+inline void check_range(double value, double low, double high, const char* name) {
+    if (!(value >= low && value <= high))
+        fail(FROND_BAD_ARGUMENT, "%s is %g; it must be in %g .. %g", name, value, low, high);
+}
+// Coordinates further out than this are a mistake of the caller's [m], or of any other vector in its unit.
+constexpr double LARGEST_COORDINATE = 1e9;
+inline void check_vec(const frond_vec3& p, const char* name) {
+    for (double value : {p.x, p.y, p.z}) check_range(value, -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
+}
+template <class Def>
+void check_def(const Def* def, uint32_t cookie, const char* name) {
+    check_pointer(def, "def");
+    if (def->cookie != cookie)
+        fail(FROND_BAD_DEF, "the def was not made by frond_default_%s_def(); start from it", name);
+}
+
+constexpr uint32_t WORLD_DEF_COOKIE = 0x46724e57, MODEL_DEF_COOKIE = 0x46724e4d, PLANT_DEF_COOKIE = 0x46724e50;
+
+}  // namespace frond

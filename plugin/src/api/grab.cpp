@@ -1,0 +1,59 @@
+// frond_grab_*: the user's hold on a plant.
+#include "api/call.hpp"
+#include "api/handles.hpp"
+
+using namespace frond;
+
+extern "C" {
+
+frond_result frond_grab_create(frond_plant plant, frond_vec3 near_point, double stiffness, frond_grab* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        PlantBody& body = get(plant);
+        check_vec(near_point, "point [m]");
+        check_range(stiffness, 1e-9, 1e12, "stiffness [N/m]");
+        Plant& p = *body.plant;
+        const int vertex = nearest_vertex(p, to_vec(near_point));
+        p.grabs.push_back({vertex, vertex_position(p, vertex), stiffness, 0});
+        p.grabs.back().handle = grab_slots().insert({&body, &p.grabs.back()});
+        if (!p.grabs.back().handle) {
+            p.grabs.pop_back();
+            fail(FROND_OUT_OF_MEMORY, "too many grabs; destroy some");
+        }
+        out->id = p.grabs.back().handle;
+    });
+}
+
+frond_result frond_grab_move(frond_grab grab, frond_vec3 target) {
+    return call([&] {
+        const GrabEntry entry = get(grab);
+        check_vec(target, "target [m]");
+        entry.grab->target = to_vec(target);
+    });
+}
+
+frond_result frond_grab_get(frond_grab grab, frond_vec3* held_point, frond_vec3* target, frond_vec3* force) {
+    return call([&] {
+        for (frond_vec3* out : {held_point, target, force})
+            if (out) *out = {};
+        const GrabEntry entry = get(grab);
+        if (held_point) *held_point = from_vec(vertex_position(*entry.body->plant, entry.grab->vertex));
+        if (target) *target = from_vec(entry.grab->target);
+        if (force) *force = from_vec(grab_force(*entry.body->plant, *entry.grab));
+    });
+}
+
+void frond_grab_destroy(frond_grab grab) {
+    call([&] {
+        const GrabEntry entry = grab_slots().erase(grab.id);
+        if (!entry.body) return;
+        entry.body->plant->grabs.remove_if([&](const Grab& other) { return &other == entry.grab; });
+    });
+}
+
+bool frond_grab_is_valid(frond_grab grab) {
+    return grab_slots().find(grab.id).grab != nullptr;
+}
+
+}  // extern "C"

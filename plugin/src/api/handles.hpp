@@ -1,0 +1,34 @@
+// Handles: what the C API's handles stand for.
+#pragma once
+
+#include "core/slots.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+struct GrabEntry {
+    PlantBody* body = nullptr;
+    Grab* grab = nullptr;
+};
+
+using WorldSlots = Slots<std::shared_ptr<World>, 1>;
+using ModelSlots = Slots<std::shared_ptr<const Model>, 2>;
+using PlantSlots = Slots<PlantBody*, 3>;
+using GrabSlots = Slots<GrabEntry, 4>;
+WorldSlots& world_slots();
+ModelSlots& model_slots();
+PlantSlots& plant_slots();
+GrabSlots& grab_slots();
+
+// What a handle stands for; BAD_HANDLE when it stands for nothing.
+World& get(frond_world world);
+const std::shared_ptr<const Model> get(frond_model model);
+PlantBody& get(frond_plant plant);
+GrabEntry get(frond_grab grab);
+
+// Takes the handles of a plant and its grabs back; the plant itself is the world's.
+void forget(PlantBody& body);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

@@ -1,0 +1,207 @@
+// frond_model_*, frond_material_*.
+#include <cstring>
+
+#include "api/call.hpp"
+#include "api/handles.hpp"
+#include "build/build.hpp"
+
+using namespace frond;
+
+constexpr int LARGEST_COUNT = 20'000'000;  // of vertices or triangles that a caller may pass
+
+static void check_model_def(const frond_model_def* def) {
+    check_def(def, MODEL_DEF_COOKIE, "model");
+    check_vec(def->up, "def.up");
+    check_range(def->scale, 0, 1e9, "def.scale [m per unit]");
+    check_range(def->capsule_height, 0, 1e6, "def.capsule_height [m]");
+    check_range(def->capsule_radius, 0, 1e6, "def.capsule_radius [m]");
+    check_range(def->cage_size, 0, 1e6, "def.cage_size [m]");
+    check_range(def->cage_offset, 0, 1e6, "def.cage_offset [m]");
+    check_range(def->cage_smoothness, 0, 1, "def.cage_smoothness");
+    if (def->rest < 0 || def->rest >= FROND_REST_COUNT)
+        fail(FROND_BAD_ARGUMENT, "def.rest is %d; use FROND_REST_*", int(def->rest));
+    check_range(def->organ_count, 0, 10000, "def.organ_count");
+    if (def->organ_count > 0) check_pointer(def->organs, "def.organs");
+    for (int i = 0; i < def->organ_count; i++) check_pointer(def->organs[i].organ, "def.organs[].organ");
+}
+
+// Runs a build and gives its model a handle.
+template <class Build>
+static frond_result open_model(const frond_model_def* def, frond_model* out, Build&& build) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        check_model_def(def);
+        const uint64_t id = model_slots().insert(build());
+        if (!id) fail(FROND_OUT_OF_MEMORY, "too many models; destroy some");
+        *out = {id};
+    });
+}
+
+// Fills a view from a model; zero on failure.
+template <class View, class Fill>
+static frond_result view_model(frond_model model, View* out, Fill&& fill) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        fill(*get(model), *out);
+    });
+}
+
+static void describe(const Model& model, frond_model_info& info) {
+    const Surface& surface = model.surface;
+    info.vertex_count = int(surface.positions.size());
+    info.triangle_count = int(surface.triangles.size());
+    info.part_count = int(surface.parts.size());
+    info.texture_count = int(surface.textures.size());
+    info.organ_count = int(model.organs.size());
+    info.component_count = model.topology.component_count;
+    info.joint_count = int(model.topology.joints.size());
+    info.dropped_triangles = surface.dropped_triangles;
+    info.repaired_vertices = surface.repaired_vertices;
+    info.scale = surface.scale;
+    info.up = from_vec(surface.up);
+    info.lower = from_vec(surface.lower());
+    info.upper = from_vec(surface.upper());
+    info.node_count = int(model.cage.nodes.size());
+    info.tet_count = int(model.cage.tets.size());
+    info.min_dihedral = model.cage_report.min_dihedral;
+    info.max_dihedral = model.cage_report.max_dihedral;
+    info.min_volume = model.cage_report.min_volume;
+    info.contained = model.cage_report.contained;
+    info.binding_error = model.cage_report.binding_error;
+    info.volume = model.cage_report.volume;
+    info.mass = model.mass();
+    info.stiffened = model.stiffened;
+    info.chain_node_count = int(model.chain.nodes.size());
+    info.capsule_count = int(model.capsules.size());
+    info.root_count = model.chain.root_count();
+    info.fork_count = model.chain.fork_count();
+    info.chain_length = model.chain.length();
+    info.ms_import = model.ms_import;
+    info.ms_cage = model.ms_cage;
+    info.ms_chain = model.ms_chain;
+    info.ms_total = model.ms_total;
+}
+
+extern "C" {
+
+frond_result frond_material_preset(const char* kind, frond_material* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        check_pointer(kind, "kind");
+        const Material* material = material_preset(kind);
+        if (!material)
+            fail(FROND_BAD_ARGUMENT, "there is no material \"%.64s\"; there are %s", kind, material_kinds().c_str());
+        *out = *material;
+    });
+}
+
+frond_model_def frond_default_model_def(void) {
+    frond_model_def def = {};
+    def.cage_smoothness = CageOptions().smoothness;
+    def.cookie = MODEL_DEF_COOKIE;
+    return def;
+}
+
+frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out) {
+    return open_model(def, out, [&] {
+        check_pointer(path, "path");
+        return build_from_file(path, *def);
+    });
+}
+
+frond_result frond_model_from_triangles(const float* xyz, int vertex_count, const int32_t* indices, int triangle_count,
+                                        const frond_model_def* def, frond_model* out) {
+    return open_model(def, out, [&] {
+        check_pointer(xyz, "xyz");
+        check_pointer(indices, "indices");
+        check_range(vertex_count, 3, LARGEST_COUNT, "vertex_count");
+        check_range(triangle_count, 1, LARGEST_COUNT, "triangle_count");
+        return build_from_surface(surface_from_triangles(xyz, vertex_count, indices, triangle_count), *def);
+    });
+}
+
+frond_result frond_model_from_stems(const frond_stem* stems, int stem_count, const frond_model_def* def,
+                                    frond_model* out) {
+    return open_model(def, out, [&] {
+        check_pointer(stems, "stems");
+        check_range(stem_count, 1, 100000, "stem_count");
+        return build_from_surface(surface_from_stems(stems, stem_count), *def);
+    });
+}
+
+frond_result frond_model_from_tets(const double* xyz, int node_count, const int32_t* tets, int tet_count,
+                                   const frond_model_def* def, frond_model* out) {
+    return open_model(def, out, [&] {
+        check_pointer(xyz, "xyz");
+        check_pointer(tets, "tets");
+        check_range(node_count, 4, LARGEST_COUNT, "node_count");
+        check_range(tet_count, 1, LARGEST_COUNT, "tet_count");
+        TetMesh mesh;
+        mesh.nodes.reserve(size_t(node_count));
+        for (int i = 0; i < node_count; i++) mesh.nodes.push_back(Vec3(xyz + 3 * size_t(i)));
+        mesh.tets.resize(size_t(tet_count));
+        std::memcpy(mesh.tets.data(), tets, sizeof(Tet) * size_t(tet_count));
+        mesh.tet_region.assign(size_t(tet_count), 0);
+        mesh.regions = {"stem"};
+        return build_from_tets(std::move(mesh), *def);
+    });
+}
+
+void frond_model_destroy(frond_model model) {
+    call([&] { model_slots().erase(model.id); });
+}
+
+bool frond_model_is_valid(frond_model model) {
+    return bool(model_slots().find(model.id));
+}
+
+frond_result frond_model_get_info(frond_model model, frond_model_info* out) {
+    return view_model(model, out, describe);
+}
+
+frond_result frond_model_get_part(frond_model model, int part, frond_part* out) {
+    return view_model(model, out, [&](const Model& m, frond_part& view) {
+        check_range(part, 0, double(m.surface.parts.size()) - 1, "part");
+        const Part& p = m.surface.parts[size_t(part)];
+        const Organ& organ = m.organs[size_t(p.organ)];
+        view.name = p.name.c_str();
+        view.material = p.material.c_str();
+        view.organ = organ.name.c_str();
+        view.kind = organ.kind.c_str();
+        view.first_triangle = p.first_triangle;
+        view.triangle_count = p.triangle_count;
+        std::copy(p.color.begin(), p.color.end(), view.color);
+        view.texture = p.texture;
+    });
+}
+
+frond_result frond_model_get_texture(frond_model model, int texture, frond_texture_view* out) {
+    return view_model(model, out, [&](const Model& m, frond_texture_view& view) {
+        check_range(texture, 0, double(m.surface.textures.size()) - 1, "texture");
+        const Texture& t = m.surface.textures[size_t(texture)];
+        view = {t.name.c_str(), t.bytes.data(), t.bytes.size()};
+    });
+}
+
+frond_result frond_model_get_cage(frond_model model, frond_cage_view* out) {
+    return view_model(model, out, [&](const Model& m, frond_cage_view& view) {
+        view.nodes = m.cage.nodes.front().data();
+        view.tets = m.cage.tets.front().data();
+        view.node_count = int(m.cage.nodes.size());
+        view.tet_count = int(m.cage.tets.size());
+    });
+}
+
+frond_result frond_model_get_chain(frond_model model, frond_chain_view* out) {
+    return view_model(model, out, [&](const Model& m, frond_chain_view& view) {
+        view.nodes = m.chain_view.positions.data();
+        view.radii = m.chain_view.radii.data();
+        view.parents = m.chain_view.parents.data();
+        view.node_count = int(m.chain.nodes.size());
+    });
+}
+
+}  // extern "C"

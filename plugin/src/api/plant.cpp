@@ -1,0 +1,251 @@
+// frond_plant_*: one instance.
+#include "api/call.hpp"
+#include "api/handles.hpp"
+
+using namespace frond;
+
+static void check_effects(frond_effects effects) {
+    if (effects & ~uint32_t(FROND_ALL_EFFECTS)) fail(FROND_BAD_ARGUMENT, "effects has unknown bits; use FROND_*");
+}
+
+static void check_row(int row, int count, const char* name) {
+    if (row < 0 || row >= count) fail(FROND_BAD_ARGUMENT, "%s is %d; use one of its enum's names", name, row);
+}
+
+static void check_plant_def(const frond_plant_def* def) {
+    check_def(def, PLANT_DEF_COOKIE, "plant");
+    check_vec(def->position, "def.position [m]");
+    const double length = Quat(def->rotation.w, def->rotation.x, def->rotation.y, def->rotation.z).norm();
+    if (!(length > 1e-9 && length < 1e9)) fail(FROND_BAD_ARGUMENT, "def.rotation has no direction; (0,0,0,1) is none");
+    check_row(int(def->mechanics), FROND_MECHANICS_COUNT, "def.mechanics");
+    check_row(int(def->integrator), FROND_INTEGRATOR_COUNT, "def.integrator");
+    check_row(int(def->linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.linear_solver");
+    check_row(int(def->mass), FROND_MASS_COUNT, "def.mass");
+    check_range(def->newton_iterations, 1, 100, "def.newton_iterations");
+    check_range(def->newton_tolerance, 0, 1, "def.newton_tolerance");
+    check_range(def->max_iterations, 1, 10'000'000, "def.max_iterations");
+    check_range(def->tolerance, 1e-15, 1, "def.tolerance");
+    check_range(def->mass_damping, 0, 1e6, "def.mass_damping [1/s]");
+    check_range(def->stiffness_damping, 0, 1e3, "def.stiffness_damping [s]");
+    check_range(def->root_height, -LARGEST_COORDINATE, LARGEST_COORDINATE, "def.root_height [m]");
+    check_effects(def->effects);
+}
+
+static int node_count_of(const Plant& plant) {
+    return int(plant.motion.pinned.size());
+}
+
+static void check_node(const Plant& plant, int node) {
+    if (node < 0 || node >= node_count_of(plant))
+        fail(FROND_BAD_ARGUMENT, "node is %d; this plant has nodes 0 .. %d", node, node_count_of(plant) - 1);
+}
+
+static void check_count(int given, int own, const char* name) {
+    if (given != own) fail(FROND_BAD_ARGUMENT, "%s is %d; this plant has %d", name, given, own);
+}
+
+static void check_numbers(const double* numbers, int count, const char* name) {
+    if (!numbers) return;
+    for (int i = 0; i < count; i++) check_range(numbers[i], -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
+}
+
+static frond_effects effects_of(const PlantBody& body) {
+    return body.plant->effects & body.world->effects;
+}
+
+extern "C" {
+
+frond_plant_def frond_default_plant_def(void) {
+    frond_plant_def def = {};
+    def.rotation = {0, 0, 0, 1};
+    def.mechanics = FROND_TET_COROTATIONAL;
+    def.integrator = FROND_IMPLICIT_EULER;
+    def.linear_solver = FROND_DIRECT;
+    def.mass = FROND_LUMPED;
+    def.newton_iterations = 1;
+    def.newton_tolerance = 1e-6;
+    def.max_iterations = 10000;
+    def.tolerance = 1e-6;
+    def.mass_damping = 0.1;
+    def.stiffness_damping = 0.002;
+    def.effects = FROND_ALL_EFFECTS;
+    def.cookie = PLANT_DEF_COOKIE;
+    return def;
+}
+
+frond_result frond_plant_create(frond_world world, frond_model model, const frond_plant_def* def, frond_plant* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        World& w = get(world);
+        const std::shared_ptr<const Model> m = get(model);
+        check_plant_def(def);
+        PlantBody* body = add_plant(w, create_plant(m, *def));
+        body->handle.id = plant_slots().insert(body);
+        if (!body->handle.id) {
+            remove_plant(w, body);
+            fail(FROND_OUT_OF_MEMORY, "too many plants; destroy some");
+        }
+        *out = body->handle;
+    });
+}
+
+void frond_plant_destroy(frond_plant plant) {
+    call([&] {
+        PlantBody* body = plant_slots().find(plant.id);
+        if (!body) return;
+        forget(*body);
+        remove_plant(*body->world, body);
+    });
+}
+
+bool frond_plant_is_valid(frond_plant plant) {
+    return plant_slots().find(plant.id) != nullptr;
+}
+
+void* frond_plant_get_user(frond_plant plant) {
+    const PlantBody* body = plant_slots().find(plant.id);
+    return body ? body->plant->user : nullptr;
+}
+
+frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects) {
+    return call([&] {
+        PlantBody& body = get(plant);
+        check_effects(effects);
+        body.plant->effects = effects;
+        body.plant->surface_stale = true;
+    });
+}
+
+int frond_plant_get_node_count(frond_plant plant) {
+    const PlantBody* body = plant_slots().find(plant.id);
+    return body ? node_count_of(*body->plant) : 0;
+}
+
+int frond_plant_get_capsule_count(frond_plant plant) {
+    const PlantBody* body = plant_slots().find(plant.id);
+    return body ? int(body->capsules.size()) : 0;
+}
+
+frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count) {
+    return call([&] {
+        const Plant& p = *get(plant).plant;
+        check_count(node_count, node_count_of(p), "node_count");
+        for (int i = 0; i < node_count; i++) {
+            if (positions) Eigen::Map<Vec3>(positions + 3 * i) = p.to_world(point(p.motion.x, i));
+            if (velocities) Eigen::Map<Vec3>(velocities + 3 * i) = p.rotation * point(p.motion.v, i);
+        }
+    });
+}
+
+frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
+                                   int node_count) {
+    return call([&] {
+        PlantBody& body = get(plant);
+        check_count(node_count, node_count_of(*body.plant), "node_count");
+        check_numbers(positions, 3 * node_count, "positions");
+        check_numbers(velocities, 3 * node_count, "velocities");
+        set_state(*body.plant, positions, velocities);
+        move_capsules(body);
+        body.world->bullet->updateSingleAabb(&body);
+    });
+}
+
+frond_result frond_plant_pin(frond_plant plant, int node) {
+    return call([&] {
+        Plant& p = *get(plant).plant;
+        check_node(p, node);
+        p.motion.pinned[size_t(node)] = 1;
+        point(p.motion.pin_target, node) = point(p.motion.x, node);
+        point(p.motion.v, node).setZero();
+    });
+}
+
+frond_result frond_plant_unpin(frond_plant plant, int node) {
+    return call([&] {
+        Plant& p = *get(plant).plant;
+        check_node(p, node);
+        p.motion.pinned[size_t(node)] = 0;
+    });
+}
+
+frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 position) {
+    return call([&] {
+        Plant& p = *get(plant).plant;
+        check_node(p, node);
+        check_vec(position, "position [m]");
+        if (!p.motion.pinned[size_t(node)])
+            fail(FROND_BAD_ARGUMENT, "node %d is not pinned; call frond_plant_pin", node);
+        point(p.motion.pin_target, node) = p.to_model(to_vec(position));
+    });
+}
+
+frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force) {
+    return call([&] {
+        Plant& p = *get(plant).plant;
+        check_node(p, node);
+        check_vec(force, "force [N]");
+        point(p.user_force, node) += to_vec(force);
+        p.has_user_force = true;
+    });
+}
+
+frond_result frond_plant_get_energy(frond_plant plant, frond_energy* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        const PlantBody& body = get(plant);
+        *out = energy_of(*body.plant, gravity_of(*body.world));
+    });
+}
+
+frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        PlantBody& body = get(plant);
+        Plant& p = *body.plant;
+        if (p.surface_stale && effects_of(body) & FROND_SURFACE) update_surface(p, effects_of(body));
+        const Surface& surface = p.model->surface;
+        out->positions = p.surface_positions.data();
+        out->normals = p.surface_normals.data();
+        out->uvs = surface.uvs.empty() ? nullptr : surface.uvs.front().data();
+        out->colors = surface.colors.empty() ? nullptr : surface.colors.front().data();
+        out->indices = surface.triangles.front().data();
+        out->vertex_count = int(surface.positions.size());
+        out->triangle_count = int(surface.triangles.size());
+    });
+}
+
+frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int capsule_count) {
+    return call([&] {
+        check_pointer(out, "out");
+        const PlantBody& body = get(plant);
+        check_count(capsule_count, int(body.capsules.size()), "capsule_count");
+        const Plant& p = *body.plant;
+        for (size_t i = 0; i < body.capsules.size(); i++) {
+            const auto& [begin, end] = p.model->capsules[i];
+            out[i].begin = from_vec(p.to_world(p.chain_positions[size_t(begin)]));
+            out[i].end = from_vec(p.to_world(p.chain_positions[size_t(end)]));
+            out[i].radius = double(body.capsules[i]->getRadius());
+        }
+    });
+}
+
+frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        const PlantBody& body = get(plant);
+        const Vec3 gravity = gravity_of(*body.world);
+        const Vec3 up = gravity.norm() > 0 ? Vec3(-gravity) : Vec3(Vec3::UnitY());
+        Vec3 tip = vertex_position(*body.plant, 0);
+        for (int v = 1; v < int(body.plant->model->surface.positions.size()); v++) {
+            const Vec3 p = vertex_position(*body.plant, v);
+            if (up.dot(p) > up.dot(tip)) tip = p;
+        }
+        *out = from_vec(tip);
+    });
+}
+
+}  // extern "C"

@@ -1,0 +1,62 @@
+// Results, names of choices, the log.
+#include <cstring>
+
+#include "api/call.hpp"
+#include "core/log.hpp"
+
+namespace frond {
+
+// A fixed buffer: remembering a failure must not fail.
+static thread_local char last_error[2048] = "";
+
+frond_result report_failure(frond_result code, const char* text) noexcept {
+    std::strncpy(last_error, text, sizeof last_error - 1);
+    return code;
+}
+
+template <size_t COUNT>
+static const char* row_name(const char* const (&names)[COUNT], int row, const char* otherwise) {
+    return row >= 0 && row < int(COUNT) ? names[row] : otherwise;
+}
+
+}  // namespace frond
+
+using namespace frond;
+
+#define ROW_TEXT(code, text) text,
+static const char* const RESULT_TEXTS[] = {FROND_RESULTS(ROW_TEXT)};
+static const char* const MECHANICS_NAMES[] = {FROND_MECHANICS(ROW_TEXT)};
+static const char* const INTEGRATOR_NAMES[] = {FROND_INTEGRATORS(ROW_TEXT)};
+static const char* const LINEAR_SOLVER_NAMES[] = {FROND_LINEAR_SOLVERS(ROW_TEXT)};
+static const char* const MASS_NAMES[] = {FROND_MASSES(ROW_TEXT)};
+#undef ROW_TEXT
+
+extern "C" {
+
+const char* frond_version_string(void) {
+    return FROND_VERSION;
+}
+const char* frond_result_name(frond_result result) {
+    return row_name(RESULT_TEXTS, int(result), "unknown result");
+}
+const char* frond_last_error(void) {
+    return last_error;
+}
+void frond_set_log(frond_log_fn* log, void* user) {
+    set_log(log, user);
+}
+
+const char* frond_mechanics_name(frond_mechanics mechanics) {
+    return row_name(MECHANICS_NAMES, int(mechanics), "?");
+}
+const char* frond_integrator_name(frond_integrator integrator) {
+    return row_name(INTEGRATOR_NAMES, int(integrator), "?");
+}
+const char* frond_linear_solver_name(frond_linear_solver solver) {
+    return row_name(LINEAR_SOLVER_NAMES, int(solver), "?");
+}
+const char* frond_mass_name(frond_mass mass) {
+    return row_name(MASS_NAMES, int(mass), "?");
+}
+
+}  // extern "C"

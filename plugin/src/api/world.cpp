@@ -1,0 +1,164 @@
+// frond_world_*, and the C++ side that attaches to a host's world.
+#include "api/call.hpp"
+#include "api/handles.hpp"
+
+using namespace frond;
+
+// Checks a def, makes the world and gives it a handle.
+static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& def) {
+    check_def(&def, WORLD_DEF_COOKIE, "world");
+    check_vec(def.gravity, "def.gravity");
+    check_range(def.max_substep, 1e-6, 1.0, "def.max_substep");
+    if (def.effects & ~uint32_t(FROND_ALL_EFFECTS))
+        fail(FROND_BAD_ARGUMENT, "def.effects has unknown bits; use FROND_*");
+    const uint64_t id = world_slots().insert(make_world(bullet, def));
+    if (!id) fail(FROND_OUT_OF_MEMORY, "too many worlds; destroy some");
+    return {id};
+}
+
+static int nearest_node(const Plant& plant, const Vec3& world_point) {
+    const Vec3 p = plant.to_model(world_point);
+    int nearest = 0;
+    for (int i = 1; i < plant.motion.x.size() / 3; i++)
+        if ((point(plant.motion.x, i) - p).squaredNorm() < (point(plant.motion.x, nearest) - p).squaredNorm())
+            nearest = i;
+    return nearest;
+}
+
+// Sums over the plants; times and trouble are those of the last substep.
+static frond_report full_report(const World& world) {
+    frond_report report = world.report;
+    report.time = world.time;
+    report.plant_count = int(world.bodies.size());
+    for (const auto& body : world.bodies) {
+        report.node_count += int(body->plant->model->cage.nodes.size());
+        report.tet_count += int(body->plant->model->cage.tets.size());
+        report.ms_surface += body->plant->ms_surface;
+    }
+    return report;
+}
+
+extern "C" {
+
+frond_world_def frond_default_world_def(void) {
+    frond_world_def def = {};
+    def.gravity = {0, -9.81, 0};
+    def.effects = FROND_ALL_EFFECTS;
+    def.max_substep = 1.0 / 60;
+    def.cookie = WORLD_DEF_COOKIE;
+    return def;
+}
+
+frond_result frond_world_create(const frond_world_def* def, frond_world* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        check_pointer(def, "def");
+        *out = open_world(nullptr, *def);
+    });
+}
+
+void frond_world_destroy(frond_world world) {
+    call([&] {
+        const std::shared_ptr<World> taken = world_slots().erase(world.id);
+        if (!taken) return;
+        for (const auto& body : taken->bodies) forget(*body);
+    });
+}
+
+bool frond_world_is_valid(frond_world world) {
+    return bool(world_slots().find(world.id));
+}
+
+frond_result frond_world_step(frond_world world, double dt) {
+    return call([&] {
+        World& w = get(world);
+        check_range(dt, 0, 1, "dt [s]");
+        if (!w.own) fail(FROND_UNSUPPORTED, "this world is the host's; call its stepSimulation");
+        advance(w, dt);
+    });
+}
+
+frond_result frond_world_set_gravity(frond_world world, frond_vec3 gravity) {
+    return call([&] {
+        World& w = get(world);
+        check_vec(gravity, "gravity");
+        w.bullet->setGravity(btVector3(btScalar(gravity.x), btScalar(gravity.y), btScalar(gravity.z)));
+    });
+}
+
+frond_result frond_world_set_effects(frond_world world, frond_effects effects) {
+    return call([&] {
+        World& w = get(world);
+        if (effects & ~uint32_t(FROND_ALL_EFFECTS)) fail(FROND_BAD_ARGUMENT, "effects has unknown bits; use FROND_*");
+        w.effects = effects;
+    });
+}
+
+frond_result frond_world_get_report(frond_world world, frond_report* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        *out = full_report(get(world));
+    });
+}
+
+frond_result frond_world_get_state_hash(frond_world world, uint64_t* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = 0;
+        *out = state_hash(get(world));
+    });
+}
+
+frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin, frond_vec3 direction, double max_distance,
+                                  frond_ray_hit* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        World& w = get(world);
+        check_vec(origin, "origin");
+        check_vec(direction, "direction");
+        check_range(max_distance, 1e-9, LARGEST_COORDINATE, "max_distance [m]");
+        const Vec3 from = to_vec(origin), way = to_vec(direction);
+        if (!(way.norm() > 0)) fail(FROND_BAD_ARGUMENT, "direction is zero; pass the way the ray goes");
+        const RayHit hit = cast_ray(w, from, from + max_distance * way.normalized());
+        if (!hit.body) return;
+        out->plant = hit.body->handle;
+        out->capsule = hit.capsule;
+        out->node = nearest_node(*hit.body->plant, hit.point);
+        out->point = from_vec(hit.point);
+        out->distance = (hit.point - from).norm();
+    });
+}
+
+}  // extern "C"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+frond_result attach(btDynamicsWorld* world, const frond_world_def* def, frond_world* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        check_pointer(world, "world");
+        *out = open_world(world, def ? *def : frond_default_world_def());
+    });
+}
+
+btDynamicsWorld* bullet_world(frond_world world) {
+    const std::shared_ptr<World> found = world_slots().find(world.id);
+    return found ? found->bullet : nullptr;
+}
+
+btCollisionObject* bullet_object(frond_plant plant) {
+    return plant_slots().find(plant.id);
+}
+
+frond_plant plant_of(const btCollisionObject* object) {
+    const PlantBody* body = object ? PlantBody::of(object) : nullptr;
+    return body ? body->handle : frond_plant{};
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

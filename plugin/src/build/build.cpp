@@ -1,0 +1,68 @@
+// From a surface to a model: topology -> organs -> chain, cage -> calibration.
+#include "build/build.hpp"
+
+#include "core/error.hpp"
+#include "core/timer.hpp"
+
+namespace frond {
+
+static ImportOptions import_options(const frond_model_def& def) {
+    return {def.scale, Vec3(def.up.x, def.up.y, def.up.z)};
+}
+
+static void find_organs_and_chain(Model& model, const frond_model_def& def) {
+    Timer timer;
+    model.topology = make_topology(model.surface);
+    model.organs = find_organs(model.surface, model.topology, def.organs, def.organ_count);
+    model.chain = make_chain(model.surface, model.topology, model.organs, {def.capsule_height, def.capsule_radius});
+    model.ms_chain = timer.ms();
+}
+
+static void finish(Model& model) {
+    model.root = find_root_nodes(model);
+    bind_chain(model);
+    model.cage_report = measure_cage(model.surface, model.cage, model.embedding);
+}
+
+static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def, const Timer& total) {
+    auto model = std::make_shared<Model>();
+    model->surface = std::move(surface);
+    model->ms_import = total.ms();
+    find_organs_and_chain(*model, def);
+    Timer timer;
+    make_cage(model->surface, model->topology, model->organs, {def.cage_size, def.cage_offset, def.cage_smoothness},
+              model->cage, model->embedding);
+    model->ms_cage = timer.ms();
+    finish(*model);
+    const bool must_stand = def.rest == FROND_REST_STANDS_AS_MODELLED;
+    calibrate(*model, must_stand);
+    if (must_stand) find_rest_shapes(*model);
+    model->ms_total = total.ms();
+    return model;
+}
+
+std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_model_def& def) {
+    const Timer total;
+    place_surface(surface, import_options(def));
+    return build(std::move(surface), def, total);
+}
+
+std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def& def) {
+    const Timer total;
+    auto model = std::make_shared<Model>();
+    take_tets(std::move(mesh), import_options(def), model->surface, model->cage, model->embedding);
+    model->ms_import = total.ms();
+    find_organs_and_chain(*model, def);
+    finish(*model);
+    take_materials(*model);
+    model->ms_total = total.ms();
+    return model;
+}
+
+std::shared_ptr<const Model> build_from_file(const std::string& path, const frond_model_def& def) {
+    if (is_tet_file(path)) return build_from_tets(import_tets(path), def);
+    const Timer total;
+    return build(import_surface(path, import_options(def)), def, total);
+}
+
+}  // namespace frond

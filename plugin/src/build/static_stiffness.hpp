@@ -1,0 +1,19 @@
+// The stiffness of a cage whose root is held, and its factor: what calibration and the rest shape solve with.
+#pragma once
+
+#include "mechanics/mechanics.hpp"
+#include "solve/direct.hpp"
+
+namespace frond {
+
+struct StaticStiffness {
+    BlockMatrix K;
+    DirectPlan plan;
+    DirectFactorPtr factor;
+    explicit StaticStiffness(const BlockPattern& pattern);
+    // Fills and factorizes it at x; false if it is not positive definite, so that x is not stable.
+    bool set(const TetElements& elements, const std::vector<uint8_t>& held, frond_mechanics which, Tangent tangent,
+             const VecX& x);
+};
+
+}  // namespace frond

@@ -1,0 +1,74 @@
+// In: pairs of nodes that share an element. Out: the pattern of their 3x3 blocks, and products with such a matrix.
+#include "mechanics/block_matrix.hpp"
+
+#include <algorithm>
+
+namespace frond {
+
+int BlockPattern::slot(int i, int j) const {
+    if (i < j) std::swap(i, j);
+    const auto begin = row.begin() + start[size_t(j)], end = row.begin() + start[size_t(j) + 1];
+    const auto found = std::lower_bound(begin, end, i);
+    return found != end && *found == i ? int(found - row.begin()) : -1;
+}
+
+BlockPattern make_block_pattern(int node_count, const std::vector<Tet>& tets) {
+    // Each node's neighbours of higher number, itself first, each once and in order.
+    std::vector<std::vector<int>> neighbours(static_cast<size_t>(node_count));
+    for (int j = 0; j < node_count; ++j) neighbours[size_t(j)].push_back(j);
+    for (const Tet& tet : tets)
+        for (int i : tet)
+            for (int j : tet)
+                if (i > j) neighbours[size_t(j)].push_back(i);
+
+    BlockPattern pattern;
+    pattern.node_count = node_count;
+    pattern.start.push_back(0);
+    for (auto& rows : neighbours) {
+        std::sort(rows.begin(), rows.end());
+        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+        pattern.row.insert(pattern.row.end(), rows.begin(), rows.end());
+        pattern.start.push_back(int(pattern.row.size()));
+    }
+    return pattern;
+}
+
+void BlockMatrix::set_pattern(const BlockPattern& new_pattern) {
+    pattern = &new_pattern;
+    values.resize(9 * new_pattern.row.size());
+}
+
+void BlockMatrix::set_zero() {
+    std::fill(values.begin(), values.end(), 0.0);
+}
+
+void BlockMatrix::multiply(const VecX& x, VecX& y) const {
+    y.setZero(x.size());
+    const double* a = values.data();
+    for (int j = 0; j < pattern->node_count; ++j) {
+        const double *xj = x.data() + 3 * j, x0 = xj[0], x1 = xj[1], x2 = xj[2];
+        // The diagonal block, which comes first in its column.
+        double y0 = a[0] * x0 + a[3] * x1 + a[6] * x2;
+        double y1 = a[1] * x0 + a[4] * x1 + a[7] * x2;
+        double y2 = a[2] * x0 + a[5] * x1 + a[8] * x2;
+        a += 9;
+        // A block below it serves twice: as it stands for its row, transposed for this column.
+        for (int k = pattern->start[size_t(j)] + 1; k < pattern->start[size_t(j) + 1]; ++k, a += 9) {
+            const int i = 3 * pattern->row[size_t(k)];
+            double* yi = y.data() + i;
+            yi[0] += a[0] * x0 + a[3] * x1 + a[6] * x2;
+            yi[1] += a[1] * x0 + a[4] * x1 + a[7] * x2;
+            yi[2] += a[2] * x0 + a[5] * x1 + a[8] * x2;
+            const double* xi = x.data() + i;
+            y0 += a[0] * xi[0] + a[1] * xi[1] + a[2] * xi[2];
+            y1 += a[3] * xi[0] + a[4] * xi[1] + a[5] * xi[2];
+            y2 += a[6] * xi[0] + a[7] * xi[1] + a[8] * xi[2];
+        }
+        double* yj = y.data() + 3 * j;
+        yj[0] += y0;
+        yj[1] += y1;
+        yj[2] += y2;
+    }
+}
+
+}  // namespace frond

@@ -1,0 +1,25 @@
+// Box tree: a binary tree of bounding boxes over items, cut at the median so that its depth is the logarithm of their
+// number whatever their shape. Several trees may share one array of nodes.
+#pragma once
+
+#include "core/types.hpp"
+
+namespace frond {
+
+using Box = Eigen::AlignedBox3d;
+
+struct BoxTree {
+    struct Node {
+        Box box;
+        int right;         // child; the left one is the next node. -1 at a leaf
+        int first, count;  // its items
+    };
+    std::vector<Node> nodes;  // children come after their parent
+    std::vector<int> items;   // numbers of boxes, in the order of the leaves
+};
+
+// Adds a tree over the items and returns its root. `boxes` is indexed by item.
+int grow_tree(BoxTree& tree, const std::vector<Box>& boxes, const std::vector<int>& items, int leaf_size);
+BoxTree make_box_tree(const std::vector<Box>& boxes, int leaf_size);
+
+}  // namespace frond

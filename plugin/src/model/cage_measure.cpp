@@ -1,0 +1,75 @@
+// Measures a cage: angles, volumes, and how well the surface sits in it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/cage_parts.hpp"
+
+namespace frond {
+
+double volume_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    return (b - a).cross(c - a).dot(d - a) / 6;
+}
+
+bool dihedral_cosines(const std::array<Vec3, 4>& corners, double& of_smallest, double& of_largest) {
+    // Outward normals of the faces opposite each corner, for a tet of positive volume.
+    const Vec3 &a = corners[0], &b = corners[1], &c = corners[2], &d = corners[3];
+    const std::array<Vec3, 4> normals = {(d - b).cross(c - b), (c - a).cross(d - a), (d - a).cross(b - a),
+                                         (b - a).cross(c - a) * -1};
+    std::array<double, 4> lengths;
+    for (size_t k = 0; k < 4; ++k) {
+        lengths[k] = normals[k].norm();
+        if (!(lengths[k] > 0)) return false;
+    }
+    of_smallest = -1;
+    of_largest = 1;
+    for (size_t i = 0; i < 4; ++i)
+        for (size_t k = i + 1; k < 4; ++k) {
+            const double cosine = -normals[i].dot(normals[k]) / (lengths[i] * lengths[k]);
+            of_smallest = std::max(of_smallest, cosine);
+            of_largest = std::min(of_largest, cosine);
+        }
+    return true;
+}
+
+std::array<double, 4> weights_in(const Cage& cage, int tet, const Vec3& place) {
+    const Tet& corner = cage.tets[size_t(tet)];
+    const Vec3 &a = cage.nodes[size_t(corner[0])], &b = cage.nodes[size_t(corner[1])],
+               &c = cage.nodes[size_t(corner[2])], &d = cage.nodes[size_t(corner[3])];
+    const Vec3 ab = b - a, ac = c - a, ad = d - a, ap = place - a;
+    const double whole = ab.dot(ac.cross(ad));
+    const double at_b = ap.dot(ac.cross(ad)) / whole, at_c = ap.dot(ad.cross(ab)) / whole,
+                 at_d = ap.dot(ab.cross(ac)) / whole;
+    return {1 - at_b - at_c - at_d, at_b, at_c, at_d};
+}
+
+CageReport measure_cage(const Surface& surface, const Cage& cage, const Embedding& embedding) {
+    CageReport report{180, 0, std::numeric_limits<double>::infinity(), 0, 1, 0};
+    for (const Tet& tet : cage.tets) {
+        std::array<Vec3, 4> corners;
+        for (size_t k = 0; k < 4; ++k) corners[k] = cage.nodes[size_t(tet[k])];
+        const double volume = volume_of(corners[0], corners[1], corners[2], corners[3]);
+        report.min_volume = std::min(report.min_volume, volume);
+        report.volume += volume;
+        double of_smallest = 1, of_largest = -1;
+        dihedral_cosines(corners, of_smallest, of_largest);
+        const double degrees = 180 / 3.14159265358979323846;
+        report.min_dihedral = std::min(report.min_dihedral, degrees * std::acos(std::clamp(of_smallest, -1.0, 1.0)));
+        report.max_dihedral = std::max(report.max_dihedral, degrees * std::acos(std::clamp(of_largest, -1.0, 1.0)));
+    }
+    if (cage.tets.empty()) report.min_volume = report.min_dihedral = 0;
+    size_t contained = 0;
+    const size_t bound = std::min(surface.positions.size(), embedding.tet.size());
+    for (size_t v = 0; v < bound; ++v) {
+        const Tet& tet = cage.tets[size_t(embedding.tet[v])];
+        const auto& weights = embedding.weights[v];
+        Vec3 place = Vec3::Zero();
+        for (size_t k = 0; k < 4; ++k) place += weights[k] * cage.nodes[size_t(tet[k])];
+        report.binding_error = std::max(report.binding_error, (place - surface.positions[v]).norm());
+        contained += *std::min_element(weights.begin(), weights.end()) >= LOWEST_WEIGHT;
+    }
+    if (!surface.positions.empty()) report.contained = double(contained) / double(surface.positions.size());
+    return report;
+}
+
+}  // namespace frond

@@ -1,0 +1,227 @@
+// Smoothing: nodes on the outside of the cage move towards the surface and towards the mean of their neighbours on the
+// outside, by turns. A move stands only if all tets around keep their volume and good angles, and if every vertex that
+// was in them still is in one of them; else half of it is tried.
+#include <algorithm>
+#include <cmath>
+
+#include "model/cage_parts.hpp"
+#include "model/triangle_distance.hpp"
+
+namespace frond {
+
+static constexpr int PASSES = 3;
+static constexpr int HALVINGS = 3;
+// No angle between two faces may get smaller or larger [degree].
+static constexpr double SMALLEST_ANGLE = 14, LARGEST_ANGLE = 162;
+// The outside is drawn as near to the surface as this share of a cell, beside the offset.
+static constexpr double NEAREST = 0.15;
+// Share of the way to the mean of the neighbours, a pass.
+static constexpr double RELAXATION = 0.25;
+// So many triangles of a copy are looked at for the nearest place.
+static constexpr int SAMPLES = 150;
+// Rounding is worse than this nowhere.
+static constexpr double TOLERANCE = -1e-10;
+
+namespace {
+
+struct Smoother {
+    const Surface& surface;
+    Draft& draft;
+    std::vector<std::vector<int>> node_tets;
+    std::vector<std::vector<int>> around;   // neighbours of a node
+    std::vector<std::vector<int>> outside;  // those along the outside; none for nodes within
+    std::vector<int> vertex_tet;
+    std::vector<std::vector<int>> tet_vertices;
+    // Scratch of a move.
+    struct Change {
+        int vertex, from, to;
+    };
+    std::vector<Change> changes;
+    struct Frame {
+        Mat3 inverse;
+        Vec3 origin;
+    };
+    std::vector<Frame> frames;  // of the tets around
+};
+
+}  // namespace
+
+// Nodes of faces that one tet only has, each with its neighbours there.
+static void find_outside(const Cage& cage, std::vector<std::vector<int>>& outside) {
+    std::vector<std::array<int, 3>> faces;
+    faces.reserve(4 * cage.tets.size());
+    for (const Tet& tet : cage.tets)
+        for (size_t skip = 0; skip < 4; ++skip) {
+            std::array<int, 3> face = {tet[(skip + 1) % 4], tet[(skip + 2) % 4], tet[(skip + 3) % 4]};
+            std::sort(face.begin(), face.end());
+            faces.push_back(face);
+        }
+    std::sort(faces.begin(), faces.end());
+    outside.assign(cage.nodes.size(), {});
+    for (size_t i = 0, end; i < faces.size(); i = end) {
+        for (end = i; end < faces.size() && faces[end] == faces[i];) ++end;
+        if (end - i > 1) continue;
+        for (size_t k = 0; k < 3; ++k)
+            for (size_t other : {(k + 1) % 3, (k + 2) % 3}) outside[size_t(faces[i][k])].push_back(faces[i][other]);
+    }
+    for (std::vector<int>& list : outside) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+}
+
+// For each node on the outside, where the surface that its copies carry is nearest.
+static std::vector<Vec3> find_nearest_places(const Smoother& smoother) {
+    const Draft& draft = smoother.draft;
+    std::vector<std::vector<int>> copy_triangles(draft.copies.cell.size());
+    for (size_t e = 0; e < draft.cover.item.size(); ++e)
+        if (size_t(draft.cover.item[e]) < draft.topology.triangles.size())
+            copy_triangles[size_t(draft.copies.entry_copy[e])].push_back(draft.cover.item[e]);
+    std::vector<Vec3> nearest = draft.cage.nodes;
+    std::vector<double> squared(draft.cage.nodes.size(), 1e300);
+    for (size_t copy = 0; copy < copy_triangles.size(); ++copy) {
+        const std::vector<int>& triangles = copy_triangles[copy];
+        for (size_t i = 0; i < triangles.size(); i += triangles.size() / SAMPLES + 1) {
+            const Triangle& corner = draft.topology.triangles[size_t(triangles[i])];
+            const Corners corners = {draft.topology.points[size_t(corner[0])], draft.topology.points[size_t(corner[1])],
+                                     draft.topology.points[size_t(corner[2])]};
+            for (int node : draft.copies.nodes[copy]) {
+                if (smoother.outside[size_t(node)].empty()) continue;
+                const Vec3 place = nearest_in_triangle(corners, draft.cage.nodes[size_t(node)]);
+                const double distance = (place - draft.cage.nodes[size_t(node)]).squaredNorm();
+                if (distance >= squared[size_t(node)]) continue;
+                squared[size_t(node)] = distance;
+                nearest[size_t(node)] = place;
+            }
+        }
+    }
+    return nearest;
+}
+
+// Whether the tets around a node are well shaped; sets their frames.
+static bool are_sound(Smoother& smoother, int node) {
+    static const double LARGEST_COSINE = std::cos(SMALLEST_ANGLE * 3.14159265358979323846 / 180);
+    static const double SMALLEST_COSINE = std::cos(LARGEST_ANGLE * 3.14159265358979323846 / 180);
+    const Cage& cage = smoother.draft.cage;
+    smoother.frames.clear();
+    for (int e : smoother.node_tets[size_t(node)]) {
+        std::array<Vec3, 4> corners;
+        for (size_t k = 0; k < 4; ++k) corners[k] = cage.nodes[size_t(cage.tets[size_t(e)][k])];
+        if (!(volume_of(corners[0], corners[1], corners[2], corners[3]) > 0)) return false;
+        double of_smallest, of_largest;
+        if (!dihedral_cosines(corners, of_smallest, of_largest)) return false;
+        if (of_smallest > LARGEST_COSINE || of_largest < SMALLEST_COSINE) return false;
+        Mat3 edges;
+        edges << corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0];
+        smoother.frames.push_back({edges.inverse(), corners[0]});
+    }
+    return true;
+}
+
+static bool holds(const Smoother::Frame& frame, const Vec3& place) {
+    const Vec3 weights = frame.inverse * (place - frame.origin);
+    return weights.minCoeff() >= TOLERANCE && weights.sum() <= 1 - TOLERANCE;
+}
+
+// Whether a vertex may be bound to a tet: one of its own copy or of a copy that carries the same piece next door.
+static bool belongs(const Smoother& smoother, int vertex, int tet) {
+    const Draft& draft = smoother.draft;
+    const int home = draft.vertex_copy[size_t(vertex)], copy = tet / TETS_PER_COPY;
+    if (copy == home) return true;
+    const std::vector<int>& near = draft.copies.neighbors[size_t(home)];
+    return std::binary_search(near.begin(), near.end(), copy);
+}
+
+// Whether all vertices that were in the tets around still are in one of them; notes those that changed.
+static bool keeps_vertices(Smoother& smoother, int node) {
+    const std::vector<int>& around = smoother.node_tets[size_t(node)];
+    smoother.changes.clear();
+    for (size_t i = 0; i < around.size(); ++i)
+        for (int v : smoother.tet_vertices[size_t(around[i])]) {
+            const Vec3& place = smoother.surface.positions[size_t(v)];
+            if (holds(smoother.frames[i], place)) continue;
+            int found = -1;
+            for (size_t k = 0; k < around.size() && found < 0; ++k)
+                if (k != i && holds(smoother.frames[k], place) && belongs(smoother, v, around[k])) found = around[k];
+            if (found < 0) return false;
+            smoother.changes.push_back({v, around[i], found});
+        }
+    return true;
+}
+
+static bool try_move(Smoother& smoother, int node, const Vec3& to) {
+    Vec3& place = smoother.draft.cage.nodes[size_t(node)];
+    const Vec3 before = place;
+    place = to;
+    if (!are_sound(smoother, node) || !keeps_vertices(smoother, node)) {
+        place = before;
+        return false;
+    }
+    for (const auto& [vertex, from, found] : smoother.changes) {
+        std::vector<int>& list = smoother.tet_vertices[size_t(from)];
+        *std::find(list.begin(), list.end(), vertex) = list.back();
+        list.pop_back();
+        smoother.tet_vertices[size_t(found)].push_back(vertex);
+        smoother.vertex_tet[size_t(vertex)] = found;
+    }
+    return true;
+}
+
+static void move_nodes(Smoother& smoother, const std::vector<Vec3>& wanted, double smoothness) {
+    std::vector<Vec3>& nodes = smoother.draft.cage.nodes;
+    for (int node = 0; node < int(nodes.size()); ++node) {
+        // The middle of a cell, and what else lies within, stays in the middle of its neighbours.
+        const bool within = smoother.outside[size_t(node)].empty();
+        const std::vector<int>& neighbors = within ? smoother.around[size_t(node)] : smoother.outside[size_t(node)];
+        Vec3 mean = Vec3::Zero();
+        for (int other : neighbors) mean += nodes[size_t(other)] / double(neighbors.size());
+        const Vec3 here = nodes[size_t(node)];
+        Vec3 move =
+            within ? Vec3(mean - here) : Vec3(wanted[size_t(node)] - here + RELAXATION * smoothness * (mean - here));
+        if (move.norm() < 1e-3 * smoother.draft.cover.lattice.cell_size) continue;
+        for (int halving = 0; halving < HALVINGS; ++halving) {
+            if (try_move(smoother, node, here + move)) break;
+            move *= 0.5;
+        }
+    }
+}
+
+void smooth_cage(const Surface& surface, const CageOptions& options, Draft& draft, Embedding& embedding) {
+    if (options.smoothness == 0) return;
+    Cage& cage = draft.cage;
+    Smoother smoother{surface, draft, {}, {}, {}, embedding.tet, {}, {}, {}};
+    smoother.node_tets.resize(cage.nodes.size());
+    for (size_t e = 0; e < cage.tets.size(); ++e)
+        for (int node : cage.tets[e]) smoother.node_tets[size_t(node)].push_back(int(e));
+    smoother.tet_vertices.resize(cage.tets.size());
+    for (size_t v = 0; v < surface.positions.size(); ++v)
+        if (draft.vertex_copy[v] >= 0) smoother.tet_vertices[size_t(embedding.tet[v])].push_back(int(v));
+    find_outside(cage, smoother.outside);
+    smoother.around.resize(cage.nodes.size());
+    for (size_t i = 0; i < cage.nodes.size(); ++i) {
+        std::vector<int>& list = smoother.around[i];
+        for (int e : smoother.node_tets[i])
+            for (int other : cage.tets[size_t(e)])
+                if (other != int(i)) list.push_back(other);
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+
+    // Where a node would stand if nothing were in its way.
+    std::vector<Vec3> wanted = find_nearest_places(smoother);
+    const double nearest = options.offset + NEAREST * draft.cover.lattice.cell_size;
+    for (size_t i = 0; i < wanted.size(); ++i) {
+        const Vec3 outward = cage.nodes[i] - wanted[i];
+        const double distance = outward.norm();
+        wanted[i] = cage.nodes[i];
+        if (distance > nearest) wanted[i] -= options.smoothness * (distance - nearest) / distance * outward;
+    }
+    for (int pass = 0; pass < PASSES; ++pass) move_nodes(smoother, wanted, options.smoothness);
+
+    for (size_t v = 0; v < surface.positions.size(); ++v) {
+        if (draft.vertex_copy[v] >= 0) embedding.tet[v] = smoother.vertex_tet[v];
+        embedding.weights[v] = weights_in(cage, embedding.tet[v], surface.positions[v]);
+    }
+}
+
+}  // namespace frond

@@ -1,0 +1,96 @@
+// The chain's place in the cage, and sums over a model.
+#include "model/model.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace frond {
+
+double Model::mass() const {
+    double sum = 0;
+    for (size_t e = 0; e < cage.tets.size(); e++) {
+        const Tet& tet = cage.tets[e];
+        const Vec3& origin = cage.nodes[size_t(tet[0])];
+        const Vec3 a = cage.nodes[size_t(tet[1])] - origin, b = cage.nodes[size_t(tet[2])] - origin,
+                   c = cage.nodes[size_t(tet[3])] - origin;
+        sum += tet_density[e] * a.cross(b).dot(c) / 6;
+    }
+    return sum;
+}
+
+std::vector<uint8_t> find_root_nodes(const Model& model) {
+    const Chain& chain = model.chain;
+    const double reach = 0.02 * model.surface.height();
+    std::vector<double> foot(chain.nodes.size(), INFINITY);
+    for (size_t v = 0; v < chain.vertex_node.size(); v++) {
+        double& lowest = foot[size_t(chain.vertex_node[v])];
+        lowest = std::min(lowest, model.surface.positions[v].y());
+    }
+    std::vector<uint8_t> root(model.cage.nodes.size(), 0);
+    for (size_t v = 0; v < chain.vertex_node.size(); v++) {
+        const size_t node = size_t(chain.vertex_node[v]);
+        if (chain.nodes[node].parent >= 0 || model.surface.positions[v].y() > foot[node] + reach) continue;
+        for (int corner : model.cage.tets[size_t(model.embedding.tet[v])]) root[size_t(corner)] = 1;
+    }
+    return root;
+}
+
+static std::array<double, 4> barycentric(const Cage& cage, const Tet& tet, const Vec3& p) {
+    const Vec3& origin = cage.nodes[size_t(tet[0])];
+    Mat3 edges;
+    for (int k = 0; k < 3; k++) edges.col(k) = cage.nodes[size_t(tet[size_t(k) + 1])] - origin;
+    const Vec3 w = edges.inverse() * (p - origin);
+    return {1 - w.sum(), w.x(), w.y(), w.z()};
+}
+
+// Each chain node is bound to that tet, of those which carry its own vertices, that it lies deepest in: copies of cells
+// that belong to other organs at the same place do not move it.
+static void embed_chain(Model& model) {
+    const size_t count = model.chain.nodes.size();
+    std::vector<std::vector<int>> tets(count);
+    for (size_t v = 0; v < model.chain.vertex_node.size(); v++)
+        tets[size_t(model.chain.vertex_node[v])].push_back(model.embedding.tet[v]);
+    model.chain_embedding.tet.resize(count);
+    model.chain_embedding.weights.resize(count);
+    for (size_t i = 0; i < count; i++) {
+        // A node that no vertex is nearest to takes its parent's tets (parents come first).
+        const int parent = model.chain.nodes[i].parent;
+        if (tets[i].empty()) tets[i] = parent >= 0 ? tets[size_t(parent)] : model.embedding.tet;
+        std::sort(tets[i].begin(), tets[i].end());
+        tets[i].erase(std::unique(tets[i].begin(), tets[i].end()), tets[i].end());
+        double deepest = -INFINITY;
+        for (int tet : tets[i]) {
+            const auto weights = barycentric(model.cage, model.cage.tets[size_t(tet)], model.chain.nodes[i].position);
+            const double depth = *std::min_element(weights.begin(), weights.end());
+            if (depth <= deepest) continue;
+            deepest = depth;
+            model.chain_embedding.tet[i] = tet;
+            model.chain_embedding.weights[i] = weights;
+        }
+    }
+}
+
+static void list_capsules(Model& model) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    std::vector<uint8_t> has_child(nodes.size(), 0);
+    for (const ChainNode& node : nodes)
+        if (node.parent >= 0) has_child[size_t(node.parent)] = 1;
+    for (size_t i = 0; i < nodes.size(); i++) {
+        if (nodes[i].parent >= 0)
+            model.capsules.push_back({nodes[i].parent, int(i)});
+        else if (!has_child[i])
+            model.capsules.push_back({int(i), int(i)});
+    }
+}
+
+void bind_chain(Model& model) {
+    embed_chain(model);
+    list_capsules(model);
+    for (const ChainNode& node : model.chain.nodes) {
+        for (int axis = 0; axis < 3; axis++) model.chain_view.positions.push_back(node.position[axis]);
+        model.chain_view.radii.push_back(node.radius);
+        model.chain_view.parents.push_back(node.parent);
+    }
+}
+
+}  // namespace frond

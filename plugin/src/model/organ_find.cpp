@@ -1,0 +1,145 @@
+// Organ finding: in, a surface with parts, its topology and the caller's materials; out, organs with names, kinds and
+// materials, every part belonging to one of them.
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "core/error.hpp"
+#include "model/organ_clues.hpp"
+
+namespace frond {
+
+constexpr double TREE_HEIGHT = 3;  // what stands higher is held by wood [m]
+
+// A kind for every triangle: by the names of its part, else by shape.
+static std::vector<std::string> kinds_of_triangles(const Surface& surface, const Topology& topology) {
+    const std::vector<std::string> named = kinds_by_name(surface);
+    std::vector<std::string> kinds(surface.triangles.size());
+    const bool all_named =
+        std::none_of(named.begin(), named.end(), [](const std::string& kind) { return kind.empty(); });
+    std::vector<char> sheets;
+    if (!all_named) sheets = find_sheets(topology);
+    const std::string tube = surface.height() > TREE_HEIGHT ? "branch" : "stem";
+    for (size_t i = 0; i < surface.parts.size(); i++) {
+        const Part& part = surface.parts[i];
+        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
+            kinds[size_t(t)] = !named[i].empty() ? named[i] : sheets[size_t(t)] ? "blade" : tube;
+    }
+    return kinds;
+}
+
+template <typename T>
+static void reorder(std::vector<T>& values, const std::vector<int>& order) {
+    std::vector<T> moved(values.size());
+    for (size_t i = 0; i < order.size(); i++) moved[i] = values[size_t(order[i])];
+    values.swap(moved);
+}
+
+// Splits each part into runs of one kind; returns the kind of each new part. Larger runs of a part come in the order in
+// which their kinds first appear.
+static std::vector<std::string> split_parts(Surface& surface, Topology& topology,
+                                            const std::vector<std::string>& kinds) {
+    std::vector<int> order(surface.triangles.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::vector<Part> parts;
+    std::vector<std::string> part_kinds;
+    bool moved = false;
+    for (const Part& part : surface.parts) {
+        const auto begin = order.begin() + part.first_triangle, end = begin + part.triangle_count;
+        auto from = begin;
+        do {
+            const std::string kind = from == end ? "stem" : kinds[size_t(*from)];
+            const auto to = std::stable_partition(from, end, [&](int t) { return kinds[size_t(t)] == kind; });
+            moved = moved || to != end;
+            parts.push_back(part);
+            parts.back().first_triangle = int(from - order.begin());
+            parts.back().triangle_count = int(to - from);
+            part_kinds.push_back(kind);
+            from = to;
+        } while (from != end);
+    }
+    surface.parts = std::move(parts);
+    if (!moved) return part_kinds;
+    // The topology speaks of the same triangles.
+    reorder(surface.triangles, order);
+    reorder(topology.triangles, order);
+    reorder(topology.triangle_component, order);
+    std::vector<int> place(order.size());
+    for (size_t i = 0; i < order.size(); i++) place[size_t(order[i])] = int(i);
+    for (Joint& joint : topology.joints) {
+        joint.triangle_a = place[size_t(joint.triangle_a)];
+        joint.triangle_b = place[size_t(joint.triangle_b)];
+    }
+    return part_kinds;
+}
+
+// One organ a part; a part's own name if no other part has it, else its kind and a number that is still free.
+static std::vector<Organ> name_organs(Surface& surface, const std::vector<std::string>& kinds) {
+    std::multiset<std::string> given;
+    for (const Part& part : surface.parts) given.insert(part.name);
+    std::set<std::string> taken(given.begin(), given.end());
+    std::vector<Organ> organs;
+    std::vector<std::pair<std::string, int>> counters;
+    for (size_t i = 0; i < surface.parts.size(); i++) {
+        Part& part = surface.parts[i];
+        std::string name = part.name;
+        if (name.empty() || given.count(name) > 1) {
+            auto counter = std::find_if(counters.begin(), counters.end(), [&](auto& c) { return c.first == kinds[i]; });
+            if (counter == counters.end()) counter = counters.insert(counters.end(), {kinds[i], 0});
+            do name = kinds[i] + "_" + std::to_string(++counter->second);
+            while (!taken.insert(name).second);
+        }
+        part.organ = int(organs.size());
+        const bool grass = names_a_grass(part.name) || names_a_grass(part.material);
+        const Material* grass_material = grass ? material_preset("grass_" + kinds[i]) : nullptr;
+        organs.push_back({name, kinds[i], grass_material ? *grass_material : *material_preset(kinds[i])});
+    }
+    return organs;
+}
+
+// "stem (stem), leaf_1 (blade) ... and 12 more"
+static std::string list_organs(const std::vector<Organ>& organs) {
+    std::string text;
+    for (size_t i = 0; i < organs.size(); i++) {
+        if (i == 30) return text + " and " + std::to_string(organs.size() - i) + " more";
+        text += (i ? ", " : "") + organs[i].name + " (" + organs[i].kind + ")";
+    }
+    return text;
+}
+
+static void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count) {
+    if (count < 0 || (count > 0 && !overrides))
+        fail(FROND_BAD_ARGUMENT, "organ_count is %d but organs is %s; give an array of that many", count,
+             overrides ? "an array" : "null");
+    for (int i = 0; i < count; i++) {
+        const frond_organ_material& wanted = overrides[i];
+        if (!wanted.organ || !*wanted.organ)
+            fail(FROND_BAD_ARGUMENT, "organs[%d].organ is empty; give the name or the kind of an organ", i);
+        check_material(wanted.material, wanted.organ);
+        bool matched = false;
+        for (Organ& organ : organs) {
+            if (organ.name != wanted.organ && organ.kind != wanted.organ) continue;
+            organ.material = wanted.material;
+            matched = true;
+        }
+        if (!matched)
+            fail(FROND_BAD_ARGUMENT, "no organ has the name or kind \"%s\"; this model has: %s", wanted.organ,
+                 list_organs(organs).c_str());
+    }
+}
+
+std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond_organ_material* overrides,
+                               int override_count) {
+    if (surface.triangles.empty() || topology.triangles.size() != surface.triangles.size())
+        fail(FROND_BAD_GEOMETRY, "the model has no triangles; give at least one with area");
+    if (surface.parts.empty()) {
+        surface.parts.emplace_back();
+        surface.parts.back().triangle_count = int(surface.triangles.size());
+    }
+    const std::vector<std::string> kinds = split_parts(surface, topology, kinds_of_triangles(surface, topology));
+    std::vector<Organ> organs = name_organs(surface, kinds);
+    override_materials(organs, overrides, override_count);
+    return organs;
+}
+
+}  // namespace frond

@@ -1,0 +1,134 @@
+// Organ shape: in, a topology; out, for each triangle whether it is part of a sheet or of a tube.
+// The plant is cut into short bands along its distance from the ground. A piece of a band is a sheet when its normals,
+// taken without sign, all point nearly the same way, or when open edges run along it on both sides; a ring of a tube
+// has normals all around and no open edge along it. That works for closed thin leaves and for coarse tubes alike.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "model/bands.hpp"
+#include "model/organ_clues.hpp"
+
+namespace frond {
+
+constexpr double FLAT = 0.72;   // share of the normals along one axis from which a piece is flat
+constexpr double FOLDED = 0.6;  // and from which it is, if it is open
+constexpr double OPEN = 1.5;    // open edges along a piece, in lengths of the piece, from which it is open
+constexpr double WHOLE = 0.93;  // share of a component from which all of it counts as one kind
+constexpr double SLICES = 40;   // along the longest way through the plant
+
+// Length of open edges along the distance, by piece [m].
+static std::vector<double> measure_open_edges(const Topology& topology, const std::vector<SharedEdge>& edges,
+                                              const Bands& bands) {
+    std::vector<std::array<char, 3>> shared(topology.triangles.size(), {0, 0, 0});
+    const auto mark = [&](int triangle, const SharedEdge& edge) {
+        const Triangle& t = topology.triangles[size_t(triangle)];
+        for (size_t k = 0; k < 3; k++) {
+            const int u = t[k], v = t[(k + 1) % 3];
+            if (std::min(u, v) == edge.u && std::max(u, v) == edge.v) shared[size_t(triangle)][k] = 1;
+        }
+    };
+    for (const SharedEdge& edge : edges) {
+        mark(edge.triangle_a, edge);
+        mark(edge.triangle_b, edge);
+    }
+    std::vector<double> open(bands.pieces.size(), 0.0);
+    for (size_t t = 0; t < topology.triangles.size(); t++)
+        for (size_t k = 0; k < 3; k++) {
+            if (shared[t][k]) continue;
+            const double entry = bands.entry[size_t(topology.triangle_component[t])];
+            double a = bands.distance[size_t(topology.triangles[t][k])] - entry;
+            double b = bands.distance[size_t(topology.triangles[t][(k + 1) % 3])] - entry;
+            if (a > b) std::swap(a, b);
+            for (int i = bands.first[t]; i < bands.first[t + 1]; i++) {
+                const double low = (bands.first_band[t] + i - bands.first[t]) * bands.height;
+                const double part = std::min(b, low + bands.height) - std::max(a, low);
+                if (part > 0) open[size_t(bands.piece[size_t(i)])] += part;
+            }
+        }
+    return open;
+}
+
+// The piece that holds a triangle's middle.
+static int piece_of(const Topology& topology, const Bands& bands, size_t t) {
+    double middle = 0;
+    for (int p : topology.triangles[t]) middle += bands.distance[size_t(p)] / 3;
+    return bands.piece_at(int(t), middle - bands.entry[size_t(topology.triangle_component[t])]);
+}
+
+// The largest share of a piece's normals along one axis [-]: 1 for a plane, 1/2 for a tube.
+static std::vector<double> measure_flatness(const Topology& topology, const Bands& bands) {
+    std::vector<Mat3> spread(bands.pieces.size(), Mat3::Zero());
+    for (size_t t = 0; t < topology.triangles.size(); t++) {
+        const Vec3& a = topology.points[size_t(topology.triangles[t][0])];
+        const Vec3 normal = (topology.points[size_t(topology.triangles[t][1])] - a)
+                                .cross(topology.points[size_t(topology.triangles[t][2])] - a);
+        const double area = normal.norm();
+        if (area <= 0) continue;
+        // A long triangle counts in each band that it passes through.
+        const int count = bands.first[t + 1] - bands.first[t];
+        const Mat3 share = normal * normal.transpose() / (area * count);
+        for (int i = bands.first[t]; i < bands.first[t + 1]; i++) spread[size_t(bands.piece[size_t(i)])] += share;
+    }
+    std::vector<double> flat(bands.pieces.size(), 0.0);
+    Eigen::SelfAdjointEigenSolver<Mat3> solver;
+    for (size_t i = 0; i < spread.size(); i++) {
+        const double whole = spread[i].trace();
+        if (!(whole > 0)) continue;
+        solver.computeDirect(spread[i] / whole, Eigen::EigenvaluesOnly);
+        flat[i] = solver.eigenvalues()[2];
+    }
+    return flat;
+}
+
+// A piece that differs from all its larger neighbours is noise.
+static void smooth_pieces(const Bands& bands, std::vector<char>& sheet) {
+    std::vector<double> same(sheet.size(), 0.0), other(sheet.size(), 0.0);
+    for (const Contact& contact : bands.contacts) {
+        auto& sums = sheet[size_t(contact.low)] == sheet[size_t(contact.high)] ? same : other;
+        sums[size_t(contact.low)] += bands.pieces[size_t(contact.high)].area;
+        sums[size_t(contact.high)] += bands.pieces[size_t(contact.low)].area;
+    }
+    for (size_t i = 0; i < sheet.size(); i++)
+        if (same[i] == 0 && other[i] > 1.5 * bands.pieces[i].area) sheet[i] = !sheet[i];
+}
+
+std::vector<char> find_sheets(const Topology& topology) {
+    const size_t count = topology.triangles.size();
+    // From the lowest point of all; which way is not important here.
+    int lowest = 0;
+    for (size_t i = 0; i < topology.points.size(); i++)
+        if (topology.points[i].y() < topology.points[size_t(lowest)].y()) lowest = int(i);
+    std::vector<int> roots = {lowest};
+    const std::vector<double> distance = measure_distances(topology, roots);
+    const double farthest = *std::max_element(distance.begin(), distance.end());
+    const double height = farthest > 0 ? farthest / SLICES : 1;
+    const std::vector<SharedEdge> edges = find_shared_edges(topology);
+    const std::vector<int> none(count, 0);
+    const Bands bands = cut_bands(topology, edges, distance, none, none, height);
+
+    const std::vector<double> flatness = measure_flatness(topology, bands);
+    const std::vector<double> open = measure_open_edges(topology, edges, bands);
+    std::vector<char> sheet(bands.pieces.size());
+    for (size_t i = 0; i < sheet.size(); i++) {
+        const double length = bands.pieces[i].far - bands.pieces[i].near;
+        sheet[i] = flatness[i] > FLAT || (flatness[i] > FOLDED && open[i] > OPEN * length);
+    }
+    smooth_pieces(bands, sheet);
+
+    // A component that is nearly all of one kind is all of that kind; others are told piece by piece.
+    std::vector<double> area(size_t(topology.component_count), 0.0), flat(area);
+    for (size_t i = 0; i < sheet.size(); i++) {
+        area[size_t(bands.pieces[i].component)] += bands.pieces[i].area;
+        if (sheet[i]) flat[size_t(bands.pieces[i].component)] += bands.pieces[i].area;
+    }
+    std::vector<char> found(count);
+    for (size_t t = 0; t < count; t++) {
+        const size_t component = size_t(topology.triangle_component[t]);
+        const double share = area[component] > 0 ? flat[component] / area[component] : 1;
+        found[t] = share >= WHOLE || (share > 1 - WHOLE && sheet[size_t(piece_of(topology, bands, t))]);
+    }
+    return found;
+}
+
+}  // namespace frond

@@ -1,0 +1,131 @@
+// Makes the surface of a tree of stems: tapered straight pieces come in, tubes with rounded ends go out, one part a
+// stem. The round end of a piece reaches into the next one, so that forks and bends look joined.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "model/import.hpp"
+
+namespace frond {
+
+static constexpr int SIDES = 10, CAP_RINGS = 3, MOST_RINGS = 48, MOST_STEMS = 100000;
+static constexpr double PI = 3.14159265358979323846;
+
+static Vec3 vec_of(const frond_vec3& value) {
+    return {value.x, value.y, value.z};
+}
+
+static void check_stems(const frond_stem* stems, int stem_count) {
+    if (!stems) fail(FROND_BAD_ARGUMENT, "stems must not be null");
+    if (stem_count < 1 || stem_count > MOST_STEMS)
+        fail(FROND_BAD_ARGUMENT, "stem_count is %d; it must be 1..%d", stem_count, MOST_STEMS);
+    for (int i = 0; i < stem_count; ++i) {
+        const frond_stem& stem = stems[i];
+        const Vec3 begin = vec_of(stem.begin), end = vec_of(stem.end);
+        if (stem.parent < -1 || stem.parent >= i)
+            fail(FROND_BAD_ARGUMENT, "stem %d has parent %d; it must be an earlier stem (0..%d), or -1 for a root", i,
+                 stem.parent, i - 1);
+        if (!begin.allFinite() || !end.allFinite() || begin.cwiseAbs().maxCoeff() > 1e6 ||
+            end.cwiseAbs().maxCoeff() > 1e6)
+            fail(FROND_BAD_ARGUMENT, "stem %d has an end that is not finite or farther than 1e6 m from the origin", i);
+        for (double radius : {stem.radius_begin, stem.radius_end})
+            if (!(radius > 0 && radius < 1e6))
+                fail(FROND_BAD_ARGUMENT, "stem %d has radius %g m; it must be positive", i, radius);
+        if (!((end - begin).norm() > 1e-9))
+            fail(FROND_BAD_ARGUMENT, "stem %d has no length; its begin and end must differ", i);
+    }
+}
+
+static double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& b) {
+    const double along = std::clamp((point - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    return (point - (a + along * (b - a))).norm();
+}
+
+// A stem that begins in the air is tied to the plant by the cage, over the gap.
+static void warn_of_gaps(const frond_stem* stems, int stem_count) {
+    int gaps = 0, first = -1;
+    for (int i = 0; i < stem_count; ++i) {
+        if (stems[i].parent < 0) continue;
+        const frond_stem& parent = stems[stems[i].parent];
+        const double reach = std::max(parent.radius_begin, parent.radius_end) + stems[i].radius_begin;
+        const double gap =
+            distance_to_segment(vec_of(stems[i].begin), vec_of(parent.begin), vec_of(parent.end)) - reach;
+        if (gap <= 0) continue;
+        if (gaps++ == 0) first = i;
+    }
+    if (gaps > 0) warn("%d stems do not touch their parents, the first is stem %d", gaps, first);
+}
+
+// A circle of the tube: where along the axis, and how wide.
+struct Ring {
+    double along, radius;
+};
+
+// From pole to pole, without the poles: the half sphere at the begin, the cone, the half sphere at the end.
+static std::vector<Ring> rings_of(const frond_stem& stem, double length) {
+    std::vector<Ring> rings;
+    for (int k = CAP_RINGS - 1; k > 0; --k) {
+        const double angle = 0.5 * PI * k / CAP_RINGS;
+        rings.push_back({-stem.radius_begin * std::sin(angle), stem.radius_begin * std::cos(angle)});
+    }
+    const double wide = std::max(stem.radius_begin, stem.radius_end);
+    const int pieces = std::clamp(int(std::ceil(length / (2 * wide))), 1, MOST_RINGS);
+    for (int k = 0; k <= pieces; ++k) {
+        const double share = double(k) / pieces;
+        rings.push_back({length * share, stem.radius_begin + share * (stem.radius_end - stem.radius_begin)});
+    }
+    for (int k = 1; k < CAP_RINGS; ++k) {
+        const double angle = 0.5 * PI * k / CAP_RINGS;
+        rings.push_back({length + stem.radius_end * std::sin(angle), stem.radius_end * std::cos(angle)});
+    }
+    return rings;
+}
+
+static void add_stem(Surface& surface, const frond_stem& stem, int index) {
+    const Vec3 begin = vec_of(stem.begin), end = vec_of(stem.end);
+    const double length = (end - begin).norm();
+    const Vec3 axis = (end - begin) / length, side = axis.unitOrthogonal(), depth = axis.cross(side);
+    const std::vector<Ring> rings = rings_of(stem, length);
+    Part part;
+    part.name = "stem_" + std::to_string(index);
+    part.material = "stem";
+    part.first_triangle = int(surface.triangles.size());
+
+    // Pole, rings, pole.
+    const int first = int(surface.positions.size()), last = first + 1 + SIDES * int(rings.size());
+    surface.positions.push_back(begin - axis * stem.radius_begin);
+    for (const Ring& ring : rings)
+        for (int k = 0; k < SIDES; ++k) {
+            const double angle = 2 * PI * k / SIDES;
+            surface.positions.push_back(begin + axis * ring.along +
+                                        ring.radius * (std::cos(angle) * side + std::sin(angle) * depth));
+        }
+    surface.positions.push_back(end + axis * stem.radius_end);
+
+    const auto at = [first](int ring, int k) { return first + 1 + ring * SIDES + k % SIDES; };
+    const int top = int(rings.size()) - 1;
+    for (int k = 0; k < SIDES; ++k) surface.triangles.push_back({first, at(0, k + 1), at(0, k)});
+    for (int ring = 0; ring < top; ++ring)
+        for (int k = 0; k < SIDES; ++k) {
+            surface.triangles.push_back({at(ring, k), at(ring, k + 1), at(ring + 1, k + 1)});
+            surface.triangles.push_back({at(ring, k), at(ring + 1, k + 1), at(ring + 1, k)});
+        }
+    for (int k = 0; k < SIDES; ++k) surface.triangles.push_back({last, at(top, k), at(top, k + 1)});
+    part.triangle_count = int(surface.triangles.size()) - part.first_triangle;
+    surface.parts.push_back(std::move(part));
+    if (surface.triangles.size() > size_t(MAX_TRIANGLES))
+        fail(FROND_BAD_GEOMETRY, "the stems need more than the %d triangles that are allowed; use fewer",
+             MAX_TRIANGLES);
+}
+
+Surface surface_from_stems(const frond_stem* stems, int stem_count) {
+    check_stems(stems, stem_count);
+    warn_of_gaps(stems, stem_count);
+    Surface surface;
+    surface.up_declared = true;
+    for (int i = 0; i < stem_count; ++i) add_stem(surface, stems[i], i);
+    return surface;
+}
+
+}  // namespace frond

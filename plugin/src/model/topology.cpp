@@ -1,0 +1,149 @@
+// From a soup to its topology: vertices at nearly the same place become one point (a hash table of small cells),
+// triangles that share points become one component, and joints tie the components together.
+#include "model/topology.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "model/topology_joints.hpp"
+
+namespace frond {
+
+// Vertices nearer than this share of the plant's size are one point.
+static constexpr double WELD_TOLERANCE = 1e-6;
+// Edge of a hash cell in tolerances: large enough that most vertices look into one or two cells only.
+static constexpr double CELL = 8;
+
+using Cell = std::array<int64_t, 3>;
+
+// Points by the cell that they lie in: chains of points in an open-addressing table.
+struct PointTable {
+    struct Slot {
+        Cell cell;
+        int first = -1;
+    };
+    std::vector<Slot> slots;
+    std::vector<int> next;  // of each point, in its cell
+
+    explicit PointTable(size_t expected) {
+        size_t count = 16;
+        while (count < 2 * expected) count *= 2;
+        slots.resize(count);
+    }
+    Slot& slot_of(const Cell& cell) {
+        uint64_t hash = 0;
+        for (int64_t coordinate : cell) {
+            hash = (hash ^ uint64_t(coordinate)) * 0xD6E8FEB86659FD93ull;
+            hash ^= hash >> 32;
+        }
+        size_t k = hash & (slots.size() - 1);
+        while (slots[k].first >= 0 && slots[k].cell != cell) k = (k + 1) & (slots.size() - 1);
+        return slots[k];
+    }
+};
+
+static Cell cell_of(const Vec3& place, double cell_size) {
+    return {int64_t(std::floor(place.x() / cell_size)), int64_t(std::floor(place.y() / cell_size)),
+            int64_t(std::floor(place.z() / cell_size))};
+}
+
+// The nearest point within the tolerance, or -1.
+static int find_point(PointTable& table, const std::vector<Vec3>& points, const Vec3& place, double tolerance) {
+    const Cell low = cell_of(place - Vec3::Constant(tolerance), CELL * tolerance);
+    const Cell high = cell_of(place + Vec3::Constant(tolerance), CELL * tolerance);
+    double best = tolerance * tolerance;
+    int found = -1;
+    for (int64_t x = low[0]; x <= high[0]; ++x)
+        for (int64_t y = low[1]; y <= high[1]; ++y)
+            for (int64_t z = low[2]; z <= high[2]; ++z)
+                for (int i = table.slot_of({x, y, z}).first; i >= 0; i = table.next[size_t(i)]) {
+                    const double squared = (points[size_t(i)] - place).squaredNorm();
+                    if (squared < best || (squared == best && found < 0)) {
+                        best = squared;
+                        found = i;
+                    }
+                }
+    return found;
+}
+
+static void weld(const Surface& surface, double size, Topology& topology) {
+    // Far from the origin the coordinates themselves are coarser than the tolerance.
+    double reach = 0;
+    for (const Vec3& place : surface.positions) reach = std::max(reach, place.cwiseAbs().maxCoeff());
+    const double tolerance = std::max(WELD_TOLERANCE * size, 1e-14 * reach);
+    PointTable table(surface.positions.size());
+    topology.vertex_point.resize(surface.positions.size());
+    for (size_t v = 0; v < surface.positions.size(); ++v) {
+        const Vec3 place = surface.positions[v] - surface.positions[0];
+        int found = find_point(table, topology.points, place, tolerance);
+        if (found < 0) {
+            found = int(topology.points.size());
+            topology.points.push_back(place);
+            PointTable::Slot& slot = table.slot_of(cell_of(place, CELL * tolerance));
+            table.next.push_back(slot.first);
+            slot = {cell_of(place, CELL * tolerance), found};
+        }
+        topology.vertex_point[v] = found;
+    }
+    // A point stands exactly where its first vertex does.
+    std::vector<char> placed(topology.points.size(), 0);
+    for (size_t v = 0; v < surface.positions.size(); ++v) {
+        const size_t i = size_t(topology.vertex_point[v]);
+        if (!placed[i]) topology.points[i] = surface.positions[v];
+        placed[i] = 1;
+    }
+}
+
+static int find_root(std::vector<int>& parent, int i) {
+    while (parent[size_t(i)] != i) i = parent[size_t(i)] = parent[size_t(parent[size_t(i)])];
+    return i;
+}
+
+static void find_components(Topology& topology) {
+    std::vector<int> parent(topology.points.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    for (const Triangle& triangle : topology.triangles)
+        for (size_t k = 1; k < 3; ++k) {
+            const int a = find_root(parent, triangle[0]), b = find_root(parent, triangle[k]);
+            parent[size_t(std::max(a, b))] = std::min(a, b);
+        }
+    // Numbered in the order in which triangles name them.
+    std::vector<int> number(topology.points.size(), -1);
+    topology.triangle_component.reserve(topology.triangles.size());
+    for (const Triangle& triangle : topology.triangles) {
+        int& component = number[size_t(find_root(parent, triangle[0]))];
+        if (component < 0) component = topology.component_count++;
+        topology.triangle_component.push_back(component);
+    }
+}
+
+Topology make_topology(const Surface& surface) {
+    // The stages after this one count on a shape that has a size.
+    if (surface.triangles.empty()) fail(FROND_BAD_GEOMETRY, "there are no triangles; a plant needs at least one");
+    for (const Triangle& triangle : surface.triangles)
+        for (int corner : triangle)
+            if (corner < 0 || size_t(corner) >= surface.positions.size())
+                fail(FROND_BAD_GEOMETRY, "a triangle names vertex %d of %zu; clean the surface first", corner,
+                     surface.positions.size());
+    for (const Vec3& place : surface.positions)
+        if (!place.allFinite()) fail(FROND_BAD_GEOMETRY, "a vertex is not finite; clean the surface first");
+    const double size = surface.size();
+    if (!std::isfinite(size) || !(size > 1e-9))
+        fail(FROND_BAD_GEOMETRY, "all %zu triangles lie in one point (%g m across); check the mesh and the scale",
+             surface.triangles.size(), size);
+
+    Topology topology;
+    weld(surface, size, topology);
+    topology.triangles.reserve(surface.triangles.size());
+    for (const Triangle& triangle : surface.triangles)
+        topology.triangles.push_back({topology.vertex_point[size_t(triangle[0])],
+                                      topology.vertex_point[size_t(triangle[1])],
+                                      topology.vertex_point[size_t(triangle[2])]});
+    find_components(topology);
+    join_components(topology);
+    return topology;
+}
+
+}  // namespace frond

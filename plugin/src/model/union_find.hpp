@@ -1,0 +1,30 @@
+// Union-find: sets of numbers; the smallest member names its set, so that results do not depend on the order of
+// joining.
+#pragma once
+
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace frond {
+
+struct UnionFind {
+    std::vector<int> parent;
+
+    explicit UnionFind(size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0); }
+    int find(int i) {
+        while (parent[size_t(i)] != i) i = parent[size_t(i)] = parent[size_t(parent[size_t(i)])];
+        return i;
+    }
+    // False if they were in one set before.
+    bool join(int a, int b) {
+        a = find(a);
+        b = find(b);
+        if (a == b) return false;
+        if (a > b) std::swap(a, b);
+        parent[size_t(b)] = a;
+        return true;
+    }
+};
+
+}  // namespace frond

@@ -1,0 +1,73 @@
+// Plant: one instance of a model, everything that moves. It is simulated in the model's own frame, near the origin, so
+// that a plant ten kilometres away is as exact as one at home; `position` and `rotation` place it in the world.
+#pragma once
+
+#include <list>
+
+#include "solve/solve.hpp"
+
+namespace frond {
+
+// A user's hold on a surface vertex.
+struct Grab {
+    int vertex;
+    Vec3 target;       // world frame [m]
+    double stiffness;  // [N/m]
+    uint64_t handle;   // of the C API
+};
+
+struct Plant {
+    std::shared_ptr<const Model> model;
+    std::shared_ptr<const System> system;
+    WorkspacePtr workspace;
+    SolveSettings settings;
+    frond_effects effects;
+    Vec3 position;  // of the model's frame in the world [m]
+    Quat rotation;
+    void* user = nullptr;
+
+    Motion motion;        // model frame
+    VecX x_good, v_good;  // before the running step
+    Loads loads;          // of the running step, kept to reuse its memory
+    VecX user_force;      // until the end of the host's step, world frame [N]
+    bool has_user_force = false;
+    std::list<Grab> grabs;
+
+    // What follows the cage.
+    std::vector<Vec3> chain_positions;                      // model frame [m]
+    std::vector<float> surface_positions, surface_normals;  // world frame
+    bool surface_stale = true;
+
+    // Of the last step.
+    SolveReport report;
+    uint32_t trouble = 0;
+    double ms_effects = 0, ms_surface = 0;
+
+    Vec3 to_world(const Vec3& p) const { return rotation * p + position; }
+    Vec3 to_model(const Vec3& p) const { return rotation.conjugate() * (p - position); }
+};
+
+// What the world gives to every plant of a step.
+struct Surroundings {
+    Vec3 gravity = Vec3::Zero();                // world frame [m/s^2]
+    frond_effects effects = FROND_ALL_EFFECTS;  // mask
+};
+
+// `def` has been checked by the caller.
+std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def);
+// Effects -> solve -> accept or rewind -> chain.
+void step_plant(Plant& plant, const Surroundings& surroundings, double h);
+// Forces given by frond_plant_add_force end.
+void clear_user_force(Plant& plant);
+// Writes surface_positions and surface_normals as far as the effects ask for them.
+void update_surface(Plant& plant, frond_effects effects);
+frond_energy energy_of(const Plant& plant, const Vec3& gravity);
+// The surface vertex nearest to a point of the world.
+int nearest_vertex(const Plant& plant, const Vec3& point);
+Vec3 vertex_position(const Plant& plant, int vertex);   // world frame [m]
+Vec3 grab_force(const Plant& plant, const Grab& grab);  // on the plant, world frame [N]
+// Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave that part as it is.
+void set_state(Plant& plant, const double* positions, const double* velocities);
+void update_chain(Plant& plant);
+
+}  // namespace frond

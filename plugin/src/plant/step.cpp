@@ -1,0 +1,67 @@
+// One step of a plant: effects -> solve -> accept or rewind -> chain.
+#include "core/timer.hpp"
+#include "plant/plant.hpp"
+
+namespace frond {
+
+// Force per node, gravity and springs of this step, in the model's frame.
+static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_effects effects) {
+    const Quat to_model = plant.rotation.conjugate();
+    Loads& loads = plant.loads;
+    loads.gravity = effects & FROND_GRAVITY ? Vec3(to_model * surroundings.gravity) : Vec3(Vec3::Zero());
+    loads.springs.clear();
+    loads.force.setZero();
+    if (!(effects & FROND_USER_FORCE)) return;
+
+    if (plant.has_user_force) {
+        const Mat3 turn = to_model.toRotationMatrix();
+        for (int i = 0; i < plant.user_force.size() / 3; i++) point(loads.force, i) = turn * point(plant.user_force, i);
+    }
+    for (const Grab& grab : plant.grabs) {
+        const size_t vertex = size_t(grab.vertex);
+        loads.springs.push_back({plant.model->embedding.tet[vertex], plant.model->embedding.weights[vertex],
+                                 plant.to_model(grab.target), grab.stiffness});
+    }
+}
+
+static bool is_sound(const Motion& motion, double size) {
+    const double far_away = 1e4 * size;
+    return motion.x.allFinite() && motion.v.allFinite() && motion.x.cwiseAbs().maxCoeff() < far_away;
+}
+
+void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
+    const frond_effects effects = plant.effects & surroundings.effects;
+    Motion& motion = plant.motion;
+    plant.x_good = motion.x;
+    plant.v_good = motion.v;
+    plant.trouble = 0;
+
+    // Effects.
+    Timer timer;
+    gather_loads(plant, surroundings, effects);
+    SolveSettings settings = plant.settings;
+    if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = 0;
+    plant.ms_effects = timer.lap();
+
+    // Solve.
+    plant.report = solve_step(*plant.workspace, settings, plant.loads, h, motion);
+    if (!plant.report.converged) plant.trouble |= FROND_TROUBLE_NOT_CONVERGED;
+    if (plant.report.inverted > 0) plant.trouble |= FROND_TROUBLE_INVERTED;
+
+    // Accept, or go back to the last good state and stand still there.
+    if (!plant.report.ok || !is_sound(motion, plant.model->surface.size())) {
+        motion.x = plant.x_good;
+        motion.v.setZero();
+        plant.trouble |= FROND_TROUBLE_REWOUND;
+    }
+    update_chain(plant);
+    plant.surface_stale = true;
+}
+
+void clear_user_force(Plant& plant) {
+    if (!plant.has_user_force) return;
+    plant.user_force.setZero();
+    plant.has_user_force = false;
+}
+
+}  // namespace frond

@@ -1,0 +1,88 @@
+// What follows the cage: the surface with its normals, and the chain.
+#include "core/timer.hpp"
+#include "plant/plant.hpp"
+
+namespace frond {
+
+static Vec3 bound_point(const Model& model, const Embedding& embedding, size_t i, const VecX& x) {
+    const Tet& tet = model.cage.tets[size_t(embedding.tet[i])];
+    const std::array<double, 4>& w = embedding.weights[i];
+    return w[0] * point(x, tet[0]) + w[1] * point(x, tet[1]) + w[2] * point(x, tet[2]) + w[3] * point(x, tet[3]);
+}
+
+// Normals turn with the cofactor of the deformation gradient. One matrix a node, the volume-weighted mean over its
+// tets, is interpolated like the positions, so that shading stays smooth across tets and hard edges stay hard.
+static void update_normals(Plant& plant) {
+    const Model& model = *plant.model;
+    const TetElements& elements = elements_of(*plant.system);
+    const VecX& x = plant.motion.x;
+    std::vector<Mat3> cofactor(model.cage.nodes.size(), Mat3::Zero());
+    for (size_t e = 0; e < elements.ordered.size(); e++) {
+        const Tet& tet = elements.ordered[e];
+        Mat3 edges;
+        for (int k = 0; k < 3; k++) edges.col(k) = point(x, tet[size_t(k) + 1]) - point(x, tet[0]);
+        const Mat3 F = edges * elements.rest_inverse[e];
+        Mat3 C;
+        C.col(0) = F.col(1).cross(F.col(2));
+        C.col(1) = F.col(2).cross(F.col(0));
+        C.col(2) = F.col(0).cross(F.col(1));
+        for (int corner : tet) cofactor[size_t(corner)] += elements.volume[e] * C;
+    }
+    const Mat3 turn = plant.rotation.toRotationMatrix();
+    for (Mat3& C : cofactor) C = turn * C;
+
+    for (size_t v = 0; v < model.surface.normals.size(); v++) {
+        const Tet& tet = model.cage.tets[size_t(model.embedding.tet[v])];
+        const std::array<double, 4>& w = model.embedding.weights[v];
+        const Vec3 rest = model.surface.normals[v].cast<double>();
+        Vec3 normal = Vec3::Zero();
+        for (size_t k = 0; k < 4; k++) normal += w[k] * (cofactor[size_t(tet[k])] * rest);
+        const double length = normal.norm();
+        normal = length > 0 ? Vec3(normal / length) : Vec3(turn * rest);
+        for (int axis = 0; axis < 3; axis++) plant.surface_normals[3 * v + size_t(axis)] = float(normal[axis]);
+    }
+}
+
+void update_surface(Plant& plant, frond_effects effects) {
+    const Model& model = *plant.model;
+    const size_t vertex_count = model.surface.positions.size();
+    Timer timer;
+    plant.surface_positions.resize(3 * vertex_count);
+    plant.surface_normals.resize(3 * vertex_count);
+    const Mat3 turn = plant.rotation.toRotationMatrix();
+    for (size_t v = 0; v < vertex_count; v++) {
+        const Vec3 p = turn * bound_point(model, model.embedding, v, plant.motion.x) + plant.position;
+        for (int axis = 0; axis < 3; axis++) plant.surface_positions[3 * v + size_t(axis)] = float(p[axis]);
+    }
+    if (effects & FROND_NORMALS) update_normals(plant);
+    plant.surface_stale = false;
+    plant.ms_surface = timer.ms();
+}
+
+Vec3 vertex_position(const Plant& plant, int vertex) {
+    return plant.to_world(bound_point(*plant.model, plant.model->embedding, size_t(vertex), plant.motion.x));
+}
+
+int nearest_vertex(const Plant& plant, const Vec3& world_point) {
+    const Vec3 p = plant.to_model(world_point);
+    int nearest = 0;
+    double best = INFINITY;
+    for (size_t v = 0; v < plant.model->surface.positions.size(); v++) {
+        const double distance =
+            (bound_point(*plant.model, plant.model->embedding, v, plant.motion.x) - p).squaredNorm();
+        if (distance < best) {
+            best = distance;
+            nearest = int(v);
+        }
+    }
+    return nearest;
+}
+
+void update_chain(Plant& plant) {
+    const size_t count = plant.model->chain.nodes.size();
+    plant.chain_positions.resize(count);
+    for (size_t i = 0; i < count; i++)
+        plant.chain_positions[i] = bound_point(*plant.model, plant.model->chain_embedding, i, plant.motion.x);
+}
+
+}  // namespace frond

@@ -1,0 +1,12 @@
+// Implicit Euler, the paper's equations (2) and (3) with their signs put right:
+//   (M + h D + h^2 K) dv = h (f - D v - h K v),  v' = v + dv,  x' = x + h v'
+// with f the forces at x. Several Newton iterations solve M dv = h (f(x') - D v') itself.
+#include "solve/integrator.hpp"
+
+namespace frond {
+
+bool step_implicit_euler(Workspace& workspace, const StepInput& input, SolveReport& report) {
+    return solve_stage(workspace, input, {input.motion.x, input.motion.v, input.h}, report);
+}
+
+}  // namespace frond

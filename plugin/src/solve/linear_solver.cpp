@@ -1,0 +1,25 @@
+// The table of linear solvers: one row for each name in FROND_LINEAR_SOLVERS.
+#include "solve/linear_solver.hpp"
+
+#include <limits>
+
+namespace frond {
+
+const LinearSolver& linear_solver(frond_linear_solver which) {
+    static const LinearSolver TABLE[] = {
+        {"direct", solve_direct},
+        {"pcg_jacobi", solve_pcg_jacobi},
+    };
+    static_assert(sizeof TABLE / sizeof TABLE[0] == FROND_LINEAR_SOLVER_COUNT, "every linear solver needs its row");
+    return TABLE[which];
+}
+
+double relative_residual(const BlockMatrix& A, const VecX& b, const VecX& x, VecX& residual) {
+    A.multiply(x, residual);
+    residual = b - residual;
+    const double left = residual.norm(), all = b.norm();
+    if (all > 0) return left / all;
+    return left == 0 ? 0 : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace frond

@@ -1,0 +1,42 @@
+// LinearSolver: solves A x = b for a symmetric matrix of 3x3 blocks; rows of a table indexed by frond_linear_solver.
+#pragma once
+
+#include "frond/frond.h"
+#include "mechanics/block_matrix.hpp"
+#include "solve/direct.hpp"
+
+namespace frond {
+
+struct LinearLimits {
+    int max_iterations;
+    double tolerance;  // relative residual [-]
+};
+
+struct LinearResult {
+    bool ok = false;         // false: A is not positive definite, or not finite; x is of no use
+    bool converged = false;  // to the tolerance
+    int iterations = 0;      // a direct solve counts as one
+    double residual = 0;     // |b - A x| / |b|, computed from x itself
+};
+
+// Kept from solve to solve; each solver uses its own part.
+struct LinearScratch {
+    DirectFactorPtr factor;
+    VecX product, residual, direction, preconditioned, inverse_diagonal;
+};
+
+struct LinearSolver {
+    const char* name;
+    LinearResult (*solve)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
+                          VecX& x);
+};
+const LinearSolver& linear_solver(frond_linear_solver which);
+
+// The rows.
+LinearResult solve_direct(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
+LinearResult solve_pcg_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
+
+// |b - A x| / |b|; leaves b - A x in `residual`. Zero for b = 0 and x = 0.
+double relative_residual(const BlockMatrix& A, const VecX& b, const VecX& x, VecX& residual);
+
+}  // namespace frond

@@ -1,0 +1,269 @@
+// In: an implicit stage. Out: its velocities, by Newton's method.
+//
+// The first solve takes forces and stiffness at the start of the step and extrapolates them (Baraff, Witkin 1998);
+// alone it is the paper's step. Its stiffness is the positive one, which always points downhill. Further solves use the
+// exact stiffness, which converges quadratically, and fall back to the positive one when that has no factor. A line
+// search keeps them from making the residual and the stage's potential both larger.
+//
+// D = mass_damping M + stiffness_damping K, K being the positive stiffness at the start of the step: it never feeds
+// energy and does not resist turning as a whole.
+#include <cmath>
+
+#include "core/timer.hpp"
+#include "solve/integrator.hpp"
+#include "solve/springs.hpp"
+
+namespace frond {
+
+namespace {
+
+struct Newton {
+    Workspace& w;
+    const StepInput& input;
+    const Stage& stage;
+    SolveReport& report;
+    const System& system;
+    const Mechanics& body;
+    double rayleigh;    // stiffness_damping [s]
+    bool keep_damping;  // the stiffness of the damping is needed again after the first solve
+};
+
+// Where the stage ends with velocities v.
+void move(const Newton& n, const VecX& v) {
+    n.w.x = n.stage.x_base + n.stage.step * v;
+}
+
+// Everything of the residual that does not come from K: what is left of step * f - M (v - v_base) - step * a M v.
+void start_residual(const Newton& n, const VecX& v, VecX& rhs) {
+    const double step = n.stage.step;
+    rhs = n.w.external + n.w.elastic;
+    add_spring_force(n.system, n.input.loads.springs, n.w.x, rhs);
+    rhs *= step;
+    n.w.dv = n.stage.v_base - (1 + step * n.input.settings.mass_damping) * v;
+    multiply_mass(n.system, n.w.dv, n.w.momentum);
+    rhs += n.w.momentum;
+}
+
+// Nodes whose velocity is given do not count.
+double free_norm(const Newton& n, const VecX& rhs) {
+    double sum = 0;
+    for (int i = 0; i < n.system.elements.node_count; ++i)
+        if (!n.w.held[size_t(i)]) sum += point(rhs, i).squaredNorm();
+    return std::sqrt(sum);
+}
+
+// Force and stiffness at the start of the step, extrapolated to its end with the velocities known so far.
+void linearize_at_start(Newton& n) {
+    Workspace& w = n.w;
+    const VecX& x = n.input.motion.x;
+    w.elastic.setZero(x.size());
+    w.A.set_zero();
+    n.report.inverted = n.body.add_force_and_stiffness(n.system.elements, x, Tangent::positive, w.elastic, w.A);
+    move(n, w.v);
+    start_residual(n, w.v, w.rhs);
+    w.dv = w.x - x + n.rayleigh * w.v;
+    w.A.multiply(w.dv, w.product);
+    w.rhs -= n.stage.step * w.product;
+    if (n.keep_damping) w.damping = w.A;
+}
+
+// The residual at the end of the stage with velocities v; leaves its elastic force and positions in the workspace.
+double residual_at(Newton& n, const VecX& v, VecX& rhs) {
+    Workspace& w = n.w;
+    move(n, v);
+    w.elastic.setZero(v.size());
+    n.report.inverted = n.body.add_force(n.system.elements, w.x, w.elastic);
+    start_residual(n, v, rhs);
+    if (n.keep_damping) {
+        w.damping.multiply(v, w.product);
+        rhs -= n.stage.step * n.rayleigh * w.product;
+    }
+    return free_norm(n, rhs);
+}
+
+// The stage's solution is where this is least: minus its gradient by v is the residual.
+double potential_at(const Newton& n, const VecX& v) {
+    Workspace& w = n.w;
+    const double step = n.stage.step, a = n.input.settings.mass_damping;
+    move(n, v);
+    double potential = n.body.energy(n.system.elements, w.x) + spring_energy(n.system, n.input.loads.springs, w.x) -
+                       step * w.external.dot(v);
+    w.dv = v - n.stage.v_base;
+    multiply_mass(n.system, w.dv, w.momentum);
+    potential += 0.5 * w.dv.dot(w.momentum);
+    multiply_mass(n.system, v, w.momentum);
+    potential += 0.5 * step * a * v.dot(w.momentum);
+    if (n.keep_damping) {
+        w.damping.multiply(v, w.product);
+        potential += 0.5 * step * n.rayleigh * v.dot(w.product);
+    }
+    return potential;
+}
+
+// A = (1 + step a) M + step^2 K + step b K_damping + springs. `first`: both K are the one that stands in A.
+void form_matrix(Newton& n, bool first) {
+    BlockMatrix& A = n.w.A;
+    const double step = n.stage.step, mass = 1 + step * n.input.settings.mass_damping;
+    const double scale = step * step + (first ? step * n.rayleigh : 0);
+    for (double& value : A.values) value *= scale;
+    if (!first && n.keep_damping)
+        for (size_t k = 0; k < A.values.size(); ++k) A.values[k] += step * n.rayleigh * n.w.damping.values[k];
+    for (size_t k = 0; k < n.system.slot_mass.size(); ++k) {
+        const double m = mass * n.system.slot_mass[k];
+        for (size_t c = 0; c < 9; c += 4) A.values[9 * k + c] += m;
+    }
+    add_spring_stiffness(n.system, n.input.loads.springs, step * step, A);
+}
+
+// What held nodes have still to change [m/s]: pinned ones reach their targets at the end of the stage.
+void set_held_change(Newton& n) {
+    const Motion& motion = n.input.motion;
+    n.w.held_dv.setZero(n.w.v.size());
+    for (size_t i = 0; i < motion.pinned.size(); ++i)
+        if (motion.pinned[i])
+            point(n.w.held_dv, int(i)) =
+                (point(motion.pin_target, int(i)) - point(n.stage.x_base, int(i))) / n.stage.step -
+                point(n.w.v, int(i));
+}
+
+// Rows and columns of held nodes become the identity, so that the pattern stays; their dv moves to the right side.
+void hold(Newton& n) {
+    Workspace& w = n.w;
+    const BlockPattern& pattern = *w.A.pattern;
+    set_held_change(n);
+    for (int j = 0; j < pattern.node_count; ++j)
+        for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
+            const int i = pattern.row[size_t(k)];
+            const bool i_held = w.held[size_t(i)], j_held = w.held[size_t(j)];
+            if (!i_held && !j_held) continue;
+            auto block = w.A.block(k);
+            if (!i_held) point(w.rhs, i) -= block * point(w.held_dv, j);
+            if (!j_held) point(w.rhs, j) -= block.transpose() * point(w.held_dv, i);
+            block.setZero();
+            if (i == j) block.setIdentity();
+        }
+    for (int i = 0; i < pattern.node_count; ++i)
+        if (w.held[size_t(i)]) point(w.rhs, i).setZero();
+}
+
+// dv from the matrix in A and the right side, and as given for held nodes.
+bool solve_linear(Newton& n) {
+    const SolveSettings& s = n.input.settings;
+    const LinearResult result =
+        linear_solver(s.linear_solver).solve(n.w.A, n.w.rhs, {s.max_iterations, s.tolerance}, n.w.linear, n.w.dv);
+    n.report.iterations += result.iterations;
+    n.report.residual = result.residual;
+    n.report.converged = result.converged;
+    if (result.ok) n.w.dv += n.w.held_dv;
+    return result.ok;
+}
+
+// A direction from the stiffness at the velocities so far: exact, or positive where that has no factor.
+bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
+    for (;;) {
+        Timer timer;
+        n.w.rhs = rhs;
+        n.w.A.set_zero();
+        move(n, n.w.v);
+        n.body.add_stiffness(n.system.elements, n.w.x, tangent, 1, n.w.A);
+        form_matrix(n, false);
+        hold(n);
+        n.report.ms_assembly += timer.lap();
+        const bool ok = solve_linear(n);
+        n.report.ms_solve += timer.lap();
+        if (ok) return true;
+        if (tangent == Tangent::positive) return false;
+        tangent = Tangent::positive;
+    }
+}
+
+// Goes along dv as far as that makes the residual or the potential smaller; false if nothing does.
+bool search_line(Newton& n, VecX& rhs, double& norm) {
+    constexpr int HALVINGS = 12;
+    Workspace& w = n.w;
+    VecX& direction = w.direction;
+    direction = w.dv;
+    const double slope = -direction.dot(rhs);
+    double start = 0;
+    bool has_start = false;
+    double part = 1;
+    for (int trial = 0; trial <= HALVINGS; ++trial, part *= 0.5) {
+        w.v_trial = w.v + part * direction;
+        const double norm_trial = residual_at(n, w.v_trial, w.rhs_trial);
+        bool better = norm_trial < (1 - 1e-4 * part) * norm;
+        if (!better && std::isfinite(norm_trial)) {
+            if (!has_start) start = potential_at(n, w.v);
+            has_start = true;
+            better = potential_at(n, w.v_trial) < start + 1e-4 * part * slope;
+        }
+        if (!better) continue;
+        std::swap(w.v, w.v_trial);
+        std::swap(rhs, w.rhs_trial);
+        norm = norm_trial;
+        w.dv = part * direction;
+        return true;
+    }
+    return false;
+}
+
+// The first solve, which is all there is with one iteration. Returns the norm of its right side, negative on failure.
+double solve_first(Newton& n) {
+    Timer timer;
+    linearize_at_start(n);
+    form_matrix(n, true);
+    hold(n);
+    const double norm = free_norm(n, n.w.rhs);
+    n.report.ms_assembly += timer.lap();
+    const bool ok = std::isfinite(norm) && solve_linear(n);
+    n.report.ms_solve += timer.lap();
+    if (!ok) return -1;
+    n.w.v += n.w.dv;
+    return norm;
+}
+
+// A change of the nodes' places that counts as none, as a share of the plant's size: what follows it is smaller still.
+constexpr double TINY = 1e-11;
+
+// Further solves until the residual is small against the first one, or steps are at the end of what double resolves.
+bool iterate(Newton& n, double first) {
+    const SolveSettings& s = n.input.settings;
+    Workspace& w = n.w;
+    double change = w.dv.cwiseAbs().maxCoeff() * n.stage.step;
+    Timer timer;
+    VecX& rhs = w.rhs_stage;
+    double norm = residual_at(n, w.v, rhs);
+    n.report.ms_assembly += timer.lap();
+    Tangent tangent = Tangent::exact;
+    for (int iteration = 1;; ++iteration) {
+        n.report.converged = norm <= s.newton_tolerance * first || change <= TINY * n.system.size;
+        if (n.report.converged || iteration == s.newton_iterations) return std::isfinite(norm);
+        if (!find_direction(n, tangent, rhs)) return false;
+        timer.lap();
+        change = w.dv.cwiseAbs().maxCoeff() * n.stage.step;
+        const bool better = search_line(n, rhs, norm);
+        n.report.ms_assembly += timer.lap();
+        // The exact stiffness may lead to a place where nothing gets better; the positive one goes downhill.
+        if (!better && tangent == Tangent::positive) {
+            n.report.converged = change <= TINY * n.system.size;
+            return true;
+        }
+        tangent = better ? Tangent::exact : Tangent::positive;
+    }
+}
+
+}  // namespace
+
+bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report) {
+    const bool several = input.settings.newton_iterations > 1;
+    const double b = input.settings.stiffness_damping;
+    Newton n = {workspace, input,           stage, report, *workspace.system, mechanics(input.settings.mechanics),
+                b,         several && b > 0};
+    workspace.v = input.motion.v;
+    const double first = solve_first(n);
+    if (first < 0) return false;
+    if (several && !iterate(n, first)) return false;
+    move(n, workspace.v);
+    return true;
+}
+
+}  // namespace frond

@@ -1,0 +1,21 @@
+// Making and freeing a plant's workspace; the symbolic part of its factor is done here, once.
+#include "solve/workspace.hpp"
+
+#include "core/error.hpp"
+
+namespace frond {
+
+WorkspacePtr make_workspace(std::shared_ptr<const System> system) {
+    if (!system) fail(FROND_INTERNAL, "a workspace was asked for without a system");
+    WorkspacePtr workspace(new Workspace);
+    workspace->A.set_pattern(system->elements.pattern);
+    workspace->linear.factor = make_direct_factor(system->plan);
+    workspace->system = std::move(system);
+    return workspace;
+}
+
+void WorkspaceDeleter::operator()(Workspace* workspace) const {
+    delete workspace;
+}
+
+}  // namespace frond

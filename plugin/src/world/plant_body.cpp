@@ -1,0 +1,63 @@
+#include "world/plant_body.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+static btVector3 to_bullet(const Vec3& p) {
+    return btVector3(btScalar(p.x()), btScalar(p.y()), btScalar(p.z()));
+}
+
+// The frame of a capsule, whose axis is y, between two points.
+static btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
+    const Vec3 axis = end - begin;
+    const Quat turn = axis.squaredNorm() > 0 ? Quat::FromTwoVectors(Vec3::UnitY(), axis) : Quat::Identity();
+    const btQuaternion rotation(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), btScalar(turn.w()));
+    return btTransform(rotation, to_bullet(0.5 * (begin + end)));
+}
+
+PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> given)
+    : btSoftBody(info), plant(std::move(given)), world(world) {
+    m_softBodySolver = nullptr;  // Bullet's constructor leaves it open
+
+    // One compound in place of the soft body's own shape; btSoftBody deletes it.
+    delete m_collisionShape;
+    btCompoundShape* shape = new btCompoundShape();
+    m_collisionShape = shape;
+    const Model& model = *plant->model;
+    for (const auto& [begin, end] : model.capsules) {
+        const double height =
+            (model.chain.nodes[size_t(end)].position - model.chain.nodes[size_t(begin)].position).norm();
+        const double radius = model.chain.nodes[size_t(end)].radius;
+        capsules.push_back(std::make_unique<btCapsuleShape>(btScalar(radius), btScalar(height)));
+        shape->addChildShape(btTransform::getIdentity(), capsules.back().get());
+    }
+
+    // Placed once: the capsules move inside the plant's frame.
+    const Quat& q = plant->rotation;
+    const btQuaternion rotation(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w()));
+    setWorldTransform(btTransform(rotation, to_bullet(plant->position)));
+    setInterpolationWorldTransform(getWorldTransform());
+
+    // Kinematic, or islands would merge over the whole box of the plant; seen by queries, not yet an obstacle.
+    setCollisionFlags(CF_KINEMATIC_OBJECT | CF_NO_CONTACT_RESPONSE);
+    setActivationState(DISABLE_DEACTIVATION);
+    move_capsules(*this);
+}
+
+PlantBody::~PlantBody() {
+    for (int i = compound()->getNumChildShapes() - 1; i >= 0; i--) compound()->removeChildShapeByIndex(i);
+}
+
+void move_capsules(PlantBody& body) {
+    const Plant& plant = *body.plant;
+    for (size_t i = 0; i < body.capsules.size(); i++) {
+        const auto& [begin, end] = plant.model->capsules[i];
+        const btTransform frame =
+            capsule_frame(plant.chain_positions[size_t(begin)], plant.chain_positions[size_t(end)]);
+        body.compound()->updateChildTransform(int(i), frame, false);
+    }
+    body.compound()->recalculateLocalAabb();
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

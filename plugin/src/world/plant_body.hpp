@@ -1,0 +1,36 @@
+// PlantBody: a plant as Bullet sees it, a soft body whose shape is a compound of capsules. It has no nodes of its own.
+#pragma once
+
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletSoftBody/btSoftBody.h>
+
+#include "frond/frond_bullet.hpp"
+#include "plant/plant.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+struct World;
+
+struct PlantBody : btSoftBody {
+    BT_DECLARE_ALIGNED_ALLOCATOR();
+
+    std::unique_ptr<Plant> plant;
+    World* world;
+    frond_plant handle = {};
+    std::vector<std::unique_ptr<btCapsuleShape>> capsules;  // in the order of Model::capsules
+
+    PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> plant);
+    ~PlantBody() override;
+    btCompoundShape* compound() { return static_cast<btCompoundShape*>(getCollisionShape()); }
+    // The body that a collision object is; null if it is none.
+    static PlantBody* of(btCollisionObject* object) { return dynamic_cast<PlantBody*>(object); }
+    static const PlantBody* of(const btCollisionObject* object) { return dynamic_cast<const PlantBody*>(object); }
+};
+
+// Moves the capsules to where the chain is.
+void move_capsules(PlantBody& body);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

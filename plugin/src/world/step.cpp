@@ -1,0 +1,69 @@
+// A substep of all plants of a world, inside Bullet's own.
+#include <cmath>
+
+#include "core/timer.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+Vec3 gravity_of(const World& world) {
+    const btVector3 gravity = world.bullet->getGravity();
+    return Vec3(double(gravity.x()), double(gravity.y()), double(gravity.z()));
+}
+
+// Adds what a plant did in this substep to the world's report.
+static void add_to_report(const Plant& plant, frond_report& report) {
+    report.trouble |= plant.trouble;
+    report.solver_iterations += plant.report.iterations;
+    report.residual = std::max(report.residual, plant.report.residual);
+    report.ms_effects += plant.ms_effects;
+    report.ms_assembly += plant.report.ms_assembly;
+    report.ms_solve += plant.report.ms_solve;
+}
+
+void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
+    if (!(h > 0)) return;
+    const Timer step_timer;
+    report = {};
+    Surroundings surroundings;
+    surroundings.gravity = gravity_of(*this);
+    surroundings.effects = effects;
+    for (const std::unique_ptr<PlantBody>& body : bodies) {
+        step_plant(*body->plant, surroundings, double(h));
+        add_to_report(*body->plant, report);
+
+        const Timer capsule_timer;
+        move_capsules(*body);
+        collision_world->updateSingleAabb(body.get());
+        report.ms_capsules += capsule_timer.ms();
+        if (!own) clear_user_force(*body->plant);
+    }
+    time += double(h);
+    report.ms_step = step_timer.ms();
+}
+
+void World::debugDraw(btIDebugDraw*) {}
+
+void advance(World& world, double dt) {
+    const int substeps = int(std::ceil(dt / world.max_substep - 1e-9));
+    for (int i = 0; i < substeps; i++) world.bullet->stepSimulation(btScalar(dt / substeps), 0);
+    for (const std::unique_ptr<PlantBody>& body : world.bodies) clear_user_force(*body->plant);
+}
+
+// FNV-1a over the bits of all nodes.
+uint64_t state_hash(const World& world) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    const auto add = [&](const VecX& values) {
+        const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+        for (size_t i = 0; i < size_t(values.size()) * sizeof(double); i++) hash = (hash ^ bytes[i]) * 0x100000001b3u;
+    };
+    for (const std::unique_ptr<PlantBody>& body : world.bodies) {
+        add(body->plant->motion.x);
+        add(body->plant->motion.v);
+    }
+    return hash;
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

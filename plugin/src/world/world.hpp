@@ -1,0 +1,55 @@
+// World: the plants of one Bullet world, stepped inside each of its substeps by an action, the one hook that every kind
+// of Bullet world runs at the same place and that belongs to nobody else.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include "world/plant_body.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+// The Bullet world that Frond makes when the host has none. Members are destroyed from the last to the first.
+struct OwnBullet {
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+};
+
+struct World final : btActionInterface {
+    std::unique_ptr<OwnBullet> own;  // null when attached
+    btDynamicsWorld* bullet;
+    btSoftBodyWorldInfo soft_info;  // what btSoftBody's constructor asks for; not otherwise used
+    frond_effects effects;
+    double max_substep;  // [s]
+    std::vector<std::unique_ptr<PlantBody>> bodies;
+    double time = 0;  // [s]
+    frond_report report = {};
+
+    World(std::unique_ptr<OwnBullet> own, btDynamicsWorld* bullet, const frond_world_def& def);
+    ~World() override;
+    // Called by Bullet once a substep, after rigid bodies have moved.
+    void updateAction(btCollisionWorld* world, btScalar h) override;
+    void debugDraw(btIDebugDraw* drawer) override;
+};
+
+// Without `bullet` the world makes its own. Throws BAD_ARGUMENT when `bullet` has plants already.
+std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def& def);
+PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant);
+void remove_plant(World& world, PlantBody* body);
+// Steps a world of Frond's own by exactly dt.
+void advance(World& world, double dt);
+Vec3 gravity_of(const World& world);
+uint64_t state_hash(const World& world);
+
+struct RayHit {
+    PlantBody* body = nullptr;
+    int capsule = -1;
+    Vec3 point = Vec3::Zero();
+};
+RayHit cast_ray(World& world, const Vec3& from, const Vec3& to);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

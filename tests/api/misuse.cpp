@@ -1,0 +1,314 @@
+// Every public function, called wrongly: a result code and a text that names the remedy, nothing changed, no crash.
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "support/stems.hpp"
+
+extern "C" int frond_hello_from_c(double* tip_height);
+
+static const double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+static const double INFINITE = std::numeric_limits<double>::infinity();
+
+// The last error names the thing that was wrong.
+static ::testing::AssertionResult error_names(const char* word) {
+    if (std::strstr(frond_last_error(), word)) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << "\"" << frond_last_error() << "\" does not name " << word;
+}
+
+TEST(Header, WorksFromC) {
+    double tip_height = 0;
+    EXPECT_EQ(frond_hello_from_c(&tip_height), 0);
+    EXPECT_GT(tip_height, 0.4);
+}
+
+TEST(Header, EveryEnumHasANameAndOutOfRangeHasOneToo) {
+    for (int i = 0; i < FROND_RESULT_COUNT; i++) EXPECT_GT(std::strlen(frond_result_name(frond_result(i))), 1u);
+    EXPECT_STREQ(frond_result_name(frond_result(-1)), "unknown result");
+    EXPECT_STREQ(frond_result_name(FROND_RESULT_COUNT), "unknown result");
+    EXPECT_STREQ(frond_mechanics_name(FROND_TET_COROTATIONAL), "tet_corotational");
+    EXPECT_STREQ(frond_mechanics_name(frond_mechanics(99)), "?");
+    EXPECT_STREQ(frond_integrator_name(frond_integrator(-5)), "?");
+    EXPECT_STREQ(frond_linear_solver_name(FROND_DIRECT), "direct");
+    EXPECT_STREQ(frond_mass_name(FROND_CONSISTENT), "consistent");
+    EXPECT_GT(std::strlen(frond_version_string()), 2u);
+}
+
+TEST(Misuse, OfWorldsIsRefused) {
+    frond_world_def def = frond_default_world_def();
+    frond_world world = {7};
+    EXPECT_EQ(frond_world_create(nullptr, &world), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(world.id, 0u);
+    EXPECT_EQ(frond_world_create(&def, nullptr), FROND_BAD_ARGUMENT);
+    frond_world_def zero = {};
+    EXPECT_EQ(frond_world_create(&zero, &world), FROND_BAD_DEF);
+    EXPECT_TRUE(error_names("frond_default_world_def"));
+    def.gravity.y = NOT_A_NUMBER;
+    EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT);
+    EXPECT_TRUE(error_names("gravity"));
+    def = frond_default_world_def();
+    def.max_substep = 0;
+    EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT);
+    def = frond_default_world_def();
+    def.effects = ~0u;
+    EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT);
+
+    const frond_world null_world = {}, nonsense = {0x1234567890abcdefu};
+    frond_report report;
+    uint64_t hash = 5;
+    frond_ray_hit hit;
+    for (frond_world bad : {null_world, nonsense}) {
+        EXPECT_EQ(frond_world_step(bad, 0.01), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_world_set_gravity(bad, {0, 0, 0}), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_world_set_effects(bad, 0), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_world_get_report(bad, &report), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_world_get_state_hash(bad, &hash), FROND_BAD_HANDLE);
+        EXPECT_EQ(hash, 0u);
+        EXPECT_EQ(frond_world_cast_ray(bad, {0, 0, 0}, {1, 0, 0}, 1, &hit), FROND_BAD_HANDLE);
+        EXPECT_FALSE(frond_world_is_valid(bad));
+        frond_world_destroy(bad);
+    }
+}
+
+TEST(Misuse, OfAStepIsRefusedAndChangesNothing) {
+    SmallWorld small;
+    uint64_t before = 0, after = 0;
+    frond_world_get_state_hash(small.world, &before);
+    for (double dt : {-0.1, 1.5, NOT_A_NUMBER, INFINITE})
+        EXPECT_EQ(frond_world_step(small.world, dt), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_set_gravity(small.world, {0, INFINITE, 0}), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_set_effects(small.world, 1u << 31), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_get_report(small.world, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_get_state_hash(small.world, nullptr), FROND_BAD_ARGUMENT);
+    frond_ray_hit hit;
+    EXPECT_EQ(frond_world_cast_ray(small.world, {0, 0, 0}, {0, 0, 0}, 1, &hit), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_cast_ray(small.world, {0, 0, 0}, {1, 0, 0}, -1, &hit), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_cast_ray(small.world, {NOT_A_NUMBER, 0, 0}, {1, 0, 0}, 1, &hit), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_cast_ray(small.world, {0, 0, 0}, {1, 0, 0}, 1, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_step(small.world, 0), FROND_OK);
+    frond_world_get_state_hash(small.world, &after);
+    EXPECT_EQ(before, after);
+}
+
+TEST(Misuse, OfModelsIsRefused) {
+    const frond_model_def def = frond_default_model_def();
+    frond_model model = {};
+    EXPECT_EQ(frond_model_load(nullptr, &def, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_load("no/such/plant.obj", &def, &model), FROND_FILE_NOT_FOUND);
+    EXPECT_TRUE(error_names("no/such/plant.obj"));
+    EXPECT_EQ(frond_model_load("x.obj", nullptr, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_load("x.obj", &def, nullptr), FROND_BAD_ARGUMENT);
+    frond_model_def zero = {};
+    EXPECT_EQ(frond_model_load("x.obj", &zero, &model), FROND_BAD_DEF);
+
+    const float xyz[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const int32_t indices[] = {0, 1, 2}, wild[] = {0, 1, 300};
+    EXPECT_EQ(frond_model_from_triangles(nullptr, 3, indices, 1, &def, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_triangles(xyz, 3, nullptr, 1, &def, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_triangles(xyz, -3, indices, 1, &def, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_triangles(xyz, 3, indices, 2000000000, &def, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_triangles(xyz, 3, wild, 1, &def, &model), FROND_BAD_GEOMETRY);
+    const float nan_xyz[] = {NAN, 0, 0, 1, 0, 0, 0, 1, 0}, point_xyz[9] = {};
+    EXPECT_EQ(frond_model_from_triangles(nan_xyz, 3, indices, 1, &def, &model), FROND_BAD_GEOMETRY);
+    EXPECT_EQ(frond_model_from_triangles(point_xyz, 3, indices, 1, &def, &model), FROND_BAD_GEOMETRY);
+
+    const frond_stem good = {-1, {0, 0, 0}, {0, 1, 0}, 0.1, 0.1};
+    for (frond_stem stem :
+         {frond_stem{5, good.begin, good.end, 0.1, 0.1}, frond_stem{0, good.begin, good.end, 0.1, 0.1},
+          frond_stem{-1, good.begin, good.end, -0.1, 0.1}, frond_stem{-1, good.begin, {NOT_A_NUMBER, 0, 0}, 0.1, 0.1},
+          frond_stem{-1, good.begin, good.begin, 0.1, 0.1}})
+        EXPECT_NE(frond_model_from_stems(&stem, 1, &def, &model), FROND_OK);
+    EXPECT_EQ(frond_model_from_stems(nullptr, 1, &def, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_stems(&good, 0, &def, &model), FROND_BAD_ARGUMENT);
+
+    const double nodes[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, flat[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+    const int32_t tet[] = {0, 1, 2, 3}, wild_tet[] = {0, 1, 2, 9}, double_tet[] = {0, 1, 2, 2};
+    EXPECT_EQ(frond_model_from_tets(nodes, 4, wild_tet, 1, &def, &model), FROND_BAD_GEOMETRY);
+    EXPECT_EQ(frond_model_from_tets(nodes, 4, double_tet, 1, &def, &model), FROND_BAD_GEOMETRY);
+    EXPECT_EQ(frond_model_from_tets(flat, 4, tet, 1, &def, &model), FROND_BAD_GEOMETRY);
+    EXPECT_EQ(frond_model_from_tets(nullptr, 4, tet, 1, &def, &model), FROND_BAD_ARGUMENT);
+
+    frond_model_def wrong = def;
+    wrong.cage_smoothness = 2;
+    EXPECT_EQ(frond_model_from_stems(&good, 1, &wrong, &model), FROND_BAD_ARGUMENT);
+    wrong = def;
+    wrong.cage_size = NOT_A_NUMBER;
+    EXPECT_EQ(frond_model_from_stems(&good, 1, &wrong, &model), FROND_BAD_ARGUMENT);
+    const frond_organ_material unknown = {"pancake", {1000, 1e8, 0.3, 1e-3}};
+    wrong = def;
+    wrong.organs = &unknown;
+    wrong.organ_count = 1;
+    EXPECT_EQ(frond_model_from_stems(&good, 1, &wrong, &model), FROND_BAD_ARGUMENT);
+    EXPECT_TRUE(error_names("pancake"));
+    frond_material material;
+    EXPECT_EQ(frond_material_preset("pancake", &material), FROND_BAD_ARGUMENT);
+    EXPECT_TRUE(error_names("blade"));
+    EXPECT_EQ(frond_material_preset(nullptr, &material), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(model.id, 0u);
+
+    frond_model_info info;
+    frond_part part;
+    frond_texture_view texture;
+    frond_cage_view cage;
+    frond_chain_view chain;
+    EXPECT_EQ(frond_model_get_info({}, &info), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_part({}, 0, &part), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_texture({}, 0, &texture), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_cage({}, &cage), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_chain({}, &chain), FROND_BAD_HANDLE);
+    frond_model_destroy({});
+    ASSERT_EQ(frond_model_from_stems(&good, 1, &def, &model), FROND_OK) << frond_last_error();
+    EXPECT_EQ(frond_model_get_info(model, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_get_part(model, 1000, &part), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_get_part(model, -1, &part), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_get_texture(model, 0, &texture), FROND_BAD_ARGUMENT);
+    frond_model_destroy(model);
+    frond_model_destroy(model);
+    EXPECT_FALSE(frond_model_is_valid(model));
+    EXPECT_EQ(frond_model_get_info(model, &info), FROND_BAD_HANDLE);
+}
+
+TEST(Misuse, OfPlantsIsRefused) {
+    SmallWorld small;
+    frond_plant plant = {};
+    frond_plant_def def = frond_default_plant_def();
+    EXPECT_EQ(frond_plant_create({}, small.model, &def, &plant), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_create(small.world, {}, &def, &plant), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_create(small.world, {small.world.id}, &def, &plant), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_create(small.world, small.model, nullptr, &plant), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_create(small.world, small.model, &def, nullptr), FROND_BAD_ARGUMENT);
+    const auto refuses = [&](auto change) {
+        frond_plant_def changed = def;
+        change(changed);
+        return frond_plant_create(small.world, small.model, &changed, &plant) == FROND_BAD_ARGUMENT;
+    };
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.position.x = NOT_A_NUMBER; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.rotation = {0, 0, 0, 0}; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.mechanics = frond_mechanics(77); }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.integrator = frond_integrator(-1); }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.linear_solver = frond_linear_solver(9); }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.mass = frond_mass(9); }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.newton_iterations = 0; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.max_iterations = -1; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.tolerance = NOT_A_NUMBER; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.mass_damping = -1; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.stiffness_damping = INFINITE; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.root_height = NOT_A_NUMBER; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.effects = ~0u; }));
+    def.cookie = 0;
+    EXPECT_EQ(frond_plant_create(small.world, small.model, &def, &plant), FROND_BAD_DEF);
+    EXPECT_EQ(plant.id, 0u);
+    frond_report report;
+    frond_world_get_report(small.world, &report);
+    EXPECT_EQ(report.plant_count, 1);
+
+    const int count = frond_plant_get_node_count(small.plant);
+    std::vector<double> numbers(size_t(3 * count), 0.0);
+    EXPECT_EQ(frond_plant_get_state(small.plant, numbers.data(), nullptr, count - 1), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_state(small.plant, numbers.data(), nullptr, count + 1), FROND_BAD_ARGUMENT);
+    numbers[4] = NOT_A_NUMBER;
+    EXPECT_EQ(frond_plant_set_state(small.plant, nullptr, numbers.data(), count), FROND_BAD_ARGUMENT);
+    for (int node : {-1, count, 1 << 30}) {
+        EXPECT_EQ(frond_plant_pin(small.plant, node), FROND_BAD_ARGUMENT);
+        EXPECT_EQ(frond_plant_unpin(small.plant, node), FROND_BAD_ARGUMENT);
+        EXPECT_EQ(frond_plant_move_pin(small.plant, node, {0, 0, 0}), FROND_BAD_ARGUMENT);
+        EXPECT_EQ(frond_plant_add_force(small.plant, node, {0, 0, 0}), FROND_BAD_ARGUMENT);
+    }
+    EXPECT_EQ(frond_plant_unpin(small.plant, 0), FROND_OK);
+    EXPECT_EQ(frond_plant_move_pin(small.plant, 0, {0, 0, 0}), FROND_BAD_ARGUMENT);
+    EXPECT_TRUE(error_names("frond_plant_pin"));
+    EXPECT_EQ(frond_plant_add_force(small.plant, 0, {0, NOT_A_NUMBER, 0}), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_effects(small.plant, ~0u), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_energy(small.plant, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_surface(small.plant, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_capsules(small.plant, nullptr, 3), FROND_BAD_ARGUMENT);
+    frond_capsule capsule;
+    EXPECT_EQ(frond_plant_get_capsules(small.plant, &capsule, 1000), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_tip(small.plant, nullptr), FROND_BAD_ARGUMENT);
+}
+
+TEST(Misuse, OfStalePlantsIsRecognised) {
+    SmallWorld small;
+    frond_grab grab = {};
+    ASSERT_EQ(frond_grab_create(small.plant, {0, 0.6, 0}, 10, &grab), FROND_OK);
+    frond_plant_destroy(small.plant);
+    frond_plant_destroy(small.plant);
+    const frond_plant null_plant = {};
+    frond_surface_view view;
+    frond_energy energy;
+    frond_vec3 tip;
+    frond_capsule capsule;
+    for (frond_plant bad : {small.plant, null_plant}) {
+        EXPECT_FALSE(frond_plant_is_valid(bad));
+        EXPECT_EQ(frond_plant_get_node_count(bad), 0);
+        EXPECT_EQ(frond_plant_get_capsule_count(bad), 0);
+        EXPECT_EQ(frond_plant_get_user(bad), nullptr);
+        EXPECT_EQ(frond_plant_set_effects(bad, 0), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_state(bad, nullptr, nullptr, 0), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_set_state(bad, nullptr, nullptr, 0), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_pin(bad, 0), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_unpin(bad, 0), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_move_pin(bad, 0, {0, 0, 0}), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_add_force(bad, 0, {0, 0, 0}), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_energy(bad, &energy), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_surface(bad, &view), FROND_BAD_HANDLE);
+        EXPECT_EQ(view.positions, nullptr);
+        EXPECT_EQ(frond_plant_get_capsules(bad, &capsule, 1), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_tip(bad, &tip), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_grab_create(bad, {0, 0, 0}, 10, &grab), FROND_BAD_HANDLE);
+    }
+}
+
+TEST(Misuse, OfGrabsIsRefused) {
+    SmallWorld small;
+    frond_grab grab = {};
+    EXPECT_EQ(frond_grab_create(small.plant, {0, NOT_A_NUMBER, 0}, 10, &grab), FROND_BAD_ARGUMENT);
+    for (double stiffness : {0.0, -5.0, NOT_A_NUMBER, INFINITE})
+        EXPECT_EQ(frond_grab_create(small.plant, {0, 1, 0}, stiffness, &grab), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_grab_create(small.plant, {0, 1, 0}, 10, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(grab.id, 0u);
+    EXPECT_EQ(frond_grab_move(grab, {0, 0, 0}), FROND_BAD_HANDLE);
+    frond_grab_destroy(grab);
+
+    ASSERT_EQ(frond_grab_create(small.plant, {0, 1, 0}, 10, &grab), FROND_OK) << frond_last_error();
+    EXPECT_EQ(frond_grab_move(grab, {0, INFINITE, 0}), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_grab_get(grab, nullptr, nullptr, nullptr), FROND_OK);
+    frond_plant_destroy(small.plant);  // takes its grabs along
+    EXPECT_FALSE(frond_grab_is_valid(grab));
+    EXPECT_EQ(frond_grab_move(grab, {0, 0, 0}), FROND_BAD_HANDLE);
+    frond_grab_destroy(grab);
+}
+
+TEST(Misuse, HandlesOfADestroyedWorldAreStale) {
+    frond_plant plant;
+    frond_grab grab;
+    frond_world world;
+    {
+        SmallWorld small;
+        plant = small.plant;
+        world = small.world;
+        ASSERT_EQ(frond_grab_create(plant, {0, 1, 0}, 10, &grab), FROND_OK);
+    }
+    EXPECT_FALSE(frond_world_is_valid(world));
+    EXPECT_FALSE(frond_plant_is_valid(plant));
+    EXPECT_FALSE(frond_grab_is_valid(grab));
+    SmallWorld another;  // takes the freed slots; the old handles stay stale
+    EXPECT_FALSE(frond_world_is_valid(world));
+    EXPECT_FALSE(frond_plant_is_valid(plant));
+    frond_plant_destroy(plant);
+    EXPECT_TRUE(frond_plant_is_valid(another.plant));
+}
+
+TEST(Log, GoesWhereTheHostWants) {
+    std::string heard;
+    frond_set_log([](const char* message, void* user) { *static_cast<std::string*>(user) += message; }, &heard);
+    const frond_stem stem = {
+        -1, {0, 0, 0}, {0, 500, 0}, 10, 10};  // taller than any plant: the unit is guessed, with a warning
+    const frond_model_def def = frond_default_model_def();
+    frond_model model = {};
+    EXPECT_EQ(frond_model_from_stems(&stem, 1, &def, &model), FROND_OK) << frond_last_error();
+    EXPECT_FALSE(heard.empty());
+    frond_set_log(nullptr, nullptr);
+    frond_model_destroy(model);
+}

@@ -1,0 +1,37 @@
+cmake_minimum_required(VERSION 3.21)
+# Each folder of plugin/src may include only itself and those named before it; Eigen and Bullet stay out of frond.h, and
+# examples and tools see public headers only.
+set(order core model mechanics solve build plant collide world api)
+set(errors "")
+
+set(allowed "")
+foreach(folder IN LISTS order)
+    list(APPEND allowed ${folder})
+    file(GLOB_RECURSE files ${SOURCE}/plugin/src/${folder}/*.?pp)
+    foreach(file IN LISTS files)
+        file(STRINGS ${file} includes REGEX "^#include \"")
+        foreach(include IN LISTS includes)
+            string(REGEX REPLACE "^#include \"([^\"/]*)/.*" "\\1" from "${include}")
+            if(from IN_LIST order AND NOT from IN_LIST allowed)
+                string(APPEND errors "${file}: ${include}\n")
+            endif()
+        endforeach()
+    endforeach()
+endforeach()
+
+file(STRINGS ${SOURCE}/plugin/include/frond/frond.h includes REGEX "^#include")
+if("${includes}" MATCHES "Eigen|bullet|Bullet|\\.hpp")
+    string(APPEND errors "frond.h: ${includes}\n")
+endif()
+
+file(GLOB_RECURSE files ${SOURCE}/tools/*.?pp ${SOURCE}/tools/*.c ${SOURCE}/examples/*.c ${SOURCE}/examples/*.cpp)
+foreach(file IN LISTS files)
+    file(STRINGS ${file} includes REGEX "^#include \"(core|model|mechanics|solve|build|plant|collide|world|api)/")
+    if(includes)
+        string(APPEND errors "${file}: ${includes}\n")
+    endif()
+endforeach()
+
+if(errors)
+    message(FATAL_ERROR "includes that go the wrong way:\n${errors}")
+endif()

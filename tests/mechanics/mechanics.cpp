@@ -1,0 +1,268 @@
+// What holds for every row of the table of mechanics: energy, force and stiffness belong together.
+#include "mechanics/mechanics.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "support/dense.hpp"
+#include "support/meshes.hpp"
+
+namespace frond::test {
+namespace {
+
+struct EveryMechanics : testing::TestWithParam<int> {
+    const frond_mechanics which = frond_mechanics(GetParam());
+    const Mechanics& row = mechanics(which);
+    bool is_linear() const { return which == FROND_TET_LINEAR; }
+
+    VecX force(const TetElements& elements, const VecX& x) const {
+        VecX f = VecX::Zero(x.size());
+        row.add_force(elements, x, f);
+        return f;
+    }
+    Eigen::MatrixXd stiffness(const TetElements& elements, const VecX& x, Tangent tangent) const {
+        BlockMatrix K;
+        K.set_pattern(elements.pattern);
+        K.set_zero();
+        row.add_stiffness(elements, x, tangent, 1, K);
+        return dense(K);
+    }
+};
+
+std::string row_name(const testing::TestParamInfo<int>& info) {
+    return mechanics(frond_mechanics(info.param)).name;
+}
+INSTANTIATE_TEST_SUITE_P(Mechanics, EveryMechanics, testing::Range(0, int(FROND_MECHANICS_COUNT)), row_name);
+
+// Shapes from nearly at rest to torn about; the last ones have tets inside out.
+struct Case {
+    Model model;
+    double amount;  // of random displacement, per edge length
+};
+std::vector<Case> cases() {
+    const Stuff stuff = {1000, 1e3, 0.3}, soft = {500, 100, 0.45}, cork = {200, 1e3, 0.0};
+    return {{single_tet_model(1, stuff), 1e-3},         {single_tet_model(0.5, soft), 0.2},
+            {single_tet_model(1, cork), 0.4},           {box_model(1, 2, 1, {1, 2, 1}, stuff), 0.05},
+            {box_model(2, 1, 1, {2, 1, 1}, soft), 0.3}, {single_tet_model(1, stuff), 1.5},
+            {box_model(1, 1, 1, {1, 1, 1}, stuff), 1.0}};
+}
+
+// Turned, moved and torn about; for corotational shapes away from where the rotation jumps.
+VecX deformed(const Case& c, const TetElements& elements, Dice& dice) {
+    for (;;) {
+        const Mat3 R = dice.rotation();
+        const Vec3 shift(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1));
+        VecX x = elements.rest_positions;
+        for (int i = 0; i < elements.node_count; ++i) point(x, i) = R * point(elements.rest_positions, i) + shift;
+        x += dice.vector(x.size(), c.amount);
+        bool smooth = true;
+        for (size_t e = 0; e < elements.tets.size(); ++e) {
+            Mat3 edges;
+            for (int a = 0; a < 3; ++a)
+                edges.col(a) = point(x, elements.ordered[e][size_t(a) + 1]) - point(x, elements.ordered[e][0]);
+            const Mat3 F = edges * elements.rest_inverse[e];
+            // Stretches are the roots of F^T F; the smallest is negative inside out.
+            const Eigen::SelfAdjointEigenSolver<Mat3> squares(F.transpose() * F);
+            const Vec3 s = squares.eigenvalues().cwiseMax(0).cwiseSqrt();
+            smooth &= s[1] + (F.determinant() < 0 ? -s[0] : s[0]) > 0.2 * s[2];
+        }
+        if (smooth) return x;
+    }
+}
+
+TEST_P(EveryMechanics, ForceIsMinusTheGradientOfEnergy) {
+    Dice dice(1);
+    int inverted = 0;
+    for (const Case& c : cases())
+        for (int repeat = 0; repeat < 20; ++repeat) {
+            const TetElements elements = make_tet_elements(c.model);
+            VecX x = deformed(c, elements, dice);
+            VecX f = VecX::Zero(x.size());
+            inverted += row.add_force(elements, x, f);
+            const double h = 1e-5;
+            for (Eigen::Index i = 0; i < x.size(); ++i) {
+                const double middle = x[i];
+                x[i] = middle + h;
+                const double up = row.energy(elements, x);
+                x[i] = middle - h;
+                const double down = row.energy(elements, x);
+                x[i] = middle;
+                ASSERT_NEAR(f[i], -(up - down) / (2 * h), 1e-7 * f.norm() + 1e-6);
+            }
+        }
+    EXPECT_GT(inverted, 5);
+}
+
+TEST_P(EveryMechanics, ExactStiffnessIsMinusTheDerivativeOfForce) {
+    Dice dice(2);
+    for (const Case& c : cases())
+        for (int repeat = 0; repeat < 20; ++repeat) {
+            const TetElements elements = make_tet_elements(c.model);
+            VecX x = deformed(c, elements, dice);
+            const Eigen::MatrixXd K = stiffness(elements, x, Tangent::exact);
+            const double h = 1e-6;
+            for (Eigen::Index i = 0; i < x.size(); ++i) {
+                const double middle = x[i];
+                x[i] = middle + h;
+                const VecX up = force(elements, x);
+                x[i] = middle - h;
+                const VecX down = force(elements, x);
+                x[i] = middle;
+                ASSERT_NEAR((K.col(i) + (up - down) / (2 * h)).norm(), 0, 1e-7 * K.norm());
+            }
+        }
+}
+
+TEST_P(EveryMechanics, PositiveStiffnessIsNeverNegative) {
+    Dice dice(3);
+    for (const Case& c : cases())
+        for (int repeat = 0; repeat < 10; ++repeat) {
+            const TetElements elements = make_tet_elements(c.model);
+            const VecX x = elements.rest_positions + dice.vector(elements.rest_positions.size(), 2 * c.amount);
+            const Eigen::MatrixXd K = stiffness(elements, x, Tangent::positive);
+            const VecX values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
+            ASSERT_GE(values.minCoeff(), -1e-12 * values.maxCoeff());
+        }
+}
+
+TEST_P(EveryMechanics, BothTangentsAgreeAtRest) {
+    const TetElements elements = make_tet_elements(box_model(2, 2, 2, {1, 1, 1}));
+    const Eigen::MatrixXd exact = stiffness(elements, elements.rest_positions, Tangent::exact);
+    const Eigen::MatrixXd positive = stiffness(elements, elements.rest_positions, Tangent::positive);
+    EXPECT_NEAR((exact - positive).norm(), 0, 1e-12 * exact.norm());
+    EXPECT_GT(exact.norm(), 0);
+}
+
+// A compressed body may buckle: its exact stiffness must say so, or it is the wrong derivative.
+TEST(Corotational, ExactStiffnessTurnsNegativeUnderCompression) {
+    const TetElements elements = make_tet_elements(single_tet_model());
+    const VecX x = 0.5 * elements.rest_positions;
+    BlockMatrix K;
+    K.set_pattern(elements.pattern);
+    K.set_zero();
+    mechanics(FROND_TET_COROTATIONAL).add_stiffness(elements, x, Tangent::exact, 1, K);
+    EXPECT_LT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(K)).eigenvalues().minCoeff(), -1);
+}
+
+TEST_P(EveryMechanics, GivesNoForceUnderRigidMotion) {
+    Dice dice(4);
+    const TetElements elements = make_tet_elements(tree_model(6, 4, 3, {1000, 1e6, 0.3}));
+    const double scale = stiffness(elements, elements.rest_positions, Tangent::exact).norm();
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        const Vec3 shift(dice.uniform(-9, 9), dice.uniform(-9, 9), dice.uniform(-9, 9));
+        // Linear strain does not tell a turn from a stretch, but it knows an infinitesimal one.
+        const Vec3 spin(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1));
+        const Mat3 R = dice.rotation();
+        VecX x = elements.rest_positions;
+        for (int i = 0; i < elements.node_count; ++i) {
+            const Vec3 p = point(elements.rest_positions, i);
+            point(x, i) = shift + (is_linear() ? Vec3(p + spin.cross(p)) : Vec3(R * p));
+        }
+        EXPECT_NEAR(force(elements, x).norm(), 0, 1e-13 * scale);
+        EXPECT_NEAR(row.energy(elements, x), 0, 1e-20 * scale);
+    }
+}
+
+TEST(Linear, MistakesALargeTurnForAStretch) {
+    const TetElements elements = make_tet_elements(single_tet_model());
+    VecX x = elements.rest_positions;
+    const Mat3 R = Eigen::AngleAxisd(1, Vec3::UnitX()).toRotationMatrix();
+    for (int i = 0; i < 4; ++i) point(x, i) = R * point(elements.rest_positions, i);
+    EXPECT_GT(mechanics(FROND_TET_LINEAR).energy(elements, x), 1e3);
+}
+
+TEST_P(EveryMechanics, ForcesAddUpToNothing) {
+    Dice dice(5);
+    const TetElements elements = make_tet_elements(box_model(2, 2, 3, {1, 1, 1.5}));
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        const VecX x = elements.rest_positions + dice.vector(elements.rest_positions.size(), 0.3);
+        const VecX f = force(elements, x);
+        Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
+        for (int i = 0; i < elements.node_count; ++i) {
+            sum += point(f, i);
+            // Linear forces belong to the places at rest; the true ones to where the nodes are.
+            const VecX& arm = is_linear() ? elements.rest_positions : x;
+            torque += point(arm, i).cross(Vec3(point(f, i)));
+        }
+        EXPECT_NEAR(sum.norm(), 0, 1e-13 * f.norm());
+        EXPECT_NEAR(torque.norm(), 0, 1e-12 * f.norm());
+    }
+}
+
+TEST_P(EveryMechanics, OnePassGivesTheSameAsTwo) {
+    Dice dice(6);
+    const TetElements elements = make_tet_elements(box_model(2, 2, 2, {1, 1, 1}));
+    const VecX x = elements.rest_positions + dice.vector(elements.rest_positions.size(), 0.2);
+    for (Tangent tangent : {Tangent::exact, Tangent::positive}) {
+        BlockMatrix K, twice;
+        K.set_pattern(elements.pattern);
+        twice.set_pattern(elements.pattern);
+        K.set_zero();
+        twice.set_zero();
+        VecX f = VecX::Zero(x.size()), f_alone = f;
+        const int inverted = row.add_force_and_stiffness(elements, x, tangent, f, K);
+        EXPECT_EQ(inverted, row.add_force(elements, x, f_alone));
+        row.add_stiffness(elements, x, tangent, 2, twice);
+        EXPECT_NEAR((f - f_alone).norm(), 0, 1e-12 * f.norm());
+        EXPECT_NEAR((2 * dense(K) - dense(twice)).norm(), 0, 1e-12 * dense(twice).norm());
+    }
+}
+
+TEST_P(EveryMechanics, CountsTetsThatAreInsideOut) {
+    const TetElements elements = make_tet_elements(single_tet_model());
+    VecX x = elements.rest_positions, f = VecX::Zero(x.size());
+    EXPECT_EQ(row.add_force(elements, x, f), 0);
+    point(x, 3).z() = -0.2;
+    EXPECT_EQ(row.add_force(elements, x, f), 1);
+}
+
+TEST_P(EveryMechanics, StretchesABarAsYoungsModulusSays) {
+    // Uniaxial stress: strain s along x, -nu s across; energy E s^2 / 2 a volume for small s.
+    const Stuff stuff = {1000, 2e6, 0.35};
+    const TetElements elements = make_tet_elements(box_model(3, 1, 1, {3, 1, 1}, stuff));
+    const double s = 1e-4;
+    VecX x = elements.rest_positions;
+    for (int i = 0; i < elements.node_count; ++i) {
+        Vec3 p = point(x, i);
+        point(x, i) = p + s * Vec3(p.x(), -0.35 * p.y(), -0.35 * p.z());
+    }
+    EXPECT_NEAR(row.energy(elements, x), 0.5 * 2e6 * s * s * 3, 1e-9 * 2e6 * s * s);
+}
+
+TEST(TetElements, RefuseWhatHasNoVolumeOrNoSense) {
+    const auto code_of = [](const Model& model) {
+        try {
+            make_tet_elements(model);
+        } catch (const Error& error) {
+            return error.code;
+        }
+        return FROND_OK;
+    };
+    const Model good = single_tet_model();
+    EXPECT_EQ(code_of(good), FROND_OK);
+    Model bad = good;
+    bad.cage.nodes[3] = {0.3, 0.3, 0};
+    EXPECT_EQ(code_of(bad), FROND_BAD_GEOMETRY);
+    bad = good;
+    bad.cage.nodes[3].x() = std::nan("");
+    EXPECT_EQ(code_of(bad), FROND_BAD_GEOMETRY);
+    bad = good;
+    bad.cage.tets[0][2] = 4;
+    EXPECT_EQ(code_of(bad), FROND_BAD_GEOMETRY);
+    bad = good;
+    bad.cage.tets.clear();
+    EXPECT_EQ(code_of(bad), FROND_BAD_GEOMETRY);
+    for (double nu : {-0.1, 0.5, std::nan("")}) {
+        bad = good;
+        bad.tet_poisson[0] = nu;
+        EXPECT_EQ(code_of(bad), FROND_BAD_ARGUMENT) << nu;
+    }
+    for (double E : {0.0, -1.0, HUGE_VAL}) {
+        bad = good;
+        bad.tet_young[0] = E;
+        EXPECT_EQ(code_of(bad), FROND_BAD_ARGUMENT) << E;
+    }
+}
+
+}  // namespace
+}  // namespace frond::test

@@ -1,0 +1,274 @@
+// Organs by name and by shape, their names and materials.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "chain_shapes.hpp"
+#include "core/error.hpp"
+#include "model/organ_clues.hpp"
+
+namespace frond {
+namespace {
+
+using namespace test;
+
+TEST(OrganNames, AreReadInSeveralSpellingsAndLanguages) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"leaf", "blade"},
+        {"Leaf_012", "blade"},
+        {"MapleLeaf3", "blade"},
+        {"mapleleaf", "blade"},
+        {"leaves.001", "blade"},
+        {"LEAVES", "blade"},
+        {"TreeFoliageMat", "blade"},
+        {"Blatt_03", "blade"},
+        {"Feuilles", "blade"},
+        {"hojas", "blade"},
+        {"needles", "blade"},
+        {"palmFrond", "blade"},
+        {"leafmat", "blade"},
+        {"VG07lef2", "blade"},
+        {"VG07frt1", "fruit"},
+        {"叶子", "blade"},
+        {"trunk", "branch"},
+        {"Bark01", "branch"},
+        {"twigs", "branch"},
+        {"Zweige", "branch"},
+        {"stem", "stem"},
+        {"Stalk_A", "stem"},
+        {"sugar-cane", "stem"},
+        {"culm", "stem"},
+        {"mainStem", "stem"},
+        {"petiole_3", "petiole"},
+        {"leafstalk", "petiole"},
+        {"leaf_stem", "petiole"},
+        {"LeafStalk", "petiole"},
+        {"flower_stalk", "peduncle"},
+        {"fruitStem", "peduncle"},
+        {"leaf_rib", "midrib"},
+        {"midrib", "midrib"},
+        {"stem_leaf", "blade"},
+        {"Petal", "flower"},
+        {"tassel", "peduncle"},
+        {"silk_1", "flower"},
+        {"sunflower_leaf", "blade"},
+        {"ear_1", "fruit"},
+        {"CornEar", "fruit"},
+        {"cob", "fruit"},
+        {"berries", "fruit"},
+        {"tomato_leaf", "blade"},
+        {"roots", "root"},
+        {"TapRoot", "root"},
+        {"tendril_2", "tendril"},
+        {"Ranke", "tendril"},
+        {"stake", "support"},
+        {"FlowerPot", "support"},
+        {"flowerpot", "support"},
+        {"trellis", "support"},
+        {"Soil", "support"},
+        {"ground", "support"},
+        {"earth", "support"},
+        // Words that only contain such a word.
+        {"Stemonitis", ""},
+        {"ecosystem", ""},
+        {"near", ""},
+        {"linear", ""},
+        {"potato", ""},
+        {"Plane.003", ""},
+        {"Object_4", ""},
+        {"RootNode", ""},
+        {"GLTF_SceneRootNode", ""},
+        {"Branches_and_leaves", ""},
+        {"", ""},
+        {"\xff\xfe__..", ""},
+    };
+    for (const auto& [name, kind] : cases) EXPECT_EQ(read_name(name).kind, kind) << name;
+}
+
+TEST(OrganNames, OfASpeciesMeanTheFruitOnlyBesideOtherParts) {
+    Surface surface;
+    const auto kinds = [&](std::initializer_list<std::pair<const char*, const char*>> parts) {
+        surface.parts.clear();
+        for (const auto& [name, material] : parts) {
+            surface.parts.emplace_back();
+            surface.parts.back().name = name;
+            surface.parts.back().material = material;
+        }
+        return kinds_by_name(surface);
+    };
+    using Kinds = std::vector<std::string>;
+    EXPECT_EQ(kinds({{"tomato", ""}}), Kinds({""}));
+    EXPECT_EQ(kinds({{"flower", ""}}), Kinds({""}));
+    EXPECT_EQ(kinds({{"tomato_1", ""}, {"tomato_2", ""}}), Kinds({"", ""}));
+    EXPECT_EQ(kinds({{"stem", ""}, {"tomato_1", ""}, {"TomatoPlant", ""}}), Kinds({"stem", "fruit", ""}));
+    // Node names before material names, both before a mere species.
+    EXPECT_EQ(kinds({{"trunk", "leaf"}, {"Object_3", "leaf"}, {"cucumber", "leaf"}}),
+              Kinds({"branch", "blade", "blade"}));
+    EXPECT_EQ(kinds({{"root", ""}, {"root", "bark"}}), Kinds({"", "branch"}));
+}
+
+TEST(Organs, AreToldByShapeWhereNamesSayNothing) {
+    Sketch sketch = leafy_plant(5, false);
+    const int stem = 20 * 8 * 2;
+    const Surface before = sketch.surface;
+    Grown grown = grow(sketch);
+    // One organ for the stem and one for all leaves, in one run of triangles each.
+    ASSERT_EQ(grown.organs.size(), 2u);
+    ASSERT_EQ(grown.surface.parts.size(), 2u);
+    for (const Part& part : grown.surface.parts) {
+        const std::string& kind = grown.organs[size_t(part.organ)].kind;
+        EXPECT_EQ(part.triangle_count, kind == "stem" ? stem : int(before.triangles.size()) - stem);
+    }
+    EXPECT_NE(grown.organs[0].name, grown.organs[1].name);
+}
+
+TEST(Organs, OfOneMeshAreToldByLocalShape) {
+    // A tube whose last ring goes over into a wide sheet.
+    Sketch sketch;
+    const int first = sketch.tube(line({0, 0, 0}, {0, 1, 0}, 20), 0.01, 8);
+    const int ring = first + 20 * 8;
+    const int sheet = int(sketch.surface.positions.size());
+    sketch.strip(line({0, 1.02, 0}, {0.5, 1.4, 0}, 10), 0.15, Vec3::UnitZ(), 7);
+    for (int k = 0; k < 7; k++) {
+        sketch.triangle(ring + k, ring + k + 1, sheet + k);
+        sketch.triangle(ring + k + 1, sheet + k + 1, sheet + k);
+    }
+    Surface surface = sketch.surface;
+    Topology topology = make_topology(surface);
+    ASSERT_EQ(topology.component_count, 1);
+    const std::vector<Organ> organs = find_organs(surface, topology, nullptr, 0);
+    ASSERT_EQ(organs.size(), 2u);
+    for (const Part& part : surface.parts)
+        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++) {
+            double y = 0;
+            for (int p : topology.triangles[size_t(t)]) y += topology.points[size_t(p)].y() / 3;
+            if (y < 0.9) {
+                EXPECT_EQ(organs[size_t(part.organ)].kind, "stem");
+            }
+            if (y > 1.1) {
+                EXPECT_EQ(organs[size_t(part.organ)].kind, "blade");
+            }
+        }
+}
+
+TEST(Organs, StayOnePerPartAndKindWithHundredsOfCards) {
+    Sketch sketch;
+    for (int i = 0; i < 300; i++)
+        sketch.strip(line({0.1 * (i % 20), 0.2 * (i / 20), 0}, {0.1 * (i % 20), 0.2 * (i / 20) + 0.05, 0.02}, 1), 0.03,
+                     Vec3::UnitX(), 1);
+    EXPECT_EQ(grow(sketch).organs.size(), 1u);
+}
+
+TEST(Organs, OfATallPlantAreOfWood) {
+    Sketch sketch;
+    sketch.tube(line({0, 0, 0}, {0, 8, 0}, 20), 0.1, 8);
+    EXPECT_EQ(grow(sketch).organs[0].kind, "branch");
+}
+
+TEST(Organs, ReorderSurfaceAndTopologyAlike) {
+    Sketch sketch = leafy_plant(7, false);
+    // Mixed up, so that parts cannot be split without moving triangles.
+    std::mt19937_64 engine(1);
+    for (size_t i = sketch.surface.triangles.size(); i-- > 1;)
+        std::swap(sketch.surface.triangles[i], sketch.surface.triangles[engine() % (i + 1)]);
+    Surface surface = sketch.surface;
+    Topology topology = make_topology(surface);
+    std::multiset<std::pair<Triangle, int>> before, after;
+    for (size_t t = 0; t < surface.triangles.size(); t++)
+        before.insert({topology.triangles[t], topology.triangle_component[t]});
+    find_organs(surface, topology, nullptr, 0);
+    int next = 0;
+    for (const Part& part : surface.parts) {
+        EXPECT_EQ(part.first_triangle, next);
+        next += part.triangle_count;
+    }
+    EXPECT_EQ(next, int(surface.triangles.size()));
+    for (size_t t = 0; t < surface.triangles.size(); t++) {
+        after.insert({topology.triangles[t], topology.triangle_component[t]});
+        for (size_t k = 0; k < 3; k++)
+            EXPECT_EQ(topology.vertex_point[size_t(surface.triangles[t][k])], topology.triangles[t][k]);
+    }
+    EXPECT_EQ(before, after);
+    // Joints still lie on their triangles.
+    for (const Joint& joint : topology.joints) {
+        EXPECT_NE(topology.triangle_component[size_t(joint.triangle_a)],
+                  topology.triangle_component[size_t(joint.triangle_b)]);
+        for (const auto& [triangle, place] :
+             {std::pair{joint.triangle_a, joint.point_a}, std::pair{joint.triangle_b, joint.point_b}}) {
+            const Triangle& t = topology.triangles[size_t(triangle)];
+            const Vec3 &a = topology.points[size_t(t[0])], &b = topology.points[size_t(t[1])],
+                       &c = topology.points[size_t(t[2])];
+            EXPECT_NEAR((b - a).cross(c - a).normalized().dot(place - a), 0, 1e-9);
+            for (const Vec3& corner : {a, b, c}) EXPECT_LE((place - corner).norm(), 0.3);
+        }
+    }
+}
+
+TEST(Organs, HaveTheirPartsNameOrOneOfTheirOwn) {
+    Sketch sketch;
+    for (const char* name : {"leaf", "stem", "stem", "", "stem_1", "blade"}) {
+        sketch.begin_part(name, "leaf");
+        const double x = 0.2 * double(sketch.surface.parts.size());
+        sketch.strip(line({x, 0, 0}, {x, 1, 0}, 4), 0.05, Vec3::UnitZ());
+    }
+    const Grown grown = grow(sketch);
+    std::vector<std::string> names;
+    for (const Organ& organ : grown.organs) names.push_back(organ.name);
+    EXPECT_EQ(names, std::vector<std::string>({"leaf", "stem_2", "stem_3", "blade_1", "stem_1", "blade"}));
+}
+
+std::string failure(Sketch sketch, const std::vector<frond_organ_material>& overrides, int count = -1) {
+    Topology topology = make_topology(sketch.surface);
+    try {
+        find_organs(sketch.surface, topology, overrides.data(), count < 0 ? int(overrides.size()) : count);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code, FROND_BAD_ARGUMENT);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Organs, TakeMaterialsByNameOrKindTheLastMatchWins) {
+    Sketch sketch = leafy_plant(3, true);
+    Surface surface = sketch.surface;
+    Topology topology = make_topology(surface);
+    const Material soft = {800, 1e5, 0.1, 1e-4}, hard = {1200, 1e10, 0.4, 1e-3};
+    const frond_organ_material overrides[] = {{"blade", soft}, {"leaf_2", hard}};
+    const std::vector<Organ> organs = find_organs(surface, topology, overrides, 2);
+    EXPECT_EQ(organs[0].material.young, material_preset("stem")->young);
+    EXPECT_EQ(organs[1].material.young, 1e5);
+    EXPECT_EQ(organs[2].material.young, 1e10);
+    EXPECT_EQ(organs[3].material.density, 800);
+}
+
+TEST(Organs, RefuseMaterialsThatFitNothingOrAreAbsurd) {
+    const Sketch sketch = leafy_plant(2, true);
+    const Material good = *material_preset("stem");
+    EXPECT_EQ(failure(sketch, {{"stem", good}}), "");
+    const std::string text = failure(sketch, {{"thorn", good}});
+    for (const char* word : {"thorn", "stem", "leaf_1", "leaf_2", "blade"})
+        EXPECT_NE(text.find(word), std::string::npos) << text;
+    for (const Material& bad :
+         {Material{0, 1e8, 0.3, 1e-3}, Material{NAN, 1e8, 0.3, 1e-3}, Material{3e4, 1e8, 0.3, 1e-3},
+          Material{1e3, 10, 0.3, 1e-3}, Material{1e3, INFINITY, 0.3, 1e-3}, Material{1e3, 1e8, 0.5, 1e-3},
+          Material{1e3, 1e8, -0.1, 1e-3}, Material{1e3, 1e8, 0.3, 0}, Material{1e3, 1e8, 0.3, 2}})
+        EXPECT_NE(failure(sketch, {{"stem", bad}}), "");
+    EXPECT_NE(failure(sketch, {{nullptr, good}}), "");
+    EXPECT_NE(failure(sketch, {{"", good}}), "");
+    EXPECT_NE(failure(sketch, {}, 1), "");
+}
+
+TEST(Materials, ArePresetForEveryKindAndInRange) {
+    for (const char* kind : {"stem", "petiole", "blade", "midrib", "peduncle", "flower", "fruit", "branch", "root",
+                             "tendril", "support"}) {
+        const Material* material = material_preset(kind);
+        ASSERT_NE(material, nullptr) << kind;
+        EXPECT_NO_THROW(check_material(*material, kind));
+        EXPECT_NE(material_kinds().find(kind), std::string::npos);
+    }
+    EXPECT_EQ(material_preset("thorn"), nullptr);
+    EXPECT_EQ(material_preset(""), nullptr);
+}
+
+}  // namespace
+}  // namespace frond

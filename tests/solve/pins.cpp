@@ -1,0 +1,80 @@
+// Pinned nodes: exactly where they were told to be at the end of every step, and pulling the rest along.
+#include <gtest/gtest.h>
+
+#include "support/rig.hpp"
+
+namespace frond::test {
+namespace {
+
+constexpr double H = 1.0 / 60;
+
+struct EveryPin : EveryCombination {};
+INSTANTIATE_TEST_SUITE_P(Pins, EveryPin, testing::ValuesIn(every_combination()), combination_name);
+
+TEST_P(EveryPin, HoldsPinsExactly) {
+    Rig rig(box_model(1, 4, 1, {0.1, 0.4, 0.1}, {900, 1e6, 0.3}), settings(), mass());
+    rig.pin_below(1, 0);
+    rig.loads.gravity = {5, -9.81, 0};
+    const VecX start = rig.motion.x;
+    rig.steps(50, H);
+    double moved = 0;
+    for (int i = 0; i < rig.node_count(); ++i) {
+        if (!rig.motion.pinned[size_t(i)]) {
+            moved = std::max(moved, (point(rig.motion.x, i) - point(start, i)).norm());
+            continue;
+        }
+        EXPECT_EQ(Vec3(point(rig.motion.x, i)), Vec3(point(start, i)));
+        EXPECT_EQ(Vec3(point(rig.motion.v, i)), Vec3(Vec3::Zero()));
+    }
+    EXPECT_GT(moved, 1e-4);
+}
+
+TEST_P(EveryPin, MovesPinsToTheirTargetWithTheVelocityThatTakes) {
+    for (int newton : {1, 4}) {
+        Rig rig(box_model(1, 4, 1, {0.1, 0.4, 0.1}, {900, 1e6, 0.3}), settings(), mass());
+        rig.settings.newton_iterations = newton;
+        rig.pin_below(1, 0);
+        for (int n = 1; n <= 20; ++n) {
+            const VecX before = rig.motion.x;
+            for (int i = 0; i < rig.node_count(); ++i) point(rig.motion.pin_target, i).x() += 0.003 * n / 20;
+            ASSERT_TRUE(rig.step(H).ok);
+            for (int i = 0; i < rig.node_count(); ++i) {
+                if (!rig.motion.pinned[size_t(i)]) continue;
+                EXPECT_EQ(Vec3(point(rig.motion.x, i)), Vec3(point(rig.motion.pin_target, i)));
+                const Vec3 velocity = (point(rig.motion.x, i) - point(before, i)) / H;
+                EXPECT_NEAR((point(rig.motion.v, i) - velocity).norm(), 0, 1e-12);
+            }
+        }
+        // The free end came along.
+        EXPECT_GT(point(rig.motion.x, rig.node_count() - 1).x(), 0.1 + 0.01);
+    }
+}
+
+TEST_P(EveryPin, PushesFreeNodesInTheVeryStepInWhichAPinMoves) {
+    // All but one node pinned and moved alike: the free one, tied by stiff tets, comes along at once.
+    Rig rig(box_model(1, 1, 1, {0.1, 0.1, 0.1}, {1, 1e7, 0.3}), settings(), mass());
+    rig.motion.pinned.assign(8, 1);
+    rig.motion.pinned[7] = 0;
+    for (int i = 0; i < 8; ++i) point(rig.motion.pin_target, i).y() += 0.01;
+    ASSERT_TRUE(rig.step(H).ok);
+    EXPECT_NEAR(point(rig.motion.x, 7).y(), 0.11, 1e-6);
+}
+
+TEST_P(EveryPin, LetsGoAndTakesHoldAnyTime) {
+    Rig rig(box_model(1, 1, 3, {0.1, 0.1, 0.3}, {900, 1e6, 0.3}), settings(), mass());
+    rig.loads.gravity = {0, -10, 0};
+    rig.motion.pinned.assign(rig.motion.pinned.size(), 1);
+    rig.steps(5, H);
+    EXPECT_EQ(rig.motion.x, positions_of(*rig.model));
+    rig.motion.pinned.assign(rig.motion.pinned.size(), 0);
+    rig.steps(10, H);
+    EXPECT_NEAR(point(rig.motion.v, 0).y(), -10 * 10 * H, 1e-8);
+    rig.motion.pinned[3] = 1;
+    point(rig.motion.pin_target, 3) = point(rig.motion.x, 3);
+    const Vec3 place = point(rig.motion.x, 3);
+    rig.steps(5, H);
+    EXPECT_EQ(Vec3(point(rig.motion.x, 3)), place);
+}
+
+}  // namespace
+}  // namespace frond::test

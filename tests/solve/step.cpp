@@ -1,0 +1,171 @@
+// What holds for a step with every mechanics, integrator, linear solver and mass.
+#include <gtest/gtest.h>
+
+#include "support/rig.hpp"
+
+namespace frond::test {
+namespace {
+
+constexpr double H = 1.0 / 60;
+
+struct EveryStep : EveryCombination {};
+INSTANTIATE_TEST_SUITE_P(Step, EveryStep, testing::ValuesIn(every_combination()), combination_name);
+
+TEST_P(EveryStep, FallsFreelyByTheIntegratorsOwnRecurrence) {
+    Rig rig(box_model(2, 2, 2, {0.1, 0.1, 0.1}, {900, 1e6, 0.3}), settings(), mass());
+    rig.loads.gravity = {1, -9.81, 2};
+    const VecX start = rig.motion.x;
+    const int steps = 30;
+    rig.steps(steps, H);
+    ASSERT_EQ(GetParam().integrator, FROND_IMPLICIT_EULER) << "give the new integrator its displacement here";
+    const Vec3 fall = rig.loads.gravity * H * H * steps * (steps + 1) / 2;
+    for (int i = 0; i < rig.node_count(); ++i) {
+        EXPECT_NEAR((point(rig.motion.x, i) - point(start, i) - fall).norm(), 0, 1e-9);
+        EXPECT_NEAR((point(rig.motion.v, i) - rig.loads.gravity * H * steps).norm(), 0, 1e-9);
+    }
+}
+
+TEST_P(EveryStep, KeepsMomentum) {
+    Rig rig(box_model(1, 3, 1, {0.1, 0.3, 0.1}, {900, 1e5, 0.3}), settings(), mass());
+    rig.settings.stiffness_damping = 0.01;
+    Dice dice(1);
+    rig.motion.v = dice.vector(rig.motion.v.size(), 1);
+    const Vec3 before = rig.momentum();
+    rig.steps(40, H);
+    EXPECT_NEAR((rig.momentum() - before).norm(), 0, 1e-9 * before.norm());
+    EXPECT_GT(rig.elastic_energy(), 0);
+}
+
+TEST_P(EveryStep, TakesEnergyAwayAndNeverGives) {
+    Rig rig(box_model(1, 4, 1, {0.1, 0.4, 0.1}, {900, 1e5, 0.3}), settings(), mass());
+    rig.settings.newton_iterations = 5;
+    rig.pin_below(1, 0);
+    for (int i = 0; i < rig.node_count(); ++i) point(rig.motion.v, i).x() = 3 * point(rig.motion.x, i).y();
+    double before = kinetic_energy(*rig.system, rig.motion.v) + rig.elastic_energy();
+    for (int n = 0; n < 120; ++n) {
+        ASSERT_TRUE(rig.step(H).ok);
+        const double now = kinetic_energy(*rig.system, rig.motion.v) + rig.elastic_energy();
+        EXPECT_LE(now, before * (1 + 1e-6) + 1e-12) << n;
+        before = now;
+    }
+}
+
+TEST_P(EveryStep, MassDampingSlowsTheWholeBodyAlike) {
+    Rig rig(box_model(1, 1, 2, {0.1, 0.1, 0.2}), settings(), mass());
+    rig.settings.mass_damping = 2;
+    for (int i = 0; i < rig.node_count(); ++i) point(rig.motion.v, i) = Vec3(1, -2, 0.5);
+    rig.steps(10, H);
+    ASSERT_EQ(GetParam().integrator, FROND_IMPLICIT_EULER);
+    const Vec3 expected = Vec3(1, -2, 0.5) / std::pow(1 + 2 * H, 10);
+    for (int i = 0; i < rig.node_count(); ++i) EXPECT_NEAR((point(rig.motion.v, i) - expected).norm(), 0, 1e-9);
+}
+
+TEST_P(EveryStep, StiffnessDampingStopsShakingButNotTurning) {
+    const auto spin_after = [&](double damping) {
+        Rig rig(box_model(2, 2, 2, {0.1, 0.1, 0.1}, {900, 1e6, 0.3}), settings(), mass());
+        rig.settings.stiffness_damping = damping;
+        const Vec3 middle(0.05, 0.05, 0.05), spin(0, 0.2, 0);
+        for (int i = 0; i < rig.node_count(); ++i) point(rig.motion.v, i) = spin.cross(point(rig.motion.x, i) - middle);
+        rig.steps(20, H);
+        return kinetic_energy(*rig.system, rig.motion.v);
+    };
+    EXPECT_NEAR(spin_after(0.1), spin_after(0), 1e-3 * spin_after(0));
+
+    const auto shake_after = [&](double damping) {
+        Rig rig(box_model(1, 4, 1, {0.1, 0.4, 0.1}, {900, 1e5, 0.3}), settings(), mass());
+        rig.settings.stiffness_damping = damping;
+        rig.pin_below(1, 0);
+        for (int i = 0; i < rig.node_count(); ++i) point(rig.motion.v, i).x() = 0.1 * point(rig.motion.x, i).y();
+        rig.steps(20, H);
+        return kinetic_energy(*rig.system, rig.motion.v) + rig.elastic_energy();
+    };
+    EXPECT_LT(shake_after(0.05), 0.5 * shake_after(0));
+}
+
+TEST_P(EveryStep, GivesTheSameBitsAgain) {
+    const auto run = [&] {
+        Rig rig(tree_model(5, 4, 3, {900, 1e7, 0.3}), settings(), mass());
+        rig.settings.newton_iterations = 3;
+        rig.settings.stiffness_damping = 0.002;
+        rig.settings.tolerance = 1e-8;
+        rig.pin_below(1, 0);
+        rig.loads.gravity = {3, -9.81, 1};
+        rig.loads.springs.push_back({7, {0.1, 0.2, 0.3, 0.4}, {0.5, 0.5, 0.5}, 20});
+        for (int n = 0; n < 10; ++n) rig.step(H);
+        return rig.motion;
+    };
+    const Motion once = run(), again = run();
+    EXPECT_EQ(std::memcmp(once.x.data(), again.x.data(), sizeof(double) * size_t(once.x.size())), 0);
+    EXPECT_EQ(std::memcmp(once.v.data(), again.v.data(), sizeof(double) * size_t(once.v.size())), 0);
+}
+
+// The equation itself, put together from dense parts: (M + h D + h^2 K) dv = h (f - D v - h K v).
+TEST_P(EveryStep, SolvesTheEquationOfThePaperWithItsSignsRight) {
+    Rig rig(box_model(1, 2, 1, {0.1, 0.2, 0.1}, {900, 1e4, 0.3}), settings(), mass());
+    ASSERT_EQ(GetParam().integrator, FROND_IMPLICIT_EULER);
+    rig.settings.mass_damping = 0.7;
+    rig.settings.stiffness_damping = 0.01;
+    Dice dice(2);
+    rig.motion.x += dice.vector(rig.motion.x.size(), 0.01);
+    rig.motion.v = dice.vector(rig.motion.x.size(), 1);
+    rig.loads.force = dice.vector(rig.motion.x.size(), 0.1);
+    const Motion before = rig.motion;
+    ASSERT_TRUE(rig.step(H).ok);
+
+    // K v and f from the mechanics, M from kinetic energy: 1/2 (a+b) M (a+b) - 1/2 (a-b) M (a-b) = 2 a M b.
+    const TetElements& elements = elements_of(*rig.system);
+    const Mechanics& body = mechanics(rig.settings.mechanics);
+    BlockMatrix K;
+    K.set_pattern(elements.pattern);
+    K.set_zero();
+    body.add_stiffness(elements, before.x, Tangent::positive, 1, K);
+    VecX f = rig.loads.force;
+    body.add_force(elements, before.x, f);
+    const auto mass_times = [&](const VecX& a, const VecX& b) {
+        return 0.5 * (kinetic_energy(*rig.system, a + b) - kinetic_energy(*rig.system, a - b));
+    };
+    const VecX dv = rig.motion.v - before.v, v = before.v;
+    VecX Kdv, Kv;
+    K.multiply(dv, Kdv);
+    K.multiply(v, Kv);
+    const double a = 0.7, b = 0.01;
+    for (int trial = 0; trial < 10; ++trial) {
+        const VecX w = dice.vector(dv.size(), 1);
+        const double left = (1 + H * a) * mass_times(w, dv) + (H * b + H * H) * w.dot(Kdv);
+        const double right = H * (w.dot(f) - a * mass_times(w, v) - (b + H) * w.dot(Kv));
+        EXPECT_NEAR(left, right, 1e-8 * std::abs(w.dot(f)) * H + 1e-9);
+    }
+    EXPECT_NEAR((rig.motion.x - before.x - H * rig.motion.v).norm(), 0, 1e-14);
+}
+
+TEST(Mass, IsTheSameLumpedAndConsistentInSum) {
+    const Model model = tree_model(4, 3, 2, {750, 1e6, 0.3});
+    const Rig lumped(model, plain_settings()), consistent(model, plain_settings(), FROND_CONSISTENT);
+    double volume = 0;
+    for (double v : elements_of(*lumped.system).volume) volume += v;
+    EXPECT_NEAR(lumped.mass(), 750 * volume, 1e-12 * lumped.mass());
+    VecX v(lumped.motion.v.size());
+    for (int i = 0; i < lumped.node_count(); ++i) point(v, i) = Vec3(1, 2, 3);
+    EXPECT_NEAR(kinetic_energy(*lumped.system, v), 7 * lumped.mass(), 1e-12 * lumped.mass());
+    EXPECT_NEAR(kinetic_energy(*consistent.system, v), 7 * lumped.mass(), 1e-12 * lumped.mass());
+    // A field that varies carries less energy with the shape functions' own products.
+    Dice dice(3);
+    const VecX wild = dice.vector(v.size(), 1);
+    EXPECT_LT(kinetic_energy(*consistent.system, wild), kinetic_energy(*lumped.system, wild));
+}
+
+TEST(Step, ReportsWhatItCost) {
+    Rig rig(tree_model(10, 6, 4, {900, 1e8, 0.3}), plain_settings());
+    rig.pin_below(1, 0);
+    rig.loads.gravity = {0, -9.81, 0};
+    const SolveReport report = rig.step(H);
+    EXPECT_TRUE(report.ok && report.converged);
+    EXPECT_EQ(report.iterations, 1);
+    EXPECT_EQ(report.inverted, 0);
+    EXPECT_GT(report.ms_assembly, 0);
+    EXPECT_GT(report.ms_solve, 0);
+    EXPECT_LT(report.residual, 1e-8);
+}
+
+}  // namespace
+}  // namespace frond::test

@@ -1,0 +1,93 @@
+// Rig: a model with all that it takes to step it, for tests of solve.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "solve/solve.hpp"
+#include "support/meshes.hpp"
+
+// For lists of names out of the lists of the public header.
+#define FROND_TEST_TEXT(code, text) text,
+
+namespace frond::test {
+
+inline SolveSettings plain_settings(frond_mechanics mechanics = FROND_TET_COROTATIONAL,
+                                    frond_linear_solver solver = FROND_DIRECT) {
+    SolveSettings s = {};
+    s.mechanics = mechanics;
+    s.integrator = FROND_IMPLICIT_EULER;
+    s.linear_solver = solver;
+    s.newton_iterations = 1;
+    s.newton_tolerance = 1e-8;
+    s.max_iterations = 20000;
+    s.tolerance = 1e-12;
+    return s;
+}
+
+struct Rig {
+    std::shared_ptr<const Model> model;
+    std::shared_ptr<const System> system;
+    WorkspacePtr workspace;
+    SolveSettings settings;
+    Loads loads;
+    Motion motion;
+
+    Rig(const Model& made, const SolveSettings& with, frond_mass mass = FROND_LUMPED)
+        : model(std::make_shared<const Model>(made)),
+          system(make_system(model, with.mechanics, mass)),
+          workspace(make_workspace(system)),
+          settings(with) {
+        motion.x = motion.pin_target = positions_of(*model);
+        motion.v = loads.force = VecX::Zero(motion.x.size());
+        motion.pinned.assign(model->cage.nodes.size(), 0);
+    }
+    int node_count() const { return int(model->cage.nodes.size()); }
+    // Holds the nodes whose coordinate along the axis is at most `limit`.
+    void pin_below(int axis, double limit) {
+        for (int i = 0; i < node_count(); ++i)
+            if (point(motion.x, i)[axis] <= limit) motion.pinned[size_t(i)] = 1;
+    }
+    SolveReport step(double h) { return solve_step(*workspace, settings, loads, h, motion); }
+    void steps(int count, double h) {
+        for (int n = 0; n < count; ++n) ASSERT_TRUE(step(h).ok) << "step " << n;
+    }
+    double mass() const { return node_mass_of(*system).sum(); }
+    Vec3 momentum() const {
+        Vec3 sum = Vec3::Zero();
+        for (int i = 0; i < node_count(); ++i) sum += node_mass_of(*system)[i] * point(motion.v, i);
+        return sum;
+    }
+    double elastic_energy() const { return mechanics(settings.mechanics).energy(elements_of(*system), motion.x); }
+};
+
+// Every mechanics with every integrator, linear solver and mass.
+struct Combination {
+    int mechanics, integrator, linear_solver, mass;
+};
+inline std::vector<Combination> every_combination() {
+    std::vector<Combination> all;
+    for (int m = 0; m < FROND_MECHANICS_COUNT; ++m)
+        for (int i = 0; i < FROND_INTEGRATOR_COUNT; ++i)
+            for (int l = 0; l < FROND_LINEAR_SOLVER_COUNT; ++l)
+                for (int k = 0; k < FROND_MASS_COUNT; ++k) all.push_back({m, i, l, k});
+    return all;
+}
+struct EveryCombination : testing::TestWithParam<Combination> {
+    SolveSettings settings() const {
+        SolveSettings s =
+            plain_settings(frond_mechanics(GetParam().mechanics), frond_linear_solver(GetParam().linear_solver));
+        s.integrator = frond_integrator(GetParam().integrator);
+        return s;
+    }
+    frond_mass mass() const { return frond_mass(GetParam().mass); }
+};
+inline std::string combination_name(const testing::TestParamInfo<Combination>& info) {
+    static const char* const MECHANICS[] = {FROND_MECHANICS(FROND_TEST_TEXT)};
+    static const char* const INTEGRATORS[] = {FROND_INTEGRATORS(FROND_TEST_TEXT)};
+    static const char* const SOLVERS[] = {FROND_LINEAR_SOLVERS(FROND_TEST_TEXT)};
+    static const char* const MASSES[] = {FROND_MASSES(FROND_TEST_TEXT)};
+    return std::string(MECHANICS[info.param.mechanics]) + "_" + INTEGRATORS[info.param.integrator] + "_" +
+           SOLVERS[info.param.linear_solver] + "_" + MASSES[info.param.mass];
+}
+
+}  // namespace frond::test

@@ -1,0 +1,39 @@
+// A small plant through the C API: a stem of 0.6 m with a side branch.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "frond/frond.h"
+
+inline frond_model make_small_model(double young = 0) {
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.3, 0}, 0.02, 0.015},
+                                {0, {0, 0.3, 0}, {0, 0.6, 0}, 0.015, 0.01},
+                                {0, {0, 0.3, 0}, {0.2, 0.45, 0}, 0.01, 0.005}};
+    frond_model_def def = frond_default_model_def();
+    frond_organ_material organ = {"stem", {}};
+    EXPECT_EQ(frond_material_preset("stem", &organ.material), FROND_OK) << frond_last_error();
+    if (young > 0) {
+        organ.material.young = young;
+        def.organs = &organ;
+        def.organ_count = 1;
+    }
+    frond_model model = {};
+    EXPECT_EQ(frond_model_from_stems(stems, 3, &def, &model), FROND_OK) << frond_last_error();
+    return model;
+}
+
+struct SmallWorld {
+    frond_world world = {};
+    frond_model model = {};
+    frond_plant plant = {};
+    explicit SmallWorld(const frond_plant_def& plant_def = frond_default_plant_def(), double young = 0) {
+        const frond_world_def def = frond_default_world_def();
+        EXPECT_EQ(frond_world_create(&def, &world), FROND_OK) << frond_last_error();
+        model = make_small_model(young);
+        EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plant), FROND_OK) << frond_last_error();
+    }
+    ~SmallWorld() {
+        frond_world_destroy(world);
+        frond_model_destroy(model);
+    }
+};

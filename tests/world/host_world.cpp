@@ -1,0 +1,207 @@
+// Plants in a Bullet world that the host owns: every kind of it.
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btDeformableBodySolver.h>
+#include <BulletSoftBody/btDeformableMultiBodyConstraintSolver.h>
+#include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftBodyHelpers.h>
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+
+#include "frond/frond_bullet.hpp"
+#include "support/stems.hpp"
+
+// A host with one kind of world, a ground plane and a ball.
+struct Host {
+    btSoftBodyRigidBodyCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    btMultiBodyConstraintSolver multi_solver;
+    btDeformableBodySolver deformable_body_solver;
+    btDeformableMultiBodyConstraintSolver deformable_solver;
+    btConstraintSolverPoolMt pool{1};
+    std::unique_ptr<btDiscreteDynamicsWorld> world;
+    btStaticPlaneShape plane{btVector3(0, 1, 0), 0};
+    btSphereShape sphere{btScalar(0.05)};
+    btRigidBody ground{0, nullptr, &plane};
+    btRigidBody ball{1, nullptr, &sphere, btVector3(1, 1, 1)};
+
+    explicit Host(int kind) {
+        deformable_solver.setDeformableSolver(&deformable_body_solver);
+        switch (kind) {
+            case 0:
+                world = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &solver, &configuration);
+                break;
+            case 1:
+                world = std::make_unique<btDiscreteDynamicsWorldMt>(&dispatcher, &broadphase, &pool, nullptr,
+                                                                    &configuration);
+                break;
+            case 2:
+                world =
+                    std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, &multi_solver, &configuration);
+                break;
+            case 3:
+                world = std::make_unique<btSoftRigidDynamicsWorld>(&dispatcher, &broadphase, &solver, &configuration);
+                break;
+            case 4:
+                world = std::make_unique<btSoftMultiBodyDynamicsWorld>(&dispatcher, &broadphase, &multi_solver,
+                                                                       &configuration);
+                break;
+            default:
+                world = std::make_unique<btDeformableMultiBodyDynamicsWorld>(
+                    &dispatcher, &broadphase, &deformable_solver, &configuration, &deformable_body_solver);
+        }
+        world->setGravity(btVector3(0, btScalar(-9.81), 0));
+        world->addRigidBody(&ground);
+        btTransform place = btTransform::getIdentity();
+        place.setOrigin(btVector3(1, 3, 0));
+        ball.setWorldTransform(place);
+        world->addRigidBody(&ball);
+    }
+    ~Host() {
+        world->removeRigidBody(&ball);
+        world->removeRigidBody(&ground);
+    }
+};
+
+class HostWorld : public ::testing::TestWithParam<int> {};
+static std::string host_name(const ::testing::TestParamInfo<int>& info) {
+    static const char* const names[] = {"Discrete",  "DiscreteMt",    "MultiBody",
+                                        "SoftRigid", "SoftMultiBody", "Deformable"};
+    return names[info.param];
+}
+INSTANTIATE_TEST_SUITE_P(Kinds, HostWorld, ::testing::Range(0, 6), host_name);
+
+TEST_P(HostWorld, StepsItsPlantsInEachSubstep) {
+    Host host(GetParam());
+    frond_world plants;
+    ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK) << frond_last_error();
+    const frond_model model = make_small_model();
+    frond_plant_def def = frond_default_plant_def();
+    def.root_height = -1;
+    def.effects = FROND_GRAVITY;
+    def.position = {0, 5, 0};
+    frond_plant plant;
+    ASSERT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK) << frond_last_error();
+    std::vector<double> before(size_t(3 * frond_plant_get_node_count(plant))), after = before;
+    frond_plant_get_state(plant, before.data(), nullptr, int(before.size() / 3));
+    host.world->stepSimulation(btScalar(4.0 / 120), 10, btScalar(1.0 / 120));
+    frond_plant_get_state(plant, after.data(), nullptr, int(after.size() / 3));
+    EXPECT_NEAR(after[1] - before[1], -9.81 / 14400 * 4 * 5 / 2, 1e-5);
+    frond_report report;
+    frond_world_get_report(plants, &report);
+    EXPECT_NEAR(report.time, 4.0 / 120, 1e-6);
+    EXPECT_EQ(frond_world_step(plants, 0.01), FROND_UNSUPPORTED);
+    frond_world_destroy(plants);
+    frond_model_destroy(model);
+}
+
+TEST_P(HostWorld, ItsRayTestsFindTheCapsulesAndItsBodiesAreUndisturbed) {
+    Host alone(GetParam()), host(GetParam());
+    frond_world plants;
+    ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK);
+    const frond_model model = make_small_model();
+    const frond_plant_def def = frond_default_plant_def();
+    frond_plant plant;
+    ASSERT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK);
+    for (int i = 0; i < 60; i++) {
+        host.world->stepSimulation(btScalar(1.0 / 60));
+        alone.world->stepSimulation(btScalar(1.0 / 60));
+    }
+    EXPECT_EQ(host.ball.getWorldTransform().getOrigin().y(), alone.ball.getWorldTransform().getOrigin().y());
+
+    const btVector3 from(-2, btScalar(0.15), 0), to(2, btScalar(0.15), 0);
+    btCollisionWorld::ClosestRayResultCallback hit(from, to);
+    host.world->rayTest(from, to, hit);
+    ASSERT_TRUE(hit.hasHit());
+    EXPECT_EQ(frond::plant_of(hit.m_collisionObject).id, plant.id);
+    EXPECT_EQ(frond::bullet_object(plant), hit.m_collisionObject);
+    EXPECT_EQ(frond::plant_of(&host.ball).id, 0u);
+
+    // Removed cleanly: the ray goes through, the host's objects are as before.
+    frond_world_destroy(plants);
+    btCollisionWorld::ClosestRayResultCallback miss(from, to);
+    host.world->rayTest(from, to, miss);
+    EXPECT_FALSE(miss.hasHit());
+    EXPECT_EQ(host.world->getNumCollisionObjects(), 2);
+    for (int i = 0; i < 10; i++) host.world->stepSimulation(btScalar(1.0 / 60));
+    frond_model_destroy(model);
+}
+
+TEST_P(HostWorld, PlantsComeAndGoAmongBodiesThatTouchThem) {
+    Host host(GetParam());
+    frond_world plants;
+    ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK);
+    const frond_model model = make_small_model();
+    frond_plant_def def = frond_default_plant_def();
+    btTransform place = btTransform::getIdentity();
+    place.setOrigin(btVector3(0, 1, 0));  // the ball falls through the plants
+    host.ball.setWorldTransform(place);
+    std::vector<frond_plant> living;
+    for (int i = 0; i < 40; i++) {
+        def.position.x = 0.01 * i;
+        frond_plant plant;
+        ASSERT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK);
+        living.push_back(plant);
+        if (i % 2) {
+            frond_plant_destroy(living.front());
+            living.erase(living.begin());
+        }
+        host.world->stepSimulation(btScalar(1.0 / 60));
+    }
+    frond_report report;
+    frond_world_get_report(plants, &report);
+    EXPECT_EQ(report.plant_count, 20);
+    frond_world_destroy(plants);
+    frond_model_destroy(model);
+}
+
+TEST(Attach, IsRefusedTwiceAndAllowedAgainAfterDestroy) {
+    Host host(0);
+    frond_world first, second;
+    ASSERT_EQ(frond::attach(host.world.get(), nullptr, &first), FROND_OK);
+    EXPECT_EQ(frond::attach(host.world.get(), nullptr, &second), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(second.id, 0u);
+    EXPECT_EQ(frond::attach(nullptr, nullptr, &second), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond::attach(host.world.get(), nullptr, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond::bullet_world(first), host.world.get());
+    frond_world_destroy(first);
+    EXPECT_EQ(frond::bullet_world(first), nullptr);
+    ASSERT_EQ(frond::attach(host.world.get(), nullptr, &second), FROND_OK);
+    frond_world_destroy(second);
+}
+
+TEST(Attach, LeavesTheHostsOwnSoftBodiesAlone) {
+    double height[2];
+    for (int with_plants = 0; with_plants < 2; with_plants++) {
+        Host host(3);
+        auto* soft_world = static_cast<btSoftRigidDynamicsWorld*>(host.world.get());
+        btSoftBody* cloth =
+            btSoftBodyHelpers::CreatePatch(soft_world->getWorldInfo(), btVector3(3, 1, 0), btVector3(4, 1, 0),
+                                           btVector3(3, 1, 1), btVector3(4, 1, 1), 5, 5, 1 + 2, true);
+        soft_world->addSoftBody(cloth);
+        frond_world plants = {};
+        frond_model model = {};
+        if (with_plants) {
+            ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK);
+            model = make_small_model();
+            const frond_plant_def def = frond_default_plant_def();
+            frond_plant plant;
+            ASSERT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK);
+        }
+        for (int i = 0; i < 60; i++) host.world->stepSimulation(btScalar(1.0 / 60));
+        height[with_plants] = double(cloth->m_nodes[12].m_x.y());
+        frond_world_destroy(plants);
+        frond_model_destroy(model);
+        soft_world->removeSoftBody(cloth);
+        delete cloth;
+    }
+    EXPECT_EQ(height[0], height[1]);
+}

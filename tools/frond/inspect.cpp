@@ -1,0 +1,132 @@
+// frond inspect FILE: what came in, what was repaired, cage and chain.
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "studio.hpp"
+
+namespace frond::tools {
+namespace {
+
+struct InspectOptions {
+    std::string file, shot;
+    bool json = false;
+    std::vector<std::string> assignments;
+    View view;
+};
+
+nlohmann::ordered_json describe(const std::string& file, frond_model model) {
+    frond_model_info info;
+    must(frond_model_get_info(model, &info));
+    nlohmann::ordered_json out;
+    out["file"] = file;
+    out["surface"] = {{"vertices", info.vertex_count},
+                      {"triangles", info.triangle_count},
+                      {"components", info.component_count},
+                      {"joints", info.joint_count},
+                      {"textures", info.texture_count},
+                      {"dropped_triangles", info.dropped_triangles},
+                      {"repaired_vertices", info.repaired_vertices},
+                      {"scale", info.scale},
+                      {"up", {info.up.x, info.up.y, info.up.z}},
+                      {"lower", {info.lower.x, info.lower.y, info.lower.z}},
+                      {"upper", {info.upper.x, info.upper.y, info.upper.z}}};
+    out["parts"] = nlohmann::ordered_json::array();
+    for (int i = 0; i < info.part_count; i++) {
+        frond_part part;
+        must(frond_model_get_part(model, i, &part));
+        out["parts"].push_back({{"name", part.name},
+                                {"material", part.material},
+                                {"organ", part.organ},
+                                {"kind", part.kind},
+                                {"triangles", part.triangle_count},
+                                {"texture", part.texture}});
+    }
+    out["cage"] = {{"nodes", info.node_count},
+                   {"tets", info.tet_count},
+                   {"min_dihedral", info.min_dihedral},
+                   {"max_dihedral", info.max_dihedral},
+                   {"min_volume", info.min_volume},
+                   {"volume", info.volume},
+                   {"contained", info.contained},
+                   {"binding_error", info.binding_error},
+                   {"mass", info.mass}};
+    out["chain"] = {{"nodes", info.chain_node_count},
+                    {"capsules", info.capsule_count},
+                    {"roots", info.root_count},
+                    {"forks", info.fork_count},
+                    {"length", info.chain_length}};
+    out["ms"] = {
+        {"import", info.ms_import}, {"chain", info.ms_chain}, {"cage", info.ms_cage}, {"total", info.ms_total}};
+    return out;
+}
+
+void print(const nlohmann::ordered_json& out) {
+    const auto number = [&](const char* group, const char* field) { return out[group][field].get<double>(); };
+    const auto count = [&](const char* group, const char* field) { return out[group][field].get<int>(); };
+    std::printf("%s\n", out["file"].get<std::string>().c_str());
+    std::printf("  surface  %d vertices, %d triangles, %zu parts, %d textures\n", count("surface", "vertices"),
+                count("surface", "triangles"), out["parts"].size(), count("surface", "textures"));
+    const auto lower = out["surface"]["lower"], upper = out["surface"]["upper"], up = out["surface"]["up"];
+    std::printf("           %.3f x %.3f x %.3f m, %g m per unit, up %g,%g,%g\n",
+                upper[0].get<double>() - lower[0].get<double>(), upper[1].get<double>() - lower[1].get<double>(),
+                upper[2].get<double>() - lower[2].get<double>(), number("surface", "scale"), up[0].get<double>(),
+                up[1].get<double>(), up[2].get<double>());
+    std::printf("  repairs  %d triangles dropped, %d vertices mended; %d loose pieces, joined at %d places\n",
+                count("surface", "dropped_triangles"), count("surface", "repaired_vertices"),
+                count("surface", "components"), count("surface", "joints"));
+    std::printf("  cage     %d nodes, %d tets, dihedral angles %.1f .. %.1f degrees, smallest tet %.3g m^3\n",
+                count("cage", "nodes"), count("cage", "tets"), number("cage", "min_dihedral"),
+                number("cage", "max_dihedral"), number("cage", "min_volume"));
+    std::printf("           %.2f %% of vertices inside, binding error %.2g m, mass %.4g kg\n",
+                100 * number("cage", "contained"), number("cage", "binding_error"), number("cage", "mass"));
+    std::printf("  chain    %d nodes, %d capsules, %d roots, %d forks, %.2f m long\n", count("chain", "nodes"),
+                count("chain", "capsules"), count("chain", "roots"), count("chain", "forks"),
+                number("chain", "length"));
+    std::printf("  built in %.1f ms: import %.1f, organs and chain %.1f, cage %.1f\n", number("ms", "total"),
+                number("ms", "import"), number("ms", "chain"), number("ms", "cage"));
+    constexpr size_t MOST_PARTS = 40;
+    for (size_t i = 0; i < std::min(MOST_PARTS, out["parts"].size()); i++) {
+        const auto& part = out["parts"][i];
+        std::printf("  organ    %-24s %-9s %7d triangles   (%s, %s)\n", part["organ"].get<std::string>().c_str(),
+                    part["kind"].get<std::string>().c_str(), part["triangles"].get<int>(),
+                    part["name"].get<std::string>().c_str(), part["material"].get<std::string>().c_str());
+    }
+    if (out["parts"].size() > MOST_PARTS)
+        std::printf("  ... and %zu more; --json lists all\n", out["parts"].size() - MOST_PARTS);
+}
+
+void inspect(const InspectOptions& options) {
+    Settings settings;
+    for (const std::string& assignment : options.assignments) apply_setting(settings, assignment);
+    Stage stage(settings);
+    const frond_model model = stage.load(options.file);
+    const nlohmann::ordered_json out = describe(options.file, model);
+    if (options.json)
+        std::printf("%s\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    else
+        print(out);
+    if (options.shot.empty()) return;
+    stage.plant(model, {0, 0, 0});
+    Studio studio(options.view);
+    studio.shoot(stage);
+    studio.write(options.shot);
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& app) {
+    auto options = std::make_shared<InspectOptions>();
+    options->view.overlays = {"cage", "capsules"};
+    CLI::App* command = app.add_subcommand("inspect", "what a plant file holds and what Frond makes of it");
+    command->add_option("file", options->file, "a mesh file: .obj .ply .glb .gltf .fbx .dae .stl .msh .vtk")
+        ->required();
+    command->add_flag("--json", options->json, "print JSON");
+    command->add_option("--shot", options->shot, "write a picture (PNG) with cage and capsules");
+    command->add_option("--overlay", options->view.overlays, "cage, faces, capsules")->delimiter(',');
+    command->add_option("--set", options->assignments, "key=value, may be repeated; see frond run --help");
+    command->callback([options] { inspect(*options); });
+}
+
+}  // namespace frond::tools

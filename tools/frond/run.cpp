@@ -1,0 +1,205 @@
+// frond run SCENE|FILE: steps a scene, writes pictures, says what it cost.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "studio.hpp"
+
+namespace frond::tools {
+namespace {
+
+struct RunOptions {
+    std::string what, shot, frames;
+    int steps = -1;  // the scene's own length
+    int every = 2;   // steps a frame
+    bool json = false;
+    std::vector<std::string> assignments;
+    View view;
+};
+
+// What a run was like: kept for every step, reduced at the end.
+struct Record {
+    std::vector<frond_report> reports;
+    std::vector<double> ms_surface;
+    frond_vec3 tip_at_start = {}, tip = {};
+    double farthest = 0;  // tip from where it was at the start [m]
+    uint32_t trouble = 0;
+};
+
+double distance(const frond_vec3& a, const frond_vec3& b) {
+    return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
+
+template <class Field>
+double median_of(const Record& record, Field field) {
+    std::vector<double> values;
+    for (const frond_report& report : record.reports) values.push_back(field(report));
+    return median(values);
+}
+
+std::string trouble_text(uint32_t trouble) {
+    std::string text;
+    if (trouble & FROND_TROUBLE_NOT_CONVERGED) text += " not_converged";
+    if (trouble & FROND_TROUBLE_REWOUND) text += " rewound";
+    if (trouble & FROND_TROUBLE_INVERTED) text += " inverted";
+    return text.empty() ? "none" : text.substr(1);
+}
+
+nlohmann::ordered_json summary(const Play& play, const Record& record) {
+    const Stage& stage = play.stage;
+    const frond_report& last = record.reports.back();
+    nlohmann::ordered_json out;
+    out["scene"] = play.casting.scene->name;
+    out["mechanics"] = frond_mechanics_name(stage.settings.plant.mechanics);
+    out["integrator"] = frond_integrator_name(stage.settings.plant.integrator);
+    out["linear_solver"] = frond_linear_solver_name(stage.settings.plant.linear_solver);
+    out["plants"] = last.plant_count;
+    out["nodes"] = last.node_count;
+    out["tets"] = last.tet_count;
+    out["steps"] = record.reports.size();
+    out["time"] = last.time;
+    out["tip_at_start"] = {record.tip_at_start.x, record.tip_at_start.y, record.tip_at_start.z};
+    out["tip"] = {record.tip.x, record.tip.y, record.tip.z};
+    out["tip_farthest"] = record.farthest;
+    out["trouble"] = trouble_text(record.trouble);
+    out["ms_per_step"] = {{"all", median_of(record, [](const frond_report& r) { return r.ms_step; })},
+                          {"effects", median_of(record, [](const frond_report& r) { return r.ms_effects; })},
+                          {"assembly", median_of(record, [](const frond_report& r) { return r.ms_assembly; })},
+                          {"solve", median_of(record, [](const frond_report& r) { return r.ms_solve; })},
+                          {"capsules", median_of(record, [](const frond_report& r) { return r.ms_capsules; })},
+                          {"surface", median(record.ms_surface)}};
+    return out;
+}
+
+void print(const nlohmann::ordered_json& out) {
+    std::printf("%s: %d plants, %d nodes, %d tets, %s, %s, %s\n", out["scene"].get<std::string>().c_str(),
+                out["plants"].get<int>(), out["nodes"].get<int>(), out["tets"].get<int>(),
+                out["mechanics"].get<std::string>().c_str(), out["integrator"].get<std::string>().c_str(),
+                out["linear_solver"].get<std::string>().c_str());
+    std::printf("  %d steps, %.2f s; tip from %.3f m to %.3f m high, at most %.3f m from where it began; trouble: %s\n",
+                out["steps"].get<int>(), out["time"].get<double>(), out["tip_at_start"][1].get<double>(),
+                out["tip"][1].get<double>(), out["tip_farthest"].get<double>(),
+                out["trouble"].get<std::string>().c_str());
+    const auto& ms = out["ms_per_step"];
+    std::printf("  median step %.3f ms: effects %.3f, assembly %.3f, solve %.3f, capsules %.3f; surface %.3f ms\n",
+                ms["all"].get<double>(), ms["effects"].get<double>(), ms["assembly"].get<double>(),
+                ms["solve"].get<double>(), ms["capsules"].get<double>(), ms["surface"].get<double>());
+}
+
+// Frames as PNG files, a contact sheet and a moving picture.
+class Film {
+public:
+    Film(const std::string& folder, const View& view, double frames_per_second) : folder(folder) {
+        std::filesystem::create_directories(folder);
+        frond_film_def def = frond_default_film_def();
+        def.width = view.width;
+        def.height = view.height;
+        def.frames_per_second = std::clamp(frames_per_second, 1.0, 1000.0);
+        must(frond_film_create(&def, &film));
+    }
+    Film(const Film&) = delete;
+    Film& operator=(const Film&) = delete;
+    ~Film() { frond_film_destroy(film); }
+    void add(Studio& studio, const Stage& stage) {
+        must(frond_film_add(film, studio.shoot(stage)));
+        char name[32];
+        std::snprintf(name, sizeof name, "frame_%04d.png", frond_film_get_frame_count(film) - 1);
+        studio.write(folder + "/" + name);
+    }
+    void finish() {
+        must(frond_film_write_sheet(film, (folder + "/sheet.png").c_str(), 4, 3));
+        must(frond_film_write_webp(film, (folder + "/film.webp").c_str()));
+    }
+
+private:
+    std::string folder;
+    frond_film* film = nullptr;
+};
+
+void run(const RunOptions& options) {
+    const Casting casting = cast(options.what);
+    const Settings settings = settings_of(casting, options.assignments);
+    if (!(settings.dt > 0 && settings.dt <= 1)) throw SceneError("dt must be above 0 and at most 1 s");
+    const int steps = options.steps >= 0 ? options.steps : int(std::lround(casting.scene->duration / settings.dt));
+    if (options.every < 1) throw SceneError("--every must be at least 1");
+
+    Play play(casting, settings);
+    std::unique_ptr<Studio> studio;
+    std::unique_ptr<Film> film;
+    if (!options.shot.empty() || !options.frames.empty()) studio = std::make_unique<Studio>(options.view);
+    if (!options.frames.empty())
+        film = std::make_unique<Film>(options.frames, options.view, 1 / (settings.dt * options.every));
+
+    Record record;
+    must(frond_plant_get_tip(play.stage.plants[0], &record.tip_at_start));
+    record.tip = record.tip_at_start;
+    record.reports.resize(1);
+    Progress progress("step", steps);
+    for (int i = 0; i < steps; i++) {
+        play.step();
+        if (film && i % options.every == 0) film->add(*studio, play.stage);
+
+        // What a game does each frame: take the surface of every plant.
+        for (frond_plant plant : play.stage.plants) {
+            frond_surface_view view;
+            must(frond_plant_get_surface(plant, &view));
+        }
+        frond_report report;
+        must(frond_world_get_report(play.stage.world, &report));
+        if (i == 0) record.reports.clear();
+        record.reports.push_back(report);
+        record.ms_surface.push_back(report.ms_surface);
+        record.trouble |= report.trouble;
+        must(frond_plant_get_tip(play.stage.plants[0], &record.tip));
+        record.farthest = std::max(record.farthest, distance(record.tip, record.tip_at_start));
+        progress.at(i + 1);
+    }
+
+    const nlohmann::ordered_json out = summary(play, record);
+    if (options.json)
+        std::printf("%s\n", out.dump(2).c_str());
+    else
+        print(out);
+    if (film) film->finish();
+    if (!options.shot.empty()) {
+        studio->shoot(play.stage);
+        studio->write(options.shot);
+    }
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command = app.add_subcommand("run", "run a scene, or a plant file that is pulled aside and let go");
+    std::string text = "a mesh file, or a scene:";
+    for (const Scene& scene : scenes())
+        if (scene.build) text += std::string(" ") + scene.name + " (" + scene.text + ")";
+    command->add_option("what", options->what, text)->required();
+    command->add_option("--steps", options->steps, "default: the scene's own length");
+    command->add_option("--shot", options->shot, "write a picture (PNG) of the end");
+    command->add_option("--frames", options->frames,
+                        "write frames, a contact sheet and a moving picture to this folder");
+    command->add_option("--every", options->every, "steps from frame to frame, default 2");
+    command->add_option("--overlay", options->view.overlays, "cage, faces, capsules")->delimiter(',');
+    command->add_option("--azimuth", options->view.azimuth, "of the camera [rad]");
+    command->add_option("--elevation", options->view.elevation, "of the camera [rad]");
+    command->add_option("--width", options->view.width, "of pictures [pixel]");
+    command->add_option("--height", options->view.height, "of pictures [pixel]");
+    command->add_flag("--json", options->json, "print JSON");
+    command->add_option("--set", options->assignments, "key=value, may be repeated");
+    command->footer("Keys of --set:\n" + settings_help());
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace frond::tools

@@ -1,0 +1,50 @@
+// Studio: pictures of a stage, and progress on a terminal.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "picture/frond_picture.h"
+#include "scenes/scene.hpp"
+
+namespace frond::tools {
+
+// What the user asked a picture to be.
+struct View {
+    int width = 1280, height = 720;
+    double azimuth = 0.5, elevation = 0.15;  // [rad]
+    std::vector<std::string> overlays;       // cage, faces, capsules, force
+};
+
+class Studio {
+public:
+    explicit Studio(const View& view);
+    Studio(const Studio&) = delete;
+    Studio& operator=(const Studio&) = delete;
+    ~Studio();
+    // Draws the stage; the pixels stand until the next one.
+    const uint8_t* shoot(const Stage& stage);
+    void write(const std::string& png_path);
+
+private:
+    View view;
+    frond_picture* picture = nullptr;
+};
+// Throws a SceneError with frond_picture_last_error() when a call failed.
+void must(bool ok);
+
+// "step 120 of 300" on a terminal, once something has taken a second; nothing into files and pipes.
+class Progress {
+public:
+    Progress(const char* what, int total);
+    ~Progress();
+    void at(int done);
+
+private:
+    const char* what;
+    int total;
+    bool on_terminal, shown = false;
+    std::chrono::steady_clock::time_point start, last;
+};
+
+}  // namespace frond::tools

@@ -1,0 +1,89 @@
+// Scene: a small play with plants, written once; the frond command, tests and benchmarks run it. Sees public headers
+// only.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "frond/frond.h"
+
+namespace frond::tools {
+
+// A failed call of the library, or a wrong word of the user's; the text says what to do.
+struct SceneError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+// Throws a SceneError with frond_last_error() when a call failed.
+void must(frond_result result);
+
+// Everything that a user may set with --set key=value.
+struct Settings {
+    frond_world_def world = frond_default_world_def();
+    frond_model_def model = frond_default_model_def();
+    frond_plant_def plant = frond_default_plant_def();
+    double dt = 1.0 / 60;        // [s]
+    double pull = 0.2;           // how far the user drags, as a share of the plant's height [-]
+    double grab_stiffness = 60;  // [N/m]
+    struct OrganOverride {
+        std::string organ, field;
+        double value;
+    };
+    std::vector<OrganOverride> organs;  // material.<organ or kind>.<field>=value
+};
+// One "key=value"; throws a SceneError that names the keys or values there are.
+void apply_setting(Settings& settings, const std::string& assignment);
+// "key  what it is" lines, for --help.
+std::string settings_help();
+
+// Cage cells with which the two models come to the paper's counts of nodes and tets [m].
+constexpr double PAPER_CORN_CELL = 0.1, PAPER_CUCUMBER_CELL = 0.175;
+
+// What is on the stage while a scene runs.
+struct Stage {
+    Settings settings;
+    frond_world world = {};
+    std::vector<frond_model> models;
+    std::vector<frond_plant> plants;
+    std::vector<frond_model> plant_models;  // one a plant
+    std::vector<frond_grab> grabs;
+    frond_vec3 lower = {}, upper = {};  // box of all plants at the start [m]
+    double time = 0;                    // [s]
+    frond_vec3 drag_start = {};         // where the user took hold [m]
+
+    explicit Stage(const Settings& settings);
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+    ~Stage();
+    frond_model load(const std::string& path);
+    frond_plant plant(frond_model model, frond_vec3 position);
+};
+
+struct Scene {
+    const char* name;
+    const char* text;
+    double duration;  // [s]
+    void (*set_defaults)(Settings& settings);
+    void (*build)(Stage& stage);
+    void (*drive)(Stage& stage);  // before each step
+};
+const std::vector<Scene>& scenes();
+// The scene of that name, or the scene "tug" around a plant file. Throws a SceneError that names the scenes there are.
+struct Casting {
+    const Scene* scene;
+    std::string file;  // empty: the scene's own
+};
+Casting cast(const std::string& name_or_file);
+// Sets the stage; the settings' assignments come on top of the scene's defaults.
+struct Play {
+    Casting casting;
+    Stage stage;
+    Play(const Casting& casting, const Settings& settings);
+    void step();  // drives and advances by settings.dt
+};
+Settings settings_of(const Casting& casting, const std::vector<std::string>& assignments);
+
+// A file of the models that come with Frond, "corn/corn.obj": from FROND_MODELS, the source tree or the installation.
+std::string model_path(const std::string& name);
+
+}  // namespace frond::tools

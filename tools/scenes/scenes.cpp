@@ -1,0 +1,114 @@
+// The scenes.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "scenes/scene.hpp"
+
+namespace frond::tools {
+namespace {
+
+// ---- the plants of the paper, with its cage sizes --------------------------------------------------------------
+
+void corn_defaults(Settings& settings) {
+    settings.model.cage_size = PAPER_CORN_CELL;
+}
+void cucumber_defaults(Settings& settings) {
+    settings.model.cage_size = PAPER_CUCUMBER_CELL;
+}
+void build_corn(Stage& stage) {
+    stage.plant(stage.load(model_path("corn/corn.obj")), {0, 0, 0});
+}
+void build_cucumber(Stage& stage) {
+    stage.plant(stage.load(model_path("cucumber/cucumber.obj")), {0, 0, 0});
+}
+void rest(Stage&) {}
+
+// ---- the user's drag ---------------------------------------------------------------------------------------------
+
+// A point of the main axis at a share of the height: of the chain's nodes near it, the one that carries most others.
+frond_vec3 point_on_axis(frond_model model, double share) {
+    frond_chain_view chain;
+    frond_model_info info;
+    must(frond_model_get_chain(model, &chain));
+    must(frond_model_get_info(model, &info));
+    std::vector<int> carried(size_t(chain.node_count), 1);
+    for (int i = chain.node_count - 1; i > 0; i--)
+        if (chain.parents[i] >= 0) carried[size_t(chain.parents[i])] += carried[size_t(i)];
+    const double height = info.lower.y + share * (info.upper.y - info.lower.y);
+    const double reach = 0.1 * (info.upper.y - info.lower.y);
+    int best = 0;
+    double best_score = -1e30;
+    for (int i = 0; i < chain.node_count; i++) {
+        const double miss = std::abs(chain.nodes[3 * i + 1] - height);
+        const double score = miss < reach ? carried[size_t(i)] : -miss;
+        if (score > best_score) {
+            best_score = score;
+            best = i;
+        }
+    }
+    return {chain.nodes[3 * best], chain.nodes[3 * best + 1], chain.nodes[3 * best + 2]};
+}
+
+constexpr double GRAB_AT = 0.5, PULLED_AT = 1.5, LET_GO_AT = 2.0;  // [s]
+
+// Takes the axis at three quarters of the height, draws it aside, holds it and lets it go.
+void drag(Stage& stage) {
+    const double t = stage.time, half_step = 0.5 * stage.settings.dt;
+    if (stage.settings.pull == 0) return;
+    if (t > LET_GO_AT - half_step) {
+        for (frond_grab grab : stage.grabs) frond_grab_destroy(grab);
+        stage.grabs.clear();
+        return;
+    }
+    if (t < GRAB_AT - half_step) return;
+    if (stage.grabs.empty()) {
+        frond_grab grab;
+        must(frond_grab_create(stage.plants[0], point_on_axis(stage.plant_models[0], 0.75),
+                               stage.settings.grab_stiffness, &grab));
+        stage.grabs.push_back(grab);
+        must(frond_grab_get(grab, nullptr, &stage.drag_start, nullptr));
+    }
+    const double s = std::clamp((t - GRAB_AT) / (PULLED_AT - GRAB_AT), 0.0, 1.0), eased = s * s * (3 - 2 * s);
+    const double way = stage.settings.pull * (stage.upper.y - stage.lower.y) * eased;
+    const frond_vec3& from = stage.drag_start;
+    must(frond_grab_move(stage.grabs[0], {from.x + way, from.y - 0.3 * way, from.z}));
+}
+
+}  // namespace
+
+const std::vector<Scene>& scenes() {
+    static const std::vector<Scene> table = {
+        {"corn", "a corn plant stands in gravity", 5, corn_defaults, build_corn, rest},
+        {"cucumber", "a cucumber plant stands in gravity", 5, cucumber_defaults, build_cucumber, rest},
+        {"drag", "a corn plant is pulled aside and let go", 5, corn_defaults, build_corn, drag},
+        {"cucumber_drag", "a cucumber plant is pulled aside and let go", 5, cucumber_defaults, build_cucumber, drag},
+        {"tug", "a plant file: it stands, is pulled aside and let go", 5, nullptr, nullptr, drag},
+    };
+    return table;
+}
+
+Casting cast(const std::string& name_or_file) {
+    std::string names;
+    for (const Scene& scene : scenes()) {
+        if (name_or_file == scene.name && scene.build) return {&scene, ""};
+        if (scene.build) names += std::string(names.empty() ? "" : ", ") + scene.name;
+    }
+    if (std::filesystem::exists(name_or_file)) return {&scenes().back(), name_or_file};
+    throw SceneError("\"" + name_or_file + "\" is neither a file nor a scene; there are the scenes " + names);
+}
+
+Play::Play(const Casting& casting, const Settings& settings) : casting(casting), stage(settings) {
+    if (casting.scene->build)
+        casting.scene->build(stage);
+    else
+        stage.plant(stage.load(casting.file), {0, 0, 0});
+}
+
+void Play::step() {
+    casting.scene->drive(stage);
+    must(frond_world_step(stage.world, stage.settings.dt));
+    stage.time += stage.settings.dt;
+}
+
+}  // namespace frond::tools

@@ -1,0 +1,148 @@
+// key=value assignments for every public choice.
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+
+#include "scenes/scene.hpp"
+
+namespace frond::tools {
+
+void must(frond_result result) {
+    if (result != FROND_OK) throw SceneError(frond_last_error());
+}
+
+namespace {
+
+struct Key {
+    const char* name;
+    const char* text;
+    std::function<void(Settings&, const std::string&)> set;
+};
+
+double number(const std::string& text) {
+    errno = 0;
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end || errno || !std::isfinite(value)) throw SceneError("\"" + text + "\" is not a number");
+    return value;
+}
+
+frond_vec3 vector(const std::string& text) {
+    const size_t first = text.find(','), second = text.find(',', first + 1);
+    if (first == std::string::npos || second == std::string::npos)
+        throw SceneError("\"" + text + "\" is not a vector; write x,y,z");
+    return {number(text.substr(0, first)), number(text.substr(first + 1, second - first - 1)),
+            number(text.substr(second + 1))};
+}
+
+// The row of a table whose name was given.
+template <class Row>
+Row row(const std::string& text, int count, const char* (*name)(Row)) {
+    std::string names;
+    for (int i = 0; i < count; i++) {
+        if (text == name(Row(i))) return Row(i);
+        names += std::string(i ? ", " : "") + name(Row(i));
+    }
+    throw SceneError("\"" + text + "\" is none of " + names);
+}
+
+// A key for a number, a count or a vector of a def.
+template <class Owner>
+Key real(const char* name, const char* text, Owner Settings::*owner, double Owner::*field) {
+    return {name, text, [=](Settings& s, const std::string& value) { s.*owner.*field = number(value); }};
+}
+template <class Owner>
+Key count(const char* name, const char* text, Owner Settings::*owner, int Owner::*field) {
+    return {name, text, [=](Settings& s, const std::string& value) { s.*owner.*field = int(number(value)); }};
+}
+template <class Owner>
+Key triple(const char* name, const char* text, Owner Settings::*owner, frond_vec3 Owner::*field) {
+    return {name, text, [=](Settings& s, const std::string& value) { s.*owner.*field = vector(value); }};
+}
+template <class Row>
+Key choice(const char* name, const char* text, Row frond_plant_def::*field, int rows, const char* (*row_name)(Row)) {
+    return {name, text,
+            [=](Settings& s, const std::string& value) { s.plant.*field = row<Row>(value, rows, row_name); }};
+}
+
+const std::vector<Key>& keys() {
+    static const std::vector<Key> table = {
+        {"dt", "time step [s]", [](Settings& s, const std::string& value) { s.dt = number(value); }},
+        {"pull", "how far the user drags, share of the height",
+         [](Settings& s, const std::string& value) { s.pull = number(value); }},
+        {"grab_stiffness", "of the user's spring [N/m]",
+         [](Settings& s, const std::string& value) { s.grab_stiffness = number(value); }},
+        triple("gravity", "x,y,z [m/s^2]", &Settings::world, &frond_world_def::gravity),
+        real("max_substep", "longest solver step [s]", &Settings::world, &frond_world_def::max_substep),
+        real("scale", "metres per file unit, 0: guess", &Settings::model, &frond_model_def::scale),
+        triple("up", "up axis of the file, 0,0,0: guess", &Settings::model, &frond_model_def::up),
+        real("capsule_height", "h of the paper [m], 0: chosen", &Settings::model, &frond_model_def::capsule_height),
+        real("capsule_radius", "r of the paper [m], 0: fitted", &Settings::model, &frond_model_def::capsule_radius),
+        real("cage_size", "edge of a cage cell [m], 0: chosen", &Settings::model, &frond_model_def::cage_size),
+        real("cage_offset", "reach outside the surface [m]", &Settings::model, &frond_model_def::cage_offset),
+        real("cage_smoothness", "0..1", &Settings::model, &frond_model_def::cage_smoothness),
+        choice("mechanics", "row of the table", &frond_plant_def::mechanics, FROND_MECHANICS_COUNT,
+               frond_mechanics_name),
+        choice("integrator", "row of the table", &frond_plant_def::integrator, FROND_INTEGRATOR_COUNT,
+               frond_integrator_name),
+        choice("linear_solver", "row of the table", &frond_plant_def::linear_solver, FROND_LINEAR_SOLVER_COUNT,
+               frond_linear_solver_name),
+        choice("mass", "lumped or consistent", &frond_plant_def::mass, FROND_MASS_COUNT, frond_mass_name),
+        count("newton_iterations", "solves per step", &Settings::plant, &frond_plant_def::newton_iterations),
+        real("newton_tolerance", "share of the first residual", &Settings::plant, &frond_plant_def::newton_tolerance),
+        count("max_iterations", "of an iterative solver", &Settings::plant, &frond_plant_def::max_iterations),
+        real("tolerance", "of an iterative solver", &Settings::plant, &frond_plant_def::tolerance),
+        real("mass_damping", "Rayleigh [1/s]", &Settings::plant, &frond_plant_def::mass_damping),
+        real("stiffness_damping", "Rayleigh [s]", &Settings::plant, &frond_plant_def::stiffness_damping),
+        real("root_height", "pinned above the foot [m], 0: chosen, < 0: none", &Settings::plant,
+             &frond_plant_def::root_height),
+    };
+    return table;
+}
+
+// material.<organ>.<field>=value
+void apply_material(Settings& settings, const std::string& key, const std::string& value) {
+    const size_t dot = key.rfind('.');
+    const std::string organ = key.substr(9, dot - 9), field = key.substr(dot + 1);
+    if (dot <= 9 || (field != "density" && field != "young" && field != "poisson" && field != "thickness"))
+        throw SceneError("write material.<organ or kind>.<density, young, poisson or thickness>=value");
+    settings.organs.push_back({organ, field, number(value)});
+}
+
+}  // namespace
+
+void apply_setting(Settings& settings, const std::string& assignment) {
+    const size_t equals = assignment.find('=');
+    if (equals == std::string::npos) throw SceneError("\"" + assignment + "\": write key=value");
+    const std::string name = assignment.substr(0, equals), value = assignment.substr(equals + 1);
+    if (name.rfind("material.", 0) == 0) return apply_material(settings, name, value);
+    std::string names;
+    for (const Key& key : keys()) {
+        if (name == key.name) {
+            try {
+                return key.set(settings, value);
+            } catch (const SceneError& error) {
+                throw SceneError(name + ": " + error.what());
+            }
+        }
+        names += std::string(names.empty() ? "" : ", ") + key.name;
+    }
+    throw SceneError("there is no setting \"" + name + "\"; there are " + names + ", material.<organ>.<field>");
+}
+
+std::string settings_help() {
+    std::string help;
+    for (const Key& key : keys())
+        help += "  " + std::string(key.name) + std::string(20 - std::string(key.name).size(), ' ') + key.text + "\n";
+    return help + "  material.<organ or kind>.<density|young|poisson|thickness>\n";
+}
+
+Settings settings_of(const Casting& casting, const std::vector<std::string>& assignments) {
+    Settings settings;
+    if (casting.scene->set_defaults) casting.scene->set_defaults(settings);
+    for (const std::string& assignment : assignments) apply_setting(settings, assignment);
+    return settings;
+}
+
+}  // namespace frond::tools

@@ -1,0 +1,99 @@
+// The stage: worlds, models and plants of a running scene, and where their files are.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "scenes/scene.hpp"
+
+namespace frond::tools {
+
+Stage::Stage(const Settings& given) : settings(given) {
+    must(frond_world_create(&settings.world, &world));
+}
+
+Stage::~Stage() {
+    frond_world_destroy(world);
+    for (frond_model model : models) frond_model_destroy(model);
+}
+
+// Materials by organ: the preset of its kind with the fields that were set.
+static std::map<std::string, frond_material> changed_materials(frond_model model,
+                                                               const std::vector<Settings::OrganOverride>& overrides) {
+    frond_model_info info;
+    must(frond_model_get_info(model, &info));
+    std::map<std::string, std::string> kind_of;
+    for (int i = 0; i < info.part_count; i++) {
+        frond_part part;
+        must(frond_model_get_part(model, i, &part));
+        kind_of[part.organ] = part.kind;
+    }
+    std::map<std::string, frond_material> materials;
+    for (const Settings::OrganOverride& change : overrides) {
+        const std::string kind = kind_of.count(change.organ) ? kind_of[change.organ] : change.organ;
+        if (!materials.count(change.organ)) must(frond_material_preset(kind.c_str(), &materials[change.organ]));
+        frond_material& material = materials[change.organ];
+        if (change.field == "density") material.density = change.value;
+        if (change.field == "young") material.young = change.value;
+        if (change.field == "poisson") material.poisson = change.value;
+        if (change.field == "thickness") material.thickness = change.value;
+    }
+    return materials;
+}
+
+frond_model Stage::load(const std::string& path) {
+    frond_model model = {};
+    must(frond_model_load(path.c_str(), &settings.model, &model));
+    if (!settings.organs.empty()) {
+        // The organs' kinds are known now; load again with their materials.
+        std::map<std::string, frond_material> materials;
+        try {
+            materials = changed_materials(model, settings.organs);
+        } catch (...) {
+            frond_model_destroy(model);
+            throw;
+        }
+        frond_model_destroy(model);
+        std::vector<frond_organ_material> list;
+        for (const auto& [organ, material] : materials) list.push_back({organ.c_str(), material});
+        frond_model_def def = settings.model;
+        def.organs = list.data();
+        def.organ_count = int(list.size());
+        must(frond_model_load(path.c_str(), &def, &model));
+    }
+    models.push_back(model);
+    return model;
+}
+
+frond_plant Stage::plant(frond_model model, frond_vec3 position) {
+    frond_plant_def def = settings.plant;
+    def.position = position;
+    frond_plant plant = {};
+    must(frond_plant_create(world, model, &def, &plant));
+    frond_model_info info;
+    must(frond_model_get_info(model, &info));
+    const auto grow = [&](double& low, double& high, double a, double b) {
+        low = plants.empty() ? a : std::min(low, a);
+        high = plants.empty() ? b : std::max(high, b);
+    };
+    grow(lower.x, upper.x, position.x + info.lower.x, position.x + info.upper.x);
+    grow(lower.y, upper.y, position.y + info.lower.y, position.y + info.upper.y);
+    grow(lower.z, upper.z, position.z + info.lower.z, position.z + info.upper.z);
+    plants.push_back(plant);
+    plant_models.push_back(model);
+    return plant;
+}
+
+std::string model_path(const std::string& name) {
+    std::vector<std::string> folders;
+    if (const char* folder = std::getenv("FROND_MODELS")) folders.push_back(folder);
+    folders.push_back(FROND_MODELS_BUILD_PATH);
+    folders.push_back(FROND_MODELS_INSTALL_PATH);
+    for (const std::string& folder : folders) {
+        const std::filesystem::path path = std::filesystem::path(folder) / name;
+        if (std::filesystem::exists(path)) return path.string();
+    }
+    throw SceneError(name + " is not where models are; set FROND_MODELS to the folder models/ of Frond");
+}
+
+}  // namespace frond::tools
