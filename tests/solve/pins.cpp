@@ -6,9 +6,9 @@
 namespace frond::test {
 namespace {
 
-constexpr double H = 1.0 / 60;
-
-struct EveryPin : EveryCombination {};
+struct EveryPin : EveryCombination {
+    const double H = time_step();
+};
 INSTANTIATE_TEST_SUITE_P(Pins, EveryPin, testing::ValuesIn(every_combination()), combination_name);
 
 TEST_P(EveryPin, HoldsPinsExactly) {
@@ -16,7 +16,7 @@ TEST_P(EveryPin, HoldsPinsExactly) {
     rig.pin_below(1, 0);
     rig.loads.gravity = {5, -9.81, 0};
     const VecX start = rig.motion.x;
-    rig.steps(50, H);
+    rig.steps(is_explicit() ? 2500 : 50, H);
     double moved = 0;
     for (int i = 0; i < rig.node_count(); ++i) {
         if (!rig.motion.pinned[size_t(i)]) {
@@ -45,19 +45,22 @@ TEST_P(EveryPin, MovesPinsToTheirTargetWithTheVelocityThatTakes) {
                 EXPECT_NEAR((point(rig.motion.v, i) - velocity).norm(), 0, 1e-12);
             }
         }
-        // The free end came along.
-        EXPECT_GT(point(rig.motion.x, rig.node_count() - 1).x(), 0.1 + 0.01);
+        // The free end came along, where there was time for it.
+        if (!is_explicit()) {
+            EXPECT_GT(point(rig.motion.x, rig.node_count() - 1).x(), 0.1 + 0.01);
+        }
     }
 }
 
 TEST_P(EveryPin, PushesFreeNodesInTheVeryStepInWhichAPinMoves) {
+    if (is_explicit()) GTEST_SKIP() << "forces follow a step later";
     // All but one node pinned and moved alike: the free one, tied by stiff tets, comes along at once.
     Rig rig(box_model(1, 1, 1, {0.1, 0.1, 0.1}, {1, 1e7, 0.3}), settings(), mass());
     rig.motion.pinned.assign(8, 1);
     rig.motion.pinned[7] = 0;
     for (int i = 0; i < 8; ++i) point(rig.motion.pin_target, i).y() += 0.01;
     ASSERT_TRUE(rig.step(H).ok);
-    EXPECT_NEAR(point(rig.motion.x, 7).y(), 0.11, 1e-6);
+    EXPECT_NEAR(point(rig.motion.x, 7).y(), 0.11, 1e-5);
 }
 
 TEST_P(EveryPin, LetsGoAndTakesHoldAnyTime) {

@@ -6,10 +6,69 @@
 namespace frond::test {
 namespace {
 
-constexpr double H = 1.0 / 60;
-
-struct EveryStep : EveryCombination {};
+struct EveryStep : EveryCombination {
+    const double H = time_step();
+    // Velocity and way of a point that starts at v and is pulled by g - a v, by the integrator's own recurrence.
+    std::array<double, 2> recurrence(double v, double g, double a, int steps) const;
+};
 INSTANTIATE_TEST_SUITE_P(Step, EveryStep, testing::ValuesIn(every_combination()), combination_name);
+
+std::array<double, 2> EveryStep::recurrence(double v, double g, double a, int steps) const {
+    double x = 0, x_prev = 0, v_prev = 0, x_rate = 0, v_rate = 0;
+    const double h = H;
+    // v' = base + step (g - a v')
+    const auto stage = [&](double base, double step) { return (base + step * g) / (1 + step * a); };
+    const auto sdirk2 = [&] {
+        const double q = 1 - std::sqrt(0.5), v1 = stage(v, q * h), v_base = v + (1 - q) / q * (v1 - v);
+        const double v2 = stage(v_base, q * h);
+        x += h * ((1 - q) * v1 + q * v2);
+        v = v2;
+        x_rate = v, v_rate = g - a * v;
+    };
+    for (int n = 0; n < steps; ++n) {
+        const double x_now = x, v_now = v;
+        switch (GetParam().integrator) {
+            case FROND_IMPLICIT_EULER:
+                v = stage(v, h), x += h * v;
+                break;
+            case FROND_BDF2:
+                v = n == 0 ? stage(v, h) : stage((4 * v - v_prev) / 3, 2 * h / 3);
+                x = n == 0 ? x + h * v : (4 * x - x_prev) / 3 + 2 * h / 3 * v;
+                break;
+            case FROND_SDIRK2:
+                sdirk2();
+                break;
+            case FROND_TR_BDF2: {
+                const double q = 2 - std::sqrt(2.0), v1 = stage(v + q * h / 2 * (g - a * v), q * h / 2);
+                const double x1 = x + q * h / 2 * (v + v1), b = 1 / (q * (2 - q)), c = (1 - q) * (1 - q) * b;
+                v = stage(b * v1 - c * v, q * h / 2);
+                x = b * x1 - c * x + q * h / 2 * v;
+                break;
+            }
+            case FROND_GENERALIZED_ALPHA: {
+                if (n == 0) {
+                    sdirk2();
+                    break;
+                }
+                // rates: m r' + (1-m) r = f((1-f) y + f y'), y' = y + h ((1-c) r + c r')
+                const double s = 0.8, m = (3 - s) / (2 + 2 * s), f = 1 / (1 + s), c = 0.5 + m - f;
+                const double r = (g - a * (v + f * h * (1 - c) * v_rate) - (1 - m) * v_rate) / (m + a * f * h * c);
+                const double v_next = v + h * ((1 - c) * v_rate + c * r);
+                const double x_rate_next = ((1 - f) * v + f * v_next - (1 - m) * x_rate) / m;
+                x += h * ((1 - c) * x_rate + c * x_rate_next);
+                v = v_next, v_rate = r, x_rate = x_rate_next;
+                break;
+            }
+            case FROND_SYMPLECTIC_EULER:
+                v += h * (g - a * v), x += h * v;
+                break;
+            default:
+                ADD_FAILURE() << "give the new integrator its recurrence here";
+        }
+        x_prev = x_now, v_prev = v_now;
+    }
+    return {v, x};
+}
 
 TEST_P(EveryStep, FallsFreelyByTheIntegratorsOwnRecurrence) {
     Rig rig(box_model(2, 2, 2, {0.1, 0.1, 0.1}, {900, 1e6, 0.3}), settings(), mass());
@@ -17,11 +76,12 @@ TEST_P(EveryStep, FallsFreelyByTheIntegratorsOwnRecurrence) {
     const VecX start = rig.motion.x;
     const int steps = 30;
     rig.steps(steps, H);
-    ASSERT_EQ(GetParam().integrator, FROND_IMPLICIT_EULER) << "give the new integrator its displacement here";
-    const Vec3 fall = rig.loads.gravity * H * H * steps * (steps + 1) / 2;
+    const std::array<double, 2> unit = recurrence(0, 1, 0, steps);
+    EXPECT_NEAR(unit[0], H * steps, 1e-12);
+    EXPECT_NEAR(unit[1], H * H * steps * steps / 2, H * H * steps);
     for (int i = 0; i < rig.node_count(); ++i) {
-        EXPECT_NEAR((point(rig.motion.x, i) - point(start, i) - fall).norm(), 0, 1e-9);
-        EXPECT_NEAR((point(rig.motion.v, i) - rig.loads.gravity * H * steps).norm(), 0, 1e-9);
+        EXPECT_NEAR((point(rig.motion.x, i) - point(start, i) - unit[1] * rig.loads.gravity).norm(), 0, 1e-9);
+        EXPECT_NEAR((point(rig.motion.v, i) - unit[0] * rig.loads.gravity).norm(), 0, 1e-9);
     }
 }
 
@@ -40,13 +100,16 @@ TEST_P(EveryStep, TakesEnergyAwayAndNeverGives) {
     Rig rig(box_model(1, 4, 1, {0.1, 0.4, 0.1}, {900, 1e5, 0.3}), settings(), mass());
     rig.settings.newton_iterations = 5;
     rig.pin_below(1, 0);
+    // Only implicit Euler takes some in every single step; the others must not give any back in the end.
+    const bool euler = GetParam().integrator == FROND_IMPLICIT_EULER;
+    const double slack = euler ? 1e-6 : 0.01;
     for (int i = 0; i < rig.node_count(); ++i) point(rig.motion.v, i).x() = 3 * point(rig.motion.x, i).y();
     double before = kinetic_energy(*rig.system, rig.motion.v) + rig.elastic_energy();
     for (int n = 0; n < 120; ++n) {
         ASSERT_TRUE(rig.step(H).ok);
         const double now = kinetic_energy(*rig.system, rig.motion.v) + rig.elastic_energy();
-        EXPECT_LE(now, before * (1 + 1e-6) + 1e-12) << n;
-        before = now;
+        EXPECT_LE(now, before * (1 + slack) + 1e-12) << n;
+        if (euler) before = now;
     }
 }
 
@@ -55,12 +118,13 @@ TEST_P(EveryStep, MassDampingSlowsTheWholeBodyAlike) {
     rig.settings.mass_damping = 2;
     for (int i = 0; i < rig.node_count(); ++i) point(rig.motion.v, i) = Vec3(1, -2, 0.5);
     rig.steps(10, H);
-    ASSERT_EQ(GetParam().integrator, FROND_IMPLICIT_EULER);
-    const Vec3 expected = Vec3(1, -2, 0.5) / std::pow(1 + 2 * H, 10);
+    const Vec3 expected = Vec3(1, -2, 0.5) * recurrence(1, 0, 2, 10)[0];
+    EXPECT_NEAR(expected.y(), -2 * std::exp(-2 * 10 * H), 0.02);
     for (int i = 0; i < rig.node_count(); ++i) EXPECT_NEAR((point(rig.motion.v, i) - expected).norm(), 0, 1e-9);
 }
 
 TEST_P(EveryStep, StiffnessDampingStopsShakingButNotTurning) {
+    if (is_explicit()) GTEST_SKIP() << "too short for it to be seen";
     const auto spin_after = [&](double damping) {
         Rig rig(box_model(2, 2, 2, {0.1, 0.1, 0.1}, {900, 1e6, 0.3}), settings(), mass());
         rig.settings.stiffness_damping = damping;
@@ -102,7 +166,7 @@ TEST_P(EveryStep, GivesTheSameBitsAgain) {
 // The equation itself, put together from dense parts: (M + h D + h^2 K) dv = h (f - D v - h K v).
 TEST_P(EveryStep, SolvesTheEquationOfThePaperWithItsSignsRight) {
     Rig rig(box_model(1, 2, 1, {0.1, 0.2, 0.1}, {900, 1e4, 0.3}), settings(), mass());
-    ASSERT_EQ(GetParam().integrator, FROND_IMPLICIT_EULER);
+    if (GetParam().integrator != FROND_IMPLICIT_EULER) GTEST_SKIP() << "not the paper's";
     rig.settings.mass_damping = 0.7;
     rig.settings.stiffness_damping = 0.01;
     Dice dice(2);
@@ -155,6 +219,7 @@ TEST(Mass, IsTheSameLumpedAndConsistentInSum) {
 }
 
 TEST(Step, ReportsWhatItCost) {
+    constexpr double H = 1.0 / 60;
     Rig rig(tree_model(10, 6, 4, {900, 1e8, 0.3}), plain_settings());
     rig.pin_below(1, 0);
     rig.loads.gravity = {0, -9.81, 0};

@@ -1,15 +1,17 @@
-// A small plant through the C API: a stem of 0.6 m with a side branch.
+// A small plant through the C API: a stem of 0.6 m with a side branch. Its shape is the one without gravity, so that it
+// is at rest in free fall, unless it shall stand as modelled.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include "frond/frond.h"
 
-inline frond_model make_small_model(double young = 0) {
+inline frond_model make_small_model(double young = 0, frond_rest rest = FROND_REST_WITHOUT_GRAVITY) {
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.3, 0}, 0.02, 0.015},
                                 {0, {0, 0.3, 0}, {0, 0.6, 0}, 0.015, 0.01},
                                 {0, {0, 0.3, 0}, {0.2, 0.45, 0}, 0.01, 0.005}};
     frond_model_def def = frond_default_model_def();
+    def.rest = rest;
     frond_organ_material organ = {"stem", {}};
     EXPECT_EQ(frond_material_preset("stem", &organ.material), FROND_OK) << frond_last_error();
     if (young > 0) {
@@ -26,10 +28,11 @@ struct SmallWorld {
     frond_world world = {};
     frond_model model = {};
     frond_plant plant = {};
-    explicit SmallWorld(const frond_plant_def& plant_def = frond_default_plant_def(), double young = 0) {
+    explicit SmallWorld(const frond_plant_def& plant_def = frond_default_plant_def(), double young = 0,
+                        frond_rest rest = FROND_REST_WITHOUT_GRAVITY) {
         const frond_world_def def = frond_default_world_def();
         EXPECT_EQ(frond_world_create(&def, &world), FROND_OK) << frond_last_error();
-        model = make_small_model(young);
+        model = make_small_model(young, rest);
         EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plant), FROND_OK) << frond_last_error();
     }
     ~SmallWorld() {

@@ -102,13 +102,22 @@ enum {
 /* What moves by itself. Every model has a chain and a cage; with these the cage moves and the chain follows. */
 #define FROND_MECHANICS(X)                                                                                   \
     X(TET_LINEAR, "tet_linear")             /* the paper's equation (1): right for small deflections only */ \
-    X(TET_COROTATIONAL, "tet_corotational") /* linear in each tet's own rotated frame: bends far */
+    X(TET_COROTATIONAL, "tet_corotational") /* linear in each tet's own rotated frame: bends far */          \
+    X(TET_NEOHOOKEAN, "tet_neohookean")     /* a rubber-like solid: right for large strains too */
 /* How a step in time is taken. */
-#define FROND_INTEGRATORS(X) X(IMPLICIT_EULER, "implicit_euler")
+#define FROND_INTEGRATORS(X)                                                                                  \
+    X(IMPLICIT_EULER, "implicit_euler")       /* the paper's: one solve, damps sway away within seconds */    \
+    X(BDF2, "bdf2")                           /* one solve, looks one step back: keeps sway, best per cost */ \
+    X(SDIRK2, "sdirk2")                       /* two solves */                                                \
+    X(TR_BDF2, "tr_bdf2")                     /* two solves */                                                \
+    X(GENERALIZED_ALPHA, "generalized_alpha") /* iterated to convergence; spectral_radius sets damping */     \
+    X(SYMPLECTIC_EULER, "symplectic_euler")   /* explicit: no solve, unstable but for tiny steps */
 /* How a linear system is solved. */
-#define FROND_LINEAR_SOLVERS(X)                                                                            \
-    X(DIRECT, "direct")         /* sparse LDLT, the symbolic part kept: exact and, for plants, quickest */ \
-    X(PCG_JACOBI, "pcg_jacobi") /* the paper's conjugate gradients, preconditioned by the diagonal */
+#define FROND_LINEAR_SOLVERS(X)                                                                                        \
+    X(DIRECT, "direct")                     /* sparse LDLT, the symbolic part kept: exact and, for plants, quickest */ \
+    X(PCG_JACOBI, "pcg_jacobi")             /* the paper's conjugate gradients, preconditioned by the diagonal */      \
+    X(PCG_BLOCK_JACOBI, "pcg_block_jacobi") /* by the 3x3 blocks of the diagonal */                                    \
+    X(PCG_INCOMPLETE_CHOLESKY, "pcg_incomplete_cholesky") /* by factors without fill: fewest iterations */
 /* How the mass of a tet is given to its nodes. */
 #define FROND_MASSES(X) X(LUMPED, "lumped") X(CONSISTENT, "consistent")
 
@@ -313,7 +322,7 @@ typedef struct frond_plant_def {
     frond_vec3 position;               /* of the model's origin [m] */
     frond_quat rotation;               /* need not have length one; default identity */
     frond_mechanics mechanics;         /* default FROND_TET_COROTATIONAL */
-    frond_integrator integrator;       /* default FROND_IMPLICIT_EULER */
+    frond_integrator integrator;       /* default FROND_BDF2 */
     frond_linear_solver linear_solver; /* default FROND_DIRECT */
     frond_mass mass;                   /* default FROND_LUMPED */
     int newton_iterations;             /* solves per step at most, 1..100, default 1 */
@@ -322,6 +331,8 @@ typedef struct frond_plant_def {
     double tolerance;         /* of an iterative linear solver, relative residual [-], default 1e-6 */
     double mass_damping;      /* Rayleigh: D = mass_damping M + stiffness_damping K [1/s], default 0.1 */
     double stiffness_damping; /* [s], default 0.002 */
+    double spectral_radius;   /* of FROND_GENERALIZED_ALPHA at infinite frequency, 0..1 [-], default 0.8: 1 damps
+                               * nothing, 0 most */
     double root_height;       /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
                                * from the shape; negative pins none */
     frond_effects effects;    /* default FROND_ALL_EFFECTS */

@@ -42,6 +42,8 @@ struct Mechanics {
     // Both of the above in one pass over the elements, the stiffness with scale one.
     int (*add_force_and_stiffness)(const TetElements& elements, const VecX& x, Tangent tangent, VecX& f,
                                    BlockMatrix& K);
+    // One solve alone may blow up where tets are inside out: go on from there with a line search.
+    bool needs_search;
 };
 const Mechanics& mechanics(frond_mechanics which);
 

@@ -13,6 +13,7 @@ namespace frond {
 
 FROND_MECHANICS_ROW(tet_linear)
 FROND_MECHANICS_ROW(tet_corotational)
+FROND_MECHANICS_ROW(tet_neohookean)
 #undef FROND_MECHANICS_ROW
 
 }  // namespace frond

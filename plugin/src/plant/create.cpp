@@ -40,6 +40,7 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     plant->settings.tolerance = def.tolerance;
     plant->settings.mass_damping = def.mass_damping;
     plant->settings.stiffness_damping = def.stiffness_damping;
+    plant->settings.spectral_radius = def.spectral_radius;
     plant->effects = def.effects;
     plant->position = Vec3(def.position.x, def.position.y, def.position.z);
     plant->rotation = Quat(def.rotation.w, def.rotation.x, def.rotation.y, def.rotation.z).normalized();

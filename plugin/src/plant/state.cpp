@@ -25,6 +25,7 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
         if (velocities) point(motion.v, i) = to_model * Vec3(velocities + 3 * i);
     }
     if (positions) motion.pin_target = motion.x;
+    motion.history.valid = false;
     update_chain(plant);
     plant.surface_stale = true;
 }

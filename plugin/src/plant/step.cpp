@@ -25,7 +25,8 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
 }
 
 static bool is_sound(const Motion& motion, double size) {
-    const double far_away = 1e4 * size;
+    constexpr double FARTHEST = 100;  // a plant stretched to so many times its size has run away [-]
+    const double far_away = FARTHEST * size;
     return motion.x.allFinite() && motion.v.allFinite() && motion.x.cwiseAbs().maxCoeff() < far_away;
 }
 
@@ -52,6 +53,7 @@ void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
     if (!plant.report.ok || !is_sound(motion, plant.model->surface.size())) {
         motion.x = plant.x_good;
         motion.v.setZero();
+        motion.history.valid = false;
         plant.trouble |= FROND_TROUBLE_REWOUND;
     }
     update_chain(plant);

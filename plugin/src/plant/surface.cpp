@@ -10,23 +10,33 @@ static Vec3 bound_point(const Model& model, const Embedding& embedding, size_t i
     return w[0] * point(x, tet[0]) + w[1] * point(x, tet[1]) + w[2] * point(x, tet[2]) + w[3] * point(x, tet[3]);
 }
 
-// Normals turn with the cofactor of the deformation gradient. One matrix a node, the volume-weighted mean over its
-// tets, is interpolated like the positions, so that shading stays smooth across tets and hard edges stay hard.
+static Mat3 edges_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    Mat3 edges;
+    edges.col(0) = b - a;
+    edges.col(1) = c - a;
+    edges.col(2) = d - a;
+    return edges;
+}
+
+// Normals turn with the cofactor of the deformation gradient F = E M^-1 from the modelled shape, M its edges and E
+// those of now. One matrix a node, the volume-weighted mean over its tets, is interpolated like the positions, so that
+// shading stays smooth across tets and hard edges stay hard. Times the volume det(M) / 6 the cofactor is cof(E) M^T
+// / 6.
 static void update_normals(Plant& plant) {
     const Model& model = *plant.model;
-    const TetElements& elements = elements_of(*plant.system);
+    const std::vector<Vec3>& modelled = model.cage.nodes;
     const VecX& x = plant.motion.x;
-    std::vector<Mat3> cofactor(model.cage.nodes.size(), Mat3::Zero());
-    for (size_t e = 0; e < elements.ordered.size(); e++) {
-        const Tet& tet = elements.ordered[e];
-        Mat3 edges;
-        for (int k = 0; k < 3; k++) edges.col(k) = point(x, tet[size_t(k) + 1]) - point(x, tet[0]);
-        const Mat3 F = edges * elements.rest_inverse[e];
+    std::vector<Mat3> cofactor(modelled.size(), Mat3::Zero());
+    for (const Tet& tet : model.cage.tets) {
+        const Mat3 M = edges_of(modelled[size_t(tet[0])], modelled[size_t(tet[1])], modelled[size_t(tet[2])],
+                                modelled[size_t(tet[3])]);
+        const Mat3 E = edges_of(point(x, tet[0]), point(x, tet[1]), point(x, tet[2]), point(x, tet[3]));
         Mat3 C;
-        C.col(0) = F.col(1).cross(F.col(2));
-        C.col(1) = F.col(2).cross(F.col(0));
-        C.col(2) = F.col(0).cross(F.col(1));
-        for (int corner : tet) cofactor[size_t(corner)] += elements.volume[e] * C;
+        C.col(0) = E.col(1).cross(E.col(2));
+        C.col(1) = E.col(2).cross(E.col(0));
+        C.col(2) = E.col(0).cross(E.col(1));
+        const Mat3 weighted = C * M.transpose();
+        for (int corner : tet) cofactor[size_t(corner)] += weighted;
     }
     const Mat3 turn = plant.rotation.toRotationMatrix();
     for (Mat3& C : cofactor) C = turn * C;

@@ -13,24 +13,41 @@ struct StepInput {
     double h;              // [s]
 };
 
-// One implicit stage: the v for which M (v - v_base) = step * (forces at x - D v), x = x_base + step * v.
+// One implicit stage: the v for which M (v - v_base) = step * (forces at x - D v) + impulse, x = x_base + step * v.
 struct Stage {
     const VecX& x_base;
     const VecX& v_base;
-    double step;  // [s]
+    double step;                    // [s]
+    const VecX& x_from;             // where the first solve takes forces and stiffness [m]
+    const VecX* impulse = nullptr;  // [N s]
+    int iterations = 0;             // of Newton at most; 0: as the settings say
 };
 
-// Leaves the stage's solution in workspace.x and .v; pinned nodes get to their targets. False if it cannot be solved.
+// Leaves the stage's solution in workspace.x and .v; held nodes keep the velocity of workspace.v_start. False if it
+// cannot be solved.
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report);
+
+// Whether a guess of where a plant will be is near enough to be used.
+bool is_calm(const System& system, const VecX& from, const VecX& to);
+
+// Forces and damping at the start of the step [N], into workspace.force.
+void force_at_start(Workspace& workspace, const StepInput& input, SolveReport& report);
 
 struct Integrator {
     const char* name;
     // Leaves the end of the step in workspace.x and .v.
     bool (*step)(Workspace& workspace, const StepInput& input, SolveReport& report);
+    bool looks_back;   // uses and needs the motion's history
+    bool is_explicit;  // stable only for steps below about two over the highest frequency
 };
 const Integrator& integrator(frond_integrator which);
 
 // The rows.
 bool step_implicit_euler(Workspace& workspace, const StepInput& input, SolveReport& report);
+bool step_bdf2(Workspace& workspace, const StepInput& input, SolveReport& report);
+bool step_sdirk2(Workspace& workspace, const StepInput& input, SolveReport& report);
+bool step_tr_bdf2(Workspace& workspace, const StepInput& input, SolveReport& report);
+bool step_generalized_alpha(Workspace& workspace, const StepInput& input, SolveReport& report);
+bool step_symplectic_euler(Workspace& workspace, const StepInput& input, SolveReport& report);
 
 }  // namespace frond

@@ -23,6 +23,8 @@ struct LinearResult {
 struct LinearScratch {
     DirectFactorPtr factor;
     VecX product, residual, direction, preconditioned, inverse_diagonal;
+    std::vector<double> inverse_blocks;  // of the diagonal, 9 a node
+    std::vector<double> incomplete;      // factor on the matrix's own pattern, 9 a block
 };
 
 struct LinearSolver {
@@ -35,6 +37,9 @@ const LinearSolver& linear_solver(frond_linear_solver which);
 // The rows.
 LinearResult solve_direct(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
+LinearResult solve_pcg_block_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
+LinearResult solve_pcg_incomplete_cholesky(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&,
+                                           VecX& x);
 
 // |b - A x| / |b|; leaves b - A x in `residual`. Zero for b = 0 and x = 0.
 double relative_residual(const BlockMatrix& A, const VecX& b, const VecX& x, VecX& residual);

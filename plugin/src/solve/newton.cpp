@@ -7,6 +7,7 @@
 //
 // D = mass_damping M + stiffness_damping K, K being the positive stiffness at the start of the step: it never feeds
 // energy and does not resist turning as a whole.
+#include <algorithm>
 #include <cmath>
 
 #include "core/timer.hpp"
@@ -25,7 +26,9 @@ struct Newton {
     const System& system;
     const Mechanics& body;
     double rayleigh;    // stiffness_damping [s]
+    int iterations;     // at most
     bool keep_damping;  // the stiffness of the damping is needed again after the first solve
+    bool skipped;       // the first solve was left to the line search
 };
 
 // Where the stage ends with velocities v.
@@ -33,12 +36,13 @@ void move(const Newton& n, const VecX& v) {
     n.w.x = n.stage.x_base + n.stage.step * v;
 }
 
-// Everything of the residual that does not come from K: what is left of step * f - M (v - v_base) - step * a M v.
+// Everything of the residual that does not come from K: step * f + impulse - M (v - v_base) - step * a M v.
 void start_residual(const Newton& n, const VecX& v, VecX& rhs) {
     const double step = n.stage.step;
     rhs = n.w.external + n.w.elastic;
     add_spring_force(n.system, n.input.loads.springs, n.w.x, rhs);
     rhs *= step;
+    if (n.stage.impulse) rhs += *n.stage.impulse;
     n.w.dv = n.stage.v_base - (1 + step * n.input.settings.mass_damping) * v;
     multiply_mass(n.system, n.w.dv, n.w.momentum);
     rhs += n.w.momentum;
@@ -52,17 +56,23 @@ double free_norm(const Newton& n, const VecX& rhs) {
     return std::sqrt(sum);
 }
 
-// Force and stiffness at the start of the step, extrapolated to its end with the velocities known so far.
+// Force and stiffness at x_from, extrapolated to the end of the stage with the velocities known so far.
 void linearize_at_start(Newton& n) {
     Workspace& w = n.w;
-    const VecX& x = n.input.motion.x;
-    w.elastic.setZero(x.size());
-    w.A.set_zero();
-    n.report.inverted = n.body.add_force_and_stiffness(n.system.elements, x, Tangent::positive, w.elastic, w.A);
-    move(n, w.v);
-    start_residual(n, w.v, w.rhs);
-    w.dv = w.x - x + n.rayleigh * w.v;
+    const auto assemble = [&](const VecX& x) {
+        w.elastic.setZero(x.size());
+        w.A.set_zero();
+        n.report.inverted = n.body.add_force_and_stiffness(n.system.elements, x, Tangent::positive, w.elastic, w.A);
+        move(n, w.v);
+        w.dv = w.x - x;
+    };
+    // A wild guess is worse than none.
+    const VecX& start = n.input.motion.x;
+    const bool calm = &n.stage.x_from == &start || is_calm(n.system, start, n.stage.x_from);
+    assemble(calm ? n.stage.x_from : start);
+    w.dv += n.rayleigh * w.v;
     w.A.multiply(w.dv, w.product);
+    start_residual(n, w.v, w.rhs);
     w.rhs -= n.stage.step * w.product;
     if (n.keep_damping) w.damping = w.A;
 }
@@ -93,6 +103,7 @@ double potential_at(const Newton& n, const VecX& v) {
     potential += 0.5 * w.dv.dot(w.momentum);
     multiply_mass(n.system, v, w.momentum);
     potential += 0.5 * step * a * v.dot(w.momentum);
+    if (n.stage.impulse) potential -= n.stage.impulse->dot(v);
     if (n.keep_damping) {
         w.damping.multiply(v, w.product);
         potential += 0.5 * step * n.rayleigh * v.dot(w.product);
@@ -115,30 +126,15 @@ void form_matrix(Newton& n, bool first) {
     add_spring_stiffness(n.system, n.input.loads.springs, step * step, A);
 }
 
-// What held nodes have still to change [m/s]: pinned ones reach their targets at the end of the stage.
-void set_held_change(Newton& n) {
-    const Motion& motion = n.input.motion;
-    n.w.held_dv.setZero(n.w.v.size());
-    for (size_t i = 0; i < motion.pinned.size(); ++i)
-        if (motion.pinned[i])
-            point(n.w.held_dv, int(i)) =
-                (point(motion.pin_target, int(i)) - point(n.stage.x_base, int(i))) / n.stage.step -
-                point(n.w.v, int(i));
-}
-
-// Rows and columns of held nodes become the identity, so that the pattern stays; their dv moves to the right side.
+// Rows and columns of held nodes become the identity, so that the pattern stays: their velocities are known already.
 void hold(Newton& n) {
     Workspace& w = n.w;
     const BlockPattern& pattern = *w.A.pattern;
-    set_held_change(n);
     for (int j = 0; j < pattern.node_count; ++j)
         for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
             const int i = pattern.row[size_t(k)];
-            const bool i_held = w.held[size_t(i)], j_held = w.held[size_t(j)];
-            if (!i_held && !j_held) continue;
+            if (!w.held[size_t(i)] && !w.held[size_t(j)]) continue;
             auto block = w.A.block(k);
-            if (!i_held) point(w.rhs, i) -= block * point(w.held_dv, j);
-            if (!j_held) point(w.rhs, j) -= block.transpose() * point(w.held_dv, i);
             block.setZero();
             if (i == j) block.setIdentity();
         }
@@ -146,7 +142,7 @@ void hold(Newton& n) {
         if (w.held[size_t(i)]) point(w.rhs, i).setZero();
 }
 
-// dv from the matrix in A and the right side, and as given for held nodes.
+// dv from the matrix in A and the right side.
 bool solve_linear(Newton& n) {
     const SolveSettings& s = n.input.settings;
     const LinearResult result =
@@ -154,7 +150,6 @@ bool solve_linear(Newton& n) {
     n.report.iterations += result.iterations;
     n.report.residual = result.residual;
     n.report.converged = result.converged;
-    if (result.ok) n.w.dv += n.w.held_dv;
     return result.ok;
 }
 
@@ -208,8 +203,16 @@ bool search_line(Newton& n, VecX& rhs, double& norm) {
 
 // The first solve, which is all there is with one iteration. Returns the norm of its right side, negative on failure.
 double solve_first(Newton& n) {
+    constexpr int SEARCHED_ITERATIONS = 20;
     Timer timer;
     linearize_at_start(n);
+    if (n.body.needs_search && n.report.inverted > 0) {
+        n.iterations = std::max(n.iterations, SEARCHED_ITERATIONS);
+        n.skipped = true;
+        const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
+        n.report.ms_assembly += timer.lap();
+        return std::isfinite(norm) ? norm : -1;
+    }
     form_matrix(n, true);
     hold(n);
     const double norm = free_norm(n, n.w.rhs);
@@ -228,7 +231,7 @@ constexpr double TINY = 1e-11;
 bool iterate(Newton& n, double first) {
     const SolveSettings& s = n.input.settings;
     Workspace& w = n.w;
-    double change = w.dv.cwiseAbs().maxCoeff() * n.stage.step;
+    double change = n.skipped ? INFINITY : w.dv.cwiseAbs().maxCoeff() * n.stage.step;
     Timer timer;
     VecX& rhs = w.rhs_stage;
     double norm = residual_at(n, w.v, rhs);
@@ -236,7 +239,7 @@ bool iterate(Newton& n, double first) {
     Tangent tangent = Tangent::exact;
     for (int iteration = 1;; ++iteration) {
         n.report.converged = norm <= s.newton_tolerance * first || change <= TINY * n.system.size;
-        if (n.report.converged || iteration == s.newton_iterations) return std::isfinite(norm);
+        if (n.report.converged || iteration == n.iterations) return std::isfinite(norm);
         if (!find_direction(n, tangent, rhs)) return false;
         timer.lap();
         change = w.dv.cwiseAbs().maxCoeff() * n.stage.step;
@@ -254,14 +257,24 @@ bool iterate(Newton& n, double first) {
 }  // namespace
 
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report) {
-    const bool several = input.settings.newton_iterations > 1;
+    const int iterations = stage.iterations > 0 ? stage.iterations : input.settings.newton_iterations;
     const double b = input.settings.stiffness_damping;
-    Newton n = {workspace, input,           stage, report, *workspace.system, mechanics(input.settings.mechanics),
-                b,         several && b > 0};
-    workspace.v = input.motion.v;
+    Newton n = {workspace,
+                input,
+                stage,
+                report,
+                *workspace.system,
+                mechanics(input.settings.mechanics),
+                b,
+                iterations,
+                b > 0 && (iterations > 1 || mechanics(input.settings.mechanics).needs_search),
+                false};
+    workspace.v = workspace.v_start;
+    const bool converged_before = report.converged;
     const double first = solve_first(n);
     if (first < 0) return false;
-    if (several && !iterate(n, first)) return false;
+    if (n.iterations > 1 && !iterate(n, first)) return false;
+    report.converged &= converged_before;
     move(n, workspace.v);
     return true;
 }

@@ -1,32 +1,20 @@
-// In: a symmetric positive definite matrix of 3x3 blocks. Out: solutions by conjugate gradients, preconditioned by the
-// diagonal, as in section 3.2 of the paper (Hestenes, Stiefel 1952; Saad 2003, "Iterative methods", algorithm 9.1).
+// In: a symmetric positive definite matrix of 3x3 blocks and a preconditioner. Out: solutions by conjugate gradients,
+// as in section 3.2 of the paper (Hestenes, Stiefel 1952; Saad 2003, "Iterative methods", algorithm 9.1).
 #include <cmath>
 
-#include "solve/linear_solver.hpp"
+#include "solve/preconditioner.hpp"
 
 namespace frond {
 
 namespace {
 
-// False if a number of the diagonal is not above zero.
-bool invert_diagonal(const BlockMatrix& A, VecX& inverse) {
-    const BlockPattern& pattern = *A.pattern;
-    inverse.resize(3 * pattern.node_count);
-    for (int j = 0; j < pattern.node_count; ++j)
-        for (int c = 0; c < 3; ++c) {
-            const double d = A.values[9 * size_t(pattern.start[size_t(j)]) + size_t(4 * c)];
-            if (!(d > 0) || !std::isfinite(d)) return false;
-            inverse[3 * j + c] = 1 / d;
-        }
-    return true;
-}
-
 enum class Outcome { small, limit, broken };
 
 // From x with residual r = b - A x until |r| is at most `goal`, going by the recurrence for r.
-Outcome iterate(const BlockMatrix& A, double goal, int max_iterations, LinearScratch& s, VecX& x, int& iterations) {
+Outcome iterate(const Preconditioner& preconditioner, const BlockMatrix& A, double goal, int max_iterations,
+                LinearScratch& s, VecX& x, int& iterations) {
     VecX &r = s.residual, &z = s.preconditioned, &p = s.direction, &q = s.product;
-    z = s.inverse_diagonal.cwiseProduct(r);
+    preconditioner.apply(A, s, r, z);
     p = z;
     double rz = r.dot(z);
     while (iterations < max_iterations) {
@@ -38,7 +26,7 @@ Outcome iterate(const BlockMatrix& A, double goal, int max_iterations, LinearScr
         r -= alpha * q;
         ++iterations;
         if (r.norm() <= goal) return Outcome::small;
-        z = s.inverse_diagonal.cwiseProduct(r);
+        preconditioner.apply(A, s, r, z);
         const double rz_next = r.dot(z);
         p = z + (rz_next / rz) * p;
         rz = rz_next;
@@ -48,12 +36,12 @@ Outcome iterate(const BlockMatrix& A, double goal, int max_iterations, LinearScr
 
 }  // namespace
 
-LinearResult solve_pcg_jacobi(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& s,
-                              VecX& x) {
+LinearResult solve_pcg(const Preconditioner& preconditioner, const BlockMatrix& A, const VecX& b,
+                       const LinearLimits& limits, LinearScratch& s, VecX& x) {
     LinearResult result;
     x.setZero(b.size());
     const double size = b.norm();
-    if (!invert_diagonal(A, s.inverse_diagonal) || !std::isfinite(size)) return result;
+    if (!preconditioner.make(A, s) || !std::isfinite(size)) return result;
     result.ok = true;
     s.residual = b;
     result.residual = size > 0 ? 1 : 0;
@@ -62,7 +50,8 @@ LinearResult solve_pcg_jacobi(const BlockMatrix& A, const VecX& b, const LinearL
     // The recurrence drifts from the true residual, so start again from the true one as long as that helps.
     while (!result.converged && result.iterations < limits.max_iterations) {
         const double before = result.residual;
-        const Outcome outcome = iterate(A, limits.tolerance * size, limits.max_iterations, s, x, result.iterations);
+        const Outcome outcome =
+            iterate(preconditioner, A, limits.tolerance * size, limits.max_iterations, s, x, result.iterations);
         result.residual = relative_residual(A, b, x, s.residual);
         result.converged = result.residual <= limits.tolerance;
         if (outcome == Outcome::broken) result.ok = result.converged;

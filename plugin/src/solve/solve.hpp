@@ -29,6 +29,19 @@ struct SolveSettings {
     int newton_iterations, max_iterations;
     double newton_tolerance, tolerance;
     double mass_damping, stiffness_damping;  // zero when the damping effect is off [1/s], [s]
+    double spectral_radius = 0.8;            // of generalized_alpha at infinite frequency, 0..1 [-]
+};
+
+// What a method that looks back keeps of its last step. It holds only for the motion that this step left: where
+// anything else moved a node since, or the integrator or the time step changed, the method starts anew.
+struct History {
+    bool valid = false;
+    frond_integrator integrator = FROND_IMPLICIT_EULER;
+    double h = 0;       // of the last step [s]
+    VecX x_end, v_end;  // what that step left [m], [m/s]
+    std::vector<uint8_t> pinned;
+    VecX x_prev, v_prev;  // what it started from: bdf2
+    VecX x_rate, v_rate;  // rates at its end [m/s], [m/s^2]: generalized_alpha
 };
 
 // Everything of a plant that a step changes. Nodes in the frame of the rest positions.
@@ -36,6 +49,7 @@ struct Motion {
     VecX x, v;                    // node_count*3 [m], [m/s]
     std::vector<uint8_t> pinned;  // node_count
     VecX pin_target;              // where pinned nodes are at the end of the step, node_count*3 [m]
+    History history;              // set valid = false after putting x or v to a state of another time
 };
 
 // What acts during a step, gathered by the effects.

@@ -22,20 +22,61 @@ bool input_is_sound(const System& system, const StepInput& input) {
     if (motion.x.size() != n || motion.v.size() != n || input.loads.force.size() != n) return false;
     if (!motion.pinned.empty() && (motion.pinned.size() * 3 != size_t(n) || motion.pin_target.size() != n))
         return false;
+    if (!(s.spectral_radius >= 0 && s.spectral_radius <= 1)) return false;
     return motion.x.allFinite() && motion.v.allFinite() && input.loads.force.allFinite() &&
            input.loads.gravity.allFinite() && springs_are_sound(system, input.loads.springs);
 }
 
-// What does not change during a step: which nodes are held, and the forces that do not depend on the motion.
+// What does not change during a step: which nodes are held and how they move, and the forces that do not depend on the
+// motion.
 void prepare(Workspace& workspace, const StepInput& input) {
     const System& system = *workspace.system;
+    const Motion& motion = input.motion;
     workspace.held = system.loose;
     workspace.external = input.loads.force;
+    workspace.v_start = motion.v;
     for (int i = 0; i < system.elements.node_count; ++i) {
-        if (!input.motion.pinned.empty() && input.motion.pinned[size_t(i)]) workspace.held[size_t(i)] = 1;
+        if (!motion.pinned.empty() && motion.pinned[size_t(i)]) {
+            workspace.held[size_t(i)] = 1;
+            point(workspace.v_start, i) = (point(motion.pin_target, i) - point(motion.x, i)) / input.h;
+        }
         // The rows of either mass matrix add up to the lumped mass.
         point(workspace.external, i) += system.node_mass[i] * input.loads.gravity;
     }
+}
+
+// A method that looks back may do so only from the state that it left itself, and not over a jump of the time step.
+bool history_holds(const StepInput& input) {
+    constexpr double LARGEST_RATIO = 2;  // bdf2 is stable up to 1 + sqrt 2
+    const History& history = input.motion.history;
+    return history.valid && history.integrator == input.settings.integrator && input.h <= LARGEST_RATIO * history.h &&
+           history.h <= LARGEST_RATIO * input.h && history.x_end.size() == input.motion.x.size() &&
+           history.pinned == input.motion.pinned && history.x_end == input.motion.x && history.v_end == input.motion.v;
+}
+
+// Pinned nodes are where they were told to be, to the last bit, with the velocity that took them there.
+void finish_pins(Workspace& workspace, const Motion& motion) {
+    for (size_t i = 0; i < motion.pinned.size(); ++i)
+        if (motion.pinned[i]) {
+            point(workspace.x, int(i)) = point(motion.pin_target, int(i));
+            point(workspace.v, int(i)) = point(workspace.v_start, int(i));
+        }
+}
+
+// The start of this step becomes the past of the next one.
+void keep_history(Workspace& workspace, const StepInput& input, Motion& motion) {
+    History& history = motion.history;
+    history.valid = integrator(input.settings.integrator).looks_back;
+    if (!history.valid) return;
+    history.integrator = input.settings.integrator;
+    history.h = input.h;
+    history.pinned = motion.pinned;
+    history.x_prev = motion.x;
+    history.v_prev = motion.v;
+    history.x_end = workspace.x;
+    history.v_end = workspace.v;
+    std::swap(history.x_rate, workspace.x_rate);
+    std::swap(history.v_rate, workspace.v_rate);
 }
 
 }  // namespace
@@ -46,12 +87,12 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     const StepInput input = {settings, loads, motion, h};
     if (!input_is_sound(*workspace.system, input)) return report;
     prepare(workspace, input);
-    if (!integrator(settings.integrator).step(workspace, input, report)) return report;
-
-    // Pinned nodes are where they were told to be, to the last bit.
-    for (size_t i = 0; i < motion.pinned.size(); ++i)
-        if (motion.pinned[i]) point(workspace.x, int(i)) = point(motion.pin_target, int(i));
+    const Integrator& method = integrator(settings.integrator);
+    motion.history.valid = method.looks_back && history_holds(input);
+    if (!method.step(workspace, input, report)) return report;
+    finish_pins(workspace, motion);
     if (!workspace.x.allFinite() || !workspace.v.allFinite()) return report;
+    keep_history(workspace, input, motion);
     motion.x = workspace.x;
     motion.v = workspace.v;
     report.ok = true;

@@ -16,8 +16,13 @@ struct Workspace {
     VecX external;                       // forces that do not depend on the motion [N]
     VecX elastic;                        // force of the mechanics [N]
     VecX momentum, product;              // M v and K v
-    VecX rhs, dv, held_dv;               // of the linear system
+    VecX rhs, dv;                        // of the linear system
     VecX x, v;                           // at the end of the stage: positions and velocities [m], [m/s]
+    VecX v_start;                        // of the step; held nodes have the velocity that takes them to their targets
+    VecX x_prev, v_prev;                 // of the step before, held nodes likewise
+    VecX x_rate, v_rate;                 // rates at the end of the step, for the next one
+    VecX x_base, v_base, x_from;         // of the stage
+    VecX force, impulse;                 // at the start of the step [N], [N s]
     VecX rhs_stage;                      // residual at v
     VecX direction, v_trial, rhs_trial;  // of a line search
 };

@@ -1,0 +1,31 @@
+// In: a plant's motion at the start of a step and what acts on it. Out: all forces on it, damping included.
+#include "core/timer.hpp"
+#include "solve/integrator.hpp"
+#include "solve/springs.hpp"
+
+namespace frond {
+
+void force_at_start(Workspace& w, const StepInput& input, SolveReport& report) {
+    Timer timer;
+    const System& system = *w.system;
+    const Mechanics& body = mechanics(input.settings.mechanics);
+    const VecX& x = input.motion.x;
+    const double b = input.settings.stiffness_damping;
+    w.force = w.external;
+    add_spring_force(system, input.loads.springs, x, w.force);
+
+    // D = a M + b K, the positive K as in a stage.
+    if (b > 0) {
+        w.A.set_zero();
+        report.inverted = body.add_force_and_stiffness(system.elements, x, Tangent::positive, w.force, w.A);
+        w.A.multiply(w.v_start, w.product);
+        w.force -= b * w.product;
+    } else {
+        report.inverted = body.add_force(system.elements, x, w.force);
+    }
+    multiply_mass(system, w.v_start, w.momentum);
+    w.force -= input.settings.mass_damping * w.momentum;
+    report.ms_assembly += timer.lap();
+}
+
+}  // namespace frond

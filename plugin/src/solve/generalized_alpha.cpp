@@ -1,0 +1,62 @@
+// Generalized-alpha in the form for equations of first order (Jansen, Whiting, Hulbert 2000), which on structures keeps
+// its second order in velocity too and does not overshoot (Kadapa, Dettmer, Peric 2017). With y = (x, v), rates r:
+//   r_m = f(y_f),  r_m = r + m (r' - r),  y_f = y + a (y' - y),  y' = y + h (r + g (r' - r)),
+//   m = (3 - s) / (2 (1 + s)),  a = 1 / (1 + s),  g = 1/2 + m - a,
+// s the spectral radius at infinite frequency. Always solved to convergence: with one solve it blows up. The first
+// step, and each after something else moved the plant, is SDIRK2.
+#include <algorithm>
+#include <cmath>
+
+#include "solve/integrator.hpp"
+
+namespace frond {
+
+namespace {
+
+constexpr int LEAST_ITERATIONS = 30;
+
+// Rates at the end of a first step: the velocity, and what the second stage of SDIRK2 found.
+bool start(Workspace& w, const StepInput& input, SolveReport& report) {
+    if (!step_sdirk2(w, input, report)) return false;
+    const double step = input.h * (1 - std::sqrt(0.5));
+    w.x_rate = w.v;
+    w.v_rate = (w.v - w.v_base) / step;
+    return true;
+}
+
+}  // namespace
+
+bool step_generalized_alpha(Workspace& workspace, const StepInput& input, SolveReport& report) {
+    Workspace& w = workspace;
+    const History& history = input.motion.history;
+    if (!history.valid) return start(w, input, report);
+
+    // Held nodes move evenly, whatever they did before.
+    const VecX &x = input.motion.x, &v = w.v_start;
+    w.x_rate = history.x_rate;
+    w.v_rate = history.v_rate;
+    for (size_t i = 0; i < w.held.size(); ++i) {
+        if (!w.held[i]) continue;
+        point(w.x_rate, int(i)) = point(v, int(i));
+        point(w.v_rate, int(i)).setZero();
+    }
+
+    // The stage is at y_f.
+    const double s = input.settings.spectral_radius, h = input.h;
+    const double m = (3 - s) / (2 * (1 + s)), a = 1 / (1 + s), g = 0.5 + m - a;
+    const double step = a * g * h / m, old = a * h * (1 - g / m);
+    w.x_base = x + old * w.x_rate;
+    w.v_base = v + old * w.v_rate;
+    w.x_from = x + a * h * v;
+    const int iterations = std::max(LEAST_ITERATIONS, input.settings.newton_iterations);
+    if (!solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from, nullptr, iterations}, report)) return false;
+
+    // From there to the end of the step.
+    w.x_rate += (w.v - w.x_rate) / m;
+    w.v_rate += ((w.v - w.v_base) / step - w.v_rate) / m;
+    w.x = x + (w.x - x) / a;
+    w.v = v + (w.v - v) / a;
+    return true;
+}
+
+}  // namespace frond

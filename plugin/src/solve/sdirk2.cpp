@@ -1,0 +1,24 @@
+// SDIRK2 (Alexander 1977, "Diagonally implicit Runge-Kutta methods for stiff ODEs"): two implicit stages with
+// g = 1 - 1/sqrt 2, the second one at the end of the step; stable at any step (L-stable). Each stage has its own
+// factor.
+#include <cmath>
+
+#include "solve/integrator.hpp"
+
+namespace frond {
+
+bool step_sdirk2(Workspace& workspace, const StepInput& input, SolveReport& report) {
+    Workspace& w = workspace;
+    const VecX &x = input.motion.x, &v = w.v_start;
+    const double g = 1 - std::sqrt(0.5), step = g * input.h;
+    w.x_from = x + step * v;
+    if (!solve_stage(w, input, {x, v, step, w.x_from}, report)) return false;
+
+    // y2 = y + (1-g) h dy1/dt + g h dy2/dt, and dy1/dt = (y1 - y) / (g h).
+    w.x_base = x + ((1 - g) / g) * (w.x - x);
+    w.v_base = v + ((1 - g) / g) * (w.v - v);
+    w.x_from = w.x + (input.h - step) * w.v;
+    return solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from}, report);
+}
+
+}  // namespace frond

@@ -1,0 +1,52 @@
+// Symplectic Euler, explicit: M (v' - v) = h (f - D v), x' = x + h v'. Keeps the energy of slow motion well and costs
+// no factor, but is stable only below h = 2 / (highest frequency), which for a plant is some microseconds: it is here
+// to show that.
+#include "core/timer.hpp"
+#include "solve/integrator.hpp"
+
+namespace frond {
+
+namespace {
+
+// A consistent mass has a factor after all; held nodes are left out as in a stage.
+bool solve_mass(Workspace& w, const StepInput& input, SolveReport& report) {
+    const BlockPattern& pattern = w.system->elements.pattern;
+    w.A.set_zero();
+    for (int j = 0; j < pattern.node_count; ++j)
+        for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
+            const int i = pattern.row[size_t(k)];
+            const bool held = w.held[size_t(i)] || w.held[size_t(j)];
+            w.A.block(k).diagonal().setConstant(!held ? w.system->slot_mass[size_t(k)] : i == j ? 1.0 : 0.0);
+        }
+    const SolveSettings& s = input.settings;
+    const LinearResult result =
+        linear_solver(s.linear_solver).solve(w.A, w.force, {s.max_iterations, s.tolerance}, w.linear, w.dv);
+    report.iterations += result.iterations;
+    report.residual = result.residual;
+    report.converged = result.converged;
+    return result.ok;
+}
+
+}  // namespace
+
+bool step_symplectic_euler(Workspace& workspace, const StepInput& input, SolveReport& report) {
+    Workspace& w = workspace;
+    force_at_start(w, input, report);
+    for (size_t i = 0; i < w.held.size(); ++i)
+        if (w.held[i]) point(w.force, int(i)).setZero();
+
+    Timer timer;
+    if (w.system->lumped) {
+        w.dv = w.force;
+        for (size_t i = 0; i < w.held.size(); ++i)
+            if (!w.held[i]) point(w.dv, int(i)) /= w.system->node_mass[Eigen::Index(i)];
+    } else if (!w.force.allFinite() || !solve_mass(w, input, report)) {
+        return false;
+    }
+    report.ms_solve += timer.lap();
+    w.v = w.v_start + input.h * w.dv;
+    w.x = input.motion.x + input.h * w.v;
+    return true;
+}
+
+}  // namespace frond
