@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
     frond_film* film;
     char path[1024];
 
-    /* The plant, at the cage size with which the corn comes to the paper's counts. */
+    /* The plant. */
     check(frond_world_create(&world_def, &world));
     check(frond_model_load(argc > 1 ? argv[1] : "models/corn/corn.obj", &model_def, &model));
     check(frond_plant_create(world, model, &plant_def, &plant));
@@ -48,11 +48,11 @@ int main(int argc, char** argv) {
 
     /* The studio: a camera that sees the plant with room to move. */
     mkdir(folder, 0777);
-    picture_def.width = film_def.width = 960;
+    picture_def.width = film_def.width = 600;
     picture_def.height = film_def.height = 720;
     film_def.frames_per_second = 60.0 / STEPS_A_FRAME;
     info.upper.x += 0.2 * info.upper.y;
-    scene.camera = frond_picture_frame(info.lower, info.upper, scene.up, 0.3, 0.12, 960.0 / 720);
+    scene.camera = frond_picture_frame(info.lower, info.upper, scene.up, 0.3, 0.12, 600.0 / 720);
     check_picture(frond_picture_create(&picture_def, &picture));
     check_picture(frond_film_create(&film_def, &film));
 
@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     }
 
     snprintf(path, sizeof path, "%s/sheet.png", folder);
-    check_picture(frond_film_write_sheet(film, path, 4, 3));
+    check_picture(frond_film_write_sheet(film, path, 6, 2));
     snprintf(path, sizeof path, "%s/drag.webp", folder);
     check_picture(frond_film_write_webp(film, path));
     check(frond_plant_get_tip(plant, &tip));

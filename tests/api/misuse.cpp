@@ -108,7 +108,8 @@ TEST(Misuse, OfModelsIsRefused) {
     EXPECT_EQ(frond_model_from_triangles(xyz, 3, nullptr, 1, &def, &model), FROND_BAD_ARGUMENT);
     EXPECT_EQ(frond_model_from_triangles(xyz, -3, indices, 1, &def, &model), FROND_BAD_ARGUMENT);
     EXPECT_EQ(frond_model_from_triangles(xyz, 3, indices, 2000000000, &def, &model), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_model_from_triangles(xyz, 3, wild, 1, &def, &model), FROND_BAD_GEOMETRY);
+    EXPECT_EQ(frond_model_from_triangles(xyz, 3, wild, 1, &def, &model), FROND_BAD_ARGUMENT);
+    EXPECT_TRUE(error_names("300"));
     const float nan_xyz[] = {NAN, 0, 0, 1, 0, 0, 0, 1, 0}, point_xyz[9] = {};
     EXPECT_EQ(frond_model_from_triangles(nan_xyz, 3, indices, 1, &def, &model), FROND_BAD_GEOMETRY);
     EXPECT_EQ(frond_model_from_triangles(point_xyz, 3, indices, 1, &def, &model), FROND_BAD_GEOMETRY);
@@ -195,6 +196,8 @@ TEST(Misuse, OfPlantsIsRefused) {
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.mass_damping = -1; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.stiffness_damping = INFINITE; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.root_height = NOT_A_NUMBER; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.spectral_radius = 1.5; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.spectral_radius = NOT_A_NUMBER; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.effects = ~0u; }));
     def.cookie = 0;
     EXPECT_EQ(frond_plant_create(small.world, small.model, &def, &plant), FROND_BAD_DEF);

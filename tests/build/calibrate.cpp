@@ -35,9 +35,9 @@ TEST(Section, OfATubeIsTheSolidCircle) {
     const std::vector<Section> sections = measure_sections(model->surface, model->organs, model->chain);
     const double area = M_PI * r * r, inertia = M_PI * std::pow(r, 4) / 4;
     for (size_t i = 3; i + 3 < sections.size(); i++) {
-        EXPECT_NEAR(sections[i].area, area, 0.12 * area) << i;
-        EXPECT_NEAR(sections[i].inertia_thin, inertia, 0.25 * inertia) << i;
-        EXPECT_NEAR(sections[i].inertia_wide, inertia, 0.25 * inertia) << i;
+        EXPECT_NEAR(sections[i].area, area, 0.02 * area) << i;
+        EXPECT_NEAR(sections[i].inertia_thin, inertia, 0.03 * inertia) << i;
+        EXPECT_NEAR(sections[i].inertia_wide, inertia, 0.03 * inertia) << i;
     }
 }
 
@@ -65,8 +65,8 @@ TEST(Calibration, MakesAStemBendAsTheBeamFormulaSays) {
     for (double cell : {0.03, 0.06, 0.1}) {
         const auto model = upright_stem(length, radius, young, cell);
         for (int axis : {0, 2}) {
-            // The section comes from the polygon that the tube is drawn with, and the cage reaches past its ends.
-            EXPECT_NEAR(tip_deflection(*model, axis) / beam, 1, 0.3) << "cell " << cell << " axis " << axis;
+            // Own weight is what is calibrated, and the lattice is not equally stiff in all directions.
+            EXPECT_NEAR(tip_deflection(*model, axis) / beam, 1, 0.25) << "cell " << cell << " axis " << axis;
         }
     }
 }

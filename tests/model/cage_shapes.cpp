@@ -241,6 +241,22 @@ TEST(Cage, KnowsWhichOrganPasses) {
     }
 }
 
+TEST(Cage, LetsAStemGoOnThroughCellsThatAreFullOfLeaves) {
+    Surface surface;
+    add_tube(surface, {0, 0, 0}, 0.006, 1, 8, 40, true, 0);
+    const size_t of_stem = surface.positions.size();
+    for (int i = 0; i < 50; ++i)
+        add_sheet(
+            surface, 6, 6, [i](double s, double t) { return Vec3(0.2 * s - 0.1, 0.01 + 0.0195 * i, 0.2 * t - 0.1); },
+            1);
+    std::vector<Organ> organs = one_organ();
+    organs.push_back({"leaf", "blade", {900, 3e7, 0.3, 4e-4}});
+    const Made made = make(surface, {0.1, 0, 0.5}, organs);
+    size_t in_leaf = 0;
+    for (size_t v = 0; v < of_stem; ++v) in_leaf += made.cage.tet_organ[size_t(made.embedding.tet[v])] != 0;
+    EXPECT_LT(double(in_leaf), 0.2 * double(of_stem)) << "where area decides it is nearly all of them";
+}
+
 TEST(Cage, MakesOneBodyOfHundredsOfLooseCards) {
     Surface surface;
     add_tube(surface, {0, 0, 0}, 0.02, 2, 8, 20, false);

@@ -74,7 +74,7 @@ TEST(Clean, AbsurdVerticesLoseTheirTriangles) {
     clean_surface(surface);
     EXPECT_EQ(surface.triangles.size(), 2u);
     EXPECT_EQ(surface.dropped_triangles, 3);
-    EXPECT_EQ(surface.repaired_vertices, 3 + 4);
+    EXPECT_EQ(surface.repaired_vertices, 3) << "normals that nobody gave are not mended";
 }
 
 TEST(Clean, RefusesWhenNothingIsLeft) {

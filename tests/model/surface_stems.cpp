@@ -38,8 +38,8 @@ TEST(Stems, AreClosedTubesOfTheRightVolume) {
         EXPECT_EQ((edges.count({edge.second, edge.first})), 1u);
     }
     const double cone = pi * length * (a * a + a * b + b * b) / 3, caps = 2 * pi * (a * a * a + b * b * b) / 3;
-    // A polygon of ten sides has 0.935 of its circle's area.
-    EXPECT_NEAR(volume_of(surface, surface.parts[0]) / (cone + caps), 0.935, 0.02);
+    // A polygon of ten sides has 0.935 of its circle's area; its corners lie 1.033 radii out, so that it bends alike.
+    EXPECT_NEAR(volume_of(surface, surface.parts[0]) / (cone + caps), 0.935 * 1.033 * 1.033, 0.01);
 }
 
 TEST(Stems, EachIsAPartAndStaysWhereItWasPut) {

@@ -28,9 +28,8 @@ endforeach()
 
 foreach(package frond frond-float64)
     if(EXISTS ${prefix}/${LIBDIR}/pkgconfig/${package}.pc)
-        # The prefix of the .pc file is where the package was configured to go; here it was moved.
         set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
-        execute_process(COMMAND pkg-config --define-variable=prefix=${prefix} --cflags --libs ${package}
+        execute_process(COMMAND pkg-config --cflags --libs ${package}
                         OUTPUT_VARIABLE options OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
         separate_arguments(options UNIX_COMMAND "${options} ${flags}")
         run(${CXX} -std=c++17 ${SOURCE}/attach.cpp -o ${WORK}/pkg-${package} ${options})

@@ -79,7 +79,8 @@ TEST(Root, IsHeldAtTheFootAndNowhereElse) {
     EXPECT_GE(pinned, 4);
     frond_plant_def def = plant_def();
     def.root_height = -1;
-    for (uint8_t p : create_plant(small_model(), def)->motion.pinned) EXPECT_FALSE(p);
+    const auto loose = create_plant(small_model(), def);
+    for (uint8_t p : loose->motion.pinned) EXPECT_FALSE(p);
     def.root_height = 0.4;
     const auto half = create_plant(small_model(), def);
     for (size_t i = 0; i < half->motion.pinned.size(); i++)

@@ -22,6 +22,7 @@ static void step(frond_world world, int steps) {
 TEST(OwnWorld, AnUnpinnedPlantFallsFreely) {
     frond_plant_def def = frond_default_plant_def();
     def.root_height = -1;
+    def.integrator = FROND_IMPLICIT_EULER;
     def.effects = FROND_GRAVITY | FROND_SURFACE;
     def.position = {10, 5, -3};
     SmallWorld small(def);
@@ -47,16 +48,37 @@ TEST(OwnWorld, GravityOffMeansNoMotion) {
     for (size_t i = 0; i < before.size(); i++) EXPECT_NEAR(after[i], before[i], 1e-12);
 }
 
+TEST(OwnWorld, APlantStandsAsItWasModelledUnderGravity) {
+    for (int mechanics = 0; mechanics < FROND_MECHANICS_COUNT; mechanics++) {
+        frond_plant_def def = frond_default_plant_def();
+        def.mechanics = frond_mechanics(mechanics);
+        SmallWorld stands(def, 2e7, FROND_REST_STANDS_AS_MODELLED), droops(def, 2e7, FROND_REST_WITHOUT_GRAVITY);
+        const std::vector<double> modelled = positions_of(stands.plant);
+        double largest[2] = {0, 0};
+        for (SmallWorld* small : {&stands, &droops}) {
+            step(small->world, 300);
+            const std::vector<double> now = positions_of(small->plant);
+            double& move = largest[small == &droops];
+            for (size_t i = 0; i < now.size(); i++) move = std::max(move, std::abs(now[i] - modelled[i]));
+        }
+        EXPECT_LT(largest[0], 0.001 * 0.6) << frond_mechanics_name(def.mechanics);
+        EXPECT_GT(largest[1], 0.01 * 0.6) << frond_mechanics_name(def.mechanics);
+    }
+}
+
 TEST(OwnWorld, AMaskOnTheWorldSwitchesAnEffectOffForAllPlants) {
     SmallWorld small;
     ASSERT_EQ(frond_world_set_effects(small.world, FROND_SURFACE), FROND_OK);
     const std::vector<double> before = positions_of(small.plant);
     step(small.world, 5);
-    EXPECT_EQ(before, positions_of(small.plant));
+    const std::vector<double> after = positions_of(small.plant);
+    for (size_t i = 0; i < before.size(); i++) EXPECT_NEAR(after[i], before[i], 1e-12);
 }
 
 TEST(OwnWorld, AGrabbedPlantFollowsAndSwingsBackWhenLetGo) {
-    SmallWorld small(frond_default_plant_def(), 1e7);
+    frond_plant_def def = frond_default_plant_def();
+    def.integrator = FROND_IMPLICIT_EULER;  // its own damping brings the plant to rest in time
+    SmallWorld small(def, 1e7);
     step(small.world, 120);
     frond_vec3 tip, released;
     ASSERT_EQ(frond_plant_get_tip(small.plant, &tip), FROND_OK);
@@ -93,6 +115,7 @@ TEST(OwnWorld, APinnedNodeStaysAndCanBeMoved) {
 
 TEST(OwnWorld, AForceActsForOneStepOnly) {
     frond_plant_def def = frond_default_plant_def();
+    def.integrator = FROND_IMPLICIT_EULER;  // all of a step's momentum is there at its end
     def.root_height = -1;
     def.effects = FROND_USER_FORCE;
     SmallWorld small(def);
@@ -183,15 +206,17 @@ TEST(OwnWorld, TheSurfaceIsTheModelAtRestAndFiniteInMotion) {
 TEST(OwnWorld, AnAbsurdForceIsRewoundAndNeverShowsANaN) {
     SmallWorld small;
     step(small.world, 2);
+    uint32_t trouble = 0;
     for (int i = 0; i < 20; i++) {
         ASSERT_EQ(frond_plant_add_force(small.plant, i % frond_plant_get_node_count(small.plant), {1e9, 1e9, -1e9}),
                   FROND_OK);
         ASSERT_EQ(frond_world_step(small.world, 1.0 / 60), FROND_OK);
         for (double value : positions_of(small.plant)) ASSERT_TRUE(std::isfinite(value));
+        frond_report report;
+        ASSERT_EQ(frond_world_get_report(small.world, &report), FROND_OK);
+        trouble |= report.trouble;
     }
-    frond_report report;
-    ASSERT_EQ(frond_world_get_report(small.world, &report), FROND_OK);
-    EXPECT_TRUE(report.trouble & FROND_TROUBLE_REWOUND);
+    EXPECT_TRUE(trouble & FROND_TROUBLE_REWOUND);
 }
 
 TEST(OwnWorld, PlantsComeAndGoWhileItRuns) {

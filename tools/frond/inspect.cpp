@@ -51,7 +51,8 @@ nlohmann::ordered_json describe(const std::string& file, frond_model model) {
                    {"volume", info.volume},
                    {"contained", info.contained},
                    {"binding_error", info.binding_error},
-                   {"mass", info.mass}};
+                   {"mass", info.mass},
+                   {"stiffened", info.stiffened}};
     out["chain"] = {{"nodes", info.chain_node_count},
                     {"capsules", info.capsule_count},
                     {"roots", info.root_count},

@@ -126,6 +126,23 @@ private:
     frond_film* film = nullptr;
 };
 
+// The vertex that is highest at the start; it is followed, since another one may be the highest later.
+int tip_vertex(frond_plant plant) {
+    frond_surface_view view;
+    must(frond_plant_get_surface(plant, &view));
+    int highest = 0;
+    for (int i = 0; i < view.vertex_count; i++)
+        if (view.positions[3 * i + 1] > view.positions[3 * highest + 1]) highest = i;
+    return highest;
+}
+
+frond_vec3 vertex_place(frond_plant plant, int vertex) {
+    frond_surface_view view;
+    must(frond_plant_get_surface(plant, &view));
+    const float* p = view.positions + 3 * vertex;
+    return {p[0], p[1], p[2]};
+}
+
 void run(const RunOptions& options) {
     const Casting casting = cast(options.what);
     const Settings settings = settings_of(casting, options.assignments);
@@ -141,8 +158,8 @@ void run(const RunOptions& options) {
         film = std::make_unique<Film>(options.frames, options.view, 1 / (settings.dt * options.every));
 
     Record record;
-    must(frond_plant_get_tip(play.stage.plants[0], &record.tip_at_start));
-    record.tip = record.tip_at_start;
+    const int tip = tip_vertex(play.stage.plants[0]);
+    record.tip = record.tip_at_start = vertex_place(play.stage.plants[0], tip);
     record.reports.resize(1);
     Progress progress("step", steps);
     for (int i = 0; i < steps; i++) {
@@ -160,7 +177,7 @@ void run(const RunOptions& options) {
         record.reports.push_back(report);
         record.ms_surface.push_back(report.ms_surface);
         record.trouble |= report.trouble;
-        must(frond_plant_get_tip(play.stage.plants[0], &record.tip));
+        record.tip = vertex_place(play.stage.plants[0], tip);
         record.farthest = std::max(record.farthest, distance(record.tip, record.tip_at_start));
         progress.at(i + 1);
     }

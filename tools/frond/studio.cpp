@@ -34,7 +34,10 @@ const uint8_t* Studio::shoot(const Stage& stage) {
     const frond_vec3 upper = {stage.upper.x + margin, stage.upper.y + margin, stage.upper.z + margin};
     scene.camera =
         frond_picture_frame(lower, upper, {0, 1, 0}, view.azimuth, view.elevation, double(view.width) / view.height);
-    scene.ground_height = std::max(stage.lower.y, std::min(0.0, stage.upper.y));
+    // The ground is at zero for what reaches a little below it with its roots, else where the lowest point is.
+    constexpr double DEEPEST_ROOT = 0.15;
+    const double depth = -stage.lower.y, height = stage.upper.y - stage.lower.y;
+    scene.ground_height = depth > 0 && depth < DEEPEST_ROOT * height ? 0.0 : stage.lower.y;
     must(frond_picture_begin(picture, &scene));
 
     const auto wants = [&](const char* overlay) {

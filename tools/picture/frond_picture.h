@@ -1,16 +1,16 @@
 /* frond_picture.h - pictures of plants, drawn without a display. Compiles as C99 and as C++.
  *
- * A picture is a canvas with an OpenGL context of its own (EGL: no window system, no GPU needed). A frame is begun with a
- * camera and light, filled by draw calls in any order, and ended; then its pixels can be read, written or compared.
+ * A picture is a canvas with an OpenGL context of its own (EGL: no window system, no GPU needed). A frame is begun with
+ * a camera and light, filled by draw calls in any order, and ended; then its pixels can be read, written or compared.
  *
  * Units      metre, radian; pixel for the width of lines and the size of points.
  * Colours    linear RGBA in 0..1 where a frond_color is taken; vertex colours, textures and pixels are sRGB bytes.
  * Pixels     RGB, 3 bytes a pixel, rows from top to bottom without padding.
- * Errors     Functions that can fail return false; then frond_picture_last_error() says what was wrong and what to do, and
- *            out parameters are zeroed. Wrong input never aborts the program. Triangles with vertices that are not
- *            finite, are farther than FROND_PICTURE_FARTHEST from the origin or do not exist are left out.
- * Threads    Different pictures may be used from different threads, one picture by one thread at a time.
- * Sameness   The same calls give the same pixels on the same machine.
+ * Errors     Functions that can fail return false; then frond_picture_last_error() says what was wrong and what to do,
+ * and out parameters are zeroed. Wrong input never aborts the program. Triangles with vertices that are not finite, are
+ * farther than FROND_PICTURE_FARTHEST from the origin or do not exist are left out. Threads    Different pictures may
+ * be used from different threads, one picture by one thread at a time. Sameness   The same calls give the same pixels
+ * on the same machine.
  */
 #ifndef FROND_PICTURE_H
 #define FROND_PICTURE_H
@@ -46,7 +46,7 @@ typedef struct frond_picture_def {
     int width, height; /* 1..FROND_PICTURE_LARGEST, default 1280 x 720 */
     int samples;       /* of anti-aliasing, 1..16, default 4; fewer if OpenGL has fewer */
     int shadow_size;   /* of the sun's shadow map [pixel], 16..8192, default 2048 */
-    int sky_samples;   /* directions from which the sky's light comes, 0..32, default 12; 0 is quickest: no soft shade */
+    int sky_samples; /* directions from which the sky's light comes, 0..32, default 12; 0 is quickest: no soft shade */
     frond_picture_platform platform; /* default FROND_PICTURE_ANY; the environment variable FROND_PICTURE_PLATFORM
                                       * (surfaceless or device) overrides the default */
     uint32_t cookie;                 /* do not set */
@@ -78,11 +78,11 @@ typedef struct frond_picture_scene {
     frond_color sky;          /* light of the sky, default (0.78, 0.86, 0.98) */
     double exposure;          /* factor, 0..100, default 1 */
     frond_color background_top, background_horizon; /* as displayed */
-    bool ground;             /* default true */
-    double ground_height;    /* along up [m], default 0 */
-    frond_vec3 up;           /* normal of the ground, towards the sky; default (0, 1, 0) */
-    frond_color ground_color; /* as displayed where the sun shines */
-    uint32_t cookie;         /* do not set */
+    bool ground;                                    /* default true */
+    double ground_height;                           /* along up [m], default 0 */
+    frond_vec3 up;                                  /* normal of the ground, towards the sky; default (0, 1, 0) */
+    frond_color ground_color;                       /* as displayed where the sun shines */
+    uint32_t cookie;                                /* do not set */
 } frond_picture_scene;
 
 frond_picture_scene frond_default_picture_scene(void);
@@ -99,13 +99,14 @@ bool frond_picture_end(frond_picture* picture);
 /* The last finished frame, width*height*3. Borrowed until the next end or destroy. Null before the first. */
 const uint8_t* frond_picture_get_pixels(frond_picture* picture);
 bool frond_picture_write(frond_picture* picture, const char* png_path);
-/* Copies the last finished frame to a framebuffer of the caller's context (FROND_PICTURE_CURRENT only); 0 is the window. */
+/* Copies the last finished frame to a framebuffer of the caller's context (FROND_PICTURE_CURRENT only); 0 is the
+ * window. */
 bool frond_picture_present(frond_picture* picture, unsigned framebuffer, int width, int height);
 
 /* ---- things that have a surface ------------------------------------------------------------------------------ */
 
-/* bytes: of an image file (PNG, JPEG, BMP, TGA, WebP), decoded here. The same bytes give the same texture. Textures live
- * as long as the picture. out: for frond_picture_part.texture. */
+/* bytes: of an image file (PNG, JPEG, BMP, TGA, WebP), decoded here. The same bytes give the same texture. Textures
+ * live as long as the picture. out: for frond_picture_part.texture. */
 bool frond_picture_add_texture(frond_picture* picture, const uint8_t* bytes, size_t byte_count, int* out);
 
 /* A run of triangles of one look. */
@@ -141,7 +142,8 @@ bool frond_picture_draw_capsule(frond_picture* picture, frond_vec3 begin, frond_
 
 bool frond_picture_draw_line(frond_picture* picture, frond_vec3 begin, frond_vec3 end, double width, frond_color color);
 /* A line with a head at its end: a force. */
-bool frond_picture_draw_arrow(frond_picture* picture, frond_vec3 begin, frond_vec3 end, double width, frond_color color);
+bool frond_picture_draw_arrow(frond_picture* picture, frond_vec3 begin, frond_vec3 end, double width,
+                              frond_color color);
 /* A dot: a contact. size: diameter. */
 bool frond_picture_draw_point(frond_picture* picture, frond_vec3 point, double size, frond_color color);
 /* A cage: every edge as a line of `width` (0: none) in `line`, and the outer faces in `fill` (alpha 0: none).
@@ -160,8 +162,8 @@ enum {
     FROND_PICTURE_CAGE_FACES = 1 << 2, /* its outside, translucent */
     FROND_PICTURE_CAPSULES = 1 << 3    /* translucent */
 };
-/* A plant as it is now, with its model's colours and textures. what: bits of the above. A texture that cannot be decoded
- * is left away. */
+/* A plant as it is now, with its model's colours and textures. what: bits of the above. A texture that cannot be
+ * decoded is left away. */
 bool frond_picture_draw_plant(frond_picture* picture, frond_plant plant, frond_model model, uint32_t what);
 /* A red arrow from the held point to where it is pulled. */
 bool frond_picture_draw_grab(frond_picture* picture, frond_grab grab);
@@ -198,7 +200,8 @@ bool frond_film_write_webp(frond_film* film, const char* path);
 /* At most columns*rows frames, evenly spread from the first to the last. */
 bool frond_film_write_sheet(frond_film* film, const char* png_path, int columns, int rows);
 
-/* ---- comparison ---------------------------------------------------------------------------------------------------- */
+/* ---- comparison ----------------------------------------------------------------------------------------------------
+ */
 
 /* Colour differences are Delta E of CIE L*a*b*: 2.3 is just noticeable, 100 is black against white. Each picture is
  * softened a little and a shift of up to one pixel is forgiven, since edges fall a bit differently on every machine. */

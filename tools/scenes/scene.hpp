@@ -24,7 +24,7 @@ struct Settings {
     frond_plant_def plant = frond_default_plant_def();
     double dt = 1.0 / 60;        // [s]
     double pull = 0.2;           // how far the user drags, as a share of the plant's height [-]
-    double grab_stiffness = 60;  // [N/m]
+    double grab_stiffness = 60;  // [N/m]; 0: as stiff as it takes to move the plant
     struct OrganOverride {
         std::string organ, field;
         double value;
@@ -37,7 +37,7 @@ void apply_setting(Settings& settings, const std::string& assignment);
 std::string settings_help();
 
 // Cage cells with which the two models come to the paper's counts of nodes and tets [m].
-constexpr double PAPER_CORN_CELL = 0.1, PAPER_CUCUMBER_CELL = 0.175;
+constexpr double PAPER_CORN_CELL = 0.24, PAPER_CUCUMBER_CELL = 0.2;
 
 // What is on the stage while a scene runs.
 struct Stage {
@@ -50,6 +50,7 @@ struct Stage {
     frond_vec3 lower = {}, upper = {};  // box of all plants at the start [m]
     double time = 0;                    // [s]
     frond_vec3 drag_start = {};         // where the user took hold [m]
+    double drag_stiffness = 0;          // of the user's spring as it is now [N/m]
 
     explicit Stage(const Settings& settings);
     Stage(const Stage&) = delete;

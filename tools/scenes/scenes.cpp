@@ -22,6 +22,10 @@ void build_corn(Stage& stage) {
 void build_cucumber(Stage& stage) {
     stage.plant(stage.load(model_path("cucumber/cucumber.obj")), {0, 0, 0});
 }
+// A plant of any size and stiffness.
+void tug_defaults(Settings& settings) {
+    settings.grab_stiffness = 0;
+}
 void rest(Stage&) {}
 
 // ---- the user's drag ---------------------------------------------------------------------------------------------
@@ -50,6 +54,36 @@ frond_vec3 point_on_axis(frond_model model, double share) {
     return {chain.nodes[3 * best], chain.nodes[3 * best + 1], chain.nodes[3 * best + 2]};
 }
 
+// The plant's height; for one that creeps half its width [m].
+double reach_of(const Stage& stage) {
+    const frond_vec3 &a = stage.lower, &b = stage.upper;
+    return std::max({b.y - a.y, (b.x - a.x) / 2, (b.z - a.z) / 2});
+}
+
+// A spring that bears a few times the plant's weight when it is drawn out by the plant's height [N/m].
+double gentle_stiffness(const Stage& stage) {
+    constexpr double WEIGHTS = 3;
+    frond_model_info info;
+    must(frond_model_get_info(stage.plant_models[0], &info));
+    return std::max(WEIGHTS * 9.81 * info.mass / reach_of(stage), 1e-6);
+}
+
+void take_hold(Stage& stage, frond_vec3 point) {
+    for (frond_grab grab : stage.grabs) frond_grab_destroy(grab);
+    stage.grabs.resize(1);
+    must(frond_grab_create(stage.plants[0], point, stage.drag_stiffness, &stage.grabs[0]));
+}
+
+// Takes a stiffer spring as long as the plant follows less than half of the way.
+void pull_harder(Stage& stage, double way) {
+    constexpr double FOLLOWS = 0.5, HARDER = 1.3;
+    frond_vec3 at;
+    must(frond_grab_get(stage.grabs[0], &at, nullptr, nullptr));
+    if (way < 0.01 * reach_of(stage) || at.x - stage.drag_start.x > FOLLOWS * way) return;
+    stage.drag_stiffness *= HARDER;
+    take_hold(stage, at);
+}
+
 constexpr double GRAB_AT = 0.5, PULLED_AT = 1.5, LET_GO_AT = 2.0;  // [s]
 
 // Takes the axis at three quarters of the height, draws it aside, holds it and lets it go.
@@ -63,15 +97,15 @@ void drag(Stage& stage) {
     }
     if (t < GRAB_AT - half_step) return;
     if (stage.grabs.empty()) {
-        frond_grab grab;
-        must(frond_grab_create(stage.plants[0], point_on_axis(stage.plant_models[0], 0.75),
-                               stage.settings.grab_stiffness, &grab));
-        stage.grabs.push_back(grab);
-        must(frond_grab_get(grab, nullptr, &stage.drag_start, nullptr));
+        const double given = stage.settings.grab_stiffness;
+        stage.drag_stiffness = given > 0 ? given : gentle_stiffness(stage);
+        take_hold(stage, point_on_axis(stage.plant_models[0], 0.75));
+        must(frond_grab_get(stage.grabs[0], nullptr, &stage.drag_start, nullptr));
     }
     const double s = std::clamp((t - GRAB_AT) / (PULLED_AT - GRAB_AT), 0.0, 1.0), eased = s * s * (3 - 2 * s);
-    const double way = stage.settings.pull * (stage.upper.y - stage.lower.y) * eased;
+    const double way = stage.settings.pull * reach_of(stage) * eased;
     const frond_vec3& from = stage.drag_start;
+    if (stage.settings.grab_stiffness == 0 && s < 1) pull_harder(stage, way);
     must(frond_grab_move(stage.grabs[0], {from.x + way, from.y - 0.3 * way, from.z}));
 }
 
@@ -83,7 +117,7 @@ const std::vector<Scene>& scenes() {
         {"cucumber", "a cucumber plant stands in gravity", 5, cucumber_defaults, build_cucumber, rest},
         {"drag", "a corn plant is pulled aside and let go", 5, corn_defaults, build_corn, drag},
         {"cucumber_drag", "a cucumber plant is pulled aside and let go", 5, cucumber_defaults, build_cucumber, drag},
-        {"tug", "a plant file: it stands, is pulled aside and let go", 5, nullptr, nullptr, drag},
+        {"tug", "a plant file: it stands, is pulled aside and let go", 5, tug_defaults, nullptr, drag},
     };
     return table;
 }

@@ -71,7 +71,7 @@ const std::vector<Key>& keys() {
         {"dt", "time step [s]", [](Settings& s, const std::string& value) { s.dt = number(value); }},
         {"pull", "how far the user drags, share of the height",
          [](Settings& s, const std::string& value) { s.pull = number(value); }},
-        {"grab_stiffness", "of the user's spring [N/m]",
+        {"grab_stiffness", "of the user's spring [N/m], 0: as it takes",
          [](Settings& s, const std::string& value) { s.grab_stiffness = number(value); }},
         triple("gravity", "x,y,z [m/s^2]", &Settings::world, &frond_world_def::gravity),
         real("max_substep", "longest solver step [s]", &Settings::world, &frond_world_def::max_substep),
@@ -95,6 +95,7 @@ const std::vector<Key>& keys() {
         real("tolerance", "of an iterative solver", &Settings::plant, &frond_plant_def::tolerance),
         real("mass_damping", "Rayleigh [1/s]", &Settings::plant, &frond_plant_def::mass_damping),
         real("stiffness_damping", "Rayleigh [s]", &Settings::plant, &frond_plant_def::stiffness_damping),
+        real("spectral_radius", "of generalized_alpha, 0..1", &Settings::plant, &frond_plant_def::spectral_radius),
         real("root_height", "pinned above the foot [m], 0: chosen, < 0: none", &Settings::plant,
              &frond_plant_def::root_height),
     };

@@ -2,6 +2,7 @@
 #include "build/build.hpp"
 
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "core/timer.hpp"
 
 namespace frond {
@@ -24,6 +25,17 @@ static void finish(Model& model) {
     model.cage_report = measure_cage(model.surface, model.cage, model.embedding);
 }
 
+// One warning for a plant that its materials do not carry.
+static void tell_stiffened(Model& model, const WeakOrgan& weak) {
+    constexpr double WORTH_A_WARNING = 1.2;
+    model.stiffened = weak.factor;
+    if (model.stiffened < WORTH_A_WARNING) return;
+    warn(
+        "%s cannot carry its weight in the shape it was modelled in and was made %.3g times stiffer; check the scale "
+        "(the plant is %.3g m high) and the materials",
+        weak.name.c_str(), model.stiffened, model.surface.height());
+}
+
 static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def, const Timer& total) {
     auto model = std::make_shared<Model>();
     model->surface = std::move(surface);
@@ -35,8 +47,11 @@ static std::shared_ptr<const Model> build(Surface surface, const frond_model_def
     model->ms_cage = timer.ms();
     finish(*model);
     const bool must_stand = def.rest == FROND_REST_STANDS_AS_MODELLED;
-    calibrate(*model, must_stand);
-    if (must_stand) find_rest_shapes(*model);
+    const WeakOrgan weak = calibrate(*model, must_stand);
+    if (must_stand) {
+        const WeakOrgan toppling = find_rest_shapes(*model);
+        tell_stiffened(*model, toppling.factor > weak.factor ? toppling : weak);
+    }
     model->ms_total = total.ms();
     return model;
 }

@@ -14,11 +14,15 @@ std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def
 
 // Set tet_density, tet_young and tet_poisson of a model whose organs, cage and root stand: as the materials are, for
 // tets that the caller brought; or so that a cage of Frond's own bends as its organs do (which needs the chain too).
-// With `must_stand`, organs that could not carry their weight are made stiffer, with a warning.
+// With `must_stand`, organs that could not carry their weight are made stiffer; the weakest of any weight is returned.
+struct WeakOrgan {
+    std::string name;   // empty: there is none
+    double factor = 1;  // how much stiffer it was made [-]
+};
 void take_materials(Model& model);
-void calibrate(Model& model, bool must_stand);
+WeakOrgan calibrate(Model& model, bool must_stand);
 // Sets rest_positions so that the plant stands under gravity as it was modelled; where it would topple, after making
-// all of it stiffer, with a warning.
-void find_rest_shapes(Model& model);
+// those organs stiffer that give way: returns the weakest.
+WeakOrgan find_rest_shapes(Model& model);
 
 }  // namespace frond

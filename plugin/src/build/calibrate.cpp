@@ -7,18 +7,18 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "build/build.hpp"
+#include "build/firm_tets.hpp"
 #include "build/static_stiffness.hpp"
-#include "core/log.hpp"
 #include "mechanics/tet_element.hpp"
 #include "model/section.hpp"
 
 namespace frond {
 namespace {
 
-constexpr double WEIGHT = 9.81;  // [m/s^2]
+constexpr double WEIGHT = 9.81;         // [m/s^2]
+constexpr double LARGEST_FACTOR = 1e6;  // of a modulus [-]
 // An organ may turn this far under its own weight taken sideways, by linear theory; an upright column topples at 1.306.
 constexpr double LARGEST_TURN = 1.2;  // [rad]
 
@@ -116,10 +116,11 @@ std::vector<RodForce> rod_forces(const Model& model, const std::vector<Section>&
 }
 
 // Elastic energy of each organ as rods, summed over the three loads [J].
-std::vector<double> rod_energies(const Model& model, const std::vector<Section>& sections, const Weights& weights) {
+std::vector<double> rod_energies(const Model& model, const std::vector<Section>& sections, const Weights& weights,
+                                 bool organs_alone) {
     std::vector<double> energies(model.organs.size(), 0.0);
     for (int axis = 0; axis < 3; axis++) {
-        const std::vector<RodForce> rods = rod_forces(model, sections, weights, axis, true);
+        const std::vector<RodForce> rods = rod_forces(model, sections, weights, axis, organs_alone);
         for (size_t i = 0; i < rods.size(); i++) {
             const Section& section = sections[i];
             const Material& material = model.organs[size_t(model.chain.nodes[i].organ)].material;
@@ -214,27 +215,48 @@ LoneOrgan take_organ(const Model& model, int organ, const std::vector<int>& pare
     return lone;
 }
 
-// Pieces of an organ that nothing holds are held altogether: they carry no load that the rod would know.
-void hold_loose_pieces(Model& model) {
-    std::vector<int> piece(model.cage.nodes.size());
-    std::iota(piece.begin(), piece.end(), 0);
-    const auto find = [&](int i) {
-        while (piece[size_t(i)] != i) i = piece[size_t(i)] = piece[size_t(piece[size_t(i)])];
-        return i;
-    };
-    for (const Tet& tet : model.cage.tets)
-        for (int corner : tet) piece[size_t(find(corner))] = find(tet[0]);
-    std::vector<int> held(piece.size(), 0);
-    for (size_t i = 0; i < piece.size(); i++) held[size_t(find(int(i)))] += model.root[i];
-    constexpr int ENOUGH = 3;  // points that fix a body
-    for (size_t i = 0; i < piece.size(); i++)
-        if (held[size_t(find(int(i)))] < ENOUGH) model.root[i] = 1;
+// Takes away what nothing holds or what swings on a hinge; its mass hangs on where it is attached. Returns the share of
+// the organ's volume that stays.
+double drop_loose_tets(LoneOrgan& lone) {
+    Model& model = lone.model;
+    const std::vector<char> firm = find_firm_tets(model.cage, model.root);
+    std::vector<char> used(model.cage.nodes.size(), 0);
+    for (size_t e = 0; e < firm.size(); e++)
+        if (firm[e])
+            for (int corner : model.cage.tets[e]) used[size_t(corner)] = 1;
+    double whole = 0, kept_volume = 0;
+    size_t kept = 0;
+    for (size_t e = 0; e < firm.size(); e++) {
+        const Tet tet = model.cage.tets[e];
+        const double volume = tet_volume(model.cage, tet);
+        whole += volume;
+        if (!firm[e]) {
+            const auto shared = std::count_if(tet.begin(), tet.end(), [&](int corner) { return used[size_t(corner)]; });
+            for (int corner : tet)
+                if (used[size_t(corner)]) lone.borne[corner] += model.tet_density[e] * volume / double(shared);
+            continue;
+        }
+        kept_volume += volume;
+        model.cage.tets[kept] = tet;
+        model.tet_density[kept] = model.tet_density[e];
+        model.tet_young[kept] = model.tet_young[e];
+        model.tet_poisson[kept] = model.tet_poisson[e];
+        kept++;
+    }
+    model.cage.tets.resize(kept);
+    model.tet_density.resize(kept);
+    model.tet_young.resize(kept);
+    model.tet_poisson.resize(kept);
+    for (size_t i = 0; i < used.size(); i++)
+        if (!used[i]) model.root[i] = 1;
+    return whole > 0 ? kept_volume / whole : 0;
 }
 
-// Elastic energy of a lone organ, summed over the three loads [J]; 0 if nothing of it is free to move.
+// Elastic energy of a lone organ, summed over the three loads [J]; 0 if too little of it is held or free to move.
 double lone_energy(LoneOrgan& lone) {
+    constexpr double MOST = 0.6;  // share of an organ from which it can be taken alone [-]
     Model& model = lone.model;
-    hold_loose_pieces(model);
+    if (drop_loose_tets(lone) < MOST) return 0;
     if (std::all_of(model.root.begin(), model.root.end(), [](uint8_t held) { return held; })) return 0;
     const TetElements elements = make_tet_elements(model);
     StaticStiffness stiffness(elements.pattern);
@@ -283,6 +305,58 @@ std::vector<double> cage_energies(const Model& model) {
     return energies;
 }
 
+// Elastic energy of each organ's tets in the whole plant, summed over the three loads [J]; empty if the root does not
+// hold it.
+std::vector<double> whole_energies(const Model& model) {
+    const TetElements elements = make_tet_elements(model);
+    StaticStiffness stiffness(elements.pattern);
+    const VecX& X = elements.rest_positions;
+    if (!stiffness.set(elements, model.root, FROND_TET_LINEAR, Tangent::positive, X)) return {};
+    std::vector<double> energies(model.organs.size(), 0.0);
+    VecX load(X.size()), u(load.size());
+    for (int axis = 0; axis < 3; axis++) {
+        load.setZero();
+        for (size_t e = 0; e < elements.tets.size(); e++)
+            for (int corner : elements.tets[e])
+                if (!model.root[size_t(corner)])
+                    load[3 * corner + axis] += WEIGHT * elements.density[e] * elements.volume[e] / 4;
+        solve(*stiffness.factor, load, u);
+        for (size_t e = 0; e < elements.tets.size(); e++) {
+            const Tet& tet = elements.ordered[e];
+            Mat3 edges;
+            for (int k = 0; k < 3; k++) edges.col(k) = point(u, tet[size_t(k) + 1]) - point(u, tet[0]);
+            const Mat3 gradient = edges * elements.rest_inverse[e], strain = 0.5 * (gradient + gradient.transpose());
+            energies[size_t(model.cage.tet_organ[e])] +=
+                elements.volume[e] *
+                (elements.mu[e] * strain.squaredNorm() + 0.5 * elements.lambda[e] * strain.trace() * strain.trace());
+        }
+    }
+    return energies;
+}
+
+// Organs that cannot be taken alone, because their tets lie scattered among those of others, get one factor together:
+// all organs' energies in the plant under its weight are compared with the rods'.
+void calibrate_together(Model& model, const std::vector<Section>& sections, const Weights& weights,
+                        const std::vector<char>& alone) {
+    if (std::all_of(alone.begin(), alone.end(), [](char is) { return is; })) return;
+    const std::vector<double> rods = rod_energies(model, sections, weights, false);
+    constexpr int ROUNDS = 4;
+    for (int round = 0; round < ROUNDS; round++) {
+        const std::vector<double> cage = whole_energies(model);
+        if (cage.empty()) return;
+        double rod_sum = 0, cage_sum = 0;
+        for (size_t o = 0; o < rods.size(); o++) {
+            if (alone[o]) continue;
+            rod_sum += rods[o];
+            cage_sum += cage[o];
+        }
+        if (!(rod_sum > 0 && cage_sum > 0)) return;
+        const double factor = std::clamp(cage_sum / rod_sum, 1 / LARGEST_FACTOR, LARGEST_FACTOR);
+        for (size_t e = 0; e < model.tet_young.size(); e++)
+            if (!alone[size_t(model.cage.tet_organ[e])]) model.tet_young[e] *= factor;
+    }
+}
+
 // A tet that is partly plant weighs as much as its share. Its Young's modulus begins as the rule of mixtures has it.
 void start_from_mixture(Model& model) {
     const size_t tet_count = model.cage.tets.size();
@@ -303,43 +377,40 @@ void take_materials(Model& model) {
     start_from_mixture(model);
 }
 
-// An organ that could not carry itself and what it bears is made stiffer; the factor for each organ. Organs of no
-// weight to speak of, silk and hairs, are not worth a warning.
-static std::vector<double> stiffen_weak_organs(Model& model, const std::vector<double>& turns) {
-    constexpr double WORTH_A_WARNING = 0.02;  // share of the plant's mass [-]
+// How much stiffer each organ has to be to carry itself and what it bears. Organs of no weight to speak of, silk and
+// hairs, are not worth a word in `weak`.
+static std::vector<double> find_weak_organs(const Model& model, const std::vector<double>& turns, WeakOrgan& weak) {
+    constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]
     std::vector<double> factor(turns.size(), 1.0), mass(turns.size(), 0.0);
     for (size_t e = 0; e < model.cage.tets.size(); e++)
         mass[size_t(model.cage.tet_organ[e])] += model.tet_density[e] * tet_volume(model.cage, model.cage.tets[e]);
     const double whole = model.mass();
-    size_t weakest = 0;
     for (size_t o = 0; o < turns.size(); o++) {
         factor[o] = std::max(1.0, turns[o] / LARGEST_TURN);
-        if (mass[o] < WORTH_A_WARNING * whole || factor[o] <= model.stiffened) continue;
-        model.stiffened = factor[o];
-        weakest = o;
+        if (mass[o] < WORTH_A_WORD * whole || factor[o] <= weak.factor) continue;
+        weak = {model.organs[o].name, factor[o]};
     }
-    if (model.stiffened > 1)
-        warn(
-            "%s cannot carry its weight in the shape it was modelled in and was made %.3g times stiffer; check the "
-            "scale "
-            "(the plant is %.2f m high) and the material",
-            model.organs[weakest].name.c_str(), model.stiffened, model.surface.height());
     return factor;
 }
 
-void calibrate(Model& model, bool must_stand) {
+WeakOrgan calibrate(Model& model, bool must_stand) {
     start_from_mixture(model);
     const std::vector<Section> sections = measure_sections(model.surface, model.organs, model.chain);
     const Weights weights = weigh(model);
-    const std::vector<double> rods = rod_energies(model, sections, weights), cage = cage_energies(model);
-    std::vector<double> factor(rods.size(), 1.0);
-    if (must_stand) factor = stiffen_weak_organs(model, organ_turns(model, sections, weights));
-    for (size_t o = 0; o < rods.size(); o++) {
-        // An organ that carries nothing keeps the modulus of the mixture.
-        constexpr double LIMIT = 1e6;
-        if (rods[o] > 0 && cage[o] > 0) factor[o] *= std::clamp(cage[o] / rods[o], 1 / LIMIT, LIMIT);
+    const std::vector<double> rods = rod_energies(model, sections, weights, true), cage = cage_energies(model);
+    std::vector<char> alone(rods.size(), 0);
+    for (size_t o = 0; o < rods.size(); o++) alone[o] = rods[o] > 0 && cage[o] > 0;
+    for (size_t e = 0; e < model.tet_young.size(); e++) {
+        const size_t o = size_t(model.cage.tet_organ[e]);
+        if (alone[o]) model.tet_young[e] *= std::clamp(cage[o] / rods[o], 1 / LARGEST_FACTOR, LARGEST_FACTOR);
     }
-    for (size_t e = 0; e < model.tet_young.size(); e++) model.tet_young[e] *= factor[size_t(model.cage.tet_organ[e])];
+    calibrate_together(model, sections, weights, alone);
+
+    WeakOrgan weak;
+    if (!must_stand) return weak;
+    const std::vector<double> stiffer = find_weak_organs(model, organ_turns(model, sections, weights), weak);
+    for (size_t e = 0; e < model.tet_young.size(); e++) model.tet_young[e] *= stiffer[size_t(model.cage.tet_organ[e])];
+    return weak;
 }
 
 }  // namespace frond

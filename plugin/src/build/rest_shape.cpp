@@ -2,18 +2,19 @@
 // without gravity from which weight bends it to the shape x that was modelled: elastic forces f(x; X) + weight = 0. To
 // first order a move of X acts on f as the stiffness, so X <- X - K^-1 (f + weight) converges in a few rounds; the
 // exact tangent at x then tells whether the plant stands there stably or would topple (Greenhill 1881).
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "build/build.hpp"
+#include "build/firm_tets.hpp"
 #include "build/static_stiffness.hpp"
-#include "core/log.hpp"
+#include "mechanics/tet_element.hpp"
 
 namespace frond {
 namespace {
 
 constexpr double GRAVITY = 9.81;  // along the model's -y [m/s^2]
-constexpr int ROUNDS = 40;
-constexpr double TOLERANCE = 1e-9;  // residual over weight [-]
 
 VecX modelled_positions(const Model& model) {
     VecX x(3 * Eigen::Index(model.cage.nodes.size()));
@@ -21,18 +22,15 @@ VecX modelled_positions(const Model& model) {
     return x;
 }
 
-// Elastic force and weight at x, zero where the root holds; the weight's norm in `weight` [N].
-VecX unbalanced_force(const Model& model, const TetElements& elements, frond_mechanics which, const VecX& x,
-                      double& weight) {
+// Elastic force and weight at x, zero for held nodes [N].
+VecX unbalanced_force(const std::vector<uint8_t>& held, const TetElements& elements, frond_mechanics which,
+                      const VecX& x, double gravity) {
     VecX f = VecX::Zero(x.size());
     for (size_t e = 0; e < elements.tets.size(); e++)
-        for (int corner : elements.tets[e]) f[3 * corner + 1] -= GRAVITY * elements.density[e] * elements.volume[e] / 4;
-    for (size_t i = 0; i < model.root.size(); i++)
-        if (model.root[i]) point(f, int(i)).setZero();
-    weight = f.norm();
+        for (int corner : elements.tets[e]) f[3 * corner + 1] -= gravity * elements.density[e] * elements.volume[e] / 4;
     mechanics(which).add_force(elements, x, f);
-    for (size_t i = 0; i < model.root.size(); i++)
-        if (model.root[i]) point(f, int(i)).setZero();
+    for (size_t i = 0; i < held.size(); i++)
+        if (held[i]) point(f, int(i)).setZero();
     return f;
 }
 
@@ -42,73 +40,244 @@ double signed_volume(const VecX& x, const Tet& tet) {
     return a.cross(b).dot(c) / 6;
 }
 
-// The longest part of a move of the rest shape that keeps every tet above a third of its volume; 0 if none does.
+double edge_length(const VecX& x, const Tet& tet) {
+    return std::max({(point(x, tet[1]) - point(x, tet[0])).norm(), (point(x, tet[2]) - point(x, tet[0])).norm(),
+                     (point(x, tet[3]) - point(x, tet[0])).norm()});
+}
+
+// The longest part of a move of the rest shape that keeps every tet above a third of its volume and does not draw it
+// out to a needle, which has no inverse; 0 if none does.
 double longest_move(const Model& model, const VecX& x, const VecX& rest, const VecX& move) {
+    constexpr double LONGEST = 10;  // of an edge, over its length in the modelled shape [-]
     for (double share = 1; share > 0.01; share /= 2) {
         const VecX moved = rest + share * move;
         bool good = moved.allFinite();
         for (const Tet& tet : model.cage.tets) {
             if (!good) break;
-            good = signed_volume(moved, tet) > signed_volume(x, tet) / 3;
+            good = signed_volume(moved, tet) > signed_volume(x, tet) / 3 &&
+                   edge_length(moved, tet) < LONGEST * edge_length(x, tet);
         }
         if (good) return share;
     }
     return 0;
 }
 
-// The rest shape of one mechanics; empty if the material cannot carry the plant in the shape that was modelled.
-VecX find_rest_shape(const Model& model, frond_mechanics which) {
-    const VecX x = modelled_positions(model);
-    VecX rest = x;
-    double last_residual = INFINITY;
-    std::unique_ptr<StaticStiffness> stiffness;
-    TetElements elements = make_tet_elements(model, &rest);
-    stiffness = std::make_unique<StaticStiffness>(elements.pattern);
-    for (int round = 0; round < ROUNDS; round++) {
-        double weight = 0;
-        const VecX force = unbalanced_force(model, elements, which, x, weight);
-        const double residual = weight > 0 ? force.norm() / weight : 0;
-        if (residual < TOLERANCE || (residual < 1e-6 && residual > 0.5 * last_residual))
-            return stiffness->set(elements, model.root, which, Tangent::exact, x) ? rest : VecX();
-        last_residual = residual;
-        if (!stiffness->set(elements, model.root, which, Tangent::positive, x)) return VecX();
-        VecX move(x.size());
-        solve(*stiffness->factor, force, move);
-        const double share = longest_move(model, x, rest, -move);
-        if (share == 0) return VecX();
-        rest -= share * move;
-        TetElements moved = make_tet_elements(model, &rest);
-        moved.pattern = std::move(elements.pattern);  // the factor's matrix refers to it
-        elements = std::move(moved);
-        stiffness->K.pattern = &elements.pattern;
+// Root nodes, and those of bits that swing on an edge or a corner of the cage, which no stiffness could hold upright.
+std::vector<uint8_t> held_nodes(const Model& model) {
+    std::vector<uint8_t> held(model.cage.nodes.size(), 1);
+    const std::vector<char> firm = find_firm_tets(model.cage, model.root);
+    for (size_t e = 0; e < firm.size(); e++)
+        if (firm[e])
+            for (int corner : model.cage.tets[e]) held[size_t(corner)] = model.root[size_t(corner)];
+    return held;
+}
+
+// A rest shape with its elements, and the stiffness that moves it.
+struct Search {
+    const Model& model;
+    std::vector<uint8_t> held;
+    frond_mechanics which;
+    VecX x, rest;
+    TetElements elements;
+    StaticStiffness stiffness;
+
+    Search(const Model& model, frond_mechanics which)
+        : model(model),
+          held(held_nodes(model)),
+          which(which),
+          x(modelled_positions(model)),
+          rest(x),
+          elements(make_tet_elements(model)),
+          stiffness(elements.pattern) {}
+    Search(const Search&) = delete;
+    Search& operator=(const Search&) = delete;
+    void move_to(const VecX& moved) {
+        rest = moved;
+        TetElements fresh = make_tet_elements(model, &rest);
+        fresh.pattern = std::move(elements.pattern);  // the factor's matrix refers to it
+        elements = std::move(fresh);
+        stiffness.K.pattern = &elements.pattern;
     }
-    return VecX();
+};
+
+// Balances a share of gravity from where the search stands; false, with the search where it was, if that fails.
+bool balance(Search& search, double gravity) {
+    constexpr int ROUNDS = 60;
+    constexpr double TOLERANCE = 1e-8;  // how far a node is from its balance, over the plant's size [-]
+    const VecX start = search.rest;
+    for (int round = 0; round < ROUNDS; round++) {
+        const VecX force = unbalanced_force(search.held, search.elements, search.which, search.x, gravity);
+        if (!search.stiffness.set(search.elements, search.held, search.which, Tangent::positive, search.x)) break;
+        VecX move(search.x.size());
+        solve(*search.stiffness.factor, force, move);
+        const double share = longest_move(search.model, search.x, search.rest, -move);
+        if (share == 0) break;
+        search.move_to(search.rest - share * move);
+        if (share == 1 && move.lpNorm<Eigen::Infinity>() < TOLERANCE * search.model.surface.size()) return true;
+    }
+    search.move_to(start);
+    return false;
+}
+
+Mat3 displacement_gradient(const TetElements& elements, size_t e, const VecX& u) {
+    const Tet& tet = elements.ordered[e];
+    Mat3 edges;
+    for (int k = 0; k < 3; k++) edges.col(k) = point(u, tet[size_t(k) + 1]) - point(u, tet[0]);
+    return edges * elements.rest_inverse[e];
+}
+
+// What came of a search for a rest shape.
+struct Outcome {
+    VecX rest;                   // empty unless the plant stands
+    std::vector<double> energy;  // by organ, of the way in which it topples; empty unless it does [J]
+    double overload = 1;         // how many times too heavy it then is [-]
+};
+
+// Linear elastic energy of each organ's tets under small displacements u from where they stand [J]. Gradients are taken
+// where they stand, so that turning an organ, bent as it is, costs nothing.
+std::vector<double> organ_energies(const Search& search, const VecX& u) {
+    const TetElements& elements = search.elements;
+    std::vector<double> energies(search.model.organs.size(), 0.0);
+    for (size_t e = 0; e < elements.tets.size(); e++) {
+        const Mat3 gradient =
+            displacement_gradient(elements, e, u) * deformation_gradient(elements, e, search.x).inverse();
+        const Mat3 strain = 0.5 * (gradient + gradient.transpose());
+        const double trace = strain.trace();
+        energies[size_t(search.model.cage.tet_organ[e])] +=
+            elements.volume[e] * (elements.mu[e] * strain.squaredNorm() + 0.5 * elements.lambda[e] * trace * trace);
+    }
+    return energies;
+}
+
+// The way in which an unstable plant topples, and how many times too heavy it is for its stiffness. The exact stiffness
+// is the positive one P less the effect of weight G; linear buckling looks for the largest eigenvalue of P^-1 G, above
+// one for a plant that topples, by power iteration.
+struct Toppling {
+    VecX mode;
+    double overload;  // [-]
+};
+
+Toppling find_toppling(Search& search) {
+    constexpr int ROUNDS = 60;
+    const BlockMatrix exact = search.stiffness.K;
+    if (!search.stiffness.set(search.elements, search.held, search.which, Tangent::positive, search.x)) return {};
+    Toppling toppling = {VecX(search.x.size()), 1};
+    VecX& mode = toppling.mode;
+    VecX product(mode.size()), solution(mode.size());
+    for (Eigen::Index i = 0; i < mode.size(); i++) mode[i] = std::sin(double(i + 1));  // in all directions
+    for (size_t i = 0; i < search.held.size(); i++)
+        if (search.held[i]) point(mode, int(i)).setZero();
+    for (int round = 0; round < ROUNDS; round++) {
+        mode.normalize();
+        exact.multiply(mode, product);
+        solve(*search.stiffness.factor, product, solution);
+        const VecX next = mode - solution;
+        toppling.overload = mode.dot(next);
+        if (!next.allFinite() || !(next.norm() > 0)) break;
+        mode = next;
+    }
+    return toppling;
+}
+
+// The rest shape of one mechanics. Gravity is let in little by little, the steps as large as the search bears.
+Outcome find_rest_shape(const Model& model, frond_mechanics which) {
+    constexpr double SMALLEST_STEP = 1.0 / 8;
+    Search search(model, which);
+    double step = 1;
+    for (double done = 0; done < 1;) {
+        const double next = std::min(1.0, done + step);
+        if (balance(search, GRAVITY * next)) {
+            done = next;
+            step *= 2;
+        } else {
+            step = 0.25 * (next - done);
+            if (step < SMALLEST_STEP) return {};
+        }
+    }
+    if (search.stiffness.set(search.elements, search.held, which, Tangent::exact, search.x))
+        return {search.rest, {}, 1};
+    const Toppling toppling = find_toppling(search);
+    return {VecX(), organ_energies(search, toppling.mode), toppling.overload};
+}
+
+// The largest strain in each organ's tets under the plant's weight, linearly [-]; empty if the root does not hold it.
+std::vector<double> organ_strains(const Model& model) {
+    Search search(model, FROND_TET_LINEAR);
+    const TetElements& elements = search.elements;
+    const VecX force = unbalanced_force(search.held, elements, FROND_TET_LINEAR, search.x, GRAVITY);
+    if (!search.stiffness.set(elements, search.held, FROND_TET_LINEAR, Tangent::positive, search.x)) return {};
+    VecX u(force.size());
+    solve(*search.stiffness.factor, force, u);
+    std::vector<double> strains(model.organs.size(), 0.0);
+    for (size_t e = 0; e < elements.tets.size(); e++) {
+        const Mat3 gradient = displacement_gradient(elements, e, u);
+        double& strain = strains[size_t(model.cage.tet_organ[e])];
+        strain = std::max(strain, 0.5 * (gradient + gradient.transpose()).norm());
+    }
+    return strains;
+}
+
+// Organs that weight would tear apart in the cage, loose bits that hang on a corner, are made stiffer by themselves, so
+// that the rest of the plant need not be.
+void stiffen_torn_organs(Model& model) {
+    constexpr double LARGEST_STRAIN = 0.5;
+    constexpr int ROUNDS = 3;
+    for (int round = 0; round < ROUNDS; round++) {
+        const std::vector<double> strains = organ_strains(model);
+        bool torn = false;
+        for (size_t e = 0; e < model.tet_young.size() && !strains.empty(); e++) {
+            const double strain = strains[size_t(model.cage.tet_organ[e])];
+            if (!(strain > LARGEST_STRAIN)) continue;
+            model.tet_young[e] *= strain / LARGEST_STRAIN;
+            torn = true;
+        }
+        if (!torn) return;
+    }
 }
 
 }  // namespace
 
-void find_rest_shapes(Model& model) {
-    // The default mechanics decides how stiff the plant has to be.
-    constexpr double STIFFER = 1.5;
-    constexpr int MOST_TRIES = 40;
-    double factor = 1;
-    VecX rest = find_rest_shape(model, FROND_TET_COROTATIONAL);
-    for (int i = 0; i < MOST_TRIES && rest.size() == 0; i++) {
-        factor *= STIFFER;
-        for (double& young : model.tet_young) young *= STIFFER;
-        rest = find_rest_shape(model, FROND_TET_COROTATIONAL);
+// Makes those organs stiffer in which a toppling plant bends most; notes by how much.
+static void stiffen_toppling_organs(Model& model, const std::vector<double>& energy, double stiffer,
+                                    std::vector<double>& factor) {
+    constexpr double MUCH = 0.3;  // of the energy of the organ that bends most [-]
+    const double most = *std::max_element(energy.begin(), energy.end());
+    std::vector<char> bends(energy.size());
+    for (size_t o = 0; o < energy.size(); o++) {
+        bends[o] = energy[o] >= MUCH * most;
+        if (bends[o]) factor[o] *= stiffer;
     }
-    model.stiffened *= factor;
-    if (factor > 1)
-        warn(
-            "the plant cannot carry its own weight in the shape it was modelled in; its organs were made %.3g times "
-            "stiffer. "
-            "Check the scale (it is %.2f m high) and the materials",
-            factor, model.surface.height());
-    model.rest_positions[FROND_TET_COROTATIONAL] = rest;
+    for (size_t e = 0; e < model.tet_young.size(); e++)
+        if (bends[size_t(model.cage.tet_organ[e])]) model.tet_young[e] *= stiffer;
+}
+
+WeakOrgan find_rest_shapes(Model& model) {
+    // The default mechanics decides how stiff the plant has to be.
+    constexpr double LEAST = 1.05, STIFFER = 1.5, MUCH_STIFFER = 2.5;
+    constexpr int FINE_TRIES = 30, MOST_TRIES = 40;
+    std::vector<double> factor(model.organs.size(), 1.0);
+    bool torn = false;
+    Outcome outcome = find_rest_shape(model, FROND_TET_COROTATIONAL);
+    for (int i = 0; i < MOST_TRIES && outcome.rest.size() == 0; i++) {
+        const double stiffer = i <= FINE_TRIES ? STIFFER : MUCH_STIFFER;
+        if (!outcome.energy.empty()) {
+            const double needed = std::clamp(LEAST * outcome.overload, LEAST, MUCH_STIFFER);
+            stiffen_toppling_organs(model, outcome.energy, needed, factor);
+        } else if (!torn) {
+            stiffen_torn_organs(model);
+            torn = true;
+        } else {
+            for (double& f : factor) f *= stiffer;
+            for (double& young : model.tet_young) young *= stiffer;
+        }
+        outcome = find_rest_shape(model, FROND_TET_COROTATIONAL);
+    }
+    model.rest_positions[FROND_TET_COROTATIONAL] = outcome.rest;
     for (int which = 0; which < FROND_MECHANICS_COUNT; which++)
         if (which != FROND_TET_COROTATIONAL)
-            model.rest_positions[size_t(which)] = find_rest_shape(model, frond_mechanics(which));
+            model.rest_positions[size_t(which)] = find_rest_shape(model, frond_mechanics(which)).rest;
+    const size_t weakest = size_t(std::max_element(factor.begin(), factor.end()) - factor.begin());
+    return {model.organs[weakest].name, factor[weakest]};
 }
 
 }  // namespace frond

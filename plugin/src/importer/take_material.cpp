@@ -4,6 +4,7 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/log.hpp"
@@ -21,6 +22,11 @@ float srgb_of(float linear) {
 
 static float in_range(float value) {
     return value >= 0 ? std::min(value, 1.0f) : 0.0f;
+}
+
+static bool is_tint(const aiColor4D& color) {
+    constexpr float LEAST = 0.05f;
+    return std::max({color.r, color.g, color.b}) - std::min({color.r, color.g, color.b}) > LEAST;
 }
 
 // An embedded texture's bytes, or those of a file beside the model; -1 if there is none.
@@ -52,9 +58,12 @@ void take_material(const aiScene& scene, const aiMaterial& material, const MeshF
     aiColor4D color(1, 1, 1, 1);
     const bool has_base = material.Get(AI_MATKEY_BASE_COLOR, color) == aiReturn_SUCCESS;
     const bool has_color = has_base || material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS;
-    // In formats other than glTF a texture stands instead of the colour.
+    // Instead of the colour a texture stands in formats other than glTF, but in MTL files, where it is tinted. Greys
+    // there are what exporters write when nobody chose a colour.
     if (part.texture >= 0 && !is_gltf) {
         part.color = {1, 1, 1, 1};
+        if (file.format == FileFormat::OBJ && has_color && is_tint(color))
+            for (size_t i = 0; i < 3; ++i) part.color[i] = linear_of(in_range(color[unsigned(i)]));
         return;
     }
     // The materials that assimp makes up say nothing: for meshes without one, for STL, and its grey for OBJ files whose

@@ -127,7 +127,7 @@ void make_cage(const Surface& surface, const Topology& topology, const std::vect
         find_vertex_copies(surface, draft);
         bind_vertices(surface, draft, embedding);
         smooth_cage(surface, options, draft, embedding);
-        fill_cage(triangle_organ, draft);
+        fill_cage(triangle_organ, organ, draft);
         return;
     }
 }

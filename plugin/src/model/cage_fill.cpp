@@ -17,11 +17,12 @@ namespace {
 
 struct Filler {
     const std::vector<int>& triangle_organ;
+    const std::vector<Organ>& organs;
     Draft& draft;
-    std::vector<double> volume;                                   // of each tet [m^3]
-    std::vector<double> tissue;                                   // in it [m^3]
-    std::vector<double> wall;                                     // area of skins in it [m^2]
-    std::vector<std::vector<std::pair<int, double>>> organ_area;  // [m^2]
+    std::vector<double> volume;                                       // of each tet [m^3]
+    std::vector<double> tissue;                                       // in it [m^3]
+    std::vector<double> wall;                                         // area of skins in it [m^2]
+    std::vector<std::vector<std::pair<int, double>>> organ_strength;  // Young's modulus times tissue [J]
     std::vector<double> left;  // of each patch's tissue that found no place yet [m^3]
 };
 
@@ -56,12 +57,14 @@ static void add_area(Filler& filler, int triangle, int copy, double area, const 
     else if (patch.area > 0)
         filler.tissue[tet] += area * patch.tissue / patch.area;
     const int organ = filler.triangle_organ[size_t(triangle)];
-    for (auto& [known, sum] : filler.organ_area[tet])
+    const double depth = patch.area > 0 ? patch.tissue / patch.area : 0;
+    const double strength = area * depth * filler.organs[size_t(organ)].material.young;
+    for (auto& [known, sum] : filler.organ_strength[tet])
         if (known == organ) {
-            sum += area;
+            sum += strength;
             return;
         }
-    filler.organ_area[tet].push_back({organ, area});
+    filler.organ_strength[tet].push_back({organ, strength});
 }
 
 // Splits a triangle until it is small.
@@ -241,29 +244,30 @@ static void level(Filler& filler) {
     }
 }
 
+// A tet belongs to the organ that carries most in it: a stem goes on through cells that are full of leaves.
 static void choose_organs(Filler& filler) {
     const Draft& draft = filler.draft;
-    for (size_t tet = 0; tet < filler.organ_area.size(); ++tet) {
+    for (size_t tet = 0; tet < filler.organ_strength.size(); ++tet) {
         int organ = draft.patches.patches[size_t(draft.copies.patch[tet / TETS_PER_COPY])].organ;
         double most = 0;
-        for (const auto& [other, area] : filler.organ_area[tet])
-            if (area > most) {
-                most = area;
+        for (const auto& [other, strength] : filler.organ_strength[tet])
+            if (strength > most) {
+                most = strength;
                 organ = other;
             }
         draft.cage.tet_organ[tet] = organ;
     }
 }
 
-void fill_cage(const std::vector<int>& triangle_organ, Draft& draft) {
+void fill_cage(const std::vector<int>& triangle_organ, const std::vector<Organ>& organs, Draft& draft) {
     const size_t count = draft.cage.tets.size();
-    Filler filler{triangle_organ, draft, {}, {}, {}, {}, {}};
+    Filler filler{triangle_organ, organs, draft, {}, {}, {}, {}, {}};
     for (const Tet& tet : draft.cage.tets)
         filler.volume.push_back(volume_of(draft.cage.nodes[size_t(tet[0])], draft.cage.nodes[size_t(tet[1])],
                                           draft.cage.nodes[size_t(tet[2])], draft.cage.nodes[size_t(tet[3])]));
     filler.tissue.assign(count, 0);
     filler.wall.assign(count, 0);
-    filler.organ_area.resize(count);
+    filler.organ_strength.resize(count);
     filler.left.assign(draft.patches.patches.size(), 0);
     draft.cage.tet_fill.assign(count, 0);
     draft.cage.tet_organ.assign(count, 0);

@@ -32,6 +32,6 @@ double choose_cell_size(const Topology& topology, double offset);
 // Moves the nodes on the outside; keeps every vertex inside.
 void smooth_cage(const Surface& surface, const CageOptions& options, Draft& draft, Embedding& embedding);
 // Sets tet_organ and tet_fill.
-void fill_cage(const std::vector<int>& triangle_organ, Draft& draft);
+void fill_cage(const std::vector<int>& triangle_organ, const std::vector<Organ>& organs, Draft& draft);
 
 }  // namespace frond

@@ -128,6 +128,16 @@ static void override_materials(std::vector<Organ>& organs, const frond_organ_mat
     }
 }
 
+// Parts that the file gives no colour look like what they are: wood brown, the rest leaf green.
+static void color_by_kind(Surface& surface, const std::vector<Organ>& organs) {
+    constexpr std::array<float, 4> GREEN = {0.12f, 0.24f, 0.05f, 1}, BROWN = {0.14f, 0.09f, 0.05f, 1};
+    for (Part& part : surface.parts) {
+        if (part.texture >= 0 || part.color != Part().color) continue;
+        const std::string& kind = organs[size_t(part.organ)].kind;
+        part.color = kind == "branch" || kind == "root" || kind == "support" ? BROWN : GREEN;
+    }
+}
+
 std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond_organ_material* overrides,
                                int override_count) {
     if (surface.triangles.empty() || topology.triangles.size() != surface.triangles.size())
@@ -139,6 +149,7 @@ std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond
     const std::vector<std::string> kinds = split_parts(surface, topology, kinds_of_triangles(surface, topology));
     std::vector<Organ> organs = name_organs(surface, kinds);
     override_materials(organs, overrides, override_count);
+    color_by_kind(surface, organs);
     return organs;
 }
 

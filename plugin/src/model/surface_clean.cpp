@@ -164,7 +164,8 @@ static void repair_values(Surface& surface) {
             surface.normals[i] = (normal / length).cast<float>();
     }
     if (made > 0) make_normals(surface, missing);
-    surface.repaired_vertices += made;
+    // A file without normals has nothing to repair.
+    if (had_normals) surface.repaired_vertices += made;
 
     for (Vec2f& uv : surface.uvs)
         if (!uv.allFinite()) {

@@ -82,6 +82,13 @@ static std::vector<Ring> rings_of(const frond_stem& stem, double length) {
     return rings;
 }
 
+// A prism of SIDES sides whose corners lie a little outside the circle, so that its faces are as far from the axis, in
+// the mean of squares, as the circle: it then bends as the round stem does.
+static double corner_radius(double radius) {
+    const double sine = std::sin(PI / SIDES);
+    return radius / std::sqrt(1 - 2.0 / 3 * sine * sine);
+}
+
 static void add_stem(Surface& surface, const frond_stem& stem, int index) {
     const Vec3 begin = vec_of(stem.begin), end = vec_of(stem.end);
     const double length = (end - begin).norm();
@@ -99,7 +106,8 @@ static void add_stem(Surface& surface, const frond_stem& stem, int index) {
         for (int k = 0; k < SIDES; ++k) {
             const double angle = 2 * PI * k / SIDES;
             surface.positions.push_back(begin + axis * ring.along +
-                                        ring.radius * (std::cos(angle) * side + std::sin(angle) * depth));
+                                        corner_radius(ring.radius) *
+                                            (std::cos(angle) * side + std::sin(angle) * depth));
         }
     surface.positions.push_back(end + axis * stem.radius_end);
 

@@ -1,0 +1,134 @@
+// The scenes as the frond command plays them: counts of the paper, standing, swaying, and pictures against references.
+// FROND_UPDATE_PICTURES=1 in the environment rewrites the references.
+#include "scenes/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "frond/studio.hpp"
+
+using namespace frond::tools;
+
+static frond_model_info info_of(const Play& play) {
+    frond_model_info info;
+    EXPECT_EQ(frond_model_get_info(play.stage.plant_models[0], &info), FROND_OK);
+    return info;
+}
+
+static frond_vec3 tip_of(const Play& play) {
+    frond_vec3 tip;
+    EXPECT_EQ(frond_plant_get_tip(play.stage.plants[0], &tip), FROND_OK);
+    return tip;
+}
+
+static double distance(const frond_vec3& a, const frond_vec3& b) {
+    return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
+}
+
+static Play play_of(const char* scene, const std::vector<std::string>& assignments = {}) {
+    const Casting casting = cast(scene);
+    return Play(casting, settings_of(casting, assignments));
+}
+
+TEST(Paper, CornHasItsCounts) {
+    const Play play = play_of("corn");
+    const frond_model_info info = info_of(play);
+    EXPECT_EQ(info.vertex_count, 925);
+    EXPECT_EQ(info.triangle_count, 1184);
+    EXPECT_NEAR(info.node_count, 452, 45);
+    EXPECT_NEAR(info.tet_count, 1156, 115);
+    EXPECT_GE(info.min_dihedral, 10);
+    EXPECT_EQ(info.contained, 1);
+}
+
+TEST(Paper, CucumberHasItsCounts) {
+    const Play play = play_of("cucumber");
+    const frond_model_info info = info_of(play);
+    EXPECT_EQ(info.vertex_count, 22004);
+    EXPECT_EQ(info.triangle_count, 30244);
+    EXPECT_NEAR(info.node_count, 521, 52);
+    EXPECT_NEAR(info.tet_count, 1431, 143);
+    EXPECT_NEAR(info.upper.y, 2.1, 0.05);
+    EXPECT_GE(info.min_dihedral, 10);
+    EXPECT_EQ(info.contained, 1);
+}
+
+class EveryScene : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, ::testing::Values("corn", "cucumber", "drag", "cucumber_drag"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST_P(EveryScene, RunsWithoutTrouble) {
+    Play play = play_of(GetParam());
+    const frond_vec3 start = tip_of(play);
+    const double height = info_of(play).upper.y;
+    double farthest = 0;
+    for (int i = 0; i < 300; i++) {
+        play.step();
+        frond_report report;
+        ASSERT_EQ(frond_world_get_report(play.stage.world, &report), FROND_OK);
+        ASSERT_EQ(report.trouble, 0u) << "step " << i;
+        farthest = std::max(farthest, distance(tip_of(play), start));
+    }
+    const bool is_dragged = std::string(GetParam()).find("drag") != std::string::npos;
+    if (is_dragged)
+        EXPECT_GT(farthest, 0.05 * height);
+    else
+        EXPECT_LT(farthest, 0.005 * height);
+}
+
+// The plant half a second after it was let go, or at rest: a picture that shows both shape and motion.
+TEST_P(EveryScene, LooksAsItDid) {
+    Play play = play_of(GetParam());
+    for (int i = 0; i < 110; i++) play.step();
+    View view;
+    view.width = 480;
+    view.height = 480;
+    view.overlays = {"force"};
+    Studio studio(view);
+    const uint8_t* pixels = studio.shoot(play.stage);
+    const std::string reference = std::string(FROND_SOURCE_DIR) + "/tests/tools/reference/" + GetParam() + ".png";
+    if (std::getenv("FROND_UPDATE_PICTURES")) {
+        ASSERT_TRUE(frond_picture_write_png(reference.c_str(), pixels, view.width, view.height));
+        GTEST_SKIP() << "wrote " << reference;
+    }
+    const std::string kept = std::string(GetParam()) + "_difference.png";
+    frond_picture_difference difference;
+    ASSERT_TRUE(frond_picture_compare_file(pixels, view.width, view.height, reference.c_str(), FROND_PICTURE_TOLERANCE,
+                                           &difference, kept.c_str()))
+        << frond_picture_last_error();
+    EXPECT_TRUE(difference.same) << "differs by " << difference.worst << " at " << difference.worst_x << ","
+                                 << difference.worst_y << "; see " << std::filesystem::absolute(kept);
+}
+
+TEST(Settings, NameTheirKeysWhenOneIsWrong) {
+    Settings settings;
+    apply_setting(settings, "cage_size=0.3");
+    EXPECT_EQ(settings.model.cage_size, 0.3);
+    apply_setting(settings, "mechanics=tet_linear");
+    EXPECT_EQ(settings.plant.mechanics, FROND_TET_LINEAR);
+    apply_setting(settings, "gravity=0,0,-9.81");
+    EXPECT_EQ(settings.world.gravity.z, -9.81);
+    for (const char* wrong : {"cage_siz=0.3", "cage_size", "cage_size=abc", "cage_size=nan", "mechanics=jelly",
+                              "gravity=1,2", "material.stem.taste=3", "=", ""})
+        EXPECT_THROW(apply_setting(settings, wrong), SceneError) << wrong;
+    try {
+        apply_setting(settings, "mechanics=jelly");
+    } catch (const SceneError& error) {
+        EXPECT_NE(std::string(error.what()).find("tet_corotational"), std::string::npos);
+    }
+}
+
+TEST(Settings, OfMaterialsReachTheOrgan) {
+    const Play soft = play_of("corn", {"material.stem.density=500"}), normal = play_of("corn");
+    EXPECT_LT(info_of(soft).mass, info_of(normal).mass);
+    EXPECT_THROW(play_of("corn", {"material.pancake.young=1e9"}), SceneError);
+}
+
+TEST(Casting, NamesTheScenesThereAre) {
+    EXPECT_THROW(cast("no_such_scene"), SceneError);
+    EXPECT_STREQ(cast(model_path("corn/corn.obj")).scene->name, "tug");
+    EXPECT_THROW(model_path("no/such.obj"), SceneError);
+}
