@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
         /* The hand takes the stem at three quarters of its height, draws it aside, holds it and lets go. */
         if (step == TAKE) {
             const frond_vec3 stem = {0, 0.75 * info.upper.y, 0};
-            check(frond_grab_create(plant, stem, 60, &grab));
+            check(frond_grab_create(plant, stem, 200, &grab));
             check(frond_grab_get(grab, &pulled, NULL, NULL));
         }
         if (step > TAKE && step <= HOLD) {

@@ -19,17 +19,21 @@ struct Patch {
 // moments as the triangle: the corners with 1/12 and the middle with 3/4 of it.
 std::vector<std::vector<Patch>> collect_patches(const Surface& surface, const Chain& chain) {
     std::vector<std::vector<Patch>> patches(chain.nodes.size());
-    for (const Triangle& triangle : surface.triangles) {
-        const Vec3& a = surface.positions[size_t(triangle[0])];
-        const Vec3& b = surface.positions[size_t(triangle[1])];
-        const Vec3& c = surface.positions[size_t(triangle[2])];
-        const double third = (b - a).cross(c - a).norm() / 6;
-        for (int corner : triangle) {
-            std::vector<Patch>& list = patches[size_t(chain.vertex_node[size_t(corner)])];
-            for (const Vec3& p : {a, b, c}) list.push_back({p, third / 12});
-            list.push_back({(a + b + c) / 3, third * 3 / 4});
+    for (const Part& part : surface.parts)
+        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++) {
+            const Triangle& triangle = surface.triangles[size_t(t)];
+            const Vec3& a = surface.positions[size_t(triangle[0])];
+            const Vec3& b = surface.positions[size_t(triangle[1])];
+            const Vec3& c = surface.positions[size_t(triangle[2])];
+            const double third = (b - a).cross(c - a).norm() / 6;
+            for (int corner : triangle) {
+                const size_t node = size_t(chain.vertex_node[size_t(corner)]);
+                if (chain.nodes[node].organ != part.organ) continue;
+                std::vector<Patch>& list = patches[node];
+                for (const Vec3& p : {a, b, c}) list.push_back({p, third / 12});
+                list.push_back({(a + b + c) / 3, third * 3 / 4});
+            }
         }
-    }
     return patches;
 }
 
