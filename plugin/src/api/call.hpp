@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 #include <new>
 
 #include "core/error.hpp"
@@ -51,6 +52,14 @@ inline void check_range(double value, double low, double high, const char* name)
 constexpr double LARGEST_COORDINATE = 1e9;
 inline void check_vec(const frond_vec3& p, const char* name) {
     for (double value : {p.x, p.y, p.z}) check_range(value, -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
+}
+// The number in an enum that a caller wrote: it may be none of the enum's own, so it is not read as one.
+template <class Enum>
+int number_of(const Enum& value) {
+    int number;
+    static_assert(sizeof value == sizeof number, "C enums are ints");
+    std::memcpy(&number, &value, sizeof number);
+    return number;
 }
 template <class Def>
 void check_def(const Def* def, uint32_t cookie, const char* name) {

@@ -18,8 +18,8 @@ static void check_model_def(const frond_model_def* def) {
     check_range(def->cage_size, 0, 1e6, "def.cage_size [m]");
     check_range(def->cage_offset, 0, 1e6, "def.cage_offset [m]");
     check_range(def->cage_smoothness, 0, 1, "def.cage_smoothness");
-    if (def->rest < 0 || def->rest >= FROND_REST_COUNT)
-        fail(FROND_BAD_ARGUMENT, "def.rest is %d; use FROND_REST_*", int(def->rest));
+    if (number_of(def->rest) < 0 || number_of(def->rest) >= FROND_REST_COUNT)
+        fail(FROND_BAD_ARGUMENT, "def.rest is %d; use FROND_REST_*", number_of(def->rest));
     check_range(def->organ_count, 0, 10000, "def.organ_count");
     if (def->organ_count > 0) check_pointer(def->organs, "def.organs");
     for (int i = 0; i < def->organ_count; i++) check_pointer(def->organs[i].organ, "def.organs[].organ");

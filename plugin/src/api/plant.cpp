@@ -17,10 +17,10 @@ static void check_plant_def(const frond_plant_def* def) {
     check_vec(def->position, "def.position [m]");
     const double length = Quat(def->rotation.w, def->rotation.x, def->rotation.y, def->rotation.z).norm();
     if (!(length > 1e-9 && length < 1e9)) fail(FROND_BAD_ARGUMENT, "def.rotation has no direction; (0,0,0,1) is none");
-    check_row(int(def->mechanics), FROND_MECHANICS_COUNT, "def.mechanics");
-    check_row(int(def->integrator), FROND_INTEGRATOR_COUNT, "def.integrator");
-    check_row(int(def->linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.linear_solver");
-    check_row(int(def->mass), FROND_MASS_COUNT, "def.mass");
+    check_row(number_of(def->mechanics), FROND_MECHANICS_COUNT, "def.mechanics");
+    check_row(number_of(def->integrator), FROND_INTEGRATOR_COUNT, "def.integrator");
+    check_row(number_of(def->linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.linear_solver");
+    check_row(number_of(def->mass), FROND_MASS_COUNT, "def.mass");
     check_range(def->newton_iterations, 1, 100, "def.newton_iterations");
     check_range(def->newton_tolerance, 0, 1, "def.newton_tolerance");
     check_range(def->max_iterations, 1, 10'000'000, "def.max_iterations");
