@@ -22,7 +22,7 @@ double tip_deflection(int across, double width, double length, double E, double 
 }
 
 TEST(Cantilever, ConvergesToTheBeamFormulaWithTheSquareOfTheCellSize) {
-    for (int which = 0; which < FROND_MECHANICS_COUNT; ++which) {
+    for (int which = 0; which < TET_MECHANICS; ++which) {
         const double a = 0.1, L = 0.5, E = 1e7, P = 0.1;
         // Bending and shear of a square beam with nu = 0 (shear factor 5/6).
         const double I = a * a * a * a / 12, G = E / 2;
@@ -118,7 +118,7 @@ TEST(Corotational, SwingsFarWithoutSwelling) {
     rig.pin_below(1, 0);
     rig.loads.gravity = {9.81, -3, 0};
     rig.steps(400, 1.0 / 60);
-    const TetElements& elements = elements_of(*rig.system);
+    const TetElements& elements = tets_of(*rig.system);
     double volume = 0, before = 0;
     for (size_t e = 0; e < elements.tets.size(); ++e) {
         const Tet& t = elements.tets[e];

@@ -32,20 +32,20 @@ std::vector<Misuse> misuses() {
         {"endless_time", [=](Rig&, double& h) { h = inf; }},
         {"damping", [=](Rig& r, double&) { r.settings.mass_damping = nan; }},
         {"negative_damping", [](Rig& r, double&) { r.settings.stiffness_damping = -1; }},
-        {"mechanics", [](Rig& r, double&) { r.settings.mechanics = FROND_MECHANICS_COUNT; }},
         {"integrator", [](Rig& r, double&) { r.settings.integrator = FROND_INTEGRATOR_COUNT; }},
         {"linear_solver", [](Rig& r, double&) { r.settings.linear_solver = FROND_LINEAR_SOLVER_COUNT; }},
         {"spring_tet",
          [](Rig& r, double&) {
-             r.loads.springs.push_back({9999, {1, 0, 0, 0}, Vec3::Zero(), 1});
+             r.loads.springs.push_back(tet_spring(*r.model, 0, {1, 0, 0, 0}, Vec3::Zero(), 1));
+             r.loads.springs.back().grip.node[0] = 9999;
          }},
         {"spring_weight",
          [=](Rig& r, double&) {
-             r.loads.springs.push_back({0, {nan, 0, 0, 0}, Vec3::Zero(), 1});
+             r.loads.springs.push_back(tet_spring(*r.model, 0, {nan, 0, 0, 0}, Vec3::Zero(), 1));
          }},
         {"spring_stiffness",
          [](Rig& r, double&) {
-             r.loads.springs.push_back({0, {1, 0, 0, 0}, Vec3::Zero(), -1});
+             r.loads.springs.push_back(tet_spring(*r.model, 0, {1, 0, 0, 0}, Vec3::Zero(), -1));
          }},
         {"short_force", [](Rig& r, double&) { r.loads.force.resize(3); }},
         {"short_velocity", [](Rig& r, double&) { r.motion.v.resize(3), r.motion.v.setZero(); }},
@@ -65,7 +65,7 @@ TEST(Failure, LeavesTheMotionUnchanged) {
                 rig.steps(3, H);
                 const Motion good = rig.motion;
                 const Loads loads = rig.loads;
-                const SolveSettings settings = rig.settings;
+                const RigSettings settings = rig.settings;
                 double h = H;
                 misuse.spoil(rig, h);
                 const VecX x = rig.motion.x, v = rig.motion.v;

@@ -126,7 +126,7 @@ TEST(Direct, FillsLittleMoreThanTheMatrixOnATree) {
 }
 
 TEST(Direct, StepsAgreeWithPcg) {
-    for (int which = 0; which < FROND_MECHANICS_COUNT; ++which) {
+    for (int which = 0; which < TET_MECHANICS; ++which) {
         Rig direct(tree_model(8, 6, 4, {900, 1e7, 0.3}), plain_settings(frond_mechanics(which)));
         Rig pcg(tree_model(8, 6, 4, {900, 1e7, 0.3}), plain_settings(frond_mechanics(which), FROND_PCG_JACOBI));
         for (Rig* rig : {&direct, &pcg}) {

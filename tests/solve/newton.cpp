@@ -15,7 +15,7 @@ Rig thrown(int iterations, double tolerance, double young = 2e5, double speed = 
     rig.settings.stiffness_damping = 0.01;
     rig.pin_below(1, 0);
     rig.loads.gravity = {0, -9.81, 0};
-    rig.loads.springs.push_back({3, {0.25, 0.25, 0.25, 0.25}, {0.2, 0.1, 0}, 30});
+    rig.loads.springs.push_back(tet_spring(*rig.model, 3, {0.25, 0.25, 0.25, 0.25}, {0.2, 0.1, 0}, 30));
     for (int i = 0; i < rig.node_count(); ++i) point(rig.motion.v, i).x() = speed * point(rig.motion.x, i).y();
     return rig;
 }

@@ -154,7 +154,7 @@ TEST_P(EveryStep, GivesTheSameBitsAgain) {
         rig.settings.tolerance = 1e-8;
         rig.pin_below(1, 0);
         rig.loads.gravity = {3, -9.81, 1};
-        rig.loads.springs.push_back({7, {0.1, 0.2, 0.3, 0.4}, {0.5, 0.5, 0.5}, 20});
+        rig.loads.springs.push_back(tet_spring(*rig.model, 7, {0.1, 0.2, 0.3, 0.4}, {0.5, 0.5, 0.5}, 20));
         for (int n = 0; n < 10; ++n) rig.step(H);
         return rig.motion;
     };
@@ -177,7 +177,7 @@ TEST_P(EveryStep, SolvesTheEquationOfThePaperWithItsSignsRight) {
     ASSERT_TRUE(rig.step(H).ok);
 
     // K v and f from the mechanics, M from kinetic energy: 1/2 (a+b) M (a+b) - 1/2 (a-b) M (a-b) = 2 a M b.
-    const TetElements& elements = elements_of(*rig.system);
+    const Elements& elements = elements_of(*rig.system);
     const Mechanics& body = mechanics(rig.settings.mechanics);
     BlockMatrix K;
     K.set_pattern(elements.pattern);
@@ -206,7 +206,7 @@ TEST(Mass, IsTheSameLumpedAndConsistentInSum) {
     const Model model = tree_model(4, 3, 2, {750, 1e6, 0.3});
     const Rig lumped(model, plain_settings()), consistent(model, plain_settings(), FROND_CONSISTENT);
     double volume = 0;
-    for (double v : elements_of(*lumped.system).volume) volume += v;
+    for (double v : tets_of(*lumped.system).volume) volume += v;
     EXPECT_NEAR(lumped.mass(), 750 * volume, 1e-12 * lumped.mass());
     VecX v(lumped.motion.v.size());
     for (int i = 0; i < lumped.node_count(); ++i) point(v, i) = Vec3(1, 2, 3);

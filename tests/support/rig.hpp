@@ -12,9 +12,16 @@
 
 namespace frond::test {
 
-inline SolveSettings plain_settings(frond_mechanics mechanics = FROND_TET_COROTATIONAL,
+// The mechanics that move the cage come first in the list.
+constexpr int TET_MECHANICS = FROND_TET_NEOHOOKEAN + 1;
+
+struct RigSettings : SolveSettings {
+    frond_mechanics mechanics;
+};
+
+inline RigSettings plain_settings(frond_mechanics mechanics = FROND_TET_COROTATIONAL,
                                     frond_linear_solver solver = FROND_DIRECT) {
-    SolveSettings s = {};
+    RigSettings s = {};
     s.mechanics = mechanics;
     s.integrator = FROND_IMPLICIT_EULER;
     s.linear_solver = solver;
@@ -26,15 +33,32 @@ inline SolveSettings plain_settings(frond_mechanics mechanics = FROND_TET_COROTA
     return s;
 }
 
+inline const TetElements& tets_of(const System& system) {
+    return static_cast<const TetElements&>(elements_of(system));
+}
+// Of tets, whose mass is the same wherever they are.
+inline double kinetic_energy(const System& system, const VecX& v) {
+    return kinetic_energy(system, elements_of(system).modelled, v);
+}
+// A spring to a point of a tet.
+inline Spring tet_spring(const Model& model, int tet, const std::array<double, 4>& weights, const Vec3& target,
+                         double stiffness) {
+    Grip grip;
+    grip.count = 4;
+    grip.node = model.cage.tets[size_t(tet)];
+    grip.weight = weights;
+    return {grip, target, stiffness};
+}
+
 struct Rig {
     std::shared_ptr<const Model> model;
     std::shared_ptr<const System> system;
     WorkspacePtr workspace;
-    SolveSettings settings;
+    RigSettings settings;
     Loads loads;
     Motion motion;
 
-    Rig(const Model& made, const SolveSettings& with, frond_mass mass = FROND_LUMPED)
+    Rig(const Model& made, const RigSettings& with, frond_mass mass = FROND_LUMPED)
         : model(std::make_shared<const Model>(made)),
           system(make_system(model, with.mechanics, mass)),
           workspace(make_workspace(system)),
@@ -62,13 +86,13 @@ struct Rig {
     double elastic_energy() const { return mechanics(settings.mechanics).energy(elements_of(*system), motion.x); }
 };
 
-// Every mechanics with every integrator and mass, solved directly, and with every linear solver by implicit Euler.
+// Every mechanics of tets with every integrator and mass, solved directly, and with every linear solver by implicit Euler.
 struct Combination {
     int mechanics, integrator, linear_solver, mass;
 };
 inline std::vector<Combination> every_combination() {
     std::vector<Combination> all;
-    for (int m = 0; m < FROND_MECHANICS_COUNT; ++m)
+    for (int m = 0; m < TET_MECHANICS; ++m)
         for (int i = 0; i < FROND_INTEGRATOR_COUNT; ++i)
             for (int l = 0; l < FROND_LINEAR_SOLVER_COUNT; ++l)
                 for (int k = 0; k < FROND_MASS_COUNT; ++k)
@@ -76,8 +100,8 @@ inline std::vector<Combination> every_combination() {
     return all;
 }
 struct EveryCombination : testing::TestWithParam<Combination> {
-    SolveSettings settings() const {
-        SolveSettings s =
+    RigSettings settings() const {
+        RigSettings s =
             plain_settings(frond_mechanics(GetParam().mechanics), frond_linear_solver(GetParam().linear_solver));
         s.integrator = frond_integrator(GetParam().integrator);
         return s;

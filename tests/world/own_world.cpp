@@ -49,7 +49,7 @@ TEST(OwnWorld, GravityOffMeansNoMotion) {
 }
 
 TEST(OwnWorld, APlantStandsAsItWasModelledUnderGravity) {
-    for (int mechanics = 0; mechanics < FROND_MECHANICS_COUNT; mechanics++) {
+    for (int mechanics = 0; mechanics < FROND_SPRING_CHAIN; mechanics++) {  // the last one has no rest shape to find
         frond_plant_def def = frond_default_plant_def();
         def.mechanics = frond_mechanics(mechanics);
         SmallWorld stands(def, 2e7, FROND_REST_STANDS_AS_MODELLED), droops(def, 2e7, FROND_REST_WITHOUT_GRAVITY);

@@ -99,11 +99,14 @@ enum {
     FROND_ALL_EFFECTS = (1 << 5) - 1
 };
 
-/* What moves by itself. Every model has a chain and a cage; with these the cage moves and the chain follows. */
-#define FROND_MECHANICS(X)                                                                                   \
-    X(TET_LINEAR, "tet_linear")             /* the paper's equation (1): right for small deflections only */ \
-    X(TET_COROTATIONAL, "tet_corotational") /* linear in each tet's own rotated frame: bends far */          \
-    X(TET_NEOHOOKEAN, "tet_neohookean")     /* a rubber-like solid: right for large strains too */
+/* What moves by itself. Every model has a chain and a cage: with the tets the cage moves and the chain follows, with the
+ * last two the chain moves and the cage follows. */
+#define FROND_MECHANICS(X)                                                                                       \
+    X(TET_LINEAR, "tet_linear")             /* the paper's equation (1): right for small deflections only */     \
+    X(TET_COROTATIONAL, "tet_corotational") /* linear in each tet's own rotated frame: bends far */              \
+    X(TET_NEOHOOKEAN, "tet_neohookean")     /* a rubber-like solid: right for large strains too */               \
+    X(ROD, "rod")                           /* beams with the organs' true sections: quickest, right for stems */ \
+    X(SPRING_CHAIN, "spring_chain")         /* the paper's capsules joined by springs, driven by r and h */
 /* How a step in time is taken. */
 #define FROND_INTEGRATORS(X)                                                                                  \
     X(IMPLICIT_EULER, "implicit_euler")       /* the paper's: one solve, damps sway away within seconds */    \
@@ -369,7 +372,10 @@ FROND_API bool frond_plant_is_valid(frond_plant plant);
 /* Null for an invalid handle. */
 FROND_API void* frond_plant_get_user(frond_plant plant);
 FROND_API frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects);
-/* 0 for an invalid handle. */
+/* Goes on with other mechanics, from the same shape and velocities: exactly between tets; between cage and chain as near
+ * as the one can take the other's shape. What the plant stands on and is held by stays. */
+FROND_API frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics mechanics);
+/* Of the cage, whatever moves. 0 for an invalid handle. */
 FROND_API int frond_plant_get_node_count(frond_plant plant);
 FROND_API int frond_plant_get_capsule_count(frond_plant plant);
 /* node_count must be the plant's. Either array may be null. positions [m], velocities [m/s], node_count*3, in the

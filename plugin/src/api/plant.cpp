@@ -32,10 +32,6 @@ static void check_plant_def(const frond_plant_def* def) {
     check_effects(def->effects);
 }
 
-static int node_count_of(const Plant& plant) {
-    return int(plant.motion.pinned.size());
-}
-
 static void check_node(const Plant& plant, int node) {
     if (node < 0 || node >= node_count_of(plant))
         fail(FROND_BAD_ARGUMENT, "node is %d; this plant has nodes 0 .. %d", node, node_count_of(plant) - 1);
@@ -119,6 +115,16 @@ frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects) {
     });
 }
 
+frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics which) {
+    return call([&] {
+        PlantBody& body = get(plant);
+        check_row(number_of(which), FROND_MECHANICS_COUNT, "mechanics");
+        set_mechanics(*body.plant, which);
+        move_capsules(body);
+        body.world->bullet->updateSingleAabb(&body);
+    });
+}
+
 int frond_plant_get_node_count(frond_plant plant) {
     const PlantBody* body = plant_slots().find(plant.id);
     return body ? node_count_of(*body->plant) : 0;
@@ -133,9 +139,11 @@ frond_result frond_plant_get_state(frond_plant plant, double* positions, double*
     return call([&] {
         const Plant& p = *get(plant).plant;
         check_count(node_count, node_count_of(p), "node_count");
+        const VecX& x = cage_places(p);
+        const VecX v = velocities ? cage_velocities(p) : VecX();
         for (int i = 0; i < node_count; i++) {
-            if (positions) Eigen::Map<Vec3>(positions + 3 * i) = p.to_world(point(p.motion.x, i));
-            if (velocities) Eigen::Map<Vec3>(velocities + 3 * i) = p.rotation * point(p.motion.v, i);
+            if (positions) Eigen::Map<Vec3>(positions + 3 * i) = p.to_world(point(x, i));
+            if (velocities) Eigen::Map<Vec3>(velocities + 3 * i) = p.rotation * point(v, i);
         }
     });
 }
@@ -157,9 +165,7 @@ frond_result frond_plant_pin(frond_plant plant, int node) {
     return call([&] {
         Plant& p = *get(plant).plant;
         check_node(p, node);
-        p.motion.pinned[size_t(node)] = 1;
-        point(p.motion.pin_target, node) = point(p.motion.x, node);
-        point(p.motion.v, node).setZero();
+        pin_node(p, node);
     });
 }
 
@@ -167,7 +173,7 @@ frond_result frond_plant_unpin(frond_plant plant, int node) {
     return call([&] {
         Plant& p = *get(plant).plant;
         check_node(p, node);
-        p.motion.pinned[size_t(node)] = 0;
+        unpin_node(p, node);
     });
 }
 
@@ -176,9 +182,9 @@ frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 positi
         Plant& p = *get(plant).plant;
         check_node(p, node);
         check_vec(position, "position [m]");
-        if (!p.motion.pinned[size_t(node)])
+        if (!p.pinned[size_t(node)])
             fail(FROND_BAD_ARGUMENT, "node %d is not pinned; call frond_plant_pin", node);
-        point(p.motion.pin_target, node) = p.to_model(to_vec(position));
+        move_pin(p, node, p.to_model(to_vec(position)));
     });
 }
 

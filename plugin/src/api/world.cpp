@@ -18,10 +18,10 @@ static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& de
 
 static int nearest_node(const Plant& plant, const Vec3& world_point) {
     const Vec3 p = plant.to_model(world_point);
+    const VecX& x = cage_places(plant);
     int nearest = 0;
-    for (int i = 1; i < plant.motion.x.size() / 3; i++)
-        if ((point(plant.motion.x, i) - p).squaredNorm() < (point(plant.motion.x, nearest) - p).squaredNorm())
-            nearest = i;
+    for (int i = 1; i < node_count_of(plant); i++)
+        if ((point(x, i) - p).squaredNorm() < (point(x, nearest) - p).squaredNorm()) nearest = i;
     return nearest;
 }
 

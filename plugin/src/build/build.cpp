@@ -20,6 +20,8 @@ static void find_organs_and_chain(Model& model, const frond_model_def& def) {
 }
 
 static void finish(Model& model) {
+    model.sections = measure_sections(model.surface, model.organs, model.chain);
+    model.organ_stiffer.assign(model.organs.size(), 1.0);
     model.root = find_root_nodes(model);
     bind_chain(model);
     model.cage_report = measure_cage(model.surface, model.cage, model.embedding);
@@ -47,6 +49,7 @@ static std::shared_ptr<const Model> build(Surface surface, const frond_model_def
     model->ms_cage = timer.ms();
     finish(*model);
     const bool must_stand = def.rest == FROND_REST_STANDS_AS_MODELLED;
+    model->stands_as_modelled = must_stand;
     const WeakOrgan weak = calibrate(*model, must_stand);
     if (must_stand) {
         const WeakOrgan toppling = find_rest_shapes(*model);

@@ -375,6 +375,7 @@ void start_from_mixture(Model& model) {
 
 void take_materials(Model& model) {
     start_from_mixture(model);
+    model.chain_mass = weigh(model).mass;
 }
 
 // How much stiffer each organ has to be to carry itself and what it bears. Organs of no weight to speak of, silk and
@@ -395,8 +396,9 @@ static std::vector<double> find_weak_organs(const Model& model, const std::vecto
 
 WeakOrgan calibrate(Model& model, bool must_stand) {
     start_from_mixture(model);
-    const std::vector<Section> sections = measure_sections(model.surface, model.organs, model.chain);
+    const std::vector<Section>& sections = model.sections;
     const Weights weights = weigh(model);
+    model.chain_mass = weights.mass;
     const std::vector<double> rods = rod_energies(model, sections, weights, true), cage = cage_energies(model);
     std::vector<char> alone(rods.size(), 0);
     for (size_t o = 0; o < rods.size(); o++) alone[o] = rods[o] > 0 && cage[o] > 0;
@@ -410,6 +412,7 @@ WeakOrgan calibrate(Model& model, bool must_stand) {
     if (!must_stand) return weak;
     const std::vector<double> stiffer = find_weak_organs(model, organ_turns(model, sections, weights), weak);
     for (size_t e = 0; e < model.tet_young.size(); e++) model.tet_young[e] *= stiffer[size_t(model.cage.tet_organ[e])];
+    model.organ_stiffer = stiffer;
     return weak;
 }
 

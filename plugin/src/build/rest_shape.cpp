@@ -14,8 +14,6 @@
 namespace frond {
 namespace {
 
-constexpr double GRAVITY = 9.81;  // along the model's -y [m/s^2]
-
 VecX modelled_positions(const Model& model) {
     VecX x(3 * Eigen::Index(model.cage.nodes.size()));
     for (size_t i = 0; i < model.cage.nodes.size(); i++) point(x, int(i)) = model.cage.nodes[i];
@@ -284,8 +282,9 @@ WeakOrgan find_rest_shapes(Model& model) {
         if (safer.rest.size() > 0) outcome = safer;
     }
     model.rest_positions[FROND_TET_COROTATIONAL] = outcome.rest;
+    for (size_t o = 0; o < factor.size(); o++) model.organ_stiffer[o] *= factor[o];
     for (int which = 0; which < FROND_MECHANICS_COUNT; which++)
-        if (which != FROND_TET_COROTATIONAL)
+        if (which != FROND_TET_COROTATIONAL && !mechanics(frond_mechanics(which)).moves_chain)
             model.rest_positions[size_t(which)] = find_rest_shape(model, frond_mechanics(which)).rest;
     const size_t weakest = size_t(std::max_element(factor.begin(), factor.end()) - factor.begin());
     return {model.organs[weakest].name, factor[weakest]};

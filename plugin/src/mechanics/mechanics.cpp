@@ -6,13 +6,25 @@
 namespace frond {
 
 const Mechanics& mechanics(frond_mechanics which) {
+#define TETS(prefix, needs_search)                                                                   \
+    {                                                                                                \
+        #prefix, make_tets, tet_masses, prefix##_energy, prefix##_add_force, prefix##_add_stiffness, \
+            prefix##_add_both, nullptr, tets_are_calm, needs_search, false                           \
+    }
+#define RODS(name)                                                                                                    \
+    {                                                                                                                 \
+        name, make_rods, rod_masses, rod_energy, rod_add_force, rod_add_stiffness, rod_add_both, rod_inertia,          \
+            rods_are_calm, false, true                                                                                \
+    }
     static const Mechanics TABLE[] = {
-        {"tet_linear", tet_linear_energy, tet_linear_add_force, tet_linear_add_stiffness, tet_linear_add_both, false},
-        {"tet_corotational", tet_corotational_energy, tet_corotational_add_force, tet_corotational_add_stiffness,
-         tet_corotational_add_both, false},
-        {"tet_neohookean", tet_neohookean_energy, tet_neohookean_add_force, tet_neohookean_add_stiffness,
-         tet_neohookean_add_both, true},
+        TETS(tet_linear, false),
+        TETS(tet_corotational, false),
+        TETS(tet_neohookean, true),
+        RODS("rod"),
+        RODS("spring_chain"),
     };
+#undef TETS
+#undef RODS
     static_assert(sizeof TABLE / sizeof TABLE[0] == FROND_MECHANICS_COUNT, "every mechanics needs its row");
     return TABLE[which];
 }

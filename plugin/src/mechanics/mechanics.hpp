@@ -10,22 +10,43 @@
 
 namespace frond {
 
-// What tets need at rest; read-only, shared by all plants of a model.
-struct TetElements {
+// What a mechanics needs at rest; read-only, shared by all plants of a model. Its nodes are blocks of three numbers of x:
+// places or, where a mechanics says so, rotation vectors.
+struct Elements {
     int node_count = 0;
+    VecX rest_positions;  // without load, node_count*3 [m]
+    VecX modelled;        // where the nodes are in the shape that was modelled, node_count*3 [m]
+    BlockPattern pattern;
+    virtual ~Elements() = default;
+
+protected:
+    Elements() = default;
+    Elements(const Elements&) = default;
+    Elements(Elements&&) = default;
+    Elements& operator=(const Elements&) = default;
+    Elements& operator=(Elements&&) = default;
+};
+
+// Nodes are the cage's.
+struct TetElements : Elements {
     std::vector<Tet> tets;           // as in the cage
     std::vector<Tet> ordered;        // the same tets, nodes ascending: their blocks then fall in the lower triangle
     std::vector<Mat3> rest_inverse;  // inverse of the edges from ordered[0] to ordered[1..3], as columns [1/m]
     std::vector<double> volume;      // [m^3]
     std::vector<double> lambda, mu;  // Lame's constants [Pa]
     std::vector<double> density;     // [kg/m^3]
-    VecX rest_positions;             // node_count*3 [m]
     std::vector<std::array<int, 16>> slots;  // of ordered nodes a, b at [4*a+b], in a BlockMatrix of this pattern
-    BlockPattern pattern;
 };
 
 // For rest positions other than the model's own (the rest shape found under gravity), pass them.
 TetElements make_tet_elements(const Model& model, const VecX* rest_positions = nullptr);
+
+// Mass of the nodes.
+struct Masses {
+    VecX node;                 // lumped, one a node [kg]; zero for a rotation
+    bool lumped = true;        // the mass matrix is diagonal
+    std::vector<double> slot;  // one a block of the pattern, times the identity [kg]
+};
 
 // Which derivative of the force: the exact one, or one that is always positive semi-definite.
 enum class Tangent { exact, positive };
@@ -33,17 +54,27 @@ enum class Tangent { exact, positive };
 // x is in the frame of the rest positions: a plant that is placed turned in a world is not bent by that.
 struct Mechanics {
     const char* name;
+    // `which` is the row's own number.
+    std::unique_ptr<const Elements> (*make)(const Model& model, frond_mechanics which);
+    Masses (*masses)(const Elements& elements, frond_mass mass);
     // Elastic energy at x [J].
-    double (*energy)(const TetElements& elements, const VecX& x);
+    double (*energy)(const Elements& elements, const VecX& x);
     // Adds the elastic force at x, minus the gradient of the energy, to f [N]; the number of inverted tets is returned.
-    int (*add_force)(const TetElements& elements, const VecX& x, VecX& f);
+    int (*add_force)(const Elements& elements, const VecX& x, VecX& f);
     // Adds scale times the stiffness at x, the second derivative of the energy, to K [N/m].
-    void (*add_stiffness)(const TetElements& elements, const VecX& x, Tangent tangent, double scale, BlockMatrix& K);
+    void (*add_stiffness)(const Elements& elements, const VecX& x, Tangent tangent, double scale, BlockMatrix& K);
     // Both of the above in one pass over the elements, the stiffness with scale one.
-    int (*add_force_and_stiffness)(const TetElements& elements, const VecX& x, Tangent tangent, VecX& f,
-                                   BlockMatrix& K);
+    int (*add_force_and_stiffness)(const Elements& elements, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K);
+    // Rotary inertia of each pair of nodes, place and rotation, by the rate of the rotation vector at x [kg m^2]; null
+    // where no node turns.
+    void (*rotary_inertia)(const Elements& elements, const VecX& x, std::vector<Mat3>& out);
+    // Whether all elements are strained and turned little on the way, so that forces and stiffness at `to` are worth
+    // taking for a step that begins at `from`.
+    bool (*is_calm)(const Elements& elements, const VecX& from, const VecX& to);
     // One solve alone may blow up where tets are inside out: go on from there with a line search.
     bool needs_search;
+    // Nodes are pairs of a chain node's place and its rotation; the cage follows. Else nodes are the cage's.
+    bool moves_chain;
 };
 const Mechanics& mechanics(frond_mechanics which);
 

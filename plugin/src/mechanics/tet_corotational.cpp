@@ -53,7 +53,8 @@ TetStiffness stiffness(const TetElements& elements, size_t e, const Mat3& F, con
 
 }  // namespace
 
-double tet_corotational_energy(const TetElements& elements, const VecX& x) {
+double tet_corotational_energy(const Elements& body, const VecX& x) {
+    const TetElements& elements = as_tets(body);
     double energy = 0;
     for (size_t e = 0; e < elements.tets.size(); ++e) {
         const Mat3 F = deformation_gradient(elements, e, x);
@@ -65,7 +66,8 @@ double tet_corotational_energy(const TetElements& elements, const VecX& x) {
     return energy;
 }
 
-int tet_corotational_add_force(const TetElements& elements, const VecX& x, VecX& f) {
+int tet_corotational_add_force(const Elements& body, const VecX& x, VecX& f) {
+    const TetElements& elements = as_tets(body);
     int inverted = 0;
     for (size_t e = 0; e < elements.tets.size(); ++e) {
         const Mat3 F = deformation_gradient(elements, e, x);
@@ -76,15 +78,17 @@ int tet_corotational_add_force(const TetElements& elements, const VecX& x, VecX&
     return inverted;
 }
 
-void tet_corotational_add_stiffness(const TetElements& elements, const VecX& x, Tangent tangent, double scale,
+void tet_corotational_add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale,
                                     BlockMatrix& K) {
+    const TetElements& elements = as_tets(body);
     for (size_t e = 0; e < elements.tets.size(); ++e) {
         const Mat3 F = deformation_gradient(elements, e, x);
         scatter_stiffness(elements, e, stiffness(elements, e, F, polar_decomposition(F), tangent, scale), K);
     }
 }
 
-int tet_corotational_add_both(const TetElements& elements, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+int tet_corotational_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+    const TetElements& elements = as_tets(body);
     int inverted = 0;
     for (size_t e = 0; e < elements.tets.size(); ++e) {
         const Mat3 F = deformation_gradient(elements, e, x);

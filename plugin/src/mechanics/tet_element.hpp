@@ -6,6 +6,11 @@
 
 namespace frond {
 
+// What every row of the tets is given.
+inline const TetElements& as_tets(const Elements& elements) {
+    return static_cast<const TetElements&>(elements);
+}
+
 // Gradient of deformation F = sum over nodes of x b^T, with b the rest gradients of the shape functions.
 inline Mat3 deformation_gradient(const TetElements& elements, size_t e, const VecX& x) {
     const Tet& tet = elements.ordered[e];

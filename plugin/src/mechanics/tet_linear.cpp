@@ -13,7 +13,8 @@ Mat3 small_strain(const Mat3& F) {
 
 }  // namespace
 
-double tet_linear_energy(const TetElements& elements, const VecX& x) {
+double tet_linear_energy(const Elements& body, const VecX& x) {
+    const TetElements& elements = as_tets(body);
     double energy = 0;
     for (size_t e = 0; e < elements.tets.size(); ++e) {
         const Mat3 strain = small_strain(deformation_gradient(elements, e, x));
@@ -24,7 +25,8 @@ double tet_linear_energy(const TetElements& elements, const VecX& x) {
     return energy;
 }
 
-int tet_linear_add_force(const TetElements& elements, const VecX& x, VecX& f) {
+int tet_linear_add_force(const Elements& body, const VecX& x, VecX& f) {
+    const TetElements& elements = as_tets(body);
     int inverted = 0;
     for (size_t e = 0; e < elements.tets.size(); ++e) {
         const Mat3 F = deformation_gradient(elements, e, x);
@@ -38,12 +40,14 @@ int tet_linear_add_force(const TetElements& elements, const VecX& x, VecX& f) {
 }
 
 // Constant, so that the two tangents are one.
-void tet_linear_add_stiffness(const TetElements& elements, const VecX&, Tangent, double scale, BlockMatrix& K) {
+void tet_linear_add_stiffness(const Elements& body, const VecX&, Tangent, double scale, BlockMatrix& K) {
+    const TetElements& elements = as_tets(body);
     for (size_t e = 0; e < elements.tets.size(); ++e)
         scatter_stiffness(elements, e, warped_stiffness(elements, e, Mat3::Identity(), scale), K);
 }
 
-int tet_linear_add_both(const TetElements& elements, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+int tet_linear_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+    const TetElements& elements = as_tets(body);
     tet_linear_add_stiffness(elements, x, tangent, 1, K);
     return tet_linear_add_force(elements, x, f);
 }

@@ -149,14 +149,16 @@ TetStiffness stiffness(const TetElements& elements, size_t e, const Strain& s, T
 
 }  // namespace
 
-double tet_neohookean_energy(const TetElements& elements, const VecX& x) {
+double tet_neohookean_energy(const Elements& body, const VecX& x) {
+    const TetElements& elements = as_tets(body);
     double energy = 0;
     for (size_t e = 0; e < elements.tets.size(); ++e)
         energy += elements.volume[e] * energy_density(strain_of(elements, e, x));
     return energy;
 }
 
-int tet_neohookean_add_force(const TetElements& elements, const VecX& x, VecX& f) {
+int tet_neohookean_add_force(const Elements& body, const VecX& x, VecX& f) {
+    const TetElements& elements = as_tets(body);
     int inverted = 0;
     for (size_t e = 0; e < elements.tets.size(); ++e) {
         const Strain s = strain_of(elements, e, x);
@@ -166,13 +168,15 @@ int tet_neohookean_add_force(const TetElements& elements, const VecX& x, VecX& f
     return inverted;
 }
 
-void tet_neohookean_add_stiffness(const TetElements& elements, const VecX& x, Tangent tangent, double scale,
+void tet_neohookean_add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale,
                                   BlockMatrix& K) {
+    const TetElements& elements = as_tets(body);
     for (size_t e = 0; e < elements.tets.size(); ++e)
         scatter_stiffness(elements, e, stiffness(elements, e, strain_of(elements, e, x), tangent, scale), K);
 }
 
-int tet_neohookean_add_both(const TetElements& elements, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+int tet_neohookean_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+    const TetElements& elements = as_tets(body);
     int inverted = 0;
     for (size_t e = 0; e < elements.tets.size(); ++e) {
         const Strain s = strain_of(elements, e, x);

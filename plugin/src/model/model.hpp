@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/cage.hpp"
-#include "model/chain.hpp"
+#include "model/section.hpp"
 
 namespace frond {
 
@@ -12,12 +12,19 @@ struct ChainArrays {
     std::vector<int32_t> parents;          // node_count
 };
 
+// Under which a plant stands as it was modelled, along the model's -y [m/s^2].
+constexpr double GRAVITY = 9.81;
+
 struct Model {
     Surface surface;
     Topology topology;
     std::vector<Organ> organs;
     Chain chain;
     ChainArrays chain_view;
+    std::vector<Section> sections;    // of the capsule between a chain node and its parent, one a chain node
+    std::vector<double> chain_mass;   // that each chain node carries of the plant's mass [kg]
+    std::vector<double> organ_stiffer;  // how much stiffer than its material each organ was made so that it stands [-]
+    bool stands_as_modelled = false;  // under GRAVITY; else the modelled shape is the one without it
     std::vector<std::array<int, 2>> capsules;  // chain nodes at the two ends; a root alone is both ends
     Cage cage;
     Embedding embedding;              // surface vertices in the cage

@@ -7,18 +7,71 @@
 
 namespace frond {
 
-// One System for all plants of a model, a mechanics and a mass, for as long as one of them lives.
+// What all plants of a model share, found again for as long as one of them lives.
+template <class Key, class Value>
+struct Shared {
+    std::mutex mutex;
+    std::map<Key, std::weak_ptr<const Value>> known;
+    template <class Make>
+    std::shared_ptr<const Value> find_or_make(const Key& key, Make&& make) {
+        std::lock_guard<std::mutex> lock(mutex);
+        for (auto entry = known.begin(); entry != known.end();)
+            entry = entry->second.expired() ? known.erase(entry) : std::next(entry);
+        std::weak_ptr<const Value>& place = known[key];
+        std::shared_ptr<const Value> value = place.lock();
+        if (!value) place = value = make();
+        return value;
+    }
+};
+
 static std::shared_ptr<const System> shared_system(const std::shared_ptr<const Model>& model, frond_mechanics which,
                                                    frond_mass mass) {
-    static std::mutex mutex;
-    static std::map<std::tuple<const Model*, frond_mechanics, frond_mass>, std::weak_ptr<const System>> systems;
-    std::lock_guard<std::mutex> lock(mutex);
-    for (auto entry = systems.begin(); entry != systems.end();)
-        entry = entry->second.expired() ? systems.erase(entry) : std::next(entry);
-    auto& known = systems[{model.get(), which, mass}];
-    std::shared_ptr<const System> system = known.lock();
-    if (!system) known = system = make_system(model, which, mass);
-    return system;
+    static Shared<std::tuple<const Model*, frond_mechanics, frond_mass>, System> systems;
+    return systems.find_or_make({model.get(), which, mass}, [&] { return make_system(model, which, mass); });
+}
+
+// Keeps its model alive, so that another one at the same address is not taken for it.
+struct FollowOfModel {
+    std::shared_ptr<const Model> model;
+    Follow follow;
+};
+
+static std::shared_ptr<const Follow> shared_follow(const std::shared_ptr<const Model>& model) {
+    static Shared<const Model*, FollowOfModel> follows;
+    const auto shared = follows.find_or_make(model.get(), [&] {
+        return std::make_shared<const FollowOfModel>(FollowOfModel{model, make_follow(*model)});
+    });
+    return std::shared_ptr<const Follow>(shared, &shared->follow);
+}
+
+static void take_mechanics(Plant& plant, frond_mechanics which) {
+    plant.which = which;
+    plant.system = shared_system(plant.model, which, plant.mass);
+    plant.workspace = make_workspace(plant.system);
+    plant.follow = mechanics(which).moves_chain ? shared_follow(plant.model) : nullptr;
+    const VecX& start = elements_of(*plant.system).modelled;
+    plant.motion = {};
+    plant.motion.x = plant.motion.pin_target = start;
+    plant.motion.v = plant.loads.force = VecX::Zero(start.size());
+    plant.motion.pinned.assign(size_t(start.size() / 3), 0);
+    plant.pins_changed = plant.cage_stale = true;
+}
+
+// The chain nodes that hold pinned cage nodes: of those that the ground holds, the nearest one at the foot.
+static void find_anchors(Plant& plant, double limit) {
+    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
+    plant.anchor.assign(plant.pinned.size(), 0);
+    for (size_t n = 0; n < plant.pinned.size(); n++) {
+        if (plant.follow) plant.anchor[n] = plant.follow->nearest[n];
+        if (!plant.pinned[n]) continue;
+        double least = INFINITY;
+        for (size_t i = 0; i < nodes.size(); i++) {
+            const double distance = (nodes[i].position - plant.model->cage.nodes[n]).norm();
+            if ((nodes[i].parent >= 0 && nodes[i].position.y() >= limit) || distance >= least) continue;
+            least = distance;
+            plant.anchor[n] = int(i);
+        }
+    }
 }
 
 static void pin_below(const Model& model, double height, std::vector<uint8_t>& pinned) {
@@ -28,10 +81,9 @@ static void pin_below(const Model& model, double height, std::vector<uint8_t>& p
 
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def) {
     auto plant = std::make_unique<Plant>();
-    const int node_count = int(model->cage.nodes.size());
-    plant->system = shared_system(model, def.mechanics, def.mass);
-    plant->workspace = make_workspace(plant->system);
-    plant->settings.mechanics = def.mechanics;
+    const size_t node_count = model->cage.nodes.size();
+    plant->model = std::move(model);
+    plant->mass = def.mass;
     plant->settings.integrator = def.integrator;
     plant->settings.linear_solver = def.linear_solver;
     plant->settings.newton_iterations = def.newton_iterations;
@@ -45,25 +97,36 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     plant->position = Vec3(def.position.x, def.position.y, def.position.z);
     plant->rotation = Quat(def.rotation.w, def.rotation.x, def.rotation.y, def.rotation.z).normalized();
     plant->user = def.user;
+    plant->user_force = VecX::Zero(3 * Eigen::Index(node_count));
 
-    // At rest as modelled.
-    Motion& motion = plant->motion;
-    motion.x.resize(3 * node_count);
-    for (int i = 0; i < node_count; i++) point(motion.x, i) = model->cage.nodes[size_t(i)];
-    motion.v = VecX::Zero(3 * node_count);
-    motion.pin_target = motion.x;
-    motion.pinned.assign(size_t(node_count), 0);
+    // At rest as modelled, held by the ground.
+    take_mechanics(*plant, def.mechanics);
+    plant->pinned.assign(node_count, 0);
     if (def.root_height > 0)
-        pin_below(*model, def.root_height, motion.pinned);
+        pin_below(*plant->model, def.root_height, plant->pinned);
     else if (def.root_height == 0)
-        motion.pinned = model->root;
-
-    plant->user_force = VecX::Zero(3 * node_count);
-    plant->loads.force = VecX::Zero(3 * node_count);
-    plant->model = std::move(model);
-    update_chain(*plant);
+        plant->pinned = plant->model->root;
+    plant->pin_target = cage_places(*plant);
+    find_anchors(*plant, def.root_height > 0 ? plant->model->surface.lower().y() + def.root_height : -INFINITY);
+    apply_pins(*plant);
+    moved(*plant);
     update_surface(*plant, FROND_ALL_EFFECTS);
     return plant;
+}
+
+void set_mechanics(Plant& plant, frond_mechanics which) {
+    if (which == plant.which) return;
+    const VecX places = cage_places(plant), velocities = cage_velocities(plant);
+    take_mechanics(plant, which);
+    if (plant.follow) {
+        fit_chain(*plant.follow, *plant.model, places, plant.motion.x);
+        fit_velocities(*plant.follow, plant.motion.x, velocities, plant.motion.v);
+    } else {
+        plant.motion.x = places;
+        plant.motion.v = velocities;
+    }
+    apply_pins(plant);
+    moved(plant);
 }
 
 }  // namespace frond

@@ -4,6 +4,7 @@
 
 #include <list>
 
+#include "plant/follow.hpp"
 #include "solve/solve.hpp"
 
 namespace frond {
@@ -16,8 +17,11 @@ struct Grab {
     uint64_t handle;   // of the C API
 };
 
+// Nodes that the host sees are the cage's, whatever moves. Where the mechanics move the chain, the cage follows it.
 struct Plant {
     std::shared_ptr<const Model> model;
+    frond_mechanics which;
+    frond_mass mass;
     std::shared_ptr<const System> system;
     WorkspacePtr workspace;
     SolveSettings settings;
@@ -26,10 +30,16 @@ struct Plant {
     Quat rotation;
     void* user = nullptr;
 
-    Motion motion;        // model frame
-    VecX x_good, v_good;  // before the running step
+    Motion motion;        // of what the mechanics move, model frame
+    std::shared_ptr<const Follow> follow;  // null where the cage itself moves
+    std::vector<uint8_t> pinned;           // one a cage node
+    VecX pin_target;                       // where pinned cage nodes shall be, model frame [m]
+    std::vector<int> anchor;               // the chain node that holds each cage node where it is pinned
+    std::vector<Spring> pin_springs;       // hold pinned cage nodes that are too few to hold a chain node
+    bool pins_changed = true;
+    VecX x_good, v_good;  // before the running step, of the motion
     Loads loads;          // of the running step, kept to reuse its memory
-    VecX user_force;      // until the end of the host's step, world frame [N]
+    VecX user_force;      // on cage nodes, until the end of the host's step, world frame [N]
     bool has_user_force = false;
     std::list<Grab> grabs;
 
@@ -37,6 +47,8 @@ struct Plant {
     std::vector<Vec3> chain_positions;                      // model frame [m]
     std::vector<float> surface_positions, surface_normals;  // world frame
     bool surface_stale = true;
+    mutable VecX cage_x;  // model frame [m]; of plants whose cage follows
+    mutable bool cage_stale = true;
 
     // Of the last step.
     SolveReport report;
@@ -69,5 +81,24 @@ Vec3 grab_force(const Plant& plant, const Grab& grab);  // on the plant, world f
 // Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave that part as it is.
 void set_state(Plant& plant, const double* positions, const double* velocities);
 void update_chain(Plant& plant);
+// After the motion was changed: the chain now, cage and surface when somebody looks.
+void moved(Plant& plant);
+
+int node_count_of(const Plant& plant);
+// Of the cage nodes, model frame [m]. Borrowed until the plant moves.
+const VecX& cage_places(const Plant& plant);
+VecX cage_velocities(const Plant& plant);  // [m/s]
+// A point of the plant for forces on it.
+Grip vertex_grip(const Plant& plant, int vertex);
+
+// Holds a cage node where it is, lets it go, or moves where it is held to (model frame).
+void pin_node(Plant& plant, int node);
+void unpin_node(Plant& plant, int node);
+void move_pin(Plant& plant, int node, const Vec3& target);
+// What the pins are for the nodes of the mechanics.
+void apply_pins(Plant& plant);
+
+// Goes on with other mechanics from the same shape and motion.
+void set_mechanics(Plant& plant, frond_mechanics which);
 
 }  // namespace frond

@@ -6,8 +6,8 @@ namespace frond {
 frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
     const VecX& mass = node_mass_of(*plant.system);
     frond_energy energy = {};
-    energy.kinetic = kinetic_energy(*plant.system, plant.motion.v);
-    energy.elastic = mechanics(plant.settings.mechanics).energy(elements_of(*plant.system), plant.motion.x);
+    energy.kinetic = kinetic_energy(*plant.system, plant.motion.x, plant.motion.v);
+    energy.elastic = mechanics(plant.which).energy(elements_of(*plant.system), plant.motion.x);
     for (int i = 0; i < mass.size(); i++)
         energy.gravity -= mass[i] * gravity.dot(plant.to_world(point(plant.motion.x, i)));
     return energy;
@@ -20,14 +20,48 @@ Vec3 grab_force(const Plant& plant, const Grab& grab) {
 void set_state(Plant& plant, const double* positions, const double* velocities) {
     const Quat to_model = plant.rotation.conjugate();
     Motion& motion = plant.motion;
-    for (int i = 0; i < motion.x.size() / 3; i++) {
-        if (positions) point(motion.x, i) = plant.to_model(Vec3(positions + 3 * i));
-        if (velocities) point(motion.v, i) = to_model * Vec3(velocities + 3 * i);
+    VecX x, v;
+    if (positions) x.resize(3 * node_count_of(plant));
+    if (velocities) v.resize(3 * node_count_of(plant));
+    for (int i = 0; i < node_count_of(plant); i++) {
+        if (positions) point(x, i) = plant.to_model(Vec3(positions + 3 * i));
+        if (velocities) point(v, i) = to_model * Vec3(velocities + 3 * i);
     }
-    if (positions) motion.pin_target = motion.x;
+    if (positions) plant.pin_target = x;
+    if (plant.follow) {
+        if (positions) fit_chain(*plant.follow, *plant.model, x, motion.x);
+        if (velocities) fit_velocities(*plant.follow, motion.x, v, motion.v);
+    } else {
+        if (positions) motion.x = x;
+        if (velocities) motion.v = v;
+    }
     motion.history.valid = false;
+    plant.pins_changed = true;
+    apply_pins(plant);
+    moved(plant);
+}
+
+int node_count_of(const Plant& plant) {
+    return int(plant.pinned.size());
+}
+
+const VecX& cage_places(const Plant& plant) {
+    if (!plant.follow) return plant.motion.x;
+    if (plant.cage_stale) follow_places(*plant.follow, plant.motion.x, plant.cage_x);
+    plant.cage_stale = false;
+    return plant.cage_x;
+}
+
+VecX cage_velocities(const Plant& plant) {
+    if (!plant.follow) return plant.motion.v;
+    VecX velocities;
+    follow_velocities(*plant.follow, plant.motion.x, plant.motion.v, velocities);
+    return velocities;
+}
+
+void moved(Plant& plant) {
+    plant.cage_stale = plant.surface_stale = true;
     update_chain(plant);
-    plant.surface_stale = true;
 }
 
 }  // namespace frond

@@ -9,19 +9,22 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
     const Quat to_model = plant.rotation.conjugate();
     Loads& loads = plant.loads;
     loads.gravity = effects & FROND_GRAVITY ? Vec3(to_model * surroundings.gravity) : Vec3(Vec3::Zero());
-    loads.springs.clear();
+    loads.springs = plant.pin_springs;
     loads.force.setZero();
     if (!(effects & FROND_USER_FORCE)) return;
 
     if (plant.has_user_force) {
         const Mat3 turn = to_model.toRotationMatrix();
-        for (int i = 0; i < plant.user_force.size() / 3; i++) point(loads.force, i) = turn * point(plant.user_force, i);
+        for (int i = 0; i < node_count_of(plant); i++) {
+            const Vec3 force = turn * point(plant.user_force, i);
+            if (!plant.follow)
+                point(loads.force, i) = force;
+            else if (force != Vec3::Zero())
+                add_grip_force(plant.follow->grips[size_t(i)], plant.motion.x, force, loads.force);
+        }
     }
-    for (const Grab& grab : plant.grabs) {
-        const size_t vertex = size_t(grab.vertex);
-        loads.springs.push_back({plant.model->embedding.tet[vertex], plant.model->embedding.weights[vertex],
-                                 plant.to_model(grab.target), grab.stiffness});
-    }
+    for (const Grab& grab : plant.grabs)
+        loads.springs.push_back({vertex_grip(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
 }
 
 static bool is_sound(const Motion& motion, double size) {
@@ -39,6 +42,7 @@ void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
 
     // Effects.
     Timer timer;
+    apply_pins(plant);
     gather_loads(plant, surroundings, effects);
     SolveSettings settings = plant.settings;
     if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = 0;
@@ -56,8 +60,7 @@ void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
         motion.history.valid = false;
         plant.trouble |= FROND_TROUBLE_REWOUND;
     }
-    update_chain(plant);
-    plant.surface_stale = true;
+    moved(plant);
 }
 
 void clear_user_force(Plant& plant) {

@@ -1,4 +1,6 @@
 // What follows the cage: the surface with its normals, and the chain.
+#include <algorithm>
+
 #include "core/timer.hpp"
 #include "plant/plant.hpp"
 
@@ -25,7 +27,7 @@ static Mat3 edges_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 static void update_normals(Plant& plant) {
     const Model& model = *plant.model;
     const std::vector<Vec3>& modelled = model.cage.nodes;
-    const VecX& x = plant.motion.x;
+    const VecX& x = cage_places(plant);
     std::vector<Mat3> cofactor(modelled.size(), Mat3::Zero());
     for (const Tet& tet : model.cage.tets) {
         const Mat3 M = edges_of(modelled[size_t(tet[0])], modelled[size_t(tet[1])], modelled[size_t(tet[2])],
@@ -57,11 +59,12 @@ void update_surface(Plant& plant, frond_effects effects) {
     const Model& model = *plant.model;
     const size_t vertex_count = model.surface.positions.size();
     Timer timer;
+    const VecX& x = cage_places(plant);
     plant.surface_positions.resize(3 * vertex_count);
     plant.surface_normals.resize(3 * vertex_count);
     const Mat3 turn = plant.rotation.toRotationMatrix();
     for (size_t v = 0; v < vertex_count; v++) {
-        const Vec3 p = turn * bound_point(model, model.embedding, v, plant.motion.x) + plant.position;
+        const Vec3 p = turn * bound_point(model, model.embedding, v, x) + plant.position;
         for (int axis = 0; axis < 3; axis++) plant.surface_positions[3 * v + size_t(axis)] = float(p[axis]);
     }
     if (effects & FROND_NORMALS) update_normals(plant);
@@ -70,7 +73,7 @@ void update_surface(Plant& plant, frond_effects effects) {
 }
 
 Vec3 vertex_position(const Plant& plant, int vertex) {
-    return plant.to_world(bound_point(*plant.model, plant.model->embedding, size_t(vertex), plant.motion.x));
+    return plant.to_world(bound_point(*plant.model, plant.model->embedding, size_t(vertex), cage_places(plant)));
 }
 
 int nearest_vertex(const Plant& plant, const Vec3& world_point) {
@@ -79,7 +82,7 @@ int nearest_vertex(const Plant& plant, const Vec3& world_point) {
     double best = INFINITY;
     for (size_t v = 0; v < plant.model->surface.positions.size(); v++) {
         const double distance =
-            (bound_point(*plant.model, plant.model->embedding, v, plant.motion.x) - p).squaredNorm();
+            (bound_point(*plant.model, plant.model->embedding, v, cage_places(plant)) - p).squaredNorm();
         if (distance < best) {
             best = distance;
             nearest = int(v);
@@ -91,8 +94,31 @@ int nearest_vertex(const Plant& plant, const Vec3& world_point) {
 void update_chain(Plant& plant) {
     const size_t count = plant.model->chain.nodes.size();
     plant.chain_positions.resize(count);
+    const VecX& x = plant.motion.x;
     for (size_t i = 0; i < count; i++)
-        plant.chain_positions[i] = bound_point(*plant.model, plant.model->chain_embedding, i, plant.motion.x);
+        plant.chain_positions[i] = plant.follow
+                                       ? Vec3(point(x, int(2 * i)))
+                                       : bound_point(*plant.model, plant.model->chain_embedding, i, x);
+}
+
+// Of a chain: the corner of the vertex's tet that it is nearest to stands for it, and a rigid arm reaches the rest.
+Grip vertex_grip(const Plant& plant, int vertex) {
+    const Embedding& embedding = plant.model->embedding;
+    const Tet& tet = plant.model->cage.tets[size_t(embedding.tet[size_t(vertex)])];
+    const std::array<double, 4>& weights = embedding.weights[size_t(vertex)];
+    Grip grip;
+    if (!plant.follow) {
+        grip.count = 4;
+        grip.node = tet;
+        grip.weight = weights;
+        return grip;
+    }
+    const size_t most = size_t(std::max_element(weights.begin(), weights.end()) - weights.begin());
+    grip = plant.follow->grips[size_t(tet[most])];
+    Vec3 reach = -plant.model->cage.nodes[size_t(tet[most])];
+    for (size_t k = 0; k < 4; k++) reach += weights[k] * plant.model->cage.nodes[size_t(tet[k])];
+    for (size_t k = 0; k < size_t(grip.count); k++) grip.arm[k] += grip.weight[k] * reach;
+    return grip;
 }
 
 }  // namespace frond

@@ -8,22 +8,22 @@ namespace frond {
 void force_at_start(Workspace& w, const StepInput& input, SolveReport& report) {
     Timer timer;
     const System& system = *w.system;
-    const Mechanics& body = mechanics(input.settings.mechanics);
+    const Mechanics& body = *system.row;
     const VecX& x = input.motion.x;
     const double b = input.settings.stiffness_damping;
     w.force = w.external;
-    add_spring_force(system, input.loads.springs, x, w.force);
+    add_spring_force(input.loads.springs, x, w.force);
 
     // D = a M + b K, the positive K as in a stage.
     if (b > 0) {
         w.A.set_zero();
-        report.inverted = body.add_force_and_stiffness(system.elements, x, Tangent::positive, w.force, w.A);
+        report.inverted = body.add_force_and_stiffness(*system.elements, x, Tangent::positive, w.force, w.A);
         w.A.multiply(w.v_start, w.product);
         w.force -= b * w.product;
     } else {
-        report.inverted = body.add_force(system.elements, x, w.force);
+        report.inverted = body.add_force(*system.elements, x, w.force);
     }
-    multiply_mass(system, w.v_start, w.momentum);
+    multiply_mass(system, w.inertia, w.v_start, w.momentum);
     w.force -= input.settings.mass_damping * w.momentum;
     report.ms_assembly += timer.lap();
 }

@@ -28,7 +28,12 @@ struct Stage {
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report);
 
 // Whether a guess of where a plant will be is near enough to be used.
-bool is_calm(const System& system, const VecX& from, const VecX& to);
+inline bool is_calm(const System& system, const VecX& from, const VecX& to) {
+    return system.row->is_calm(*system.elements, from, to);
+}
+
+// Adds the rotary inertia of free nodes that turn to the matrix in workspace.A.
+void add_inertia(Workspace& workspace, double scale);
 
 // Forces and damping at the start of the step [N], into workspace.force.
 void force_at_start(Workspace& workspace, const StepInput& input, SolveReport& report);

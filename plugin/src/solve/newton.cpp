@@ -40,18 +40,18 @@ void move(const Newton& n, const VecX& v) {
 void start_residual(const Newton& n, const VecX& v, VecX& rhs) {
     const double step = n.stage.step;
     rhs = n.w.external + n.w.elastic;
-    add_spring_force(n.system, n.input.loads.springs, n.w.x, rhs);
+    add_spring_force(n.input.loads.springs, n.w.x, rhs);
     rhs *= step;
     if (n.stage.impulse) rhs += *n.stage.impulse;
     n.w.dv = n.stage.v_base - (1 + step * n.input.settings.mass_damping) * v;
-    multiply_mass(n.system, n.w.dv, n.w.momentum);
+    multiply_mass(n.system, n.w.inertia, n.w.dv, n.w.momentum);
     rhs += n.w.momentum;
 }
 
 // Nodes whose velocity is given do not count.
 double free_norm(const Newton& n, const VecX& rhs) {
     double sum = 0;
-    for (int i = 0; i < n.system.elements.node_count; ++i)
+    for (int i = 0; i < n.system.elements->node_count; ++i)
         if (!n.w.held[size_t(i)]) sum += point(rhs, i).squaredNorm();
     return std::sqrt(sum);
 }
@@ -62,7 +62,7 @@ void linearize_at_start(Newton& n) {
     const auto assemble = [&](const VecX& x) {
         w.elastic.setZero(x.size());
         w.A.set_zero();
-        n.report.inverted = n.body.add_force_and_stiffness(n.system.elements, x, Tangent::positive, w.elastic, w.A);
+        n.report.inverted = n.body.add_force_and_stiffness(*n.system.elements, x, Tangent::positive, w.elastic, w.A);
         move(n, w.v);
         w.dv = w.x - x;
     };
@@ -82,7 +82,7 @@ double residual_at(Newton& n, const VecX& v, VecX& rhs) {
     Workspace& w = n.w;
     move(n, v);
     w.elastic.setZero(v.size());
-    n.report.inverted = n.body.add_force(n.system.elements, w.x, w.elastic);
+    n.report.inverted = n.body.add_force(*n.system.elements, w.x, w.elastic);
     start_residual(n, v, rhs);
     if (n.keep_damping) {
         w.damping.multiply(v, w.product);
@@ -96,12 +96,12 @@ double potential_at(const Newton& n, const VecX& v) {
     Workspace& w = n.w;
     const double step = n.stage.step, a = n.input.settings.mass_damping;
     move(n, v);
-    double potential = n.body.energy(n.system.elements, w.x) + spring_energy(n.system, n.input.loads.springs, w.x) -
+    double potential = n.body.energy(*n.system.elements, w.x) + spring_energy(n.input.loads.springs, w.x) -
                        step * w.external.dot(v);
     w.dv = v - n.stage.v_base;
-    multiply_mass(n.system, w.dv, w.momentum);
+    multiply_mass(n.system, w.inertia, w.dv, w.momentum);
     potential += 0.5 * w.dv.dot(w.momentum);
-    multiply_mass(n.system, v, w.momentum);
+    multiply_mass(n.system, w.inertia, v, w.momentum);
     potential += 0.5 * step * a * v.dot(w.momentum);
     if (n.stage.impulse) potential -= n.stage.impulse->dot(v);
     if (n.keep_damping) {
@@ -119,11 +119,12 @@ void form_matrix(Newton& n, bool first) {
     for (double& value : A.values) value *= scale;
     if (!first && n.keep_damping)
         for (size_t k = 0; k < A.values.size(); ++k) A.values[k] += step * n.rayleigh * n.w.damping.values[k];
-    for (size_t k = 0; k < n.system.slot_mass.size(); ++k) {
-        const double m = mass * n.system.slot_mass[k];
+    for (size_t k = 0; k < n.system.masses.slot.size(); ++k) {
+        const double m = mass * n.system.masses.slot[k];
         for (size_t c = 0; c < 9; c += 4) A.values[9 * k + c] += m;
     }
-    add_spring_stiffness(n.system, n.input.loads.springs, step * step, A);
+    add_inertia(n.w, mass);
+    add_spring_stiffness(n.input.loads.springs, n.w.x, step * step, A);
 }
 
 // Rows and columns of held nodes become the identity, so that the pattern stays: their velocities are known already.
@@ -160,7 +161,7 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
         n.w.rhs = rhs;
         n.w.A.set_zero();
         move(n, n.w.v);
-        n.body.add_stiffness(n.system.elements, n.w.x, tangent, 1, n.w.A);
+        n.body.add_stiffness(*n.system.elements, n.w.x, tangent, 1, n.w.A);
         form_matrix(n, false);
         hold(n);
         n.report.ms_assembly += timer.lap();
@@ -256,6 +257,11 @@ bool iterate(Newton& n, double first) {
 
 }  // namespace
 
+void add_inertia(Workspace& w, double scale) {
+    for (size_t i = 0; i < w.inertia.size(); ++i)
+        if (!w.held[2 * i + 1]) w.A.block(w.A.pattern->start[2 * i + 1]) += scale * w.inertia[i];
+}
+
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report) {
     const int iterations = stage.iterations > 0 ? stage.iterations : input.settings.newton_iterations;
     const double b = input.settings.stiffness_damping;
@@ -264,10 +270,10 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
                 stage,
                 report,
                 *workspace.system,
-                mechanics(input.settings.mechanics),
+                *workspace.system->row,
                 b,
                 iterations,
-                b > 0 && (iterations > 1 || mechanics(input.settings.mechanics).needs_search),
+                b > 0 && (iterations > 1 || workspace.system->row->needs_search),
                 false};
     workspace.v = workspace.v_start;
     const bool converged_before = report.converged;

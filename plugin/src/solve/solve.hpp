@@ -3,27 +3,27 @@
 
 #include <memory>
 
+#include "mechanics/grip.hpp"
 #include "mechanics/mechanics.hpp"
 
 namespace frond {
 
-// What all plants of one model share: elements, masses, sparsity and elimination order.
+// What all plants of one model share that have the same mechanics: elements, masses, sparsity and elimination order.
 struct System;
 // One a mechanics, since each has a rest shape of its own.
 std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass);
-const TetElements& elements_of(const System& system);
+const Elements& elements_of(const System& system);
 const VecX& node_mass_of(const System& system);  // lumped, one a node [kg]
 
-// A spring between a point of a tet and a fixed target; stiffness [N/m].
+// A spring between a point of the plant and a fixed target.
 struct Spring {
-    int tet;
-    std::array<double, 4> weights;
-    Vec3 target;
-    double stiffness;
+    Grip grip;
+    Vec3 target;       // [m]
+    double stiffness;  // [N/m]
 };
 
+// The mechanics are the system's.
 struct SolveSettings {
-    frond_mechanics mechanics;
     frond_integrator integrator;
     frond_linear_solver linear_solver;
     int newton_iterations, max_iterations;
@@ -80,7 +80,10 @@ WorkspacePtr make_workspace(std::shared_ptr<const System> system);
 SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, const Loads& loads, double h,
                        Motion& motion);
 
+// Of nodes that turn: rotation vectors grown beyond half a turn become those of the same rotation the other way round,
+// here and in the history, and their rates follow.
+void unwind(Motion& motion);
 // With the system's mass [J].
-double kinetic_energy(const System& system, const VecX& v);
+double kinetic_energy(const System& system, const VecX& x, const VecX& v);
 
 }  // namespace frond

@@ -11,10 +11,10 @@ namespace {
 // Sizes fit and numbers are finite; what is not would only come back as NaN after an expensive step.
 bool input_is_sound(const System& system, const StepInput& input) {
     const SolveSettings& s = input.settings;
-    const Eigen::Index n = 3 * Eigen::Index(system.elements.node_count);
+    const Eigen::Index n = 3 * Eigen::Index(system.elements->node_count);
     const Motion& motion = input.motion;
-    if (s.mechanics < 0 || s.mechanics >= FROND_MECHANICS_COUNT || s.integrator < 0 ||
-        s.integrator >= FROND_INTEGRATOR_COUNT || s.linear_solver < 0 || s.linear_solver >= FROND_LINEAR_SOLVER_COUNT)
+    if (s.integrator < 0 || s.integrator >= FROND_INTEGRATOR_COUNT || s.linear_solver < 0 ||
+        s.linear_solver >= FROND_LINEAR_SOLVER_COUNT)
         return false;
     if (!(input.h > 0) || !std::isfinite(input.h) || !(s.mass_damping >= 0) || !std::isfinite(s.mass_damping) ||
         !(s.stiffness_damping >= 0) || !std::isfinite(s.stiffness_damping))
@@ -33,15 +33,16 @@ void prepare(Workspace& workspace, const StepInput& input) {
     const System& system = *workspace.system;
     const Motion& motion = input.motion;
     workspace.held = system.loose;
+    if (system.row->rotary_inertia) system.row->rotary_inertia(*system.elements, motion.x, workspace.inertia);
     workspace.external = input.loads.force;
     workspace.v_start = motion.v;
-    for (int i = 0; i < system.elements.node_count; ++i) {
+    for (int i = 0; i < system.elements->node_count; ++i) {
         if (!motion.pinned.empty() && motion.pinned[size_t(i)]) {
             workspace.held[size_t(i)] = 1;
             point(workspace.v_start, i) = (point(motion.pin_target, i) - point(motion.x, i)) / input.h;
         }
         // The rows of either mass matrix add up to the lumped mass.
-        point(workspace.external, i) += system.node_mass[i] * input.loads.gravity;
+        point(workspace.external, i) += system.masses.node[i] * input.loads.gravity;
     }
 }
 
@@ -95,6 +96,7 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     keep_history(workspace, input, motion);
     motion.x = workspace.x;
     motion.v = workspace.v;
+    if (workspace.system->row->moves_chain) unwind(motion);
     report.ok = true;
     return report;
 }

@@ -10,14 +10,15 @@ namespace {
 
 // A consistent mass has a factor after all; held nodes are left out as in a stage.
 bool solve_mass(Workspace& w, const StepInput& input, SolveReport& report) {
-    const BlockPattern& pattern = w.system->elements.pattern;
+    const BlockPattern& pattern = w.system->elements->pattern;
     w.A.set_zero();
     for (int j = 0; j < pattern.node_count; ++j)
         for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
             const int i = pattern.row[size_t(k)];
             const bool held = w.held[size_t(i)] || w.held[size_t(j)];
-            w.A.block(k).diagonal().setConstant(!held ? w.system->slot_mass[size_t(k)] : i == j ? 1.0 : 0.0);
+            w.A.block(k).diagonal().setConstant(!held ? w.system->masses.slot[size_t(k)] : i == j ? 1.0 : 0.0);
         }
+    add_inertia(w, 1);
     const SolveSettings& s = input.settings;
     const LinearResult result =
         linear_solver(s.linear_solver).solve(w.A, w.force, {s.max_iterations, s.tolerance}, w.linear, w.dv);
@@ -36,10 +37,16 @@ bool step_symplectic_euler(Workspace& workspace, const StepInput& input, SolveRe
         if (w.held[i]) point(w.force, int(i)).setZero();
 
     Timer timer;
-    if (w.system->lumped) {
+    if (w.system->masses.lumped) {
         w.dv = w.force;
-        for (size_t i = 0; i < w.held.size(); ++i)
-            if (!w.held[i]) point(w.dv, int(i)) /= w.system->node_mass[Eigen::Index(i)];
+        const auto turns = [&](size_t i) { return !w.inertia.empty() && i % 2 == 1; };
+        for (size_t i = 0; i < w.held.size(); ++i) {
+            if (w.held[i]) continue;
+            if (turns(i))
+                point(w.dv, int(i)) = w.inertia[i / 2].ldlt().solve(point(w.force, int(i)));
+            else
+                point(w.dv, int(i)) /= w.system->masses.node[Eigen::Index(i)];
+        }
     } else if (!w.force.allFinite() || !solve_mass(w, input, report)) {
         return false;
     }

@@ -8,16 +8,15 @@ namespace frond {
 
 struct System {
     std::shared_ptr<const Model> model;
-    TetElements elements;
-    VecX node_mass;                 // lumped, one a node [kg]
-    bool lumped = true;             // the mass matrix is diagonal
-    std::vector<double> slot_mass;  // one a block of the pattern, times the identity [kg]
-    std::vector<uint8_t> loose;     // one a node: no tet holds it
+    const Mechanics* row = nullptr;
+    std::unique_ptr<const Elements> elements;
+    Masses masses;
+    std::vector<uint8_t> loose;     // one a node: no element holds it
     double size = 0;                // longest side of the box around the nodes at rest [m]
     DirectPlan plan;
 };
 
-// y = M v
-void multiply_mass(const System& system, const VecX& v, VecX& y);
+// y = M v, with the rotary inertia of nodes that turn, if there are any.
+void multiply_mass(const System& system, const std::vector<Mat3>& inertia, const VecX& v, VecX& y);
 
 }  // namespace frond

@@ -8,7 +8,7 @@ namespace frond {
 WorkspacePtr make_workspace(std::shared_ptr<const System> system) {
     if (!system) fail(FROND_INTERNAL, "a workspace was asked for without a system");
     WorkspacePtr workspace(new Workspace);
-    workspace->A.set_pattern(system->elements.pattern);
+    workspace->A.set_pattern(system->elements->pattern);
     workspace->linear.factor = make_direct_factor(system->plan);
     workspace->system = std::move(system);
     return workspace;

@@ -12,6 +12,7 @@ struct Workspace {
     BlockMatrix damping;  // stiffness at the start of the step; filled only when several Newton iterations need it
     LinearScratch linear;
 
+    std::vector<Mat3> inertia;           // rotary, at the start of the step, of nodes that turn [kg m^2]
     std::vector<uint8_t> held;           // one a node: its velocity is given, not solved for
     VecX external;                       // forces that do not depend on the motion [N]
     VecX elastic;                        // force of the mechanics [N]

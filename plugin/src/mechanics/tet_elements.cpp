@@ -1,9 +1,10 @@
-// In: a model's cage and the materials of its tets. Out: what the mechanics of tets need at rest.
+// In: a model's cage and the materials of its tets. Out: what the mechanics of tets need at rest, and their masses.
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
-#include "mechanics/mechanics.hpp"
+#include "mechanics/rows.hpp"
+#include "mechanics/tet_element.hpp"
 
 namespace frond {
 
@@ -40,9 +41,9 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions) {
     out.node_count = int(model.cage.nodes.size());
     out.tets = out.ordered = model.cage.tets;
     out.density = model.tet_density;
-    out.rest_positions.resize(3 * out.node_count);
-    for (int i = 0; i < out.node_count; ++i)
-        point(out.rest_positions, i) = rest_positions ? point(*rest_positions, i) : model.cage.nodes[size_t(i)];
+    out.modelled.resize(3 * out.node_count);
+    for (int i = 0; i < out.node_count; ++i) point(out.modelled, i) = model.cage.nodes[size_t(i)];
+    out.rest_positions = rest_positions ? *rest_positions : out.modelled;
 
     out.pattern = make_block_pattern(out.node_count, out.tets);
     for (size_t e = 0; e < out.tets.size(); ++e) {
@@ -70,6 +71,44 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions) {
         out.slots.push_back(slots);
     }
     return out;
+}
+
+std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which) {
+    const VecX& rest = model.rest_positions[size_t(which)];
+    return std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr));
+}
+
+// Lumped: a quarter of the tet to each node. Consistent: the shape functions' own products, V rho / 20 (1 + delta).
+Masses tet_masses(const Elements& body, frond_mass mass) {
+    const TetElements& elements = as_tets(body);
+    Masses masses;
+    masses.lumped = mass == FROND_LUMPED;
+    masses.node = VecX::Zero(elements.node_count);
+    masses.slot.assign(elements.pattern.row.size(), 0.0);
+    for (size_t e = 0; e < elements.ordered.size(); ++e) {
+        const double tet_mass = elements.volume[e] * elements.density[e];
+        for (size_t a = 0; a < 4; ++a) {
+            masses.node[elements.ordered[e][a]] += tet_mass / 4;
+            for (size_t b = 0; b <= a; ++b) {
+                const size_t slot = size_t(elements.slots[e][4 * a + b]);
+                if (masses.lumped)
+                    masses.slot[slot] += a == b ? tet_mass / 4 : 0.0;
+                else
+                    masses.slot[slot] += tet_mass / (a == b ? 10 : 20);
+            }
+        }
+    }
+    return masses;
+}
+
+bool tets_are_calm(const Elements& body, const VecX& from, const VecX& to) {
+    constexpr double MOST = 0.5;  // change of the deformation gradient [-]; as a turn, about 20 degrees
+    const TetElements& elements = as_tets(body);
+    for (size_t e = 0; e < elements.tets.size(); ++e) {
+        const Mat3 change = deformation_gradient(elements, e, to) - deformation_gradient(elements, e, from);
+        if (!(change.squaredNorm() < MOST * MOST)) return false;
+    }
+    return true;
 }
 
 }  // namespace frond

@@ -1,0 +1,26 @@
+// Grip: a point of a plant that follows the nodes of its mechanics, as sums of weight times place, and where nodes turn
+// (the chain's) of arms that turn with them.
+#pragma once
+
+#include "core/types.hpp"
+#include "mechanics/block_matrix.hpp"
+
+namespace frond {
+
+struct Grip {
+    int count = 0;                      // of nodes
+    bool turns = false;                 // the node after each is its rotation vector
+    std::array<int, 4> node = {};       // of the mechanics
+    std::array<double, 4> weight = {};  // [-]
+    std::array<Vec3, 2> arm = {Vec3::Zero(), Vec3::Zero()};  // of the first two nodes, in the modelled shape [m]
+};
+
+bool is_sound(const Grip& grip, int node_count);
+Vec3 grip_place(const Grip& grip, const VecX& x);
+Vec3 grip_velocity(const Grip& grip, const VecX& x, const VecX& v);
+// What a force at the point [N] is for the nodes.
+void add_grip_force(const Grip& grip, const VecX& x, const Vec3& force, VecX& f);
+// Adds stiffness [N/m] times J^T J, J the derivative of the point by the nodes at x: never negative.
+void add_grip_stiffness(const Grip& grip, const VecX& x, double stiffness, BlockMatrix& A);
+
+}  // namespace frond

@@ -1,0 +1,158 @@
+// In: a model's chain, sections and organs. Out: what the chain mechanics need at rest, and their masses.
+//
+// A tree of rods is statically determinate: forces and moments in it follow from the weight alone, summed from the tips
+// to the root. So the shape without load, from which weight bends the rods to the modelled shape, needs no search: each
+// piece's own strain and curvature are those of the modelled shape less what its force and moment do.
+#include "mechanics/rod_elements.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "mechanics/rows.hpp"
+
+namespace frond {
+
+namespace {
+
+// Resistance of a piece's section: along, thin, wide.
+void set_resistance(const Model& model, size_t node, frond_mechanics which, RodSegment& rod) {
+    const Section& section = model.sections[node];
+    const size_t organ = size_t(std::max(model.chain.nodes[node].organ, 0));
+    const Material& material = model.organs[organ].material;
+    const double E = material.young * model.organ_stiffer[organ], over = 12 / (rod.length * rod.length);
+    double area = section.area, thin = section.inertia_thin, wide = section.inertia_wide;
+    double torsion = section.inertia_polar();
+    if (which == FROND_SPRING_CHAIN) {
+        const double r = model.chain.nodes[node].radius;
+        area = M_PI * r * r;
+        thin = wide = area * r * r / 4;
+        torsion = thin + wide;
+    }
+    rod.stretch = E * Vec3(area, over * thin, over * wide);
+    rod.bend = E * Vec3(torsion / (2 * (1 + material.poisson)), wide, thin);
+}
+
+RodSegment make_segment(const Model& model, size_t node, frond_mechanics which) {
+    const Section& section = model.sections[node];
+    RodSegment rod = {};
+    rod.a = model.chain.nodes[node].parent;
+    rod.b = int(node);
+    rod.length = section.length;
+    rod.frame.col(0) = section.axis;
+    rod.frame.col(1) = (section.thin - section.axis * section.axis.dot(section.thin)).normalized();
+    rod.frame.col(2) = rod.frame.col(0).cross(rod.frame.col(1));
+    const Vec3 chord = model.chain.nodes[node].position - model.chain.nodes[size_t(rod.a)].position;
+    rod.rest_strain = rod.frame.transpose() * chord / rod.length;
+    rod.rest_curvature.setZero();
+    set_resistance(model, node, which, rod);
+    if (!rod.frame.allFinite() || !(rod.stretch.minCoeff() > 0) || !(rod.bend.minCoeff() > 0) ||
+        !rod.stretch.allFinite() || !rod.bend.allFinite())
+        fail(FROND_BAD_GEOMETRY, "capsule %zu of the chain has no section; give the model a capsule_height", node);
+    return rod;
+}
+
+// The weight of what hangs on each piece sets its strain and curvature at rest. Segments are in the order of their
+// second nodes, parents first.
+void let_stand(RodElements& elements) {
+    const size_t count = elements.mass.size();
+    std::vector<Vec3> force(count), moment(count, Vec3::Zero());
+    for (size_t i = 0; i < count; ++i) force[i] = Vec3(0, -GRAVITY * elements.mass[i], 0);
+    for (size_t s = elements.segments.size(); s-- > 0;) {
+        RodSegment& rod = elements.segments[s];
+        const size_t a = size_t(rod.a), b = size_t(rod.b);
+        const Vec3 chord = point(elements.modelled, 2 * rod.b) - point(elements.modelled, 2 * rod.a);
+        const Vec3 half = 0.5 * force[b].cross(chord);
+        const Vec3 couple = -half - moment[b];  // of the piece on its second node
+        rod.rest_strain -= (rod.frame.transpose() * force[b]).cwiseQuotient(rod.stretch);
+        rod.rest_curvature -= (rod.frame.transpose() * couple).cwiseQuotient(rod.bend);
+        force[a] += force[b];
+        moment[a] += half - couple;
+    }
+}
+
+// Half of each piece's rotary inertia to either end, from its section; at least that of a small ball.
+void set_inertia(const Model& model, RodElements& elements) {
+    const size_t count = elements.mass.size();
+    for (size_t i = 0; i < count; ++i) {
+        const double r = std::max(model.chain.nodes[i].radius, 1e-4);
+        elements.inertia.push_back(0.01 * elements.mass[i] * r * r * Mat3::Identity());
+    }
+    for (const RodSegment& rod : elements.segments) {
+        const Section& section = model.sections[size_t(rod.b)];
+        const Material& material = model.organs[size_t(std::max(model.chain.nodes[size_t(rod.b)].organ, 0))].material;
+        const Vec3 about(section.inertia_polar(), section.inertia_wide, section.inertia_thin);
+        const Mat3 half =
+            rod.frame * Vec3(0.5 * material.density * rod.length * about).asDiagonal() * rod.frame.transpose();
+        for (int end : {rod.a, rod.b}) elements.inertia[size_t(end)] += half;
+    }
+}
+
+}  // namespace
+
+RodElements make_rod_elements(const Model& model, frond_mechanics which) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    if (nodes.empty()) fail(FROND_BAD_GEOMETRY, "the model has no chain");
+    if (model.sections.size() != nodes.size() || model.chain_mass.size() != nodes.size() ||
+        model.organ_stiffer.size() != model.organs.size() || model.organs.empty())
+        fail(FROND_INTERNAL, "the model's chain has %zu nodes but not as many sections", nodes.size());
+    RodElements out;
+    out.node_count = 2 * int(nodes.size());
+    out.modelled = VecX::Zero(3 * out.node_count);
+    for (size_t i = 0; i < nodes.size(); ++i) point(out.modelled, int(2 * i)) = nodes[i].position;
+    out.rest_positions = out.modelled;
+
+    std::vector<Tet> pairs;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const int a = nodes[i].parent, b = int(i);
+        pairs.push_back(a < 0 ? Tet{2 * b, 2 * b + 1, 2 * b, 2 * b + 1} : Tet{2 * a, 2 * a + 1, 2 * b, 2 * b + 1});
+        if (a >= 0) out.segments.push_back(make_segment(model, i, which));
+    }
+    out.pattern = make_block_pattern(out.node_count, pairs);
+    for (RodSegment& rod : out.segments) {
+        const int ends[4] = {2 * rod.a, 2 * rod.a + 1, 2 * rod.b, 2 * rod.b + 1};
+        for (size_t r = 0; r < 4; ++r)
+            for (size_t c = 0; c < 4; ++c) rod.slots[4 * r + c] = out.pattern.slot(ends[r], ends[c]);
+    }
+
+    // A node without mass would move at no cost.
+    double total = 0;
+    for (double m : model.chain_mass) total += m;
+    for (double m : model.chain_mass) out.mass.push_back(std::max(m, 1e-6 * total / double(nodes.size())));
+    set_inertia(model, out);
+    if (which == FROND_ROD && model.stands_as_modelled) let_stand(out);
+    return out;
+}
+
+std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics which) {
+    return std::make_unique<RodElements>(make_rod_elements(model, which));
+}
+
+// Lumped: each node its own. Consistent: of linear shape functions, a third of a piece's mass to its ends and a sixth to
+// the pair; what nodes carry beyond their pieces stays with them.
+Masses rod_masses(const Elements& body, frond_mass mass) {
+    const RodElements& elements = as_rods(body);
+    Masses masses;
+    masses.lumped = mass == FROND_LUMPED;
+    masses.node = VecX::Zero(elements.node_count);
+    masses.slot.assign(elements.pattern.row.size(), 0.0);
+    for (size_t i = 0; i < elements.mass.size(); ++i) {
+        masses.node[Eigen::Index(2 * i)] = elements.mass[i];
+        masses.slot[size_t(elements.pattern.slot(int(2 * i), int(2 * i)))] = elements.mass[i];
+    }
+    if (masses.lumped) return masses;
+    std::vector<int> pieces(elements.mass.size(), 0);
+    for (const RodSegment& rod : elements.segments) {
+        pieces[size_t(rod.a)]++;
+        pieces[size_t(rod.b)]++;
+    }
+    for (const RodSegment& rod : elements.segments) {
+        const double shared = std::min(elements.mass[size_t(rod.a)] / pieces[size_t(rod.a)],
+                                       elements.mass[size_t(rod.b)] / pieces[size_t(rod.b)]) / 3;
+        masses.slot[size_t(rod.slots[0])] -= shared;
+        masses.slot[size_t(rod.slots[10])] -= shared;
+        masses.slot[size_t(rod.slots[8])] += shared;
+    }
+    return masses;
+}
+
+}  // namespace frond

@@ -1,0 +1,106 @@
+// In: where the cage nodes shall be. Out: places and rotations of the chain, by rigid fits to begin with and then by
+// Gauss-Newton on the sum of squared distances.
+#include "mechanics/rotation.hpp"
+#include "plant/follow.hpp"
+#include "solve/direct.hpp"
+
+namespace frond {
+
+namespace {
+
+// Normal equations of the grips, with a pull towards no change for nodes that no cage node tells enough of.
+struct Normal {
+    BlockPattern pattern;
+    DirectPlan plan;
+    DirectFactorPtr factor;
+    BlockMatrix A;
+    std::vector<double> weight;  // of no change, one a node of the mechanics
+
+    Normal(const Follow& follow, Eigen::Index size) {
+        std::vector<Tet> pairs;
+        double reach = 0;
+        for (const Grip& grip : follow.grips) {
+            const int a = grip.node[0], b = grip.count > 1 ? grip.node[1] : a;
+            pairs.push_back({a, a + 1, b, b + 1});
+            reach = std::max(reach, grip.arm[0].norm());
+        }
+        pattern = make_block_pattern(int(size / 3), pairs);
+        plan = make_direct_plan(pattern);
+        factor = make_direct_factor(plan);
+        A.set_pattern(pattern);
+        constexpr double WEAK = 1e-9;
+        for (int i = 0; i < pattern.node_count; i++) weight.push_back(i % 2 ? WEAK * reach * reach + 1e-30 : WEAK);
+    }
+    // Factors for the grips as they are at x.
+    bool set(const Follow& follow, const VecX& x) {
+        A.set_zero();
+        for (const Grip& grip : follow.grips) add_grip_stiffness(grip, x, 1, A);
+        for (int i = 0; i < pattern.node_count; i++)
+            A.block(pattern.start[size_t(i)]).diagonal().array() += weight[size_t(i)];
+        return factorize(*factor, A);
+    }
+};
+
+// Each chain node as the cage nodes around it are moved; where they do not tell, as its parent.
+void begin_rigid(const Follow& follow, const Model& model, const VecX& cage_x, VecX& x) {
+    const size_t count = model.chain.nodes.size();
+    std::vector<std::vector<Vec3>> from(count), to(count);
+    for (size_t n = 0; n < follow.grips.size(); n++) {
+        const Grip& grip = follow.grips[n];
+        for (size_t k = 0; k < size_t(grip.count); k++) {
+            from[size_t(grip.node[k]) / 2].push_back(model.cage.nodes[n]);
+            to[size_t(grip.node[k]) / 2].push_back(point(cage_x, int(n)));
+        }
+    }
+    std::vector<Mat3> rotations(count, Mat3::Identity());
+    for (size_t i = 0; i < count; i++) {
+        const ChainNode& node = model.chain.nodes[i];
+        Vec3 image;
+        if (!fit_rigid(from[i], to[i], node.position, rotations[i], image)) {
+            const size_t parent = size_t(std::max(node.parent, 0));
+            rotations[i] = rotations[parent];
+            image = node.parent < 0 ? node.position
+                                    : Vec3(point(x, int(2 * parent)) +
+                                           rotations[i] * (node.position - model.chain.nodes[parent].position));
+        }
+        point(x, int(2 * i)) = image;
+        point(x, int(2 * i + 1)) = rotation_vector<double>(rotations[i]);
+    }
+}
+
+}  // namespace
+
+void fit_chain(const Follow& follow, const Model& model, const VecX& cage_x, VecX& x) {
+    constexpr int ROUNDS = 12;
+    Normal normal(follow, x.size());
+    begin_rigid(follow, model, cage_x, x);
+    VecX places, best = x;
+    double least = INFINITY;
+    for (int round = 0; round < ROUNDS; round++) {
+        follow_places(follow, x, places);
+        const double off = (cage_x - places).squaredNorm();
+        if (off < least) best = x;
+        if (!(off < 0.99 * least) || off == 0) break;
+        least = off;
+        if (!normal.set(follow, x)) break;
+        VecX pull = VecX::Zero(x.size()), move;
+        for (size_t n = 0; n < follow.grips.size(); n++)
+            add_grip_force(follow.grips[n], x, point(cage_x, int(n)) - point(places, int(n)), pull);
+        solve(*normal.factor, pull, move);
+        if (!move.allFinite()) break;
+        x += move;
+    }
+    x = best;
+}
+
+void fit_velocities(const Follow& follow, const VecX& x, const VecX& cage_v, VecX& v) {
+    Normal normal(follow, x.size());
+    v.setZero(x.size());
+    if (!normal.set(follow, x)) return;
+    VecX pull = VecX::Zero(x.size());
+    for (size_t n = 0; n < follow.grips.size(); n++)
+        add_grip_force(follow.grips[n], x, point(cage_v, int(n)), pull);
+    solve(*normal.factor, pull, v);
+}
+
+}  // namespace frond

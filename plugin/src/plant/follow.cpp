@@ -1,0 +1,140 @@
+#include "plant/follow.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "mechanics/rotation.hpp"
+
+namespace frond {
+
+namespace {
+
+// The nearest place on a capsule's axis.
+struct Place {
+    int node = -1;  // the capsule's second chain node
+    double along = 0, distance = INFINITY;
+};
+
+Place place_on(const Chain& chain, int node, const Vec3& p) {
+    const Vec3& end = chain.nodes[size_t(node)].position;
+    const Vec3& begin = chain.nodes[size_t(chain.nodes[size_t(node)].parent)].position;
+    const double square = (end - begin).squaredNorm();
+    const double along = square > 0 ? (p - begin).dot(end - begin) / square : 1;
+    const double inside = std::min(std::max(along, 0.0), 1.0);
+    return {node, along, (p - begin - inside * (end - begin)).norm()};
+}
+
+Grip rigid_grip(const Chain& chain, int node, const Vec3& p) {
+    Grip grip;
+    grip.turns = true;
+    grip.count = 1;
+    grip.node[0] = 2 * node;
+    grip.weight[0] = 1;
+    grip.arm[0] = p - chain.nodes[size_t(node)].position;
+    return grip;
+}
+
+Grip smooth_grip(const Chain& chain, const Place& place, const Vec3& p) {
+    const int b = place.node, a = chain.nodes[size_t(b)].parent;
+    const double s = place.along, w = s * s * (3 - 2 * s);
+    const Vec3 begin = chain.nodes[size_t(a)].position, axis = chain.nodes[size_t(b)].position - begin;
+    const Vec3 across = p - begin - s * axis;
+    Grip grip;
+    grip.turns = true;
+    grip.count = 2;
+    grip.node = {2 * a, 2 * b};
+    grip.weight = {1 - w, w};
+    grip.arm = {Vec3(s * (1 - s) * (1 - s) * axis + (1 - w) * across), Vec3(s * s * (s - 1) * axis + w * across)};
+    return grip;
+}
+
+// Organs of the tets around each cage node.
+std::vector<std::vector<int>> node_organs(const Cage& cage) {
+    std::vector<std::vector<int>> organs(cage.nodes.size());
+    for (size_t e = 0; e < cage.tets.size(); e++)
+        for (int corner : cage.tets[e]) organs[size_t(corner)].push_back(cage.tet_organ[e]);
+    return organs;
+}
+
+Eigen::Matrix3Xd points_of(const std::vector<Vec3>& points) {
+    Eigen::Matrix3Xd m(3, Eigen::Index(points.size()));
+    for (size_t i = 0; i < points.size(); i++) m.col(Eigen::Index(i)) = points[i];
+    return m;
+}
+
+}  // namespace
+
+Follow make_follow(const Model& model) {
+    const Chain& chain = model.chain;
+    const std::vector<std::vector<int>> organs = node_organs(model.cage);
+    std::vector<std::vector<int>> capsules(model.organs.size());
+    std::vector<int> all;
+    for (size_t i = 0; i < chain.nodes.size(); i++) {
+        if (chain.nodes[i].parent < 0) continue;
+        all.push_back(int(i));
+        if (chain.nodes[i].organ >= 0) capsules[size_t(chain.nodes[i].organ)].push_back(int(i));
+    }
+
+    Follow follow;
+    for (size_t n = 0; n < model.cage.nodes.size(); n++) {
+        const Vec3& p = model.cage.nodes[n];
+        Place best;
+        const auto try_all = [&](const std::vector<int>& list) {
+            for (int node : list) {
+                const Place place = place_on(chain, node, p);
+                if (place.distance < best.distance) best = place;
+            }
+        };
+        for (int organ : organs[n]) try_all(capsules[size_t(organ)]);
+        if (best.node < 0) try_all(all);
+        if (best.node < 0) {
+            // A chain of roots only.
+            size_t nearest = 0;
+            for (size_t i = 1; i < chain.nodes.size(); i++)
+                if ((chain.nodes[i].position - p).norm() < (chain.nodes[nearest].position - p).norm()) nearest = i;
+            follow.nearest.push_back(int(nearest));
+            follow.grips.push_back(rigid_grip(chain, int(nearest), p));
+            continue;
+        }
+        const int before = chain.nodes[size_t(best.node)].parent;
+        follow.nearest.push_back(best.along < 0.5 ? before : best.node);
+        const bool inside = best.along > 0 && best.along < 1;
+        follow.grips.push_back(inside ? smooth_grip(chain, best, p) : rigid_grip(chain, follow.nearest.back(), p));
+    }
+    return follow;
+}
+
+void follow_places(const Follow& follow, const VecX& x, VecX& cage_x) {
+    std::vector<Mat3> rotations(size_t(x.size()) / 6);
+    for (size_t i = 0; i < rotations.size(); i++) rotations[i] = rotation_of<double>(point(x, int(2 * i + 1)));
+    cage_x.resize(3 * Eigen::Index(follow.grips.size()));
+    for (size_t n = 0; n < follow.grips.size(); n++) {
+        const Grip& grip = follow.grips[n];
+        Vec3 place = Vec3::Zero();
+        for (size_t k = 0; k < size_t(grip.count); k++)
+            place += grip.weight[k] * point(x, grip.node[k]) + rotations[size_t(grip.node[k]) / 2] * grip.arm[k];
+        point(cage_x, int(n)) = place;
+    }
+}
+
+void follow_velocities(const Follow& follow, const VecX& x, const VecX& v, VecX& cage_v) {
+    cage_v.resize(3 * Eigen::Index(follow.grips.size()));
+    for (size_t n = 0; n < follow.grips.size(); n++) point(cage_v, int(n)) = grip_velocity(follow.grips[n], x, v);
+}
+
+bool fit_rigid(const std::vector<Vec3>& from, const std::vector<Vec3>& to, const Vec3& origin, Mat3& rotation,
+               Vec3& image) {
+    if (from.size() < 3) return false;
+    const Eigen::Matrix3Xd a = points_of(from), b = points_of(to);
+    const Vec3 from_middle = a.rowwise().mean(), to_middle = b.rowwise().mean();
+    const Mat3 spread = (b.colwise() - to_middle) * (a.colwise() - from_middle).transpose();
+    const Eigen::JacobiSVD<Mat3> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    if (!(svd.singularValues()[1] > 1e-6 * svd.singularValues()[0])) return false;
+    Mat3 sign = Mat3::Identity();
+    sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+    rotation = svd.matrixU() * sign * svd.matrixV().transpose();
+    image = to_middle + rotation * (origin - from_middle);
+    return true;
+}
+
+}  // namespace frond

@@ -1,0 +1,39 @@
+// In: the motion of nodes that turn. Out: the same motion, no rotation vector longer than half a turn: beyond that it
+// changes too fast with the rotation, and at a whole turn it has no rate.
+#include <cmath>
+#include <initializer_list>
+
+#include "mechanics/rotation.hpp"
+#include "solve/solve.hpp"
+
+namespace frond {
+
+// The same rotation the other way round; `rates` of the vector keep their angular velocities.
+static void turn_back(VecX& x, int node, std::initializer_list<VecX*> rates) {
+    const Vec3 turn = point(x, node);
+    const Vec3 back = turn * (1 - 2 * M_PI / turn.norm());
+    const Mat3 change = inverse_rate_matrix<double>(back) * rate_matrix<double>(turn);
+    for (VecX* rate : rates)
+        if (rate->size() == x.size()) point(*rate, node) = change * point(*rate, node);
+    point(x, node) = back;
+}
+
+void unwind(Motion& motion) {
+    History& history = motion.history;
+    for (int node = 1; node < motion.x.size() / 3; node += 2) {
+        if (point(motion.x, node).squaredNorm() <= M_PI * M_PI) continue;
+        turn_back(motion.x, node, {&motion.v});
+        if (!history.valid) continue;
+        // A node at rest half a turn back would lose its direction: its past is dropped with everybody's.
+        if (point(history.x_prev, node).squaredNorm() < 1) {
+            history.valid = false;
+            continue;
+        }
+        turn_back(history.x_prev, node, {&history.v_prev});
+        turn_back(history.x_end, node, {&history.v_end, &history.x_rate, &history.v_rate});
+        point(history.x_end, node) = point(motion.x, node);
+        point(history.v_end, node) = point(motion.v, node);
+    }
+}
+
+}  // namespace frond
