@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "support/materials.hpp"
 #include "support/stems.hpp"
 
 extern "C" int frond_hello_from_c(double* tip_height);
@@ -136,7 +137,7 @@ TEST(Misuse, OfModelsIsRefused) {
     wrong = def;
     wrong.cage_size = NOT_A_NUMBER;
     EXPECT_EQ(frond_model_from_stems(&good, 1, &wrong, &model), FROND_BAD_ARGUMENT);
-    const frond_organ_material unknown = {"pancake", {1000, 1e8, 0.3, 1e-3}};
+    const frond_organ_material unknown = {"pancake", plain_material(1000, 1e8, 0.3, 1e-3)};
     wrong = def;
     wrong.organs = &unknown;
     wrong.organ_count = 1;

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "model/cage.hpp"
 #include "model/union_find.hpp"
+#include "support/materials.hpp"
 #include "support/soups.hpp"
 
 namespace frond::test {
@@ -19,7 +20,7 @@ struct Made {
 };
 
 std::vector<Organ> one_organ(double thickness = 1e-3) {
-    return {{"plant", "stem", {1000, 1e8, 0.3, thickness}}};
+    return {{"plant", "stem", plain_material(1000, 1e8, 0.3, thickness)}};
 }
 
 Made make(const Surface& surface, const CageOptions& options, const std::vector<Organ>& organs = one_organ()) {
@@ -231,7 +232,7 @@ TEST(Cage, KnowsWhichOrganPasses) {
     add_sheet(
         surface, 20, 3, [](double s, double t) { return Vec3(0.8 * s, 0.7, 0.1 * (t - 0.5)); }, 1);
     std::vector<Organ> organs = one_organ();
-    organs.push_back({"leaf", "blade", {800, 1e7, 0.3, 3e-4}});
+    organs.push_back({"leaf", "blade", plain_material(800, 1e7, 0.3, 3e-4)});
     const Made made = make(surface, {0.1, 0, 0.5}, organs);
     for (size_t v = 0; v < surface.positions.size(); ++v) {
         const Vec3& p = surface.positions[v];
@@ -250,7 +251,7 @@ TEST(Cage, LetsAStemGoOnThroughCellsThatAreFullOfLeaves) {
             surface, 6, 6, [i](double s, double t) { return Vec3(0.2 * s - 0.1, 0.01 + 0.0195 * i, 0.2 * t - 0.1); },
             1);
     std::vector<Organ> organs = one_organ();
-    organs.push_back({"leaf", "blade", {900, 3e7, 0.3, 4e-4}});
+    organs.push_back({"leaf", "blade", plain_material(900, 3e7, 0.3, 4e-4)});
     const Made made = make(surface, {0.1, 0, 0.5}, organs);
     size_t in_leaf = 0;
     for (size_t v = 0; v < of_stem; ++v) in_leaf += made.cage.tet_organ[size_t(made.embedding.tet[v])] != 0;

@@ -201,12 +201,31 @@ FROND_API frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin
 
 /* ---- model: shape at rest, built once, read-only, shared by many plants ------------------------------------ */
 
-/* One set of physical constants for every mechanics, so that they can be compared. */
+/* One set of physical constants for every mechanics, so that they can be compared. A field from `hollow` on that is zero
+ * means "does not have it", so that a material of which only the first four are set is a solid, isotropic, undamped and
+ * smooth one that never yields or breaks. A field out of its range is BAD_ARGUMENT with a text that names it. */
 typedef struct frond_material {
-    double density;   /* of the fresh tissue [kg/m^3] */
-    double young;     /* along the organ [Pa] */
+    double density;   /* of the fresh tissue [kg/m^3], 1 .. 2e4 */
+    double young;     /* along the organ [Pa], 1e3 .. 1e12 */
     double poisson;   /* [-], 0 .. 0.499 */
-    double thickness; /* of a blade, or the wall of what is drawn as an open sheet [m] */
+    double thickness; /* of a blade, or the wall of what is drawn as an open sheet [m], 1e-6 .. 1 */
+    /* Inner over outer radius of an organ that is a tube [-], 0 (solid) .. 0.98. `young` and `density` are then the
+     * wall's. Blades and flowers, which are sheets, are never hollow. */
+    double hollow;
+    /* EI / GJ of the section: how much more easily the organ is twisted than bent [-]; EI is the mean of the two
+     * principal bending stiffnesses. 0: as an isotropic section of its shape, which for a round one is 1 + poisson;
+     * else 0.01 .. 100. */
+    double twist_to_bend;
+    /* Share of critical damping of the organ's own first bending mode [-], 0 .. 1. */
+    double damping_ratio;
+    double friction; /* Coulomb's coefficient against what it touches [-], 0 .. 100 */
+    /* Strain of the outermost fibre beyond which a part of the deformation stays [-], 0 (never), else 1e-6 .. 10. */
+    double yield_strain;
+    /* Share of the strain beyond yield_strain that becomes lasting, a second [1/s], 0 (none) .. 1e6. */
+    double creep_rate;
+    /* Tension in the outermost fibre at which the organ breaks, in bending or in pulling [Pa], 0 (never),
+     * else 1 .. 1e12. */
+    double strength;
 } frond_material;
 /* A material for the organs of one kind or name: see frond_model_def.organs. */
 typedef struct frond_organ_material {

@@ -43,33 +43,33 @@ struct MaterialRow {
 
 static const MaterialRow MATERIALS[] = {
     // Cucumber, its middle [1]. Wall of an open tube: rind.
-    {"stem", {1000, 2.0e8, 0.30, 1.5e-3}},
+    {"stem", {1000, 2.0e8, 0.30, 1.5e-3, 0, 0, 0, 0, 0, 0, 0}},
     // Green maize as a whole: a rind of 6-16 GPa dry, less when wet, around a pith of 1/17 of it [3].
-    {"grass_stem", {950, 1.5e9, 0.30, 1.0e-3}},
+    {"grass_stem", {950, 1.5e9, 0.30, 1.0e-3, 0, 0, 0, 0, 0, 0, 0}},
     // Chosen: between veins [5] and stems [1]; carries a blade with the safety factors of [7].
-    {"petiole", {980, 1.5e8, 0.30, 1.0e-3}},
+    {"petiole", {980, 1.5e8, 0.30, 1.0e-3, 0, 0, 0, 0, 0, 0, 0}},
     // Chosen between a dicot's lamina (5-6 MPa) with its veins (60 MPa) [5] and the stiffer grasses: a blade drawn as a
     // bare
     // sheet has to carry what the midrib carries in life [6]. Leaves are 0.2-0.5 mm thick.
-    {"blade", {900, 3.0e7, 0.30, 0.4e-3}},
+    {"blade", {900, 3.0e7, 0.30, 0.4e-3, 0, 0, 0, 0, 0, 0, 0}},
     // Chosen: the sclerenchyma of its many parallel veins and midrib carries most of the bending [6].
-    {"grass_blade", {900, 3.0e8, 0.30, 0.3e-3}},
+    {"grass_blade", {900, 3.0e8, 0.30, 0.3e-3, 0, 0, 0, 0, 0, 0, 0}},
     // Veins 60 MPa in tension [5]; the sclerenchyma on the lower side of a maize midrib is stiffer [6].
-    {"midrib", {950, 8.0e7, 0.30, 2.0e-3}},
+    {"midrib", {950, 8.0e7, 0.30, 2.0e-3, 0, 0, 0, 0, 0, 0, 0}},
     // A tube of parenchyma with a stiff rim [8]; between broccoli [2] and cucumber [1].
-    {"peduncle", {980, 1.0e8, 0.30, 1.0e-3}},
+    {"peduncle", {980, 1.0e8, 0.30, 1.0e-3, 0, 0, 0, 0, 0, 0, 0}},
     // Parenchyma without veins to speak of [9].
-    {"flower", {900, 5.0e6, 0.30, 0.3e-3}},
+    {"flower", {900, 5.0e6, 0.30, 0.3e-3, 0, 0, 0, 0, 0, 0, 0}},
     // Parenchyma under turgor, with its skin [9].
-    {"fruit", {980, 5.0e6, 0.35, 3.0e-3}},
+    {"fruit", {980, 5.0e6, 0.35, 3.0e-3, 0, 0, 0, 0, 0, 0, 0}},
     // The middle of living branches [4]; green wood sinks or nearly so.
-    {"branch", {950, 3.0e9, 0.35, 3.0e-3}},
+    {"branch", {950, 3.0e9, 0.35, 3.0e-3, 0, 0, 0, 0, 0, 0, 0}},
     // Hydrated: between herbs and wood [11].
-    {"root", {1000, 2.0e8, 0.35, 2.0e-3}},
+    {"root", {1000, 2.0e8, 0.35, 2.0e-3, 0, 0, 0, 0, 0, 0, 0}},
     // Thin, lignified late [10].
-    {"tendril", {950, 2.0e8, 0.30, 0.5e-3}},
+    {"tendril", {950, 2.0e8, 0.30, 0.5e-3, 0, 0, 0, 0, 0, 0, 0}},
     // Not a plant: stakes, trellises, pots. Air-dry softwood.
-    {"support", {600, 8.0e9, 0.35, 5.0e-3}},
+    {"support", {600, 8.0e9, 0.35, 5.0e-3, 0, 0, 0, 0, 0, 0, 0}},
 };
 
 const Material* material_preset(const std::string& kind) {
@@ -84,18 +84,30 @@ std::string material_kinds() {
     return text;
 }
 
+// Zero is allowed where a material need not have a property; tiny values besides are not, where others are divided by
+// them.
 void check_material(const Material& material, const std::string& who) {
     const struct {
         const char* what;
         double value, least, most;
-    } ranges[] = {{"density [kg/m^3]", material.density, 1, 2e4},
-                  {"young [Pa]", material.young, 1e3, 1e12},
-                  {"poisson", material.poisson, 0, 0.499},
-                  {"thickness [m]", material.thickness, 1e-6, 1}};
-    for (const auto& range : ranges)
-        if (!(range.value >= range.least && range.value <= range.most))
-            fail(FROND_BAD_ARGUMENT, "%s of organ \"%s\" is %g; give a value from %g to %g", range.what, who.c_str(),
-                 range.value, range.least, range.most);
+        bool or_zero;
+    } ranges[] = {{"density [kg/m^3]", material.density, 1, 2e4, false},
+                  {"young [Pa]", material.young, 1e3, 1e12, false},
+                  {"poisson", material.poisson, 0, 0.499, false},
+                  {"thickness [m]", material.thickness, 1e-6, 1, false},
+                  {"hollow", material.hollow, 0, 0.98, false},
+                  {"twist_to_bend", material.twist_to_bend, 0.01, 100, true},
+                  {"damping_ratio", material.damping_ratio, 0, 1, false},
+                  {"friction", material.friction, 0, 100, false},
+                  {"yield_strain", material.yield_strain, 1e-6, 10, true},
+                  {"creep_rate [1/s]", material.creep_rate, 0, 1e6, false},
+                  {"strength [Pa]", material.strength, 1, 1e12, true}};
+    for (const auto& range : ranges) {
+        if (range.value >= range.least && range.value <= range.most) continue;
+        if (range.or_zero && range.value == 0) continue;
+        fail(FROND_BAD_ARGUMENT, "%s of organ \"%s\" is %g; give a value from %g to %g%s", range.what, who.c_str(),
+             range.value, range.least, range.most, range.or_zero ? ", or 0 for none" : "");
+    }
 }
 
 }  // namespace frond

@@ -1,0 +1,13 @@
+// Materials that have only what every one must have: solid, isotropic, elastic.
+#pragma once
+
+#include "frond/frond.h"
+
+inline frond_material plain_material(double density, double young, double poisson, double thickness) {
+    frond_material material = {};
+    material.density = density;
+    material.young = young;
+    material.poisson = poisson;
+    material.thickness = thickness;
+    return material;
+}
