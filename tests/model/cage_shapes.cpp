@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "model/cage.hpp"
+#include "model/tet_geometry.hpp"
 #include "model/union_find.hpp"
 #include "support/materials.hpp"
 #include "support/soups.hpp"
@@ -59,16 +60,9 @@ void expect_valid(const Surface& surface, const Made& made, double least_angle =
         EXPECT_NEAR(weights[0] + weights[1] + weights[2] + weights[3], 1, 1e-9);
 }
 
-double volume_of_tet(const Cage& cage, size_t e) {
-    const Tet& tet = cage.tets[e];
-    const Vec3& a = cage.nodes[size_t(tet[0])];
-    return (cage.nodes[size_t(tet[1])] - a).cross(cage.nodes[size_t(tet[2])] - a).dot(cage.nodes[size_t(tet[3])] - a) /
-           6;
-}
-
 double tissue_of(const Cage& cage) {
     double sum = 0;
-    for (size_t e = 0; e < cage.tets.size(); ++e) sum += cage.tet_fill[e] * volume_of_tet(cage, e);
+    for (size_t e = 0; e < cage.tets.size(); ++e) sum += cage.tet_fill[e] * tet_volume(cage.nodes, cage.tets[e]);
     return sum;
 }
 

@@ -10,6 +10,7 @@
 #include "core/log.hpp"
 #include "model/import.hpp"
 #include "model/import_files.hpp"
+#include "model/tet_geometry.hpp"
 
 using namespace frond;
 
@@ -317,11 +318,8 @@ TEST_F(TetFiles, TakenTetsKeepTheirNodesAndGetTheirBoundary) {
     EXPECT_EQ(cage.nodes, NODES);
     double volume = 0;
     for (const Tet& tet : cage.tets) {
-        const Vec3 a = cage.nodes[size_t(tet[0])];
-        const double six =
-            (cage.nodes[size_t(tet[1])] - a).cross(cage.nodes[size_t(tet[2])] - a).dot(cage.nodes[size_t(tet[3])] - a);
-        EXPECT_GT(six, 0);
-        volume += six / 6;
+        EXPECT_GT(tet_volume(cage.nodes, tet), 0);
+        volume += tet_volume(cage.nodes, tet);
     }
     EXPECT_NEAR(volume, 1, 1e-12);
     EXPECT_EQ(cage.tet_organ, (std::vector<int>{0, 0, 0, 1, 1}));

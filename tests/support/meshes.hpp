@@ -6,6 +6,7 @@
 #include <random>
 
 #include "model/model.hpp"
+#include "model/tet_geometry.hpp"
 
 namespace frond::test {
 
@@ -27,15 +28,9 @@ inline void set_stuff(Model& model, const Stuff& stuff) {
         model.organs.push_back({"stem", "stem", {stuff.density, stuff.young, stuff.poisson, 1e-3}});
 }
 
-inline double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    return (b - a).cross(c - a).dot(d - a) / 6;
-}
-
 // Adds a tet with positive volume, whatever the order of its nodes.
 inline void add_tet(Cage& cage, Tet tet) {
-    const auto& p = cage.nodes;
-    if (tet_volume(p[size_t(tet[0])], p[size_t(tet[1])], p[size_t(tet[2])], p[size_t(tet[3])]) < 0)
-        std::swap(tet[2], tet[3]);
+    if (tet_volume(cage.nodes, tet) < 0) std::swap(tet[2], tet[3]);
     cage.tets.push_back(tet);
 }
 

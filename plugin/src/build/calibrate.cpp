@@ -13,6 +13,7 @@
 #include "build/static_stiffness.hpp"
 #include "mechanics/tet_element.hpp"
 #include "model/section.hpp"
+#include "model/tet_geometry.hpp"
 
 namespace frond {
 namespace {
@@ -21,13 +22,6 @@ constexpr double WEIGHT = 9.81;         // [m/s^2]
 constexpr double LARGEST_FACTOR = 1e6;  // of a modulus [-]
 // An organ may turn this far under its own weight taken sideways, by linear theory; an upright column topples at 1.306.
 constexpr double LARGEST_TURN = 1.2;  // [rad]
-
-double tet_volume(const Cage& cage, const Tet& tet) {
-    const Vec3& origin = cage.nodes[size_t(tet[0])];
-    const Vec3 a = cage.nodes[size_t(tet[1])] - origin, b = cage.nodes[size_t(tet[2])] - origin,
-               c = cage.nodes[size_t(tet[3])] - origin;
-    return a.cross(b).dot(c) / 6;
-}
 
 Vec3 tet_centre(const Cage& cage, const Tet& tet) {
     Vec3 sum = Vec3::Zero();
@@ -76,7 +70,7 @@ Weights weigh(const Model& model) {
     weights.moment.assign(model.chain.nodes.size(), Vec3::Zero());
     const std::vector<int> hangs = hang_tets(model);
     for (size_t e = 0; e < hangs.size(); e++) {
-        const double mass = model.tet_density[e] * tet_volume(model.cage, model.cage.tets[e]);
+        const double mass = model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
         weights.mass[size_t(hangs[e])] += mass;
         weights.moment[size_t(hangs[e])] += mass * tet_centre(model.cage, model.cage.tets[e]);
     }
@@ -228,7 +222,7 @@ double drop_loose_tets(LoneOrgan& lone) {
     size_t kept = 0;
     for (size_t e = 0; e < firm.size(); e++) {
         const Tet tet = model.cage.tets[e];
-        const double volume = tet_volume(model.cage, tet);
+        const double volume = tet_volume(model.cage.nodes, tet);
         whole += volume;
         if (!firm[e]) {
             const auto shared = std::count_if(tet.begin(), tet.end(), [&](int corner) { return used[size_t(corner)]; });
@@ -284,7 +278,7 @@ std::vector<double> cage_energies(const Model& model) {
     std::vector<std::vector<int>> node_organs(model.cage.nodes.size());
     for (size_t e = 0; e < model.cage.tets.size(); e++) {
         const int organ = model.cage.tet_organ[e];
-        own[size_t(organ)] += model.tet_density[e] * tet_volume(model.cage, model.cage.tets[e]);
+        own[size_t(organ)] += model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
         for (int corner : model.cage.tets[e]) {
             std::vector<int>& list = node_organs[size_t(corner)];
             if (std::find(list.begin(), list.end(), organ) == list.end()) list.push_back(organ);
@@ -384,7 +378,7 @@ static std::vector<double> find_weak_organs(const Model& model, const std::vecto
     constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]
     std::vector<double> factor(turns.size(), 1.0), mass(turns.size(), 0.0);
     for (size_t e = 0; e < model.cage.tets.size(); e++)
-        mass[size_t(model.cage.tet_organ[e])] += model.tet_density[e] * tet_volume(model.cage, model.cage.tets[e]);
+        mass[size_t(model.cage.tet_organ[e])] += model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
     const double whole = model.mass();
     for (size_t o = 0; o < turns.size(); o++) {
         factor[o] = std::max(1.0, turns[o] / LARGEST_TURN);

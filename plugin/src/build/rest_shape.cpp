@@ -10,6 +10,7 @@
 #include "build/firm_tets.hpp"
 #include "build/static_stiffness.hpp"
 #include "mechanics/tet_element.hpp"
+#include "model/tet_geometry.hpp"
 
 namespace frond {
 namespace {
@@ -32,12 +33,6 @@ VecX unbalanced_force(const std::vector<uint8_t>& held, const TetElements& eleme
     return f;
 }
 
-double signed_volume(const VecX& x, const Tet& tet) {
-    const Vec3 a = point(x, tet[1]) - point(x, tet[0]), b = point(x, tet[2]) - point(x, tet[0]),
-               c = point(x, tet[3]) - point(x, tet[0]);
-    return a.cross(b).dot(c) / 6;
-}
-
 double edge_length(const VecX& x, const Tet& tet) {
     return std::max({(point(x, tet[1]) - point(x, tet[0])).norm(), (point(x, tet[2]) - point(x, tet[0])).norm(),
                      (point(x, tet[3]) - point(x, tet[0])).norm()});
@@ -52,7 +47,7 @@ double longest_move(const Model& model, const VecX& x, const VecX& rest, const V
         bool good = moved.allFinite();
         for (const Tet& tet : model.cage.tets) {
             if (!good) break;
-            good = signed_volume(moved, tet) > signed_volume(x, tet) / 3 &&
+            good = tet_volume(moved, tet) > tet_volume(x, tet) / 3 &&
                    edge_length(moved, tet) < LONGEST * edge_length(x, tet);
         }
         if (good) return share;

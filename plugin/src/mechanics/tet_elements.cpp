@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "mechanics/rows.hpp"
 #include "mechanics/tet_element.hpp"
+#include "model/tet_geometry.hpp"
 
 namespace frond {
 
@@ -55,7 +56,7 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions) {
             edges.col(a) = point(out.rest_positions, tet[size_t(a) + 1]) - point(out.rest_positions, tet[0]);
 
         // A flat tet has no inverse; measure flatness against the tet's own size.
-        const double volume = std::abs(edges.determinant()) / 6, length = edges.norm();
+        const double volume = std::abs(tet_volume(out.rest_positions, tet)), length = edges.norm();
         if (!(volume > 1e-12 * length * length * length) || !std::isfinite(volume))
             fail(FROND_BAD_GEOMETRY, "tet %zu has no volume at rest; remove it or move its nodes", e);
         out.rest_inverse.push_back(edges.inverse());

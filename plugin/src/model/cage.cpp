@@ -32,9 +32,7 @@ static void make_tets(const Copies& copies, Cage& cage) {
             const int begin = (face & 1) == parity ? low | u : low, end = begin ^ u ^ v;
             for (const int side : {begin ^ u, begin ^ v}) {
                 Tet tet = {nodes[size_t(begin)], nodes[size_t(side)], nodes[size_t(end)], nodes[8]};
-                if (volume_of(cage.nodes[size_t(tet[0])], cage.nodes[size_t(tet[1])], cage.nodes[size_t(tet[2])],
-                              cage.nodes[size_t(tet[3])]) < 0)
-                    std::swap(tet[0], tet[1]);
+                if (tet_volume(cage.nodes, tet) < 0) std::swap(tet[0], tet[1]);
                 cage.tets.push_back(tet);
             }
         }
@@ -69,7 +67,7 @@ static void bind_vertices(const Surface& surface, const Draft& draft, Embedding&
         double best = -1e300;
         const int first = draft.vertex_copy[v] * TETS_PER_COPY;
         for (int tet = first; tet < first + TETS_PER_COPY; ++tet) {
-            const auto weights = weights_in(draft.cage, tet, surface.positions[v]);
+            const auto weights = tet_weights(draft.cage.nodes, draft.cage.tets[size_t(tet)], surface.positions[v]);
             const double least = *std::min_element(weights.begin(), weights.end());
             if (least <= best) continue;
             best = least;

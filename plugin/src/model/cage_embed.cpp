@@ -6,7 +6,8 @@
 
 #include "core/error.hpp"
 #include "model/box_tree.hpp"
-#include "model/cage_parts.hpp"
+#include "model/cage.hpp"
+#include "model/tet_geometry.hpp"
 #include "model/triangle_distance.hpp"
 
 namespace frond {
@@ -36,7 +37,7 @@ static double squared_distance(const Cage& cage, int tet, const Vec3& place) {
 
 // Inside of several, the one with the largest smallest weight; then the first.
 static void try_tet(const Cage& cage, int tet, const Vec3& place, Found& found) {
-    const auto weights = weights_in(cage, tet, place);
+    const auto weights = tet_weights(cage.nodes, cage.tets[size_t(tet)], place);
     const double least = *std::min_element(weights.begin(), weights.end());
     const bool usable = std::isfinite(least);
     const double squared = usable && least >= 0 ? 0 : squared_distance(cage, tet, place);
@@ -77,7 +78,7 @@ Embedding embed(const Surface& surface, const Cage& cage) {
         if (found.tet < 0)
             fail(FROND_BAD_GEOMETRY, "all %zu tets are flat; bring tets that have a volume", cage.tets.size());
         embedding.tet.push_back(found.tet);
-        embedding.weights.push_back(weights_in(cage, found.tet, place));
+        embedding.weights.push_back(tet_weights(cage.nodes, cage.tets[size_t(found.tet)], place));
     }
     return embedding;
 }

@@ -36,10 +36,11 @@ struct Slice {
 }  // namespace
 
 static int tet_at(const Filler& filler, int copy, const Vec3& place) {
+    const Cage& cage = filler.draft.cage;
     int best = -1;
     double most = -1e300;
     for (int tet = copy * TETS_PER_COPY; tet < (copy + 1) * TETS_PER_COPY; ++tet) {
-        const auto weights = weights_in(filler.draft.cage, tet, place);
+        const auto weights = tet_weights(cage.nodes, cage.tets[size_t(tet)], place);
         const double least = *std::min_element(weights.begin(), weights.end());
         if (least <= most) continue;
         most = least;
@@ -262,9 +263,7 @@ static void choose_organs(Filler& filler) {
 void fill_cage(const std::vector<int>& triangle_organ, const std::vector<Organ>& organs, Draft& draft) {
     const size_t count = draft.cage.tets.size();
     Filler filler{triangle_organ, organs, draft, {}, {}, {}, {}, {}};
-    for (const Tet& tet : draft.cage.tets)
-        filler.volume.push_back(volume_of(draft.cage.nodes[size_t(tet[0])], draft.cage.nodes[size_t(tet[1])],
-                                          draft.cage.nodes[size_t(tet[2])], draft.cage.nodes[size_t(tet[3])]));
+    for (const Tet& tet : draft.cage.tets) filler.volume.push_back(tet_volume(draft.cage.nodes, tet));
     filler.tissue.assign(count, 0);
     filler.wall.assign(count, 0);
     filler.organ_strength.resize(count);

@@ -7,10 +7,6 @@
 
 namespace frond {
 
-double volume_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    return (b - a).cross(c - a).dot(d - a) / 6;
-}
-
 bool dihedral_cosines(const std::array<Vec3, 4>& corners, double& of_smallest, double& of_largest) {
     // Outward normals of the faces opposite each corner, for a tet of positive volume.
     const Vec3 &a = corners[0], &b = corners[1], &c = corners[2], &d = corners[3];
@@ -32,23 +28,12 @@ bool dihedral_cosines(const std::array<Vec3, 4>& corners, double& of_smallest, d
     return true;
 }
 
-std::array<double, 4> weights_in(const Cage& cage, int tet, const Vec3& place) {
-    const Tet& corner = cage.tets[size_t(tet)];
-    const Vec3 &a = cage.nodes[size_t(corner[0])], &b = cage.nodes[size_t(corner[1])],
-               &c = cage.nodes[size_t(corner[2])], &d = cage.nodes[size_t(corner[3])];
-    const Vec3 ab = b - a, ac = c - a, ad = d - a, ap = place - a;
-    const double whole = ab.dot(ac.cross(ad));
-    const double at_b = ap.dot(ac.cross(ad)) / whole, at_c = ap.dot(ad.cross(ab)) / whole,
-                 at_d = ap.dot(ab.cross(ac)) / whole;
-    return {1 - at_b - at_c - at_d, at_b, at_c, at_d};
-}
-
 CageReport measure_cage(const Surface& surface, const Cage& cage, const Embedding& embedding) {
     CageReport report{180, 0, std::numeric_limits<double>::infinity(), 0, 1, 0};
     for (const Tet& tet : cage.tets) {
         std::array<Vec3, 4> corners;
         for (size_t k = 0; k < 4; ++k) corners[k] = cage.nodes[size_t(tet[k])];
-        const double volume = volume_of(corners[0], corners[1], corners[2], corners[3]);
+        const double volume = tet_volume(cage.nodes, tet);
         report.min_volume = std::min(report.min_volume, volume);
         report.volume += volume;
         double of_smallest = 1, of_largest = -1;

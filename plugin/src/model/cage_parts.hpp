@@ -3,6 +3,7 @@
 
 #include "model/cage.hpp"
 #include "model/cage_copies.hpp"
+#include "model/tet_geometry.hpp"
 
 namespace frond {
 
@@ -19,11 +20,8 @@ struct Draft {
     std::vector<int> vertex_copy;  // of each surface vertex
 };
 
-// Weights of a place in a tet; they add up to one.
-std::array<double, 4> weights_in(const Cage& cage, int tet, const Vec3& place);
 // A place counts as inside a tet down to this weight.
 constexpr double LOWEST_WEIGHT = -1e-9;
-double volume_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 // Cosines of the smallest and largest angle between two faces. False if a face has no area.
 bool dihedral_cosines(const std::array<Vec3, 4>& corners, double& of_smallest, double& of_largest);
 

@@ -107,7 +107,7 @@ static bool are_sound(Smoother& smoother, int node) {
     for (int e : smoother.node_tets[size_t(node)]) {
         std::array<Vec3, 4> corners;
         for (size_t k = 0; k < 4; ++k) corners[k] = cage.nodes[size_t(cage.tets[size_t(e)][k])];
-        if (!(volume_of(corners[0], corners[1], corners[2], corners[3]) > 0)) return false;
+        if (!(tet_volume(corners[0], corners[1], corners[2], corners[3]) > 0)) return false;
         double of_smallest, of_largest;
         if (!dihedral_cosines(corners, of_smallest, of_largest)) return false;
         if (of_smallest > LARGEST_COSINE || of_largest < SMALLEST_COSINE) return false;
@@ -220,7 +220,7 @@ void smooth_cage(const Surface& surface, const CageOptions& options, Draft& draf
 
     for (size_t v = 0; v < surface.positions.size(); ++v) {
         if (draft.vertex_copy[v] >= 0) embedding.tet[v] = smoother.vertex_tet[v];
-        embedding.weights[v] = weights_in(cage, embedding.tet[v], surface.positions[v]);
+        embedding.weights[v] = tet_weights(cage.nodes, cage.tets[size_t(embedding.tet[v])], surface.positions[v]);
     }
 }
 

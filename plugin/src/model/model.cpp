@@ -1,20 +1,15 @@
 // The chain's place in the cage, and sums over a model.
 #include "model/model.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
+
+#include "model/tet_geometry.hpp"
 
 namespace frond {
 
 double Model::mass() const {
     double sum = 0;
-    for (size_t e = 0; e < cage.tets.size(); e++) {
-        const Tet& tet = cage.tets[e];
-        const Vec3& origin = cage.nodes[size_t(tet[0])];
-        const Vec3 a = cage.nodes[size_t(tet[1])] - origin, b = cage.nodes[size_t(tet[2])] - origin,
-                   c = cage.nodes[size_t(tet[3])] - origin;
-        sum += tet_density[e] * a.cross(b).dot(c) / 6;
-    }
+    for (size_t e = 0; e < cage.tets.size(); e++) sum += tet_density[e] * tet_volume(cage.nodes, cage.tets[e]);
     return sum;
 }
 
@@ -35,14 +30,6 @@ std::vector<uint8_t> find_root_nodes(const Model& model) {
     return root;
 }
 
-static std::array<double, 4> barycentric(const Cage& cage, const Tet& tet, const Vec3& p) {
-    const Vec3& origin = cage.nodes[size_t(tet[0])];
-    Mat3 edges;
-    for (int k = 0; k < 3; k++) edges.col(k) = cage.nodes[size_t(tet[size_t(k) + 1])] - origin;
-    const Vec3 w = edges.inverse() * (p - origin);
-    return {1 - w.sum(), w.x(), w.y(), w.z()};
-}
-
 // Each chain node is bound to that tet, of those which carry its own vertices, that it lies deepest in: copies of cells
 // that belong to other organs at the same place do not move it.
 static void embed_chain(Model& model) {
@@ -60,7 +47,8 @@ static void embed_chain(Model& model) {
         tets[i].erase(std::unique(tets[i].begin(), tets[i].end()), tets[i].end());
         double deepest = -INFINITY;
         for (int tet : tets[i]) {
-            const auto weights = barycentric(model.cage, model.cage.tets[size_t(tet)], model.chain.nodes[i].position);
+            const auto weights =
+                tet_weights(model.cage.nodes, model.cage.tets[size_t(tet)], model.chain.nodes[i].position);
             const double depth = *std::min_element(weights.begin(), weights.end());
             if (depth <= deepest) continue;
             deepest = depth;

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "model/import.hpp"
+#include "model/tet_geometry.hpp"
 
 namespace frond {
 
@@ -36,13 +37,6 @@ static void check_tets(const TetMesh& mesh) {
     }
 }
 
-static double six_volumes(const TetMesh& mesh, const Tet& tet) {
-    const Vec3 a = mesh.nodes[size_t(tet[0])];
-    const Vec3 b = mesh.nodes[size_t(tet[1])] - a, c = mesh.nodes[size_t(tet[2])] - a,
-               d = mesh.nodes[size_t(tet[3])] - a;
-    return b.cross(c).dot(d);
-}
-
 static void orient_tets(TetMesh& mesh) {
     for (size_t t = 0; t < mesh.tets.size(); ++t) {
         Tet& tet = mesh.tets[t];
@@ -50,8 +44,8 @@ static void orient_tets(TetMesh& mesh) {
         for (size_t i = 0; i < 4; ++i)
             for (size_t j = 0; j < i; ++j)
                 longest = std::max(longest, (mesh.nodes[size_t(tet[i])] - mesh.nodes[size_t(tet[j])]).norm());
-        const double volume = six_volumes(mesh, tet);
-        if (!(std::abs(volume) > SMALLEST_VOLUME * longest * longest * longest))
+        const double volume = tet_volume(mesh.nodes, tet);
+        if (!(std::abs(volume) > SMALLEST_VOLUME / 6 * longest * longest * longest))
             fail(FROND_BAD_GEOMETRY, "tet %zu (nodes %d %d %d %d) has no volume; remove it or mesh again", t, tet[0],
                  tet[1], tet[2], tet[3]);
         if (volume < 0) std::swap(tet[2], tet[3]);
