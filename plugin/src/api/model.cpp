@@ -128,7 +128,7 @@ frond_result frond_model_from_stems(const frond_stem* stems, int stem_count, con
     return open_model(def, out, [&] {
         check_pointer(stems, "stems");
         check_range(stem_count, 1, 100000, "stem_count");
-        return build_from_surface(surface_from_stems(stems, stem_count), *def);
+        return build_from_stems(stems, stem_count, *def);
     });
 }
 

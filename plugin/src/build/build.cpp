@@ -1,5 +1,6 @@
 // From a surface to a model: topology -> organs -> chain, cage -> calibration.
 #include "build/build.hpp"
+#include "build/weigh.hpp"
 
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -11,25 +12,27 @@ static ImportOptions import_options(const frond_model_def& def) {
     return {def.scale, Vec3(def.up.x, def.up.y, def.up.z)};
 }
 
-static void find_organs_and_chain(Model& model, const frond_model_def& def) {
-    Timer timer;
+static void find_organs(Model& model, const frond_model_def& def) {
     model.topology = make_topology(model.surface);
     model.organs = find_organs(model.surface, model.topology, def.organs, def.organ_count);
+    model.organ_stiffer.assign(model.organs.size(), 1.0);
+}
+
+static void find_chain(Model& model, const frond_model_def& def) {
     model.chain = make_chain(model.surface, model.topology, model.organs, {def.capsule_height, def.capsule_radius});
-    model.ms_chain = timer.ms();
+    model.sections = measure_sections(model.surface, model.organs, model.chain);
 }
 
 static void finish(Model& model) {
-    model.sections = measure_sections(model.surface, model.organs, model.chain);
-    model.organ_stiffer.assign(model.organs.size(), 1.0);
     model.root = find_root_nodes(model);
     bind_chain(model);
+    give_mass(model);
     model.cage_report = measure_cage(model.surface, model.cage, model.embedding);
 }
 
 // One warning for a plant that its materials do not carry.
 static void tell_stiffened(Model& model, const WeakOrgan& weak) {
-    constexpr double WORTH_A_WARNING = 1.2;
+    constexpr double WORTH_A_WARNING = 2;  // more than the margin that chosen materials get anyway
     model.stiffened = weak.factor;
     if (model.stiffened < WORTH_A_WARNING) return;
     warn(
@@ -38,23 +41,31 @@ static void tell_stiffened(Model& model, const WeakOrgan& weak) {
         weak.name.c_str(), model.stiffened, model.surface.height());
 }
 
+// From a surface whose organs and chain stand.
+static void build_body(Model& model, const frond_model_def& def) {
+    const Timer timer;
+    make_cage(model.surface, model.topology, model.organs, {def.cage_size, def.cage_offset, def.cage_smoothness},
+              model.cage, model.embedding);
+    model.ms_cage = timer.ms();
+    finish(model);
+    model.stands_as_modelled = def.rest == FROND_REST_STANDS_AS_MODELLED;
+    WeakOrgan weak;
+    if (model.stands_as_modelled) weak = strengthen(model);
+    calibrate(model);
+    if (!model.stands_as_modelled) return;
+    const WeakOrgan in_cage = find_rest_shape(model);
+    tell_stiffened(model, in_cage.factor > weak.factor ? in_cage : weak);
+}
+
 static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def, const Timer& total) {
     auto model = std::make_shared<Model>();
     model->surface = std::move(surface);
     model->ms_import = total.ms();
-    find_organs_and_chain(*model, def);
-    Timer timer;
-    make_cage(model->surface, model->topology, model->organs, {def.cage_size, def.cage_offset, def.cage_smoothness},
-              model->cage, model->embedding);
-    model->ms_cage = timer.ms();
-    finish(*model);
-    const bool must_stand = def.rest == FROND_REST_STANDS_AS_MODELLED;
-    model->stands_as_modelled = must_stand;
-    const WeakOrgan weak = calibrate(*model, must_stand);
-    if (must_stand) {
-        const WeakOrgan toppling = find_rest_shapes(*model);
-        tell_stiffened(*model, toppling.factor > weak.factor ? toppling : weak);
-    }
+    const Timer timer;
+    find_organs(*model, def);
+    find_chain(*model, def);
+    model->ms_chain = timer.ms();
+    build_body(*model, def);
     model->ms_total = total.ms();
     return model;
 }
@@ -65,12 +76,40 @@ std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_mod
     return build(std::move(surface), def, total);
 }
 
+// How place_surface() moved a surface that was made as it stands.
+static StemPlacement placement_of(const Surface& before, const Surface& after) {
+    StemPlacement placed;
+    placed.scale = after.scale;
+    placed.turn = Quat::FromTwoVectors(after.up, Vec3::UnitY()).toRotationMatrix();
+    placed.shift = after.positions.front() - placed.image(before.positions.front());
+    return placed;
+}
+
+std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def) {
+    const Timer total;
+    auto model = std::make_shared<Model>();
+    const Surface made = surface_from_stems(stems, stem_count);
+    model->surface = made;
+    place_surface(model->surface, import_options(def));
+    model->ms_import = total.ms();
+    const Timer timer;
+    find_organs(*model, def);
+    model->chain = make_chain_of_stems(stems, stem_count, model->surface, placement_of(made, model->surface),
+                                       {def.capsule_height, def.capsule_radius}, model->sections);
+    model->exact_sections = true;
+    model->ms_chain = timer.ms();
+    build_body(*model, def);
+    model->ms_total = total.ms();
+    return model;
+}
+
 std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def& def) {
     const Timer total;
     auto model = std::make_shared<Model>();
     take_tets(std::move(mesh), import_options(def), model->surface, model->cage, model->embedding);
     model->ms_import = total.ms();
-    find_organs_and_chain(*model, def);
+    find_organs(*model, def);
+    find_chain(*model, def);
     finish(*model);
     take_materials(*model);
     model->ms_total = total.ms();

@@ -10,19 +10,26 @@ namespace frond {
 
 std::shared_ptr<const Model> build_from_file(const std::string& path, const frond_model_def& def);
 std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_model_def& def);
+std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def);
 std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def& def);
 
-// Set tet_density, tet_young and tet_poisson of a model whose organs, cage and root stand: as the materials are, for
-// tets that the caller brought; or so that a cage of Frond's own bends as its organs do (which needs the chain too).
-// With `must_stand`, organs that could not carry their weight are made stiffer; the weakest of any weight is returned.
+// Makes organs stiffer that could not carry the plant in the shape in which it was modelled: sets organ_stiffer. Returns
+// the one that needed most.
 struct WeakOrgan {
     std::string name;   // empty: there is none
     double factor = 1;  // how much stiffer it was made [-]
 };
+WeakOrgan strengthen(Model& model);
+
+// Set tet_young and tet_poisson of a model whose organs, cage and root stand: as the materials are, for tets that the
+// caller brought; or so that a cage of Frond's own bends as its organs do.
 void take_materials(Model& model);
-WeakOrgan calibrate(Model& model, bool must_stand);
-// Sets rest_positions so that the plant stands under gravity as it was modelled; where it would topple, after making
-// those organs stiffer that give way: returns the weakest.
-WeakOrgan find_rest_shapes(Model& model);
+void calibrate(Model& model);
+
+// Finds the shape without gravity from which weight bends the cage to the shape that was modelled, for the default
+// mechanics; where the cage would topple, after making organs stiffer in it, which returns the weakest.
+WeakOrgan find_rest_shape(Model& model);
+// For other mechanics, when a plant first asks for it; safe from any thread.
+void ensure_rest_shape(const Model& model, frond_mechanics which);
 
 }  // namespace frond

@@ -1,9 +1,9 @@
 // Calibration: organ materials -> constants of the cage's tets. A cage is fatter than the organ in it, and four-node
 // tets are too stiff in bending, by a factor of ten to a thousand; so each organ's Young's modulus in the cage is
 // scaled until the organ bends in the cage as the rod with its true section would. Each organ is taken alone, held
-// where it grows out of another one, and loaded with its own weight and that of what it bears, along each of the three
-// axes. Under equal loads elastic energy is inversely proportional to stiffness, so the ratio of the two energies, cage
-// to rod, is the factor.
+// where it grows out of another one, and loaded with its own weight and that of what it bears, and at its tip, along
+// each of the three axes. Under equal loads elastic energy is inversely proportional to stiffness, so the ratio of the two energies, cage
+// to rod, is the factor: first for the organ, then place by place along it.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,8 +11,8 @@
 #include "build/build.hpp"
 #include "build/firm_tets.hpp"
 #include "build/static_stiffness.hpp"
+#include "build/weigh.hpp"
 #include "mechanics/tet_element.hpp"
-#include "model/section.hpp"
 #include "model/tet_geometry.hpp"
 
 namespace frond {
@@ -20,62 +20,9 @@ namespace {
 
 constexpr double WEIGHT = 9.81;         // [m/s^2]
 constexpr double LARGEST_FACTOR = 1e6;  // of a modulus [-]
-// An organ may turn this far under its own weight taken sideways, by linear theory; an upright column topples at 1.306.
-constexpr double LARGEST_TURN = 1.2;  // [rad]
 
-Vec3 tet_centre(const Cage& cage, const Tet& tet) {
-    Vec3 sum = Vec3::Zero();
-    for (int corner : tet) sum += cage.nodes[size_t(corner)];
-    return sum / 4;
-}
-
-// The chain node that each tet's weight hangs on: that of most vertices in it, else of the nearest node.
-std::vector<int> hang_tets(const Model& model) {
-    const size_t tet_count = model.cage.tets.size();
-    std::vector<std::vector<int>> votes(tet_count);
-    for (size_t v = 0; v < model.embedding.tet.size(); v++)
-        votes[size_t(model.embedding.tet[v])].push_back(model.chain.vertex_node[v]);
-    std::vector<int> hangs(tet_count);
-    for (size_t e = 0; e < tet_count; e++) {
-        std::vector<int>& nodes = votes[e];
-        if (!nodes.empty()) {
-            std::nth_element(nodes.begin(), nodes.begin() + long(nodes.size() / 2), nodes.end());
-            hangs[e] = nodes[nodes.size() / 2];
-            continue;
-        }
-        const Vec3 centre = tet_centre(model.cage, model.cage.tets[e]);
-        double nearest = INFINITY;
-        for (size_t i = 0; i < model.chain.nodes.size(); i++) {
-            const ChainNode& node = model.chain.nodes[i];
-            const double penalty = node.organ == model.cage.tet_organ[e] ? 0 : 1;
-            const double distance = (node.position - centre).norm() + penalty;
-            if (distance < nearest) {
-                nearest = distance;
-                hangs[e] = int(i);
-            }
-        }
-    }
-    return hangs;
-}
-
-// What a plant weighs, as the chain carries it: one a chain node.
-struct Weights {
-    std::vector<double> mass;  // [kg]
-    std::vector<Vec3> moment;  // mass times position [kg m]
-};
-
-Weights weigh(const Model& model) {
-    Weights weights;
-    weights.mass.assign(model.chain.nodes.size(), 0);
-    weights.moment.assign(model.chain.nodes.size(), Vec3::Zero());
-    const std::vector<int> hangs = hang_tets(model);
-    for (size_t e = 0; e < hangs.size(); e++) {
-        const double mass = model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
-        weights.mass[size_t(hangs[e])] += mass;
-        weights.moment[size_t(hangs[e])] += mass * tet_centre(model.cage, model.cage.tets[e]);
-    }
-    return weights;
-}
+// An elastic energy for each chain node [J]: of the tets that hang on it, and of the halves of its capsules.
+using Energies = std::vector<double>;
 
 // Bending and twisting moment and pull of a capsule.
 struct RodForce {
@@ -84,7 +31,7 @@ struct RodForce {
 
 // Under a weight along one axis, summed from the tips down. With `organs_alone` an organ bears the weight of what grows
 // out of it where it grows, without its leverage.
-std::vector<RodForce> rod_forces(const Model& model, const std::vector<Section>& sections, const Weights& weights,
+std::vector<RodForce> rod_forces(const Model& model, const Weights& weights,
                                  int axis, bool organs_alone) {
     const std::vector<ChainNode>& nodes = model.chain.nodes;
     const Vec3 load = WEIGHT * Vec3::Unit(axis);
@@ -99,7 +46,7 @@ std::vector<RodForce> rod_forces(const Model& model, const std::vector<Section>&
         const size_t parent = size_t(nodes[i].parent);
         const Vec3 cut = 0.5 * (nodes[i].position + nodes[parent].position);
         const Vec3 M = moment[i] - cut.cross(force[i]);
-        const Section& section = sections[i];
+        const Section& section = model.sections[i];
         rods[i] = {M.dot(section.axis.cross(section.thin)), M.dot(section.thin), M.dot(section.axis),
                    force[i].dot(section.axis)};
         const bool new_organ = nodes[i].organ != nodes[parent].organ;
@@ -109,45 +56,29 @@ std::vector<RodForce> rod_forces(const Model& model, const std::vector<Section>&
     return rods;
 }
 
-// Elastic energy of each organ as rods, summed over the three loads [J].
-std::vector<double> rod_energies(const Model& model, const std::vector<Section>& sections, const Weights& weights,
-                                 bool organs_alone) {
-    std::vector<double> energies(model.organs.size(), 0.0);
+// As rods, summed over the three loads.
+Energies rod_energies(const Model& model, const Weights& weights, bool organs_alone) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    Energies energies(nodes.size(), 0.0);
     for (int axis = 0; axis < 3; axis++) {
-        const std::vector<RodForce> rods = rod_forces(model, sections, weights, axis, organs_alone);
+        const std::vector<RodForce> rods = rod_forces(model, weights, axis, organs_alone);
         for (size_t i = 0; i < rods.size(); i++) {
-            const Section& section = sections[i];
-            const Material& material = model.organs[size_t(model.chain.nodes[i].organ)].material;
+            if (nodes[i].parent < 0) continue;
+            const Section& section = model.sections[i];
+            const Material& material = model.organs[size_t(nodes[i].organ)].material;
             const RodForce& rod = rods[i];
-            energies[size_t(model.chain.nodes[i].organ)] +=
-                section.length / (2 * material.young) *
+            const double energy =
+                section.length / (2 * material.young * model.organ_stiffer[size_t(nodes[i].organ)]) *
                 (rod.thin * rod.thin / section.inertia_thin + rod.wide * rod.wide / section.inertia_wide +
                  2 * (1 + material.poisson) * rod.twist * rod.twist / section.inertia_polar() +
                  rod.pull * rod.pull / section.area);
+            const size_t parent = size_t(nodes[i].parent);
+            const bool shared = nodes[parent].organ == nodes[i].organ || nodes[parent].parent < 0;
+            energies[i] += shared ? 0.5 * energy : energy;
+            if (shared) energies[parent] += 0.5 * energy;
         }
     }
     return energies;
-}
-
-// How far each organ turns from its base to its tip when all its weight pulls sideways, linearly [rad].
-std::vector<double> organ_turns(const Model& model, const std::vector<Section>& sections, const Weights& weights) {
-    const std::vector<ChainNode>& nodes = model.chain.nodes;
-    std::vector<double> turns(model.organs.size(), 0.0);
-    for (int axis = 0; axis < 3; axis++) {
-        const std::vector<RodForce> rods = rod_forces(model, sections, weights, axis, false);
-        std::vector<double> turn(nodes.size(), 0.0);
-        for (size_t i = 0; i < nodes.size(); i++) {
-            if (nodes[i].parent < 0) continue;
-            const size_t parent = size_t(nodes[i].parent), organ = size_t(nodes[i].organ);
-            const Section& section = sections[i];
-            const double curvature =
-                std::hypot(rods[i].thin / section.inertia_thin, rods[i].wide / section.inertia_wide) /
-                model.organs[organ].material.young;
-            turn[i] = section.length * curvature + (nodes[parent].organ == nodes[i].organ ? turn[parent] : 0.0);
-            turns[organ] = std::max(turns[organ], turn[i]);
-        }
-    }
-    return turns;
 }
 
 // The organ that most of an organ's pieces grow out of; -1 for one that stands on the ground.
@@ -172,6 +103,7 @@ std::vector<int> organ_parents(const Model& model) {
 // The tets of one organ as a model of their own, held where it grows out of another organ or the ground.
 struct LoneOrgan {
     Model model;
+    std::vector<size_t> tets;     // of the plant's cage, those that are left
     std::vector<int> nodes;       // of the plant's cage
     std::map<int, double> borne;  // own node -> mass of what grows out of it there [kg]
 };
@@ -188,6 +120,7 @@ LoneOrgan take_organ(const Model& model, int organ, const std::vector<int>& pare
             if (is_new) lone.nodes.push_back(corner);
             corner = entry->second;
         }
+        lone.tets.push_back(e);
         lone.model.cage.tets.push_back(tet);
         lone.model.tet_density.push_back(model.tet_density[e]);
         lone.model.tet_young.push_back(model.tet_young[e]);
@@ -232,12 +165,14 @@ double drop_loose_tets(LoneOrgan& lone) {
         }
         kept_volume += volume;
         model.cage.tets[kept] = tet;
+        lone.tets[kept] = lone.tets[e];
         model.tet_density[kept] = model.tet_density[e];
         model.tet_young[kept] = model.tet_young[e];
         model.tet_poisson[kept] = model.tet_poisson[e];
         kept++;
     }
     model.cage.tets.resize(kept);
+    lone.tets.resize(kept);
     model.tet_density.resize(kept);
     model.tet_young.resize(kept);
     model.tet_poisson.resize(kept);
@@ -246,103 +181,202 @@ double drop_loose_tets(LoneOrgan& lone) {
     return whole > 0 ? kept_volume / whole : 0;
 }
 
-// Elastic energy of a lone organ, summed over the three loads [J]; 0 if too little of it is held or free to move.
-double lone_energy(LoneOrgan& lone) {
-    constexpr double MOST = 0.6;  // share of an organ from which it can be taken alone [-]
-    Model& model = lone.model;
-    if (drop_loose_tets(lone) < MOST) return 0;
-    if (std::all_of(model.root.begin(), model.root.end(), [](uint8_t held) { return held; })) return 0;
-    const TetElements elements = make_tet_elements(model);
-    StaticStiffness stiffness(elements.pattern);
-    if (!stiffness.set(elements, model.root, FROND_TET_LINEAR, Tangent::positive, elements.rest_positions)) return 0;
-    double energy = 0;
-    VecX load(elements.rest_positions.size()), u(load.size());
-    for (int axis = 0; axis < 3; axis++) {
-        load.setZero();
-        for (size_t e = 0; e < elements.tets.size(); e++)
-            for (int corner : elements.tets[e])
-                load[3 * corner + axis] += WEIGHT * elements.density[e] * elements.volume[e] / 4;
-        for (const auto& [node, mass] : lone.borne) load[3 * node + axis] += WEIGHT * mass;
-        for (size_t i = 0; i < model.root.size(); i++)
-            if (model.root[i]) point(load, int(i)).setZero();
-        solve(*stiffness.factor, load, u);
-        energy += 0.5 * load.dot(u);
-    }
-    return energy;
+// Linear elastic energy of a tet whose nodes are displaced by u [J].
+double tet_energy(const TetElements& elements, size_t e, const VecX& u) {
+    const Tet& tet = elements.ordered[e];
+    Mat3 edges;
+    for (int k = 0; k < 3; k++) edges.col(k) = point(u, tet[size_t(k) + 1]) - point(u, tet[0]);
+    const Mat3 gradient = edges * elements.rest_inverse[e], strain = 0.5 * (gradient + gradient.transpose());
+    const double trace = strain.trace();
+    return elements.volume[e] * (elements.mu[e] * strain.squaredNorm() + 0.5 * elements.lambda[e] * trace * trace);
 }
 
-std::vector<double> cage_energies(const Model& model) {
-    const std::vector<int> parents = organ_parents(model);
-    // Mass of each organ with all that it bears; a loop of organs bears itself only.
-    std::vector<double> own(model.organs.size(), 0.0), borne;
-    std::vector<std::vector<int>> node_organs(model.cage.nodes.size());
-    for (size_t e = 0; e < model.cage.tets.size(); e++) {
-        const int organ = model.cage.tet_organ[e];
-        own[size_t(organ)] += model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
-        for (int corner : model.cage.tets[e]) {
-            std::vector<int>& list = node_organs[size_t(corner)];
-            if (std::find(list.begin(), list.end(), organ) == list.end()) list.push_back(organ);
+// Masses that a cage carries, by its nodes [kg].
+using NodeMasses = std::map<int, double>;
+
+NodeMasses own_masses(const Model& model) {
+    NodeMasses masses;
+    for (size_t e = 0; e < model.cage.tets.size(); e++)
+        for (int corner : model.cage.tets[e])
+            masses[corner] += model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]) / 4;
+    return masses;
+}
+
+// A cage's energies under each of several loads, weights along the three axes in turn, by the chain nodes that its tets
+// hang on. Empty if the root does not hold it.
+std::vector<Energies> cage_energies(const Model& model, const std::vector<NodeMasses>& loads,
+                                    const std::vector<int>& hangs, size_t chain_count) {
+    const TetElements elements = make_tet_elements(model);
+    StaticStiffness stiffness(elements.pattern);
+    if (!stiffness.set(elements, model.root, FROND_TET_LINEAR, Tangent::positive, elements.rest_positions)) return {};
+    std::vector<Energies> all;
+    VecX load(elements.rest_positions.size()), u(load.size());
+    for (const NodeMasses& masses : loads) {
+        Energies energies(chain_count, 0.0);
+        for (int axis = 0; axis < 3; axis++) {
+            load.setZero();
+            for (const auto& [node, mass] : masses)
+                if (!model.root[size_t(node)]) load[3 * node + axis] = WEIGHT * mass;
+            solve(*stiffness.factor, load, u);
+            for (size_t e = 0; e < elements.tets.size(); e++) energies[size_t(hangs[e])] += tet_energy(elements, e, u);
         }
+        all.push_back(std::move(energies));
     }
-    borne = own;
+    return all;
+}
+
+// Mass of each organ with all that it bears; a loop of organs bears itself only.
+std::vector<double> borne_masses(const Model& model, const std::vector<int>& parents) {
+    std::vector<double> own(model.organs.size(), 0.0);
+    for (size_t e = 0; e < model.cage.tets.size(); e++)
+        own[size_t(model.cage.tet_organ[e])] +=
+            model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
+    std::vector<double> borne = own;
     for (size_t o = 0; o < own.size(); o++) {
         size_t steps = 0;
         for (int above = parents[o]; above >= 0 && above != int(o) && steps < own.size();
              above = parents[size_t(above)], steps++)
             borne[size_t(above)] += own[o];
     }
-    std::vector<double> energies;
-    for (size_t o = 0; o < model.organs.size(); o++) {
-        LoneOrgan lone = take_organ(model, int(o), parents, borne, node_organs);
-        energies.push_back(lone.nodes.empty() ? 0 : lone_energy(lone));
-    }
-    return energies;
+    return borne;
 }
 
-// Elastic energy of each organ's tets in the whole plant, summed over the three loads [J]; empty if the root does not
-// hold it.
-std::vector<double> whole_energies(const Model& model) {
-    const TetElements elements = make_tet_elements(model);
-    StaticStiffness stiffness(elements.pattern);
-    const VecX& X = elements.rest_positions;
-    if (!stiffness.set(elements, model.root, FROND_TET_LINEAR, Tangent::positive, X)) return {};
-    std::vector<double> energies(model.organs.size(), 0.0);
-    VecX load(X.size()), u(load.size());
-    for (int axis = 0; axis < 3; axis++) {
-        load.setZero();
-        for (size_t e = 0; e < elements.tets.size(); e++)
-            for (int corner : elements.tets[e])
-                if (!model.root[size_t(corner)])
-                    load[3 * corner + axis] += WEIGHT * elements.density[e] * elements.volume[e] / 4;
-        solve(*stiffness.factor, load, u);
-        for (size_t e = 0; e < elements.tets.size(); e++) {
-            const Tet& tet = elements.ordered[e];
-            Mat3 edges;
-            for (int k = 0; k < 3; k++) edges.col(k) = point(u, tet[size_t(k) + 1]) - point(u, tet[0]);
-            const Mat3 gradient = edges * elements.rest_inverse[e], strain = 0.5 * (gradient + gradient.transpose());
-            energies[size_t(model.cage.tet_organ[e])] +=
-                elements.volume[e] *
-                (elements.mu[e] * strain.squaredNorm() + 0.5 * elements.lambda[e] * strain.trace() * strain.trace());
+std::vector<std::vector<int>> node_organs(const Cage& cage) {
+    std::vector<std::vector<int>> organs(cage.nodes.size());
+    for (size_t e = 0; e < cage.tets.size(); e++)
+        for (int corner : cage.tets[e]) {
+            std::vector<int>& list = organs[size_t(corner)];
+            if (std::find(list.begin(), list.end(), cage.tet_organ[e]) == list.end())
+                list.push_back(cage.tet_organ[e]);
+        }
+    return organs;
+}
+
+// The rods' energies of one organ, moved to the nearest chain nodes towards its base on which tets hang.
+Energies gather_on_tets(const Model& model, int organ, const std::vector<char>& has_tets, const Energies& rods) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    Energies gathered(nodes.size(), 0.0);
+    double homeless = 0;
+    int home = -1;
+    for (size_t i = 0; i < nodes.size(); i++) {
+        if (has_tets[i] && home < 0) home = int(i);
+        if (nodes[i].organ != organ) continue;
+        int node = int(i);
+        while (node >= 0 && !has_tets[size_t(node)]) node = nodes[size_t(node)].parent;
+        (node >= 0 ? gathered[size_t(node)] : homeless) += rods[i];
+    }
+    if (home >= 0) gathered[size_t(home)] += homeless;
+    return gathered;
+}
+
+double sum_of(const Energies& energies) {
+    double sum = 0;
+    for (double energy : energies) sum += energy;
+    return sum;
+}
+
+// The node of an organ that is farthest along the chain; -1 if it has none.
+int tip_of(const Chain& chain, int organ) {
+    int tip = -1;
+    for (size_t i = 0; i < chain.nodes.size(); i++)
+        if (chain.nodes[i].organ == organ && chain.nodes[i].parent >= 0 &&
+            (tip < 0 || chain.nodes[i].distance > chain.nodes[size_t(tip)].distance))
+            tip = int(i);
+    return tip;
+}
+
+// A mass at an organ's tip, for its cage; empty if that is not where the chain's tip is bound to.
+NodeMasses mass_at_tip(const LoneOrgan& lone, const Model& plant, int tip) {
+    NodeMasses masses;
+    const int tet = plant.chain_embedding.tet[size_t(tip)];
+    const auto found = std::find(lone.tets.begin(), lone.tets.end(), size_t(tet));
+    if (found == lone.tets.end()) return masses;
+    const Tet& own = lone.model.cage.tets[size_t(found - lone.tets.begin())];
+    for (size_t k = 0; k < 4; k++) masses[own[k]] += plant.chain_embedding.weights[size_t(tip)][k];
+    return masses;
+}
+
+// And for its rods.
+Energies rods_with_mass_at_tip(const Model& plant, int tip) {
+    Weights weights;
+    weights.mass.assign(plant.chain.nodes.size(), 0.0);
+    weights.moment.assign(plant.chain.nodes.size(), Vec3::Zero());
+    weights.mass[size_t(tip)] = 1;
+    weights.moment[size_t(tip)] = plant.chain.nodes[size_t(tip)].position;
+    return rod_energies(plant, weights, true);
+}
+
+// Each load counts alike: the sum over them of energies over the whole energy of the rods.
+Energies balanced(const std::vector<Energies>& loads, const std::vector<double>& whole) {
+    Energies sum(loads.front().size(), 0.0);
+    for (size_t l = 0; l < loads.size(); l++)
+        for (size_t i = 0; i < sum.size(); i++) sum[i] += loads[l][i] / whole[l];
+    return sum;
+}
+
+// Scales the lone organ's moduli until its energies are the rods', first as a whole, then place by place: under its own
+// weight and what it bears, and with a weight at its tip. False if too little of it is held or free to move.
+bool calibrate_alone(LoneOrgan& lone, int organ, const Model& plant, const std::vector<int>& hangs,
+                     const Energies& rods) {
+    constexpr double MOST = 0.6;  // share of an organ from which it can be taken alone [-]
+    constexpr int ROUNDS = 5;
+    constexpr double LARGEST_RATIO = 4;  // of neighbouring places in one round [-]
+    constexpr double BLUR = 0.02;        // of the organ's energy that counts at each of its places [-]
+    Model& model = lone.model;
+    if (drop_loose_tets(lone) < MOST) return false;
+    if (std::all_of(model.root.begin(), model.root.end(), [](uint8_t held) { return held; })) return false;
+    std::vector<int> own_hangs;
+    std::vector<char> has_tets(plant.chain.nodes.size(), 0);
+    for (size_t e : lone.tets) {
+        own_hangs.push_back(hangs[e]);
+        has_tets[size_t(hangs[e])] = 1;
+    }
+    std::vector<NodeMasses> loads = {own_masses(model)};
+    for (const auto& [node, mass] : lone.borne) loads[0][node] += mass;
+    std::vector<Energies> rods_by_load = {gather_on_tets(plant, organ, has_tets, rods)};
+    const int tip = tip_of(plant.chain, organ);
+    const NodeMasses at_tip = tip >= 0 ? mass_at_tip(lone, plant, tip) : NodeMasses();
+    if (!at_tip.empty()) {
+        loads.push_back(at_tip);
+        rods_by_load.push_back(gather_on_tets(plant, organ, has_tets, rods_with_mass_at_tip(plant, tip)));
+    }
+    std::vector<double> whole_rods;
+    for (const Energies& energies : rods_by_load) whole_rods.push_back(sum_of(energies));
+    if (!(*std::min_element(whole_rods.begin(), whole_rods.end()) > 0)) return false;
+    const Energies wanted = balanced(rods_by_load, whole_rods);
+    const double wanted_sum = sum_of(wanted);
+    for (int round = 0; round < ROUNDS; round++) {
+        const std::vector<Energies> by_load = cage_energies(model, loads, own_hangs, plant.chain.nodes.size());
+        if (by_load.empty()) return false;
+        const Energies cage = balanced(by_load, whole_rods);
+        const double cage_sum = sum_of(cage);
+        if (!(cage_sum > 0)) return false;
+        const double whole = std::clamp(cage_sum / wanted_sum, 1 / LARGEST_FACTOR, LARGEST_FACTOR);
+        for (size_t e = 0; e < own_hangs.size(); e++) {
+            const size_t node = size_t(own_hangs[e]);
+            const double here = (cage[node] + BLUR * cage_sum) / (wanted[node] + BLUR * wanted_sum) / whole;
+            model.tet_young[e] *= round == 0 ? whole : whole * std::clamp(here, 1 / LARGEST_RATIO, LARGEST_RATIO);
         }
     }
-    return energies;
+    return true;
 }
 
 // Organs that cannot be taken alone, because their tets lie scattered among those of others, get one factor together:
 // all organs' energies in the plant under its weight are compared with the rods'.
-void calibrate_together(Model& model, const std::vector<Section>& sections, const Weights& weights,
+void calibrate_together(Model& model, const Weights& weights, const std::vector<int>& hangs,
                         const std::vector<char>& alone) {
     if (std::all_of(alone.begin(), alone.end(), [](char is) { return is; })) return;
-    const std::vector<double> rods = rod_energies(model, sections, weights, false);
+    const Energies rods = rod_energies(model, weights, false);
     constexpr int ROUNDS = 4;
     for (int round = 0; round < ROUNDS; round++) {
-        const std::vector<double> cage = whole_energies(model);
-        if (cage.empty()) return;
+        const std::vector<Energies> by_load = cage_energies(model, {own_masses(model)}, hangs, rods.size());
+        if (by_load.empty()) return;
+        const Energies& cage = by_load.front();
         double rod_sum = 0, cage_sum = 0;
-        for (size_t o = 0; o < rods.size(); o++) {
-            if (alone[o]) continue;
-            rod_sum += rods[o];
-            cage_sum += cage[o];
+        for (size_t i = 0; i < rods.size(); i++) {
+            if (alone[size_t(std::max(model.chain.nodes[i].organ, 0))]) continue;
+            rod_sum += rods[i];
+            cage_sum += cage[i];
         }
         if (!(rod_sum > 0 && cage_sum > 0)) return;
         const double factor = std::clamp(cage_sum / rod_sum, 1 / LARGEST_FACTOR, LARGEST_FACTOR);
@@ -351,63 +385,45 @@ void calibrate_together(Model& model, const std::vector<Section>& sections, cons
     }
 }
 
-// A tet that is partly plant weighs as much as its share. Its Young's modulus begins as the rule of mixtures has it.
-void start_from_mixture(Model& model) {
+}  // namespace
+
+void take_materials(Model& model) {
     const size_t tet_count = model.cage.tets.size();
-    model.tet_density.resize(tet_count);
     model.tet_young.resize(tet_count);
     model.tet_poisson.resize(tet_count);
     for (size_t e = 0; e < tet_count; e++) {
-        const Material& material = model.organs[size_t(model.cage.tet_organ[e])].material;
-        model.tet_density[e] = material.density * model.cage.tet_fill[e];
-        model.tet_young[e] = material.young * model.cage.tet_fill[e];
+        const size_t organ = size_t(model.cage.tet_organ[e]);
+        const Material& material = model.organs[organ].material;
+        model.tet_young[e] = material.young * model.organ_stiffer[organ] * model.cage.tet_fill[e];
         model.tet_poisson[e] = material.poisson;
     }
 }
 
-}  // namespace
-
-void take_materials(Model& model) {
-    start_from_mixture(model);
-    model.chain_mass = weigh(model).mass;
-}
-
-// How much stiffer each organ has to be to carry itself and what it bears. Organs of no weight to speak of, silk and
-// hairs, are not worth a word in `weak`.
-static std::vector<double> find_weak_organs(const Model& model, const std::vector<double>& turns, WeakOrgan& weak) {
-    constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]
-    std::vector<double> factor(turns.size(), 1.0), mass(turns.size(), 0.0);
-    for (size_t e = 0; e < model.cage.tets.size(); e++)
-        mass[size_t(model.cage.tet_organ[e])] += model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
-    const double whole = model.mass();
-    for (size_t o = 0; o < turns.size(); o++) {
-        factor[o] = std::max(1.0, turns[o] / LARGEST_TURN);
-        if (mass[o] < WORTH_A_WORD * whole || factor[o] <= weak.factor) continue;
-        weak = {model.organs[o].name, factor[o]};
+void calibrate(Model& model) {
+    take_materials(model);  // the rule of mixtures, to begin with
+    const std::vector<int> hangs = hang_tets(model);
+    const Weights weights = weigh(model, hangs);
+    const Energies rods = rod_energies(model, weights, true);
+    const std::vector<int> parents = organ_parents(model);
+    const std::vector<double> borne = borne_masses(model, parents);
+    const std::vector<std::vector<int>> organs = node_organs(model.cage);
+    std::vector<char> alone(model.organs.size(), 0);
+    for (size_t o = 0; o < model.organs.size(); o++) {
+        LoneOrgan lone = take_organ(model, int(o), parents, borne, organs);
+        alone[o] = !lone.nodes.empty() && calibrate_alone(lone, int(o), model, hangs, rods);
+        if (!alone[o]) continue;
+        // Tets that hang loose are as stiff as the organ is in the mean.
+        double before = 0, after = 0;
+        for (size_t e = 0; e < lone.tets.size(); e++) {
+            before += std::log(model.tet_young[lone.tets[e]]);
+            after += std::log(lone.model.tet_young[e]);
+        }
+        const double mean = std::exp((after - before) / double(lone.tets.size()));
+        for (size_t e = 0; e < model.tet_young.size(); e++)
+            if (model.cage.tet_organ[e] == int(o)) model.tet_young[e] *= mean;
+        for (size_t e = 0; e < lone.tets.size(); e++) model.tet_young[lone.tets[e]] = lone.model.tet_young[e];
     }
-    return factor;
-}
-
-WeakOrgan calibrate(Model& model, bool must_stand) {
-    start_from_mixture(model);
-    const std::vector<Section>& sections = model.sections;
-    const Weights weights = weigh(model);
-    model.chain_mass = weights.mass;
-    const std::vector<double> rods = rod_energies(model, sections, weights, true), cage = cage_energies(model);
-    std::vector<char> alone(rods.size(), 0);
-    for (size_t o = 0; o < rods.size(); o++) alone[o] = rods[o] > 0 && cage[o] > 0;
-    for (size_t e = 0; e < model.tet_young.size(); e++) {
-        const size_t o = size_t(model.cage.tet_organ[e]);
-        if (alone[o]) model.tet_young[e] *= std::clamp(cage[o] / rods[o], 1 / LARGEST_FACTOR, LARGEST_FACTOR);
-    }
-    calibrate_together(model, sections, weights, alone);
-
-    WeakOrgan weak;
-    if (!must_stand) return weak;
-    const std::vector<double> stiffer = find_weak_organs(model, organ_turns(model, sections, weights), weak);
-    for (size_t e = 0; e < model.tet_young.size(); e++) model.tet_young[e] *= stiffer[size_t(model.cage.tet_organ[e])];
-    model.organ_stiffer = stiffer;
-    return weak;
+    calibrate_together(model, weights, hangs, alone);
 }
 
 }  // namespace frond

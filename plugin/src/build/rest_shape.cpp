@@ -173,7 +173,7 @@ Toppling find_toppling(Search& search) {
 }
 
 // The rest shape of one mechanics. Gravity is let in little by little, the steps as large as the search bears.
-Outcome find_rest_shape(const Model& model, frond_mechanics which) {
+Outcome search_rest_shape(const Model& model, frond_mechanics which) {
     constexpr double SMALLEST_STEP = 1.0 / 8;
     Search search(model, which);
     double step = 1;
@@ -244,13 +244,13 @@ static void stiffen_toppling_organs(Model& model, const std::vector<double>& ene
         if (bends[size_t(model.cage.tet_organ[e])]) model.tet_young[e] *= stiffer;
 }
 
-WeakOrgan find_rest_shapes(Model& model) {
-    // The default mechanics decides how stiff the plant has to be.
+WeakOrgan find_rest_shape(Model& model) {
+    // The default mechanics decides how stiff the cage has to be.
     constexpr double LEAST = 1.05, STIFFER = 1.5, MUCH_STIFFER = 2.5;
     constexpr int FINE_TRIES = 30, MOST_TRIES = 40;
     std::vector<double> factor(model.organs.size(), 1.0);
     bool torn = false;
-    Outcome outcome = find_rest_shape(model, FROND_TET_COROTATIONAL);
+    Outcome outcome = search_rest_shape(model, FROND_TET_COROTATIONAL);
     for (int i = 0; i < MOST_TRIES && outcome.rest.size() == 0; i++) {
         const double stiffer = i <= FINE_TRIES ? STIFFER : MUCH_STIFFER;
         if (!outcome.energy.empty()) {
@@ -263,26 +263,21 @@ WeakOrgan find_rest_shapes(Model& model) {
             for (double& f : factor) f *= stiffer;
             for (double& young : model.tet_young) young *= stiffer;
         }
-        outcome = find_rest_shape(model, FROND_TET_COROTATIONAL);
+        outcome = search_rest_shape(model, FROND_TET_COROTATIONAL);
     }
-    // What had to be made stiffer only just stands now, and the first touch would topple it: petioles bear 1.7 to 2.9
-    // times their load (Langer and others 2021, doi 10.3389/fpls.2021.765605).
-    constexpr double SAFETY = 1.7;
-    if (*std::max_element(factor.begin(), factor.end()) > 1 && outcome.rest.size() > 0) {
-        for (size_t e = 0; e < model.tet_young.size(); e++)
-            if (factor[size_t(model.cage.tet_organ[e])] > 1) model.tet_young[e] *= SAFETY;
-        for (double& f : factor)
-            if (f > 1) f *= SAFETY;
-        const Outcome safer = find_rest_shape(model, FROND_TET_COROTATIONAL);
-        if (safer.rest.size() > 0) outcome = safer;
-    }
-    model.rest_positions[FROND_TET_COROTATIONAL] = outcome.rest;
-    for (size_t o = 0; o < factor.size(); o++) model.organ_stiffer[o] *= factor[o];
-    for (int which = 0; which < FROND_MECHANICS_COUNT; which++)
-        if (which != FROND_TET_COROTATIONAL && !mechanics(frond_mechanics(which)).moves_chain)
-            model.rest_positions[size_t(which)] = find_rest_shape(model, frond_mechanics(which)).rest;
+    model.rest_shapes->positions[FROND_TET_COROTATIONAL] = outcome.rest;
+    model.rest_shapes->known[FROND_TET_COROTATIONAL] = true;
     const size_t weakest = size_t(std::max_element(factor.begin(), factor.end()) - factor.begin());
     return {model.organs[weakest].name, factor[weakest]};
+}
+
+void ensure_rest_shape(const Model& model, frond_mechanics which) {
+    if (!model.stands_as_modelled || mechanics(which).moves_chain) return;
+    RestShapes& shapes = *model.rest_shapes;
+    std::lock_guard<std::mutex> lock(shapes.mutex);
+    if (shapes.known[size_t(which)]) return;
+    shapes.positions[size_t(which)] = search_rest_shape(model, which).rest;
+    shapes.known[size_t(which)] = true;
 }
 
 }  // namespace frond

@@ -75,7 +75,7 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions) {
 }
 
 std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which) {
-    const VecX& rest = model.rest_positions[size_t(which)];
+    const VecX& rest = model.rest_shapes->positions[size_t(which)];
     return std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr));
 }
 

@@ -13,6 +13,25 @@ double Model::mass() const {
     return sum;
 }
 
+// Holds those corners that lie in the lower part of the cells around a foot: held up to the top of a coarse cell, a stem
+// would be shorter than it is. All of them, if fewer than three off one line would be left.
+static void hold_foot(const Cage& cage, double foot, const std::vector<int>& corners, std::vector<uint8_t>& root) {
+    constexpr double SHARE = 0.35;  // of the height from the foot to the top of its cells [-]
+    double top = foot;
+    for (int corner : corners) top = std::max(top, cage.nodes[size_t(corner)].y());
+    std::vector<int> low;
+    for (int corner : corners)
+        if (cage.nodes[size_t(corner)].y() <= foot + SHARE * (top - foot)) low.push_back(corner);
+    double widest = 0;
+    for (int a : low)
+        for (int b : low) {
+            const Vec3 edge = cage.nodes[size_t(a)] - cage.nodes[size_t(low.front())];
+            widest = std::max(widest, edge.cross(cage.nodes[size_t(b)] - cage.nodes[size_t(low.front())]).norm());
+        }
+    const bool holds = widest > 0.01 * (top - foot) * (top - foot);
+    for (int corner : holds ? low : corners) root[size_t(corner)] = 1;
+}
+
 std::vector<uint8_t> find_root_nodes(const Model& model) {
     const Chain& chain = model.chain;
     const double reach = 0.02 * model.surface.height();
@@ -21,11 +40,18 @@ std::vector<uint8_t> find_root_nodes(const Model& model) {
         double& lowest = foot[size_t(chain.vertex_node[v])];
         lowest = std::min(lowest, model.surface.positions[v].y());
     }
-    std::vector<uint8_t> root(model.cage.nodes.size(), 0);
+    // The corners of the tets that hold a foot, by chain root.
+    std::vector<std::vector<int>> corners(chain.nodes.size());
     for (size_t v = 0; v < chain.vertex_node.size(); v++) {
         const size_t node = size_t(chain.vertex_node[v]);
         if (chain.nodes[node].parent >= 0 || model.surface.positions[v].y() > foot[node] + reach) continue;
-        for (int corner : model.cage.tets[size_t(model.embedding.tet[v])]) root[size_t(corner)] = 1;
+        for (int corner : model.cage.tets[size_t(model.embedding.tet[v])]) corners[node].push_back(corner);
+    }
+    std::vector<uint8_t> root(model.cage.nodes.size(), 0);
+    for (size_t node = 0; node < corners.size(); node++) {
+        std::sort(corners[node].begin(), corners[node].end());
+        corners[node].erase(std::unique(corners[node].begin(), corners[node].end()), corners[node].end());
+        hold_foot(model.cage, foot[node], corners[node], root);
     }
     return root;
 }

@@ -2,6 +2,9 @@
 #pragma once
 
 #include "model/cage.hpp"
+#include <memory>
+#include <mutex>
+
 #include "model/section.hpp"
 
 namespace frond {
@@ -15,6 +18,13 @@ struct ChainArrays {
 // Under which a plant stands as it was modelled, along the model's -y [m/s^2].
 constexpr double GRAVITY = 9.81;
 
+// Cage nodes without gravity, by mechanics: found for the default one at load, for the others when first asked for.
+struct RestShapes {
+    std::mutex mutex;
+    std::array<bool, FROND_MECHANICS_COUNT> known = {};
+    std::array<VecX, FROND_MECHANICS_COUNT> positions;  // node_count*3 [m]; empty: as modelled
+};
+
 struct Model {
     Surface surface;
     Topology topology;
@@ -22,6 +32,7 @@ struct Model {
     Chain chain;
     ChainArrays chain_view;
     std::vector<Section> sections;    // of the capsule between a chain node and its parent, one a chain node
+    bool exact_sections = false;      // they are given, not measured on the surface
     std::vector<double> chain_mass;   // that each chain node carries of the plant's mass [kg]
     std::vector<double> organ_stiffer;  // how much stiffer than its material each organ was made so that it stands [-]
     bool stands_as_modelled = false;  // under GRAVITY; else the modelled shape is the one without it
@@ -33,8 +44,7 @@ struct Model {
     std::vector<double> tet_young;    // so that it bends as it should [Pa]
     std::vector<double> tet_poisson;
     std::vector<uint8_t> root;  // cage nodes that the ground holds unless a plant says otherwise, node_count
-    // Cage nodes without gravity, by mechanics, node_count*3 [m]; empty: as modelled.
-    std::array<VecX, FROND_MECHANICS_COUNT> rest_positions;
+    std::shared_ptr<RestShapes> rest_shapes = std::make_shared<RestShapes>();
     double stiffened = 1;  // how much stiffer the organs were made so that the plant stands [-]
     CageReport cage_report;
     double ms_import = 0, ms_cage = 0, ms_chain = 0, ms_total = 0;

@@ -14,6 +14,7 @@ struct Organ {
     std::string name;  // "leaf_3"; no two organs of a model share one
     std::string kind;  // a row of the table in materials.cpp: "stem", "blade" ...
     Material material;
+    bool material_given = false;  // by the caller, not a preset
 };
 
 // Published values by kind; null if there is no such kind.

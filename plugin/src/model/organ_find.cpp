@@ -120,6 +120,7 @@ static void override_materials(std::vector<Organ>& organs, const frond_organ_mat
         for (Organ& organ : organs) {
             if (organ.name != wanted.organ && organ.kind != wanted.organ) continue;
             organ.material = wanted.material;
+            organ.material_given = true;
             matched = true;
         }
         if (!matched)

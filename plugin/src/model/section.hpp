@@ -19,4 +19,17 @@ struct Section {
 // are sheets as thick as their material says, whose bow counts; everything else is solid.
 std::vector<Section> measure_sections(const Surface& surface, const std::vector<Organ>& organs, const Chain& chain);
 
+// How stems given by a caller were moved with the surface made of them.
+struct StemPlacement {
+    Mat3 turn = Mat3::Identity();
+    double scale = 1;
+    Vec3 shift = Vec3::Zero();  // [m]
+    Vec3 image(const Vec3& p) const { return scale * (turn * p) + shift; }
+};
+
+// The chain of a tree of stems, whose capsules lie on the stems' axes from end to end, and their sections. The surface
+// is that of surface_from_stems(), placed, its organs found: parts are named "stem_<index>".
+Chain make_chain_of_stems(const frond_stem* stems, int stem_count, const Surface& surface, const StemPlacement& placed,
+                          const ChainOptions& options, std::vector<Section>& sections);
+
 }  // namespace frond

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <tuple>
 
+#include "build/build.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {
@@ -27,7 +28,10 @@ struct Shared {
 static std::shared_ptr<const System> shared_system(const std::shared_ptr<const Model>& model, frond_mechanics which,
                                                    frond_mass mass) {
     static Shared<std::tuple<const Model*, frond_mechanics, frond_mass>, System> systems;
-    return systems.find_or_make({model.get(), which, mass}, [&] { return make_system(model, which, mass); });
+    return systems.find_or_make({model.get(), which, mass}, [&] {
+        ensure_rest_shape(*model, which);
+        return make_system(model, which, mass);
+    });
 }
 
 // Keeps its model alive, so that another one at the same address is not taken for it.

@@ -1,0 +1,192 @@
+// A plant that its materials would not carry is made stiffer, organ by organ, until it stands. Judged on the rods,
+// whose balance under weight is known without a search. Linear buckling: with P the stiffness that resists and G what
+// weight takes from it, a plant is stable while the largest eigenvalue of P^-1 G is below one (Greenhill 1881 for a
+// single stem); where it is not, the organs that bend most in its mode get what is wanting.
+#include <algorithm>
+#include <cmath>
+
+#include "build/build.hpp"
+#include "build/static_stiffness.hpp"
+#include "build/weigh.hpp"
+#include "mechanics/rod_elements.hpp"
+
+namespace frond {
+namespace {
+
+// Materials that Frond chose bear this many times their load before they give way, as petioles do (1.7 to 2.9: Langer
+// and others 2021, doi 10.3389/fpls.2021.765605), so that a touch does not topple the plant. Those that the caller gave
+// are taken at their word.
+constexpr double SAFETY = 1.7, SAFETY_OF_GIVEN = 1.02;
+
+// An organ may turn this far under its own weight taken sideways, by linear theory; an upright column topples at 1.306.
+constexpr double LARGEST_TURN = 1.2;  // [rad]
+
+// How far each organ turns from its base to its tip when all its weight pulls sideways, linearly [rad].
+std::vector<double> organ_turns(const Model& model) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    const Weights weights = weigh(model, hang_tets(model));
+    std::vector<double> turns(model.organs.size(), 0.0);
+    for (int axis = 0; axis < 3; axis++) {
+        const Vec3 load = GRAVITY * Vec3::Unit(axis);
+        std::vector<Vec3> force(nodes.size()), moment(nodes.size());
+        for (size_t i = 0; i < nodes.size(); i++) {
+            force[i] = weights.mass[i] * load;
+            moment[i] = weights.moment[i].cross(load);
+        }
+        std::vector<double> curvature(nodes.size(), 0.0), turn(nodes.size(), 0.0);
+        for (size_t i = nodes.size(); i-- > 0;) {
+            if (nodes[i].parent < 0) continue;
+            const size_t parent = size_t(nodes[i].parent);
+            const Section& section = model.sections[i];
+            const Vec3 M = moment[i] - (0.5 * (nodes[i].position + nodes[parent].position)).cross(force[i]);
+            curvature[i] = std::hypot(M.dot(section.axis.cross(section.thin)) / section.inertia_thin,
+                                      M.dot(section.thin) / section.inertia_wide) /
+                           model.organs[size_t(nodes[i].organ)].material.young;
+            force[parent] += force[i];
+            moment[parent] += moment[i];
+        }
+        for (size_t i = 0; i < nodes.size(); i++) {
+            if (nodes[i].parent < 0) continue;
+            const size_t parent = size_t(nodes[i].parent), organ = size_t(nodes[i].organ);
+            turn[i] = model.sections[i].length * curvature[i] +
+                      (nodes[parent].organ == nodes[i].organ ? turn[parent] : 0.0);
+            turns[organ] = std::max(turns[organ], turn[i]);
+        }
+    }
+    return turns;
+}
+
+// The rods of a plant that stands, with the stiffness that resists, where each organ is weaker by its safety factor, and
+// what weight takes from it.
+struct Standing {
+    RodElements elements;
+    std::vector<uint8_t> held;
+    StaticStiffness resisting;
+    BlockMatrix plain, taken;  // P with its true organs, and G
+
+    Standing(const Model& model, const std::vector<double>& safety)
+        : elements(make_rod_elements(model, FROND_ROD)), resisting(elements.pattern) {
+        held.assign(size_t(elements.node_count), 0);
+        for (size_t i = 0; i < model.chain.nodes.size(); i++)
+            if (model.chain.nodes[i].parent < 0) held[2 * i] = held[2 * i + 1] = 1;
+        const Mechanics& rod = mechanics(FROND_ROD);
+        plain.set_pattern(elements.pattern);
+        taken.set_pattern(elements.pattern);
+        plain.set_zero();
+        taken.set_zero();
+        rod.add_stiffness(elements, elements.modelled, Tangent::positive, 1, plain);
+        rod.add_stiffness(elements, elements.modelled, Tangent::exact, -1, taken);
+        for (size_t k = 0; k < taken.values.size(); k++) taken.values[k] += plain.values[k];
+        RodElements weaker = elements;
+        for (RodSegment& segment : weaker.segments) {
+            const double s = safety[size_t(model.chain.nodes[size_t(segment.b)].organ)];
+            segment.stretch /= s;
+            segment.bend /= s;
+        }
+        is_sound = resisting.set(weaker, held, FROND_ROD, Tangent::positive, elements.modelled);
+    }
+    bool is_sound = false;
+};
+
+// The way in which a plant gives way first, and how many times too heavy it is [-].
+struct Toppling {
+    VecX mode;
+    double overload = 0;
+};
+
+// Power iteration on P^-1 G. What pulls straight has negative eigenvalues; if one of these is largest, they are shifted
+// away.
+Toppling find_toppling(Standing& standing) {
+    constexpr int ROUNDS = 120;
+    const VecX& x = standing.elements.modelled;
+    VecX product(x.size()), solution(x.size());
+    Toppling toppling;
+    for (double shift = 0;;) {
+        VecX mode(x.size());
+        for (Eigen::Index i = 0; i < mode.size(); i++) mode[i] = std::sin(double(i + 1));  // in all directions
+        double value = 0;
+        for (int round = 0; round < ROUNDS; round++) {
+            for (size_t i = 0; i < standing.held.size(); i++)
+                if (standing.held[i]) point(mode, int(i)).setZero();
+            mode.normalize();
+            standing.taken.multiply(mode, product);
+            for (size_t i = 0; i < standing.held.size(); i++)
+                if (standing.held[i]) point(product, int(i)).setZero();
+            solve(*standing.resisting.factor, product, solution);
+            solution += shift * mode;
+            value = mode.dot(solution);
+            if (!solution.allFinite() || !(solution.norm() > 0)) break;
+            mode = solution;
+        }
+        if (value >= shift || shift > 0) {
+            mode.normalize();
+            return {mode, value - shift};
+        }
+        shift = -1.5 * value;
+    }
+}
+
+// Energy of each organ in a mode [-].
+std::vector<double> organ_energies(const Model& model, const Standing& standing, const VecX& mode) {
+    std::vector<double> energies(model.organs.size(), 0.0);
+    RodElements one = standing.elements;
+    BlockMatrix K;
+    K.set_pattern(standing.elements.pattern);
+    VecX product(mode.size());
+    for (size_t organ = 0; organ < energies.size(); organ++) {
+        one.segments.clear();
+        for (const RodSegment& segment : standing.elements.segments)
+            if (model.chain.nodes[size_t(segment.b)].organ == int(organ)) one.segments.push_back(segment);
+        if (one.segments.empty()) continue;
+        K.set_zero();
+        mechanics(FROND_ROD).add_stiffness(one, one.modelled, Tangent::positive, 1, K);
+        K.multiply(mode, product);
+        energies[organ] = 0.5 * mode.dot(product);
+    }
+    return energies;
+}
+
+std::vector<double> organ_masses(const Model& model) {
+    std::vector<double> masses(model.organs.size(), 0.0);
+    for (size_t i = 0; i < model.chain.nodes.size(); i++)
+        masses[size_t(std::max(model.chain.nodes[i].organ, 0))] += model.chain_mass[i];
+    return masses;
+}
+
+}  // namespace
+
+WeakOrgan strengthen(Model& model) {
+    constexpr int MOST_ROUNDS = 300;
+    constexpr double MUCH = 0.3;        // of the energy of the organ that bends most [-]
+    constexpr double LARGEST_STEP = 8;  // of a modulus at once [-]
+    std::vector<double>& stiffer = model.organ_stiffer;
+    const std::vector<double> turns = organ_turns(model);
+    std::vector<double> safety;
+    for (size_t o = 0; o < stiffer.size(); o++) {
+        stiffer[o] = std::max(1.0, turns[o] / LARGEST_TURN);
+        safety.push_back(model.organs[o].material_given ? SAFETY_OF_GIVEN : SAFETY);
+    }
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        Standing standing(model, safety);
+        if (!standing.is_sound) break;
+        const Toppling toppling = find_toppling(standing);
+        if (!(toppling.overload > 1)) break;
+        const std::vector<double> energies = organ_energies(model, standing, toppling.mode);
+        const double most = *std::max_element(energies.begin(), energies.end());
+        const double factor = std::min(1.01 * toppling.overload, LARGEST_STEP);
+        for (size_t o = 0; o < stiffer.size(); o++)
+            if (energies[o] >= MUCH * most) stiffer[o] *= factor;
+    }
+
+    // Organs of no weight to speak of, silk and hairs, are not worth a word.
+    constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]
+    const std::vector<double> masses = organ_masses(model);
+    double whole = 0;
+    for (double mass : masses) whole += mass;
+    WeakOrgan weak;
+    for (size_t o = 0; o < stiffer.size(); o++)
+        if (masses[o] >= WORTH_A_WORD * whole && stiffer[o] > weak.factor) weak = {model.organs[o].name, stiffer[o]};
+    return weak;
+}
+
+}  // namespace frond

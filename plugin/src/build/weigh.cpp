@@ -1,0 +1,92 @@
+#include "build/weigh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/tet_geometry.hpp"
+
+namespace frond {
+
+static Vec3 tet_centre(const Cage& cage, const Tet& tet) {
+    Vec3 sum = Vec3::Zero();
+    for (int corner : tet) sum += cage.nodes[size_t(corner)];
+    return sum / 4;
+}
+
+std::vector<int> hang_tets(const Model& model) {
+    const size_t tet_count = model.cage.tets.size();
+    std::vector<std::vector<int>> votes(tet_count);
+    for (size_t v = 0; v < model.embedding.tet.size(); v++)
+        votes[size_t(model.embedding.tet[v])].push_back(model.chain.vertex_node[v]);
+    std::vector<int> hangs(tet_count);
+    for (size_t e = 0; e < tet_count; e++) {
+        std::vector<int>& nodes = votes[e];
+        if (!nodes.empty()) {
+            std::nth_element(nodes.begin(), nodes.begin() + long(nodes.size() / 2), nodes.end());
+            hangs[e] = nodes[nodes.size() / 2];
+            continue;
+        }
+        const Vec3 centre = tet_centre(model.cage, model.cage.tets[e]);
+        double nearest = INFINITY;
+        for (size_t i = 0; i < model.chain.nodes.size(); i++) {
+            const ChainNode& node = model.chain.nodes[i];
+            const double penalty = node.organ == model.cage.tet_organ[e] ? 0 : 1;
+            const double distance = (node.position - centre).norm() + penalty;
+            if (distance < nearest) {
+                nearest = distance;
+                hangs[e] = int(i);
+            }
+        }
+    }
+    return hangs;
+}
+
+Weights weigh(const Model& model, const std::vector<int>& hangs) {
+    Weights weights;
+    weights.mass.assign(model.chain.nodes.size(), 0);
+    weights.moment.assign(model.chain.nodes.size(), Vec3::Zero());
+    for (size_t e = 0; e < hangs.size(); e++) {
+        const double mass = model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
+        weights.mass[size_t(hangs[e])] += mass;
+        weights.moment[size_t(hangs[e])] += mass * tet_centre(model.cage, model.cage.tets[e]);
+    }
+    return weights;
+}
+
+// Mass of each organ as its sections have it [kg], and of each chain node, half of a capsule to either end.
+static std::vector<double> weigh_sections(Model& model) {
+    std::vector<double> organs(model.organs.size(), 0.0);
+    model.chain_mass.assign(model.chain.nodes.size(), 0.0);
+    for (size_t i = 0; i < model.chain.nodes.size(); i++) {
+        const ChainNode& node = model.chain.nodes[i];
+        if (node.parent < 0) continue;
+        const double mass =
+            model.organs[size_t(node.organ)].material.density * model.sections[i].area * model.sections[i].length;
+        organs[size_t(node.organ)] += mass;
+        model.chain_mass[i] += mass / 2;
+        model.chain_mass[size_t(node.parent)] += mass / 2;
+    }
+    return organs;
+}
+
+void give_mass(Model& model) {
+    const Cage& cage = model.cage;
+    model.tet_density.resize(cage.tets.size());
+    std::vector<double> organs(model.organs.size(), 0.0);
+    for (size_t e = 0; e < cage.tets.size(); e++) {
+        const Material& material = model.organs[size_t(cage.tet_organ[e])].material;
+        model.tet_density[e] = material.density * cage.tet_fill[e];
+        organs[size_t(cage.tet_organ[e])] += model.tet_density[e] * tet_volume(cage.nodes, cage.tets[e]);
+    }
+    if (!model.exact_sections) {
+        model.chain_mass = weigh(model, hang_tets(model)).mass;
+        return;
+    }
+    const std::vector<double> exact = weigh_sections(model);
+    for (size_t e = 0; e < cage.tets.size(); e++) {
+        const size_t organ = size_t(cage.tet_organ[e]);
+        if (exact[organ] > 0) model.tet_density[e] *= exact[organ] / organs[organ];
+    }
+}
+
+}  // namespace frond

@@ -1,0 +1,168 @@
+// Stems -> chain. In: a tree of tapered pieces as the caller gave it, and the surface made of it, placed. Out: a chain
+// whose capsules lie exactly on the axes, from the begin of each piece to its end, and their sections, which are known.
+#include <algorithm>
+#include <cmath>
+
+#include "model/section.hpp"
+
+namespace frond {
+
+namespace {
+
+constexpr int USUAL_COUNT = 20;  // capsules along the longest way
+constexpr int LEAST_COUNT = 2;   // of a piece
+constexpr int MOST_COUNT = 2000;
+
+struct Piece {
+    int parent;
+    Vec3 begin, end;
+    double radius_begin, radius_end, length;
+    int organ;
+    std::vector<double> cuts;  // where chain nodes are, 0 .. 1, ascending
+    std::vector<int> nodes;    // of the chain, one a cut
+    double radius(double share) const { return radius_begin + share * (radius_end - radius_begin); }
+    Vec3 place(double share) const { return begin + share * (end - begin); }
+    double nearest(const Vec3& p) const {
+        return std::min(std::max((p - begin).dot(end - begin) / (length * length), 0.0), 1.0);
+    }
+};
+
+// Where the surface was moved to: the same turn, scale and shift take the stems along.
+std::vector<Piece> place_stems(const frond_stem* stems, int count, const Surface& surface, const StemPlacement& placed) {
+    std::vector<Piece> pieces;
+    for (int i = 0; i < count; i++) {
+        const frond_stem& stem = stems[i];
+        Piece piece = {};
+        piece.parent = stem.parent;
+        piece.begin = placed.image(Vec3(stem.begin.x, stem.begin.y, stem.begin.z));
+        piece.end = placed.image(Vec3(stem.end.x, stem.end.y, stem.end.z));
+        piece.radius_begin = stem.radius_begin * surface.scale;
+        piece.radius_end = stem.radius_end * surface.scale;
+        piece.length = (piece.end - piece.begin).norm();
+        pieces.push_back(piece);
+    }
+    for (const Part& part : surface.parts) pieces[size_t(std::stoi(part.name.substr(5)))].organ = part.organ;
+    return pieces;
+}
+
+// The length of the longest way from a root to a tip.
+double longest_way(const std::vector<Piece>& pieces) {
+    std::vector<double> reach(pieces.size());
+    double longest = 0;
+    for (size_t i = 0; i < pieces.size(); i++) {
+        reach[i] = pieces[i].length + (pieces[i].parent >= 0 ? reach[size_t(pieces[i].parent)] : 0);
+        longest = std::max(longest, reach[i]);
+    }
+    return longest;
+}
+
+// Even cuts, and one where each child grows out; even ones that come too near to these give way.
+void cut_pieces(std::vector<Piece>& pieces, double height) {
+    std::vector<std::vector<double>> joints(pieces.size());
+    for (const Piece& piece : pieces)
+        if (piece.parent >= 0)
+            joints[size_t(piece.parent)].push_back(pieces[size_t(piece.parent)].nearest(piece.begin));
+    for (size_t i = 0; i < pieces.size(); i++) {
+        Piece& piece = pieces[i];
+        const int count = std::clamp(int(std::lround(piece.length / height)), LEAST_COUNT, MOST_COUNT);
+        std::vector<double> fixed = joints[i];
+        fixed.insert(fixed.end(), {0.0, 1.0});
+        std::sort(fixed.begin(), fixed.end());
+        for (double cut : fixed)
+            if (piece.cuts.empty() || cut - piece.cuts.back() > 1e-6) piece.cuts.push_back(cut);
+        const std::vector<double> kept = piece.cuts;
+        for (int k = 1; k < count; k++) {
+            const double cut = double(k) / count;
+            const bool free = std::all_of(kept.begin(), kept.end(),
+                                          [&](double other) { return std::abs(other - cut) > 0.3 / count; });
+            if (free) piece.cuts.push_back(cut);
+        }
+        std::sort(piece.cuts.begin(), piece.cuts.end());
+    }
+}
+
+Section round_section(const Vec3& from, const Vec3& to, double radius) {
+    Section section = {};
+    section.length = (to - from).norm();
+    section.axis = (to - from) / section.length;
+    section.thin = section.axis.unitOrthogonal();
+    section.area = M_PI * radius * radius;
+    section.inertia_thin = section.inertia_wide = section.area * radius * radius / 4;
+    return section;
+}
+
+struct Maker {
+    Chain chain;
+    std::vector<Section> sections;
+    double given_radius;
+
+    int add(const Vec3& position, int parent, double radius, int organ) {
+        ChainNode node = {};
+        node.position = position;
+        node.radius = given_radius > 0 ? given_radius : radius;
+        node.parent = parent;
+        node.organ = organ;
+        Section section = {Vec3::UnitY(), Vec3::UnitX(), radius, M_PI * radius * radius, 0, 0};
+        section.inertia_thin = section.inertia_wide = section.area * radius * radius / 4;
+        if (parent >= 0) {
+            const ChainNode& below = chain.nodes[size_t(parent)];
+            section = round_section(below.position, position, radius);
+            node.distance = below.distance + section.length;
+        }
+        chain.nodes.push_back(node);
+        sections.push_back(section);
+        return int(chain.nodes.size()) - 1;
+    }
+};
+
+// The node of the parent from which a piece grows; with a gap or a side step between, a capsule of its own bridges it.
+int begin_of(Maker& maker, const std::vector<Piece>& pieces, const Piece& piece) {
+    if (piece.parent < 0) return maker.add(piece.begin, -1, piece.radius_begin, piece.organ);
+    const Piece& parent = pieces[size_t(piece.parent)];
+    const double joint = parent.nearest(piece.begin);
+    size_t nearest = 0;
+    for (size_t k = 1; k < parent.cuts.size(); k++)
+        if (std::abs(parent.cuts[k] - joint) < std::abs(parent.cuts[nearest] - joint)) nearest = k;
+    const int node = parent.nodes[nearest];
+    const Vec3& place = maker.chain.nodes[size_t(node)].position;
+    if ((piece.begin - place).norm() <= 1e-6 * (parent.length + piece.length)) return node;
+    return maker.add(piece.begin, node, piece.radius_begin, piece.organ);
+}
+
+// Each vertex to the nearest node of its own piece.
+void bind_vertices(Maker& maker, const Surface& surface, const std::vector<Piece>& pieces) {
+    maker.chain.vertex_node.assign(surface.positions.size(), 0);
+    for (const Part& part : surface.parts) {
+        const Piece& piece = pieces[size_t(std::stoi(part.name.substr(5)))];
+        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
+            for (int vertex : surface.triangles[size_t(t)]) {
+                const double along = piece.nearest(surface.positions[size_t(vertex)]);
+                size_t nearest = 0;
+                for (size_t k = 1; k < piece.cuts.size(); k++)
+                    if (std::abs(piece.cuts[k] - along) < std::abs(piece.cuts[nearest] - along)) nearest = k;
+                maker.chain.vertex_node[size_t(vertex)] = piece.nodes[nearest];
+            }
+    }
+}
+
+}  // namespace
+
+Chain make_chain_of_stems(const frond_stem* stems, int stem_count, const Surface& surface, const StemPlacement& placed,
+                          const ChainOptions& options, std::vector<Section>& sections) {
+    std::vector<Piece> pieces = place_stems(stems, stem_count, surface, placed);
+    const double height = options.height > 0 ? options.height : longest_way(pieces) / USUAL_COUNT;
+    cut_pieces(pieces, height);
+    Maker maker = {{}, {}, options.radius};
+    for (Piece& piece : pieces) {
+        piece.nodes.push_back(begin_of(maker, pieces, piece));
+        for (size_t k = 1; k < piece.cuts.size(); k++)
+            piece.nodes.push_back(maker.add(piece.place(piece.cuts[k]), piece.nodes.back(),
+                                            piece.radius(0.5 * (piece.cuts[k - 1] + piece.cuts[k])), piece.organ));
+    }
+    maker.chain.height = height;
+    bind_vertices(maker, surface, pieces);
+    sections = std::move(maker.sections);
+    return std::move(maker.chain);
+}
+
+}  // namespace frond
