@@ -16,11 +16,11 @@ static void find_organs_and_chain(Model& model, const frond_model_def& def) {
     model.topology = make_topology(model.surface);
     model.organs = find_organs(model.surface, model.topology, def.organs, def.organ_count);
     model.chain = make_chain(model.surface, model.topology, model.organs, {def.capsule_height, def.capsule_radius});
+    model.sections = measure_sections(model.surface, model.topology, model.organs, model.chain);
     model.ms_chain = timer.ms();
 }
 
 static void finish(Model& model) {
-    model.sections = measure_sections(model.surface, model.organs, model.chain);
     model.organ_stiffer.assign(model.organs.size(), 1.0);
     model.root = find_root_nodes(model);
     bind_chain(model);

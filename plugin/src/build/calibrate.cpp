@@ -12,7 +12,6 @@
 #include "build/firm_tets.hpp"
 #include "build/static_stiffness.hpp"
 #include "mechanics/tet_element.hpp"
-#include "model/section.hpp"
 #include "model/tet_geometry.hpp"
 
 namespace frond {
@@ -109,7 +108,8 @@ std::vector<RodForce> rod_forces(const Model& model, const std::vector<Section>&
     return rods;
 }
 
-// Elastic energy of each organ as rods, summed over the three loads [J].
+// Elastic energy of each organ as rods, summed over the three loads [J]. They twist as isotropic ones do: the cage
+// cannot be soft in twisting alone, and would become too soft in bending if it had to share out the energy of both.
 std::vector<double> rod_energies(const Model& model, const std::vector<Section>& sections, const Weights& weights,
                                  bool organs_alone) {
     std::vector<double> energies(model.organs.size(), 0.0);
@@ -122,7 +122,7 @@ std::vector<double> rod_energies(const Model& model, const std::vector<Section>&
             energies[size_t(model.chain.nodes[i].organ)] +=
                 section.length / (2 * material.young) *
                 (rod.thin * rod.thin / section.inertia_thin + rod.wide * rod.wide / section.inertia_wide +
-                 2 * (1 + material.poisson) * rod.twist * rod.twist / section.inertia_polar() +
+                 2 * (1 + material.poisson) * rod.twist * rod.twist / section.torsion +
                  rod.pull * rod.pull / section.area);
         }
     }
@@ -351,16 +351,19 @@ void calibrate_together(Model& model, const std::vector<Section>& sections, cons
     }
 }
 
-// A tet that is partly plant weighs as much as its share. Its Young's modulus begins as the rule of mixtures has it.
+// A tet that is partly plant weighs as much as its share. Its Young's modulus begins as the rule of mixtures has it. A
+// tube weighs and bends as its wall does.
 void start_from_mixture(Model& model) {
     const size_t tet_count = model.cage.tets.size();
     model.tet_density.resize(tet_count);
     model.tet_young.resize(tet_count);
     model.tet_poisson.resize(tet_count);
     for (size_t e = 0; e < tet_count; e++) {
-        const Material& material = model.organs[size_t(model.cage.tet_organ[e])].material;
-        model.tet_density[e] = material.density * model.cage.tet_fill[e];
-        model.tet_young[e] = material.young * model.cage.tet_fill[e];
+        const Organ& organ = model.organs[size_t(model.cage.tet_organ[e])];
+        const Material& material = organ.material;
+        const double hole = hole_share(organ);
+        model.tet_density[e] = material.density * model.cage.tet_fill[e] * (1 - hole);
+        model.tet_young[e] = material.young * model.cage.tet_fill[e] * (1 - hole * hole);
         model.tet_poisson[e] = material.poisson;
     }
 }
