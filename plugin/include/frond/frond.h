@@ -307,9 +307,9 @@ typedef struct frond_texture_view {
 typedef struct frond_range {
     double least, most;
 } frond_range;
-/* An organ, and between what its sections lie, one a capsule of the chain. They are those of the organ as it grew, a rod
- * or a strip, not of the cage around it. A small organ can lie within another one's capsules; all from capsule_count on
- * is then 0. */
+/* An organ, and between what its sections lie, one a capsule of the chain. They are those of the organ as it grew, a
+ * rod or a strip, not of the cage around it. A small organ can lie within another one's capsules; all from capsule_count
+ * on is then 0. */
 typedef struct frond_organ {
     const char* name;         /* "leaf_3"; no two organs of a model share one */
     const char* kind;         /* "stem", "blade" ... */
