@@ -151,11 +151,13 @@ TEST(Misuse, OfModelsIsRefused) {
 
     frond_model_info info;
     frond_part part;
+    frond_organ organ;
     frond_texture_view texture;
     frond_cage_view cage;
     frond_chain_view chain;
     EXPECT_EQ(frond_model_get_info({}, &info), FROND_BAD_HANDLE);
     EXPECT_EQ(frond_model_get_part({}, 0, &part), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_organ({}, 0, &organ), FROND_BAD_HANDLE);
     EXPECT_EQ(frond_model_get_texture({}, 0, &texture), FROND_BAD_HANDLE);
     EXPECT_EQ(frond_model_get_cage({}, &cage), FROND_BAD_HANDLE);
     EXPECT_EQ(frond_model_get_chain({}, &chain), FROND_BAD_HANDLE);
@@ -164,6 +166,13 @@ TEST(Misuse, OfModelsIsRefused) {
     EXPECT_EQ(frond_model_get_info(model, nullptr), FROND_BAD_ARGUMENT);
     EXPECT_EQ(frond_model_get_part(model, 1000, &part), FROND_BAD_ARGUMENT);
     EXPECT_EQ(frond_model_get_part(model, -1, &part), FROND_BAD_ARGUMENT);
+    ASSERT_EQ(frond_model_get_info(model, &info), FROND_OK);
+    EXPECT_EQ(frond_model_get_organ(model, 0, nullptr), FROND_BAD_ARGUMENT);
+    for (int none : {-1, info.organ_count, 1 << 30}) {
+        organ.name = "old";
+        EXPECT_EQ(frond_model_get_organ(model, none, &organ), FROND_BAD_ARGUMENT);
+        EXPECT_EQ(organ.name, nullptr);
+    }
     EXPECT_EQ(frond_model_get_texture(model, 0, &texture), FROND_BAD_ARGUMENT);
     frond_model_destroy(model);
     frond_model_destroy(model);

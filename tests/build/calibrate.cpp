@@ -5,7 +5,6 @@
 
 #include "build/build.hpp"
 #include "build/static_stiffness.hpp"
-#include "model/section.hpp"
 
 using namespace frond;
 
@@ -27,18 +26,6 @@ static std::shared_ptr<const Model> upright_stem(double length, double radius, d
     def.cage_size = cell;
     def.rest = FROND_REST_WITHOUT_GRAVITY;
     return build_from_surface(surface_from_stems(&stem, 1), def);
-}
-
-TEST(Section, OfATubeIsTheSolidCircle) {
-    const double r = 0.01;
-    const auto model = upright_stem(1, r, 1e9, 0.04);
-    const std::vector<Section> sections = measure_sections(model->surface, model->organs, model->chain);
-    const double area = M_PI * r * r, inertia = M_PI * std::pow(r, 4) / 4;
-    for (size_t i = 3; i + 3 < sections.size(); i++) {
-        EXPECT_NEAR(sections[i].area, area, 0.02 * area) << i;
-        EXPECT_NEAR(sections[i].inertia_thin, inertia, 0.03 * inertia) << i;
-        EXPECT_NEAR(sections[i].inertia_wide, inertia, 0.03 * inertia) << i;
-    }
 }
 
 // Tip deflection under a sideways force of one newton, by the cage's own linear stiffness.

@@ -52,6 +52,37 @@ TEST(Materials, ArePresetForEveryKindAndInRange) {
     EXPECT_EQ(material_preset(""), nullptr);
 }
 
+// Stiffer and stronger from petals to wood; what yields does so before it breaks, at strains that tissue bears.
+TEST(Materials, PresetsAreInPhysicalOrder) {
+    const char* const rising[] = {"flower", "blade", "midrib", "petiole", "stem", "grass_stem", "branch", "support"};
+    for (size_t i = 1; i < std::size(rising); i++) {
+        const Material &softer = *material_preset(rising[i - 1]), &stiffer = *material_preset(rising[i]);
+        EXPECT_LT(softer.young, stiffer.young) << rising[i];
+        EXPECT_LT(softer.strength, stiffer.strength) << rising[i];
+        EXPECT_GE(softer.damping_ratio, stiffer.damping_ratio) << rising[i];
+    }
+    for (const char* kind : KINDS) {
+        const Material& material = *material_preset(kind);
+        const double breaks = material.strength / material.young;
+        EXPECT_GE(breaks, 0.01) << kind;
+        EXPECT_LE(breaks, 0.1) << kind;
+        EXPECT_LT(material.yield_strain, breaks) << kind;
+        EXPECT_EQ(material.yield_strain > 0, material.creep_rate > 0) << kind;
+        EXPECT_GE(material.density, 500) << kind;
+        EXPECT_LE(material.density, 1100) << kind;
+        EXPECT_GT(material.damping_ratio, 0) << kind;
+        EXPECT_LE(material.damping_ratio, 0.15) << kind;
+        EXPECT_GT(material.friction, 0) << kind;
+        EXPECT_LE(material.friction, 1) << kind;
+        // An axis is never stiffer in twisting than an isotropic one; blades are strips and get theirs from that.
+        if (material.twist_to_bend > 0) {
+            EXPECT_GT(material.twist_to_bend, 1 + material.poisson) << kind;
+        }
+    }
+    EXPECT_EQ(material_preset("blade")->twist_to_bend, 0);
+    EXPECT_EQ(material_preset("grass_blade")->twist_to_bend, 0);
+}
+
 // A material is its numbers and nothing else: none of them goes unchecked.
 TEST(Materials, EveryNumberHasARange) {
     EXPECT_EQ(std::size(FIELDS) * sizeof(double), sizeof(Material));

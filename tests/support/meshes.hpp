@@ -7,6 +7,7 @@
 
 #include "model/model.hpp"
 #include "model/tet_geometry.hpp"
+#include "support/materials.hpp"
 
 namespace frond::test {
 
@@ -25,7 +26,7 @@ inline void set_stuff(Model& model, const Stuff& stuff) {
     model.cage.tet_organ.assign(n, 0);
     model.cage.tet_fill.assign(n, 1.0);
     if (model.organs.empty())
-        model.organs.push_back({"stem", "stem", {stuff.density, stuff.young, stuff.poisson, 1e-3}});
+        model.organs.push_back({"stem", "stem", plain_material(stuff.density, stuff.young, stuff.poisson, 1e-3)});
 }
 
 // Adds a tet with positive volume, whatever the order of its nodes.

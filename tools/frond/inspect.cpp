@@ -1,5 +1,8 @@
 // frond inspect FILE: what came in, what was repaired, cage and chain.
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +18,36 @@ struct InspectOptions {
     std::vector<std::string> assignments;
     View view;
 };
+
+nlohmann::ordered_json describe_material(const frond_material& material) {
+    return {{"density", material.density},
+            {"young", material.young},
+            {"poisson", material.poisson},
+            {"thickness", material.thickness},
+            {"hollow", material.hollow},
+            {"twist_to_bend", material.twist_to_bend},
+            {"damping_ratio", material.damping_ratio},
+            {"friction", material.friction},
+            {"yield_strain", material.yield_strain},
+            {"creep_rate", material.creep_rate},
+            {"strength", material.strength}};
+}
+
+nlohmann::ordered_json describe_organ(const frond_organ& organ) {
+    const auto range = [](const frond_range& r) { return nlohmann::ordered_json{r.least, r.most}; };
+    return {{"name", organ.name},
+            {"kind", organ.kind},
+            {"material", describe_material(organ.material)},
+            {"capsules", organ.capsule_count},
+            {"length", organ.length},
+            {"mass", organ.mass},
+            {"thickness", range(organ.thickness)},
+            {"width", range(organ.width)},
+            {"area", range(organ.area)},
+            {"bending_thin", range(organ.bending_thin)},
+            {"bending_wide", range(organ.bending_wide)},
+            {"torsion", range(organ.torsion)}};
+}
 
 nlohmann::ordered_json describe(const std::string& file, frond_model model) {
     frond_model_info info;
@@ -43,6 +76,12 @@ nlohmann::ordered_json describe(const std::string& file, frond_model model) {
                                 {"triangles", part.triangle_count},
                                 {"texture", part.texture}});
     }
+    out["organs"] = nlohmann::ordered_json::array();
+    for (int i = 0; i < info.organ_count; i++) {
+        frond_organ organ;
+        must(frond_model_get_organ(model, i, &organ));
+        out["organs"].push_back(describe_organ(organ));
+    }
     out["cage"] = {{"nodes", info.node_count},
                    {"tets", info.tet_count},
                    {"min_dihedral", info.min_dihedral},
@@ -61,6 +100,44 @@ nlohmann::ordered_json describe(const std::string& file, frond_model model) {
     out["ms"] = {
         {"import", info.ms_import}, {"chain", info.ms_chain}, {"cage", info.ms_cage}, {"total", info.ms_total}};
     return out;
+}
+
+// Organs of one kind and material: how many, and between what their sections lie.
+struct KindLine {
+    nlohmann::ordered_json material;
+    std::string kind;
+    int count = 0;
+    std::map<std::string, std::array<double, 2>> ranges;
+};
+
+void print_kinds(const nlohmann::ordered_json& organs) {
+    std::vector<KindLine> lines;
+    for (const auto& organ : organs) {
+        auto line = std::find_if(lines.begin(), lines.end(), [&](const KindLine& known) {
+            return known.kind == organ["kind"] && known.material == organ["material"];
+        });
+        if (line == lines.end()) line = lines.insert(line, {organ["material"], organ["kind"], 0, {}});
+        line->count++;
+        if (organ["capsules"] == 0) continue;
+        for (const char* field : {"thickness", "width", "bending_thin", "bending_wide", "torsion"}) {
+            const auto range = organ[field].get<std::array<double, 2>>();
+            auto& known = line->ranges.emplace(field, range).first->second;
+            known = {std::min(known[0], range[0]), std::max(known[1], range[1])};
+        }
+    }
+    for (KindLine& line : lines) {
+        const auto number = [&](const char* field) { return line.material[field].get<double>(); };
+        std::printf("  %-9s%d organs, %g kg/m^3, %.3g Pa, hollow %g, twist to bend %g, damping %g, strength %.3g Pa\n",
+                    line.kind.c_str(), line.count, number("density"), number("young"), number("hollow"),
+                    number("twist_to_bend"), number("damping_ratio"), number("strength"));
+        if (line.ranges.empty()) continue;
+        const auto range = [&](const char* field) { return line.ranges[field]; };
+        std::printf("           %.3g .. %.3g by %.3g .. %.3g mm; EI %.3g .. %.3g and %.3g .. %.3g, ",
+                    1e3 * range("thickness")[0], 1e3 * range("thickness")[1], 1e3 * range("width")[0],
+                    1e3 * range("width")[1], range("bending_thin")[0], range("bending_thin")[1],
+                    range("bending_wide")[0], range("bending_wide")[1]);
+        std::printf("GJ %.3g .. %.3g N m^2\n", range("torsion")[0], range("torsion")[1]);
+    }
 }
 
 void print(const nlohmann::ordered_json& out) {
@@ -87,6 +164,7 @@ void print(const nlohmann::ordered_json& out) {
                 number("chain", "length"));
     std::printf("  built in %.1f ms: import %.1f, organs and chain %.1f, cage %.1f\n", number("ms", "total"),
                 number("ms", "import"), number("ms", "chain"), number("ms", "cage"));
+    print_kinds(out["organs"]);
     constexpr size_t MOST_PARTS = 40;
     for (size_t i = 0; i < std::min(MOST_PARTS, out["parts"].size()); i++) {
         const auto& part = out["parts"][i];

@@ -26,7 +26,8 @@ struct Settings {
     double pull = 0.2;           // how far the user drags, as a share of the plant's height [-]
     double grab_stiffness = 60;  // [N/m]; 0: as stiff as it takes to move the plant
     struct OrganOverride {
-        std::string organ, field;
+        std::string organ;
+        double frond_material::*field;
         double value;
     };
     std::vector<OrganOverride> organs;  // material.<organ or kind>.<field>=value

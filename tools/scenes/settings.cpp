@@ -102,13 +102,36 @@ const std::vector<Key>& keys() {
     return table;
 }
 
-// material.<organ>.<field>=value
+const struct {
+    const char* name;
+    double frond_material::*field;
+} MATERIAL_FIELDS[] = {{"density", &frond_material::density},
+                       {"young", &frond_material::young},
+                       {"poisson", &frond_material::poisson},
+                       {"thickness", &frond_material::thickness},
+                       {"hollow", &frond_material::hollow},
+                       {"twist_to_bend", &frond_material::twist_to_bend},
+                       {"damping_ratio", &frond_material::damping_ratio},
+                       {"friction", &frond_material::friction},
+                       {"yield_strain", &frond_material::yield_strain},
+                       {"creep_rate", &frond_material::creep_rate},
+                       {"strength", &frond_material::strength}};
+
+std::string material_key() {
+    std::string names;
+    for (const auto& row : MATERIAL_FIELDS) names += std::string(names.empty() ? "" : "|") + row.name;
+    return "material.<organ or kind>.<" + names + ">";
+}
+
 void apply_material(Settings& settings, const std::string& key, const std::string& value) {
     const size_t dot = key.rfind('.');
-    const std::string organ = key.substr(9, dot - 9), field = key.substr(dot + 1);
-    if (dot <= 9 || (field != "density" && field != "young" && field != "poisson" && field != "thickness"))
-        throw SceneError("write material.<organ or kind>.<density, young, poisson or thickness>=value");
-    settings.organs.push_back({organ, field, number(value)});
+    const std::string organ = dot > 9 ? key.substr(9, dot - 9) : "";
+    for (const auto& row : MATERIAL_FIELDS)
+        if (!organ.empty() && key.substr(dot + 1) == row.name) {
+            settings.organs.push_back({organ, row.field, number(value)});
+            return;
+        }
+    throw SceneError("write " + material_key() + "=value");
 }
 
 }  // namespace
@@ -136,7 +159,7 @@ std::string settings_help() {
     std::string help;
     for (const Key& key : keys())
         help += "  " + std::string(key.name) + std::string(20 - std::string(key.name).size(), ' ') + key.text + "\n";
-    return help + "  material.<organ or kind>.<density|young|poisson|thickness>\n";
+    return help + "  " + material_key() + "\n";
 }
 
 Settings settings_of(const Casting& casting, const std::vector<std::string>& assignments) {

@@ -17,27 +17,27 @@ Stage::~Stage() {
     for (frond_model model : models) frond_model_destroy(model);
 }
 
-// Materials by organ: the preset of its kind with the fields that were set.
+// Materials by organ name: as the model has them, with the fields that were set for the organ or its kind. The last
+// setting wins.
 static std::map<std::string, frond_material> changed_materials(frond_model model,
                                                                const std::vector<Settings::OrganOverride>& overrides) {
     frond_model_info info;
     must(frond_model_get_info(model, &info));
-    std::map<std::string, std::string> kind_of;
-    for (int i = 0; i < info.part_count; i++) {
-        frond_part part;
-        must(frond_model_get_part(model, i, &part));
-        kind_of[part.organ] = part.kind;
-    }
     std::map<std::string, frond_material> materials;
-    for (const Settings::OrganOverride& change : overrides) {
-        const std::string kind = kind_of.count(change.organ) ? kind_of[change.organ] : change.organ;
-        if (!materials.count(change.organ)) must(frond_material_preset(kind.c_str(), &materials[change.organ]));
-        frond_material& material = materials[change.organ];
-        if (change.field == "density") material.density = change.value;
-        if (change.field == "young") material.young = change.value;
-        if (change.field == "poisson") material.poisson = change.value;
-        if (change.field == "thickness") material.thickness = change.value;
+    std::vector<char> used(overrides.size(), 0);
+    std::string names;
+    for (int i = 0; i < info.organ_count; i++) {
+        frond_organ organ;
+        must(frond_model_get_organ(model, i, &organ));
+        names += std::string(i ? ", " : "") + organ.name;
+        for (size_t k = 0; k < overrides.size(); k++) {
+            if (overrides[k].organ != organ.name && overrides[k].organ != organ.kind) continue;
+            materials.emplace(organ.name, organ.material).first->second.*overrides[k].field = overrides[k].value;
+            used[k] = 1;
+        }
     }
+    for (size_t k = 0; k < overrides.size(); k++)
+        if (!used[k]) throw SceneError("no organ is called \"" + overrides[k].organ + "\"; there are " + names);
     return materials;
 }
 

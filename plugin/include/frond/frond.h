@@ -201,9 +201,10 @@ FROND_API frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin
 
 /* ---- model: shape at rest, built once, read-only, shared by many plants ------------------------------------ */
 
-/* One set of physical constants for every mechanics, so that they can be compared. A field from `hollow` on that is zero
- * means "does not have it", so that a material of which only the first four are set is a solid, isotropic, undamped and
- * smooth one that never yields or breaks. A field out of its range is BAD_ARGUMENT with a text that names it. */
+/* One set of physical constants for every mechanics, so that they can be compared. A field from `hollow` on that is
+ * zero means "does not have it", so that a material of which only the first four are set is a solid, isotropic,
+ * undamped and smooth one that never yields or breaks. A field out of its range is BAD_ARGUMENT with a text that names
+ * it. */
 typedef struct frond_material {
     double density;   /* of the fresh tissue [kg/m^3], 1 .. 2e4 */
     double young;     /* along the organ [Pa], 1e3 .. 1e12 */
@@ -303,6 +304,26 @@ typedef struct frond_texture_view {
     const uint8_t* bytes;
     size_t byte_count;
 } frond_texture_view;
+typedef struct frond_range {
+    double least, most;
+} frond_range;
+/* An organ, and between what its sections lie, one a capsule of the chain. They are those of the organ as it grew, a
+ * rod or a strip, not of the cage around it. A small organ can lie within another one's capsules; all from capsule_count
+ * on is then 0. */
+typedef struct frond_organ {
+    const char* name;         /* "leaf_3"; no two organs of a model share one */
+    const char* kind;         /* "stem", "blade" ... */
+    frond_material material;  /* the preset of its kind, or what frond_model_def.organs put in its place */
+    int capsule_count;
+    double length;            /* of its capsules [m] */
+    double mass;              /* of its sections times their lengths [kg] */
+    frond_range thickness;    /* outer size where the section is thinnest [m] */
+    frond_range width;        /* and across that; of a blade as if it were laid flat [m] */
+    frond_range area;         /* of tissue: a tube's is its wall's [m^2] */
+    frond_range bending_thin; /* EI against bending towards the thin side [N m^2] */
+    frond_range bending_wide; /* EI against bending towards the wide side [N m^2] */
+    frond_range torsion;      /* GJ [N m^2] */
+} frond_organ;
 typedef struct frond_cage_view {
     const double* nodes; /* node_count*3, at rest [m] */
     const int32_t* tets; /* tet_count*4, positive volume */
@@ -334,6 +355,8 @@ FROND_API void frond_model_destroy(frond_model model);
 FROND_API bool frond_model_is_valid(frond_model model);
 FROND_API frond_result frond_model_get_info(frond_model model, frond_model_info* out);
 FROND_API frond_result frond_model_get_part(frond_model model, int part, frond_part* out);
+/* organ: 0 .. frond_model_info.organ_count - 1. */
+FROND_API frond_result frond_model_get_organ(frond_model model, int organ, frond_organ* out);
 FROND_API frond_result frond_model_get_texture(frond_model model, int texture, frond_texture_view* out);
 FROND_API frond_result frond_model_get_cage(frond_model model, frond_cage_view* out);
 FROND_API frond_result frond_model_get_chain(frond_model model, frond_chain_view* out);

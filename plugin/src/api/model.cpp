@@ -1,4 +1,5 @@
 // frond_model_*, frond_material_*.
+#include <algorithm>
 #include <cstring>
 
 #include "api/call.hpp"
@@ -82,6 +83,27 @@ static void describe(const Model& model, frond_model_info& info) {
     info.ms_cage = model.ms_cage;
     info.ms_chain = model.ms_chain;
     info.ms_total = model.ms_total;
+}
+
+static void widen(frond_range& range, double value, bool first) {
+    range = first ? frond_range{value, value} : frond_range{std::min(range.least, value), std::max(range.most, value)};
+}
+
+static void describe_sections(const Model& model, int organ, frond_organ& view) {
+    for (size_t i = 0; i < model.sections.size(); i++) {
+        const ChainNode& node = model.chain.nodes[i];
+        if (node.organ != organ || node.parent < 0) continue;
+        const Section& section = model.sections[i];
+        const bool first = view.capsule_count++ == 0;
+        view.length += section.length;
+        view.mass += section.length * section.mass();
+        widen(view.thickness, section.thickness, first);
+        widen(view.width, section.width, first);
+        widen(view.area, section.area, first);
+        widen(view.bending_thin, section.bending_thin(), first);
+        widen(view.bending_wide, section.bending_wide(), first);
+        widen(view.torsion, section.twisting(), first);
+    }
 }
 
 extern "C" {
@@ -175,6 +197,17 @@ frond_result frond_model_get_part(frond_model model, int part, frond_part* out) 
         view.triangle_count = p.triangle_count;
         std::copy(p.color.begin(), p.color.end(), view.color);
         view.texture = p.texture;
+    });
+}
+
+frond_result frond_model_get_organ(frond_model model, int organ, frond_organ* out) {
+    return view_model(model, out, [&](const Model& m, frond_organ& view) {
+        check_range(organ, 0, double(m.organs.size()) - 1, "organ");
+        const Organ& o = m.organs[size_t(organ)];
+        view.name = o.name.c_str();
+        view.kind = o.kind.c_str();
+        view.material = o.material;
+        describe_sections(m, organ, view);
     });
 }
 

@@ -20,7 +20,7 @@ static void find_organs(Model& model, const frond_model_def& def) {
 
 static void find_chain(Model& model, const frond_model_def& def) {
     model.chain = make_chain(model.surface, model.topology, model.organs, {def.capsule_height, def.capsule_radius});
-    model.sections = measure_sections(model.surface, model.organs, model.chain);
+    model.sections = measure_sections(model.surface, model.topology, model.organs, model.chain);
 }
 
 static void finish(Model& model) {
@@ -95,7 +95,7 @@ std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_
     const Timer timer;
     find_organs(*model, def);
     model->chain = make_chain_of_stems(stems, stem_count, model->surface, placement_of(made, model->surface),
-                                       {def.capsule_height, def.capsule_radius}, model->sections);
+                                       model->organs, {def.capsule_height, def.capsule_radius}, model->sections);
     model->exact_sections = true;
     model->ms_chain = timer.ms();
     build_body(*model, def);

@@ -56,7 +56,8 @@ std::vector<RodForce> rod_forces(const Model& model, const Weights& weights,
     return rods;
 }
 
-// As rods, summed over the three loads.
+// As rods, summed over the three loads. They twist as isotropic ones do: the cage cannot be soft in twisting alone, and
+// would become too soft in bending if it had to share out the energy of both.
 Energies rod_energies(const Model& model, const Weights& weights, bool organs_alone) {
     const std::vector<ChainNode>& nodes = model.chain.nodes;
     Energies energies(nodes.size(), 0.0);
@@ -70,7 +71,7 @@ Energies rod_energies(const Model& model, const Weights& weights, bool organs_al
             const double energy =
                 section.length / (2 * material.young * model.organ_stiffer[size_t(nodes[i].organ)]) *
                 (rod.thin * rod.thin / section.inertia_thin + rod.wide * rod.wide / section.inertia_wide +
-                 2 * (1 + material.poisson) * rod.twist * rod.twist / section.inertia_polar() +
+                 2 * (1 + material.poisson) * rod.twist * rod.twist / section.torsion +
                  rod.pull * rod.pull / section.area);
             const size_t parent = size_t(nodes[i].parent);
             const bool shared = nodes[parent].organ == nodes[i].organ || nodes[parent].parent < 0;
@@ -394,7 +395,8 @@ void take_materials(Model& model) {
     for (size_t e = 0; e < tet_count; e++) {
         const size_t organ = size_t(model.cage.tet_organ[e]);
         const Material& material = model.organs[organ].material;
-        model.tet_young[e] = material.young * model.organ_stiffer[organ] * model.cage.tet_fill[e];
+        const double hole = hole_share(model.organs[organ]);
+        model.tet_young[e] = material.young * model.organ_stiffer[organ] * model.cage.tet_fill[e] * (1 - hole * hole);
         model.tet_poisson[e] = material.poisson;
     }
 }

@@ -96,7 +96,7 @@ struct Search {
 // Balances a share of gravity from where the search stands; false, with the search where it was, if that fails.
 bool balance(Search& search, double gravity) {
     constexpr int ROUNDS = 60;
-    constexpr double TOLERANCE = 1e-8;  // how far a node is from its balance, over the plant's size [-]
+    constexpr double TOLERANCE = 3e-9;  // how far a node is from its balance, over the plant's size [-]
     const VecX start = search.rest;
     for (int round = 0; round < ROUNDS; round++) {
         const VecX force = unbalanced_force(search.held, search.elements, search.which, search.x, gravity);

@@ -60,8 +60,7 @@ static std::vector<double> weigh_sections(Model& model) {
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
         if (node.parent < 0) continue;
-        const double mass =
-            model.organs[size_t(node.organ)].material.density * model.sections[i].area * model.sections[i].length;
+        const double mass = model.sections[i].mass() * model.sections[i].length;
         organs[size_t(node.organ)] += mass;
         model.chain_mass[i] += mass / 2;
         model.chain_mass[size_t(node.parent)] += mass / 2;
@@ -74,8 +73,8 @@ void give_mass(Model& model) {
     model.tet_density.resize(cage.tets.size());
     std::vector<double> organs(model.organs.size(), 0.0);
     for (size_t e = 0; e < cage.tets.size(); e++) {
-        const Material& material = model.organs[size_t(cage.tet_organ[e])].material;
-        model.tet_density[e] = material.density * cage.tet_fill[e];
+        const Organ& organ = model.organs[size_t(cage.tet_organ[e])];
+        model.tet_density[e] = organ.material.density * cage.tet_fill[e] * (1 - hole_share(organ));
         organs[size_t(cage.tet_organ[e])] += model.tet_density[e] * tet_volume(cage.nodes, cage.tets[e]);
     }
     if (!model.exact_sections) {

@@ -19,17 +19,18 @@ void set_resistance(const Model& model, size_t node, frond_mechanics which, RodS
     const Section& section = model.sections[node];
     const size_t organ = size_t(std::max(model.chain.nodes[node].organ, 0));
     const Material& material = model.organs[organ].material;
-    const double E = material.young * model.organ_stiffer[organ], over = 12 / (rod.length * rod.length);
+    const double stiffer = model.organ_stiffer[organ], E = material.young * stiffer;
+    const double over = 12 / (rod.length * rod.length);
     double area = section.area, thin = section.inertia_thin, wide = section.inertia_wide;
-    double torsion = section.inertia_polar();
+    double twisting = stiffer * section.twisting();
     if (which == FROND_SPRING_CHAIN) {
         const double r = model.chain.nodes[node].radius;
         area = M_PI * r * r;
         thin = wide = area * r * r / 4;
-        torsion = thin + wide;
+        twisting = E * (thin + wide) / (2 * (1 + material.poisson));
     }
     rod.stretch = E * Vec3(area, over * thin, over * wide);
-    rod.bend = E * Vec3(torsion / (2 * (1 + material.poisson)), wide, thin);
+    rod.bend = Vec3(twisting, E * wide, E * thin);
 }
 
 RodSegment make_segment(const Model& model, size_t node, frond_mechanics which) {
@@ -79,10 +80,8 @@ void set_inertia(const Model& model, RodElements& elements) {
     }
     for (const RodSegment& rod : elements.segments) {
         const Section& section = model.sections[size_t(rod.b)];
-        const Material& material = model.organs[size_t(std::max(model.chain.nodes[size_t(rod.b)].organ, 0))].material;
-        const Vec3 about(section.inertia_polar(), section.inertia_wide, section.inertia_thin);
-        const Mat3 half =
-            rod.frame * Vec3(0.5 * material.density * rod.length * about).asDiagonal() * rod.frame.transpose();
+        const Mat3 half = rod.frame * Vec3(0.5 * rod.length * section.rotary_inertia()).asDiagonal() *
+                          rod.frame.transpose();
         for (int end : {rod.a, rod.b}) elements.inertia[size_t(end)] += half;
     }
 }

@@ -81,20 +81,23 @@ void cut_pieces(std::vector<Piece>& pieces, double height) {
     }
 }
 
-Section round_section(const Vec3& from, const Vec3& to, double radius) {
+Section round_section(const Vec3& along, double radius, const Organ& organ) {
     Section section = {};
-    section.length = (to - from).norm();
-    section.axis = (to - from) / section.length;
+    section.length = along.norm();
+    section.axis = along / section.length;
     section.thin = section.axis.unitOrthogonal();
     section.area = M_PI * radius * radius;
     section.inertia_thin = section.inertia_wide = section.area * radius * radius / 4;
+    section.thickness = 2 * radius;
+    finish_section(organ, section);
     return section;
 }
 
 struct Maker {
-    Chain chain;
-    std::vector<Section> sections;
+    const std::vector<Organ>& organs;
     double given_radius;
+    Chain chain = {};
+    std::vector<Section> sections = {};
 
     int add(const Vec3& position, int parent, double radius, int organ) {
         ChainNode node = {};
@@ -102,15 +105,13 @@ struct Maker {
         node.radius = given_radius > 0 ? given_radius : radius;
         node.parent = parent;
         node.organ = organ;
-        Section section = {Vec3::UnitY(), Vec3::UnitX(), radius, M_PI * radius * radius, 0, 0};
-        section.inertia_thin = section.inertia_wide = section.area * radius * radius / 4;
+        Vec3 along = radius * Vec3::UnitY();
         if (parent >= 0) {
-            const ChainNode& below = chain.nodes[size_t(parent)];
-            section = round_section(below.position, position, radius);
-            node.distance = below.distance + section.length;
+            along = position - chain.nodes[size_t(parent)].position;
+            node.distance = chain.nodes[size_t(parent)].distance + along.norm();
         }
         chain.nodes.push_back(node);
-        sections.push_back(section);
+        sections.push_back(round_section(along, radius, organs[size_t(organ)]));
         return int(chain.nodes.size()) - 1;
     }
 };
@@ -148,11 +149,12 @@ void bind_vertices(Maker& maker, const Surface& surface, const std::vector<Piece
 }  // namespace
 
 Chain make_chain_of_stems(const frond_stem* stems, int stem_count, const Surface& surface, const StemPlacement& placed,
-                          const ChainOptions& options, std::vector<Section>& sections) {
+                          const std::vector<Organ>& organs, const ChainOptions& options,
+                          std::vector<Section>& sections) {
     std::vector<Piece> pieces = place_stems(stems, stem_count, surface, placed);
     const double height = options.height > 0 ? options.height : longest_way(pieces) / USUAL_COUNT;
     cut_pieces(pieces, height);
-    Maker maker = {{}, {}, options.radius};
+    Maker maker = {organs, options.radius};
     for (Piece& piece : pieces) {
         piece.nodes.push_back(begin_of(maker, pieces, piece));
         for (size_t k = 1; k < piece.cuts.size(); k++)

@@ -1,0 +1,213 @@
+// Surface and chain -> outlines. Planes across a capsule cut its triangles in line segments, turned so that they run
+// around what they enclose; Green's theorem then gives area and second moments of the outline, exactly for a mesh that
+// is closed there and oriented. Where segments do not close up (open sheets, forks, soups) there is no outline.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "model/section_parts.hpp"
+
+namespace frond {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+constexpr double CLOSED = 1e-6;   // a gap, as a share of the perimeter, that is none
+constexpr double MAIN = 0.8;      // share of all that is cut that the main component must have
+constexpr double COMPACT = 9;     // A^2 / sqrt(I_thin I_wide) of one outline; of two apart it is less
+// Gauss's points and weights along the capsule: exact for a taper.
+constexpr std::array<double, 3> PLANES = {0.1127016653792583, 0.5, 0.8872983346207417};
+constexpr std::array<double, 3> WEIGHTS = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+
+// Sums over segments, about the axis.
+struct Sums {
+    double perimeter = 0, area = 0;
+    Vector2d end = Vector2d::Zero();    // of all segments one after the other: zero if they close up
+    Vector2d first = Vector2d::Zero();  // moment of area
+    Matrix2d second = Matrix2d::Zero();
+
+    void add(const Vector2d& p, const Vector2d& q) {
+        const double cross = p.x() * q.y() - p.y() * q.x();
+        perimeter += (q - p).norm();
+        end += q - p;
+        area += cross / 2;
+        first += cross / 6 * (p + q);
+        second += cross / 24 * (2 * p * p.transpose() + 2 * q * q.transpose() + p * q.transpose() + q * p.transpose());
+    }
+    bool closed() const { return perimeter > 0 && end.norm() < CLOSED * perimeter && area != 0; }
+};
+
+// The segment in which a plane across the axis cuts a triangle, run the way round that its normal says.
+bool cut_triangle(const std::array<Vec3, 3>& corners, const CapsuleFrame& frame, double along, Vector2d& p,
+                  Vector2d& q) {
+    std::array<double, 3> side;
+    for (size_t k = 0; k < 3; k++) side[k] = (corners[k] - frame.begin).dot(frame.axis) - along;
+    std::array<Vec3, 2> ends;
+    size_t count = 0;
+    for (size_t k = 0; k < 3; k++) {
+        const size_t next = (k + 1) % 3;
+        if ((side[k] < 0) == (side[next] < 0)) continue;
+        ends[count++] = corners[k] + side[k] / (side[k] - side[next]) * (corners[next] - corners[k]);
+    }
+    if (count < 2) return false;
+    const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    if ((ends[1] - ends[0]).dot(frame.axis.cross(normal)) < 0) std::swap(ends[0], ends[1]);
+    const auto flatten = [&](const Vec3& x) {
+        return Vector2d((x - frame.begin).dot(frame.across), (x - frame.begin).dot(frame.other));
+    };
+    p = flatten(ends[0]);
+    q = flatten(ends[1]);
+    return true;
+}
+
+// Triangles of each chain node's own organ with a corner there.
+std::vector<std::vector<int>> triangles_by_node(const Surface& surface, const Chain& chain) {
+    std::vector<std::vector<int>> lists(chain.nodes.size());
+    for (const Part& part : surface.parts)
+        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
+            for (int corner : surface.triangles[size_t(t)]) {
+                const size_t node = size_t(chain.vertex_node[size_t(corner)]);
+                if (chain.nodes[node].organ != part.organ) continue;
+                if (lists[node].empty() || lists[node].back() != t) lists[node].push_back(t);
+            }
+    return lists;
+}
+
+// Triangles that a plane through a capsule may cut: its own and those of the capsules before and after it.
+std::vector<std::vector<int>> triangles_by_capsule(const Surface& surface, const Chain& chain) {
+    const std::vector<std::vector<int>> own = triangles_by_node(surface, chain);
+    std::vector<std::vector<int>> lists = own;
+    const auto append = [&](size_t to, size_t from) {
+        lists[to].insert(lists[to].end(), own[from].begin(), own[from].end());
+    };
+    for (size_t i = 0; i < chain.nodes.size(); i++) {
+        const int parent = chain.nodes[i].parent;
+        if (parent < 0 || chain.nodes[size_t(parent)].organ != chain.nodes[i].organ) continue;
+        append(i, size_t(parent));
+        append(size_t(parent), i);
+    }
+    for (std::vector<int>& list : lists) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+    return lists;
+}
+
+// The second moments about the centroid if the sums are those of one compact outline; else zero.
+Matrix2d compact_moments(const Sums& sums) {
+    const double sign = sums.area < 0 ? -1 : 1;
+    const Matrix2d moments = sign * (sums.second - sums.first * sums.first.transpose() / sums.area);
+    const double determinant = moments.determinant();
+    if (!(determinant > 0 && moments.trace() > 0)) return Matrix2d::Zero();
+    if (sums.area * sums.area < COMPACT * std::sqrt(determinant)) return Matrix2d::Zero();
+    return moments;
+}
+
+// The one compact outline that a plane cuts; none if its area is zero.
+struct PlaneCut {
+    double area = 0;
+    Matrix2d moments = Matrix2d::Zero();
+};
+
+PlaneCut main_outline(const std::map<int, Sums>& components, double perimeter) {
+    for (const auto& [component, sums] : components) {
+        if (sums.perimeter < MAIN * perimeter || !sums.closed()) continue;
+        const Matrix2d moments = compact_moments(sums);
+        if (moments.trace() > 0) return {std::abs(sums.area), moments};
+    }
+    return {};
+}
+
+// Where an organ comes to a point within a capsule, the point does not speak for the rest.
+void drop_points(std::array<PlaneCut, 3>& cuts) {
+    constexpr double POINT = 0.25;  // of the largest area
+    const double most = std::max({cuts[0].area, cuts[1].area, cuts[2].area});
+    for (PlaneCut& cut : cuts)
+        if (cut.area < POINT * most) cut = {};
+}
+
+// At its foot a plant ends in a face or a cap, which the ground holds: the section goes on from above. Towards a tip
+// the load vanishes faster than the section, so that the middle stands for the whole capsule.
+void mend_ends(bool foot, bool tip, std::array<PlaneCut, 3>& cuts) {
+    if (tip && cuts[1].area > 0) cuts[0] = cuts[2] = cuts[1];
+    if (!foot || tip || !(cuts[1].area > 0 && cuts[2].area > 0) || cuts[0].area >= cuts[1].area) return;
+    cuts[0] = cuts[1];
+    if (cuts[1].area <= cuts[2].area) return;
+    cuts[0].area += cuts[1].area - cuts[2].area;
+    cuts[0].moments += cuts[1].moments - cuts[2].moments;
+}
+
+// Area is averaged, and what averages in bending is the inverse of the second moments.
+void average(const std::array<PlaneCut, 3>& cuts, const CapsuleFrame& frame, Outline& outline) {
+    double weight = 0, area = 0;
+    Matrix2d inverse = Matrix2d::Zero();
+    for (size_t plane = 0; plane < cuts.size(); plane++) {
+        if (!(cuts[plane].area > 0 && cuts[plane].moments.determinant() > 0)) continue;
+        weight += WEIGHTS[plane];
+        area += WEIGHTS[plane] * cuts[plane].area;
+        inverse += WEIGHTS[plane] * cuts[plane].moments.inverse();
+    }
+    if (!(weight > 0)) return;
+    const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(Matrix2d((inverse / weight).inverse()));
+    outline.found = true;
+    outline.area = area / weight;
+    outline.inertia_thin = eigen.eigenvalues()[0];
+    outline.inertia_wide = eigen.eigenvalues()[1];
+    const Vector2d direction = eigen.eigenvectors().col(0);
+    outline.thin = (direction.x() * frame.across + direction.y() * frame.other).normalized();
+}
+
+Outline cut_capsule(const Surface& surface, const Topology& topology, const std::vector<int>& triangles,
+                    const CapsuleFrame& frame, bool foot, bool tip) {
+    std::array<PlaneCut, 3> cuts;
+    double area = 0, perimeter = 0;
+    bool doubled = true;
+    for (size_t plane = 0; plane < cuts.size(); plane++) {
+        std::map<int, Sums> components;
+        Sums all;
+        for (int t : triangles) {
+            const Triangle& triangle = surface.triangles[size_t(t)];
+            const std::array<Vec3, 3> corners = {surface.positions[size_t(triangle[0])],
+                                                 surface.positions[size_t(triangle[1])],
+                                                 surface.positions[size_t(triangle[2])]};
+            Vector2d p, q;
+            if (!cut_triangle(corners, frame, PLANES[plane] * frame.length, p, q)) continue;
+            components[topology.triangle_component[size_t(t)]].add(p, q);
+            all.add(p, q);
+        }
+        doubled = doubled && all.closed();
+        area += std::abs(all.area);
+        perimeter += all.perimeter;
+        cuts[plane] = main_outline(components, all.perimeter);
+    }
+    Outline outline;
+    outline.doubled = doubled;
+    outline.gap = doubled ? 2 * area / perimeter : 0;
+    drop_points(cuts);
+    mend_ends(foot, tip, cuts);
+    average(cuts, frame, outline);
+    return outline;
+}
+
+}  // namespace
+
+std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topology, const Chain& chain,
+                                  const std::vector<CapsuleFrame>& frames) {
+    const std::vector<std::vector<int>> triangles = triangles_by_capsule(surface, chain);
+    std::vector<char> is_tip(chain.nodes.size(), 1);
+    for (const ChainNode& node : chain.nodes)
+        if (node.parent >= 0 && chain.nodes[size_t(node.parent)].organ == node.organ) is_tip[size_t(node.parent)] = 0;
+    std::vector<Outline> outlines(chain.nodes.size());
+    for (size_t i = 0; i < outlines.size(); i++) {
+        const int parent = chain.nodes[i].parent;
+        if (parent < 0 || triangles[i].empty()) continue;
+        const bool foot = chain.nodes[size_t(parent)].parent < 0;
+        outlines[i] = cut_capsule(surface, topology, triangles[i], frames[i], foot, is_tip[i]);
+    }
+    return outlines;
+}
+
+}  // namespace frond

@@ -1,0 +1,41 @@
+// What the sources of Section share: two ways to look at the surface around a capsule.
+#pragma once
+
+#include "model/section.hpp"
+
+namespace frond {
+
+// The axis of a capsule and two directions across it.
+struct CapsuleFrame {
+    Vec3 begin, axis, across, other;
+    double length;  // [m]
+};
+
+// Spread of the surface across the axis, small one first, with the direction of the small one.
+struct Spread {
+    double area;          // of the surface [m^2]
+    double small, large;  // variances [m^2]
+    Vec3 thin;
+};
+
+// What planes across a capsule cut out of the surface, averaged over the planes.
+struct Outline {
+    bool found = false;  // at least one plane cuts one closed, compact outline
+    double area;         // inside [m^2]
+    double inertia_thin, inertia_wide;  // [m^4]
+    Vec3 thin;
+    // For sheets: whether they are drawn with two faces, and the mean distance of the faces [m].
+    bool doubled = false;
+    double gap = 0;
+};
+
+// One a chain node. A capsule without surface of its own has a spread of zero area.
+std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
+                                    const std::vector<CapsuleFrame>& frames);
+std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topology, const Chain& chain,
+                                  const std::vector<CapsuleFrame>& frames);
+
+// 0 for an ellipse and a polygon like one, 1 for a rectangle.
+double squareness(double area, double inertia_thin, double inertia_wide);
+
+}  // namespace frond

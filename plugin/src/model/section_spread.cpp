@@ -1,0 +1,145 @@
+// Surface and chain -> spreads. Every triangle is shared out among the capsules nearest to it. The spread of a
+// capsule's surface across its axis is measured after the capsule's own bow along the axis is taken out, so that an
+// arching leaf is not mistaken for a thick one.
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "model/section_parts.hpp"
+
+namespace frond {
+namespace {
+
+// A share of surface that belongs to a capsule.
+struct Patch {
+    Vec3 position;
+    double area;
+};
+
+// Shares a triangle out among capsules: each point goes to the nearest one. What is nearest to more than one is halved
+// across its longest edge until it is small.
+struct Sharer {
+    const Chain& chain;
+    std::vector<std::vector<Patch>>& patches;
+    std::vector<int> capsules = {};  // that may have a share of this triangle
+    double small = 0;                // [m]
+
+    int nearest(const Vec3& p) const {
+        int best = -1;
+        double least = INFINITY;
+        for (int capsule : capsules) {
+            const Vec3& end = chain.nodes[size_t(capsule)].position;
+            const Vec3& begin = chain.nodes[size_t(chain.nodes[size_t(capsule)].parent)].position;
+            const Vec3 along = end - begin;
+            const double length2 = along.squaredNorm();
+            const double s = length2 > 0 ? std::clamp((p - begin).dot(along) / length2, 0.0, 1.0) : 0.0;
+            const double distance = (p - begin - s * along).squaredNorm();
+            if (distance >= least) continue;
+            least = distance;
+            best = capsule;
+        }
+        return best;
+    }
+
+    // The corners with 1/12 and the middle with 3/4 of the area have the same second moments as the triangle.
+    void add(int capsule, const Vec3& a, const Vec3& b, const Vec3& c) {
+        const double area = (b - a).cross(c - a).norm() / 2;
+        std::vector<Patch>& list = patches[size_t(capsule)];
+        for (const Vec3& p : {a, b, c}) list.push_back({p, area / 12});
+        list.push_back({(a + b + c) / 3, area * 3 / 4});
+    }
+
+    void share(Vec3 a, Vec3 b, Vec3 c) {
+        // a to b is the longest edge.
+        const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
+        if (bc > ab && bc >= ca) return share(b, c, a);
+        if (ca > ab && ca > bc) return share(c, a, b);
+        const int capsule = nearest((a + b + c) / 3);
+        const bool one = nearest(a) == capsule && nearest(b) == capsule && nearest(c) == capsule;
+        if (one || ab < small * small) return add(capsule, a, b, c);
+        const Vec3 middle = (a + b) / 2;
+        share(a, middle, c);
+        share(middle, b, c);
+    }
+};
+
+// A triangle's share goes to capsules of its own organ that begin or end where its corners are bound.
+std::vector<std::vector<Patch>> collect_patches(const Surface& surface, const Chain& chain) {
+    constexpr double SMALL = 1.0 / 16;  // of a capsule
+    std::vector<std::vector<Patch>> patches(chain.nodes.size());
+    std::vector<std::vector<int>> touching(chain.nodes.size());  // capsules at a node
+    for (size_t i = 0; i < chain.nodes.size(); i++) {
+        if (chain.nodes[i].parent < 0) continue;
+        touching[i].push_back(int(i));
+        touching[size_t(chain.nodes[i].parent)].push_back(int(i));
+    }
+    Sharer sharer{chain, patches};
+    for (const Part& part : surface.parts)
+        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++) {
+            const Triangle& triangle = surface.triangles[size_t(t)];
+            sharer.capsules.clear();
+            double length = 0;
+            for (int corner : triangle)
+                for (int capsule : touching[size_t(chain.vertex_node[size_t(corner)])]) {
+                    const ChainNode& node = chain.nodes[size_t(capsule)];
+                    if (node.organ != part.organ) continue;
+                    sharer.capsules.push_back(capsule);
+                    length += (node.position - chain.nodes[size_t(node.parent)].position).norm();
+                }
+            if (sharer.capsules.empty()) continue;
+            const Vec3& a = surface.positions[size_t(triangle[0])];
+            const Vec3& b = surface.positions[size_t(triangle[1])];
+            const Vec3& c = surface.positions[size_t(triangle[2])];
+            const double longest = std::sqrt(
+                std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+            // No triangle falls into more than some hundreds of pieces.
+            sharer.small = std::max(SMALL * length / double(sharer.capsules.size()), longest / 24);
+            sharer.share(a, b, c);
+        }
+    return patches;
+}
+
+Spread measure_spread(const std::vector<Patch>& patches, const CapsuleFrame& frame) {
+    // Offsets across the axis as a parabola along it, by least squares weighted with area.
+    Mat3 normal = 1e-12 * Mat3::Identity();
+    Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+    double total = 0;
+    for (const Patch& patch : patches) {
+        const Vec3 offset = patch.position - frame.begin;
+        const double s = offset.dot(frame.axis) / frame.length;
+        const Vec3 powers(1, s, s * s);
+        const Eigen::RowVector2d y(offset.dot(frame.across), offset.dot(frame.other));
+        normal += patch.area * powers * powers.transpose();
+        right += patch.area * powers * y;
+        total += patch.area;
+    }
+    normal.diagonal().array() += 1e-9 * total;
+    const Eigen::Matrix<double, 3, 2> bow = normal.ldlt().solve(right);
+    // What is left is the spread of the section itself.
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+    for (const Patch& patch : patches) {
+        const Vec3 offset = patch.position - frame.begin;
+        const double s = offset.dot(frame.axis) / frame.length;
+        const Eigen::RowVector2d y =
+            Eigen::RowVector2d(offset.dot(frame.across), offset.dot(frame.other)) - Vec3(1, s, s * s).transpose() * bow;
+        covariance += patch.area / total * y.transpose() * y;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
+    const Eigen::Vector2d direction = eigen.eigenvectors().col(0);
+    return {total, std::max(eigen.eigenvalues()[0], 0.0), std::max(eigen.eigenvalues()[1], 0.0),
+            (direction[0] * frame.across + direction[1] * frame.other).normalized()};
+}
+
+}  // namespace
+
+std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
+                                    const std::vector<CapsuleFrame>& frames) {
+    const std::vector<std::vector<Patch>> patches = collect_patches(surface, chain);
+    std::vector<Spread> spreads(patches.size(), {0, 0, 0, Vec3::UnitX()});
+    for (size_t i = 0; i < patches.size(); i++)
+        if (!patches[i].empty()) spreads[i] = measure_spread(patches[i], frames[i]);
+    return spreads;
+}
+
+}  // namespace frond
