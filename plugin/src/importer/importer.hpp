@@ -17,6 +17,10 @@ Surface take_scene(const aiScene& scene, const MeshFile& file);
 // glTF that assimp cannot read as it stands but could: quantized attributes become floats, WebP textures plain ones.
 // The bytes to read instead; empty if the file is good as it is.
 std::string rewrite_gltf(const MeshFile& file);
+// Likewise OBJ lines "v" with more numbers than a place and a colour and an OBJ file that names no material library but
+// has one of its own name beside it; and blanks in front of Collada's numbers.
+std::string rewrite_obj(const MeshFile& file);
+std::string rewrite_dae(const MeshFile& file);
 
 // The real path of a file that a model refers to, "" if there is none. Only files inside the model's folder are found:
 // by the path as written, else by the bare file name, upper or lower case.
