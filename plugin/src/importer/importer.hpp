@@ -29,9 +29,13 @@ std::string find_beside(const std::string& folder, const std::string& reference)
 int take_texture(Surface& surface, const std::string& name, const std::string& bytes);
 int take_texture_file(Surface& surface, const MeshFile& file, const std::string& reference);
 
-// Base colour and texture of a material.
-void take_material(const aiScene& scene, const aiMaterial& material, const MeshFile& file, Surface& surface,
-                   Part& part);
+// The texture of a material that names none: a picture beside the model that is called like the material or, failing
+// that, like the model ("bark_diffuse.png", "fern.png" for fern.obj). Index in the surface; -1 if there is none.
+int guess_texture(Surface& surface, const MeshFile& file, const std::string& material);
+
+// Base colour and texture of a material; has_uvs: the mesh has texture coordinates.
+void take_material(const aiScene& scene, const aiMaterial& material, const MeshFile& file, bool has_uvs,
+                   Surface& surface, Part& part);
 
 // sRGB <-> linear, 0..1.
 float linear_of(float srgb);
