@@ -11,14 +11,47 @@ namespace frond {
 
 constexpr double TREE_HEIGHT = 3;  // what stands higher is held by wood [m]
 
-// A kind for every triangle: by the names of its part, else by shape.
+// Twigs drawn as cards with leaves on them: called branches, beside wood that is none, and nearly all sheets.
+static void find_cards(const Surface& surface, const std::vector<char>& sheets, std::vector<std::string>& named) {
+    constexpr double NEARLY_ALL = 0.9;
+    std::vector<char> is_card(named.size(), 0);
+    bool has_wood = false;
+    for (size_t i = 0; i < named.size(); i++) {
+        const Part& part = surface.parts[i];
+        if (named[i] != "branch" || part.triangle_count == 0) continue;
+        const auto first = sheets.begin() + part.first_triangle;
+        is_card[i] = std::count(first, first + part.triangle_count, 1) >= NEARLY_ALL * part.triangle_count;
+        has_wood = has_wood || !is_card[i];
+    }
+    for (size_t i = 0; i < named.size(); i++)
+        if (has_wood && is_card[i]) named[i] = "blade";
+}
+
+static bool is_green(const std::array<float, 4>& color) {
+    return color[1] > 1.1f * color[0] && color[1] > 1.3f * color[2];
+}
+
+// What is green and grows on wood is foliage, however solid it was drawn.
+static void find_foliage(const Surface& surface, std::vector<std::string>& named) {
+    if (std::find(named.begin(), named.end(), "branch") == named.end()) return;
+    for (size_t i = 0; i < named.size(); i++) {
+        const Part& part = surface.parts[i];
+        const bool has_color = part.texture < 0 && part.color != Part().color;
+        if (named[i].empty() && has_color && is_green(part.color)) named[i] = "blade";
+    }
+}
+
+// A kind for every triangle: by the names of its part, else by colour and shape.
 static std::vector<std::string> kinds_of_triangles(const Surface& surface, const Topology& topology) {
-    const std::vector<std::string> named = kinds_by_name(surface);
+    std::vector<std::string> named = kinds_by_name(surface);
     std::vector<std::string> kinds(surface.triangles.size());
-    const bool all_named =
-        std::none_of(named.begin(), named.end(), [](const std::string& kind) { return kind.empty(); });
+    const auto is_open = [](const std::string& kind) { return kind.empty() || kind == "branch"; };
     std::vector<char> sheets;
-    if (!all_named) sheets = find_sheets(topology);
+    if (std::any_of(named.begin(), named.end(), is_open)) {
+        sheets = find_sheets(topology);
+        find_cards(surface, sheets, named);
+        find_foliage(surface, named);
+    }
     const std::string tube = surface.height() > TREE_HEIGHT ? "branch" : "stem";
     for (size_t i = 0; i < surface.parts.size(); i++) {
         const Part& part = surface.parts[i];
