@@ -162,14 +162,39 @@ static void override_materials(std::vector<Organ>& organs, const frond_organ_mat
     }
 }
 
-// Parts that the file gives no colour look like what they are: wood brown, the rest leaf green.
+// The colour of a kind of organ (linear).
+static std::array<float, 4> color_of_kind(const std::string& kind) {
+    static const struct {
+        const char* kind;
+        std::array<float, 4> color;
+    } rows[] = {
+        {"branch", {0.14f, 0.09f, 0.05f, 1}},  {"root", {0.20f, 0.13f, 0.07f, 1}},
+        {"support", {0.32f, 0.12f, 0.06f, 1}}, {"flower", {0.75f, 0.32f, 0.42f, 1}},
+        {"fruit", {0.50f, 0.11f, 0.03f, 1}},   {"stem", {0.15f, 0.24f, 0.06f, 1}},
+        {"petiole", {0.15f, 0.24f, 0.06f, 1}},
+    };
+    for (const auto& row : rows)
+        if (kind == row.kind) return row.color;
+    return {0.12f, 0.24f, 0.05f, 1};
+}
+
+// A file whose parts are all grey, black or white, without texture or vertex colours, brings no colours.
+static bool is_colorless(const Surface& surface) {
+    constexpr float GREY = 0.02f;
+    if (!surface.colors.empty()) return false;
+    return std::all_of(surface.parts.begin(), surface.parts.end(), [](const Part& part) {
+        const auto& c = part.color;
+        const float spread = std::max({c[0], c[1], c[2]}) - std::min({c[0], c[1], c[2]});
+        return part.texture < 0 && (part.color == Part().color || spread < GREY);
+    });
+}
+
+// Parts that the file gives no colour look like what they are.
 static void color_by_kind(Surface& surface, const std::vector<Organ>& organs) {
-    constexpr std::array<float, 4> GREEN = {0.12f, 0.24f, 0.05f, 1}, BROWN = {0.14f, 0.09f, 0.05f, 1};
-    for (Part& part : surface.parts) {
-        if (part.texture >= 0 || part.color != Part().color) continue;
-        const std::string& kind = organs[size_t(part.organ)].kind;
-        part.color = kind == "branch" || kind == "root" || kind == "support" ? BROWN : GREEN;
-    }
+    const bool is_open = is_colorless(surface);
+    for (Part& part : surface.parts)
+        if (part.texture < 0 && (is_open || part.color == Part().color))
+            part.color = color_of_kind(organs[size_t(part.organ)].kind);
 }
 
 std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond_organ_material* overrides,
