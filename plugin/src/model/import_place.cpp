@@ -67,7 +67,7 @@ static double score_length(const std::vector<Vec3>& positions, int axis) {
     return box.sizes()[axis] > 1.5 * others ? 0.4 : 0;
 }
 
-// Single organs are often drawn along x, from the origin on: what is by far the longest that way and has its foot there.
+// Single organs are often drawn along x from the origin on: what is by far the longest that way, with its foot there.
 static bool lies_along_x(const Surface& surface, double other_score) {
     constexpr double LONG = 2.5, MARGIN = 1;
     const Eigen::AlignedBox3d box = box_of(surface.positions);
