@@ -34,6 +34,7 @@ TEST(OrganNames, AreReadInSeveralSpellingsAndLanguages) {
         {"trunk", "branch"},
         {"Bark01", "branch"},
         {"twigs", "branch"},
+        {"tree_stem", "branch"},
         {"Zweige", "branch"},
         {"stem", "stem"},
         {"Stalk_A", "stem"},

@@ -186,6 +186,9 @@ NameClue read_name(const std::string& name) {
         kind = pair ? pair : hit;
     }
     if (mixture && found.size() > 1) return {};
+    // The stem of a tree is its trunk.
+    const auto is_tree = [](const std::string& word) { return word == "tree" || word == "baum"; };
+    if (kind == "stem" && std::any_of(words.begin(), words.end(), is_tree)) kind = "branch";
     if (!kind.empty()) return {kind, false};
     for (const std::string& word : words)
         if (const char* hit = look_up(species_words(), word)) kind = hit;
