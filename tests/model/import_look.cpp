@@ -45,6 +45,17 @@ TEST(ImportLook, TakesAPictureCalledLikeTheMaterialOrTheModel) {
     }
 }
 
+TEST(ImportLook, APlyFileTakesThePictureOfItsName) {
+    const std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float u\nproperty float v\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 0 0\n0.1 0 0 1 0\n0 0.5 0 0 1\n3 0 1 2\n";
+    files::Folder folder;
+    folder.write("Fern.jpg", files::png());
+    EXPECT_EQ(import_surface(folder.write("fern.ply", text), {}).parts[0].texture, 0);
+    EXPECT_EQ(import_surface(folder.write("ivy.ply", text), {}).parts[0].texture, -1);
+}
+
 TEST(ImportLook, TakesNoPictureByItsNameWhereAColorWasChosen) {
     files::Folder folder;
     folder.write("green.png", files::png());
