@@ -91,6 +91,28 @@ TEST(Place, GuessesUpFromTheFoot) {
     }
 }
 
+TEST(Place, AnOrganDrawnAlongXFromItsFootStands) {
+    // A spike: a thin cross that lies on the ground and begins at the origin.
+    Surface surface;
+    for (const Vec3& wide : {Vec3(0, 0.04, 0), Vec3(0, 0, 0.04)}) {
+        const int first = int(surface.positions.size());
+        for (int k = 0; k <= 10; ++k)
+            for (double sign : {-1.0, 1.0}) surface.positions.push_back(Vec3(0.1 * k, 0, 0) + sign * wide);
+        for (int k = 0; k < 20; ++k)
+            surface.triangles.push_back({first + k, first + k + 1 + k % 2, first + k + 2 - k % 2});
+    }
+    surface.parts.emplace_back();
+    surface.parts.back().triangle_count = int(surface.triangles.size());
+    Surface row = surface;
+    place_surface(surface, {});
+    EXPECT_EQ(surface.up, Vec3::UnitX());
+    EXPECT_NEAR(surface.height(), 1, 0.05);
+    // A row of plants around the origin stays as it is.
+    for (Vec3& position : row.positions) position.x() -= 0.5;
+    place_surface(row, {});
+    EXPECT_EQ(row.up, Vec3::UnitY());
+}
+
 TEST(Place, ATallPlantWithItsOriginInTheMiddleStandsAlongItsLength) {
     Surface surface = make_plant(1, Vec3::UnitZ());
     for (Vec3& position : surface.positions) {

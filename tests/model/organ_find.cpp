@@ -34,6 +34,7 @@ TEST(OrganNames, AreReadInSeveralSpellingsAndLanguages) {
         {"trunk", "branch"},
         {"Bark01", "branch"},
         {"twigs", "branch"},
+        {"tree_stem", "branch"},
         {"Zweige", "branch"},
         {"stem", "stem"},
         {"Stalk_A", "stem"},
@@ -106,6 +107,127 @@ TEST(OrganNames, OfASpeciesMeanTheFruitOnlyBesideOtherParts) {
     EXPECT_EQ(kinds({{"trunk", "leaf"}, {"Object_3", "leaf"}, {"cucumber", "leaf"}}),
               Kinds({"branch", "blade", "blade"}));
     EXPECT_EQ(kinds({{"root", ""}, {"root", "bark"}}), Kinds({"", "branch"}));
+}
+
+TEST(OrganNames, ThatAllPartsShareAreThePlants) {
+    Surface surface;
+    const auto kinds = [&](std::initializer_list<std::pair<const char*, const char*>> parts) {
+        surface.parts.clear();
+        for (const auto& [name, material] : parts) {
+            surface.parts.emplace_back();
+            surface.parts.back().name = name;
+            surface.parts.back().material = material;
+        }
+        return kinds_by_name(surface);
+    };
+    using Kinds = std::vector<std::string>;
+    EXPECT_EQ(kinds({{"Flowers", "Green"}, {"Flowers", "Cyan"}}), Kinds({"", ""}));
+    EXPECT_EQ(kinds({{"BushBerries_1", "Green"}, {"BushBerries_1", "Berry"}}), Kinds({"", "fruit"}));
+    EXPECT_EQ(kinds({{"FlowerPot6", "GroundFlowerPot6"},
+                     {"FlowerPot6", "LeafsFlowerPot6"},
+                     {"FlowerPot6", "FlowersFlowerPot6"}}),
+              Kinds({"support", "blade", "flower"}));
+    EXPECT_EQ(kinds({{"leaf_1", ""}, {"leaf_2", ""}}), Kinds({"blade", "blade"}));
+}
+
+TEST(OrganNames, OfColorsAreNoFruits) {
+    Surface surface;
+    const auto kind_of = [&](const char* material, const char* other) {
+        surface.parts.assign(2, Part());
+        surface.parts[0].material = material;
+        surface.parts[1].material = other;
+        return kinds_by_name(surface)[0];
+    };
+    EXPECT_EQ(kind_of("Orange", "Wood"), "fruit");
+    EXPECT_EQ(kind_of("Orange", "DarkGreen"), "");
+    EXPECT_EQ(kind_of("Orange", "LightOrange"), "");
+    EXPECT_EQ(kind_of("LightOrange", "Wood"), "");
+    EXPECT_EQ(kind_of("Berry", "Green"), "fruit");
+}
+
+// A trunk, and on top of it a ball as children's books draw trees.
+Sketch ball_tree() {
+    Sketch sketch;
+    sketch.begin_part("trunk");
+    sketch.tube(line({0, 0, 0}, {0, 4, 0}, 8), 0.1, 8);
+    sketch.begin_part("Object_2");
+    const int sides = 12, rings = 7;
+    const int bottom = sketch.add({0, 4, 0}), top = sketch.add({0, 6, 0}), first = top + 1;
+    for (int i = 1; i <= rings; i++)
+        for (int k = 0; k < sides; k++) {
+            const double up = M_PI * i / (rings + 1), around = 2 * M_PI * k / sides;
+            sketch.add({std::sin(up) * std::cos(around), 5 - std::cos(up), std::sin(up) * std::sin(around)});
+        }
+    for (int k = 0; k < sides; k++) {
+        const int next = (k + 1) % sides;
+        sketch.triangle(bottom, first + k, first + next);
+        for (int i = 0; i + 1 < rings; i++) {
+            const int a = first + i * sides + k, b = first + i * sides + next;
+            sketch.triangle(a, a + sides, b);
+            sketch.triangle(b, a + sides, b + sides);
+        }
+        sketch.triangle(top, first + (rings - 1) * sides + next, first + (rings - 1) * sides + k);
+    }
+    return sketch;
+}
+
+TEST(Organs, OfALargeRoundShapeThatIsHeldUpAreFoliage) {
+    Sketch sketch = ball_tree();
+    sketch.surface.parts[0].name = "Object_1";
+    const Grown grown = grow(sketch);
+    ASSERT_EQ(grown.organs.size(), 2u) << "all of the ball is of one kind";
+    EXPECT_EQ(grown.organs[1].kind, "blade");
+    // Stems that fill the same box with little surface are none.
+    Sketch bare;
+    bare.tube(line({0, 0, 0}, {0, 4, 0}, 8), 0.1, 8);
+    const int first = bare.tube(line({-1, 4, 0}, {1, 6, 0}, 8), 0.05, 8);
+    const int second = bare.tube(line({0, 4, -1}, {0, 6, 1}, 8), 0.05, 8);
+    bare.triangle(first + 32, second + 32, second + 33);  // they cross, as one component
+    for (const Organ& organ : grow(bare).organs) EXPECT_EQ(organ.kind, "branch");
+}
+
+TEST(Organs, ThatAreGreenAndGrowOnWoodAreFoliage) {
+    Sketch sketch;
+    sketch.begin_part("trunk");
+    sketch.tube(line({0, 0, 0}, {0, 4, 0}, 8), 0.1, 8);
+    sketch.begin_part("Object_2");
+    sketch.tube(line({0, 4, 0}, {1, 5, 0}, 4), 0.1, 8);
+    EXPECT_EQ(grow(sketch).organs[1].kind, "branch");
+    sketch.surface.parts[1].color = {0.1f, 0.4f, 0.05f, 1};
+    const Grown grown = grow(sketch);
+    EXPECT_EQ(grown.organs[0].kind, "branch");
+    EXPECT_EQ(grown.organs[1].kind, "blade");
+}
+
+TEST(Organs, CalledBranchesThatAreCardsOnWoodAreFoliage) {
+    Sketch sketch;
+    sketch.begin_part("Bark");
+    sketch.tube(line({0, 0, 0}, {0, 4, 0}, 8), 0.1, 8);
+    sketch.begin_part("Branch");
+    for (int i = 0; i < 12; i++) {
+        const double angle = 2.4 * i, y = 2 + 0.15 * i;
+        const Vec3 out(std::cos(angle), 0.3, std::sin(angle));
+        sketch.strip(line({0, y, 0}, Vec3(0, y, 0) + out, 2), 0.4, Vec3(-out.z(), 0, out.x()));
+    }
+    const Grown grown = grow(sketch);
+    ASSERT_EQ(grown.organs.size(), 2u);
+    EXPECT_EQ(grown.organs[0].kind, "branch");
+    EXPECT_EQ(grown.organs[1].kind, "blade");
+}
+
+TEST(Organs, HaveTheirKindsColorWhereTheFileBringsNone) {
+    Sketch sketch = ball_tree();
+    sketch.surface.parts[1].name = "leaves";
+    const std::array<float, 4> grey = {0.64f, 0.64f, 0.64f, 1}, pink = {0.8f, 0.3f, 0.4f, 1};
+    sketch.surface.parts[0].color = sketch.surface.parts[1].color = grey;
+    const Grown plain = grow(sketch);
+    EXPECT_GT(plain.surface.parts[0].color[0], 1.2f * plain.surface.parts[0].color[1]) << "wood is brown";
+    EXPECT_GT(plain.surface.parts[1].color[1], 1.2f * plain.surface.parts[1].color[0]) << "leaves are green";
+    // Beside a colour grey was chosen as well.
+    sketch.surface.parts[1].color = pink;
+    const Grown pale = grow(sketch);
+    EXPECT_EQ(pale.surface.parts[0].color, grey);
+    EXPECT_EQ(pale.surface.parts[1].color, pink);
 }
 
 TEST(Organs, AreToldByShapeWhereNamesSayNothing) {

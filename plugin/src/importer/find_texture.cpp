@@ -6,8 +6,10 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 
 #include "core/log.hpp"
 #include "importer/importer.hpp"
@@ -87,26 +89,109 @@ std::string find_beside(const std::string& folder, const std::string& reference)
     return find_exactly(folder, decode_uri(reference));
 }
 
-// Pictures may also lie in the folders beside the model's that are there for them: meshes/ and materials/textures/,
-// source/ and textures/ are common layouts. By the bare name only, and only what ends like a picture.
-static std::string find_picture(const std::string& folder, const std::string& reference) {
-    const std::string found = find_beside(folder, reference);
-    if (!found.empty()) return found;
-    const std::string path = decode_uri(reference), name = path.substr(path.find_last_of("/\\") + 1);
+// ---- pictures ----
+
+static const char* const PICTURE_FOLDERS[] = {"/textures",    "/materials/textures", "/texture", "/images", "/maps",
+                                              "/../textures", "/../materials/textures", "/../texture", "/../images",
+                                              "/../maps"};
+
+// Letters small, ending off: "Work/Leaf.PNG" -> "leaf"; its ending with the dot goes to `ending`.
+static std::string stem_of(const std::string& path, std::string& ending) {
+    std::string name = path.substr(path.find_last_of("/\\") + 1);
+    for (char& letter : name) letter = char(tolower(uint8_t(letter)));
     const size_t dot = name.rfind('.');
-    const std::string ending = dot == std::string::npos ? "" : name.substr(dot);
-    bool is_picture = false;
-    for (const char* known :
-         {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp", ".tif", ".tiff", ".gif", ".dds", ".psd", ".ktx2"})
-        is_picture = is_picture || strcasecmp(known, ending.c_str()) == 0;
-    const std::string root = real_path(folder);
-    if (!is_picture || root.empty()) return "";
+    ending = dot == std::string::npos ? "" : name.substr(dot);
+    return name.substr(0, dot);
+}
+
+// Whether a file of that ending can be drawn.
+static bool is_drawable(const std::string& ending) {
+    for (const char* known : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
+        if (ending == known) return true;
+    return false;
+}
+
+static bool is_picture(const std::string& ending) {
+    for (const char* known : {".tif", ".tiff", ".gif", ".dds", ".psd", ".exr", ".ktx2"})
+        if (ending == known) return true;
+    return is_drawable(ending);
+}
+
+// The drawable pictures in the model's folder and in those near it that are there for pictures, nearest first.
+static std::vector<std::string> list_pictures(const std::string& folder) {
+    std::vector<std::string> pictures, folders = {""};
+    folders.insert(folders.end(), std::begin(PICTURE_FOLDERS), std::end(PICTURE_FOLDERS));
     int entries = 0;
-    for (const char* beside : {"/../textures", "/../materials/textures", "/../texture", "/../images", "/../maps"}) {
-        const std::string picture = search_folder(root + beside, name, DEEPEST_FOLDER, entries);
-        if (!picture.empty()) return picture;
+    for (const std::string& near : folders) {
+        const size_t first = pictures.size();
+        DIR* directory = opendir((folder + near).c_str());
+        if (!directory) continue;
+        while (dirent* entry = readdir(directory)) {
+            if (++entries > MOST_ENTRIES) break;
+            std::string ending;
+            stem_of(entry->d_name, ending);
+            const std::string path = folder + near + "/" + entry->d_name;
+            struct stat status;
+            if (is_drawable(ending) && lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode))
+                pictures.push_back(path);
+        }
+        closedir(directory);
+        std::sort(pictures.begin() + long(first), pictures.end());
     }
-    return "";
+    return pictures;
+}
+
+// Pictures may also lie in the folders beside the model's that are there for them: meshes/ and materials/textures/,
+// source/ and textures/ are common layouts. By the bare name only, and only what ends like a picture. One that is not
+// there, or that cannot be drawn, may be there in another format.
+static std::string find_picture(const std::string& folder, const std::string& reference) {
+    const std::string path = decode_uri(reference), name = path.substr(path.find_last_of("/\\") + 1);
+    std::string ending, other;
+    const std::string stem = stem_of(name, ending), root = real_path(folder);
+    std::string found = find_beside(folder, reference);
+    if (root.empty() || !is_picture(ending) || (!found.empty() && is_drawable(ending))) return found;
+    int entries = 0;
+    for (const char* near : PICTURE_FOLDERS)
+        if (found.empty()) found = search_folder(root + near, name, DEEPEST_FOLDER, entries);
+    if (!found.empty() && is_drawable(ending)) return found;
+    for (const std::string& picture : list_pictures(root))
+        if (stem_of(picture, other) == stem) return picture;
+    return found;
+}
+
+// Letters and digits only: "Branch 2_diffuse" -> "branch2diffuse".
+static std::string squeeze(const std::string& text) {
+    std::string out;
+    for (char letter : text)
+        if (isalnum(uint8_t(letter)) || uint8_t(letter) >= 0x80) out += char(tolower(uint8_t(letter)));
+    return out;
+}
+
+// Whether a picture's name is the other name, plain or marked as the one with the colours.
+static bool is_named_after(const std::string& picture, const std::string& name) {
+    if (name.empty() || picture.compare(0, name.size(), name) != 0) return false;
+    const std::string rest = picture.substr(name.size());
+    for (const char* mark : {"", "d", "c", "col", "color", "colour", "diff", "diffuse", "albedo", "base", "basecolor",
+                             "tex", "texture", "map"})
+        if (rest == mark) return true;
+    return false;
+}
+
+int guess_texture(Surface& surface, const MeshFile& file, const std::string& material) {
+    const std::string root = real_path(file.folder);
+    if (root.empty()) return -1;
+    std::string ending, whole = squeeze(material), base = whole;
+    while (!base.empty() && isdigit(uint8_t(base.back()))) base.pop_back();  // "Bark_001" is another "Bark"
+    const std::vector<std::string> pictures = list_pictures(root);
+    for (const std::string& name : {whole, base, squeeze(stem_of(file.name, ending))})
+        for (const std::string& picture : pictures) {
+            if (!is_named_after(squeeze(stem_of(picture, ending)), name)) continue;
+            const std::string bare = picture.substr(picture.rfind('/') + 1);
+            warn("the material \"%s\" names no texture that is there; %s is taken by its name", material.c_str(),
+                 bare.c_str());
+            return take_texture_file(surface, file, bare);
+        }
+    return -1;
 }
 
 int take_texture(Surface& surface, const std::string& name, const std::string& bytes) {

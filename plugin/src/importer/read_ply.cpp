@@ -410,6 +410,8 @@ Surface read_ply(const MeshFile& file) {
     if (!corners.colors.empty()) part.color = {1, 1, 1, 1};
     if (!header.texture.empty() && !corners.uvs.empty())
         part.texture = take_texture_file(surface, file, header.texture);
+    if (part.texture < 0 && !corners.uvs.empty() && corners.colors.empty())
+        part.texture = guess_texture(surface, file, "");
     if (part.texture >= 0) part.color = {1, 1, 1, 1};
     append_part(surface, corners, part);
     return surface;

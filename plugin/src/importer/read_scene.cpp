@@ -75,8 +75,22 @@ private:
     }
 };
 
+static std::string rewrite(const MeshFile& file) {
+    switch (file.format) {
+        case FileFormat::GLTF:
+        case FileFormat::GLB:
+            return rewrite_gltf(file);
+        case FileFormat::OBJ:
+            return rewrite_obj(file);
+        case FileFormat::DAE:
+            return rewrite_dae(file);
+        default:
+            return "";
+    }
+}
+
 Surface read_scene(const MeshFile& file) {
-    const std::string rewritten = rewrite_gltf(file);
+    const std::string rewritten = rewrite(file);
     Assimp::Importer importer;
     importer.SetIOHandler(new ModelFolder(file, rewritten.empty() ? file.bytes : rewritten));
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);

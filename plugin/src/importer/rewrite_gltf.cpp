@@ -300,7 +300,6 @@ static std::string write_glb(Rewriting& work) {
 }
 
 std::string rewrite_gltf(const MeshFile& file) {
-    if (file.format != FileFormat::GLTF && file.format != FileFormat::GLB) return "";
     Rewriting work{parse_gltf(file), "", {}, false};
     if (work.document.is_old) return "";
     load_buffers(work.document, file);

@@ -1,11 +1,13 @@
-// Takes the look of a material: base colour (linear) and base-colour texture, embedded or from the model's folder.
-// glTF's factors are linear already; what other formats hold are display colours.
+// Takes the look of a material: base colour (linear) and base-colour texture, embedded or from the model's folder. What
+// a material says nothing about keeps the colour of a new part, which is chosen by the kind of organ later.
+// glTF's factors are linear already, and so is what Blender writes in any format; other programs write display colours.
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "core/log.hpp"
 #include "importer/importer.hpp"
@@ -24,61 +26,107 @@ static float in_range(float value) {
     return value >= 0 ? std::min(value, 1.0f) : 0.0f;
 }
 
+// Greys, black and white are what exporters write when nobody chose a colour.
 static bool is_tint(const aiColor4D& color) {
     constexpr float LEAST = 0.05f;
     return std::max({color.r, color.g, color.b}) - std::min({color.r, color.g, color.b}) > LEAST;
 }
 
-// An embedded texture's bytes, or those of a file beside the model; -1 if there is none.
-static int find_texture(const aiScene& scene, const aiMaterial& material, const MeshFile& file, Surface& surface) {
-    for (aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE, aiTextureType_AMBIENT}) {
-        aiString path;
-        if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS || path.length == 0) continue;
-        const aiTexture* embedded = scene.GetEmbeddedTexture(path.C_Str());
-        if (!embedded) return take_texture_file(surface, file, path.C_Str());
-        if (embedded->mHeight != 0 || embedded->mWidth == 0 || !embedded->pcData) {
-            warn("the embedded texture %s is not an image file and is left out", path.C_Str());
-            return -1;
-        }
-        const std::string bytes(reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth);
-        const std::string name = embedded->mFilename.length ? embedded->mFilename.C_Str() : path.C_Str();
-        return take_texture(surface, name + (path.C_Str()[0] == '*' ? path.C_Str() : ""), bytes);
-    }
-    return -1;
+static bool is_black(const aiColor4D& color) {
+    return std::max({color.r, color.g, color.b}) < 0.005f;
 }
 
-void take_material(const aiScene& scene, const aiMaterial& material, const MeshFile& file, Surface& surface,
-                   Part& part) {
-    const bool is_gltf = file.format == FileFormat::GLTF || file.format == FileFormat::GLB;
+static bool is_gltf(const MeshFile& file) {
+    return file.format == FileFormat::GLTF || file.format == FileFormat::GLB;
+}
+
+// The program's name stands near the beginning of the file.
+static bool has_linear_colors(const MeshFile& file) {
+    constexpr size_t HEADER = 16384;
+    return is_gltf(file) || file.bytes.substr(0, HEADER).find("Blender") != std::string::npos;
+}
+
+static std::array<float, 4> linear_color(const aiColor4D& color, const MeshFile& file) {
+    const bool is_linear = has_linear_colors(file);
+    std::array<float, 4> out = {in_range(color.r), in_range(color.g), in_range(color.b), 1};
+    for (size_t i = 0; i < 3 && !is_linear; ++i) out[i] = linear_of(out[i]);
+    return out;
+}
+
+// An embedded texture's bytes, or those of a file beside the model; -1 if it cannot be had.
+static int take_reference(const aiScene& scene, const aiString& path, const MeshFile& file, Surface& surface) {
+    const aiTexture* embedded = scene.GetEmbeddedTexture(path.C_Str());
+    if (!embedded) return take_texture_file(surface, file, path.C_Str());
+    if (embedded->mHeight != 0 || embedded->mWidth == 0 || !embedded->pcData) {
+        warn("the embedded texture %s is not an image file and is left out", path.C_Str());
+        return -1;
+    }
+    const std::string bytes(reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth);
+    const std::string name = embedded->mFilename.length ? embedded->mFilename.C_Str() : path.C_Str();
+    return take_texture(surface, name + (path.C_Str()[0] == '*' ? path.C_Str() : ""), bytes);
+}
+
+// What the material says before it is judged.
+struct Look {
+    aiColor4D color{1, 1, 1, 1};
+    bool has_color = false, has_reference = false;  // to a texture, found or not
+};
+
+static Look read_look(const aiScene& scene, const aiMaterial& material, const MeshFile& file, Surface& surface,
+                      Part& part) {
+    Look look;
+    look.has_color = material.Get(AI_MATKEY_BASE_COLOR, look.color) == aiReturn_SUCCESS ||
+                     material.Get(AI_MATKEY_COLOR_DIFFUSE, look.color) == aiReturn_SUCCESS;
+    const auto take_first = [&](std::initializer_list<aiTextureType> types) {
+        aiString path;
+        for (aiTextureType type : types) {
+            if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS || path.length == 0) continue;
+            part.texture = take_reference(scene, path, file, surface);
+            return true;
+        }
+        return false;
+    };
+    look.has_reference = take_first({aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE, aiTextureType_AMBIENT});
+    // What shines by itself and reflects nothing is drawn flat: its look is what it emits.
+    aiColor4D emitted(0, 0, 0, 1);
+    material.Get(AI_MATKEY_COLOR_EMISSIVE, emitted);
+    if (!look.has_reference && look.has_color && is_black(look.color) && !is_black(emitted)) {
+        look.has_reference = take_first({aiTextureType_EMISSIVE});
+        look.color = aiColor4D(emitted.r, emitted.g, emitted.b, look.color.a);
+    }
+    return look;
+}
+
+void take_material(const aiScene& scene, const aiMaterial& material, const MeshFile& file, bool has_uvs,
+                   Surface& surface, Part& part) {
     aiString name;
     if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS && std::string(name.C_Str()) != AI_DEFAULT_MATERIAL_NAME)
         part.material = name.C_Str();
-    part.texture = find_texture(scene, material, file, surface);
+    const Look look = read_look(scene, material, file, surface, part);
+    const bool is_plain = !is_tint(look.color);
+    if (part.texture < 0 && has_uvs && is_plain && !is_gltf(file))
+        part.texture = guess_texture(surface, file, part.material);
 
-    aiColor4D color(1, 1, 1, 1);
-    const bool has_base = material.Get(AI_MATKEY_BASE_COLOR, color) == aiReturn_SUCCESS;
-    const bool has_color = has_base || material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS;
-    // Instead of the colour a texture stands in formats other than glTF, but in MTL files, where it is tinted. Greys
-    // there are what exporters write when nobody chose a colour.
-    if (part.texture >= 0 && !is_gltf) {
+    // Instead of the colour a texture stands in formats other than glTF, but in MTL files, where it is tinted.
+    if (part.texture >= 0 && !is_gltf(file)) {
         part.color = {1, 1, 1, 1};
-        if (file.format == FileFormat::OBJ && has_color && is_tint(color))
-            for (size_t i = 0; i < 3; ++i) part.color[i] = linear_of(in_range(color[unsigned(i)]));
+        if (file.format == FileFormat::OBJ && look.has_color && !is_plain) part.color = linear_color(look.color, file);
         return;
     }
     // The materials that assimp makes up say nothing: for meshes without one, for STL, and its grey for OBJ files whose
-    // material library is missing.
-    const bool is_made_up = file.format == FileFormat::OBJ && color == aiColor4D(0.6f, 0.6f, 0.6f, color.a);
-    if (!has_color || is_made_up || file.format == FileFormat::STL || (!is_gltf && part.material.empty())) {
-        if (part.texture >= 0 || (is_gltf && !part.material.empty())) part.color = {1, 1, 1, 1};
+    // material library is missing. Nor does the white under a texture that is not there.
+    const bool is_made_up =
+        !look.has_color || file.format == FileFormat::STL || (!is_gltf(file) && part.material.empty()) ||
+        (file.format == FileFormat::OBJ && look.color == aiColor4D(0.6f, 0.6f, 0.6f, look.color.a));
+    if (is_made_up || (look.has_reference && part.texture < 0 && is_plain)) {
+        if (part.texture >= 0) part.color = {1, 1, 1, 1};
         return;
     }
-    const float channels[3] = {in_range(color.r), in_range(color.g), in_range(color.b)};
-    for (size_t i = 0; i < 3; ++i) part.color[i] = is_gltf ? channels[i] : linear_of(channels[i]);
+    part.color = linear_color(look.color, file);
 
     // A plant that is not there at all is a mistake of the exporter.
-    float opacity = is_gltf ? color.a : 1.0f;
-    if (!is_gltf) material.Get(AI_MATKEY_OPACITY, opacity);
+    float opacity = is_gltf(file) ? look.color.a : 1.0f;
+    if (!is_gltf(file)) material.Get(AI_MATKEY_OPACITY, opacity);
     part.color[3] = opacity >= 0.05f ? in_range(opacity) : 1.0f;
 }
 

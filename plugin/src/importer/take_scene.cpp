@@ -315,12 +315,13 @@ Surface take_scene(const aiScene& scene, const MeshFile& file) {
             const aiMesh& mesh = *scene.mMeshes[index];
             const std::string key = std::to_string(mesh.mMaterialIndex);
             if (!looks.count(key) && mesh.mMaterialIndex < scene.mNumMaterials)
-                take_material(scene, *scene.mMaterials[mesh.mMaterialIndex], file, surface, looks[key]);
+                take_material(scene, *scene.mMaterials[mesh.mMaterialIndex], file, mesh.HasTextureCoords(0), surface,
+                              looks[key]);
             Part part = looks[key];
             part.name = name_part(nodes, int(n), mesh, file);
             const bool with_colors = wants_colors(mesh, file, part);
-            if (with_colors && file.format != FileFormat::GLTF && file.format != FileFormat::GLB)
-                part.color = {1, 1, 1, 1};
+            const bool is_tinted = file.format == FileFormat::GLTF || file.format == FileFormat::GLB;
+            if (with_colors && (!is_tinted || part.color == Part().color)) part.color = {1, 1, 1, 1};
             Corners corners = take_corners(mesh, file, with_colors, dropped_lines, surface.dropped_triangles);
             if (mesh.mNumBones == 0) weld_corners(corners);
             move_corners(corners, mesh, frame * nodes[n].transform, by_name);

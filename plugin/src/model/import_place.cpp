@@ -67,11 +67,20 @@ static double score_length(const std::vector<Vec3>& positions, int axis) {
     return box.sizes()[axis] > 1.5 * others ? 0.4 : 0;
 }
 
+// Single organs are often drawn along x from the origin on: what is by far the longest that way, with its foot there.
+static bool lies_along_x(const Surface& surface, double other_score) {
+    constexpr double LONG = 2.5, MARGIN = 1;
+    const Eigen::AlignedBox3d box = box_of(surface.positions);
+    if (box.isEmpty() || box.sizes().x() < LONG * std::max(box.sizes().y(), box.sizes().z())) return false;
+    return score_foot(surface.positions, 0) > other_score + MARGIN;
+}
+
 static Vec3 guess_up(const Surface& surface) {
     const auto score = [&surface](int axis) {
         return score_foot(surface.positions, axis) + score_length(surface.positions, axis);
     };
     const double y = score(1), z = score(2);
+    if (lies_along_x(surface, std::max(y, z))) return Vec3::UnitX();
     return z > y + UP_MARGIN ? Vec3::UnitZ() : Vec3::UnitY();
 }
 

@@ -11,14 +11,47 @@ namespace frond {
 
 constexpr double TREE_HEIGHT = 3;  // what stands higher is held by wood [m]
 
-// A kind for every triangle: by the names of its part, else by shape.
+// Twigs drawn as cards with leaves on them: called branches, beside wood that is none, and nearly all sheets.
+static void find_cards(const Surface& surface, const std::vector<char>& sheets, std::vector<std::string>& named) {
+    constexpr double NEARLY_ALL = 0.9;
+    std::vector<char> is_card(named.size(), 0);
+    bool has_wood = false;
+    for (size_t i = 0; i < named.size(); i++) {
+        const Part& part = surface.parts[i];
+        if (named[i] != "branch" || part.triangle_count == 0) continue;
+        const auto first = sheets.begin() + part.first_triangle;
+        is_card[i] = std::count(first, first + part.triangle_count, 1) >= NEARLY_ALL * part.triangle_count;
+        has_wood = has_wood || !is_card[i];
+    }
+    for (size_t i = 0; i < named.size(); i++)
+        if (has_wood && is_card[i]) named[i] = "blade";
+}
+
+static bool is_green(const std::array<float, 4>& color) {
+    return color[1] > 1.1f * color[0] && color[1] > 1.3f * color[2];
+}
+
+// What is green and grows on wood is foliage, however solid it was drawn.
+static void find_foliage(const Surface& surface, std::vector<std::string>& named) {
+    if (std::find(named.begin(), named.end(), "branch") == named.end()) return;
+    for (size_t i = 0; i < named.size(); i++) {
+        const Part& part = surface.parts[i];
+        const bool has_color = part.texture < 0 && part.color != Part().color;
+        if (named[i].empty() && has_color && is_green(part.color)) named[i] = "blade";
+    }
+}
+
+// A kind for every triangle: by the names of its part, else by colour and shape.
 static std::vector<std::string> kinds_of_triangles(const Surface& surface, const Topology& topology) {
-    const std::vector<std::string> named = kinds_by_name(surface);
+    std::vector<std::string> named = kinds_by_name(surface);
     std::vector<std::string> kinds(surface.triangles.size());
-    const bool all_named =
-        std::none_of(named.begin(), named.end(), [](const std::string& kind) { return kind.empty(); });
+    const auto is_open = [](const std::string& kind) { return kind.empty() || kind == "branch"; };
     std::vector<char> sheets;
-    if (!all_named) sheets = find_sheets(topology);
+    if (std::any_of(named.begin(), named.end(), is_open)) {
+        sheets = find_sheets(topology);
+        find_cards(surface, sheets, named);
+        find_foliage(surface, named);
+    }
     const std::string tube = surface.height() > TREE_HEIGHT ? "branch" : "stem";
     for (size_t i = 0; i < surface.parts.size(); i++) {
         const Part& part = surface.parts[i];
@@ -129,14 +162,39 @@ static void override_materials(std::vector<Organ>& organs, const frond_organ_mat
     }
 }
 
-// Parts that the file gives no colour look like what they are: wood brown, the rest leaf green.
+// The colour of a kind of organ (linear).
+static std::array<float, 4> color_of_kind(const std::string& kind) {
+    static const struct {
+        const char* kind;
+        std::array<float, 4> color;
+    } rows[] = {
+        {"branch", {0.14f, 0.09f, 0.05f, 1}},  {"root", {0.20f, 0.13f, 0.07f, 1}},
+        {"support", {0.32f, 0.12f, 0.06f, 1}}, {"flower", {0.75f, 0.32f, 0.42f, 1}},
+        {"fruit", {0.50f, 0.11f, 0.03f, 1}},   {"stem", {0.15f, 0.24f, 0.06f, 1}},
+        {"petiole", {0.15f, 0.24f, 0.06f, 1}},
+    };
+    for (const auto& row : rows)
+        if (kind == row.kind) return row.color;
+    return {0.12f, 0.24f, 0.05f, 1};
+}
+
+// A file whose parts are all grey, black or white, without texture or vertex colours, brings no colours.
+static bool is_colorless(const Surface& surface) {
+    constexpr float GREY = 0.02f;
+    if (!surface.colors.empty()) return false;
+    return std::all_of(surface.parts.begin(), surface.parts.end(), [](const Part& part) {
+        const auto& c = part.color;
+        const float spread = std::max({c[0], c[1], c[2]}) - std::min({c[0], c[1], c[2]});
+        return part.texture < 0 && (part.color == Part().color || spread < GREY);
+    });
+}
+
+// Parts that the file gives no colour look like what they are.
 static void color_by_kind(Surface& surface, const std::vector<Organ>& organs) {
-    constexpr std::array<float, 4> GREEN = {0.12f, 0.24f, 0.05f, 1}, BROWN = {0.14f, 0.09f, 0.05f, 1};
-    for (Part& part : surface.parts) {
-        if (part.texture >= 0 || part.color != Part().color) continue;
-        const std::string& kind = organs[size_t(part.organ)].kind;
-        part.color = kind == "branch" || kind == "root" || kind == "support" ? BROWN : GREEN;
-    }
+    const bool is_open = is_colorless(surface);
+    for (Part& part : surface.parts)
+        if (part.texture < 0 && (is_open || part.color == Part().color))
+            part.color = color_of_kind(organs[size_t(part.organ)].kind);
 }
 
 std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond_organ_material* overrides,

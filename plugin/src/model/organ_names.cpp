@@ -2,6 +2,7 @@
 // A name is cut into words at everything that is not a letter, between letters and digits, and at camelCase; only whole
 // words, their plurals and compounds whose last part is a long enough word count ("earth" is no ear, "system" no stem).
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <set>
 
@@ -185,6 +186,9 @@ NameClue read_name(const std::string& name) {
         kind = pair ? pair : hit;
     }
     if (mixture && found.size() > 1) return {};
+    // The stem of a tree is its trunk.
+    const auto is_tree = [](const std::string& word) { return word == "tree" || word == "baum"; };
+    if (kind == "stem" && std::any_of(words.begin(), words.end(), is_tree)) kind = "branch";
     if (!kind.empty()) return {kind, false};
     for (const std::string& word : words)
         if (const char* hit = look_up(species_words(), word)) kind = hit;
@@ -202,15 +206,75 @@ bool names_a_grass(const std::string& name) {
     return std::any_of(words.begin(), words.end(), [](const std::string& word) { return grasses.count(word) > 0; });
 }
 
+// Words that all names have and that would make all parts pots, fruits or flowers: "FlowerPot6" is the whole.
+static std::set<std::string> find_common_words(const std::vector<std::string>& names) {
+    std::set<std::string> common;
+    for (size_t i = 0; i < names.size(); i++) {
+        const std::vector<std::string> words = words_of(names[i]);
+        const std::set<std::string> own(words.begin(), words.end());
+        std::set<std::string> kept;
+        for (const std::string& word : i == 0 ? own : common) {
+            const char* kind = look_up(organ_words(), word);
+            const bool is_whole =
+                kind && (!strcmp(kind, "support") || !strcmp(kind, "fruit") || !strcmp(kind, "flower"));
+            if (is_whole && own.count(word)) kept.insert(word);
+        }
+        common = kept;
+    }
+    return common;
+}
+
+static std::string without(const std::string& name, const std::set<std::string>& left_out) {
+    if (left_out.empty()) return name;
+    std::string out;
+    for (const std::string& word : words_of(name))
+        if (!left_out.count(word)) out += (out.empty() ? "" : "_") + word;
+    return out;
+}
+
+// Whether a material is called after a colour; those that share a name with a fruit or a flower count when told to.
+static bool is_color_name(const std::string& name, bool with_species) {
+    static const std::set<std::string> shades = {"light", "dark", "pale", "bright", "deep", "medium"};
+    static const std::set<std::string> colors = {"green", "yellow", "brown",  "red",    "blue",
+                                                 "cyan",  "white",  "black",  "pink",   "purple",
+                                                 "grey",  "gray",   "violet", "magenta", "beige"};
+    bool has_color = false;
+    for (const std::string& word : words_of(name)) {
+        const bool is_color = colors.count(word) || (with_species && look_up(species_words(), word));
+        if (!is_color && !shades.count(word)) return false;
+        has_color = has_color || is_color;
+    }
+    return has_color;
+}
+
+// "Orange" beside "Green" and "Wood" is a colour, and so is "LightOrange".
+static bool has_palette(const Surface& surface) {
+    return std::any_of(surface.parts.begin(), surface.parts.end(), [](const Part& part) {
+        return is_color_name(part.material, false) ||
+               (words_of(part.material).size() > 1 && is_color_name(part.material, true));
+    });
+}
+
 std::vector<std::string> kinds_by_name(const Surface& surface) {
     const size_t count = surface.parts.size();
     std::vector<std::string> kinds(count);
     std::vector<NameClue> names(count), materials(count);
+    std::vector<std::string> all_names, all_materials;
+    for (const Part& part : surface.parts) {
+        all_names.push_back(part.name);
+        all_materials.push_back(part.material);
+    }
+    const std::set<std::string> distinct(all_materials.begin(), all_materials.end());
+    std::set<std::string> whole_names, whole_materials;
+    if (count > 1) whole_names = find_common_words(all_names);
+    if (distinct.size() > 1) whole_materials = find_common_words(all_materials);
+    const bool palette = has_palette(surface);
     // A species that every part is named after is the plant, not its fruit.
     size_t species = 0, roots = 0, flowers = 0;
     for (size_t i = 0; i < count; i++) {
-        names[i] = read_name(surface.parts[i].name);
-        materials[i] = read_name(surface.parts[i].material);
+        names[i] = read_name(without(all_names[i], whole_names));
+        if (!palette || !is_color_name(all_materials[i], true))
+            materials[i] = read_name(without(all_materials[i], whole_materials));
         species += names[i].species;
         roots += names[i].kind == "root";
         flowers += names[i].kind == "flower" && !names[i].species;

@@ -1,8 +1,10 @@
 // Organ shape: in, a topology; out, for each triangle whether it is part of a sheet or of a tube.
 // The plant is cut into short bands along its distance from the ground. A piece of a band is a sheet when its normals,
 // taken without sign, all point nearly the same way, or when open edges run along it on both sides; a ring of a tube
-// has normals all around and no open edge along it. That works for closed thin leaves and for coarse tubes alike.
+// has normals all around and no open edge along it. That works for closed thin leaves and for coarse tubes alike. A
+// large round component that is held up is a crown, and counts as leaves.
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -93,6 +95,34 @@ static void smooth_pieces(const Bands& bands, std::vector<char>& sheet) {
         if (same[i] == 0 && other[i] > 1.5 * bands.pieces[i].area) sheet[i] = !sheet[i];
 }
 
+// Crowns drawn as solids: components that are about as wide as high, with as much surface as a ball of that size at
+// least, large, and held up by something else. What they stand for are leaves.
+static std::vector<char> find_crowns(const Topology& topology) {
+    constexpr double ROUND = 0.35, SOLID = 0.35, LARGE = 0.2, HELD_UP = 0.12;
+    std::vector<Eigen::AlignedBox3d> boxes(size_t(topology.component_count));
+    std::vector<double> areas(boxes.size(), 0.0);
+    Eigen::AlignedBox3d whole;
+    for (size_t t = 0; t < topology.triangles.size(); t++) {
+        const size_t component = size_t(topology.triangle_component[t]);
+        const Triangle& corners = topology.triangles[t];
+        const Vec3 &a = topology.points[size_t(corners[0])], &b = topology.points[size_t(corners[1])],
+                   &c = topology.points[size_t(corners[2])];
+        boxes[component].extend(a).extend(b).extend(c);
+        areas[component] += 0.5 * (b - a).cross(c - a).norm();
+    }
+    for (const Eigen::AlignedBox3d& box : boxes) whole.extend(box);
+    std::vector<char> crown(boxes.size(), 0);
+    for (size_t i = 0; i < boxes.size(); i++) {
+        if (boxes[i].isEmpty()) continue;
+        const Vec3 size = boxes[i].sizes();
+        const double surface = 2 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+        crown[i] = size.minCoeff() > ROUND * size.maxCoeff() && areas[i] > SOLID * surface &&
+                   size.norm() > LARGE * whole.sizes().norm() &&
+                   boxes[i].min().y() > whole.min().y() + HELD_UP * whole.sizes().y();
+    }
+    return crown;
+}
+
 std::vector<char> find_sheets(const Topology& topology) {
     const size_t count = topology.triangles.size();
     // From the lowest point of all; which way is not important here.
@@ -122,11 +152,13 @@ std::vector<char> find_sheets(const Topology& topology) {
         area[size_t(bands.pieces[i].component)] += bands.pieces[i].area;
         if (sheet[i]) flat[size_t(bands.pieces[i].component)] += bands.pieces[i].area;
     }
+    const std::vector<char> crown = find_crowns(topology);
     std::vector<char> found(count);
     for (size_t t = 0; t < count; t++) {
         const size_t component = size_t(topology.triangle_component[t]);
         const double share = area[component] > 0 ? flat[component] / area[component] : 1;
-        found[t] = share >= WHOLE || (share > 1 - WHOLE && sheet[size_t(piece_of(topology, bands, t))]);
+        found[t] = crown[component] || share >= WHOLE ||
+                   (share > 1 - WHOLE && sheet[size_t(piece_of(topology, bands, t))]);
     }
     return found;
 }
