@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "studio.hpp"
+#include "study/figures.hpp"
 #include "study/report.hpp"
 
 namespace frond::tools {
@@ -13,6 +14,7 @@ namespace {
 struct StudyOptions {
     std::vector<std::string> names;
     std::string out = "study";
+    std::string advice;  // file for the table of frond_recommend
     bool quick = false;
 };
 
@@ -35,15 +37,28 @@ private:
     std::unique_ptr<Progress> progress;
 };
 
-std::vector<const study::Problem*> chosen(const std::vector<std::string>& names) {
-    std::vector<const study::Problem*> list;
+// What was asked for, in the order of the tables for "all".
+struct Chosen {
+    std::vector<const study::Problem*> problems;
+    std::vector<const study::FigureRow*> figures;
+};
+
+Chosen choose(const std::vector<std::string>& names) {
+    Chosen chosen;
     for (const std::string& name : names) {
+        bool is_figure = false;
+        for (const study::FigureRow& figure : study::figures())
+            if (name == "all" || name == figure.name) {
+                chosen.figures.push_back(&figure);
+                is_figure = name != "all";
+            }
+        if (is_figure) continue;
         if (name == "all")
-            for (const study::Problem& problem : study::problems()) list.push_back(&problem);
+            for (const study::Problem& problem : study::problems()) chosen.problems.push_back(&problem);
         else
-            list.push_back(&study::find_problem(name));
+            chosen.problems.push_back(&study::find_problem(name));
     }
-    return list;
+    return chosen;
 }
 
 std::string command_line(const StudyOptions& options) {
@@ -55,38 +70,62 @@ std::string command_line(const StudyOptions& options) {
 void list_problems() {
     for (const study::Problem& problem : study::problems())
         std::printf("%-18s %s\n%-18s answer: %s\n", problem.name, problem.measures, "", problem.answer);
+    for (const study::FigureRow& figure : study::figures()) std::printf("%-18s %s\n", figure.name, figure.shows);
+}
+
+// Writes and draws what belongs to one name.
+template <class Subject>
+void write_diagram(const Subject& subject, const std::string& folder, const std::string& name) {
+    const std::string base = folder + "/" + name, script = folder + "/gnuplot/" + name + ".gp";
+    study::write_file(base + ".md", study::markdown_of(subject));
+    study::write_file(script, study::gnuplot_of(subject, base));
+    study::run_gnuplot(script);
+}
+
+void tell(const study::Result& result) {
+    const study::Point& first = result.changes.front();
+    if (first.failure.empty())
+        std::printf("%-18s baseline error %.3g, %.3g ms a simulated second\n", result.problem->name, first.outcome.error,
+                    1e3 * first.outcome.cpu_per_second);
+    else
+        std::printf("%-18s baseline failed: %s\n", result.problem->name, first.failure.c_str());
+    std::fflush(stdout);
 }
 
 void run_study(const StudyOptions& options) {
     if (options.names.empty()) return list_problems();
-    const std::vector<const study::Problem*> problems = chosen(options.names);
+    const Chosen chosen = choose(options.names);
     study::require_gnuplot();
-    const std::string gnuplot_folder = options.out + "/gnuplot";
     study::prepare_folder(options.out);
-    study::prepare_folder(gnuplot_folder);
+    study::prepare_folder(options.out + "/gnuplot");
     const study::Provenance provenance = {study::processor_name(), FROND_COMPILER, FROND_COMMIT,
                                           frond_version_string()};
+    const study::Effort effort = options.quick ? study::Effort::QUICK : study::Effort::FULL;
     std::vector<study::Result> results;
+    std::vector<study::Figure> figures;
     Line line;
-    for (const study::Problem* problem : problems) {
-        results.push_back(
-            study::run_problem(*problem, options.quick ? study::Effort::QUICK : study::Effort::FULL, &line));
+    for (const study::Problem* problem : chosen.problems) {
+        results.push_back(study::run_problem(*problem, effort, &line));
         line.end();
-        const study::Result& result = results.back();
-        const std::string base = options.out + "/" + problem->name, script = gnuplot_folder + "/" + problem->name + ".gp";
-        study::write_file(base + ".csv", study::csv_of(result, provenance));
-        study::write_file(base + ".md", study::markdown_of(result));
-        study::write_file(script, study::gnuplot_of(result, base));
-        study::run_gnuplot(script);
-        const study::Point& first = result.changes.front();
-        if (first.failure.empty())
-            std::printf("%-18s baseline error %.3g, %.3g ms a simulated second\n", problem->name, first.outcome.error,
-                        1e3 * first.outcome.cpu_per_second);
-        else
-            std::printf("%-18s baseline failed: %s\n", problem->name, first.failure.c_str());
-        std::fflush(stdout);
+        study::write_file(options.out + "/" + problem->name + ".csv", study::csv_of(results.back(), provenance));
+        write_diagram(results.back(), options.out, problem->name);
+        tell(results.back());
     }
-    study::write_file(options.out + "/README.md", study::summary_of(results, provenance, command_line(options)));
+    for (const study::FigureRow* row : chosen.figures) {
+        figures.push_back(row->make(options.out));
+        study::write_file(options.out + "/" + row->name + ".csv", study::csv_of(figures.back()));
+        write_diagram(figures.back(), options.out, row->name);
+        std::printf("%-18s drawn\n", row->name);
+    }
+    if (!options.advice.empty()) {
+        const auto sway = std::find_if(results.begin(), results.end(), [](const study::Result& result) {
+            return std::string(result.problem->name) == "sway";
+        });
+        if (sway == results.end()) throw SceneError("--advice needs the problem sway; name it too");
+        study::write_file(options.advice, study::advice_of(*sway, provenance));
+    }
+    study::write_file(options.out + "/README.md",
+                      study::summary_of(results, figures, provenance, command_line(options)));
     std::printf("open %s/README.md\n", options.out.c_str());
 }
 
@@ -99,6 +138,8 @@ void add_study(CLI::App& app) {
     command->add_option("problem", options->names, "names of problems, or all; none: list them");
     command->add_flag("--quick", options->quick, "fewer points: all problems in about a minute");
     command->add_option("--out", options->out, "folder to write to, default study");
+    command->add_option("--advice", options->advice,
+                        "write the front of the problem sway to this file, as the table of frond_recommend");
     command->callback([options] { run_study(*options); });
 }
 

@@ -57,11 +57,12 @@ static Box make_box(const Beam& beam, int across) {
 }
 
 ModelPtr make_beam(const Beam& beam, const Setup& setup) {
+    // Solid, of the same stiffness in all directions, undamped; nothing of it is a sheet that the thickness is for.
     frond_organ_material organ = {"stem", {}};
-    must(frond_material_preset("stem", &organ.material));
-    organ.material.young = beam.young;
     organ.material.density = beam.density;
+    organ.material.young = beam.young;
     organ.material.poisson = beam.poisson;
+    organ.material.thickness = beam.width / 100;
     frond_model_def def = frond_default_model_def();
     def.scale = 1;
     def.up = {0, 1, 0};

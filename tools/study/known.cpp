@@ -91,13 +91,30 @@ double frequency(int mode, double EI, double mass_per_length, double length, dou
     return b * b / (2 * M_PI * length * length) * std::sqrt(EI / mass_per_length);
 }
 
-double mode_shape(int mode, double s) {
-    const double b = wave_number(mode);
+double mode_shape(int mode, double s, double end_mass) {
+    const double b = wave_number(mode, end_mass);
     const double share = (std::cos(b) + std::cosh(b)) / (std::sin(b) + std::sinh(b));
     const auto shape = [=](double x) {
         return std::cosh(x) - std::cos(x) - share * (std::sinh(x) - std::sin(x));
     };
     return shape(b * s) / shape(b);
+}
+
+Sway::Sway(double end_mass) {
+    constexpr int SLICES = 400;
+    for (int mode = 0; mode < MODES; mode++) {
+        const double b = wave_number(mode, end_mass);
+        double mass = end_mass;
+        for (int i = 0; i < SLICES; i++) mass += std::pow(mode_shape(mode, (i + 0.5) / SLICES, end_mass), 2) / SLICES;
+        rate[mode] = b * b;
+        share[mode] = 3 / (std::pow(b, 4) * mass);
+    }
+}
+
+double Sway::at(double time) const {
+    double sum = 0;
+    for (int mode = 0; mode < MODES; mode++) sum += share[mode] * std::cos(rate[mode] * time);
+    return sum;
 }
 
 double greenhill_number(double end_weight) {

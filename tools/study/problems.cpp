@@ -34,6 +34,8 @@ const std::vector<Problem>& problems() {
          "share of the amplitude lost or gained [-]", MECHANICS | TIME_STEP | NEWTON, static_baseline, run_amplitude},
         {"free_fall", "a stem that nothing holds falls for 1 s", "g t^2 / 2", "error of the way fallen [-]",
          MECHANICS | TIME_STEP, free_baseline, run_free_fall},
+        {"sway", "a slender 1 Hz beam, bent a little by a force on its end, is let go and sways for two periods",
+         "the sum of its modes", "rms error of the tip / peak [-]", EVERYTHING, static_baseline, run_sway},
         {"swing", "a level beam let go under its own weight swings for 2 s", "its own path with steps refined until it stays",
          "rms error of the tip / peak [-]", MECHANICS | TIME_STEP | NEWTON | LINEAR, static_baseline, run_swing},
         {"peers_swing", "the same beam in the 1170 tets that other programs were tried on",

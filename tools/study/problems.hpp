@@ -24,6 +24,9 @@ Outcome run_free_fall(const Setup& setup, Session& session);
 Outcome run_frequencies(const Setup& setup, Session& session);
 Outcome run_damping(const Setup& setup, Session& session);
 Outcome run_amplitude(const Setup& setup, Session& session);
+// Two periods after a light push on the end of a beam, against the sum of its modes.
+Outcome sway_of(const Beam& beam, const Setup& setup, Session& session);
+Outcome run_sway(const Setup& setup, Session& session);
 Outcome run_swing(const Setup& setup, Session& session);
 Outcome run_peers_swing(const Setup& setup, Session& session);
 Outcome run_release(const Setup& setup, Session& session);

@@ -11,7 +11,7 @@ namespace frond::study {
 namespace {
 
 constexpr Beam SWAYING = {0.02, 3.2e7, 1000, 0.3, {}};  // about 0.5 Hz
-constexpr Beam LIMBER = {0.02, 1e8, 1000, 0.3, {}};     // about 0.9 Hz
+constexpr Beam LIMBER = {0.02, 1.28e8, 1000, 0.3, {}};  // about 1 Hz
 const LoadFunction NO_LOAD = [](Trial&, double) {};
 
 // ---- modes -------------------------------------------------------------------------------------------------------
@@ -55,7 +55,7 @@ private:
 };
 
 // What a mode did after it was let go: its share in x and all energy at every step, the first at time zero.
-struct Sway {
+struct Record {
     std::vector<double> share, energy;
     double dt;
     // Times at which it passes through zero.
@@ -89,15 +89,13 @@ struct Sway {
 };
 
 // Bends the beam into a mode by the load that does so, lets it go and follows it.
-Sway sway(Trial& trial, const Beam& beam, int mode, double duration) {
+Record sway(Trial& trial, const Beam& beam, int mode, double duration) {
     const double b = wave_number(mode), EI = beam.young * inertia_of(beam, trial.setup.body);
     const double height = 0.03 / (b * b) * Beam::LENGTH;
-    trial.set_state(settle(trial.model, trial.setup, 1, [=](Trial& t, double) {
-        t.push_along(Beam::LENGTH,
-                     [=](double y) { return height * EI * std::pow(b, 4) * mode_shape(mode, y / Beam::LENGTH); });
-    }));
+    const auto bend = [=](double y) { return height * EI * std::pow(b, 4) * mode_shape(mode, y / Beam::LENGTH); };
+    trial.start_from(*settle(trial.model, trial.setup, 1, [&](Trial& t, double) { t.push_along(Beam::LENGTH, bend); }));
     const Modes modes(trial);
-    Sway record = {{}, {}, trial.setup.dt};
+    Record record = {{}, {}, trial.setup.dt};
     const auto look = [&] {
         frond_energy energy;
         must(frond_plant_get_energy(trial.plant, &energy));
@@ -170,7 +168,7 @@ Outcome run_damping(const Setup& given, Session& session) {
     for (int mode = 0; mode < mode_count(session); mode++) {
         const double omega = 2 * M_PI * frequency_of(SWAYING, setup, *model, mode);
         const double known = setup.plant.mass_damping / (2 * omega) + setup.plant.stiffness_damping * omega / 2;
-        const Sway record = sway(trial, SWAYING, mode, 3 * 2 * M_PI / omega);
+        const Record record = sway(trial, SWAYING, mode, 3 * 2 * M_PI / omega);
         const double measured = record.decay() / (2 * M_PI * record.frequency());
         values.push_back({"damping ratio " + std::to_string(mode + 1), measured, known});
         error = std::max(error, std::abs(measured - known));
@@ -189,6 +187,28 @@ Outcome run_amplitude(const Setup& setup, Session& session) {
     const double kept = sway(trial, beam, 0, DURATION).kept();
     return outcome_of(trial, std::abs(1 - kept), {{"amplitude kept after 5 s", kept, 1}},
                       time_steps(trial, session.effort, NO_LOAD));
+}
+
+Outcome sway_of(const Beam& beam, const Setup& setup, Session& session) {
+    const ModelPtr model = make_beam(beam, setup);
+    const double EI = beam.young * inertia_of(beam, setup.body), w = 0.01 * Beam::LENGTH;
+    const double rate = std::sqrt(EI / (beam.density * area_of(beam, setup.body)));
+    const Sway known(cap_mass(beam, setup.body, *model));
+    Trial trial(model, setup);
+    trial.start_from(*settle(model, setup, 1, [=](Trial& t, double) { t.push_end({3 * EI * w, 0, 0}, {0, 0, 0}); }));
+    const int steps = int(std::lround(2 / frequency_of(beam, setup, *model, 0) / setup.dt));
+    double square = 0;
+    for (int i = 1; i <= steps; i++) {
+        trial.step(setup.dt);
+        square += std::pow(trial.middle(Beam::LENGTH).x / w - known.at(rate * i * setup.dt), 2);
+    }
+    const double known_frequency = frequency_of(beam, setup, *model, 0), error = std::sqrt(square / steps);
+    return outcome_of(trial, error, {{"first frequency [Hz]", NAN, known_frequency}},
+                      time_steps(trial, session.effort, NO_LOAD));
+}
+
+Outcome run_sway(const Setup& setup, Session& session) {
+    return sway_of(LIMBER, setup, session);
 }
 
 static constexpr double SWING = 2;  // [s]
@@ -210,7 +230,8 @@ Outcome run_release(const Setup& setup, Session& session) {
     const Start start = [&](Trial& trial) {
         Setup exact = setup;
         exact.plant.linear_solver = FROND_DIRECT;
-        trial.set_state(settle(model, exact, 5, [=](Trial& t, double s) { t.push_end({P * s, 0, 0}, {0, 0, 0}); }));
+        trial.start_from(
+            *settle(model, exact, 5, [=](Trial& t, double s) { t.push_end({P * s, 0, 0}, {0, 0, 0}); }));
     };
     return compare_path(model, setup, start, END, SWING, session);
 }

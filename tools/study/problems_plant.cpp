@@ -54,6 +54,11 @@ Shape shape_of(Trial& trial) {
     return Shape(view.positions, view.positions + 3 * view.vertex_count);
 }
 
+Shape drawn_shape(const ModelPtr& model, const Setup& setup) {
+    Trial trial(model, setup);
+    return shape_of(trial);
+}
+
 // Root mean square distance of all vertices [m].
 double shape_distance(const Shape& a, const Shape& b) {
     double square = 0;
@@ -123,19 +128,15 @@ Outcome stand(const PlantCase& plant, const Setup& setup, Session& session) {
     const Shape& reference = converged_rest(
         setup,
         [&](const Setup& fine) {
-            Trial trial(plant_model(plant, fine, FROND_REST_WITHOUT_GRAVITY, session), fine);
-            trial.set_state(settled(fine));
-            return shape_of(trial);
+            return shape_of(*settled(fine));
         },
         distance, session);
-    Trial trial(plant_model(plant, setup, FROND_REST_WITHOUT_GRAVITY, session), setup);
-    const Shape drawn = shape_of(trial);
-    trial.set_state(settled(setup));
-    WEIGHT(trial, 1);
-    const Shape shape = shape_of(trial);
-    return outcome_of(trial, distance(shape, reference),
+    const Shape drawn = drawn_shape(plant_model(plant, setup, FROND_REST_WITHOUT_GRAVITY, session), setup);
+    const std::unique_ptr<Trial> rests = settled(setup);
+    const Shape shape = shape_of(*rests);
+    return outcome_of(*rests, distance(shape, reference),
                       {{"rms droop/height", distance(shape, drawn), distance(reference, drawn)}},
-                      time_steps(trial, session.effort, WEIGHT));
+                      time_from(*rests, setup, session.effort, WEIGHT));
 }
 
 Outcome drift(const PlantCase& plant, const Setup& setup, Session& session) {
@@ -211,13 +212,11 @@ Outcome drag(const PlantCase& plant, const Setup& setup, Session& session) {
         },
         [](const std::vector<double>& a, const std::vector<double>& b) { return std::abs(a[0] / b[0] - 1); }, session);
     double force = 0;
-    const Trial::State state = settled(setup, force);
-    const ModelPtr model = plant_model(plant, setup, FROND_REST_STANDS_AS_MODELLED, session);
-    Trial trial(model, setup);
-    trial.set_state(state);
-    Pulled pulled(place, PULL * height_of(*model));
-    const double cpu = time_steps(trial, session.effort, [&](Trial& t, double share) { pulled(t, share); });
-    return outcome_of(trial, std::abs(force / reference[0] - 1), {{"force of the hand [N]", force, reference[0]}}, cpu);
+    const std::unique_ptr<Trial> rests = settled(setup, force);
+    Pulled pulled(place, PULL * height_of(*rests->model));
+    const double cpu =
+        time_from(*rests, setup, session.effort, [&](Trial& trial, double share) { pulled(trial, share); });
+    return outcome_of(*rests, std::abs(force / reference[0] - 1), {{"force of the hand [N]", force, reference[0]}}, cpu);
 }
 
 Outcome release(const PlantCase& plant, const Setup& setup, Session& session) {
@@ -230,17 +229,14 @@ Outcome release(const PlantCase& plant, const Setup& setup, Session& session) {
     std::vector<double>& start = session.references[std::string("start ") + frond_mechanics_name(setup.plant.mechanics)];
     if (start.empty()) {
         Pulled pulled(place, PULL * height_of(*model));
-        start = settle(model, exact, 8, [&](Trial& t, double share) { pulled(t, share); }).x;
+        start = settle(model, exact, 8, [&](Trial& t, double share) { pulled(t, share); })->state().x;
     }
     const Start begin = [&](Trial& trial) {
         trial.set_state({start, std::vector<double>(start.size(), 0.0)});
         WEIGHT(trial, 1);
     };
     // The vertex that is highest as drawn.
-    const Shape drawn = [&] {
-        Trial trial(model, setup);
-        return shape_of(trial);
-    }();
+    const Shape drawn = drawn_shape(model, setup);
     size_t highest = 0;
     for (size_t i = 0; i < drawn.size(); i += 3)
         if (drawn[i + 1] > drawn[highest + 1]) highest = i;

@@ -57,8 +57,11 @@ std::string markdown_of(const Result& result) {
     out << "Points of the diagram; bold ones are on the Pareto front:\n\n| series: setting" << HEAD;
     for (const Point& point : result.points)
         add_row(out, point.series + ": " +
-                         (problem.axes & TIME_STEP ? time_step_text(point.setup.dt) + ", " : std::string()) +
+                         (problem.axes & (TIME_STEP | EVERYTHING) ? time_step_text(point.setup.dt) + ", " : std::string()) +
                          resolution_text(point.setup) +
+                         (problem.axes & EVERYTHING
+                              ? ", " + std::string(frond_integrator_name(point.setup.plant.integrator))
+                              : std::string()) +
                          (problem.axes & LINEAR && point.setup.plant.linear_solver != baseline.plant.linear_solver
                               ? ", tolerance " + figure(point.setup.plant.tolerance)
                               : std::string()) +
@@ -69,14 +72,16 @@ std::string markdown_of(const Result& result) {
     return out.str();
 }
 
-std::string summary_of(const std::vector<Result>& results, const Provenance& provenance, const std::string& command) {
+std::string summary_of(const std::vector<Result>& results, const std::vector<Figure>& figures,
+                       const Provenance& provenance, const std::string& command) {
     std::ostringstream out;
     out << "# What accuracy costs in time\n\nMade by `" << command << "` on " << provenance.processor << ", "
         << provenance.compiler << ", frond " << provenance.version << " "
         << (provenance.commit.empty() ? "" : "(" + provenance.commit + ")")
-        << ". One core. CPU time is that of whole world steps without the render mesh, least of several repeats.\n\n"
-        << "| problem | what it measures | baseline error | best error | by | its CPU ms a simulated second |\n"
-        << "|---|---|---|---|---|---|\n";
+        << ". One core. CPU time is that of whole world steps without the render mesh, least of several repeats.\n\n";
+    if (!results.empty())
+        out << "| problem | what it measures | baseline error | best error | by | its CPU ms a simulated second |\n"
+            << "|---|---|---|---|---|---|\n";
     for (const Result& result : results) {
         const Point* best = nullptr;
         for (const Point& point : result.points)
@@ -96,6 +101,7 @@ std::string summary_of(const std::vector<Result>& results, const Provenance& pro
         out << "\n<a name=\"" << result.problem->name << "\"></a>\n\n"
             << "![" << result.problem->name << "](" << result.problem->name << ".svg)\n\n"
             << markdown_of(result);
+    for (const Figure& figure : figures) out << "\n" << markdown_of(figure);
     return out.str();
 }
 

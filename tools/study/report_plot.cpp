@@ -16,6 +16,16 @@ std::string gnuplot_text(const std::string& text) {
     return quoted + "\"";
 }
 
+std::string drawn_twice(const std::string& plot, const std::string& picture_base) {
+    std::string out;
+    for (const auto& [terminal, extension] :
+         {std::make_pair("svg size 900,520 dynamic background rgb 'white' font 'Helvetica,13'", ".svg"),
+          std::make_pair("pngcairo size 1350,780 background rgb 'white' font 'Helvetica,13' fontscale 1.2", ".png")})
+        out += std::string("set terminal ") + terminal + "\nset output " + gnuplot_text(picture_base + extension) + "\n" +
+               plot + "\n";
+    return out + "set output\n";
+}
+
 namespace {
 
 // Errors below this are drawn there: nobody can tell them from zero in single precision.
@@ -43,6 +53,23 @@ std::vector<std::vector<const Point*>> series_of(const Result& result) {
     return list;
 }
 
+// Powers of ten, and where there are few of them 2 and 5 as well, all with their numbers.
+std::string ticks(const char* axis, double low, double high) {
+    constexpr double FEW = 1.7;  // decades
+    std::string out = std::string("set format ") + axis;
+    if (std::log10(high / low) > FEW) return out + " '10^{%T}'\n";
+    out += std::string(" '%g'\nset ") + axis + "tics (";
+    bool first = true;
+    for (int decade = int(std::floor(std::log10(low))); decade <= int(std::ceil(std::log10(high))); decade++)
+        for (int digit : {1, 2, 5}) {
+            char text[32];
+            std::snprintf(text, sizeof text, "%s%.3g", first ? "" : ", ", digit * std::pow(10, decade));
+            out += text;
+            first = false;
+        }
+    return out + ")\n";
+}
+
 // Okabe and Ito's colours, which the colour-blind can tell apart; the next round of them gets other marks and dashes.
 const char* const COLOURS[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
 const int MARKS[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10};
@@ -53,7 +80,7 @@ std::string gnuplot_of(const Result& result, const std::string& picture_base) {
     const std::vector<std::vector<const Point*>> series = series_of(result);
     std::ostringstream out;
     out.precision(8);
-    out << "set encoding utf8\nset logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\n"
+    out << "set encoding utf8\nset logscale xy\n"
         << "set xlabel \"CPU time per simulated second [ms]\"\nset ylabel " << gnuplot_text(result.problem->error)
         << "\nset title " << gnuplot_text(std::string(result.problem->name) + ": " + result.problem->measures)
         << " noenhanced\nset grid xtics ytics lc rgb '#dddddd' lw 0.5\nset tics nomirror\nset border 3\n"
@@ -80,6 +107,8 @@ std::string gnuplot_of(const Result& result, const std::string& picture_base) {
                 high[k] = std::max(high[k], at[k]);
             }
         }
+    for (int k = 0; k < 2 && !series.empty(); k++)
+        out << ticks(k ? "y" : "x", low[k] / MARGIN, high[k] * MARGIN);
     if (!series.empty())
         out << "set xrange [" << low[0] / MARGIN << ':' << high[0] * MARGIN << "]\nset yrange [" << low[1] / MARGIN << ':'
             << high[1] * MARGIN << "]\n";
@@ -89,15 +118,10 @@ std::string gnuplot_of(const Result& result, const std::string& picture_base) {
     std::ostringstream plot;
     plot << "plot $front using 1:2 with steps lw 7 lc rgb '#dddddd' title 'Pareto front'";
     for (size_t i = 0; i < series.size(); i++)
-        plot << ", $s" << i << " using 1:2 with linespoints lw 1.5 dt " << 1 + i / 7 << " pt " << MARKS[i % 10]
+        plot << ", $s" << i << " using 1:2 with " << (series[i].front()->scattered ? "points" : "linespoints") << " lw 1.5 dt " << 1 + i / 7 << " pt " << MARKS[i % 10]
              << " lc rgb '" << COLOURS[i % 7] << "' title " << gnuplot_text(series[i].front()->series);
     if (series.empty()) plot.str("set label 'nothing could be measured' at graph 0.5, 0.5 center; plot [1:10][1:10] NaN notitle");
-    for (const auto& [terminal, extension] :
-         {std::make_pair("svg size 900,520 dynamic background rgb 'white' font 'Helvetica,13'", ".svg"),
-          std::make_pair("pngcairo size 1350,780 background rgb 'white' font 'Helvetica,13' fontscale 1.2", ".png")})
-        out << "set terminal " << terminal << "\nset output " << gnuplot_text(picture_base + extension) << "\n"
-            << plot.str() << "\n";
-    out << "set output\n";
+    out << drawn_twice(plot.str(), picture_base);
     return out.str();
 }
 

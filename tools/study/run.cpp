@@ -1,7 +1,7 @@
 // Runs a problem over its sweeps and its changes; equal setups are run once.
 #include <cstdio>
 
-#include "study/study.hpp"
+#include "study/figures.hpp"
 
 namespace frond::study {
 namespace {
@@ -22,7 +22,7 @@ public:
 private:
     Point measure(const Setup& setup) {
         constexpr double LOST = 1e3;  // an error that says nothing more
-        Point point = {"", setup, {}, "", false};
+        Point point = {"", setup, {}, "", false, false};
         try {
             point.outcome = problem.run(setup, session);
             if (point.outcome.trouble & FROND_TROUBLE_REWOUND)
@@ -74,6 +74,7 @@ Result run_problem(const Problem& problem, Effort effort, Watcher* watcher) {
     for (const Sweep& sweep : sweeps)
         for (const Setup& setup : sweep.setups) {
             result.points.push_back(runner.run(sweep.name, setup));
+            result.points.back().scattered = sweep.scattered;
             tell();
         }
     for (const Setup& setup : changes) {
@@ -94,6 +95,7 @@ const Problem& find_problem(const std::string& name) {
         if (name == problem.name) return problem;
         names += (names.empty() ? "" : ", ") + std::string(problem.name);
     }
+    for (const FigureRow& figure : figures()) names += ", " + std::string(figure.name);
     throw SceneError("there is no problem \"" + name + "\"; there are all, " + names);
 }
 

@@ -30,7 +30,7 @@ std::string resolution_text(const Setup& setup) {
 }
 
 static const char* body_name(Body body) {
-    return body == Body::MESH ? "structured tets" : body == Body::STEM ? "stem" : "plant";
+    return body == Body::MESH ? "own mesh" : body == Body::STEM ? "stem" : "plant";
 }
 
 std::string difference(const Setup& setup, const Setup& baseline) {

@@ -92,7 +92,8 @@ enum Axis : unsigned {
     RESOLUTION = 2,  // with element order and body
     TIME_STEP = 4,   // with integrator
     NEWTON = 8,
-    LINEAR = 16
+    LINEAR = 16,
+    EVERYTHING = 32  // mechanics, resolution, integrator and time step, each with each
 };
 
 struct Problem {
@@ -112,6 +113,7 @@ const Problem& find_problem(const std::string& name);
 struct Sweep {
     std::string name;
     std::vector<Setup> setups;
+    bool scattered = false;  // many settings at once: points without a line
 };
 std::vector<Sweep> sweeps_of(const Problem& problem, Effort effort);
 // The baseline, then one setting changed at a time.
@@ -124,6 +126,7 @@ struct Point {
     Outcome outcome;
     std::string failure;  // empty: it ran
     bool on_front = false;
+    bool scattered = false;
 };
 
 struct Result {

@@ -55,7 +55,7 @@ void sweep_resolution(const Problem& problem, Effort effort, std::vector<Sweep>&
                 Sweep sweep;
                 sweep.name = frond_mechanics_name(mechanics);
                 if (!moves_chain(mechanics)) sweep.name += order == 2 ? " T10" : " T4";
-                if (body == Body::MESH) sweep.name += ", structured";
+                if (body == Body::MESH) sweep.name += ", own mesh";
                 for (int resolution : resolutions(body, order, effort, problem.axes & TIME_STEP)) {
                     setup.resolution = resolution;
                     sweep.setups.push_back(setup);
@@ -68,7 +68,7 @@ void sweep_resolution(const Problem& problem, Effort effort, std::vector<Sweep>&
 void sweep_time_step(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
     const Setup base = problem.baseline();
     const auto over_steps = [&](const std::string& name, Setup setup) {
-        Sweep sweep = {name, {}};
+        Sweep sweep = {name, {}, false};
         for (double dt : time_steps(effort)) {
             setup.dt = dt;
             sweep.setups.push_back(setup);
@@ -91,9 +91,29 @@ void sweep_time_step(const Problem& problem, Effort effort, std::vector<Sweep>& 
     }
 }
 
+// One a mechanics.
+void sweep_everything(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
+    const Setup base = problem.baseline();
+    for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
+        Setup setup = base;
+        setup.plant.mechanics = frond_mechanics(m);
+        Sweep sweep = {frond_mechanics_name(setup.plant.mechanics), {}, true};
+        for (int resolution : by<int>(effort, {5}, {5, 10}, {5, 10, 20, 40}))
+            for (int i = 0; i < FROND_INTEGRATOR_COUNT; i++)
+                for (double dt : by<double>(effort, {1.0 / 60}, {1.0 / 30, 1.0 / 120},
+                                            {1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480})) {
+                    setup.resolution = resolution;
+                    setup.plant.integrator = frond_integrator(i);
+                    setup.dt = dt;
+                    sweep.setups.push_back(setup);
+                }
+        sweeps.push_back(sweep);
+    }
+}
+
 void sweep_newton(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
     const Setup base = problem.baseline();
-    Sweep sweep = {std::string(frond_integrator_name(base.plant.integrator)) + ", more solves", {}};
+    Sweep sweep = {std::string(frond_integrator_name(base.plant.integrator)) + ", more solves", {}, false};
     for (int solves : by<int>(effort, {2}, {2, 4}, {1, 2, 3, 4, 8})) {
         Setup setup = base;
         setup.plant.newton_iterations = solves;
@@ -106,7 +126,7 @@ void sweep_linear(const Problem& problem, Effort effort, std::vector<Sweep>& swe
     const Setup base = problem.baseline();
     for (int s = 0; s < FROND_LINEAR_SOLVER_COUNT; s++) {
         if (s == base.plant.linear_solver) continue;
-        Sweep sweep = {frond_linear_solver_name(frond_linear_solver(s)), {}};
+        Sweep sweep = {frond_linear_solver_name(frond_linear_solver(s)), {}, false};
         for (double tolerance : tolerances(effort)) {
             Setup setup = base;
             setup.plant.linear_solver = frond_linear_solver(s);
@@ -135,13 +155,13 @@ public:
 
 void change_shape(const Problem& problem, Effort effort, Changes& changes) {
     const Setup& base = changes.base;
-    if (problem.axes & MECHANICS)
+    if (problem.axes & (MECHANICS | EVERYTHING))
         for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
             const frond_mechanics mechanics = frond_mechanics(m);
             if (base.body == Body::MESH && moves_chain(mechanics)) continue;
             changes.add([&](Setup& s) { s.plant.mechanics = mechanics; });
         }
-    if (!(problem.axes & RESOLUTION)) return;
+    if (!(problem.axes & (RESOLUTION | EVERYTHING))) return;
     const bool chain = moves_chain(base.plant.mechanics);
     if (!chain) changes.add([&](Setup& s) { set_order(s.plant, 3 - order_of(base.plant)); });
     for (int resolution : resolutions(base.body, order_of(base.plant), effort, problem.axes & TIME_STEP))
@@ -161,6 +181,7 @@ std::vector<Sweep> sweeps_of(const Problem& problem, Effort effort) {
     if (problem.axes & RESOLUTION) sweep_resolution(problem, effort, sweeps);
     if (problem.axes & TIME_STEP) sweep_time_step(problem, effort, sweeps);
     if (problem.axes & NEWTON) sweep_newton(problem, effort, sweeps);
+    if (problem.axes & EVERYTHING) sweep_everything(problem, effort, sweeps);
     if (problem.axes & LINEAR) sweep_linear(problem, effort, sweeps);
     return sweeps;
 }
@@ -169,7 +190,7 @@ std::vector<Setup> changes_of(const Problem& problem, Effort effort) {
     Changes changes(problem.baseline());
     if (effort == Effort::TINY) return changes.list;
     change_shape(problem, effort, changes);
-    if (problem.axes & TIME_STEP) {
+    if (problem.axes & (TIME_STEP | EVERYTHING)) {
         for (double dt : time_steps(effort)) changes.add([&](Setup& s) { s.dt = dt; });
         for (int i = 0; i < FROND_INTEGRATOR_COUNT; i++)
             changes.add([&](Setup& s) { s.plant.integrator = frond_integrator(i); });

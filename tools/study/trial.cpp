@@ -197,33 +197,36 @@ void Trial::set_state(const State& state) {
     must(frond_plant_set_state(plant, state.x.data(), state.v.data(), int(state.x.size() / 3)));
 }
 
+void Trial::start_from(const Trial& rests) {
+    State start = rests.state();
+    std::fill(start.v.begin(), start.v.end(), 0.0);
+    set_state(start);
+}
+
 static double farthest(const std::vector<double>& a, const std::vector<double>& b) {
     double most = 0;
     for (size_t i = 0; i < a.size(); i++) most = std::max(most, std::abs(a[i] - b[i]));
     return most;
 }
 
-Trial::State settle(const ModelPtr& model, const Setup& setup, int ramp, const LoadFunction& load) {
+std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ramp, const LoadFunction& load) {
     constexpr double LONG_STEP = 1, AT_REST = 1e-7;  // [s], [m] a step
-    constexpr int MOST_STEPS = 120;
+    constexpr int MOST_STEPS = 300;
     Setup patient = setup;
     patient.plant.integrator = FROND_IMPLICIT_EULER;
-    patient.plant.newton_iterations = 10;
-    patient.plant.newton_tolerance = 1e-9;
+    patient.plant.newton_iterations = 1;  // the steps themselves iterate, and loads that follow are taken anew in each
     patient.plant.mass_damping = patient.plant.stiffness_damping = 0;
-    Trial trial(model, patient);
-    Trial::State before = trial.state();
+    auto trial = std::make_unique<Trial>(model, patient);
+    std::vector<double> before = trial->state().x;
     for (int i = 1; i <= MOST_STEPS; i++) {
-        load(trial, std::min(1.0, double(i) / ramp));
-        trial.step(LONG_STEP);
-        Trial::State now = trial.state();
-        const bool rests = farthest(now.x, before.x) < AT_REST;
-        before = std::move(now);
-        if (i > ramp && rests) break;
-        if (trial.trouble & FROND_TROUBLE_REWOUND) throw SceneError("it could not be solved at rest");
+        load(*trial, std::min(1.0, double(i) / ramp));
+        trial->step(LONG_STEP);
+        if (trial->trouble & FROND_TROUBLE_REWOUND) throw SceneError("no shape at rest was found");
+        const std::vector<double> now = trial->state().x;
+        if (i > ramp && farthest(now, before) < AT_REST) break;
+        before = now;
     }
-    std::fill(before.v.begin(), before.v.end(), 0.0);
-    return before;
+    return trial;
 }
 
 double time_steps(Trial& trial, Effort effort, const LoadFunction& load) {
@@ -242,6 +245,13 @@ double time_steps(Trial& trial, Effort effort, const LoadFunction& load) {
     }
     trial.set_state(start);
     return least / (steps * trial.setup.dt);
+}
+
+double time_from(const Trial& rests, const Setup& setup, Effort effort, const LoadFunction& load) {
+    Trial trial(rests.model, setup);
+    trial.start_from(rests);
+    load(trial, 1);
+    return time_steps(trial, effort, load);
 }
 
 Outcome outcome_of(Trial& trial, double error, std::vector<Value> values, double cpu_per_second) {

@@ -68,6 +68,8 @@ public:
     };
     State state() const;
     void set_state(const State& state);
+    // From the shape of a plant of the same model, without motion.
+    void start_from(const Trial& rests);
 
     ModelPtr model;
     Setup setup;
@@ -87,11 +89,13 @@ private:
 // Loads for the next step, as a share of the full ones.
 using LoadFunction = std::function<void(Trial& trial, double share)>;
 
-// Long damped steps until the plant rests under the loads, which are raised in `ramp` steps; the state it came to.
-Trial::State settle(const ModelPtr& model, const Setup& setup, int ramp, const LoadFunction& load);
+// A plant that rests under the loads, which were raised in `ramp` long steps of an integrator that damps all motion.
+std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ramp, const LoadFunction& load);
 
 // CPU seconds per simulated second: from the same state again and again, the least of the repeats.
 double time_steps(Trial& trial, Effort effort, const LoadFunction& load);
+// The same for a plant with this setup in the state of one that rests.
+double time_from(const Trial& rests, const Setup& setup, Effort effort, const LoadFunction& load);
 // Fills what every outcome tells.
 Outcome outcome_of(Trial& trial, double error, std::vector<Value> values, double cpu_per_second);
 

@@ -24,7 +24,7 @@ StaticStiffness::StaticStiffness(const BlockPattern& pattern) : plan(make_direct
     factor = make_direct_factor(plan);
 }
 
-bool StaticStiffness::set(const TetElements& elements, const std::vector<uint8_t>& held, frond_mechanics which,
+bool StaticStiffness::set(const Elements& elements, const std::vector<uint8_t>& held, frond_mechanics which,
                           Tangent tangent, const VecX& x) {
     K.set_zero();
     mechanics(which).add_stiffness(elements, x, tangent, 1, K);

@@ -12,7 +12,7 @@ struct StaticStiffness {
     DirectFactorPtr factor;
     explicit StaticStiffness(const BlockPattern& pattern);
     // Fills and factorizes it at x; false if it is not positive definite, so that x is not stable.
-    bool set(const TetElements& elements, const std::vector<uint8_t>& held, frond_mechanics which, Tangent tangent,
+    bool set(const Elements& elements, const std::vector<uint8_t>& held, frond_mechanics which, Tangent tangent,
              const VecX& x);
 };
 
