@@ -1,11 +1,11 @@
 // frond bench step: time of a step by stage.
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 
 #include "commands.hpp"
 #include "studio.hpp"
+#include "study/report.hpp"
 
 namespace frond::tools {
 namespace {
@@ -27,14 +27,6 @@ struct Stages {
         for (int i = 0; i < COUNT; i++) ms[i].push_back(values[i]);
     }
 };
-
-std::string processor() {
-    std::ifstream file("/proc/cpuinfo");
-    std::string line;
-    while (std::getline(file, line))
-        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-    return "unknown processor";
-}
 
 // Warms up, then times steps of the moving plant from the same state again and again; minimum and median over all.
 void bench_step(const BenchOptions& options) {
@@ -70,7 +62,7 @@ void bench_step(const BenchOptions& options) {
                     frond_mechanics_name(play.stage.settings.plant.mechanics),
                     frond_integrator_name(play.stage.settings.plant.integrator),
                     frond_linear_solver_name(play.stage.settings.plant.linear_solver), options.rounds * STEPS,
-                    processor().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT, "stage", "min ms",
+                    study::processor_name().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT, "stage", "min ms",
                     "median ms");
     else
         std::printf("scene,nodes,tets,stage,min_ms,median_ms,processor,compiler,version,commit\n");
@@ -79,7 +71,7 @@ void bench_step(const BenchOptions& options) {
         std::sort(ms.begin(), ms.end());
         if (options.csv)
             std::printf("%s,%d,%d,%s,%.6f,%.6f,\"%s\",\"%s\",%s,%s\n", options.what.c_str(), report.node_count,
-                        report.tet_count, Stages::NAMES[i], ms.front(), ms[ms.size() / 2], processor().c_str(),
+                        report.tet_count, Stages::NAMES[i], ms.front(), ms[ms.size() / 2], study::processor_name().c_str(),
                         FROND_COMPILER, frond_version_string(), FROND_COMMIT);
         else
             std::printf("%-10s %10.4f %10.4f\n", Stages::NAMES[i], ms.front(), ms[ms.size() / 2]);

@@ -9,5 +9,6 @@ void add_inspect(CLI::App& app);
 void add_run(CLI::App& app);
 void add_grow(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_study(CLI::App& app);
 
 }  // namespace frond::tools

@@ -1,4 +1,4 @@
-// frond: inspect plant files, run scenes, grow plants, measure.
+// frond: inspect plant files, run scenes, grow plants, measure, study.
 #include <cstdio>
 
 #include "commands.hpp"
@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
     frond::tools::add_run(app);
     frond::tools::add_grow(app);
     frond::tools::add_bench(app);
+    frond::tools::add_study(app);
     try {
         app.parse(argc, argv);
         return 0;

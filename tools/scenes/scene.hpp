@@ -85,6 +85,9 @@ struct Play {
 };
 Settings settings_of(const Casting& casting, const std::vector<std::string>& assignments);
 
+// A point of the main axis at a share of the plant's height [m].
+frond_vec3 point_on_axis(frond_model model, double share);
+
 // A file of the models that come with Frond, "corn/corn.obj": from FROND_MODELS, the source tree or the installation.
 std::string model_path(const std::string& name);
 

@@ -30,30 +30,6 @@ void rest(Stage&) {}
 
 // ---- the user's drag ---------------------------------------------------------------------------------------------
 
-// A point of the main axis at a share of the height: of the chain's nodes near it, the one that carries most others.
-frond_vec3 point_on_axis(frond_model model, double share) {
-    frond_chain_view chain;
-    frond_model_info info;
-    must(frond_model_get_chain(model, &chain));
-    must(frond_model_get_info(model, &info));
-    std::vector<int> carried(size_t(chain.node_count), 1);
-    for (int i = chain.node_count - 1; i > 0; i--)
-        if (chain.parents[i] >= 0) carried[size_t(chain.parents[i])] += carried[size_t(i)];
-    const double height = info.lower.y + share * (info.upper.y - info.lower.y);
-    const double reach = 0.1 * (info.upper.y - info.lower.y);
-    int best = 0;
-    double best_score = -1e30;
-    for (int i = 0; i < chain.node_count; i++) {
-        const double miss = std::abs(chain.nodes[3 * i + 1] - height);
-        const double score = miss < reach ? carried[size_t(i)] : -miss;
-        if (score > best_score) {
-            best_score = score;
-            best = i;
-        }
-    }
-    return {chain.nodes[3 * best], chain.nodes[3 * best + 1], chain.nodes[3 * best + 2]};
-}
-
 // The plant's height; for one that creeps half its width [m].
 double reach_of(const Stage& stage) {
     const frond_vec3 &a = stage.lower, &b = stage.upper;
@@ -110,6 +86,30 @@ void drag(Stage& stage) {
 }
 
 }  // namespace
+
+// Of the chain's nodes near that height, the one that carries most others.
+frond_vec3 point_on_axis(frond_model model, double share) {
+    frond_chain_view chain;
+    frond_model_info info;
+    must(frond_model_get_chain(model, &chain));
+    must(frond_model_get_info(model, &info));
+    std::vector<int> carried(size_t(chain.node_count), 1);
+    for (int i = chain.node_count - 1; i > 0; i--)
+        if (chain.parents[i] >= 0) carried[size_t(chain.parents[i])] += carried[size_t(i)];
+    const double height = info.lower.y + share * (info.upper.y - info.lower.y);
+    const double reach = 0.1 * (info.upper.y - info.lower.y);
+    int best = 0;
+    double best_score = -1e30;
+    for (int i = 0; i < chain.node_count; i++) {
+        const double miss = std::abs(chain.nodes[3 * i + 1] - height);
+        const double score = miss < reach ? carried[size_t(i)] : -miss;
+        if (score > best_score) {
+            best_score = score;
+            best = i;
+        }
+    }
+    return {chain.nodes[3 * best], chain.nodes[3 * best + 1], chain.nodes[3 * best + 2]};
+}
 
 const std::vector<Scene>& scenes() {
     static const std::vector<Scene> table = {

@@ -449,6 +449,24 @@ FROND_API frond_result frond_grab_get(frond_grab grab, frond_vec3* point, frond_
 FROND_API void frond_grab_destroy(frond_grab grab);
 FROND_API bool frond_grab_is_valid(frond_grab grab);
 
+/* ---- advice: which settings for which accuracy -------------------------------------------------------------- */
+
+typedef struct frond_advice {
+    frond_plant_def plant; /* the default one with mechanics and integrator set */
+    double cage_size;      /* for a frond_model_def [m]; 0: the cage does not matter */
+    double capsule_height; /* for a frond_model_def [m]; 0: the chain does not matter */
+    double time_step;      /* at most; for frond_world_step or frond_world_def.max_substep [s] */
+    double error;          /* to expect of the tip, rms over two periods of a sway, over its peak [-] */
+    double cpu;            /* to expect: CPU seconds a simulated second, on the processor of the table */
+} frond_advice;
+
+/* Settings for a model from a table of measured ones (plugin/src/api/recommend_front.inc, made by `frond study sway
+ * --advice`), brought to its length, its first sway and its number of capsules or tets. Either error or cpu is above
+ * zero: with `error`, 0..1, the cheapest settings that are as accurate; with `cpu` the most accurate that cost no more.
+ * Build the model anew with the sizes that come back. UNSUPPORTED, with a text that names what there is, if no settings
+ * do. */
+FROND_API frond_result frond_recommend(frond_model model, double error, double cpu, frond_advice* out);
+
 #ifdef __cplusplus
 }
 #endif

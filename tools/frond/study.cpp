@@ -1,0 +1,146 @@
+// frond study: what accuracy costs in time.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "commands.hpp"
+#include "studio.hpp"
+#include "study/figures.hpp"
+#include "study/report.hpp"
+
+namespace frond::tools {
+namespace {
+
+struct StudyOptions {
+    std::vector<std::string> names;
+    std::string out = "study";
+    std::string advice;  // file for the table of frond_recommend
+    bool quick = false;
+};
+
+// "swing: run 12 of 40" on a terminal.
+class Line : public study::Watcher {
+public:
+    void at(const std::string& problem, int done, int total) override {
+        if (!progress || problem != name) {
+            name = problem;
+            text = problem + ": run";
+            progress.reset();
+            progress = std::make_unique<Progress>(text.c_str(), total);
+        }
+        progress->at(done);
+    }
+    void end() { progress.reset(); }
+
+private:
+    std::string name, text;
+    std::unique_ptr<Progress> progress;
+};
+
+// What was asked for, in the order of the tables for "all".
+struct Chosen {
+    std::vector<const study::Problem*> problems;
+    std::vector<const study::FigureRow*> figures;
+};
+
+Chosen choose(const std::vector<std::string>& names) {
+    Chosen chosen;
+    for (const std::string& name : names) {
+        bool is_figure = false;
+        for (const study::FigureRow& figure : study::figures())
+            if (name == "all" || name == figure.name) {
+                chosen.figures.push_back(&figure);
+                is_figure = name != "all";
+            }
+        if (is_figure) continue;
+        if (name == "all")
+            for (const study::Problem& problem : study::problems()) chosen.problems.push_back(&problem);
+        else
+            chosen.problems.push_back(&study::find_problem(name));
+    }
+    return chosen;
+}
+
+std::string command_line(const StudyOptions& options) {
+    std::string line = "frond study";
+    for (const std::string& name : options.names) line += " " + name;
+    return line + (options.quick ? " --quick" : "");
+}
+
+void list_problems() {
+    for (const study::Problem& problem : study::problems())
+        std::printf("%-18s %s\n%-18s answer: %s\n", problem.name, problem.measures, "", problem.answer);
+    for (const study::FigureRow& figure : study::figures()) std::printf("%-18s %s\n", figure.name, figure.shows);
+}
+
+// Writes and draws what belongs to one name.
+template <class Subject>
+void write_diagram(const Subject& subject, const std::string& folder, const std::string& name) {
+    const std::string base = folder + "/" + name, script = folder + "/gnuplot/" + name + ".gp";
+    study::write_file(base + ".md", study::markdown_of(subject));
+    study::write_file(script, study::gnuplot_of(subject, base));
+    study::run_gnuplot(script);
+}
+
+void tell(const study::Result& result) {
+    const study::Point& first = result.changes.front();
+    if (first.failure.empty())
+        std::printf("%-18s baseline error %.3g, %.3g ms a simulated second\n", result.problem->name, first.outcome.error,
+                    1e3 * first.outcome.cpu_per_second);
+    else
+        std::printf("%-18s baseline failed: %s\n", result.problem->name, first.failure.c_str());
+    std::fflush(stdout);
+}
+
+void run_study(const StudyOptions& options) {
+    if (options.names.empty()) return list_problems();
+    const Chosen chosen = choose(options.names);
+    study::require_gnuplot();
+    study::prepare_folder(options.out);
+    study::prepare_folder(options.out + "/gnuplot");
+    const study::Provenance provenance = {study::processor_name(), FROND_COMPILER, FROND_COMMIT,
+                                          frond_version_string()};
+    const study::Effort effort = options.quick ? study::Effort::QUICK : study::Effort::FULL;
+    std::vector<study::Result> results;
+    std::vector<study::Figure> figures;
+    Line line;
+    for (const study::Problem* problem : chosen.problems) {
+        results.push_back(study::run_problem(*problem, effort, &line));
+        line.end();
+        study::write_file(options.out + "/" + problem->name + ".csv", study::csv_of(results.back(), provenance));
+        write_diagram(results.back(), options.out, problem->name);
+        tell(results.back());
+    }
+    for (const study::FigureRow* row : chosen.figures) {
+        figures.push_back(row->make(options.out));
+        study::write_file(options.out + "/" + row->name + ".csv", study::csv_of(figures.back()));
+        write_diagram(figures.back(), options.out, row->name);
+        std::printf("%-18s drawn\n", row->name);
+    }
+    if (!options.advice.empty()) {
+        const auto sway = std::find_if(results.begin(), results.end(), [](const study::Result& result) {
+            return std::string(result.problem->name) == "sway";
+        });
+        if (sway == results.end()) throw SceneError("--advice needs the problem sway; name it too");
+        study::write_file(options.advice, study::advice_of(*sway, provenance));
+    }
+    study::write_file(options.out + "/README.md",
+                      study::summary_of(results, figures, provenance, command_line(options)));
+    std::printf("open %s/README.md\n", options.out.c_str());
+}
+
+}  // namespace
+
+void add_study(CLI::App& app) {
+    auto options = std::make_shared<StudyOptions>();
+    CLI::App* command =
+        app.add_subcommand("study", "what accuracy costs in time: diagrams and tables over problems with known answers");
+    command->add_option("problem", options->names, "names of problems, or all; none: list them");
+    command->add_flag("--quick", options->quick, "fewer points: all problems in about a minute");
+    command->add_option("--out", options->out, "folder to write to, default study");
+    command->add_option("--advice", options->advice,
+                        "write the front of the problem sway to this file, as the table of frond_recommend");
+    command->callback([options] { run_study(*options); });
+}
+
+}  // namespace frond::tools

@@ -1,0 +1,44 @@
+// Figures: the paper's own studies, as pictures and as curves.
+//   fig6  the cucumber's natural stand under gravity for four heights h of the capsules
+//   fig7  the cucumber dragged by its user, for three radii r of the capsules at h = 20 cm
+#pragma once
+
+#include "study/study.hpp"
+
+namespace frond::study {
+
+// One of the curves beside the pictures.
+struct Curve {
+    std::string name;
+    std::vector<double> x, y;
+};
+
+struct FigurePanel {
+    std::string picture;  // file name in the folder
+    std::string caption;
+    Curve curve;
+    std::vector<double> row;  // of the figure's table
+};
+
+struct Figure {
+    const char* name;
+    const char* shows;
+    const char* x_label;
+    const char* y_label;
+    std::vector<std::string> columns;  // of the table
+    std::vector<FigurePanel> panels;
+};
+
+struct FigureRow {
+    const char* name;
+    const char* shows;
+    // Draws its pictures into the folder.
+    Figure (*make)(const std::string& folder);
+};
+const std::vector<FigureRow>& figures();
+
+std::string csv_of(const Figure& figure);
+std::string markdown_of(const Figure& figure);
+std::string gnuplot_of(const Figure& figure, const std::string& picture_base);
+
+}  // namespace frond::study

@@ -1,0 +1,131 @@
+#include "study/known.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace frond::study {
+namespace {
+
+constexpr int STEPS = 2000;  // of the Runge-Kutta method over the beam's length
+
+// The zero of f between low and high, where its sign changes.
+double bisect(double low, double high, const std::function<double(double)>& f) {
+    const bool rises = f(low) < 0;
+    for (int i = 0; i < 200 && high - low > 1e-15 * (std::abs(low) + std::abs(high)); i++) {
+        const double middle = 0.5 * (low + high);
+        ((f(middle) < 0) == rises ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+// Angle of the tangent, its rate, and the place that it has led to.
+struct Tangent {
+    double angle, rate, along, down;
+};
+Tangent operator+(const Tangent& a, const Tangent& b) {
+    return {a.angle + b.angle, a.rate + b.rate, a.along + b.along, a.down + b.down};
+}
+Tangent operator*(double s, const Tangent& a) {
+    return {s * a.angle, s * a.rate, s * a.along, s * a.down};
+}
+
+// From the clamp to the end, angle'' = bend(s, angle).
+Tangent march(double rate, const std::function<double(double, double)>& bend) {
+    const auto slope = [&](double s, const Tangent& t) {
+        return Tangent{t.rate, bend(s, t.angle), std::cos(t.angle), std::sin(t.angle)};
+    };
+    const double h = 1.0 / STEPS;
+    Tangent t = {0, rate, 0, 0};
+    for (int i = 0; i < STEPS; i++) {
+        const double s = i * h;
+        const Tangent k1 = slope(s, t), k2 = slope(s + h / 2, t + h / 2 * k1), k3 = slope(s + h / 2, t + h / 2 * k2),
+                      k4 = slope(s + h, t + h * k3);
+        t = t + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    }
+    return t;
+}
+
+}  // namespace
+
+Droop droop_of(double a, double k) {
+    const auto bend = [=](double s, double angle) { return -(a + k * (1 - s)) * std::cos(angle); };
+    // The moment vanishes at the end. Of the rates at the clamp that do this, all below that of the straight beam, the
+    // largest belongs to a beam that hangs; the others stand up in coils.
+    const auto end_rate = [&](double rate) { return march(rate, bend).rate; };
+    const double most = std::min(a + k / 2, std::sqrt(2 * (a + k))) + 1e-9;
+    constexpr int SLICES = 64;
+    int slice = SLICES;
+    while (slice > 1 && end_rate(most * (slice - 1) / SLICES) > 0) slice--;
+    const double rate = bisect(most * (slice - 1) / SLICES, most * slice / SLICES, end_rate);
+    const Tangent end = march(rate, bend);
+    return {end.down, end.along, end.angle};
+}
+
+double small_droop(double a, double k) {
+    return a / 3 + k / 8;
+}
+
+Droop arc_of(double m) {
+    if (std::abs(m) < 1e-12) return {m / 2, 1, m};
+    return {(1 - std::cos(m)) / m, std::sin(m) / m, m};
+}
+
+double torsion_of_square() {
+    double sum = 0;
+    for (int n = 1; n < 200; n += 2) sum += std::tanh(n * M_PI / 2) / std::pow(n, 5);
+    return 1.0 / 3 - 64 / std::pow(M_PI, 5) * sum;
+}
+
+double wave_number(int mode, double end_mass) {
+    // Divided by cosh, so that high modes stay finite.
+    const auto f = [=](double x) {
+        const double c = std::cos(x), s = std::sin(x), t = std::tanh(x);
+        return 1 / std::cosh(x) + c + end_mass * x * (c * t - s);
+    };
+    return bisect(mode * M_PI + 1e-6, (mode + 1) * M_PI, f);
+}
+
+double frequency(int mode, double EI, double mass_per_length, double length, double end_mass) {
+    const double b = wave_number(mode, end_mass);
+    return b * b / (2 * M_PI * length * length) * std::sqrt(EI / mass_per_length);
+}
+
+double mode_shape(int mode, double s, double end_mass) {
+    const double b = wave_number(mode, end_mass);
+    const double share = (std::cos(b) + std::cosh(b)) / (std::sin(b) + std::sinh(b));
+    const auto shape = [=](double x) {
+        return std::cosh(x) - std::cos(x) - share * (std::sinh(x) - std::sin(x));
+    };
+    return shape(b * s) / shape(b);
+}
+
+Sway::Sway(double end_mass) {
+    constexpr int SLICES = 400;
+    for (int mode = 0; mode < MODES; mode++) {
+        const double b = wave_number(mode, end_mass);
+        double mass = end_mass;
+        for (int i = 0; i < SLICES; i++) mass += std::pow(mode_shape(mode, (i + 0.5) / SLICES, end_mass), 2) / SLICES;
+        rate[mode] = b * b;
+        share[mode] = 3 / (std::pow(b, 4) * mass);
+    }
+}
+
+double Sway::at(double time) const {
+    double sum = 0;
+    for (int mode = 0; mode < MODES; mode++) sum += share[mode] * std::cos(rate[mode] * time);
+    return sum;
+}
+
+double greenhill_number(double end_weight) {
+    // The first weight for which a column that was tilted a little has no moment at its end.
+    return bisect(0.1, 8, [=](double w) {
+        return march(1, [=](double s, double angle) { return -w * (1 - s + end_weight) * angle; }).rate;
+    });
+}
+
+double implicit_euler_damping(double z) {
+    return std::log(1 + z * z) / (2 * std::atan(z));
+}
+
+}  // namespace frond::study

@@ -1,0 +1,72 @@
+// The table of problems.
+#include "study/problems.hpp"
+
+namespace frond::study {
+
+const std::vector<Problem>& problems() {
+    constexpr unsigned SHAPE = MECHANICS | RESOLUTION;
+    static const std::vector<Problem> table = {
+        {"cantilever_tip", "a slender beam under a small force on its end", "w = P L^3 / (3 E I)",
+         "error of the tip deflection [-]", SHAPE | LINEAR, static_baseline, run_cantilever_tip},
+        {"cantilever_weight", "a slender beam under its own small weight", "w = q L^4 / (8 E I)",
+         "error of the tip deflection [-]", SHAPE, static_baseline, run_cantilever_weight},
+        {"elastica_tip", "a slender beam bent far by a force on its end",
+         "elastica, solved by shooting (Bisshopp, Drucker 1945)", "distance of the tip from its place / L [-]", SHAPE,
+         static_baseline, run_elastica_tip},
+        {"elastica_weight", "a slender beam bent far by its own weight", "elastica, solved by shooting",
+         "distance of the tip from its place / L [-]", SHAPE, static_baseline, run_elastica_weight},
+        {"roll_up", "a slender beam under a moment on its end that rolls it up to a full circle",
+         "an arc of curvature M / (E I)", "distance of the tip from its place / L [-]", SHAPE, static_baseline,
+         run_roll_up},
+        {"torsion", "a slender beam under a twisting moment on its end", "phi = T L / (G J)", "error of the twist [-]",
+         SHAPE, static_baseline, run_torsion},
+        {"greenhill", "the height at which an upright column buckles under its own weight",
+         "w L^3 / (E I) = 7.837 (Greenhill 1881), from the differential equation", "error of the critical height [-]",
+         SHAPE, static_baseline, run_greenhill},
+        {"peers", "the beam that other programs were tried on, drooping under its own weight",
+         "elastica, solved by shooting", "distance of the tip from its place / L [-]", SHAPE, peers_baseline, run_peers},
+        {"frequencies", "the first three frequencies of a slender beam",
+         "f = (b L)^2 / (2 pi L^2) sqrt(E I / (rho A)), 1 + cos bL cosh bL = 0", "largest error of a frequency [-]",
+         SHAPE | TIME_STEP, motion_baseline, run_frequencies},
+        {"damping", "the damping ratios of the first three modes", "zeta = a / (2 omega) + b omega / 2 (Rayleigh)",
+         "largest error of a damping ratio [-]", MECHANICS | TIME_STEP, motion_baseline, run_damping},
+        {"amplitude", "how much a 1 Hz mode keeps of its amplitude after 5 s without damping", "all of it",
+         "share of the amplitude lost or gained [-]", MECHANICS | TIME_STEP | NEWTON, static_baseline, run_amplitude},
+        {"free_fall", "a stem that nothing holds falls for 1 s", "g t^2 / 2", "error of the way fallen [-]",
+         MECHANICS | TIME_STEP, free_baseline, run_free_fall},
+        {"sway", "a slender 1 Hz beam, bent a little by a force on its end, is let go and sways for two periods",
+         "the sum of its modes", "rms error of the tip / peak [-]", EVERYTHING, static_baseline, run_sway},
+        {"swing", "a level beam let go under its own weight swings for 2 s", "its own path with steps refined until it stays",
+         "rms error of the tip / peak [-]", MECHANICS | TIME_STEP | NEWTON | LINEAR, static_baseline, run_swing},
+        {"peers_swing", "the same beam in the 1170 tets that other programs were tried on",
+         "its own path with steps refined until it stays", "rms error of the tip / peak [-]", TIME_STEP | NEWTON,
+         peers_baseline, run_peers_swing},
+        {"release", "a slender beam bent far (P L^2 = 5 E I), let go and followed for 2 s",
+         "its own path with steps refined until it stays", "rms error of the tip / peak [-]",
+         MECHANICS | TIME_STEP | NEWTON, static_baseline, run_release},
+        {"corn_stand", "the corn's natural stand: its mesh is the shape without gravity, and it droops",
+         "its own shape with cells or capsules refined", "rms distance of the surface / height [-]", SHAPE,
+         standing_baseline, run_corn_stand},
+        {"cucumber_stand", "the cucumber's natural stand, its stem as firm as with a string",
+         "its own shape with cells or capsules refined", "rms distance of the surface / height [-]", SHAPE,
+         standing_baseline, run_cucumber_stand},
+        {"corn_drift", "how far the corn, standing as modelled, moves in 10 s (--quick: 2 s)", "it stands still",
+         "largest way of a vertex / height [-]", SHAPE, standing_baseline, run_corn_drift},
+        {"cucumber_drift", "how far the cucumber, standing as modelled, moves in 10 s (--quick: 2 s)",
+         "it stands still", "largest way of a vertex / height [-]", SHAPE, standing_baseline, run_cucumber_drift},
+        {"corn_drag", "the force that draws the corn's stem aside by a fifth of its height",
+         "the same with cells or capsules refined", "error of the force [-]", SHAPE, standing_baseline, run_corn_drag},
+        {"cucumber_drag", "the force that draws the cucumber's stem aside by a fifth of its height",
+         "the same with cells or capsules refined", "error of the force [-]", SHAPE, standing_baseline,
+         run_cucumber_drag},
+        {"corn_release", "the corn is let go after that and sways for 4 s (--quick: 1 s)",
+         "its own path with steps refined until it stays", "rms error of the tip / peak [-]",
+         MECHANICS | TIME_STEP | NEWTON | LINEAR, standing_baseline, run_corn_release},
+        {"cucumber_release", "the cucumber is let go after that and sways for 4 s (--quick: 1 s)",
+         "its own path with steps refined until it stays", "rms error of the tip / peak [-]",
+         MECHANICS | TIME_STEP | NEWTON, standing_baseline, run_cucumber_release},
+    };
+    return table;
+}
+
+}  // namespace frond::study

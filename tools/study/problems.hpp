@@ -1,0 +1,43 @@
+// The problems' runs and baselines; problems.cpp is their table.
+#pragma once
+
+#include "study/trial.hpp"
+
+namespace frond::study {
+
+Setup static_baseline();   // a stem of 10 pieces, material damping off
+Setup motion_baseline();   // the same at 1/240 s
+Setup free_baseline();     // held nowhere
+Setup peers_baseline();    // the beam of 1170 tets that other programs were tried on
+Setup standing_baseline(); // a plant from a file, as it is by default
+
+Outcome run_cantilever_tip(const Setup& setup, Session& session);
+Outcome run_cantilever_weight(const Setup& setup, Session& session);
+Outcome run_elastica_tip(const Setup& setup, Session& session);
+Outcome run_elastica_weight(const Setup& setup, Session& session);
+Outcome run_roll_up(const Setup& setup, Session& session);
+Outcome run_torsion(const Setup& setup, Session& session);
+Outcome run_greenhill(const Setup& setup, Session& session);
+Outcome run_peers(const Setup& setup, Session& session);
+
+Outcome run_free_fall(const Setup& setup, Session& session);
+Outcome run_frequencies(const Setup& setup, Session& session);
+Outcome run_damping(const Setup& setup, Session& session);
+Outcome run_amplitude(const Setup& setup, Session& session);
+// Two periods after a light push on the end of a beam, against the sum of its modes.
+Outcome sway_of(const Beam& beam, const Setup& setup, Session& session);
+Outcome run_sway(const Setup& setup, Session& session);
+Outcome run_swing(const Setup& setup, Session& session);
+Outcome run_peers_swing(const Setup& setup, Session& session);
+Outcome run_release(const Setup& setup, Session& session);
+
+Outcome run_corn_stand(const Setup& setup, Session& session);
+Outcome run_cucumber_stand(const Setup& setup, Session& session);
+Outcome run_corn_drift(const Setup& setup, Session& session);
+Outcome run_cucumber_drift(const Setup& setup, Session& session);
+Outcome run_corn_drag(const Setup& setup, Session& session);
+Outcome run_cucumber_drag(const Setup& setup, Session& session);
+Outcome run_corn_release(const Setup& setup, Session& session);
+Outcome run_cucumber_release(const Setup& setup, Session& session);
+
+}  // namespace frond::study

@@ -1,0 +1,38 @@
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+#include "study/report.hpp"
+
+namespace frond::study {
+
+// "tet_linear" -> "FROND_TET_LINEAR"
+static std::string enum_name(const std::string& name) {
+    std::string text = "FROND_";
+    for (char c : name) text += char(std::toupper(c));
+    return text;
+}
+
+std::string advice_of(const Result& result, const Provenance& provenance) {
+    std::vector<const Point*> front;
+    for (const Point& point : result.points)
+        if (point.on_front) front.push_back(&point);
+    std::sort(front.begin(), front.end(),
+              [](const Point* a, const Point* b) { return a->outcome.cpu_per_second < b->outcome.cpu_per_second; });
+    std::ostringstream out;
+    out << "// Made by `frond study sway --advice plugin/src/api/recommend_front.inc` on " << provenance.processor << ", "
+        << provenance.compiler << "; do not edit.\n// mechanics, integrator, pieces, steps a period, error [-], CPU a "
+        << "step [s], capsules or tets\n";
+    out.precision(4);
+    for (const Point* point : front) {
+        const Setup& setup = point->setup;
+        const Outcome& o = point->outcome;
+        out << '{' << enum_name(frond_mechanics_name(setup.plant.mechanics)) << ", "
+            << enum_name(frond_integrator_name(setup.plant.integrator)) << ", " << setup.resolution << ", "
+            << 1 / (setup.dt * o.values.at(0).known) << ", " << o.error << ", " << o.cpu_per_second * setup.dt << ", "
+            << (moves_chain(setup.plant.mechanics) ? o.capsule_count : o.tet_count) << "},\n";
+    }
+    return out.str();
+}
+
+}  // namespace frond::study

@@ -1,0 +1,218 @@
+// Sweeps: which setups a problem is run over. Loops over the rows of the public tables, so that none is forgotten.
+#include <algorithm>
+
+#include "study/study.hpp"
+
+namespace frond::study {
+namespace {
+
+template <class T>
+std::vector<T> by(Effort effort, std::vector<T> tiny, std::vector<T> quick, std::vector<T> full) {
+    return effort == Effort::TINY ? tiny : effort == Effort::QUICK ? quick : full;
+}
+
+std::vector<int> resolutions(Body body, int order, Effort effort, bool moving) {
+    if (body == Body::MESH && order == 2) return by<int>(effort, {1}, {1}, {1, 2});
+    if (body == Body::MESH) return moving ? by<int>(effort, {1}, {1}, {1, 2, 3}) : by<int>(effort, {1}, {1, 2}, {1, 2, 3, 4});
+    if (body == Body::STEM) return by<int>(effort, {5}, {5, 10, 20}, {5, 10, 20, 40, 80});
+    return by<int>(effort, {8}, {8, 14}, {6, 8, 12, 16, 24, 32});
+}
+
+std::vector<double> time_steps(Effort effort) {
+    return by<double>(effort, {1.0 / 60}, {1.0 / 30, 1.0 / 60, 1.0 / 240},
+                      {1.0 / 15, 1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480});
+}
+
+std::vector<double> tolerances(Effort effort) {
+    return by<double>(effort, {1e-4}, {1e-2, 1e-6}, {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8});
+}
+
+// A mesh of one's own cannot be of capsules.
+std::vector<Body> bodies(frond_mechanics mechanics, Body base) {
+    if (base == Body::PLANT) return {Body::PLANT};
+    if (moves_chain(mechanics)) return {Body::STEM};
+    return {Body::MESH, Body::STEM};
+}
+
+// Structured tets are clamped at their foot's layer, organs where Frond holds them.
+Setup with_body(Setup setup, Body body) {
+    constexpr double FOOT = 1e-4;  // [m]
+    if (setup.plant.root_height >= 0) setup.plant.root_height = body == Body::MESH ? FOOT : 0;
+    setup.body = body;
+    return setup;
+}
+
+void sweep_resolution(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
+    const Setup base = problem.baseline();
+    for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
+        const frond_mechanics mechanics = frond_mechanics(m);
+        if (!(problem.axes & MECHANICS) && mechanics != base.plant.mechanics) continue;
+        for (Body body : bodies(mechanics, base.body))
+            for (int order : {1, 2}) {
+                Setup setup = with_body(base, body);
+                setup.plant.mechanics = mechanics;
+                if (!set_order(setup.plant, order) || (order == 2 && moves_chain(mechanics))) continue;
+                Sweep sweep;
+                sweep.name = frond_mechanics_name(mechanics);
+                if (!moves_chain(mechanics)) sweep.name += order == 2 ? " T10" : " T4";
+                if (body == Body::MESH) sweep.name += ", own mesh";
+                for (int resolution : resolutions(body, order, effort, problem.axes & TIME_STEP)) {
+                    setup.resolution = resolution;
+                    sweep.setups.push_back(setup);
+                }
+                sweeps.push_back(sweep);
+            }
+    }
+}
+
+void sweep_time_step(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
+    const Setup base = problem.baseline();
+    const auto over_steps = [&](const std::string& name, Setup setup) {
+        Sweep sweep = {name, {}, false};
+        for (double dt : time_steps(effort)) {
+            setup.dt = dt;
+            sweep.setups.push_back(setup);
+        }
+        sweeps.push_back(sweep);
+    };
+    for (int i = 0; i < FROND_INTEGRATOR_COUNT; i++) {
+        Setup setup = base;
+        setup.plant.integrator = frond_integrator(i);
+        over_steps(frond_integrator_name(setup.plant.integrator), setup);
+    }
+    if (problem.axes & RESOLUTION) return;
+    for (int m = 0; m < FROND_MECHANICS_COUNT && (problem.axes & MECHANICS); m++) {
+        Setup setup = base;
+        setup.plant.mechanics = frond_mechanics(m);
+        if (setup.plant.mechanics != base.plant.mechanics)
+            over_steps(std::string(frond_mechanics_name(setup.plant.mechanics)) + ", " +
+                           frond_integrator_name(setup.plant.integrator),
+                       setup);
+    }
+}
+
+// One a mechanics.
+void sweep_everything(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
+    const Setup base = problem.baseline();
+    for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
+        Setup setup = base;
+        setup.plant.mechanics = frond_mechanics(m);
+        Sweep sweep = {frond_mechanics_name(setup.plant.mechanics), {}, true};
+        for (int resolution : by<int>(effort, {5}, {5, 10}, {5, 10, 20, 40}))
+            for (int i = 0; i < FROND_INTEGRATOR_COUNT; i++)
+                for (double dt : by<double>(effort, {1.0 / 60}, {1.0 / 30, 1.0 / 120},
+                                            {1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480})) {
+                    setup.resolution = resolution;
+                    setup.plant.integrator = frond_integrator(i);
+                    setup.dt = dt;
+                    sweep.setups.push_back(setup);
+                }
+        sweeps.push_back(sweep);
+    }
+}
+
+void sweep_newton(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
+    const Setup base = problem.baseline();
+    Sweep sweep = {std::string(frond_integrator_name(base.plant.integrator)) + ", more solves", {}, false};
+    for (int solves : by<int>(effort, {2}, {2, 4}, {1, 2, 3, 4, 8})) {
+        Setup setup = base;
+        setup.plant.newton_iterations = solves;
+        sweep.setups.push_back(setup);
+    }
+    sweeps.push_back(sweep);
+}
+
+void sweep_linear(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
+    const Setup base = problem.baseline();
+    for (int s = 0; s < FROND_LINEAR_SOLVER_COUNT; s++) {
+        if (s == base.plant.linear_solver) continue;
+        Sweep sweep = {frond_linear_solver_name(frond_linear_solver(s)), {}, false};
+        for (double tolerance : tolerances(effort)) {
+            Setup setup = base;
+            setup.plant.linear_solver = frond_linear_solver(s);
+            setup.plant.tolerance = tolerance;
+            sweep.setups.push_back(setup);
+        }
+        sweeps.push_back(sweep);
+    }
+}
+
+// Calls `change` on copies of the baseline and keeps them.
+class Changes {
+public:
+    explicit Changes(const Setup& base) : base(base), list({base}) {}
+    template <class Change>
+    void add(Change change) {
+        Setup setup = base;
+        change(setup);
+        for (const Setup& known : list)
+            if (key_of(known) == key_of(setup)) return;
+        list.push_back(setup);
+    }
+    const Setup base;
+    std::vector<Setup> list;
+};
+
+void change_shape(const Problem& problem, Effort effort, Changes& changes) {
+    const Setup& base = changes.base;
+    if (problem.axes & (MECHANICS | EVERYTHING))
+        for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
+            const frond_mechanics mechanics = frond_mechanics(m);
+            if (base.body == Body::MESH && moves_chain(mechanics)) continue;
+            changes.add([&](Setup& s) { s.plant.mechanics = mechanics; });
+        }
+    if (!(problem.axes & (RESOLUTION | EVERYTHING))) return;
+    const bool chain = moves_chain(base.plant.mechanics);
+    if (!chain) changes.add([&](Setup& s) { set_order(s.plant, 3 - order_of(base.plant)); });
+    for (int resolution : resolutions(base.body, order_of(base.plant), effort, problem.axes & TIME_STEP))
+        changes.add([&](Setup& s) { s.resolution = resolution; });
+    if (base.body == Body::STEM && !chain)
+        changes.add([&](Setup& s) {
+            s = with_body(s, Body::MESH);
+            s.resolution = 1;
+        });
+    changes.add([&](Setup& s) { s.plant.mass = frond_mass(FROND_MASS_COUNT - 1 - int(base.plant.mass)); });
+}
+
+}  // namespace
+
+std::vector<Sweep> sweeps_of(const Problem& problem, Effort effort) {
+    std::vector<Sweep> sweeps;
+    if (problem.axes & RESOLUTION) sweep_resolution(problem, effort, sweeps);
+    if (problem.axes & TIME_STEP) sweep_time_step(problem, effort, sweeps);
+    if (problem.axes & NEWTON) sweep_newton(problem, effort, sweeps);
+    if (problem.axes & EVERYTHING) sweep_everything(problem, effort, sweeps);
+    if (problem.axes & LINEAR) sweep_linear(problem, effort, sweeps);
+    return sweeps;
+}
+
+std::vector<Setup> changes_of(const Problem& problem, Effort effort) {
+    Changes changes(problem.baseline());
+    if (effort == Effort::TINY) return changes.list;
+    change_shape(problem, effort, changes);
+    if (problem.axes & (TIME_STEP | EVERYTHING)) {
+        for (double dt : time_steps(effort)) changes.add([&](Setup& s) { s.dt = dt; });
+        for (int i = 0; i < FROND_INTEGRATOR_COUNT; i++)
+            changes.add([&](Setup& s) { s.plant.integrator = frond_integrator(i); });
+    }
+    if (problem.axes & NEWTON) {
+        for (int solves : {1, 2, 4}) changes.add([&](Setup& s) { s.plant.newton_iterations = solves; });
+        for (double tolerance : {1e-1, 1e-3})
+            changes.add([&](Setup& s) {
+                s.plant.newton_iterations = 4;
+                s.plant.newton_tolerance = tolerance;
+            });
+    }
+    if (problem.axes & LINEAR)
+        for (int k = 0; k < FROND_LINEAR_SOLVER_COUNT; k++)
+            for (double tolerance : tolerances(effort)) {
+                if (k == FROND_DIRECT) continue;
+                changes.add([&](Setup& s) {
+                    s.plant.linear_solver = frond_linear_solver(k);
+                    s.plant.tolerance = tolerance;
+                });
+            }
+    return changes.list;
+}
+
+}  // namespace frond::study
