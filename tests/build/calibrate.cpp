@@ -25,11 +25,15 @@ static std::shared_ptr<const Model> upright_stem(double length, double radius, d
     def.organ_count = 1;
     def.cage_size = cell;
     def.rest = FROND_REST_WITHOUT_GRAVITY;
-    return build_from_surface(surface_from_stems(&stem, 1), def);
+    return build_from_stems(&stem, 1, def);
 }
 
-// Tip deflection under a sideways force of one newton, by the cage's own linear stiffness.
-static double tip_deflection(const Model& model, int axis) {
+// Deflection of the cage's top under a sideways force of one newton there, by the cage's own linear stiffness.
+struct Deflection {
+    double top;  // height of the force [m]
+    double move;
+};
+static Deflection tip_deflection(const Model& model, int axis) {
     const TetElements elements = make_tet_elements(model);
     StaticStiffness stiffness(elements.pattern);
     EXPECT_TRUE(stiffness.set(elements, model.root, FROND_TET_LINEAR, Tangent::positive, elements.rest_positions));
@@ -41,32 +45,41 @@ static double tip_deflection(const Model& model, int axis) {
     VecX load = VecX::Zero(elements.rest_positions.size()), u(load.size());
     for (int i : tip) load[3 * i + axis] += 1.0 / double(tip.size());
     solve(*stiffness.factor, load, u);
-    double sum = 0;
-    for (int i : tip) sum += u[3 * i + axis];
-    return sum / double(tip.size());
+    Deflection sum = {0, 0};
+    for (int i : tip) {
+        sum.top += model.cage.nodes[size_t(i)].y() / double(tip.size());
+        sum.move += u[3 * i + axis] / double(tip.size());
+    }
+    return sum;
 }
 
 TEST(Calibration, MakesAStemBendAsTheBeamFormulaSays) {
     const double length = 1, radius = 0.01, young = 1e9;
-    const double beam = std::pow(length, 3) / (3 * young * M_PI * std::pow(radius, 4) / 4);
+    const double bending = young * M_PI * std::pow(radius, 4) / 4;
+    // The cage reaches beyond the stem; what is beyond turns with its end.
+    const auto over_beam = [&](const Deflection& cage) {
+        const double d = cage.top - length;
+        return cage.move * bending / (std::pow(length, 3) / 3 + d * length * length + d * d * length);
+    };
     for (double cell : {0.03, 0.06, 0.1}) {
         const auto model = upright_stem(length, radius, young, cell);
-        for (int axis : {0, 2}) {
-            // Own weight is what is calibrated, and the lattice is not equally stiff in all directions.
-            EXPECT_NEAR(tip_deflection(*model, axis) / beam, 1, 0.25) << "cell " << cell << " axis " << axis;
-        }
+        // The lattice is not equally stiff in all directions: the mean is what one modulus can set.
+        const double x = over_beam(tip_deflection(*model, 0)), z = over_beam(tip_deflection(*model, 2));
+        EXPECT_NEAR((x + z) / 2, 1, 0.1) << "cell " << cell;
+        EXPECT_NEAR(x, 1, 0.16) << "cell " << cell;
+        EXPECT_NEAR(z, 1, 0.16) << "cell " << cell;
     }
 }
 
 TEST(Calibration, MakesAStemWeighWhatItsTissueWeighs) {
     const auto model = upright_stem(1, 0.01, 1e9, 0.06);
     const double tissue = material_preset("stem")->density * M_PI * 1e-4;
-    EXPECT_NEAR(model->mass(), tissue, 0.1 * tissue);
+    EXPECT_NEAR(model->mass(), tissue, 1e-9 * tissue);
 }
 
 TEST(Calibration, ScalesWithTheMaterial) {
     const auto soft = upright_stem(1, 0.01, 1e8, 0.06), stiff = upright_stem(1, 0.01, 1e10, 0.06);
-    EXPECT_NEAR(tip_deflection(*soft, 0) / tip_deflection(*stiff, 0), 100, 1e-3);
+    EXPECT_NEAR(tip_deflection(*soft, 0).move / tip_deflection(*stiff, 0).move, 100, 1e-3);
 }
 
 // A stem with two boughs.
@@ -77,7 +90,7 @@ static std::vector<frond_stem> boughs() {
 }
 
 static double largest_unbalance(const Model& model, frond_mechanics which) {
-    const TetElements elements = make_tet_elements(model, &model.rest_positions[size_t(which)]);
+    const TetElements elements = make_tet_elements(model, &model.rest_shapes->positions[size_t(which)]);
     VecX x(elements.rest_positions.size()), f = VecX::Zero(x.size());
     for (size_t i = 0; i < model.cage.nodes.size(); i++) point(x, int(i)) = model.cage.nodes[i];
     double weight = 0;
@@ -95,10 +108,11 @@ static double largest_unbalance(const Model& model, frond_mechanics which) {
 
 TEST(RestShape, BalancesWeightInTheModelledShapeForEveryMechanics) {
     const std::vector<frond_stem> stems = boughs();
-    const auto model = build_from_surface(surface_from_stems(stems.data(), int(stems.size())), model_def());
-    EXPECT_EQ(model->stiffened, 1);
+    const auto model = build_from_stems(stems.data(), int(stems.size()), model_def());
+    EXPECT_LT(model->stiffened, 1.7);
     for (int which = 0; which <= FROND_TET_NEOHOOKEAN; which++) {
-        ASSERT_GT(model->rest_positions[size_t(which)].size(), 0) << frond_mechanics(which);
+        ensure_rest_shape(*model, frond_mechanics(which));
+        ASSERT_GT(model->rest_shapes->positions[size_t(which)].size(), 0) << frond_mechanics(which);
         EXPECT_LT(largest_unbalance(*model, frond_mechanics(which)), 1e-6) << frond_mechanics(which);
     }
 }
@@ -110,7 +124,7 @@ TEST(RestShape, StiffensAPlantThatCannotCarryItselfAndSaysSo) {
     organ.material.young = 1e5;
     def.organs = &organ;
     def.organ_count = 1;
-    const auto model = build_from_surface(surface_from_stems(stems.data(), int(stems.size())), def);
+    const auto model = build_from_stems(stems.data(), int(stems.size()), def);
     EXPECT_GT(model->stiffened, 1);
     EXPECT_LT(largest_unbalance(*model, FROND_TET_COROTATIONAL), 1e-6);
 }
@@ -129,10 +143,8 @@ TEST(RestShape, FindsGreenhillsLimit) {
         organ.material.young = share * limit;
         def.organs = &organ;
         def.organ_count = 1;
-        const auto model = build_from_surface(surface_from_stems(&stem, 1), def);
-        if (share > 1)
-            EXPECT_EQ(model->stiffened, 1);
-        else
-            EXPECT_NEAR(std::log(model->stiffened * share), 0, std::log(1.5) + 0.35);
+        const auto model = build_from_stems(&stem, 1, def);
+        // A given material gets what it needs to stand and two per cent.
+        EXPECT_NEAR(model->organ_stiffer.front(), std::max(1.0, 1.02 / share), 0.03 / share) << share;
     }
 }

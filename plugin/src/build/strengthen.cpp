@@ -1,7 +1,7 @@
 // A plant that its materials would not carry is made stiffer, organ by organ, until it stands. Judged on the rods,
 // whose balance under weight is known without a search. Linear buckling: with P the stiffness that resists and G what
 // weight takes from it, a plant is stable while the largest eigenvalue of P^-1 G is below one (Greenhill 1881 for a
-// single stem); where it is not, the organs that bend most in its mode get what is wanting.
+// single stem); where it is not, the organs in which weight does most in its mode get what is wanting.
 #include <algorithm>
 #include <cmath>
 
@@ -62,7 +62,8 @@ struct Standing {
     RodElements elements;
     std::vector<uint8_t> held;
     StaticStiffness resisting;
-    BlockMatrix plain, taken;  // P with its true organs, and G
+    BlockMatrix taken;  // G
+    bool is_sound = false;
 
     Standing(const Model& model, const std::vector<double>& safety)
         : elements(make_rod_elements(model, FROND_ROD)), resisting(elements.pattern) {
@@ -70,13 +71,10 @@ struct Standing {
         for (size_t i = 0; i < model.chain.nodes.size(); i++)
             if (model.chain.nodes[i].parent < 0) held[2 * i] = held[2 * i + 1] = 1;
         const Mechanics& rod = mechanics(FROND_ROD);
-        plain.set_pattern(elements.pattern);
         taken.set_pattern(elements.pattern);
-        plain.set_zero();
         taken.set_zero();
-        rod.add_stiffness(elements, elements.modelled, Tangent::positive, 1, plain);
+        rod.add_stiffness(elements, elements.modelled, Tangent::positive, 1, taken);
         rod.add_stiffness(elements, elements.modelled, Tangent::exact, -1, taken);
-        for (size_t k = 0; k < taken.values.size(); k++) taken.values[k] += plain.values[k];
         RodElements weaker = elements;
         for (RodSegment& segment : weaker.segments) {
             const double s = safety[size_t(model.chain.nodes[size_t(segment.b)].organ)];
@@ -85,7 +83,6 @@ struct Standing {
         }
         is_sound = resisting.set(weaker, held, FROND_ROD, Tangent::positive, elements.modelled);
     }
-    bool is_sound = false;
 };
 
 // The way in which a plant gives way first, and how many times too heavy it is [-].
@@ -94,56 +91,62 @@ struct Toppling {
     double overload = 0;
 };
 
-// Power iteration on P^-1 G. What pulls straight has negative eigenvalues; if one of these is largest, they are shifted
-// away.
+void hold(const Standing& standing, VecX& x) {
+    for (size_t i = 0; i < standing.held.size(); i++)
+        if (standing.held[i]) point(x, int(i)).setZero();
+}
+
+// Power iteration on P^-1 G, the value by Rayleigh's quotient. What pulls straight has negative eigenvalues; if one of
+// these is largest, they are shifted away.
 Toppling find_toppling(Standing& standing) {
-    constexpr int ROUNDS = 120;
-    const VecX& x = standing.elements.modelled;
-    VecX product(x.size()), solution(x.size());
-    Toppling toppling;
+    constexpr int ROUNDS = 200;
+    const Eigen::Index size = standing.elements.modelled.size();
+    VecX product(size), solution(size);
     for (double shift = 0;;) {
-        VecX mode(x.size());
-        for (Eigen::Index i = 0; i < mode.size(); i++) mode[i] = std::sin(double(i + 1));  // in all directions
-        double value = 0;
+        // Begin with the way in which forces in all directions bend the plant.
+        VecX mode(size);
+        for (Eigen::Index i = 0; i < size; i++) product[i] = std::sin(double(i + 1));
+        hold(standing, product);
+        solve(*standing.resisting.factor, product, mode);
+        double value = 0, before = INFINITY;
         for (int round = 0; round < ROUNDS; round++) {
-            for (size_t i = 0; i < standing.held.size(); i++)
-                if (standing.held[i]) point(mode, int(i)).setZero();
             mode.normalize();
             standing.taken.multiply(mode, product);
-            for (size_t i = 0; i < standing.held.size(); i++)
-                if (standing.held[i]) point(product, int(i)).setZero();
+            hold(standing, product);
+            const double work = mode.dot(product);
+            standing.resisting.K.multiply(mode, solution);
+            value = work / mode.dot(solution);
+            if (!std::isfinite(value)) return {};
+            if (std::abs(value - before) < 1e-4 * std::abs(value)) break;
+            before = value;
             solve(*standing.resisting.factor, product, solution);
-            solution += shift * mode;
-            value = mode.dot(solution);
-            if (!solution.allFinite() || !(solution.norm() > 0)) break;
-            mode = solution;
+            mode = solution + shift * mode;
         }
-        if (value >= shift || shift > 0) {
-            mode.normalize();
-            return {mode, value - shift};
-        }
-        shift = -1.5 * value;
+        if (value >= 0 || shift > 0) return {mode, value};
+        shift = -value;
     }
 }
 
-// Energy of each organ in a mode [-].
-std::vector<double> organ_energies(const Model& model, const Standing& standing, const VecX& mode) {
-    std::vector<double> energies(model.organs.size(), 0.0);
+// What weight does in a mode, by organ [-].
+std::vector<double> organ_works(const Model& model, const Standing& standing, const VecX& mode) {
+    std::vector<double> works(model.organs.size(), 0.0);
     RodElements one = standing.elements;
-    BlockMatrix K;
-    K.set_pattern(standing.elements.pattern);
+    BlockMatrix G;
+    G.set_pattern(standing.elements.pattern);
     VecX product(mode.size());
-    for (size_t organ = 0; organ < energies.size(); organ++) {
+    const Mechanics& rod = mechanics(FROND_ROD);
+    for (size_t organ = 0; organ < works.size(); organ++) {
         one.segments.clear();
         for (const RodSegment& segment : standing.elements.segments)
             if (model.chain.nodes[size_t(segment.b)].organ == int(organ)) one.segments.push_back(segment);
         if (one.segments.empty()) continue;
-        K.set_zero();
-        mechanics(FROND_ROD).add_stiffness(one, one.modelled, Tangent::positive, 1, K);
-        K.multiply(mode, product);
-        energies[organ] = 0.5 * mode.dot(product);
+        G.set_zero();
+        rod.add_stiffness(one, one.modelled, Tangent::positive, 1, G);
+        rod.add_stiffness(one, one.modelled, Tangent::exact, -1, G);
+        G.multiply(mode, product);
+        works[organ] = mode.dot(product);
     }
-    return energies;
+    return works;
 }
 
 std::vector<double> organ_masses(const Model& model) {
@@ -157,25 +160,27 @@ std::vector<double> organ_masses(const Model& model) {
 
 WeakOrgan strengthen(Model& model) {
     constexpr int MOST_ROUNDS = 300;
-    constexpr double MUCH = 0.3;        // of the energy of the organ that bends most [-]
+    constexpr double MUCH = 0.3;        // of what weight does in the organ that gives way most [-]
     constexpr double LARGEST_STEP = 8;  // of a modulus at once [-]
     std::vector<double>& stiffer = model.organ_stiffer;
     const std::vector<double> turns = organ_turns(model);
     std::vector<double> safety;
     for (size_t o = 0; o < stiffer.size(); o++) {
-        stiffer[o] = std::max(1.0, turns[o] / LARGEST_TURN);
-        safety.push_back(model.organs[o].material_given ? SAFETY_OF_GIVEN : SAFETY);
+        const bool given = model.organs[o].material_given;
+        stiffer[o] = given ? 1 : std::max(1.0, turns[o] / LARGEST_TURN);
+        safety.push_back(given ? SAFETY_OF_GIVEN : SAFETY);
     }
     for (int round = 0; round < MOST_ROUNDS; round++) {
         Standing standing(model, safety);
         if (!standing.is_sound) break;
         const Toppling toppling = find_toppling(standing);
         if (!(toppling.overload > 1)) break;
-        const std::vector<double> energies = organ_energies(model, standing, toppling.mode);
-        const double most = *std::max_element(energies.begin(), energies.end());
+        const std::vector<double> works = organ_works(model, standing, toppling.mode);
+        const double most = *std::max_element(works.begin(), works.end());
+        if (!(most > 0)) break;
         const double factor = std::min(1.01 * toppling.overload, LARGEST_STEP);
         for (size_t o = 0; o < stiffer.size(); o++)
-            if (energies[o] >= MUCH * most) stiffer[o] *= factor;
+            if (works[o] >= MUCH * most) stiffer[o] *= factor;
     }
 
     // Organs of no weight to speak of, silk and hairs, are not worth a word.
