@@ -184,6 +184,31 @@ TEST(Chain, StandsOnItsPot) {
     EXPECT_NEAR(grown.chain.nodes[0].position.y(), -0.2, 0.01);
 }
 
+TEST(Chain, OfATiedStemGrowsOutOfTheStakeWhereItIsTied) {
+    Sketch sketch;
+    sketch.begin_part("stake");
+    const int stake = sketch.tube(line({0, 0, 0}, {0, 1, 0}, 20), 0.01, 6);
+    sketch.begin_part("stem");
+    const int stem = sketch.tube(line({0.03, 0, 0}, {0.03, 0.95, 0}, 19), 0.008, 6);
+    const std::vector<double> heights = {0.35, 0.7};
+    for (const double height : heights) {
+        const int corner = 6 * int(std::lround(height / 0.05));
+        sketch.begin_part("tie");
+        sketch.triangle(stake + corner, stem + corner, sketch.add({0.015, height, 0.02}));
+    }
+    const Grown grown = grow(sketch, {0.1, 0});
+    expect_forest(grown);
+    EXPECT_EQ(grown.chain.root_count(), 2);
+    std::vector<double> carried;
+    for (const ChainNode& node : grown.chain.nodes) {
+        if (node.parent < 0 || grown.organs[size_t(node.organ)].kind != "stem") continue;
+        const ChainNode& below = grown.chain.nodes[size_t(node.parent)];
+        if (grown.organs[size_t(below.organ)].kind == "support") carried.push_back(below.position.y());
+    }
+    ASSERT_EQ(carried.size(), heights.size());
+    for (size_t i = 0; i < heights.size(); i++) EXPECT_NEAR(carried[i], heights[i], 0.1);
+}
+
 TEST(Chain, KeepsTheRadiusThatIsGiven) {
     for (const ChainNode& node : grow(leafy_plant(3, true), {0.2, 0.025}).chain.nodes) EXPECT_EQ(node.radius, 0.025);
 }

@@ -64,6 +64,7 @@ TEST(OrganNames, AreReadInSeveralSpellingsAndLanguages) {
         {"tendril_2", "tendril"},
         {"Ranke", "tendril"},
         {"stake", "support"},
+        {"tie_3", "support"},
         {"FlowerPot", "support"},
         {"flowerpot", "support"},
         {"trellis", "support"},

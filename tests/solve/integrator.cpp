@@ -38,15 +38,16 @@ VecX swing(frond_mechanics mechanics, frond_integrator which, int steps, int new
 }
 
 TEST_P(EveryIntegrator, ConvergesWithItsOrderOnASwingingBeam) {
-    for (frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN})
+    for (frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN}) {
+        const VecX exact = swing(mechanics, FROND_TR_BDF2, 1500, 20, 0.01, false);
         for (int newton : {1, 20}) {
-            const VecX exact = swing(mechanics, FROND_TR_BDF2, 4000, 20, 0.01, false);
             const int coarse = row.is_explicit ? 1000 : 100;
             const double first = (swing(mechanics, which, coarse, newton, 0.01, false) - exact).norm();
             const double second = (swing(mechanics, which, 2 * coarse, newton, 0.01, false) - exact).norm();
             EXPECT_NEAR(std::log2(first / second), order(), 0.3) << first << " " << second << " newton " << newton;
             EXPECT_LT(second, order() == 1 ? 3e-2 : 2e-3);
         }
+    }
 }
 
 TEST(Bdf2, ConvergesWithItsOrderInUnevenSteps) {

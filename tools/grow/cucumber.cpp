@@ -1,6 +1,6 @@
 // Cucumber (Cucumis sativus): settings and a seed in, a climbing plant of 22004 vertices and 30244 triangles out. One
 // stem with alternate leaves (two turns in five), fruits on peduncles, flowers, coiled tendrils, stiff hairs on stem
-// and fruit.
+// and fruit; and the stake that it is tied to, as no cucumber of this height stands by itself.
 #include <stdexcept>
 
 #include "cucumber.hpp"
@@ -38,7 +38,7 @@ struct Cucumber {
     GrownPlant plant;
     uint64_t seed;
     double leaf_size, petiole_length, droop;
-    int stem, petiole, blade, fruit, peduncle, flower, tendril;  // materials
+    int stem, petiole, blade, fruit, peduncle, flower, tendril, stake, tie;  // materials
     // Hairs: how many places there are, how many hairs to spread over them, and how many of those are curved.
     int places = 0, hairs = 0, curved = 0;
     int place = 0, hair = 0;
@@ -55,19 +55,35 @@ double node_azimuth(int node) {
     return 0.35 + node * 0.8 * PI + 0.10 * std::sin(3.1 * node);
 }
 
-// The stem winds about the vertical and bends a little at each node, away from the leaf.
-Vec axis(double y) {
-    Vec p{0, y, 0};
-    const double grown = smooth_step(0, 0.4, y);
-    p = p + (0.020 * grown * std::sin(4.1 * y)) * heading(0.3) + (0.017 * grown * std::sin(5.3 * y + 1)) * heading(1.9);
-    for (int i = 0; i < NODES; i++) {
-        const double d = (y - node_height(i)) / 0.06;
-        p = p + (-0.0055 * grown * std::exp(-d * d)) * heading(node_azimuth(i));
-    }
-    return p;
-}
 double stem_radius(double y) {
     return mix(0.0078, 0.0022, std::pow(clamp01(y / 2.0), 1.3));
+}
+
+// The stake stands here; the stem is tied to it between every other pair of nodes.
+const double STEM_SIDE = 3.4;  // of the stake, on the whole [rad]
+const Vec STAKE_FOOT = -0.023 * heading(STEM_SIDE);
+double tie_height(int tie) {
+    return 0.5 * (node_height(2 * tie + 1) + node_height(2 * tie + 2));
+}
+constexpr int TIES = (NODES - 2) / 2;
+
+// Direction in which the stem lies as seen from the stake: it winds a little.
+double stem_azimuth(double y) {
+    return STEM_SIDE + 0.55 * std::sin(2.6 * y);
+}
+// The stem touches the stake where it is tied and keeps off it at its nodes, where leaves need room.
+Vec axis(double y) {
+    double loose = 1;
+    for (int tie = 0; tie < TIES; tie++)
+        loose = std::min(loose, smooth_step(0.01, 0.09, std::fabs(y - tie_height(tie))));
+    const double below = smooth_step(tie_height(0), 0, y);
+    const double away = 1.15 * cucumber_stake_radius(y) + 1.1 * stem_radius(y) + 0.013 * std::max(loose, below);
+    return STAKE_FOOT + Vec{0, y, 0} + away * heading(stem_azimuth(y));
+}
+// An organ turns aside if it would grow into the stake.
+double past_stake(double azimuth, double y, double clearance) {
+    const double toward = std::remainder(azimuth - stem_azimuth(y) - PI, TURN);
+    return std::fabs(toward) >= clearance ? azimuth : azimuth - toward + std::copysign(clearance, toward);
 }
 
 // Where an organ leaves the stem: under the skin of the swollen node.
@@ -94,6 +110,7 @@ void grow_hairs(Cucumber& c, const TubeMesh& mesh, int from_ring, int to_ring, d
     }
 }
 
+// The stem, and the stake with its ties.
 void grow_stem(Cucumber& c) {
     begin_organ(c.plant, "stem", c.stem);
     Tube tube;
@@ -114,13 +131,18 @@ void grow_stem(Cucumber& c) {
     tube.end_reach = 0.004;
     const TubeMesh mesh = add_tube(c.plant, tube);
     grow_hairs(c, mesh, 1, rings - 1, 0.0034, c.random_for(0, 1));
+
+    CucumberStake stake{STAKE_FOOT, top + 0.072, {}, c.stake, c.tie};
+    for (int tie = 0; tie < TIES; tie++) stake.ties.push_back(tie_height(tie));
+    add_cucumber_stake(c.plant, stake, mesh, stem_radius);
 }
 
 void grow_leaf(Cucumber& c, int i) {
     const Node& node = NODE_TABLE[i];
     Random random = c.random_for(i, 2);
     const double y = node_height(i), reach = node.petiole * c.petiole_length;
-    const Vec out = heading(node_azimuth(i) + random.spread(0.08)), up{0, 1, 0}, foot = socket(y, out);
+    const Vec out = heading(past_stake(node_azimuth(i) + random.spread(0.08), y, 0.80)), up{0, 1, 0},
+              foot = socket(y, out);
     const double steep = mix(0.75, 1.6, smooth_step(0.80, 1.0, i / (NODES - 1.0))) * random.range(0.9, 1.1);
 
     // The petiole rises, then bows outwards under the blade.
@@ -172,7 +194,8 @@ Vec grow_stalk(Cucumber& c, const std::vector<Vec>& control, int rings, double r
 void grow_fruit(Cucumber& c, int i, int number) {
     const Node& node = NODE_TABLE[i];
     Random random = c.random_for(i, 3);
-    const Vec out = heading(node_azimuth(i) - 1.70), up{0, 1, 0}, foot = socket(node_height(i) - 0.003, out);
+    const double y = node_height(i) - 0.003;
+    const Vec out = heading(past_stake(node_azimuth(i) - 1.85, y, 0.62)), up{0, 1, 0}, foot = socket(y, out);
     const double ripe = smooth_step(0.06, 0.19, node.fruit), away = 0.052 + 0.012 * ripe;
     begin_organ(c.plant, "peduncle_" + std::to_string(number), c.peduncle);
     const Vec end = grow_stalk(c,
@@ -187,7 +210,7 @@ void grow_fruit(Cucumber& c, int i, int number) {
     fruit.length = node.fruit;
     fruit.radius = mix(0.008, 0.0215, ripe);
     fruit.ripe = ripe;
-    fruit.rings = 30, fruit.sides = 20;
+    fruit.rings = 25, fruit.sides = 20;
     const TubeMesh mesh = add_cucumber_fruit(c.plant, fruit, random);
     grow_hairs(c, mesh, 4, fruit.rings - 2, 0.0022, random);
 
@@ -200,7 +223,8 @@ void grow_fruit(Cucumber& c, int i, int number) {
 
 void grow_flower(Cucumber& c, int i, int number) {
     Random random = c.random_for(i, 4);
-    const Vec out = heading(node_azimuth(i) + 1.35), up{0, 1, 0}, foot = socket(node_height(i) + 0.003, out);
+    const double y = node_height(i) + 0.003;
+    const Vec out = heading(past_stake(node_azimuth(i) + 1.55, y, 0.65)), up{0, 1, 0}, foot = socket(y, out);
     begin_organ(c.plant, "flower_" + std::to_string(number), c.flower);
     const Vec end = grow_stalk(c, {foot, foot + 0.020 * out + 0.016 * up, foot + 0.048 * out + 0.034 * up}, 5, 0.0014);
     add_cucumber_flower(c.plant, end - 0.001 * up, out + random.range(0.2, 0.7) * up, 0.030, random);
@@ -209,13 +233,16 @@ void grow_flower(Cucumber& c, int i, int number) {
 // A tendril reaches out and ends in a coil.
 void grow_tendril(Cucumber& c, int i, int number) {
     Random random = c.random_for(i, 5);
-    const Vec out = heading(node_azimuth(i) + random.range(2.3, 2.9)), up{0, 1, 0}, foot = socket(node_height(i), out);
-    const double straight = random.range(0.07, 0.11), radius = random.range(0.006, 0.010), turns = random.range(3, 4.5);
+    const double y = node_height(i);
+    const Vec out = heading(past_stake(node_azimuth(i) + random.range(2.3, 2.9), y, 0.7)), up{0, 1, 0},
+              foot = socket(y, out);
+    const double straight = random.range(0.07, 0.11), radius = random.range(0.006, 0.010);
+    const double turns = random.range(2.5, 3.6);
     const Vec along = unit(out + random.range(0.35, 0.9) * up), beside = unit(cross(up, out)),
               over = cross(beside, along);
-    const int rings = 40;
+    const int rings = 32;
     Tube tube;
-    tube.sides = 4;
+    tube.sides = 3;
     for (int r = 0; r < rings; r++) {
         const double t = r / (rings - 1.0), coil = std::max(0.0, (t - 0.25) / 0.75);
         const double reach = straight * std::min(1.0, t / 0.25) + 0.055 * coil;
@@ -240,6 +267,8 @@ void grow_all(Cucumber& c) {
     c.peduncle = add_material(c.plant, "peduncle", PETIOLE_GREEN);
     c.flower = add_material(c.plant, "flower", {0.98, 0.84, 0.16});
     c.tendril = add_material(c.plant, "tendril", TENDRIL_GREEN);
+    c.stake = add_material(c.plant, "stake", {0.79, 0.68, 0.42});
+    c.tie = add_material(c.plant, "tie", {0.80, 0.72, 0.55});
     grow_stem(c);
     for (int i = 0; i < NODES; i++) grow_leaf(c, i);
     int fruits = 0, flowers = 0, tendrils = 0;
@@ -272,9 +301,11 @@ GrownPlant grow_cucumber(const GrownSettings& value, uint64_t seed) {
 
     c.plant.images.push_back(cucumber_blade_image());
 
-    // The highest point is the height.
+    // The highest point of the plant, not of the stake, is the height.
     double top = 0;
-    for (const auto& p : c.plant.positions) top = std::max(top, p[1]);
+    for (const GrownOrgan& organ : c.plant.organs)
+        for (int v = organ.first_vertex; v < organ.first_vertex + organ.vertex_count; v++)
+            if (organ.material != c.stake) top = std::max(top, c.plant.positions[v][1]);
     const double scale = value.at("height") / top;
     for (auto& p : c.plant.positions)
         for (double& x : p) x *= scale;

@@ -33,4 +33,16 @@ TubeMesh add_cucumber_fruit(GrownPlant& plant, const CucumberFruit& fruit, Rando
 // Five petals and a throat about an axis.
 void add_cucumber_flower(GrownPlant& plant, Vec center, Vec axis, double size, Random random);
 
+// What the stem climbs. Lengths in metres.
+struct CucumberStake {
+    Vec foot;                  // where it comes out of the ground
+    double top;                // its height
+    std::vector<double> ties;  // heights at which stem and stake touch
+    int material, tie_material;
+};
+double cucumber_stake_radius(double y);
+// Adds the organs "stake" and "tie_1", "tie_2" ...; the stem must have been added as a tube.
+void add_cucumber_stake(GrownPlant& plant, const CucumberStake& stake, const TubeMesh& stem,
+                        const std::function<double(double)>& stem_radius);
+
 }  // namespace frond::grow

@@ -22,7 +22,7 @@ const std::vector<Row>& rows() {
            {"azimuth", 0, -360, 360, "of the plane in which the blades stand [degree]"}}},
          grow_corn},
         {{"cucumber",
-          "climbing cucumber in fruit, 22004 vertices and 30244 triangles",
+          "cucumber in fruit, tied to a stake, 22004 vertices and 30244 triangles",
           {{"height", 2.1, 0.5, 4, "of the whole plant [m]"},
            {"leaf_size", 1, 0.4, 1.6, "factor on all blades"},
            {"petiole_length", 1, 0.4, 1.6, "factor on all petioles"},

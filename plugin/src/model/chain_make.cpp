@@ -29,7 +29,7 @@ constexpr double SHORT_PIECE = 0.15;                  // of a band: nor is one i
 int group_of_kind(const std::string& kind) {
     if (kind == "blade" || kind == "midrib" || kind == "flower") return 1;
     if (kind == "fruit") return 2;
-    if (kind == "support") return 3;
+    if (kind == "support") return SUPPORT_GROUP;
     return 0;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <tuple>
 
 namespace frond {
 
@@ -56,8 +57,16 @@ void add_joints(const Topology& topology, const Bands& bands, std::vector<Contac
     }
 }
 
-// Level contacts before sides before joints; then the longest.
-bool is_better(const Contact& a, const Contact& b) {
+bool is_tie(const Bands& bands, const Contact& contact) {
+    const bool low = bands.pieces[size_t(contact.low)].group == SUPPORT_GROUP,
+               high = bands.pieces[size_t(contact.high)].group == SUPPORT_GROUP;
+    return low != high && contact.length >= 0;
+}
+
+// Ties to a support first, then level contacts before sides before joints; then the longest.
+bool is_better(const Bands& bands, const Contact& a, const Contact& b) {
+    const bool tie_a = is_tie(bands, a), tie_b = is_tie(bands, b);
+    if (tie_a != tie_b) return tie_a;
     if (a.level != b.level) return a.level;
     return a.length > b.length;
 }
@@ -120,13 +129,13 @@ ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vec
     const std::vector<char> rooted = find_feet(topology, bands, roots, tree);
 
     std::vector<char> grown(count, 0), waiting(count, 0);
-    using Entry = std::pair<double, int>;
+    using Entry = std::tuple<bool, double, int>;  // of the plant, distance [m], piece
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> front;
     const auto wait = [&](int piece) {
         if (waiting[size_t(piece)]) return;
         waiting[size_t(piece)] = 1;
-        front.push(
-            {bands.entry[size_t(bands.pieces[size_t(piece)].component)] + bands.pieces[size_t(piece)].near, piece});
+        const Piece& what = bands.pieces[size_t(piece)];
+        front.push({what.group != SUPPORT_GROUP, bands.entry[size_t(what.component)] + what.near, piece});
     };
     for (size_t i = 0; i < count; i++)
         if (rooted[i]) wait(int(i));
@@ -138,7 +147,7 @@ ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vec
             tree.foot[next_root] = bands.pieces[next_root].near_end;
             wait(int(next_root));
         }
-        const int piece = front.top().second;
+        const int piece = std::get<2>(front.top());
         front.pop();
         Shoot& shoot = tree.shoots[size_t(piece)];
         for (int i = around.first[size_t(piece)]; i < around.first[size_t(piece) + 1]; i++) {
@@ -150,7 +159,7 @@ ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vec
                 continue;
             }
             if (rooted[size_t(piece)] || other == piece) continue;
-            if (shoot.contact < 0 || is_better(contact, tree.contacts[size_t(shoot.contact)])) {
+            if (shoot.contact < 0 || is_better(bands, contact, tree.contacts[size_t(shoot.contact)])) {
                 shoot.contact = number;
                 shoot.parent = other;
                 shoot.down = contact.level && contact.low == piece;

@@ -54,7 +54,8 @@ static const WordTable& organ_words() {
           "twine",    "rope",   "wire",       "lattice",   "bucket",    "tray",    "gravel",  "pebble",   "rock",
           "stone",    "sand",   "mulch",      "clay",      "container", "stick",   "rod",     "ceramic",  "terracotta",
           "concrete", "topf",   "blumentopf", "erde",      "boden",     "stab",    "spalier", "schnur",   "terre",
-          "tuteur",   "maceta", "suelo",      "tierra",    "vaso",      "terra",   "terreno", "bloempot", "grond"}},
+          "tuteur",   "maceta", "suelo",      "tierra",    "vaso",      "terra",   "terreno", "bloempot", "grond",
+          "tie"}},
     };
     static const WordTable table = [] {
         WordTable made;
