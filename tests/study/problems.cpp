@@ -38,8 +38,9 @@ TEST_P(EveryProblem, RunsAndKeepsItsError) {
     ASSERT_FALSE(result.points.empty());
     double best = INFINITY;
     for (const Point& point : result.points) {
-        const bool may_fail = point.setup.plant.integrator == FROND_SYMPLECTIC_EULER ||
-                              (std::string(GetParam()) == "greenhill" && point.setup.plant.mechanics == FROND_TET_LINEAR);
+        const bool may_fail =
+            point.setup.plant.integrator == FROND_SYMPLECTIC_EULER ||
+            (std::string(GetParam()) == "greenhill" && point.setup.plant.mechanics == FROND_TET_LINEAR);
         if (!may_fail) EXPECT_EQ(point.failure, "") << point.series;
         if (!point.failure.empty()) continue;
         EXPECT_TRUE(std::isfinite(point.outcome.error)) << point.series;

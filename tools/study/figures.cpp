@@ -91,8 +91,9 @@ FigurePanel stand_panel(const std::string& folder, double h) {
     Setup setup;
     setup.body = Body::PLANT;
     setup.plant = settings.plant;
-    const std::unique_ptr<Trial> rests =
-        settle(model, setup, 8, [](Trial& trial, double share) { trial.set_gravity({0, -9.81 * share, 0}); });
+    const std::unique_ptr<Trial> rests = settle(model, setup, 8, [](Trial& trial, double share) {
+        trial.set_gravity({0, -9.81 * share, 0});
+    });
 
     tools::Stage stage(settings);
     stage.plant(model->handle, {0, 0, 0});
@@ -116,8 +117,12 @@ FigurePanel stand_panel(const std::string& folder, double h) {
 }
 
 Figure make_fig6(const std::string& folder) {
-    Figure figure = {"fig6", "the cucumber's natural stand under gravity, its mesh being the shape without it",
-                     "horizontal [m]", "height [m]", {"h [m]", "capsules", "stem reaches [m]", "CPU ms a step of 1/60 s"}, {}};
+    Figure figure = {"fig6",
+                     "the cucumber's natural stand under gravity, its mesh being the shape without it",
+                     "horizontal [m]",
+                     "height [m]",
+                     {"h [m]", "capsules", "stem reaches [m]", "CPU ms a step of 1/60 s"},
+                     {}};
     for (double h : {0.40, 0.20, 0.10, 0.05}) figure.panels.push_back(stand_panel(folder, h));
     return figure;
 }
@@ -158,8 +163,12 @@ FigurePanel drag_panel(const std::string& folder, double r) {
 }
 
 Figure make_fig7(const std::string& folder) {
-    Figure figure = {"fig7", "the cucumber dragged by its user, h = 20 cm; the drag force is the red line",
-                     "time [s]", "drag force [N]", {"r [m]", "capsules", "largest force [N]"}, {}};
+    Figure figure = {"fig7",
+                     "the cucumber dragged by its user, h = 20 cm; the drag force is the red line",
+                     "time [s]",
+                     "drag force [N]",
+                     {"r [m]", "capsules", "largest force [N]"},
+                     {}};
     for (double r : {0.25, 0.10, 0.05}) figure.panels.push_back(drag_panel(folder, r));
     return figure;
 }
@@ -192,8 +201,11 @@ std::string markdown_of(const Figure& figure) {
         captions += " " + panel.caption + " |";
         rule += "---|";
     }
-    out << "## " << figure.name << "\n\n" << figure.shows << ".\n\n"
-        << captions << "\n" << rule << "\n" << pictures << "\n\n![" << figure.name << "](" << figure.name << ".svg)\n\n|";
+    out << "## " << figure.name << "\n\n"
+        << figure.shows << ".\n\n"
+        << captions << "\n"
+        << rule << "\n"
+        << pictures << "\n\n![" << figure.name << "](" << figure.name << ".svg)\n\n|";
     for (const std::string& column : figure.columns) out << ' ' << markdown_cell(column) << " |";
     out << "\n|";
     for (size_t i = 0; i < figure.columns.size(); i++) out << "---|";
@@ -219,8 +231,9 @@ std::string gnuplot_of(const Figure& figure, const std::string& picture_base) {
         out << "$c" << i << " << EOD\n";
         for (size_t k = 0; k < curve.x.size(); k++) out << curve.x[k] << ' ' << curve.y[k] << '\n';
         out << "EOD\n";
-        plot << (i ? ", " : "plot ") << "$c" << i << " using 1:2 with " << (is_shape ? "linespoints pt 7 ps 0.5" : "lines")
-             << " lw 2 lc rgb '" << COLOURS[i % 4] << "' title " << gnuplot_text(curve.name);
+        plot << (i ? ", " : "plot ") << "$c" << i << " using 1:2 with "
+             << (is_shape ? "linespoints pt 7 ps 0.5" : "lines") << " lw 2 lc rgb '" << COLOURS[i % 4] << "' title "
+             << gnuplot_text(curve.name);
     }
     out << drawn_twice(plot.str(), picture_base);
     return out.str();
