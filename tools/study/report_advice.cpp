@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <sstream>
 
 #include "study/report.hpp"
@@ -35,7 +36,11 @@ std::string advice_of(const Result& result, const Provenance& provenance) {
         << "; do not edit.\n// mechanics, integrator, pieces, steps a period, error [-], CPU a "
         << "step [s], capsules or tets\n";
     out.precision(4);
+    constexpr double WORTHWHILE = 0.95;  // a row must be better than the one before it by so much
+    double before = INFINITY;
     for (const Point* point : front) {
+        if (point->outcome.error > WORTHWHILE * before) continue;
+        before = point->outcome.error;
         const Setup& setup = point->setup;
         const Outcome& o = point->outcome;
         out << '{' << enum_name(frond_mechanics_name(setup.plant.mechanics)) << ", "
