@@ -25,7 +25,8 @@ TEST(Known, ElasticaUnderAnEndLoadHasThePublishedDigits) {
     }
 }
 
-// With the end's angle f given: curvature^2 = 2 a (sin f - sin t), so the length is an integral over t, which must be 1.
+// With the end's angle f given: curvature^2 = 2 a (sin f - sin t), so the length is an integral over t, which must
+// be 1.
 TEST(Known, ElasticaUnderAnEndLoadMeetsItsIntegral) {
     for (double a : {0.25, 1.0, 2.0, 5.0, 10.0}) {
         const Droop droop = droop_of(a, 0);
@@ -36,8 +37,7 @@ TEST(Known, ElasticaUnderAnEndLoadMeetsItsIntegral) {
         for (int i = 0; i < slices; i++) {
             // t = f - u^2 takes the root out of the denominator's zero.
             const double u = std::sqrt(f) * (i + 0.5) / slices, t = f - u * u;
-            const double part =
-                2 * u * std::sqrt(f) / slices / std::sqrt(2 * a * (std::sin(f) - std::sin(t)));
+            const double part = 2 * u * std::sqrt(f) / slices / std::sqrt(2 * a * (std::sin(f) - std::sin(t)));
             length += part;
             down += std::sin(t) * part;
         }
@@ -107,12 +107,15 @@ TEST(Known, SwayStartsWhereItWasLetGoAndReturns) {
         const double period = 2 * M_PI / std::pow(wave_number(0, end_mass), 2);
         EXPECT_NEAR(sway.at(period), 1, 0.07) << end_mass;
     }
-    EXPECT_NEAR(Sway().at(0.3), [] {
-        double sum = 0;
-        for (int mode = 0; mode < 6; mode++)
-            sum += 12 / std::pow(wave_number(mode), 4) * std::cos(std::pow(wave_number(mode), 2) * 0.3);
-        return sum;
-    }(), 1e-5);
+    EXPECT_NEAR(
+        Sway().at(0.3),
+        [] {
+            double sum = 0;
+            for (int mode = 0; mode < 6; mode++)
+                sum += 12 / std::pow(wave_number(mode), 4) * std::cos(std::pow(wave_number(mode), 2) * 0.3);
+            return sum;
+        }(),
+        1e-5);
 }
 
 // The column's equation has the power series 1 - w/6 + w^2/180 ..., whose first zero is the buckling weight.

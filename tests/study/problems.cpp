@@ -34,12 +34,14 @@ INSTANTIATE_TEST_SUITE_P(Study, EveryProblem, ::testing::ValuesIn(names()),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST_P(EveryProblem, RunsAndKeepsItsError) {
-    const Result result = run_problem(find_problem(GetParam()), Effort::TINY, nullptr);
+    const std::string problem = GetParam();
+    const Result result = run_problem(find_problem(problem), Effort::TINY, nullptr);
     ASSERT_FALSE(result.points.empty());
     double best = INFINITY;
     for (const Point& point : result.points) {
-        const bool may_fail = point.setup.plant.integrator == FROND_SYMPLECTIC_EULER ||
-                              (std::string(GetParam()) == "greenhill" && point.setup.plant.mechanics == FROND_TET_LINEAR);
+        // Explicit steps are too long, and linear tets do not feel the weight that makes a column buckle.
+        const bool may_fail = point.setup.plant.integrator != frond_default_plant_def().integrator ||
+                              (problem == "greenhill" && point.setup.plant.mechanics == FROND_TET_LINEAR);
         if (!may_fail) EXPECT_EQ(point.failure, "") << point.series;
         if (!point.failure.empty()) continue;
         EXPECT_TRUE(std::isfinite(point.outcome.error)) << point.series;
@@ -48,9 +50,9 @@ TEST_P(EveryProblem, RunsAndKeepsItsError) {
         EXPECT_GT(point.outcome.node_count, 0) << point.series;
         best = std::min(best, point.outcome.error);
     }
-    EXPECT_LE(best, bound_of(GetParam())) << "best error " << best;
+    EXPECT_LE(best, bound_of(problem)) << "best error " << best;
     // What rests on a refined reference says how well that converged.
-    if (std::string(find_problem(GetParam()).answer).find("refined") != std::string::npos)
+    if (std::string(find_problem(problem).answer).find("refined") != std::string::npos)
         EXPECT_FALSE(result.notes.empty());
 }
 

@@ -109,7 +109,8 @@ TEST(Plot, OfNothingSaysSo) {
 }
 
 TEST(Summary, LeadsToEveryProblem) {
-    const std::string text = summary_of({little_result()}, {}, {"a processor", "a compiler", "abc", "1.0"}, "frond study");
+    const std::string text =
+        summary_of({little_result()}, {}, {"a processor", "a compiler", "abc", "1.0"}, "frond study");
     for (const char* wanted : {"(swing.svg)", "a processor", "abc", "[swing](#swing)"})
         EXPECT_NE(text.find(wanted), std::string::npos) << wanted;
 }

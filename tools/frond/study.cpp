@@ -85,8 +85,8 @@ void write_diagram(const Subject& subject, const std::string& folder, const std:
 void tell(const study::Result& result) {
     const study::Point& first = result.changes.front();
     if (first.failure.empty())
-        std::printf("%-18s baseline error %.3g, %.3g ms a simulated second\n", result.problem->name, first.outcome.error,
-                    1e3 * first.outcome.cpu_per_second);
+        std::printf("%-18s baseline error %.3g, %.3g ms a simulated second\n", result.problem->name,
+                    first.outcome.error, 1e3 * first.outcome.cpu_per_second);
     else
         std::printf("%-18s baseline failed: %s\n", result.problem->name, first.failure.c_str());
     std::fflush(stdout);
@@ -133,8 +133,8 @@ void run_study(const StudyOptions& options) {
 
 void add_study(CLI::App& app) {
     auto options = std::make_shared<StudyOptions>();
-    CLI::App* command =
-        app.add_subcommand("study", "what accuracy costs in time: diagrams and tables over problems with known answers");
+    CLI::App* command = app.add_subcommand(
+        "study", "what accuracy costs in time: diagrams and tables over problems with known answers");
     command->add_option("problem", options->names, "names of problems, or all; none: list them");
     command->add_flag("--quick", options->quick, "fewer points: all problems in about a minute");
     command->add_option("--out", options->out, "folder to write to, default study");

@@ -43,8 +43,8 @@ static Box make_box(const Beam& beam, int across) {
     for (int j = 0; j <= along; j++)
         for (int k = 0; k <= across; k++)
             for (int i = 0; i <= across; i++)
-                for (double value : {width * (double(i) / across - 0.5), length * j / along,
-                                     width * (double(k) / across - 0.5)})
+                for (double value :
+                     {width * (double(i) / across - 0.5), length * j / along, width * (double(k) / across - 0.5)})
                     box.nodes.push_back(value);
     static constexpr int EVEN[5][4] = {{1, 2, 4, 7}, {0, 1, 2, 4}, {3, 1, 2, 7}, {5, 1, 4, 7}, {6, 2, 4, 7}};
     static constexpr int ODD[5][4] = {{0, 3, 5, 6}, {1, 0, 3, 5}, {2, 0, 3, 6}, {4, 0, 5, 6}, {7, 3, 5, 6}};

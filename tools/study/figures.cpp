@@ -25,28 +25,20 @@ std::string centimetres(double metres) {
     return out.str();
 }
 
-// The chain's nodes from the root up, at each fork along the branch that carries most.
-std::vector<int> main_axis(frond_model model) {
-    frond_chain_view chain;
-    must(frond_model_get_chain(model, &chain));
-    std::vector<int> carried(size_t(chain.node_count), 1), axis;
-    for (int i = chain.node_count - 1; i > 0; i--)
-        if (chain.parents[i] >= 0) carried[size_t(chain.parents[i])] += carried[size_t(i)];
+// The chain's nodes from the root to the highest one.
+std::vector<int> main_axis(const frond_chain_view& chain) {
     int at = 0;
-    for (int i = 0; i < chain.node_count; i++)
-        if (chain.parents[i] < 0 && carried[size_t(i)] > carried[size_t(at)]) at = i;
-    while (at >= 0) {
-        axis.push_back(at);
-        int next = -1;
-        for (int i = 0; i < chain.node_count; i++)
-            if (chain.parents[i] == at && (next < 0 || carried[size_t(i)] > carried[size_t(next)])) next = i;
-        at = next;
-    }
+    for (int i = 1; i < chain.node_count; i++)
+        if (chain.nodes[3 * i + 1] > chain.nodes[3 * at + 1]) at = i;
+    std::vector<int> axis;
+    for (; at >= 0; at = chain.parents[at]) axis.push_back(at);
+    std::reverse(axis.begin(), axis.end());
     return axis;
 }
 
-// Where the axis is now: each of its nodes but the first ends a capsule, and capsules come in the order of the nodes.
-Curve axis_curve(frond_plant plant, frond_model model) {
+// How far the axis moved from where it was drawn, over its height there. Each node but a root ends a capsule, and
+// capsules come in the order of the nodes.
+Curve droop_curve(frond_plant plant, frond_model model) {
     frond_chain_view chain;
     must(frond_model_get_chain(model, &chain));
     std::vector<int> capsule_of(size_t(chain.node_count), -1);
@@ -56,15 +48,12 @@ Curve axis_curve(frond_plant plant, frond_model model) {
     std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
     must(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())));
     Curve curve;
-    for (int node : main_axis(model)) {
+    for (int node : main_axis(chain)) {
         if (capsule_of[size_t(node)] < 0) continue;
-        const frond_capsule& capsule = capsules[size_t(capsule_of[size_t(node)])];
-        if (curve.x.empty()) {
-            curve.x.push_back(capsule.begin.x);
-            curve.y.push_back(capsule.begin.y);
-        }
-        curve.x.push_back(capsule.end.x);
-        curve.y.push_back(capsule.end.y);
+        const frond_vec3& now = capsules[size_t(capsule_of[size_t(node)])].end;
+        const double* drawn = chain.nodes + 3 * node;
+        curve.x.push_back(drawn[1]);
+        curve.y.push_back(std::hypot(std::hypot(now.x - drawn[0], now.y - drawn[1]), now.z - drawn[2]));
     }
     return curve;
 }
@@ -85,14 +74,14 @@ FigurePanel stand_panel(const std::string& folder, double h) {
     settings.model.cage_size = tools::PAPER_CUCUMBER_CELL;
     settings.model.capsule_height = h;
     settings.plant.mechanics = paper_mechanics();
-    for (const std::string& assignment : CUCUMBER.materials) tools::apply_setting(settings, assignment);
 
-    const ModelPtr model = load_plant(CUCUMBER, settings.model);
+    const ModelPtr model = load_plant({CUCUMBER.name, CUCUMBER.file, {}}, settings.model);
     Setup setup;
     setup.body = Body::PLANT;
     setup.plant = settings.plant;
-    const std::unique_ptr<Trial> rests =
-        settle(model, setup, 8, [](Trial& trial, double share) { trial.set_gravity({0, -9.81 * share, 0}); });
+    const std::unique_ptr<Trial> rests = settle(model, setup, 8, [](Trial& trial, double share) {
+        trial.set_gravity({0, -9.81 * share, 0});
+    });
 
     tools::Stage stage(settings);
     stage.plant(model->handle, {0, 0, 0});
@@ -104,20 +93,25 @@ FigurePanel stand_panel(const std::string& folder, double h) {
     panel.picture = "fig6_h" + std::to_string(std::lround(100 * h)) + ".png";
     studio.write(folder + "/" + panel.picture);
     panel.caption = "h = " + centimetres(h);
-    panel.curve = axis_curve(rests->plant, model->handle);
+    panel.curve = droop_curve(rests->plant, model->handle);
     panel.curve.name = panel.caption;
-    const double top = *std::max_element(panel.curve.y.begin(), panel.curve.y.end());
+    const double most = *std::max_element(panel.curve.y.begin(), panel.curve.y.end());
     Trial trial(model, setup);
     trial.start_from(*rests);
     trial.set_gravity({0, -9.81, 0});
     const double cpu = time_steps(trial, Effort::QUICK, [](Trial&, double) {});
-    panel.row = {h, double(model->info().capsule_count), top, 1e3 * cpu * setup.dt};
+    panel.row = {h, double(model->info().capsule_count), most, 1e3 * cpu * setup.dt};
     return panel;
 }
 
 Figure make_fig6(const std::string& folder) {
-    Figure figure = {"fig6", "the cucumber's natural stand under gravity, its mesh being the shape without it",
-                     "horizontal [m]", "height [m]", {"h [m]", "capsules", "stem reaches [m]", "CPU ms a step of 1/60 s"}, {}};
+    Figure figure = {"fig6",
+                     "the cucumber's natural stand under gravity, its mesh being the shape without it",
+                     "height of the axis as drawn [m]",
+                     "moved by gravity [m]",
+                     false,
+                     {"h [m]", "capsules", "axis moved at most [m]", "CPU ms a step of 1/60 s"},
+                     {}};
     for (double h : {0.40, 0.20, 0.10, 0.05}) figure.panels.push_back(stand_panel(folder, h));
     return figure;
 }
@@ -125,9 +119,11 @@ Figure make_fig6(const std::string& folder) {
 // ---- Fig 7 -------------------------------------------------------------------------------------------------------
 
 FigurePanel drag_panel(const std::string& folder, double r) {
-    constexpr double SHOT_AT = 1.9, UNTIL = 3.5;  // [s]: the hand lets go at 2 s
+    constexpr double PULLED_FROM = 0.6, SHOT_AT = 1.9;  // [s]: the hand lets go at 2 s
+    constexpr double HAND = 2000;                       // spring of the hand [N/m]
     const tools::Casting casting = tools::cast("cucumber_drag");
     tools::Settings settings = tools::settings_of(casting, {});
+    settings.grab_stiffness = HAND;
     settings.model.capsule_height = 0.20;
     settings.model.capsule_radius = r;
     settings.plant.mechanics = paper_mechanics();
@@ -135,31 +131,32 @@ FigurePanel drag_panel(const std::string& folder, double r) {
     FigurePanel panel;
     panel.picture = "fig7_r" + std::to_string(std::lround(100 * r)) + ".png";
     panel.caption = panel.curve.name = "r = " + centimetres(r);
-    double largest = 0;
-    for (bool shot = false; play.stage.time < UNTIL;) {
+    while (play.stage.time < SHOT_AT) {
         play.step();
-        frond_vec3 force = {0, 0, 0};
-        if (!play.stage.grabs.empty()) must(frond_grab_get(play.stage.grabs[0], nullptr, nullptr, &force));
-        const double size = std::hypot(std::hypot(force.x, force.y), force.z);
-        panel.curve.x.push_back(play.stage.time);
-        panel.curve.y.push_back(size);
-        largest = std::max(largest, size);
-        if (!shot && play.stage.time >= SHOT_AT) {
-            shot = true;
-            tools::Studio studio(view_of({"capsules", "force"}));
-            studio.shoot(play.stage);
-            studio.write(folder + "/" + panel.picture);
-        }
+        if (play.stage.grabs.empty() || play.stage.time < PULLED_FROM) continue;
+        frond_vec3 at, force;
+        must(frond_grab_get(play.stage.grabs[0], &at, nullptr, &force));
+        const frond_vec3& from = play.stage.drag_start;
+        panel.curve.x.push_back(std::hypot(std::hypot(at.x - from.x, at.y - from.y), at.z - from.z));
+        panel.curve.y.push_back(std::hypot(std::hypot(force.x, force.y), force.z));
     }
+    tools::Studio studio(view_of({"capsules", "force"}));
+    studio.shoot(play.stage);
+    studio.write(folder + "/" + panel.picture);
     frond_model_info info;
     must(frond_model_get_info(play.stage.plant_models[0], &info));
-    panel.row = {r, double(info.capsule_count), largest};
+    panel.row = {r, double(info.capsule_count), panel.curve.x.back(), panel.curve.y.back()};
     return panel;
 }
 
 Figure make_fig7(const std::string& folder) {
-    Figure figure = {"fig7", "the cucumber dragged by its user, h = 20 cm; the drag force is the red line",
-                     "time [s]", "drag force [N]", {"r [m]", "capsules", "largest force [N]"}, {}};
+    Figure figure = {"fig7",
+                     "the cucumber dragged by its user, h = 20 cm; the drag force is the red line",
+                     "way of the point that is held [m]",
+                     "drag force [N]",
+                     true,
+                     {"r [m]", "capsules", "point moved [m]", "force [N]"},
+                     {}};
     for (double r : {0.25, 0.10, 0.05}) figure.panels.push_back(drag_panel(folder, r));
     return figure;
 }
@@ -192,8 +189,11 @@ std::string markdown_of(const Figure& figure) {
         captions += " " + panel.caption + " |";
         rule += "---|";
     }
-    out << "## " << figure.name << "\n\n" << figure.shows << ".\n\n"
-        << captions << "\n" << rule << "\n" << pictures << "\n\n![" << figure.name << "](" << figure.name << ".svg)\n\n|";
+    out << "## " << figure.name << "\n\n"
+        << figure.shows << ".\n\n"
+        << captions << "\n"
+        << rule << "\n"
+        << pictures << "\n\n![" << figure.name << "](" << figure.name << ".svg)\n\n|";
     for (const std::string& column : figure.columns) out << ' ' << markdown_cell(column) << " |";
     out << "\n|";
     for (size_t i = 0; i < figure.columns.size(); i++) out << "---|";
@@ -211,16 +211,15 @@ std::string gnuplot_of(const Figure& figure, const std::string& picture_base) {
     out << "set encoding utf8\nset xlabel " << gnuplot_text(figure.x_label) << "\nset ylabel "
         << gnuplot_text(figure.y_label) << "\nset tics nomirror\nset border 3\nset grid lc rgb '#dddddd' lw 0.5\n"
         << "set key outside right top Left reverse noenhanced\n";
-    const bool is_shape = std::strcmp(figure.y_label, "height [m]") == 0;
-    if (is_shape) out << "set size ratio -1\n";
+    if (figure.logarithmic) out << "set logscale xy\nset format xy '10^{%T}'\n";
     static constexpr const char* COLOURS[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7"};
     for (size_t i = 0; i < figure.panels.size(); i++) {
         const Curve& curve = figure.panels[i].curve;
         out << "$c" << i << " << EOD\n";
         for (size_t k = 0; k < curve.x.size(); k++) out << curve.x[k] << ' ' << curve.y[k] << '\n';
         out << "EOD\n";
-        plot << (i ? ", " : "plot ") << "$c" << i << " using 1:2 with " << (is_shape ? "linespoints pt 7 ps 0.5" : "lines")
-             << " lw 2 lc rgb '" << COLOURS[i % 4] << "' title " << gnuplot_text(curve.name);
+        plot << (i ? ", " : "plot ") << "$c" << i << " using 1:2 with linespoints pt 7 ps 0.6 lw 2 lc rgb '"
+             << COLOURS[i % 4] << "' title " << gnuplot_text(curve.name);
     }
     out << drawn_twice(plot.str(), picture_base);
     return out.str();

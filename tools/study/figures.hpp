@@ -25,6 +25,7 @@ struct Figure {
     const char* shows;
     const char* x_label;
     const char* y_label;
+    bool logarithmic;
     std::vector<std::string> columns;  // of the table
     std::vector<FigurePanel> panels;
 };

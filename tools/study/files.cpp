@@ -49,7 +49,8 @@ static std::string shell_word(const std::string& path) {
 
 void require_gnuplot() {
     if (std::system("gnuplot --version >/dev/null 2>&1") != 0)
-        throw SceneError("gnuplot draws the diagrams and is not there; install it (Debian: apt-get install gnuplot-nox)");
+        throw SceneError(
+            "gnuplot draws the diagrams and is not there; install it (Debian: apt-get install gnuplot-nox)");
 }
 
 void run_gnuplot(const std::string& script_path) {

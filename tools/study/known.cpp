@@ -94,9 +94,7 @@ double frequency(int mode, double EI, double mass_per_length, double length, dou
 double mode_shape(int mode, double s, double end_mass) {
     const double b = wave_number(mode, end_mass);
     const double share = (std::cos(b) + std::cosh(b)) / (std::sin(b) + std::sinh(b));
-    const auto shape = [=](double x) {
-        return std::cosh(x) - std::cos(x) - share * (std::sinh(x) - std::sin(x));
-    };
+    const auto shape = [=](double x) { return std::cosh(x) - std::cos(x) - share * (std::sinh(x) - std::sin(x)); };
     return shape(b * s) / shape(b);
 }
 

@@ -28,8 +28,8 @@ double wave_number(int mode, double end_mass = 0);
 double frequency(int mode, double EI, double mass_per_length, double length, double end_mass = 0);
 // The mode's shape at s = 0 .. 1, with 1 at its end.
 double mode_shape(int mode, double s, double end_mass = 0);
-// Where the end is, over where it was, after a slender beam bent a little by a force on its end was let go; a sum over the
-// first modes. Time in units of sqrt(mass_per_length length^4 / (E I)).
+// Where the end is, over where it was, after a slender beam bent a little by a force on its end was let go; a sum over
+// the first modes. Time in units of sqrt(mass_per_length length^4 / (E I)).
 class Sway {
 public:
     explicit Sway(double end_mass = 0);
@@ -40,8 +40,8 @@ private:
     double rate[MODES], share[MODES];
 };
 
-// w L^3 / (E I) at which an upright column of weight w a length buckles (Greenhill 1881), with a weight at its end, given
-// over the column's own.
+// w L^3 / (E I) at which an upright column of weight w a length buckles (Greenhill 1881), with a weight at its end,
+// given over the column's own.
 double greenhill_number(double end_weight = 0);
 
 // Damping ratio that implicit Euler adds to a mode, z = 2 pi f h.

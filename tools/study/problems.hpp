@@ -5,11 +5,11 @@
 
 namespace frond::study {
 
-Setup static_baseline();   // a stem of 10 pieces, material damping off
-Setup motion_baseline();   // the same at 1/240 s
-Setup free_baseline();     // held nowhere
-Setup peers_baseline();    // the beam of 1170 tets that other programs were tried on
-Setup standing_baseline(); // a plant from a file, as it is by default
+Setup static_baseline();    // a stem of 10 pieces, material damping off
+Setup motion_baseline();    // the same at 1/240 s
+Setup free_baseline();      // held nowhere
+Setup peers_baseline();     // the beam of 1170 tets that other programs were tried on
+Setup standing_baseline();  // a plant from a file, as it is by default
 
 Outcome run_cantilever_tip(const Setup& setup, Session& session);
 Outcome run_cantilever_weight(const Setup& setup, Session& session);

@@ -62,8 +62,7 @@ struct Record {
     std::vector<double> crossings() const {
         std::vector<double> times;
         for (size_t i = 1; i < share.size(); i++)
-            if (share[i - 1] * share[i] < 0)
-                times.push_back(dt * (double(i) - share[i] / (share[i] - share[i - 1])));
+            if (share[i - 1] * share[i] < 0) times.push_back(dt * (double(i) - share[i] / (share[i] - share[i - 1])));
         return times;
     }
     double frequency() const {
@@ -230,8 +229,7 @@ Outcome run_release(const Setup& setup, Session& session) {
     const Start start = [&](Trial& trial) {
         Setup exact = setup;
         exact.plant.linear_solver = FROND_DIRECT;
-        trial.start_from(
-            *settle(model, exact, 5, [=](Trial& t, double s) { t.push_end({P * s, 0, 0}, {0, 0, 0}); }));
+        trial.start_from(*settle(model, exact, 5, [=](Trial& t, double s) { t.push_end({P * s, 0, 0}, {0, 0, 0}); }));
     };
     return compare_path(model, setup, start, END, SWING, session);
 }

@@ -30,7 +30,8 @@ const LoadFunction WEIGHT = [](Trial& trial, double share) { trial.set_gravity({
 
 ModelPtr plant_model(const PlantCase& plant, const Setup& setup, frond_rest rest, Session& session) {
     const bool chain = moves_chain(setup.plant.mechanics);
-    const std::string key = std::string(plant.name) + (chain ? " chain " : " cage ") + std::to_string(setup.resolution) +
+    const std::string key = std::string(plant.name) + (chain ? " chain " : " cage ") +
+                            std::to_string(setup.resolution) +
                             (rest == FROND_REST_WITHOUT_GRAVITY ? " droops" : " stands");
     ModelPtr& model = session.models[key];
     if (!model) {
@@ -80,14 +81,15 @@ Setup finest_setup(const Setup& setup) {
     Setup fine = setup;
     fine.plant = frond_default_plant_def();
     for (int m = 0; m < FROND_MECHANICS_COUNT; m++)
-        if (std::strcmp(frond_mechanics_name(frond_mechanics(m)), "rod") == 0) fine.plant.mechanics = frond_mechanics(m);
+        if (std::strcmp(frond_mechanics_name(frond_mechanics(m)), "rod") == 0)
+            fine.plant.mechanics = frond_mechanics(m);
     return fine;
 }
 
 // Refines in space until two in turn agree or the levels are used up, and notes how they differed.
-const std::vector<double>& converged_rest(const Setup& setup, const AtRest& at_rest,
-                                          const std::function<double(const std::vector<double>&, const std::vector<double>&)>& distance,
-                                          Session& session) {
+const std::vector<double>& converged_rest(
+    const Setup& setup, const AtRest& at_rest,
+    const std::function<double(const std::vector<double>&, const std::vector<double>&)>& distance, Session& session) {
     std::vector<double>& reference = session.references["rest"];
     if (!reference.empty()) return reference;
     std::vector<int> levels = {8, 16};
@@ -110,10 +112,11 @@ const std::vector<double>& converged_rest(const Setup& setup, const AtRest& at_r
     }
     const bool converges = levels.size() < 3 || last < before;
     session.notes.push_back(std::string("Reference: ") + frond_mechanics_name(fine.plant.mechanics) + ", " +
-                            resolution_text(fine) + ". What each refinement by half changed, as the error is measured: " +
-                            differences +
-                            (converges ? "." : ". These do not shrink: the reference has not converged, and errors below "
-                                               "the last of them mean nothing."));
+                            resolution_text(fine) +
+                            ". What each refinement by half changed, as the error is measured: " + differences +
+                            (converges ? "."
+                                       : ". These do not shrink: the reference has not converged, and errors below "
+                                         "the last of them mean nothing."));
     return reference;
 }
 
@@ -126,11 +129,7 @@ Outcome stand(const PlantCase& plant, const Setup& setup, Session& session) {
     const double height = height_of(*plant_model(plant, setup, FROND_REST_WITHOUT_GRAVITY, session));
     const auto distance = [=](const Shape& a, const Shape& b) { return shape_distance(a, b) / height; };
     const Shape& reference = converged_rest(
-        setup,
-        [&](const Setup& fine) {
-            return shape_of(*settled(fine));
-        },
-        distance, session);
+        setup, [&](const Setup& fine) { return shape_of(*settled(fine)); }, distance, session);
     const Shape drawn = drawn_shape(plant_model(plant, setup, FROND_REST_WITHOUT_GRAVITY, session), setup);
     const std::unique_ptr<Trial> rests = settled(setup);
     const Shape shape = shape_of(*rests);
@@ -216,7 +215,8 @@ Outcome drag(const PlantCase& plant, const Setup& setup, Session& session) {
     Pulled pulled(place, PULL * height_of(*rests->model));
     const double cpu =
         time_from(*rests, setup, session.effort, [&](Trial& trial, double share) { pulled(trial, share); });
-    return outcome_of(*rests, std::abs(force / reference[0] - 1), {{"force of the hand [N]", force, reference[0]}}, cpu);
+    return outcome_of(*rests, std::abs(force / reference[0] - 1), {{"force of the hand [N]", force, reference[0]}},
+                      cpu);
 }
 
 Outcome release(const PlantCase& plant, const Setup& setup, Session& session) {
@@ -226,7 +226,8 @@ Outcome release(const PlantCase& plant, const Setup& setup, Session& session) {
     Setup exact = setup;
     exact.plant.linear_solver = FROND_DIRECT;
     exact.plant.tolerance = frond_default_plant_def().tolerance;
-    std::vector<double>& start = session.references[std::string("start ") + frond_mechanics_name(setup.plant.mechanics)];
+    std::vector<double>& start =
+        session.references[std::string("start ") + frond_mechanics_name(setup.plant.mechanics)];
     if (start.empty()) {
         Pulled pulled(place, PULL * height_of(*model));
         start = settle(model, exact, 8, [&](Trial& t, double share) { pulled(t, share); })->state().x;

@@ -1,5 +1,5 @@
-// Beams at rest: each is bent by known loads until it rests, and compared with the known answer; its cost is that of the
-// setup's own steps from there.
+// Beams at rest: each is bent by known loads until it rests, and compared with the known answer; its cost is that of
+// the setup's own steps from there.
 #include <cmath>
 
 #include "study/known.hpp"
@@ -79,7 +79,8 @@ Outcome run_cantilever_tip(const Setup& setup, Session& session) {
     const double P = 3 * SMALL * stiffness_of(SLENDER, setup);
     Bent bent(model, setup, session, 1, [=](Trial& t, double share) { t.push_end({P * share, 0, 0}, {0, 0, 0}); });
     const double down = bent.trial().middle(Beam::LENGTH).x;
-    return outcome_of(bent.trial(), std::abs(down / SMALL - 1), {{"tip deflection/L", down, SMALL}}, bent.cpu_per_second);
+    return outcome_of(bent.trial(), std::abs(down / SMALL - 1), {{"tip deflection/L", down, SMALL}},
+                      bent.cpu_per_second);
 }
 
 Outcome run_cantilever_weight(const Setup& setup, Session& session) {
@@ -88,7 +89,8 @@ Outcome run_cantilever_weight(const Setup& setup, Session& session) {
     Bent bent(model, setup, session, 1, [=](Trial& t, double share) { t.set_gravity({g * share, 0, 0}); });
     const double known = small_droop(8 * SMALL * cap_mass(SLENDER, setup.body, *model), 8 * SMALL);
     const double down = bent.trial().middle(Beam::LENGTH).x;
-    return outcome_of(bent.trial(), std::abs(down / known - 1), {{"tip deflection/L", down, known}}, bent.cpu_per_second);
+    return outcome_of(bent.trial(), std::abs(down / known - 1), {{"tip deflection/L", down, known}},
+                      bent.cpu_per_second);
 }
 
 Outcome run_elastica_tip(const Setup& setup, Session& session) {
@@ -146,9 +148,7 @@ Outcome run_greenhill(const Setup& setup, Session& session) {
             t.push_end({PUSH * EI, 0, 0}, {0, 0, 0});
         };
     };
-    const auto firmness = [&](double w) {
-        return 1 / settle(model, setup, 1, load_of(w))->middle(Beam::LENGTH).x;
-    };
+    const auto firmness = [&](double w) { return 1 / settle(model, setup, 1, load_of(w))->middle(Beam::LENGTH).x; };
     double w0 = 0, f0 = firmness(w0), w1 = 0.3 * known, f1 = firmness(w1);
     const int rounds = session.effort == Effort::TINY ? 2 : 4;
     double critical = 0;
@@ -175,10 +175,10 @@ Outcome run_peers(const Setup& setup, Session& session) {
     const double k = weight_of(beam, setup, G) / stiffness_of(beam, setup);
     const Droop known = droop_of(k * cap_mass(beam, setup.body, *model), k);
     const frond_vec3 end = bent.trial().middle(Beam::LENGTH);
-    return outcome_of(bent.trial(), place_error(end, known),
-                      {{"droop of the end [m]", end.x, known.down},
-                       {"CPU ms per 1/60 s", 1e3 / 60 * bent.cpu_per_second, NAN}},
-                      bent.cpu_per_second);
+    return outcome_of(
+        bent.trial(), place_error(end, known),
+        {{"droop of the end [m]", end.x, known.down}, {"CPU ms per 1/60 s", 1e3 / 60 * bent.cpu_per_second, NAN}},
+        bent.cpu_per_second);
 }
 
 }  // namespace frond::study

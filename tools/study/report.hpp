@@ -1,5 +1,5 @@
-// Report: what a study writes into its folder: per problem a CSV, a diagram (SVG, PNG) and a Markdown table, and one page
-// that shows all of them.
+// Report: what a study writes into its folder: per problem a CSV, a diagram (SVG, PNG) and a Markdown table, and one
+// page that shows all of them.
 #pragma once
 
 #include "study/figures.hpp"

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <sstream>
 
 #include "study/report.hpp"
@@ -13,18 +14,33 @@ static std::string enum_name(const std::string& name) {
     return text;
 }
 
+// Linear tets are right for small bends alone, and a chain of springs for round organs alone: they are in the diagram,
+// but nobody should be sent to them for the error that they have in it.
+static bool is_right_everywhere(frond_mechanics mechanics) {
+    return mechanics != FROND_TET_LINEAR && mechanics != FROND_SPRING_CHAIN;
+}
+
 std::string advice_of(const Result& result, const Provenance& provenance) {
-    std::vector<const Point*> front;
+    std::vector<Point> points;
     for (const Point& point : result.points)
+        if (is_right_everywhere(point.setup.plant.mechanics)) points.push_back(point);
+    mark_front(points);
+    std::vector<const Point*> front;
+    for (const Point& point : points)
         if (point.on_front) front.push_back(&point);
     std::sort(front.begin(), front.end(),
               [](const Point* a, const Point* b) { return a->outcome.cpu_per_second < b->outcome.cpu_per_second; });
     std::ostringstream out;
-    out << "// Made by `frond study sway --advice plugin/src/api/recommend_front.inc` on " << provenance.processor << ", "
-        << provenance.compiler << "; do not edit.\n// mechanics, integrator, pieces, steps a period, error [-], CPU a "
+    out << "// Made by `frond study sway --advice plugin/src/api/recommend_front.inc` on " << provenance.processor
+        << ", " << provenance.compiler
+        << "; do not edit.\n// mechanics, integrator, pieces, steps a period, error [-], CPU a "
         << "step [s], capsules or tets\n";
     out.precision(4);
+    constexpr double WORTHWHILE = 0.95;  // a row must be better than the one before it by so much
+    double before = INFINITY;
     for (const Point* point : front) {
+        if (point->outcome.error > WORTHWHILE * before) continue;
+        before = point->outcome.error;
         const Setup& setup = point->setup;
         const Outcome& o = point->outcome;
         out << '{' << enum_name(frond_mechanics_name(setup.plant.mechanics)) << ", "

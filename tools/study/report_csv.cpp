@@ -16,11 +16,11 @@ static void add_row(std::ostringstream& out, const Point& point) {
     const frond_plant_def& plant = setup.plant;
     const Outcome& outcome = point.outcome;
     const char* body = setup.body == Body::MESH ? "mesh" : setup.body == Body::STEM ? "stem" : "plant";
-    out << csv_field(point.series.empty() ? "one at a time" : point.series) << ',' << frond_mechanics_name(plant.mechanics)
-        << ',' << body << ',' << setup.resolution << ',' << order_of(plant) << ',' << setup.dt << ','
-        << frond_integrator_name(plant.integrator) << ',' << plant.newton_iterations << ',' << plant.newton_tolerance
-        << ',' << frond_linear_solver_name(plant.linear_solver) << ',' << plant.tolerance << ','
-        << frond_mass_name(plant.mass) << ',';
+    out << csv_field(point.series.empty() ? "one at a time" : point.series) << ','
+        << frond_mechanics_name(plant.mechanics) << ',' << body << ',' << setup.resolution << ',' << order_of(plant)
+        << ',' << setup.dt << ',' << frond_integrator_name(plant.integrator) << ',' << plant.newton_iterations << ','
+        << plant.newton_tolerance << ',' << frond_linear_solver_name(plant.linear_solver) << ',' << plant.tolerance
+        << ',' << frond_mass_name(plant.mass) << ',';
     if (point.failure.empty())
         out << outcome.node_count << ',' << outcome.tet_count << ',' << outcome.capsule_count << ',' << outcome.error
             << ',' << outcome.cpu_per_second << ',' << (point.on_front ? 1 : 0) << ',';

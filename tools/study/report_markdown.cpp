@@ -40,9 +40,10 @@ static void add_row(std::ostringstream& out, const std::string& what, const Poin
 std::string markdown_of(const Result& result) {
     const Problem& problem = *result.problem;
     std::ostringstream out;
-    const char* HEAD = " | error | CPU ms a simulated second | nodes / tets | measured (known) |\n|---|---|---|---|---|\n";
-    out << "## " << problem.name << "\n\n" << problem.measures << ". Answer: " << problem.answer << ". Error: "
-        << problem.error << ".\n\n";
+    const char* HEAD =
+        " | error | CPU ms a simulated second | nodes / tets | measured (known) |\n|---|---|---|---|---|\n";
+    out << "## " << problem.name << "\n\n"
+        << problem.measures << ". Answer: " << problem.answer << ". Error: " << problem.error << ".\n\n";
     for (const std::string& note : result.notes) out << "* " << note << "\n";
     if (!result.notes.empty()) out << "\n";
     const Setup baseline = problem.baseline();
@@ -56,18 +57,18 @@ std::string markdown_of(const Result& result) {
     }
     out << "Points of the diagram; bold ones are on the Pareto front:\n\n| series: setting" << HEAD;
     for (const Point& point : result.points)
-        add_row(out, point.series + ": " +
-                         (problem.axes & (TIME_STEP | EVERYTHING) ? time_step_text(point.setup.dt) + ", " : std::string()) +
-                         resolution_text(point.setup) +
-                         (problem.axes & EVERYTHING
-                              ? ", " + std::string(frond_integrator_name(point.setup.plant.integrator))
-                              : std::string()) +
-                         (problem.axes & LINEAR && point.setup.plant.linear_solver != baseline.plant.linear_solver
-                              ? ", tolerance " + figure(point.setup.plant.tolerance)
-                              : std::string()) +
-                         (point.setup.plant.newton_iterations != baseline.plant.newton_iterations
-                              ? ", at most " + std::to_string(point.setup.plant.newton_iterations) + " solves"
-                              : std::string()),
+        add_row(out,
+                point.series + ": " +
+                    (problem.axes & (TIME_STEP | EVERYTHING) ? time_step_text(point.setup.dt) + ", " : std::string()) +
+                    resolution_text(point.setup) +
+                    (problem.axes & EVERYTHING ? ", " + std::string(frond_integrator_name(point.setup.plant.integrator))
+                                               : std::string()) +
+                    (problem.axes & LINEAR && point.setup.plant.linear_solver != baseline.plant.linear_solver
+                         ? ", tolerance " + figure(point.setup.plant.tolerance)
+                         : std::string()) +
+                    (point.setup.plant.newton_iterations != baseline.plant.newton_iterations
+                         ? ", at most " + std::to_string(point.setup.plant.newton_iterations) + " solves"
+                         : std::string()),
                 point);
     return out.str();
 }

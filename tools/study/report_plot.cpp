@@ -1,4 +1,5 @@
-// Work-precision diagrams, drawn by gnuplot: error over CPU time, log-log, a line a series, the Pareto front below them.
+// Work-precision diagrams, drawn by gnuplot: error over CPU time, log-log, a line a series, the Pareto front below
+// them.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -21,8 +22,8 @@ std::string drawn_twice(const std::string& plot, const std::string& picture_base
     for (const auto& [terminal, extension] :
          {std::make_pair("svg size 900,520 dynamic background rgb 'white' font 'Helvetica,13'", ".svg"),
           std::make_pair("pngcairo size 1350,780 background rgb 'white' font 'Helvetica,13' fontscale 1.2", ".png")})
-        out += std::string("set terminal ") + terminal + "\nset output " + gnuplot_text(picture_base + extension) + "\n" +
-               plot + "\n";
+        out += std::string("set terminal ") + terminal + "\nset output " + gnuplot_text(picture_base + extension) +
+               "\n" + plot + "\n";
     return out + "set output\n";
 }
 
@@ -97,7 +98,8 @@ std::string gnuplot_of(const Result& result, const std::string& picture_base) {
         }
         out << "EOD\n";
     }
-    std::sort(front.begin(), front.end(), [](const Point* a, const Point* b) { return milliseconds(*a) < milliseconds(*b); });
+    std::sort(front.begin(), front.end(),
+              [](const Point* a, const Point* b) { return milliseconds(*a) < milliseconds(*b); });
     double low[2] = {INFINITY, INFINITY}, high[2] = {0, 0};
     for (const auto& line : series)
         for (const Point* point : line) {
@@ -107,20 +109,21 @@ std::string gnuplot_of(const Result& result, const std::string& picture_base) {
                 high[k] = std::max(high[k], at[k]);
             }
         }
-    for (int k = 0; k < 2 && !series.empty(); k++)
-        out << ticks(k ? "y" : "x", low[k] / MARGIN, high[k] * MARGIN);
+    for (int k = 0; k < 2 && !series.empty(); k++) out << ticks(k ? "y" : "x", low[k] / MARGIN, high[k] * MARGIN);
     if (!series.empty())
-        out << "set xrange [" << low[0] / MARGIN << ':' << high[0] * MARGIN << "]\nset yrange [" << low[1] / MARGIN << ':'
-            << high[1] * MARGIN << "]\n";
+        out << "set xrange [" << low[0] / MARGIN << ':' << high[0] * MARGIN << "]\nset yrange [" << low[1] / MARGIN
+            << ':' << high[1] * MARGIN << "]\n";
     out << "$front << EOD\n";
     for (const Point* point : front) out << milliseconds(*point) << ' ' << shown_error(*point) << '\n';
     out << "EOD\n";
     std::ostringstream plot;
     plot << "plot $front using 1:2 with steps lw 7 lc rgb '#dddddd' title 'Pareto front'";
     for (size_t i = 0; i < series.size(); i++)
-        plot << ", $s" << i << " using 1:2 with " << (series[i].front()->scattered ? "points" : "linespoints") << " lw 1.5 dt " << 1 + i / 7 << " pt " << MARKS[i % 10]
-             << " lc rgb '" << COLOURS[i % 7] << "' title " << gnuplot_text(series[i].front()->series);
-    if (series.empty()) plot.str("set label 'nothing could be measured' at graph 0.5, 0.5 center; plot [1:10][1:10] NaN notitle");
+        plot << ", $s" << i << " using 1:2 with " << (series[i].front()->scattered ? "points" : "linespoints")
+             << " lw 1.5 dt " << 1 + i / 7 << " pt " << MARKS[i % 10] << " lc rgb '" << COLOURS[i % 7] << "' title "
+             << gnuplot_text(series[i].front()->series);
+    if (series.empty())
+        plot.str("set label 'nothing could be measured' at graph 0.5, 0.5 center; plot [1:10][1:10] NaN notitle");
     out << drawn_twice(plot.str(), picture_base);
     return out.str();
 }

@@ -84,8 +84,8 @@ Result run_problem(const Problem& problem, Effort effort, Watcher* watcher) {
     mark_front(result.points);
     result.notes = session.notes;
     if (warnings.count > 0)
-        result.notes.push_back("The library warned " + std::to_string(warnings.count) + " times, first: " +
-                               warnings.first + ".");
+        result.notes.push_back("The library warned " + std::to_string(warnings.count) +
+                               " times, first: " + warnings.first + ".");
     return result;
 }
 

@@ -27,7 +27,7 @@ enum class Body {
 // One choice of everything that can be chosen.
 struct Setup {
     Body body = Body::STEM;
-    int resolution = 10;  // MESH: cells across; STEM and PLANT: pieces of cage or chain along the height
+    int resolution = 10;   // MESH: cells across; STEM and PLANT: pieces of cage or chain along the height
     double dt = 1.0 / 60;  // [s]
     frond_plant_def plant = frond_default_plant_def();
 };
@@ -69,11 +69,11 @@ struct Value {
 
 // What a run of a problem gave.
 struct Outcome {
-    double error = 0;            // as the problem defines it
-    double cpu_per_second = 0;   // CPU seconds per simulated second at the setup's time step
+    double error = 0;           // as the problem defines it
+    double cpu_per_second = 0;  // CPU seconds per simulated second at the setup's time step
     std::vector<Value> values;
     int node_count = 0, tet_count = 0, capsule_count = 0;
-    uint32_t trouble = 0;        // bits of frond_report
+    uint32_t trouble = 0;  // bits of frond_report
 };
 
 class Model;

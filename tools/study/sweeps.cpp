@@ -13,7 +13,8 @@ std::vector<T> by(Effort effort, std::vector<T> tiny, std::vector<T> quick, std:
 
 std::vector<int> resolutions(Body body, int order, Effort effort, bool moving) {
     if (body == Body::MESH && order == 2) return by<int>(effort, {1}, {1}, {1, 2});
-    if (body == Body::MESH) return moving ? by<int>(effort, {1}, {1}, {1, 2, 3}) : by<int>(effort, {1}, {1, 2}, {1, 2, 3, 4});
+    if (body == Body::MESH)
+        return moving ? by<int>(effort, {1}, {1}, {1, 2, 3}) : by<int>(effort, {1}, {1, 2}, {1, 2, 3, 4});
     if (body == Body::STEM) return by<int>(effort, {5}, {5, 10, 20}, {5, 10, 20, 40, 80});
     return by<int>(effort, {8}, {8, 14}, {6, 8, 12, 16, 24, 32});
 }

@@ -1,5 +1,5 @@
-// frond_recommend: a model and a wish come in, the settings that fulfil it go out, from the front of error over cost that
-// `frond study` measured (recommend_front.inc says how it is made anew).
+// frond_recommend: a model and a wish come in, the settings that fulfil it go out, from the front of error over cost
+// that `frond study` measured (recommend_front.inc says how it is made anew).
 #include <algorithm>
 #include <cmath>
 
@@ -16,11 +16,11 @@ namespace {
 struct Measured {
     frond_mechanics mechanics;
     frond_integrator integrator;
-    int pieces;             // capsules or cage cells from root to tip
-    double steps;           // a period of the sway
-    double error;           // rms of the tip over two periods / peak [-]
-    double cpu_per_step;    // [s]
-    double count;           // capsules of the chain or tets of the cage
+    int pieces;           // capsules or cage cells from root to tip
+    double steps;         // a period of the sway
+    double error;         // rms of the tip over two periods / peak [-]
+    double cpu_per_step;  // [s]
+    double count;         // capsules of the chain or tets of the cage
 };
 constexpr Measured FRONT[] = {
 #include "api/recommend_front.inc"

@@ -30,7 +30,8 @@ double sway_frequency(const std::shared_ptr<const Model>& model) {
         for (int i = 0; i < elements.node_count; i++) moved += mass[i] * point(bent, i).squaredNorm();
         if (moved > 0) slowest = std::min(slowest, load.dot(bent) / moved);
     }
-    if (!std::isfinite(slowest)) fail(FROND_BAD_GEOMETRY, "the plant has no part that could sway: its chain is a root alone");
+    if (!std::isfinite(slowest))
+        fail(FROND_BAD_GEOMETRY, "the plant has no part that could sway: its chain is a root alone");
     return std::sqrt(slowest) / (2 * M_PI);
 }
 

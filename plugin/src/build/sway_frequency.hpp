@@ -7,8 +7,8 @@
 
 namespace frond {
 
-// Frequency of the slowest sway as a whole, as rods held at their roots [Hz]: Rayleigh's quotient of the shape into which
-// the plant's own weight, taken sideways, bends it.
+// Frequency of the slowest sway as a whole, as rods held at their roots [Hz]: Rayleigh's quotient of the shape into
+// which the plant's own weight, taken sideways, bends it.
 double sway_frequency(const std::shared_ptr<const Model>& model);
 
 }  // namespace frond

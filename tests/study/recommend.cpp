@@ -1,0 +1,100 @@
+// frond_recommend keeps what it promises, within a factor of two, on stems other than the one it was measured on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "study/problems.hpp"
+
+using namespace frond::study;
+
+namespace {
+
+// Slow and soft, about as measured, quick and stiff.
+const Beam BEAMS[] = {{0.03, 2e7, 900, 0.4, {}}, {0.02, 1.28e8, 1000, 0.3, {}}, {0.015, 2e9, 600, 0.3, {}}};
+
+frond_advice advice_for(const Model& model, double error, double cpu) {
+    frond_advice advice;
+    EXPECT_EQ(frond_recommend(model.handle, error, cpu, &advice), FROND_OK) << frond_last_error();
+    return advice;
+}
+
+Setup setup_of(const frond_advice& advice) {
+    Setup setup;
+    setup.plant = advice.plant;
+    setup.plant.effects &= ~uint32_t(FROND_DAMPING);
+    setup.dt = advice.time_step;
+    setup.resolution =
+        int(std::lround(Beam::LENGTH / (advice.capsule_height > 0 ? advice.capsule_height : advice.cage_size)));
+    return setup;
+}
+
+ModelPtr stem(const Beam& beam) {
+    return make_beam(beam, static_baseline());
+}
+
+TEST(Recommend, KeepsItsErrorWithinAFactorOfTwo) {
+    Session session;
+    session.effort = Effort::TINY;
+    for (const Beam& beam : BEAMS)
+        for (double wanted : {0.5, 0.2}) {
+            const frond_advice advice = advice_for(*stem(beam), wanted, 0);
+            EXPECT_LE(advice.error, wanted);
+            const Outcome outcome = sway_of(beam, setup_of(advice), session);
+            EXPECT_LE(outcome.error, 2 * advice.error) << beam.young << " " << wanted;
+        }
+}
+
+// The processor may be another than the table's: how much slower it is, is told by the cheapest settings of the beam
+// that was measured.
+TEST(Recommend, KeepsItsCostWithinAFactorOfTwo) {
+    Session session;
+    session.effort = Effort::QUICK;
+    const frond_advice first = advice_for(*stem(BEAMS[1]), 0.5, 0);
+    const double slower = sway_of(BEAMS[1], setup_of(first), session).cpu_per_second / first.cpu;
+    for (const Beam& beam : BEAMS)
+        for (double wanted : {0.5, 0.2}) {
+            const frond_advice advice = advice_for(*stem(beam), wanted, 0);
+            const double cpu = sway_of(beam, setup_of(advice), session).cpu_per_second / slower;
+            EXPECT_LE(cpu, 2 * advice.cpu) << beam.young << " " << wanted;
+            EXPECT_GE(cpu, advice.cpu / 2) << beam.young << " " << wanted;
+        }
+}
+
+TEST(Recommend, SpendsABudgetOnAccuracy) {
+    const ModelPtr model = stem(BEAMS[1]);
+    double before = 1e9;
+    for (double share : {1.0, 4.0, 16.0}) {
+        const double budget = share * advice_for(*model, 0.5, 0).cpu;
+        const frond_advice advice = advice_for(*model, 0, budget);
+        EXPECT_LE(advice.cpu, budget);
+        EXPECT_LE(advice.error, before);
+        before = advice.error;
+    }
+}
+
+// A stem of a tenth of the stiffness sways sqrt(10) times as slowly and may take longer steps.
+TEST(Recommend, TakesStepsInProportionToThePeriod) {
+    Beam soft = BEAMS[1];
+    soft.young /= 10;
+    const frond_advice a = advice_for(*stem(BEAMS[1]), 0.3, 0), b = advice_for(*stem(soft), 0.3, 0);
+    EXPECT_NEAR(b.time_step / a.time_step, std::sqrt(10.0), 0.01);
+    EXPECT_EQ(a.plant.mechanics, b.plant.mechanics);
+}
+
+TEST(Recommend, RefusesWhatCannotBeAndSaysWhatCan) {
+    const ModelPtr model = stem(BEAMS[1]);
+    frond_advice advice;
+    for (const auto& [error, cpu] :
+         {std::pair<double, double>{0, 0}, {0.1, 0.1}, {-1, 0}, {NAN, 0}, {2, 0}, {0, INFINITY}}) {
+        EXPECT_EQ(frond_recommend(model->handle, error, cpu, &advice), FROND_BAD_ARGUMENT) << error << " " << cpu;
+        EXPECT_EQ(advice.time_step, 0);
+    }
+    EXPECT_EQ(frond_recommend(model->handle, 0.1, 0, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_recommend({}, 0.1, 0, &advice), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_recommend(model->handle, 1e-9, 0, &advice), FROND_UNSUPPORTED);
+    EXPECT_NE(std::string(frond_last_error()).find("the least is"), std::string::npos);
+    EXPECT_EQ(frond_recommend(model->handle, 0, 1e-12, &advice), FROND_UNSUPPORTED);
+    EXPECT_NE(std::string(frond_last_error()).find("the cheapest take"), std::string::npos);
+}
+
+}  // namespace
