@@ -270,6 +270,33 @@ Energies gather_on_tets(const Model& model, int organ, const std::vector<char>& 
     return gathered;
 }
 
+double mean_edge(const Cage& cage) {
+    double sum = 0;
+    for (const Tet& tet : cage.tets)
+        for (size_t a = 0; a < 4; a++)
+            for (size_t b = 0; b < a; b++) sum += (cage.nodes[size_t(tet[a])] - cage.nodes[size_t(tet[b])]).norm();
+    return sum / (6 * double(cage.tets.size()));
+}
+
+// Places along an organ are not told apart more finely than its tets do: each chain node's first node of such a stretch.
+std::vector<int> stretches(const Chain& chain, int organ, double length) {
+    std::vector<int> first(chain.nodes.size());
+    for (size_t i = 0; i < first.size(); i++) {
+        const ChainNode& node = chain.nodes[i];
+        first[i] = int(i);
+        if (node.organ != organ || node.parent < 0 || chain.nodes[size_t(node.parent)].organ != organ) continue;
+        const int begin = first[size_t(node.parent)];
+        if (node.distance - chain.nodes[size_t(begin)].distance < length) first[i] = begin;
+    }
+    return first;
+}
+
+Energies gather(const Energies& energies, const std::vector<int>& first) {
+    Energies gathered(energies.size(), 0.0);
+    for (size_t i = 0; i < energies.size(); i++) gathered[size_t(first[i])] += energies[i];
+    return gathered;
+}
+
 double sum_of(const Energies& energies) {
     double sum = 0;
     for (double energy : energies) sum += energy;
@@ -326,20 +353,23 @@ bool calibrate_alone(LoneOrgan& lone, int organ, const Model& plant, const std::
     Model& model = lone.model;
     if (drop_loose_tets(lone) < MOST) return false;
     if (std::all_of(model.root.begin(), model.root.end(), [](uint8_t held) { return held; })) return false;
+    constexpr double STRETCH = 1.5;  // of the mean edge [-]
+    const std::vector<int> first = stretches(plant.chain, organ, STRETCH * mean_edge(model.cage));
     std::vector<int> own_hangs;
     std::vector<char> has_tets(plant.chain.nodes.size(), 0);
     for (size_t e : lone.tets) {
-        own_hangs.push_back(hangs[e]);
-        has_tets[size_t(hangs[e])] = 1;
+        own_hangs.push_back(first[size_t(hangs[e])]);
+        has_tets[size_t(own_hangs.back())] = 1;
     }
     std::vector<NodeMasses> loads = {own_masses(model)};
     for (const auto& [node, mass] : lone.borne) loads[0][node] += mass;
-    std::vector<Energies> rods_by_load = {gather_on_tets(plant, organ, has_tets, rods)};
+    std::vector<Energies> rods_by_load = {gather_on_tets(plant, organ, has_tets, gather(rods, first))};
     const int tip = tip_of(plant.chain, organ);
     const NodeMasses at_tip = tip >= 0 ? mass_at_tip(lone, plant, tip) : NodeMasses();
     if (!at_tip.empty()) {
         loads.push_back(at_tip);
-        rods_by_load.push_back(gather_on_tets(plant, organ, has_tets, rods_with_mass_at_tip(plant, tip)));
+        const Energies tip_rods = gather(rods_with_mass_at_tip(plant, tip), first);
+        rods_by_load.push_back(gather_on_tets(plant, organ, has_tets, tip_rods));
     }
     std::vector<double> whole_rods;
     for (const Energies& energies : rods_by_load) whole_rods.push_back(sum_of(energies));
