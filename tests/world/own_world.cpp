@@ -52,7 +52,7 @@ TEST(OwnWorld, APlantStandsAsItWasModelledUnderGravity) {
     for (int mechanics = 0; mechanics < FROND_SPRING_CHAIN; mechanics++) {  // the last one has no rest shape to find
         frond_plant_def def = frond_default_plant_def();
         def.mechanics = frond_mechanics(mechanics);
-        SmallWorld stands(def, 2e7, FROND_REST_STANDS_AS_MODELLED), droops(def, 2e7, FROND_REST_WITHOUT_GRAVITY);
+        SmallWorld stands(def, 1e7, FROND_REST_STANDS_AS_MODELLED), droops(def, 1e7, FROND_REST_WITHOUT_GRAVITY);
         const std::vector<double> modelled = positions_of(stands.plant);
         double largest[2] = {0, 0};
         for (SmallWorld* small : {&stands, &droops}) {

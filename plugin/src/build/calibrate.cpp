@@ -349,7 +349,7 @@ bool calibrate_alone(LoneOrgan& lone, int organ, const Model& plant, const std::
     constexpr double MOST = 0.6;  // share of an organ from which it can be taken alone [-]
     constexpr int ROUNDS = 5;
     constexpr double LARGEST_RATIO = 4;  // of neighbouring places in one round [-]
-    constexpr double BLUR = 0.02;        // of the organ's energy that counts at each of its places [-]
+    constexpr double BLUR = 0.3;        // of the organ's energy that counts at each of its places [-]
     Model& model = lone.model;
     if (drop_loose_tets(lone) < MOST) return false;
     if (std::all_of(model.root.begin(), model.root.end(), [](uint8_t held) { return held; })) return false;

@@ -8,7 +8,7 @@
 
 #include "build/build.hpp"
 #include "build/firm_tets.hpp"
-#include "build/static_stiffness.hpp"
+#include "build/toppling.hpp"
 #include "mechanics/tet_element.hpp"
 #include "model/tet_geometry.hpp"
 
@@ -121,55 +121,46 @@ Mat3 displacement_gradient(const TetElements& elements, size_t e, const VecX& u)
 
 // What came of a search for a rest shape.
 struct Outcome {
-    VecX rest;                   // empty unless the plant stands
-    std::vector<double> energy;  // by organ, of the way in which it topples; empty unless it does [J]
-    double overload = 1;         // how many times too heavy it then is [-]
+    VecX rest;                 // empty unless the plant stands
+    std::vector<double> work;  // of weight, by organ, on the way in which it topples; empty unless it does [-]
+    double overload = 1;       // how many times too heavy it then is [-]
 };
 
-// Linear elastic energy of each organ's tets under small displacements u from where they stand [J]. Gradients are taken
-// where they stand, so that turning an organ, bent as it is, costs nothing.
-std::vector<double> organ_energies(const Search& search, const VecX& u) {
-    const TetElements& elements = search.elements;
-    std::vector<double> energies(search.model.organs.size(), 0.0);
-    for (size_t e = 0; e < elements.tets.size(); e++) {
-        const Mat3 gradient =
-            displacement_gradient(elements, e, u) * deformation_gradient(elements, e, search.x).inverse();
-        const Mat3 strain = 0.5 * (gradient + gradient.transpose());
-        const double trace = strain.trace();
-        energies[size_t(search.model.cage.tet_organ[e])] +=
-            elements.volume[e] * (elements.mu[e] * strain.squaredNorm() + 0.5 * elements.lambda[e] * trace * trace);
+// One organ's tets of an elements' pattern.
+TetElements take_organ(const TetElements& all, const std::vector<int>& tet_organ, int organ) {
+    TetElements one;
+    one.node_count = all.node_count;
+    for (size_t e = 0; e < all.tets.size(); e++) {
+        if (tet_organ[e] != organ) continue;
+        one.tets.push_back(all.tets[e]);
+        one.ordered.push_back(all.ordered[e]);
+        one.rest_inverse.push_back(all.rest_inverse[e]);
+        one.volume.push_back(all.volume[e]);
+        one.lambda.push_back(all.lambda[e]);
+        one.mu.push_back(all.mu[e]);
+        one.slots.push_back(all.slots[e]);
     }
-    return energies;
+    return one;
 }
 
-// The way in which an unstable plant topples, and how many times too heavy it is for its stiffness. The exact stiffness
-// is the positive one P less the effect of weight G; linear buckling looks for the largest eigenvalue of P^-1 G, above
-// one for a plant that topples, by power iteration.
-struct Toppling {
-    VecX mode;
-    double overload;  // [-]
-};
-
-Toppling find_toppling(Search& search) {
-    constexpr int ROUNDS = 60;
-    const BlockMatrix exact = search.stiffness.K;
+// How an unstable plant topples, and what weight does in each organ on the way.
+Outcome find_outcome(Search& search) {
+    BlockMatrix taken;
+    taken.set_pattern(search.elements.pattern);
+    take_by_weight(search.elements, search.which, search.x, taken);
     if (!search.stiffness.set(search.elements, search.held, search.which, Tangent::positive, search.x)) return {};
-    Toppling toppling = {VecX(search.x.size()), 1};
-    VecX& mode = toppling.mode;
-    VecX product(mode.size()), solution(mode.size());
-    for (Eigen::Index i = 0; i < mode.size(); i++) mode[i] = std::sin(double(i + 1));  // in all directions
-    for (size_t i = 0; i < search.held.size(); i++)
-        if (search.held[i]) point(mode, int(i)).setZero();
-    for (int round = 0; round < ROUNDS; round++) {
-        mode.normalize();
-        exact.multiply(mode, product);
-        solve(*search.stiffness.factor, product, solution);
-        const VecX next = mode - solution;
-        toppling.overload = mode.dot(next);
-        if (!next.allFinite() || !(next.norm() > 0)) break;
-        mode = next;
+    const Toppling toppling = find_toppling(search.stiffness, taken, search.held);
+    if (toppling.mode.size() == 0) return {};
+    Outcome outcome;
+    outcome.overload = toppling.overload;
+    VecX product(toppling.mode.size());
+    for (size_t organ = 0; organ < search.model.organs.size(); organ++) {
+        take_by_weight(take_organ(search.elements, search.model.cage.tet_organ, int(organ)), search.which, search.x,
+                       taken);
+        taken.multiply(toppling.mode, product);
+        outcome.work.push_back(toppling.mode.dot(product));
     }
-    return toppling;
+    return outcome;
 }
 
 // The rest shape of one mechanics. Gravity is let in little by little, the steps as large as the search bears.
@@ -189,8 +180,7 @@ Outcome search_rest_shape(const Model& model, frond_mechanics which) {
     }
     if (search.stiffness.set(search.elements, search.held, which, Tangent::exact, search.x))
         return {search.rest, {}, 1};
-    const Toppling toppling = find_toppling(search);
-    return {VecX(), organ_energies(search, toppling.mode), toppling.overload};
+    return find_outcome(search);
 }
 
 // The largest strain in each organ's tets under the plant's weight, linearly [-]; empty if the root does not hold it.
@@ -230,14 +220,14 @@ void stiffen_torn_organs(Model& model) {
 
 }  // namespace
 
-// Makes those organs stiffer in which a toppling plant bends most; notes by how much.
-static void stiffen_toppling_organs(Model& model, const std::vector<double>& energy, double stiffer,
+// Makes those organs stiffer that give way in a toppling plant; notes by how much.
+static void stiffen_toppling_organs(Model& model, const std::vector<double>& work, double stiffer,
                                     std::vector<double>& factor) {
-    constexpr double MUCH = 0.3;  // of the energy of the organ that bends most [-]
-    const double most = *std::max_element(energy.begin(), energy.end());
-    std::vector<char> bends(energy.size());
-    for (size_t o = 0; o < energy.size(); o++) {
-        bends[o] = energy[o] >= MUCH * most;
+    constexpr double MUCH = 0.3;  // of what weight does in the organ that gives way most [-]
+    const double most = *std::max_element(work.begin(), work.end());
+    std::vector<char> bends(work.size());
+    for (size_t o = 0; o < work.size(); o++) {
+        bends[o] = work[o] >= MUCH * most;
         if (bends[o]) factor[o] *= stiffer;
     }
     for (size_t e = 0; e < model.tet_young.size(); e++)
@@ -253,9 +243,9 @@ WeakOrgan find_rest_shape(Model& model) {
     Outcome outcome = search_rest_shape(model, FROND_TET_COROTATIONAL);
     for (int i = 0; i < MOST_TRIES && outcome.rest.size() == 0; i++) {
         const double stiffer = i <= FINE_TRIES ? STIFFER : MUCH_STIFFER;
-        if (!outcome.energy.empty()) {
+        if (!outcome.work.empty()) {
             const double needed = std::clamp(LEAST * outcome.overload, LEAST, MUCH_STIFFER);
-            stiffen_toppling_organs(model, outcome.energy, needed, factor);
+            stiffen_toppling_organs(model, outcome.work, needed, factor);
         } else if (!torn) {
             stiffen_torn_organs(model);
             torn = true;

@@ -1,12 +1,11 @@
 // A plant that its materials would not carry is made stiffer, organ by organ, until it stands. Judged on the rods,
-// whose balance under weight is known without a search. Linear buckling: with P the stiffness that resists and G what
-// weight takes from it, a plant is stable while the largest eigenvalue of P^-1 G is below one (Greenhill 1881 for a
-// single stem); where it is not, the organs in which weight does most in its mode get what is wanting.
+// whose balance under weight is known without a search: where they would topple, the organs in which weight does most
+// on the way get what is wanting.
 #include <algorithm>
 #include <cmath>
 
 #include "build/build.hpp"
-#include "build/static_stiffness.hpp"
+#include "build/toppling.hpp"
 #include "build/weigh.hpp"
 #include "mechanics/rod_elements.hpp"
 
@@ -70,11 +69,8 @@ struct Standing {
         held.assign(size_t(elements.node_count), 0);
         for (size_t i = 0; i < model.chain.nodes.size(); i++)
             if (model.chain.nodes[i].parent < 0) held[2 * i] = held[2 * i + 1] = 1;
-        const Mechanics& rod = mechanics(FROND_ROD);
         taken.set_pattern(elements.pattern);
-        taken.set_zero();
-        rod.add_stiffness(elements, elements.modelled, Tangent::positive, 1, taken);
-        rod.add_stiffness(elements, elements.modelled, Tangent::exact, -1, taken);
+        take_by_weight(elements, FROND_ROD, elements.modelled, taken);
         RodElements weaker = elements;
         for (RodSegment& segment : weaker.segments) {
             const double s = safety[size_t(model.chain.nodes[size_t(segment.b)].organ)];
@@ -85,48 +81,6 @@ struct Standing {
     }
 };
 
-// The way in which a plant gives way first, and how many times too heavy it is [-].
-struct Toppling {
-    VecX mode;
-    double overload = 0;
-};
-
-void hold(const Standing& standing, VecX& x) {
-    for (size_t i = 0; i < standing.held.size(); i++)
-        if (standing.held[i]) point(x, int(i)).setZero();
-}
-
-// Power iteration on P^-1 G, the value by Rayleigh's quotient. What pulls straight has negative eigenvalues; if one of
-// these is largest, they are shifted away.
-Toppling find_toppling(Standing& standing) {
-    constexpr int ROUNDS = 200;
-    const Eigen::Index size = standing.elements.modelled.size();
-    VecX product(size), solution(size);
-    for (double shift = 0;;) {
-        // Begin with the way in which forces in all directions bend the plant.
-        VecX mode(size);
-        for (Eigen::Index i = 0; i < size; i++) product[i] = std::sin(double(i + 1));
-        hold(standing, product);
-        solve(*standing.resisting.factor, product, mode);
-        double value = 0, before = INFINITY;
-        for (int round = 0; round < ROUNDS; round++) {
-            mode.normalize();
-            standing.taken.multiply(mode, product);
-            hold(standing, product);
-            const double work = mode.dot(product);
-            standing.resisting.K.multiply(mode, solution);
-            value = work / mode.dot(solution);
-            if (!std::isfinite(value)) return {};
-            if (std::abs(value - before) < 1e-4 * std::abs(value)) break;
-            before = value;
-            solve(*standing.resisting.factor, product, solution);
-            mode = solution + shift * mode;
-        }
-        if (value >= 0 || shift > 0) return {mode, value};
-        shift = -value;
-    }
-}
-
 // What weight does in a mode, by organ [-].
 std::vector<double> organ_works(const Model& model, const Standing& standing, const VecX& mode) {
     std::vector<double> works(model.organs.size(), 0.0);
@@ -134,15 +88,12 @@ std::vector<double> organ_works(const Model& model, const Standing& standing, co
     BlockMatrix G;
     G.set_pattern(standing.elements.pattern);
     VecX product(mode.size());
-    const Mechanics& rod = mechanics(FROND_ROD);
     for (size_t organ = 0; organ < works.size(); organ++) {
         one.segments.clear();
         for (const RodSegment& segment : standing.elements.segments)
             if (model.chain.nodes[size_t(segment.b)].organ == int(organ)) one.segments.push_back(segment);
         if (one.segments.empty()) continue;
-        G.set_zero();
-        rod.add_stiffness(one, one.modelled, Tangent::positive, 1, G);
-        rod.add_stiffness(one, one.modelled, Tangent::exact, -1, G);
+        take_by_weight(one, FROND_ROD, one.modelled, G);
         G.multiply(mode, product);
         works[organ] = mode.dot(product);
     }
@@ -173,7 +124,7 @@ WeakOrgan strengthen(Model& model) {
     for (int round = 0; round < MOST_ROUNDS; round++) {
         Standing standing(model, safety);
         if (!standing.is_sound) break;
-        const Toppling toppling = find_toppling(standing);
+        const Toppling toppling = find_toppling(standing.resisting, standing.taken, standing.held);
         if (!(toppling.overload > 1)) break;
         const std::vector<double> works = organ_works(model, standing, toppling.mode);
         const double most = *std::max_element(works.begin(), works.end());

@@ -110,6 +110,7 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
         pin_below(*plant->model, def.root_height, plant->pinned);
     else if (def.root_height == 0)
         plant->pinned = plant->model->root;
+    plant->stands_on_roots = def.root_height == 0;
     plant->pin_target = cage_places(*plant);
     find_anchors(*plant, def.root_height > 0 ? plant->model->surface.lower().y() + def.root_height : -INFINITY);
     apply_pins(*plant);

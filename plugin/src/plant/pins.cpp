@@ -43,30 +43,54 @@ static double pin_stiffness(const Plant& plant) {
     return STRONG * std::max(node_mass_of(*plant.system).sum(), 1e-6) * GRAVITY / 1e-3;
 }
 
-static void pin_chain(Plant& plant) {
+// Cage nodes that are held together.
+struct PinGroup {
+    std::vector<int> nodes;
+    std::vector<Vec3> from, to;  // in the modelled shape, and where they shall be [m]
+};
+
+static void add_to_group(const Plant& plant, int node, PinGroup& group) {
+    group.nodes.push_back(node);
+    group.from.push_back(plant.model->cage.nodes[size_t(node)]);
+    group.to.push_back(point(plant.pin_target, node));
+}
+
+// Holds a chain node as the group is moved; false if that does not tell how it is turned.
+static bool hold_chain_node(Plant& plant, int chain_node, const PinGroup& group) {
+    Mat3 rotation;
+    Vec3 image;
+    if (!fit_rigid(group.from, group.to, plant.model->chain.nodes[size_t(chain_node)].position, rotation, image))
+        return false;
     Motion& motion = plant.motion;
-    std::fill(motion.pinned.begin(), motion.pinned.end(), uint8_t(0));
+    const int place = 2 * chain_node, turn = place + 1;
+    motion.pinned[size_t(place)] = motion.pinned[size_t(turn)] = 1;
+    point(motion.pin_target, place) = image;
+    point(motion.pin_target, turn) = nearest_vector(rotation, point(motion.x, turn));
+    return true;
+}
+
+static void pin_chain(Plant& plant) {
+    std::fill(plant.motion.pinned.begin(), plant.motion.pinned.end(), uint8_t(0));
     plant.pin_springs.clear();
-    std::map<int, std::vector<int>> held;  // chain node -> cage nodes
-    for (size_t n = 0; n < plant.pinned.size(); n++)
-        if (plant.pinned[n]) held[plant.anchor[n]].push_back(int(n));
-    for (const auto& [chain_node, nodes] : held) {
-        std::vector<Vec3> from, to;
-        for (int n : nodes) {
-            from.push_back(plant.model->cage.nodes[size_t(n)]);
-            to.push_back(point(plant.pin_target, n));
-        }
-        Mat3 rotation;
-        Vec3 image;
-        if (fit_rigid(from, to, plant.model->chain.nodes[size_t(chain_node)].position, rotation, image)) {
-            const int place = 2 * chain_node, turn = place + 1;
-            motion.pinned[size_t(place)] = motion.pinned[size_t(turn)] = 1;
-            point(motion.pin_target, place) = image;
-            point(motion.pin_target, turn) = nearest_vector(rotation, point(motion.x, turn));
-            continue;
-        }
-        for (size_t k = 0; k < nodes.size(); k++)
-            plant.pin_springs.push_back({plant.follow->grips[size_t(nodes[k])], to[k], pin_stiffness(plant)});
+    std::map<int, PinGroup> groups;  // by chain node
+    PinGroup ground;                 // all that the model stands on
+    for (size_t n = 0; n < plant.pinned.size(); n++) {
+        if (!plant.pinned[n]) continue;
+        add_to_group(plant, int(n), groups[plant.anchor[n]]);
+        if (plant.model->root[n]) add_to_group(plant, int(n), ground);
+    }
+    // A root that too few pinned nodes hang on stands as the ground does.
+    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
+    if (plant.stands_on_roots && !ground.nodes.empty())
+        for (size_t i = 0; i < nodes.size(); i++)
+            if (nodes[i].parent < 0) groups[int(i)];
+    for (const auto& [chain_node, group] : groups) {
+        if (hold_chain_node(plant, chain_node, group)) continue;
+        const bool is_root = plant.stands_on_roots && nodes[size_t(chain_node)].parent < 0;
+        if (is_root && hold_chain_node(plant, chain_node, ground)) continue;
+        for (size_t k = 0; k < group.nodes.size(); k++)
+            plant.pin_springs.push_back(
+                {plant.follow->grips[size_t(group.nodes[k])], group.to[k], pin_stiffness(plant)});
     }
 }
 

@@ -37,6 +37,7 @@ struct Plant {
     std::vector<int> anchor;               // the chain node that holds each cage node where it is pinned
     std::vector<Spring> pin_springs;       // hold pinned cage nodes that are too few to hold a chain node
     bool pins_changed = true;
+    bool stands_on_roots = false;          // the model's own root holds it
     VecX x_good, v_good;  // before the running step, of the motion
     Loads loads;          // of the running step, kept to reuse its memory
     VecX user_force;      // on cage nodes, until the end of the host's step, world frame [N]
