@@ -68,7 +68,7 @@ double small_droop(double a, double k) {
 
 Droop arc_of(double m) {
     if (std::abs(m) < 1e-12) return {m / 2, 1, m};
-    return {(1 - std::cos(m)) / m, std::sin(m) / m, m};
+    return {2 * std::pow(std::sin(m / 2), 2) / m, std::sin(m) / m, m};
 }
 
 double torsion_of_square() {

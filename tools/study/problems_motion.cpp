@@ -229,7 +229,7 @@ Outcome run_release(const Setup& setup, Session& session) {
     const Start start = [&](Trial& trial) {
         Setup exact = setup;
         exact.plant.linear_solver = FROND_DIRECT;
-        trial.start_from(*settle(model, exact, 5, [=](Trial& t, double s) { t.push_end({P * s, 0, 0}, {0, 0, 0}); }));
+        trial.start_from(*settle(model, exact, 20, [=](Trial& t, double s) { t.push_end({P * s, 0, 0}, {0, 0, 0}); }));
     };
     return compare_path(model, setup, start, END, SWING, session);
 }

@@ -124,7 +124,7 @@ const std::vector<double>& converged_rest(
 
 Outcome stand(const PlantCase& plant, const Setup& setup, Session& session) {
     const auto settled = [&](const Setup& given) {
-        return settle(plant_model(plant, given, FROND_REST_WITHOUT_GRAVITY, session), given, 4, WEIGHT);
+        return settle(plant_model(plant, given, FROND_REST_WITHOUT_GRAVITY, session), given, 16, WEIGHT);
     };
     const double height = height_of(*plant_model(plant, setup, FROND_REST_WITHOUT_GRAVITY, session));
     const auto distance = [=](const Shape& a, const Shape& b) { return shape_distance(a, b) / height; };
@@ -197,7 +197,7 @@ Outcome drag(const PlantCase& plant, const Setup& setup, Session& session) {
     const auto settled = [&](const Setup& given, double& force) {
         const ModelPtr model = plant_model(plant, given, FROND_REST_STANDS_AS_MODELLED, session);
         Pulled pulled(place, PULL * height_of(*model));
-        return settle(model, given, 8, [&](Trial& trial, double share) {
+        return settle(model, given, 16, [&](Trial& trial, double share) {
             pulled(trial, share);
             force = pulled.force();
         });
@@ -230,7 +230,7 @@ Outcome release(const PlantCase& plant, const Setup& setup, Session& session) {
         session.references[std::string("start ") + frond_mechanics_name(setup.plant.mechanics)];
     if (start.empty()) {
         Pulled pulled(place, PULL * height_of(*model));
-        start = settle(model, exact, 8, [&](Trial& t, double share) { pulled(t, share); })->state().x;
+        start = settle(model, exact, 16, [&](Trial& t, double share) { pulled(t, share); })->state().x;
     }
     const Start begin = [&](Trial& trial) {
         trial.set_state({start, std::vector<double>(start.size(), 0.0)});

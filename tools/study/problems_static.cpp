@@ -99,7 +99,7 @@ Outcome run_elastica_tip(const Setup& setup, Session& session) {
     const auto load_of = [=](double a) -> LoadFunction {
         return [=](Trial& t, double share) { t.push_end({a * EI * share, 0, 0}, {0, 0, 0}); };
     };
-    return worst_of(model, setup, session, loads(session, {1, 5}, {0.25, 1, 2, 5, 10}), 5, "P L^2/(E I)", load_of,
+    return worst_of(model, setup, session, loads(session, {1, 5}, {0.25, 1, 2, 5, 10}), 20, "P L^2/(E I)", load_of,
                     [](double a) { return droop_of(a, 0); });
 }
 
@@ -110,7 +110,7 @@ Outcome run_elastica_weight(const Setup& setup, Session& session) {
     const auto load_of = [=](double k) -> LoadFunction {
         return [=](Trial& t, double share) { t.set_gravity({k / per_g * share, 0, 0}); };
     };
-    return worst_of(model, setup, session, loads(session, {1, 5}, {1, 5, 20, 50}), 5, "q L^3/(E I)", load_of,
+    return worst_of(model, setup, session, loads(session, {1, 5}, {1, 5, 20, 50}), 20, "q L^3/(E I)", load_of,
                     [=](double k) { return droop_of(k * caps, k); });
 }
 
