@@ -167,7 +167,7 @@ public:
     Pulled(frond_vec3 point, double way) : point(point), way(way) {}
     void operator()(Trial& trial, double share) {
         WEIGHT(trial, 1);
-        if (!frond_grab_is_valid(grab)) {
+        if (!frond_grab_is_valid(grab)) {  // at first, or of an attempt that failed
             must(frond_grab_create(trial.plant, point, HAND, &grab));
             must(frond_grab_get(grab, nullptr, &from, nullptr));
         }

@@ -209,24 +209,35 @@ static double farthest(const std::vector<double>& a, const std::vector<double>& 
     return most;
 }
 
-std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ramp, const LoadFunction& load) {
+// Null if the library had to put the plant back on the way.
+static std::unique_ptr<Trial> try_to_settle(const ModelPtr& model, const Setup& setup, int ramp,
+                                            const LoadFunction& load) {
     constexpr double LONG_STEP = 1, AT_REST = 1e-7;  // [s], [m] a step
     constexpr int MOST_STEPS = 300;
-    Setup patient = setup;
-    patient.plant.integrator = FROND_IMPLICIT_EULER;
-    patient.plant.newton_iterations = 1;  // the steps themselves iterate, and loads that follow are taken anew in each
-    patient.plant.mass_damping = patient.plant.stiffness_damping = 0;
-    auto trial = std::make_unique<Trial>(model, patient);
+    auto trial = std::make_unique<Trial>(model, setup);
     std::vector<double> before = trial->state().x;
     for (int i = 1; i <= MOST_STEPS; i++) {
         load(*trial, std::min(1.0, double(i) / ramp));
         trial->step(LONG_STEP);
-        if (trial->trouble & FROND_TROUBLE_REWOUND) throw SceneError("no shape at rest was found");
+        if (trial->trouble & FROND_TROUBLE_REWOUND) return nullptr;
         const std::vector<double> now = trial->state().x;
         if (i > ramp && farthest(now, before) < AT_REST) break;
         before = now;
     }
     return trial;
+}
+
+std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ramp, const LoadFunction& load) {
+    Setup patient = setup;
+    patient.plant.integrator = FROND_IMPLICIT_EULER;
+    patient.plant.newton_tolerance = 1e-9;
+    patient.plant.mass_damping = patient.plant.stiffness_damping = 0;
+    // Converged steps find most shapes; single solves, which take loads that follow anew each time, find the others.
+    for (int solves : {10, 1}) {
+        patient.plant.newton_iterations = solves;
+        if (std::unique_ptr<Trial> trial = try_to_settle(model, patient, ramp, load)) return trial;
+    }
+    throw SceneError("no shape at rest was found");
 }
 
 double time_steps(Trial& trial, Effort effort, const LoadFunction& load) {
