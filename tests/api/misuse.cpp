@@ -201,6 +201,8 @@ TEST(Misuse, OfPlantsIsRefused) {
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.linear_solver = frond_linear_solver(9); }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.mass = frond_mass(9); }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.newton_iterations = 0; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.element_order = 0; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.element_order = 3; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.max_iterations = -1; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.tolerance = NOT_A_NUMBER; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.mass_damping = -1; }));

@@ -19,8 +19,12 @@ static void step(frond_world world, int steps) {
     for (int i = 0; i < steps; i++) ASSERT_EQ(frond_world_step(world, 1.0 / 60), FROND_OK) << frond_last_error();
 }
 
-TEST(OwnWorld, AnUnpinnedPlantFallsFreely) {
+struct EveryOrder : testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(OwnWorld, EveryOrder, testing::Values(1, 2));
+
+TEST_P(EveryOrder, AnUnpinnedPlantFallsFreely) {
     frond_plant_def def = frond_default_plant_def();
+    def.element_order = GetParam();
     def.root_height = -1;
     def.integrator = FROND_IMPLICIT_EULER;
     def.effects = FROND_GRAVITY | FROND_SURFACE;

@@ -21,6 +21,7 @@ static void check_plant_def(const frond_plant_def* def) {
     check_row(number_of(def->integrator), FROND_INTEGRATOR_COUNT, "def.integrator");
     check_row(number_of(def->linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.linear_solver");
     check_row(number_of(def->mass), FROND_MASS_COUNT, "def.mass");
+    check_range(def->element_order, 1, HIGHEST_ORDER, "def.element_order");
     check_range(def->newton_iterations, 1, 100, "def.newton_iterations");
     check_range(def->newton_tolerance, 0, 1, "def.newton_tolerance");
     check_range(def->max_iterations, 1, 10'000'000, "def.max_iterations");
@@ -56,6 +57,7 @@ frond_plant_def frond_default_plant_def(void) {
     frond_plant_def def = {};
     def.rotation = {0, 0, 0, 1};
     def.mechanics = FROND_TET_COROTATIONAL;
+    def.element_order = 1;
     def.integrator = FROND_BDF2;
     def.linear_solver = FROND_DIRECT;
     def.mass = FROND_LUMPED;

@@ -44,6 +44,7 @@ struct Model {
     std::vector<double> tet_young;    // so that it bends as it should [Pa]
     std::vector<double> tet_poisson;
     std::vector<uint8_t> root;  // cage nodes that the ground holds unless a plant says otherwise, node_count
+    // Like tet_young, for linear tets; quadratic ones take them as they are, the middles of edges straight between.
     std::shared_ptr<RestShapes> rest_shapes = std::make_shared<RestShapes>();
     double stiffened = 1;  // how much stiffer the organs were made so that the plant stands [-]
     CageReport cage_report;

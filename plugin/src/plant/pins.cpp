@@ -53,7 +53,7 @@ static void pin_chain(Plant& plant) {
     for (const auto& [chain_node, nodes] : held) {
         std::vector<Vec3> from, to;
         for (int n : nodes) {
-            from.push_back(plant.model->cage.nodes[size_t(n)]);
+            from.push_back(point(plant.follow->modelled, n));
             to.push_back(point(plant.pin_target, n));
         }
         Mat3 rotation;
