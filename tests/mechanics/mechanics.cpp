@@ -4,15 +4,18 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "mechanics/tet_element.hpp"
 #include "support/dense.hpp"
 #include "support/meshes.hpp"
 
 namespace frond::test {
 namespace {
 
-struct EveryMechanics : testing::TestWithParam<int> {
-    const frond_mechanics which = frond_mechanics(GetParam());
-    const Mechanics& row = mechanics(which);
+struct EveryMechanics : testing::TestWithParam<std::tuple<int, int>> {
+    const frond_mechanics which = frond_mechanics(std::get<0>(GetParam()));
+    const int order = std::get<1>(GetParam());
+    const Mechanics& row = mechanics(which, order);
+    TetElements elements_of(const Model& model) const { return make_tet_elements(model, nullptr, order); }
     bool is_linear() const { return which == FROND_TET_LINEAR; }
     bool is_hookean() const { return which != FROND_TET_NEOHOOKEAN; }
 
@@ -30,10 +33,26 @@ struct EveryMechanics : testing::TestWithParam<int> {
     }
 };
 
-std::string row_name(const testing::TestParamInfo<int>& info) {
-    return mechanics(frond_mechanics(info.param)).name;
+std::string row_name(const testing::TestParamInfo<std::tuple<int, int>>& info) {
+    const auto [which, order] = info.param;
+    return std::string(mechanics(frond_mechanics(which), order).name) + (order == 1 ? "" : "_quadratic");
 }
-INSTANTIATE_TEST_SUITE_P(Mechanics, EveryMechanics, testing::Range(0, int(FROND_TET_NEOHOOKEAN) + 1), row_name);
+INSTANTIATE_TEST_SUITE_P(Mechanics, EveryMechanics,
+                         testing::Combine(testing::Range(0, int(FROND_TET_NEOHOOKEAN) + 1), testing::Values(1, 2)),
+                         row_name);
+
+// Gradients of deformation at all points of all tets.
+template <class Element>
+std::vector<Mat3> gradients(const TetElements& elements, const VecX& x) {
+    std::vector<Mat3> all;
+    for (size_t e = 0; e < elements.tets.size(); ++e)
+        for (int q = 0; q < Element::POINTS; ++q)
+            all.push_back(Element::gradient(Element::share(elements, e), Element::places(elements, e, x), q));
+    return all;
+}
+std::vector<Mat3> gradients(const TetElements& elements, const VecX& x) {
+    return elements.nodes.order == 1 ? gradients<LinearTet>(elements, x) : gradients<QuadraticTetElement>(elements, x);
+}
 
 // Shapes from nearly at rest to torn about; the last ones have tets inside out.
 struct Case {
@@ -57,11 +76,7 @@ VecX deformed(const Case& c, const TetElements& elements, Dice& dice) {
         for (int i = 0; i < elements.node_count; ++i) point(x, i) = R * point(elements.rest_positions, i) + shift;
         x += dice.vector(x.size(), c.amount);
         bool smooth = true;
-        for (size_t e = 0; e < elements.tets.size(); ++e) {
-            Mat3 edges;
-            for (int a = 0; a < 3; ++a)
-                edges.col(a) = point(x, elements.ordered[e][size_t(a) + 1]) - point(x, elements.ordered[e][0]);
-            const Mat3 F = edges * elements.rest_inverse[e];
+        for (const Mat3& F : gradients(elements, x)) {
             // Stretches are the roots of F^T F; the smallest is negative inside out.
             const Eigen::SelfAdjointEigenSolver<Mat3> squares(F.transpose() * F);
             const Vec3 s = squares.eigenvalues().cwiseMax(0).cwiseSqrt();
@@ -76,7 +91,7 @@ TEST_P(EveryMechanics, ForceIsMinusTheGradientOfEnergy) {
     int inverted = 0;
     for (const Case& c : cases())
         for (int repeat = 0; repeat < 20; ++repeat) {
-            const TetElements elements = make_tet_elements(c.model);
+            const TetElements elements = elements_of(c.model);
             VecX x = deformed(c, elements, dice);
             VecX f = VecX::Zero(x.size());
             inverted += row.add_force(elements, x, f);
@@ -98,7 +113,7 @@ TEST_P(EveryMechanics, ExactStiffnessIsMinusTheDerivativeOfForce) {
     Dice dice(2);
     for (const Case& c : cases())
         for (int repeat = 0; repeat < 20; ++repeat) {
-            const TetElements elements = make_tet_elements(c.model);
+            const TetElements elements = elements_of(c.model);
             VecX x = deformed(c, elements, dice);
             const Eigen::MatrixXd K = stiffness(elements, x, Tangent::exact);
             const double h = 1e-6;
@@ -118,7 +133,7 @@ TEST_P(EveryMechanics, PositiveStiffnessIsNeverNegative) {
     Dice dice(3);
     for (const Case& c : cases())
         for (int repeat = 0; repeat < 10; ++repeat) {
-            const TetElements elements = make_tet_elements(c.model);
+            const TetElements elements = elements_of(c.model);
             const VecX x = elements.rest_positions + dice.vector(elements.rest_positions.size(), 2 * c.amount);
             const Eigen::MatrixXd K = stiffness(elements, x, Tangent::positive);
             const VecX values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
@@ -127,7 +142,7 @@ TEST_P(EveryMechanics, PositiveStiffnessIsNeverNegative) {
 }
 
 TEST_P(EveryMechanics, BothTangentsAgreeAtRest) {
-    const TetElements elements = make_tet_elements(box_model(2, 2, 2, {1, 1, 1}));
+    const TetElements elements = elements_of(box_model(2, 2, 2, {1, 1, 1}));
     const Eigen::MatrixXd exact = stiffness(elements, elements.rest_positions, Tangent::exact);
     const Eigen::MatrixXd positive = stiffness(elements, elements.rest_positions, Tangent::positive);
     EXPECT_NEAR((exact - positive).norm(), 0, 1e-12 * exact.norm());
@@ -178,7 +193,7 @@ TEST(Neohookean, HasTheEnergyOfItsFormula) {
 
 TEST_P(EveryMechanics, GivesNoForceUnderRigidMotion) {
     Dice dice(4);
-    const TetElements elements = make_tet_elements(tree_model(6, 4, 3, {1000, 1e6, 0.3}));
+    const TetElements elements = elements_of(tree_model(6, 4, 3, {1000, 1e6, 0.3}));
     const double scale = stiffness(elements, elements.rest_positions, Tangent::exact).norm();
     for (int repeat = 0; repeat < 20; ++repeat) {
         const Vec3 shift(dice.uniform(-9, 9), dice.uniform(-9, 9), dice.uniform(-9, 9));
@@ -209,7 +224,7 @@ TEST(Linear, MistakesALargeTurnForAStretch) {
 
 TEST_P(EveryMechanics, ForcesAddUpToNothing) {
     Dice dice(5);
-    const TetElements elements = make_tet_elements(box_model(2, 2, 3, {1, 1, 1.5}));
+    const TetElements elements = elements_of(box_model(2, 2, 3, {1, 1, 1.5}));
     for (int repeat = 0; repeat < 20; ++repeat) {
         const VecX x = elements.rest_positions + dice.vector(elements.rest_positions.size(), 0.3);
         const VecX f = force(elements, x);
@@ -227,7 +242,7 @@ TEST_P(EveryMechanics, ForcesAddUpToNothing) {
 
 TEST_P(EveryMechanics, OnePassGivesTheSameAsTwo) {
     Dice dice(6);
-    const TetElements elements = make_tet_elements(box_model(2, 2, 2, {1, 1, 1}));
+    const TetElements elements = elements_of(box_model(2, 2, 2, {1, 1, 1}));
     const VecX x = elements.rest_positions + dice.vector(elements.rest_positions.size(), 0.2);
     for (Tangent tangent : {Tangent::exact, Tangent::positive}) {
         BlockMatrix K, twice;
@@ -245,7 +260,7 @@ TEST_P(EveryMechanics, OnePassGivesTheSameAsTwo) {
 }
 
 TEST_P(EveryMechanics, CountsTetsThatAreInsideOut) {
-    const TetElements elements = make_tet_elements(single_tet_model());
+    const TetElements elements = elements_of(single_tet_model());
     VecX x = elements.rest_positions, f = VecX::Zero(x.size());
     EXPECT_EQ(row.add_force(elements, x, f), 0);
     point(x, 3).z() = -0.2;
@@ -255,7 +270,7 @@ TEST_P(EveryMechanics, CountsTetsThatAreInsideOut) {
 TEST_P(EveryMechanics, StretchesABarAsYoungsModulusSays) {
     // Uniaxial stress: strain s along x, -nu s across; energy E s^2 / 2 a volume for small s.
     const Stuff stuff = {1000, 2e6, 0.35};
-    const TetElements elements = make_tet_elements(box_model(3, 1, 1, {3, 1, 1}, stuff));
+    const TetElements elements = elements_of(box_model(3, 1, 1, {3, 1, 1}, stuff));
     const double s = 1e-4;
     const auto energy = [&](double strain) {
         VecX x = elements.rest_positions;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "build/build.hpp"
 
 using namespace frond;
@@ -16,9 +18,10 @@ static std::shared_ptr<const Model> small_model() {
     return build_from_surface(surface_from_stems(stems, 2), def);
 }
 
-static frond_plant_def plant_def() {
+static frond_plant_def plant_def(int order = 1) {
     frond_plant_def def = {};
     def.rotation = {0, 0, 0, 1};
+    def.element_order = order;
     def.newton_iterations = 1;
     def.max_iterations = 100;
     def.tolerance = 1e-6;
@@ -29,13 +32,16 @@ static frond_plant_def plant_def() {
 // Moves all nodes of a plant by x -> A x + b in its own frame.
 static void deform(Plant& plant, const Mat3& A, const Vec3& b) {
     for (int i = 0; i < plant.motion.x.size() / 3; i++)
-        point(plant.motion.x, i) = A * plant.model->cage.nodes[size_t(i)] + b;
+        point(plant.motion.x, i) = A * point(plant.nodes->modelled, i) + b;
     update_chain(plant);
     update_surface(plant, FROND_ALL_EFFECTS);
 }
 
-TEST(Surface, FollowsAnAffineMoveOfTheCageExactly) {
-    const auto plant = create_plant(small_model(), plant_def());
+struct EveryOrder : testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Order, EveryOrder, testing::Range(1, HIGHEST_ORDER + 1));
+
+TEST_P(EveryOrder, SurfaceFollowsAnAffineMoveOfTheCageExactly) {
+    const auto plant = create_plant(small_model(), plant_def(GetParam()));
     Mat3 A;
     A << 1.2, 0.3, 0, -0.2, 0.9, 0.1, 0.05, 0, 1.1;
     const Vec3 b(0.3, -0.2, 0.7);
@@ -52,6 +58,69 @@ TEST(Surface, FollowsAnAffineMoveOfTheCageExactly) {
     }
     for (size_t i = 0; i < plant->model->chain.nodes.size(); i++)
         EXPECT_LT((plant->chain_positions[i] - (A * plant->model->chain.nodes[i].position + b)).norm(), 1e-9);
+}
+
+TEST(Surface, OfQuadraticTetsFollowsACurvedMoveExactly) {
+    const auto plant = create_plant(small_model(), plant_def(2));
+    const auto bend = [](const Vec3& p) {
+        return Vec3(p.x() + 0.4 * p.y() * p.y(), p.y() - 0.2 * p.x() * p.z(), p.z() + 0.3 * p.x() * p.y());
+    };
+    for (int i = 0; i < node_count_of(*plant); i++) point(plant->motion.x, i) = bend(point(plant->nodes->modelled, i));
+    moved(*plant);
+    update_surface(*plant, FROND_ALL_EFFECTS);
+    const Surface& surface = plant->model->surface;
+    for (size_t v = 0; v < surface.positions.size(); v++) {
+        const Vec3 position = bend(surface.positions[v]), now = vertex_position(*plant, int(v));
+        EXPECT_LT((now - position).norm(), 1e-12);
+        EXPECT_LT((grip_place(vertex_grip(*plant, int(v)), plant->motion.x) - position).norm(), 1e-12);
+        EXPECT_NEAR(plant->surface_positions[3 * v], position.x(), 1e-6);
+    }
+    for (size_t i = 0; i < plant->model->chain.nodes.size(); i++)
+        EXPECT_LT((plant->chain_positions[i] - bend(plant->model->chain.nodes[i].position)).norm(), 1e-12);
+
+    // A normal is that of the bent surface, as far as tets tell it.
+    double worst = 1;
+    for (size_t v = 0; v < surface.positions.size(); v++) {
+        const Vec3& p = surface.positions[v];
+        Mat3 F;
+        F << 1, 0.8 * p.y(), 0, -0.2 * p.z(), 1, -0.2 * p.x(), 0.3 * p.y(), 0.3 * p.x(), 1;
+        const Vec3 expected = (F.inverse().transpose() * surface.normals[v].cast<double>()).normalized();
+        worst = std::min(worst, expected.dot(Eigen::Map<Vec3f>(&plant->surface_normals[3 * v]).cast<double>()));
+    }
+    EXPECT_GT(worst, std::cos(0.05));
+}
+
+TEST(Nodes, OfQuadraticTetsAreTheCagesAndThenTheMiddlesOfItsEdges) {
+    const auto model = small_model();
+    const auto plant = create_plant(model, plant_def(2));
+    const int corners = int(model->cage.nodes.size());
+    ASSERT_GT(node_count_of(*plant), corners);
+    for (int i = 0; i < corners; i++) EXPECT_EQ(Vec3(point(cage_places(*plant), i)), model->cage.nodes[size_t(i)]);
+    std::set<Edge> edges;
+    for (const Tet& tet : model->cage.tets)
+        for (int a : tet)
+            for (int b : tet)
+                if (a < b) edges.insert({a, b});
+    ASSERT_EQ(node_count_of(*plant), corners + int(edges.size()));
+    int i = corners, held = 0;
+    for (const auto& [a, b] : edges) {
+        const Vec3 middle = 0.5 * (model->cage.nodes[size_t(a)] + model->cage.nodes[size_t(b)]);
+        EXPECT_LT((point(cage_places(*plant), i) - middle).norm(), 1e-15);
+        EXPECT_EQ(bool(plant->pinned[size_t(i)]), plant->pinned[size_t(a)] && plant->pinned[size_t(b)]);
+        held += plant->pinned[size_t(i++)];
+    }
+    EXPECT_GT(held, 4);
+}
+
+// Tets to rods and back: the host sees the same nodes all along, where they were.
+TEST(Nodes, OfQuadraticTetsStayWhateverMoves) {
+    const auto plant = create_plant(small_model(), plant_def(2));
+    const VecX start = cage_places(*plant);
+    for (int which = FROND_MECHANICS_COUNT - 1; which >= 0; which--) {
+        set_mechanics(*plant, frond_mechanics(which));
+        ASSERT_EQ(cage_places(*plant).size(), start.size()) << which;
+        EXPECT_LT((cage_places(*plant) - start).cwiseAbs().maxCoeff(), 1e-6) << which;
+    }
 }
 
 TEST(Surface, StandsInTheWorldWhereThePlantIsPlaced) {
@@ -95,6 +164,7 @@ TEST(Plants, OfOneModelShareTheirSystem) {
     frond_plant_def def = plant_def();
     def.mass = FROND_CONSISTENT;
     EXPECT_NE(create_plant(model, def)->system.get(), a->system.get());
+    EXPECT_NE(create_plant(model, plant_def(2))->system.get(), a->system.get());
 }
 
 TEST(Grab, TakesTheNearestVertex) {

@@ -36,16 +36,16 @@ std::vector<Misuse> misuses() {
         {"linear_solver", [](Rig& r, double&) { r.settings.linear_solver = FROND_LINEAR_SOLVER_COUNT; }},
         {"spring_tet",
          [](Rig& r, double&) {
-             r.loads.springs.push_back(tet_spring(*r.model, 0, {1, 0, 0, 0}, Vec3::Zero(), 1));
+             r.loads.springs.push_back(tet_spring(*r.system, 0, {1, 0, 0, 0}, Vec3::Zero(), 1));
              r.loads.springs.back().grip.node[0] = 9999;
          }},
         {"spring_weight",
          [=](Rig& r, double&) {
-             r.loads.springs.push_back(tet_spring(*r.model, 0, {nan, 0, 0, 0}, Vec3::Zero(), 1));
+             r.loads.springs.push_back(tet_spring(*r.system, 0, {nan, 0, 0, 0}, Vec3::Zero(), 1));
          }},
         {"spring_stiffness",
          [](Rig& r, double&) {
-             r.loads.springs.push_back(tet_spring(*r.model, 0, {1, 0, 0, 0}, Vec3::Zero(), -1));
+             r.loads.springs.push_back(tet_spring(*r.system, 0, {1, 0, 0, 0}, Vec3::Zero(), -1));
          }},
         {"short_force", [](Rig& r, double&) { r.loads.force.resize(3); }},
         {"short_velocity", [](Rig& r, double&) { r.motion.v.resize(3), r.motion.v.setZero(); }},

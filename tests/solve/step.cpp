@@ -143,7 +143,7 @@ TEST_P(EveryStep, StiffnessDampingStopsShakingButNotTurning) {
         rig.steps(20, H);
         return kinetic_energy(*rig.system, rig.motion.v) + rig.elastic_energy();
     };
-    EXPECT_LT(shake_after(0.05), 0.5 * shake_after(0));
+    EXPECT_LT(shake_after(0.1), 0.5 * shake_after(0));
 }
 
 TEST_P(EveryStep, GivesTheSameBitsAgain) {
@@ -154,7 +154,7 @@ TEST_P(EveryStep, GivesTheSameBitsAgain) {
         rig.settings.tolerance = 1e-8;
         rig.pin_below(1, 0);
         rig.loads.gravity = {3, -9.81, 1};
-        rig.loads.springs.push_back(tet_spring(*rig.model, 7, {0.1, 0.2, 0.3, 0.4}, {0.5, 0.5, 0.5}, 20));
+        rig.loads.springs.push_back(tet_spring(*rig.system, 7, {0.1, 0.2, 0.3, 0.4}, {0.5, 0.5, 0.5}, 20));
         for (int n = 0; n < 10; ++n) rig.step(H);
         return rig.motion;
     };
@@ -178,7 +178,7 @@ TEST_P(EveryStep, SolvesTheEquationOfThePaperWithItsSignsRight) {
 
     // K v and f from the mechanics, M from kinetic energy: 1/2 (a+b) M (a+b) - 1/2 (a-b) M (a-b) = 2 a M b.
     const Elements& elements = elements_of(*rig.system);
-    const Mechanics& body = mechanics(rig.settings.mechanics);
+    const Mechanics& body = rig.row();
     BlockMatrix K;
     K.set_pattern(elements.pattern);
     K.set_zero();
@@ -202,9 +202,14 @@ TEST_P(EveryStep, SolvesTheEquationOfThePaperWithItsSignsRight) {
     EXPECT_NEAR((rig.motion.x - before.x - H * rig.motion.v).norm(), 0, 1e-14);
 }
 
-TEST(Mass, IsTheSameLumpedAndConsistentInSum) {
+struct EveryOrder : testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Mass, EveryOrder, testing::Range(1, HIGHEST_ORDER + 1));
+
+TEST_P(EveryOrder, MassIsTheSameLumpedAndConsistentInSum) {
     const Model model = tree_model(4, 3, 2, {750, 1e6, 0.3});
-    const Rig lumped(model, plain_settings()), consistent(model, plain_settings(), FROND_CONSISTENT);
+    RigSettings settings = plain_settings();
+    settings.order = GetParam();
+    const Rig lumped(model, settings), consistent(model, settings, FROND_CONSISTENT);
     double volume = 0;
     for (double v : tets_of(*lumped.system).volume) volume += v;
     EXPECT_NEAR(lumped.mass(), 750 * volume, 1e-12 * lumped.mass());

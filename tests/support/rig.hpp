@@ -17,6 +17,7 @@ constexpr int TET_MECHANICS = FROND_TET_NEOHOOKEAN + 1;
 
 struct RigSettings : SolveSettings {
     frond_mechanics mechanics;
+    int order = 1;  // of its elements
 };
 
 inline RigSettings plain_settings(frond_mechanics mechanics = FROND_TET_COROTATIONAL,
@@ -41,13 +42,10 @@ inline double kinetic_energy(const System& system, const VecX& v) {
     return kinetic_energy(system, elements_of(system).modelled, v);
 }
 // A spring to a point of a tet.
-inline Spring tet_spring(const Model& model, int tet, const std::array<double, 4>& weights, const Vec3& target,
+inline Spring tet_spring(const System& system, int tet, const std::array<double, 4>& weights, const Vec3& target,
                          double stiffness) {
-    Grip grip;
-    grip.count = 4;
-    grip.node = model.cage.tets[size_t(tet)];
-    grip.weight = weights;
-    return {grip, target, stiffness};
+    const TetElements& elements = tets_of(system);
+    return {tet_grip(place_in_tet(elements.nodes, elements.tets, tet, weights)), target, stiffness};
 }
 
 struct Rig {
@@ -55,19 +53,23 @@ struct Rig {
     std::shared_ptr<const System> system;
     WorkspacePtr workspace;
     RigSettings settings;
+    frond_mass masses;
     Loads loads;
     Motion motion;
 
     Rig(const Model& made, const RigSettings& with, frond_mass mass = FROND_LUMPED)
         : model(std::make_shared<const Model>(made)),
-          system(make_system(model, with.mechanics, mass)),
+          system(make_system(model, with.mechanics, mass, with.order)),
           workspace(make_workspace(system)),
-          settings(with) {
-        motion.x = motion.pin_target = positions_of(*model);
+          settings(with),
+          masses(mass) {
+        motion.x = motion.pin_target = elements_of(*system).modelled;
         motion.v = loads.force = VecX::Zero(motion.x.size());
-        motion.pinned.assign(model->cage.nodes.size(), 0);
+        motion.pinned.assign(size_t(node_count()), 0);
     }
-    int node_count() const { return int(model->cage.nodes.size()); }
+    int node_count() const { return elements_of(*system).node_count; }
+    // Of the cage, which come first.
+    int corner_count() const { return int(model->cage.nodes.size()); }
     // Holds the nodes whose coordinate along the axis is at most `limit`.
     void pin_below(int axis, double limit) {
         for (int i = 0; i < node_count(); ++i)
@@ -83,12 +85,14 @@ struct Rig {
         for (int i = 0; i < node_count(); ++i) sum += node_mass_of(*system)[i] * point(motion.v, i);
         return sum;
     }
-    double elastic_energy() const { return mechanics(settings.mechanics).energy(elements_of(*system), motion.x); }
+    double elastic_energy() const { return row().energy(elements_of(*system), motion.x); }
+    const Mechanics& row() const { return mechanics(settings.mechanics, settings.order); }
 };
 
-// Every mechanics of tets with every integrator and mass, solved directly, and with every linear solver by implicit Euler.
+// Every mechanics of tets with every integrator and mass, solved directly, and with every linear solver by implicit
+// Euler; with elements of order 2 each integrator once, so that it stays quick.
 struct Combination {
-    int mechanics, integrator, linear_solver, mass;
+    int mechanics, order, integrator, linear_solver, mass;
 };
 inline std::vector<Combination> every_combination() {
     std::vector<Combination> all;
@@ -96,7 +100,9 @@ inline std::vector<Combination> every_combination() {
         for (int i = 0; i < FROND_INTEGRATOR_COUNT; ++i)
             for (int l = 0; l < FROND_LINEAR_SOLVER_COUNT; ++l)
                 for (int k = 0; k < FROND_MASS_COUNT; ++k)
-                    if (l == FROND_DIRECT || i == FROND_IMPLICIT_EULER) all.push_back({m, i, l, k});
+                    if (l == FROND_DIRECT || i == FROND_IMPLICIT_EULER) all.push_back({m, 1, i, l, k});
+    for (int m = 0; m < TET_MECHANICS; ++m)
+        for (int i = 0; i < FROND_INTEGRATOR_COUNT; ++i) all.push_back({m, 2, i, FROND_DIRECT, (m + i) % 2});
     return all;
 }
 struct EveryCombination : testing::TestWithParam<Combination> {
@@ -104,6 +110,7 @@ struct EveryCombination : testing::TestWithParam<Combination> {
         RigSettings s =
             plain_settings(frond_mechanics(GetParam().mechanics), frond_linear_solver(GetParam().linear_solver));
         s.integrator = frond_integrator(GetParam().integrator);
+        s.order = GetParam().order;
         return s;
     }
     bool is_explicit() const { return integrator(frond_integrator(GetParam().integrator)).is_explicit; }
@@ -116,7 +123,7 @@ inline std::string combination_name(const testing::TestParamInfo<Combination>& i
     static const char* const INTEGRATORS[] = {FROND_INTEGRATORS(FROND_TEST_TEXT)};
     static const char* const SOLVERS[] = {FROND_LINEAR_SOLVERS(FROND_TEST_TEXT)};
     static const char* const MASSES[] = {FROND_MASSES(FROND_TEST_TEXT)};
-    return std::string(MECHANICS[info.param.mechanics]) + "_" + INTEGRATORS[info.param.integrator] + "_" +
+    return std::string(MECHANICS[info.param.mechanics]) + (info.param.order == 2 ? "_quadratic_" : "_") + INTEGRATORS[info.param.integrator] + "_" +
            SOLVERS[info.param.linear_solver] + "_" + MASSES[info.param.mass];
 }
 

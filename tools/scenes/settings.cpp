@@ -84,6 +84,7 @@ const std::vector<Key>& keys() {
         real("cage_smoothness", "0..1", &Settings::model, &frond_model_def::cage_smoothness),
         choice("mechanics", "row of the table", &frond_plant_def::mechanics, FROND_MECHANICS_COUNT,
                frond_mechanics_name),
+        count("element_order", "of the tets, 1 or 2", &Settings::plant, &frond_plant_def::element_order),
         choice("integrator", "row of the table", &frond_plant_def::integrator, FROND_INTEGRATOR_COUNT,
                frond_integrator_name),
         choice("linear_solver", "row of the table", &frond_plant_def::linear_solver, FROND_LINEAR_SOLVER_COUNT,

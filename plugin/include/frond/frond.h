@@ -367,6 +367,12 @@ typedef struct frond_plant_def {
     frond_vec3 position;               /* of the model's origin [m] */
     frond_quat rotation;               /* need not have length one; default identity */
     frond_mechanics mechanics;         /* default FROND_TET_COROTATIONAL */
+    /* Of the displacements within a tet, 1 (default) or 2. Linear tets are quick and lock: one cell across and five times
+     * as long as thick bends 3 % of what it should, which a cage made by Frond is calibrated for and the caller's own
+     * tets are not. Quadratic tets have a node in the middle of each edge too and bend such cells within 5 %, with some
+     * twenty times the work a step. For tets of your own (frond_model_from_tets, .msh, .vtk) only: the cages that
+     * Frond makes are calibrated for order 1, and UNSUPPORTED says so. Chain mechanics move alike with both. */
+    int element_order;
     frond_integrator integrator;       /* default FROND_BDF2 */
     frond_linear_solver linear_solver; /* default FROND_DIRECT */
     frond_mass mass;                   /* default FROND_LUMPED */
@@ -379,7 +385,7 @@ typedef struct frond_plant_def {
     double spectral_radius;   /* of FROND_GENERALIZED_ALPHA at infinite frequency, 0..1 [-], default 0.8: 1 damps
                                * nothing, 0 most */
     double root_height;       /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
-                               * from the shape; negative pins none */
+                               * from the shape; negative pins none. A node on an edge is where both its ends are. */
     frond_effects effects;    /* default FROND_ALL_EFFECTS */
     void* user;
     uint32_t cookie; /* do not set */
@@ -417,7 +423,8 @@ FROND_API frond_result frond_plant_set_effects(frond_plant plant, frond_effects 
 /* Goes on with other mechanics, from the same shape and velocities: exactly between tets; between cage and chain as near
  * as the one can take the other's shape. What the plant stands on and is held by stays. */
 FROND_API frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics mechanics);
-/* Of the cage, whatever moves. 0 for an invalid handle. */
+/* Of the cage, whatever moves: the nodes of frond_cage_view first, as they stand there; with element_order 2 one in the
+ * middle of each edge follows, ordered by the edge's lower and then its higher node. 0 for an invalid handle. */
 FROND_API int frond_plant_get_node_count(frond_plant plant);
 FROND_API int frond_plant_get_capsule_count(frond_plant plant);
 /* node_count must be the plant's. Either array may be null. positions [m], velocities [m/s], node_count*3, in the

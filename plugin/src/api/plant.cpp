@@ -21,6 +21,7 @@ static void check_plant_def(const frond_plant_def* def) {
     check_row(number_of(def->integrator), FROND_INTEGRATOR_COUNT, "def.integrator");
     check_row(number_of(def->linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.linear_solver");
     check_row(number_of(def->mass), FROND_MASS_COUNT, "def.mass");
+    check_range(def->element_order, 1, HIGHEST_ORDER, "def.element_order");
     check_range(def->newton_iterations, 1, 100, "def.newton_iterations");
     check_range(def->newton_tolerance, 0, 1, "def.newton_tolerance");
     check_range(def->max_iterations, 1, 10'000'000, "def.max_iterations");
@@ -56,6 +57,7 @@ frond_plant_def frond_default_plant_def(void) {
     frond_plant_def def = {};
     def.rotation = {0, 0, 0, 1};
     def.mechanics = FROND_TET_COROTATIONAL;
+    def.element_order = 1;
     def.integrator = FROND_BDF2;
     def.linear_solver = FROND_DIRECT;
     def.mass = FROND_LUMPED;
@@ -78,6 +80,10 @@ frond_result frond_plant_create(frond_world world, frond_model model, const fron
         World& w = get(world);
         const std::shared_ptr<const Model> m = get(model);
         check_plant_def(def);
+        if (def->element_order == 2 && m->calibrated)
+            fail(FROND_UNSUPPORTED,
+                 "def.element_order is 2, but this model's cage is calibrated for order 1; use order 1, or give your "
+                 "own tets with frond_model_from_tets");
         PlantBody* body = add_plant(w, create_plant(m, *def));
         body->handle.id = plant_slots().insert(body);
         if (!body->handle.id) {

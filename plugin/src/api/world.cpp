@@ -31,7 +31,7 @@ static frond_report full_report(const World& world) {
     report.time = world.time;
     report.plant_count = int(world.bodies.size());
     for (const auto& body : world.bodies) {
-        report.node_count += int(body->plant->model->cage.nodes.size());
+        report.node_count += node_count_of(*body->plant);
         report.tet_count += int(body->plant->model->cage.tets.size());
         report.ms_surface += body->plant->ms_surface;
     }

@@ -456,6 +456,7 @@ void calibrate(Model& model) {
         for (size_t e = 0; e < lone.tets.size(); e++) model.tet_young[lone.tets[e]] = lone.model.tet_young[e];
     }
     calibrate_together(model, weights, hangs, alone);
+    model.calibrated = true;
 }
 
 }  // namespace frond

@@ -12,13 +12,14 @@ int BlockPattern::slot(int i, int j) const {
     return found != end && *found == i ? int(found - row.begin()) : -1;
 }
 
-BlockPattern make_block_pattern(int node_count, const std::vector<Tet>& tets) {
+template <size_t N>
+BlockPattern make_block_pattern(int node_count, const std::vector<std::array<int, N>>& elements) {
     // Each node's neighbours of higher number, itself first, each once and in order.
     std::vector<std::vector<int>> neighbours(static_cast<size_t>(node_count));
     for (int j = 0; j < node_count; ++j) neighbours[size_t(j)].push_back(j);
-    for (const Tet& tet : tets)
-        for (int i : tet)
-            for (int j : tet)
+    for (const auto& element : elements)
+        for (int i : element)
+            for (int j : element)
                 if (i > j) neighbours[size_t(j)].push_back(i);
 
     BlockPattern pattern;
@@ -32,6 +33,8 @@ BlockPattern make_block_pattern(int node_count, const std::vector<Tet>& tets) {
     }
     return pattern;
 }
+template BlockPattern make_block_pattern(int, const std::vector<std::array<int, 4>>&);
+template BlockPattern make_block_pattern(int, const std::vector<std::array<int, 10>>&);
 
 void BlockMatrix::set_pattern(const BlockPattern& new_pattern) {
     pattern = &new_pattern;

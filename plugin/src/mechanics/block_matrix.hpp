@@ -15,8 +15,12 @@ struct BlockPattern {
     int block_count() const { return int(row.size()); }
 };
 
-// Every node has its diagonal block, and every two nodes that share an element have theirs.
-BlockPattern make_block_pattern(int node_count, const std::vector<Tet>& tets);
+// Every node has its diagonal block, and every two nodes that share an element have theirs. Elements are arrays of four
+// or of ten nodes.
+template <size_t N>
+BlockPattern make_block_pattern(int node_count, const std::vector<std::array<int, N>>& elements);
+extern template BlockPattern make_block_pattern(int, const std::vector<std::array<int, 4>>&);
+extern template BlockPattern make_block_pattern(int, const std::vector<std::array<int, 10>>&);
 
 struct BlockMatrix {
     const BlockPattern* pattern = nullptr;

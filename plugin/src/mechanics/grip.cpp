@@ -1,6 +1,7 @@
 // In: a grip and where the nodes are. Out: where its point is, and forces and stiffness on it as the nodes feel them.
 #include "mechanics/grip.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mechanics/rotation.hpp"
@@ -19,11 +20,11 @@ Mat3 turn_derivative(const Grip& grip, int k, const VecX& x) {
     return -cross_matrix<double>(turned_arm(grip, k, x)) * rate_matrix<double>(point(x, grip.node[size_t(k)] + 1));
 }
 
-// The derivative by each node of the mechanics, at most eight.
+// The derivative by each node of the mechanics.
 struct Derivative {
     int count = 0;
-    std::array<int, 4> node;
-    std::array<Mat3, 4> by;
+    std::array<int, Grip::MOST> node;
+    std::array<Mat3, Grip::MOST> by;
     void add(int n, const Mat3& m) {
         node[size_t(count)] = n;
         by[size_t(count++)] = m;
@@ -41,8 +42,16 @@ Derivative derivative_at(const Grip& grip, const VecX& x) {
 
 }  // namespace
 
+Grip tet_grip(const TetPlace& place) {
+    Grip grip;
+    grip.count = place.count;
+    std::copy_n(place.node.begin(), place.count, grip.node.begin());
+    std::copy_n(place.weight.begin(), place.count, grip.weight.begin());
+    return grip;
+}
+
 bool is_sound(const Grip& grip, int node_count) {
-    if (grip.count < 1 || grip.count > (grip.turns ? 2 : 4)) return false;
+    if (grip.count < 1 || grip.count > (grip.turns ? 2 : Grip::MOST)) return false;
     for (int k = 0; k < grip.count; ++k) {
         if (grip.node[size_t(k)] < 0 || grip.node[size_t(k)] + grip.turns >= node_count) return false;
         if (!std::isfinite(grip.weight[size_t(k)])) return false;

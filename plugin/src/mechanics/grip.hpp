@@ -4,17 +4,20 @@
 
 #include "core/types.hpp"
 #include "mechanics/block_matrix.hpp"
+#include "mechanics/tet_nodes.hpp"
 
 namespace frond {
 
 struct Grip {
-    int count = 0;                      // of nodes
-    bool turns = false;                 // the node after each is its rotation vector
-    std::array<int, 4> node = {};       // of the mechanics
-    std::array<double, 4> weight = {};  // [-]
+    static constexpr int MOST = 10;        // a quadratic tet's nodes
+    int count = 0;                         // of nodes
+    bool turns = false;                    // the node after each is its rotation vector
+    std::array<int, MOST> node = {};       // of the mechanics
+    std::array<double, MOST> weight = {};  // [-]
     std::array<Vec3, 2> arm = {Vec3::Zero(), Vec3::Zero()};  // of the first two nodes, in the modelled shape [m]
 };
 
+Grip tet_grip(const TetPlace& place);
 bool is_sound(const Grip& grip, int node_count);
 Vec3 grip_place(const Grip& grip, const VecX& x);
 Vec3 grip_velocity(const Grip& grip, const VecX& x, const VecX& v);

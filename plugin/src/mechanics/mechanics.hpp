@@ -6,6 +6,7 @@
 #include "core/types.hpp"
 #include "frond/frond.h"
 #include "mechanics/block_matrix.hpp"
+#include "mechanics/tet_nodes.hpp"
 #include "model/model.hpp"
 
 namespace frond {
@@ -27,23 +28,27 @@ protected:
     Elements& operator=(Elements&&) = default;
 };
 
-// Nodes are the cage's.
+// Nodes are the cage's, with order 2 the middles of its edges too. Edges are straight at rest.
 struct TetElements : Elements {
+    TetNodes nodes;
     std::vector<Tet> tets;           // as in the cage
     std::vector<Tet> ordered;        // the same tets, nodes ascending: their blocks then fall in the lower triangle
     std::vector<Mat3> rest_inverse;  // inverse of the edges from ordered[0] to ordered[1..3], as columns [1/m]
     std::vector<double> volume;      // [m^3]
     std::vector<double> lambda, mu;  // Lame's constants [Pa]
     std::vector<double> density;     // [kg/m^3]
-    std::vector<std::array<int, 16>> slots;  // of ordered nodes a, b at [4*a+b], in a BlockMatrix of this pattern
+    // Blocks of an element's nodes a >= b, in the order of nodes.of_tet, at [a(a+1)/2 + b] in a BlockMatrix of this
+    // pattern: ten with order 1, else 55.
+    std::vector<std::array<int, 10>> slots;
+    std::vector<std::array<int, 55>> quadratic_slots;
 };
 
-// For rest positions other than the model's own (the rest shape found under gravity), pass them.
-TetElements make_tet_elements(const Model& model, const VecX* rest_positions = nullptr);
+// For rest positions of the corners other than as modelled (the rest shape found under gravity), pass them.
+TetElements make_tet_elements(const Model& model, const VecX* rest_positions = nullptr, int order = 1);
 
 // Mass of the nodes.
 struct Masses {
-    VecX node;                 // lumped, one a node [kg]; zero for a rotation
+    VecX node;                 // sums of the matrix's rows, one a node [kg]; zero for a rotation
     bool lumped = true;        // the mass matrix is diagonal
     std::vector<double> slot;  // one a block of the pattern, times the identity [kg]
 };
@@ -76,6 +81,8 @@ struct Mechanics {
     // Nodes are pairs of a chain node's place and its rotation; the cage follows. Else nodes are the cage's.
     bool moves_chain;
 };
-const Mechanics& mechanics(frond_mechanics which);
+// With elements of order 1 or 2; what moves the chain is the same in both.
+constexpr int HIGHEST_ORDER = 2;
+const Mechanics& mechanics(frond_mechanics which, int order = 1);
 
 }  // namespace frond

@@ -1,5 +1,11 @@
-// One tet with straight edges: gradient of its deformation, force and stiffness to its nodes. Shared by the tet
-// mechanics.
+// The two elements: tets with straight edges whose displacements are linear (four nodes) or quadratic (ten). Gradient
+// of deformation at each point of integration, force and stiffness to their nodes.
+//
+// At one point a quadratic tet is a linear one whose corners y are sums of its ten nodes,
+//   y_c = (4 L_c - 1) x_c + 4 sum over d of L_d x_cd,  L the point's barycentric weights, x_cd the middle of edge cd:
+// shape functions L (2 L - 1) and 4 L L' (Zienkiewicz, Taylor 2000, "The finite element method") have these gradients.
+// So materials see linear tets only. Four points at L = (a, b, b, b), a = (5 + 3 sqrt 5)/20, integrate squares of their
+// gradients exactly (Hammer, Marlowe, Stroud 1956).
 #pragma once
 
 #include "mechanics/mechanics.hpp"
@@ -11,57 +17,122 @@ inline const TetElements& as_tets(const Elements& elements) {
     return static_cast<const TetElements&>(elements);
 }
 
-// Gradient of deformation F = sum over nodes of x b^T, with b the rest gradients of the shape functions.
-inline Mat3 deformation_gradient(const TetElements& elements, size_t e, const VecX& x) {
-    const Tet& tet = elements.ordered[e];
-    const Vec3 x0 = point(x, tet[0]);
-    Mat3 edges;
-    for (int a = 0; a < 3; ++a) edges.col(a) = point(x, tet[size_t(a) + 1]) - x0;
-    return edges * elements.rest_inverse[e];
-}
+// What a material is given: the share of a tet that one point of integration stands for.
+struct TetShare {
+    const Mat3& rest_inverse;
+    double volume, lambda, mu;
+};
 
-// Adds the nodes' forces -V P b for the stress P (first Piola-Kirchhoff); they add up to nothing.
-inline void scatter_force(const TetElements& elements, size_t e, const Mat3& P, VecX& f) {
-    const Tet& tet = elements.ordered[e];
-    const Mat3 forces = P * elements.rest_inverse[e].transpose() * elements.volume[e];
-    for (int a = 0; a < 3; ++a) point(f, tet[size_t(a) + 1]) -= forces.col(a);
-    point(f, tet[0]) += forces.col(0) + forces.col(1) + forces.col(2);
-}
-
-// Stiffness between nodes 1, 2, 3 of a tet; node 0 follows, since moving all nodes alike gives no force.
+// Stiffness between corners 1, 2, 3 of a linear tet; corner 0 follows, since moving all alike gives no force.
 struct TetStiffness {
     Mat3 k11, k21, k31, k22, k32, k33;
 };
 
-inline void scatter_stiffness(const TetElements& elements, size_t e, const TetStiffness& k, BlockMatrix& K) {
-    const std::array<int, 16>& slot = elements.slots[e];
-    const Mat3 k10 = -(k.k11 + k.k21.transpose() + k.k31.transpose());
-    const Mat3 k20 = -(k.k21 + k.k22 + k.k32.transpose());
-    const Mat3 k30 = -(k.k31 + k.k32 + k.k33);
-    K.block(slot[0]) -= k10 + k20 + k30;
-    K.block(slot[4]) += k10;
-    K.block(slot[8]) += k20;
-    K.block(slot[12]) += k30;
-    K.block(slot[5]) += k.k11;
-    K.block(slot[9]) += k.k21;
-    K.block(slot[13]) += k.k31;
-    K.block(slot[10]) += k.k22;
-    K.block(slot[14]) += k.k32;
-    K.block(slot[15]) += k.k33;
+struct LinearTet {
+    static constexpr int POINTS = 1;
+    using Places = Mat3;  // edges from the first corner
+
+    static TetShare share(const TetElements& elements, size_t e) {
+        return {elements.rest_inverse[e], elements.volume[e], elements.lambda[e], elements.mu[e]};
+    }
+
+    static Places places(const TetElements& elements, size_t e, const VecX& x) {
+        const Tet& tet = elements.ordered[e];
+        const Vec3 x0 = point(x, tet[0]);
+        Mat3 edges;
+        for (int a = 0; a < 3; ++a) edges.col(a) = point(x, tet[size_t(a) + 1]) - x0;
+        return edges;
+    }
+
+    // F = sum over nodes of x b^T, with b the rest gradients of the shape functions.
+    static Mat3 gradient(const TetShare& share, const Places& edges, int) { return edges * share.rest_inverse; }
+
+    // Adds the nodes' forces -V P b for the stress P (first Piola-Kirchhoff); they add up to nothing.
+    static void add_force(const TetElements& elements, size_t e, const TetShare& share, int, const Mat3& P, VecX& f) {
+        const Tet& tet = elements.ordered[e];
+        const Mat3 forces = P * share.rest_inverse.transpose() * share.volume;
+        for (int a = 0; a < 3; ++a) point(f, tet[size_t(a) + 1]) -= forces.col(a);
+        point(f, tet[0]) += forces.col(0) + forces.col(1) + forces.col(2);
+    }
+
+    static void add_stiffness(const TetElements& elements, size_t e, int, const TetStiffness& k, BlockMatrix& K) {
+        const std::array<int, 10>& slot = elements.slots[e];
+        const Mat3 k10 = -(k.k11 + k.k21.transpose() + k.k31.transpose());
+        const Mat3 k20 = -(k.k21 + k.k22 + k.k32.transpose());
+        const Mat3 k30 = -(k.k31 + k.k32 + k.k33);
+        K.block(slot[0]) -= k10 + k20 + k30;
+        K.block(slot[1]) += k10;
+        K.block(slot[2]) += k.k11;
+        K.block(slot[3]) += k20;
+        K.block(slot[4]) += k.k21;
+        K.block(slot[5]) += k.k22;
+        K.block(slot[6]) += k30;
+        K.block(slot[7]) += k.k31;
+        K.block(slot[8]) += k.k32;
+        K.block(slot[9]) += k.k33;
+    }
+};
+
+inline Mat3 deformation_gradient(const TetElements& elements, size_t e, const VecX& x) {
+    return LinearTet::gradient(LinearTet::share(elements, e), LinearTet::places(elements, e, x), 0);
 }
 
-// Stiffness of linear elasticity in a frame turned by R (warped stiffness, R K0 R^T), never negative.
-inline TetStiffness warped_stiffness(const TetElements& elements, size_t e, const Mat3& R, double scale) {
-    const Mat3& B = elements.rest_inverse[e];
-    const double mu = scale * elements.volume[e] * elements.mu[e];
-    const double lambda = scale * elements.volume[e] * elements.lambda[e];
-    const Mat3 G = R * B.transpose();  // columns: the rest gradients, turned
-    const auto block = [&](int a, int b) {
-        Mat3 k = G.col(a) * (lambda * G.col(b)).transpose() + G.col(b) * (mu * G.col(a)).transpose();
-        k.diagonal().array() += mu * B.row(a).dot(B.row(b));
-        return k;
+struct QuadraticTetElement {
+    static constexpr int POINTS = 4;
+    static constexpr double NEAR = 0.58541019662496845446, FAR = 0.13819660112501051518;  // a and b
+    // What a node at a corner, or next to one, counts in that corner's y at a point far from it and from the node, and
+    // how much more at the point beside the node.
+    static constexpr double CORNER = 4 * FAR - 1, EDGE = 4 * FAR, MORE = 4 * (NEAR - FAR);
+
+    // All relative to the first corner.
+    struct Places {
+        std::array<Vec3, 10> node;
+        std::array<Vec3, 4> corner;  // y but for what is more at a point
     };
-    return {block(0, 0), block(1, 0), block(2, 0), block(1, 1), block(2, 1), block(2, 2)};
-}
+
+    static TetShare share(const TetElements& elements, size_t e) {
+        return {elements.rest_inverse[e], elements.volume[e] / POINTS, elements.lambda[e], elements.mu[e]};
+    }
+
+    static Places places(const TetElements& elements, size_t e, const VecX& x) {
+        const QuadraticTet& tet = elements.nodes.of_tet[e];
+        const Vec3 x0 = point(x, tet[0]);
+        Places places;
+        for (size_t n = 0; n < 10; ++n) places.node[n] = point(x, tet[n]) - x0;
+        for (size_t c = 0; c < 4; ++c) {
+            places.corner[c] = CORNER * places.node[c];
+            for (size_t d = 0; d < 4; ++d)
+                if (d != c) places.corner[c] += EDGE * places.node[size_t(TET_BETWEEN[c][d])];
+        }
+        return places;
+    }
+
+    static Mat3 gradient(const TetShare& share, const Places& places, int q) {
+        const auto corner = [&](size_t c) {
+            return Vec3(places.corner[c] + MORE * places.node[size_t(TET_BETWEEN[c][q])]);
+        };
+        const Vec3 y0 = corner(0);
+        Mat3 edges;
+        for (int a = 0; a < 3; ++a) edges.col(a) = corner(size_t(a) + 1) - y0;
+        return edges * share.rest_inverse;
+    }
+
+    static void add_force(const TetElements& elements, size_t e, const TetShare& share, int q, const Mat3& P,
+                          VecX& f) {
+        const QuadraticTet& tet = elements.nodes.of_tet[e];
+        const Mat3 forces = P * share.rest_inverse.transpose() * share.volume;
+        std::array<Vec3, 4> corner;
+        for (size_t c = 1; c < 4; ++c) corner[c] = -forces.col(Eigen::Index(c) - 1);
+        corner[0] = -(corner[1] + corner[2] + corner[3]);
+        for (size_t c = 0; c < 4; ++c) {
+            point(f, tet[c]) += CORNER * corner[c];
+            point(f, tet[size_t(TET_BETWEEN[c][q])]) += MORE * corner[c];
+        }
+        for (size_t k = 0; k < 6; ++k)
+            point(f, tet[4 + k]) += EDGE * (corner[size_t(TET_EDGES[k][0])] + corner[size_t(TET_EDGES[k][1])]);
+    }
+
+    static void add_stiffness(const TetElements& elements, size_t e, int q, const TetStiffness& k, BlockMatrix& K);
+};
 
 }  // namespace frond

@@ -34,19 +34,32 @@ void check_model(const Model& model, const VecX* rest_positions) {
     }
 }
 
+// Blocks of nodes a >= b, which ascend.
+template <size_t PAIRS, size_t N>
+std::array<int, PAIRS> slots_of(const BlockPattern& pattern, const std::array<int, N>& nodes) {
+    static_assert(PAIRS == N * (N + 1) / 2);
+    std::array<int, PAIRS> slots;
+    size_t pair = 0;
+    for (size_t a = 0; a < N; ++a)
+        for (size_t b = 0; b <= a; ++b) slots[pair++] = pattern.slot(nodes[a], nodes[b]);
+    return slots;
+}
+
 }  // namespace
 
-TetElements make_tet_elements(const Model& model, const VecX* rest_positions) {
+TetElements make_tet_elements(const Model& model, const VecX* rest_positions, int order) {
     check_model(model, rest_positions);
     TetElements out;
-    out.node_count = int(model.cage.nodes.size());
     out.tets = out.ordered = model.cage.tets;
     out.density = model.tet_density;
-    out.modelled.resize(3 * out.node_count);
-    for (int i = 0; i < out.node_count; ++i) point(out.modelled, i) = model.cage.nodes[size_t(i)];
-    out.rest_positions = rest_positions ? *rest_positions : out.modelled;
+    out.nodes = make_tet_nodes(int(model.cage.nodes.size()), out.tets, order);
+    out.node_count = out.nodes.count();
+    out.modelled = node_places(out.nodes, [&](int i) { return model.cage.nodes[size_t(i)]; });
+    out.rest_positions =
+        rest_positions ? node_places(out.nodes, [&](int i) { return Vec3(point(*rest_positions, i)); }) : out.modelled;
 
-    out.pattern = make_block_pattern(out.node_count, out.tets);
+    out.pattern = order == 1 ? make_block_pattern(out.node_count, out.tets)
+                             : make_block_pattern(out.node_count, out.nodes.of_tet);
     for (size_t e = 0; e < out.tets.size(); ++e) {
         // Ordering the nodes may mirror the tet; the deformation gradient does not see that.
         Tet& tet = out.ordered[e];
@@ -66,20 +79,58 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions) {
         out.lambda.push_back(E * nu / ((1 + nu) * (1 - 2 * nu)));
         out.mu.push_back(E / (2 * (1 + nu)));
 
-        std::array<int, 16> slots;
-        for (size_t a = 0; a < 4; ++a)
-            for (size_t b = 0; b < 4; ++b) slots[4 * a + b] = out.pattern.slot(tet[a], tet[b]);
-        out.slots.push_back(slots);
+        if (order == 1)
+            out.slots.push_back(slots_of<10>(out.pattern, tet));
+        else
+            out.quadratic_slots.push_back(slots_of<55>(out.pattern, out.nodes.of_tet[e]));
     }
     return out;
 }
 
+template <int ORDER>
 std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which) {
     const VecX& rest = model.rest_shapes->positions[size_t(which)];
-    return std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr));
+    return std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr, ORDER));
+}
+template std::unique_ptr<const Elements> make_tets<1>(const Model&, frond_mechanics);
+template std::unique_ptr<const Elements> make_tets<2>(const Model&, frond_mechanics);
+
+// Of linear tets, lumped: a quarter to each node. Consistent: the shape functions' own products, (1 + delta) / 20.
+static double linear_share(size_t a, size_t b, bool lumped) {
+    if (lumped) return a == b ? 0.25 : 0.0;
+    return a == b ? 1.0 / 10 : 1.0 / 20;
 }
 
-// Lumped: a quarter of the tet to each node. Consistent: the shape functions' own products, V rho / 20 (1 + delta).
+// Of quadratic tets, consistent: products of the shape functions, which depend on what the nodes have in common.
+// Lumped: the diagonal of that, scaled to the tet's mass (Hinton, Rock, Zienkiewicz 1976, "A note on mass lumping and
+// related processes"), since sums of rows are negative at corners.
+static double quadratic_share(size_t a, size_t b, bool lumped) {
+    if (lumped) return a != b ? 0.0 : a < 4 ? 1.0 / 36 : 4.0 / 27;
+    const auto touches = [](size_t node, size_t corner) {
+        if (node < 4) return node == corner;
+        return size_t(TET_EDGES[node - 4][0]) == corner || size_t(TET_EDGES[node - 4][1]) == corner;
+    };
+    int common = 0;
+    for (size_t corner = 0; corner < 4; ++corner) common += touches(a, corner) && touches(b, corner);
+    if (a < 4 && b < 4) return (common ? 6.0 : 1.0) / 420;
+    if (a < 4 || b < 4) return (common ? -4.0 : -6.0) / 420;
+    constexpr double EDGES[] = {8, 16, 32};
+    return EDGES[common] / 420;
+}
+
+template <size_t N>
+static void add_masses(const TetElements& elements, size_t e, const std::array<int, N>& nodes, const int* slots,
+                       double (*share)(size_t, size_t, bool), Masses& masses) {
+    const double mass = elements.volume[e] * elements.density[e];
+    for (size_t a = 0; a < N; ++a)
+        for (size_t b = 0; b <= a; ++b) {
+            const double m = mass * share(a, b, masses.lumped);
+            masses.slot[size_t(*slots++)] += m;
+            masses.node[nodes[a]] += m;
+            if (a != b) masses.node[nodes[b]] += m;
+        }
+}
+
 Masses tet_masses(const Elements& body, frond_mass mass) {
     const TetElements& elements = as_tets(body);
     Masses masses;
@@ -87,29 +138,30 @@ Masses tet_masses(const Elements& body, frond_mass mass) {
     masses.node = VecX::Zero(elements.node_count);
     masses.slot.assign(elements.pattern.row.size(), 0.0);
     for (size_t e = 0; e < elements.ordered.size(); ++e) {
-        const double tet_mass = elements.volume[e] * elements.density[e];
-        for (size_t a = 0; a < 4; ++a) {
-            masses.node[elements.ordered[e][a]] += tet_mass / 4;
-            for (size_t b = 0; b <= a; ++b) {
-                const size_t slot = size_t(elements.slots[e][4 * a + b]);
-                if (masses.lumped)
-                    masses.slot[slot] += a == b ? tet_mass / 4 : 0.0;
-                else
-                    masses.slot[slot] += tet_mass / (a == b ? 10 : 20);
-            }
-        }
+        if (elements.nodes.order == 1)
+            add_masses(elements, e, elements.ordered[e], elements.slots[e].data(), linear_share, masses);
+        else
+            add_masses(elements, e, elements.nodes.of_tet[e], elements.quadratic_slots[e].data(), quadratic_share,
+                       masses);
     }
     return masses;
 }
 
+template <class Element>
 bool tets_are_calm(const Elements& body, const VecX& from, const VecX& to) {
     constexpr double MOST = 0.5;  // change of the deformation gradient [-]; as a turn, about 20 degrees
     const TetElements& elements = as_tets(body);
     for (size_t e = 0; e < elements.tets.size(); ++e) {
-        const Mat3 change = deformation_gradient(elements, e, to) - deformation_gradient(elements, e, from);
-        if (!(change.squaredNorm() < MOST * MOST)) return false;
+        const TetShare share = Element::share(elements, e);
+        const auto before = Element::places(elements, e, from), after = Element::places(elements, e, to);
+        for (int q = 0; q < Element::POINTS; ++q) {
+            const Mat3 change = Element::gradient(share, after, q) - Element::gradient(share, before, q);
+            if (!(change.squaredNorm() < MOST * MOST)) return false;
+        }
     }
     return true;
 }
+template bool tets_are_calm<LinearTet>(const Elements&, const VecX&, const VecX&);
+template bool tets_are_calm<QuadraticTetElement>(const Elements&, const VecX&, const VecX&);
 
 }  // namespace frond

@@ -1,4 +1,4 @@
-// In: tets at rest and where their nodes are. Out: energy, force and stiffness of the stable neo-Hookean solid of
+// In: the gradient of deformation at a point. Out: energy, stress and stiffness of the stable neo-Hookean solid of
 // Smith, de Goes, Kim 2018 ("Stable neo-Hookean flesh simulation"), with I = |F|^2 and J = det F
 //   W = m/2 (I - 3) - m/2 log((I + 1)/4) + l/2 (J - a)^2 - l/2 (1 - a)^2,  a = 1 + 3 m / (4 l).
 // It is finite and has a force that leads back wherever a tet is turned inside out. m = 4/3 mu and l = lambda + 5/6 mu
@@ -10,8 +10,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "mechanics/rows.hpp"
-#include "mechanics/tet_element.hpp"
+#include "mechanics/tet_row.hpp"
 
 namespace frond {
 
@@ -27,14 +26,14 @@ struct Strain {
     double squeeze;  // l (J - a): stress along the cofactor
 };
 
-Strain strain_of(const TetElements& elements, size_t e, const VecX& x) {
+Strain strain_of(const TetShare& tet, const Mat3& F) {
     Strain s;
-    s.F = deformation_gradient(elements, e, x);
+    s.F = F;
     s.cofactor.col(0) = s.F.col(1).cross(s.F.col(2));
     s.cofactor.col(1) = s.F.col(2).cross(s.F.col(0));
     s.cofactor.col(2) = s.F.col(0).cross(s.F.col(1));
-    s.m = 4.0 / 3 * elements.mu[e];
-    s.l = elements.lambda[e] + 5.0 / 6 * elements.mu[e];
+    s.m = 4.0 / 3 * tet.mu;
+    s.l = tet.lambda + 5.0 / 6 * tet.mu;
     s.I = s.F.squaredNorm();
     s.J = s.F.col(0).dot(s.cofactor.col(0));
     s.pull = s.m * s.I / (s.I + 1);
@@ -49,15 +48,11 @@ double energy_density(const Strain& s) {
     return 0.5 * s.m * (stretch - std::log1p(stretch / 4)) + 0.5 * s.l * swell * swell - 0.75 * s.m * swell;
 }
 
-Mat3 stress(const Strain& s) {
-    return s.pull * s.F + s.squeeze * s.cofactor;
-}
-
 // K_ab = V (pull b_a.b_b I + bend (F b_a)(F b_b)^T + l (C b_a)(C b_b)^T - squeeze [F (b_a x b_b)]), C the cofactor and
 // [.] the cross product: the derivative of C.
-TetStiffness exact_stiffness(const TetElements& elements, size_t e, const Strain& s, double scale) {
-    const Mat3& B = elements.rest_inverse[e];
-    const double V = scale * elements.volume[e];
+TetStiffness exact_stiffness(const TetShare& tet, const Strain& s, double scale) {
+    const Mat3& B = tet.rest_inverse;
+    const double V = scale * tet.volume;
     const Mat3 FB = s.F * B.transpose(), CB = s.cofactor * B.transpose();
     const auto block = [&](int a, int b) {
         Mat3 k = FB.col(a) * (V * s.bend * FB.col(b)).transpose() + CB.col(a) * (V * s.l * CB.col(b)).transpose();
@@ -108,7 +103,7 @@ Mat3 without_negative_part(const Mat3& A) {
 // body turn as a whole. So tension counts only beyond this share of the modulus.
 constexpr double FREE_TURN = 0.05;
 
-TetStiffness positive_stiffness(const TetElements& elements, size_t e, const Strain& s, double scale) {
+TetStiffness positive_stiffness(const TetShare& tet, const Strain& s, double scale) {
     const Frame frame = principal_frame(s.F);
     const Vec3& z = frame.stretch;
 
@@ -129,8 +124,8 @@ TetStiffness positive_stiffness(const TetElements& elements, size_t e, const Str
     A = without_negative_part(A);
 
     // With b in that frame: K_ij = A_ij b_i b'_j + crossed_ij b_j b'_i, and straight_ij b_j b'_j on the diagonal.
-    const Mat3 G = frame.V.transpose() * elements.rest_inverse[e].transpose();
-    const double V = scale * elements.volume[e];
+    const Mat3 G = frame.V.transpose() * tet.rest_inverse.transpose();
+    const double V = scale * tet.volume;
     const auto block = [&](int a, int b) {
         Mat3 k = G.col(a) * (V * G.col(b)).transpose();
         const Vec3 diagonal = straight * k.diagonal();
@@ -141,50 +136,24 @@ TetStiffness positive_stiffness(const TetElements& elements, size_t e, const Str
     return {block(0, 0), block(1, 0), block(2, 0), block(1, 1), block(2, 1), block(2, 2)};
 }
 
-TetStiffness stiffness(const TetElements& elements, size_t e, const Strain& s, Tangent tangent, double scale) {
-    // Not finite: the exact one says so too, and needs no frame.
-    if (tangent == Tangent::exact || !std::isfinite(s.I)) return exact_stiffness(elements, e, s, scale);
-    return positive_stiffness(elements, e, s, scale);
-}
+struct Neohookean {
+    static Strain strain(const TetShare& tet, const Mat3& F) { return strain_of(tet, F); }
+    static double energy(const TetShare&, const Strain& s) { return energy_density(s); }
+    static Mat3 stress(const TetShare&, const Strain& s) { return s.pull * s.F + s.squeeze * s.cofactor; }
+
+    static TetStiffness stiffness(const TetShare& tet, const Strain& s, Tangent tangent, double scale) {
+        // Not finite: the exact one says so too, and needs no frame.
+        if (tangent == Tangent::exact || !std::isfinite(s.I)) return exact_stiffness(tet, s, scale);
+        return positive_stiffness(tet, s, scale);
+    }
+
+    static bool inverted(const Strain& s) { return s.J < 0; }
+};
 
 }  // namespace
 
-double tet_neohookean_energy(const Elements& body, const VecX& x) {
-    const TetElements& elements = as_tets(body);
-    double energy = 0;
-    for (size_t e = 0; e < elements.tets.size(); ++e)
-        energy += elements.volume[e] * energy_density(strain_of(elements, e, x));
-    return energy;
-}
-
-int tet_neohookean_add_force(const Elements& body, const VecX& x, VecX& f) {
-    const TetElements& elements = as_tets(body);
-    int inverted = 0;
-    for (size_t e = 0; e < elements.tets.size(); ++e) {
-        const Strain s = strain_of(elements, e, x);
-        scatter_force(elements, e, stress(s), f);
-        inverted += s.J < 0;
-    }
-    return inverted;
-}
-
-void tet_neohookean_add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale,
-                                  BlockMatrix& K) {
-    const TetElements& elements = as_tets(body);
-    for (size_t e = 0; e < elements.tets.size(); ++e)
-        scatter_stiffness(elements, e, stiffness(elements, e, strain_of(elements, e, x), tangent, scale), K);
-}
-
-int tet_neohookean_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
-    const TetElements& elements = as_tets(body);
-    int inverted = 0;
-    for (size_t e = 0; e < elements.tets.size(); ++e) {
-        const Strain s = strain_of(elements, e, x);
-        scatter_force(elements, e, stress(s), f);
-        scatter_stiffness(elements, e, stiffness(elements, e, s, tangent, 1), K);
-        inverted += s.J < 0;
-    }
-    return inverted;
+Mechanics tet_neohookean(int order) {
+    return tet_row<Neohookean>("tet_neohookean", order, true);
 }
 
 }  // namespace frond

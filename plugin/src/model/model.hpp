@@ -35,6 +35,7 @@ struct Model {
     bool exact_sections = false;      // they are given, not measured on the surface
     std::vector<double> chain_mass;   // that each chain node carries of the plant's mass [kg]
     std::vector<double> organ_stiffer;  // how much stiffer than its material each organ was made so that it stands [-]
+    bool calibrated = false;          // tet_young holds for tets of order 1 only
     bool stands_as_modelled = false;  // under GRAVITY; else the modelled shape is the one without it
     std::vector<std::array<int, 2>> capsules;  // chain nodes at the two ends; a root alone is both ends
     Cage cage;
@@ -44,6 +45,7 @@ struct Model {
     std::vector<double> tet_young;    // so that it bends as it should [Pa]
     std::vector<double> tet_poisson;
     std::vector<uint8_t> root;  // cage nodes that the ground holds unless a plant says otherwise, node_count
+    // Like tet_young, for linear tets; quadratic ones take them as they are, the middles of edges straight between.
     std::shared_ptr<RestShapes> rest_shapes = std::make_shared<RestShapes>();
     double stiffened = 1;  // how much stiffer the organs were made so that the plant stands [-]
     CageReport cage_report;

@@ -26,33 +26,45 @@ struct Shared {
 };
 
 static std::shared_ptr<const System> shared_system(const std::shared_ptr<const Model>& model, frond_mechanics which,
-                                                   frond_mass mass) {
-    static Shared<std::tuple<const Model*, frond_mechanics, frond_mass>, System> systems;
-    return systems.find_or_make({model.get(), which, mass}, [&] {
-        ensure_rest_shape(*model, which);
-        return make_system(model, which, mass);
-    });
+                                                   frond_mass mass, int order) {
+    static Shared<std::tuple<const Model*, frond_mechanics, frond_mass, int>, System> systems;
+    return systems.find_or_make({model.get(), which, mass, order},
+                                [&] {
+                                    ensure_rest_shape(*model, which);
+                                    return make_system(model, which, mass, order);
+                                });
 }
 
-// Keeps its model alive, so that another one at the same address is not taken for it.
-struct FollowOfModel {
+// Something made from a model, which keeps that alive, so that another one at the same address is not taken for it.
+template <class Value>
+struct OfModel {
     std::shared_ptr<const Model> model;
-    Follow follow;
+    Value value;
 };
+// One a model and order of its elements.
+template <class Value, class Make>
+static std::shared_ptr<const Value> shared_of(const std::shared_ptr<const Model>& model, int order, Make&& make) {
+    static Shared<std::pair<const Model*, int>, OfModel<Value>> values;
+    const auto shared = values.find_or_make(
+        {model.get(), order}, [&] { return std::make_shared<const OfModel<Value>>(OfModel<Value>{model, make()}); });
+    return std::shared_ptr<const Value>(shared, &shared->value);
+}
 
-static std::shared_ptr<const Follow> shared_follow(const std::shared_ptr<const Model>& model) {
-    static Shared<const Model*, FollowOfModel> follows;
-    const auto shared = follows.find_or_make(model.get(), [&] {
-        return std::make_shared<const FollowOfModel>(FollowOfModel{model, make_follow(*model)});
-    });
-    return std::shared_ptr<const Follow>(shared, &shared->follow);
+static CageNodes make_nodes(const Cage& cage, int order) {
+    CageNodes nodes = {make_tet_nodes(int(cage.nodes.size()), cage.tets, order), {}};
+    nodes.modelled = node_places(nodes, [&](int i) { return cage.nodes[size_t(i)]; });
+    return nodes;
 }
 
 static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.which = which;
-    plant.system = shared_system(plant.model, which, plant.mass);
+    const CageNodes& nodes = *plant.nodes;
+    plant.system = shared_system(plant.model, which, plant.mass, nodes.order);
     plant.workspace = make_workspace(plant.system);
-    plant.follow = mechanics(which).moves_chain ? shared_follow(plant.model) : nullptr;
+    plant.follow = nullptr;
+    if (mechanics(which).moves_chain)
+        plant.follow = shared_of<Follow>(plant.model, nodes.order,
+                                         [&] { return make_follow(*plant.model, nodes, nodes.modelled); });
     const VecX& start = elements_of(*plant.system).modelled;
     plant.motion = {};
     plant.motion.x = plant.motion.pin_target = start;
@@ -70,7 +82,7 @@ static void find_anchors(Plant& plant, double limit) {
         if (!plant.pinned[n]) continue;
         double least = INFINITY;
         for (size_t i = 0; i < nodes.size(); i++) {
-            const double distance = (nodes[i].position - plant.model->cage.nodes[n]).norm();
+            const double distance = (nodes[i].position - point(plant.nodes->modelled, int(n))).norm();
             if ((nodes[i].parent >= 0 && nodes[i].position.y() >= limit) || distance >= least) continue;
             least = distance;
             plant.anchor[n] = int(i);
@@ -78,15 +90,24 @@ static void find_anchors(Plant& plant, double limit) {
     }
 }
 
-static void pin_below(const Model& model, double height, std::vector<uint8_t>& pinned) {
-    const double limit = model.surface.lower().y() + height;
-    for (size_t i = 0; i < model.cage.nodes.size(); i++) pinned[i] = model.cage.nodes[i].y() < limit;
+// What the ground holds of the cage's corners; a node between two is held where both are.
+static std::vector<uint8_t> find_held(const Plant& plant, double root_height) {
+    const Model& model = *plant.model;
+    std::vector<uint8_t> held(model.cage.nodes.size(), 0);
+    const double limit = model.surface.lower().y() + root_height;
+    if (root_height > 0)
+        for (size_t i = 0; i < held.size(); i++) held[i] = model.cage.nodes[i].y() < limit;
+    else if (root_height == 0)
+        held = model.root;
+    for (const Edge& edge : plant.nodes->edges) held.push_back(held[size_t(edge[0])] && held[size_t(edge[1])]);
+    return held;
 }
 
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def) {
     auto plant = std::make_unique<Plant>();
-    const size_t node_count = model->cage.nodes.size();
     plant->model = std::move(model);
+    plant->nodes = shared_of<CageNodes>(plant->model, def.element_order,
+                                        [&] { return make_nodes(plant->model->cage, def.element_order); });
     plant->mass = def.mass;
     plant->settings.integrator = def.integrator;
     plant->settings.linear_solver = def.linear_solver;
@@ -101,15 +122,11 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     plant->position = Vec3(def.position.x, def.position.y, def.position.z);
     plant->rotation = Quat(def.rotation.w, def.rotation.x, def.rotation.y, def.rotation.z).normalized();
     plant->user = def.user;
-    plant->user_force = VecX::Zero(3 * Eigen::Index(node_count));
+    plant->user_force = VecX::Zero(3 * Eigen::Index(plant->nodes->count()));
 
     // At rest as modelled, held by the ground.
     take_mechanics(*plant, def.mechanics);
-    plant->pinned.assign(node_count, 0);
-    if (def.root_height > 0)
-        pin_below(*plant->model, def.root_height, plant->pinned);
-    else if (def.root_height == 0)
-        plant->pinned = plant->model->root;
+    plant->pinned = find_held(*plant, def.root_height);
     plant->stands_on_roots = def.root_height == 0;
     plant->pin_target = cage_places(*plant);
     find_anchors(*plant, def.root_height > 0 ? plant->model->surface.lower().y() + def.root_height : -INFINITY);

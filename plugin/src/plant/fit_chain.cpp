@@ -48,7 +48,7 @@ void begin_rigid(const Follow& follow, const Model& model, const VecX& cage_x, V
     for (size_t n = 0; n < follow.grips.size(); n++) {
         const Grip& grip = follow.grips[n];
         for (size_t k = 0; k < size_t(grip.count); k++) {
-            from[size_t(grip.node[k]) / 2].push_back(model.cage.nodes[n]);
+            from[size_t(grip.node[k]) / 2].push_back(point(follow.modelled, int(n)));
             to[size_t(grip.node[k]) / 2].push_back(point(cage_x, int(n)));
         }
     }

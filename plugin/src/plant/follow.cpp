@@ -49,10 +49,13 @@ Grip smooth_grip(const Chain& chain, const Place& place, const Vec3& p) {
 }
 
 // Organs of the tets around each cage node.
-std::vector<std::vector<int>> node_organs(const Cage& cage) {
-    std::vector<std::vector<int>> organs(cage.nodes.size());
-    for (size_t e = 0; e < cage.tets.size(); e++)
+std::vector<std::vector<int>> node_organs(const Cage& cage, const TetNodes& nodes) {
+    std::vector<std::vector<int>> organs(size_t(nodes.count()));
+    for (size_t e = 0; e < cage.tets.size(); e++) {
         for (int corner : cage.tets[e]) organs[size_t(corner)].push_back(cage.tet_organ[e]);
+        if (nodes.order == 1) continue;
+        for (size_t k = 4; k < 10; k++) organs[size_t(nodes.of_tet[e][k])].push_back(cage.tet_organ[e]);
+    }
     return organs;
 }
 
@@ -64,9 +67,9 @@ Eigen::Matrix3Xd points_of(const std::vector<Vec3>& points) {
 
 }  // namespace
 
-Follow make_follow(const Model& model) {
+Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modelled) {
     const Chain& chain = model.chain;
-    const std::vector<std::vector<int>> organs = node_organs(model.cage);
+    const std::vector<std::vector<int>> organs = node_organs(model.cage, nodes);
     std::vector<std::vector<int>> capsules(model.organs.size());
     std::vector<int> all;
     for (size_t i = 0; i < chain.nodes.size(); i++) {
@@ -76,8 +79,9 @@ Follow make_follow(const Model& model) {
     }
 
     Follow follow;
-    for (size_t n = 0; n < model.cage.nodes.size(); n++) {
-        const Vec3& p = model.cage.nodes[n];
+    follow.modelled = modelled;
+    for (size_t n = 0; n < organs.size(); n++) {
+        const Vec3 p = point(modelled, int(n));
         Place best;
         const auto try_all = [&](const std::vector<int>& list) {
             for (int node : list) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mechanics/grip.hpp"
+#include "mechanics/tet_nodes.hpp"
 #include "model/model.hpp"
 
 namespace frond {
@@ -11,12 +12,13 @@ namespace frond {
 struct Follow {
     std::vector<Grip> grips;   // one a cage node
     std::vector<int> nearest;  // the chain node that each cage node is bound to most
+    VecX modelled;             // where the cage nodes are in the modelled shape [m]
 };
 
 // Each cage node is bound to the nearest capsule of its own organs: to a cubic centre line through the capsule's two
 // nodes, along their axes, and across it to both rotations, blended smoothly. So the cage has no kinks where capsules
 // meet. Beyond a capsule's ends it is rigid with the node there.
-Follow make_follow(const Model& model);
+Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modelled);
 
 // Where the cage nodes are and how they move; x, v of the chain's places and rotations.
 void follow_places(const Follow& follow, const VecX& x, VecX& cage_x);

@@ -51,7 +51,7 @@ struct PinGroup {
 
 static void add_to_group(const Plant& plant, int node, PinGroup& group) {
     group.nodes.push_back(node);
-    group.from.push_back(plant.model->cage.nodes[size_t(node)]);
+    group.from.push_back(point(plant.follow->modelled, node));
     group.to.push_back(point(plant.pin_target, node));
 }
 
@@ -77,7 +77,7 @@ static void pin_chain(Plant& plant) {
     for (size_t n = 0; n < plant.pinned.size(); n++) {
         if (!plant.pinned[n]) continue;
         add_to_group(plant, int(n), groups[plant.anchor[n]]);
-        if (plant.model->root[n]) add_to_group(plant, int(n), ground);
+        if (n < plant.model->root.size() && plant.model->root[n]) add_to_group(plant, int(n), ground);
     }
     // A root that too few pinned nodes hang on stands as the ground does.
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;

@@ -17,9 +17,15 @@ struct Grab {
     uint64_t handle;   // of the C API
 };
 
+// The nodes that the host sees, the cage's; with elements of order 2 the middles of its edges are among them.
+struct CageNodes : TetNodes {
+    VecX modelled;  // where they are in the modelled shape [m]
+};
+
 // Nodes that the host sees are the cage's, whatever moves. Where the mechanics move the chain, the cage follows it.
 struct Plant {
     std::shared_ptr<const Model> model;
+    std::shared_ptr<const CageNodes> nodes;
     frond_mechanics which;
     frond_mass mass;
     std::shared_ptr<const System> system;

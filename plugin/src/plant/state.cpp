@@ -7,7 +7,7 @@ frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
     const VecX& mass = node_mass_of(*plant.system);
     frond_energy energy = {};
     energy.kinetic = kinetic_energy(*plant.system, plant.motion.x, plant.motion.v);
-    energy.elastic = mechanics(plant.which).energy(elements_of(*plant.system), plant.motion.x);
+    energy.elastic = mechanics(plant.which, plant.nodes->order).energy(elements_of(*plant.system), plant.motion.x);
     for (int i = 0; i < mass.size(); i++)
         energy.gravity -= mass[i] * gravity.dot(plant.to_world(point(plant.motion.x, i)));
     return energy;

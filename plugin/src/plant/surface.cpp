@@ -6,10 +6,16 @@
 
 namespace frond {
 
-static Vec3 bound_point(const Model& model, const Embedding& embedding, size_t i, const VecX& x) {
-    const Tet& tet = model.cage.tets[size_t(embedding.tet[i])];
-    const std::array<double, 4>& w = embedding.weights[i];
-    return w[0] * point(x, tet[0]) + w[1] * point(x, tet[1]) + w[2] * point(x, tet[2]) + w[3] * point(x, tet[3]);
+// Along the shape functions of the plant's elements, whatever they move.
+static TetPlace bound_place(const Plant& plant, const Embedding& embedding, size_t i) {
+    return place_in_tet(*plant.nodes, plant.model->cage.tets, embedding.tet[i], embedding.weights[i]);
+}
+
+static Vec3 bound_point(const Plant& plant, const Embedding& embedding, size_t i, const VecX& x) {
+    const TetPlace place = bound_place(plant, embedding, i);
+    Vec3 p = Vec3::Zero();
+    for (size_t k = 0; k < size_t(place.count); k++) p += place.weight[k] * point(x, place.node[k]);
+    return p;
 }
 
 static Mat3 edges_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -20,25 +26,48 @@ static Mat3 edges_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
     return edges;
 }
 
+// Edges of the linear tet as which a quadratic one is seen at its corner c (mechanics/tet_element.hpp).
+static Mat3 edges_at_corner(const QuadraticTet& nodes, size_t c, const VecX& x) {
+    const auto y = [&](size_t k) {
+        if (k == c) return Vec3(3 * point(x, nodes[c]));
+        return Vec3(4 * point(x, nodes[size_t(TET_BETWEEN[k][c])]) - point(x, nodes[k]));
+    };
+    return edges_of(y(0), y(1), y(2), y(3));
+}
+
+// cof(E) M^T, whichever way round the corners run.
+static Mat3 weighted_cofactor(const Mat3& E, const Mat3& M) {
+    Mat3 C;
+    C.col(0) = E.col(1).cross(E.col(2));
+    C.col(1) = E.col(2).cross(E.col(0));
+    C.col(2) = E.col(0).cross(E.col(1));
+    return (M.determinant() < 0 ? -1 : 1) * C * M.transpose();
+}
+
 // Normals turn with the cofactor of the deformation gradient F = E M^-1 from the modelled shape, M its edges and E
 // those of now. One matrix a node, the volume-weighted mean over its tets, is interpolated like the positions, so that
 // shading stays smooth across tets and hard edges stay hard. Times the volume det(M) / 6 the cofactor is cof(E) M^T
-// / 6.
+// / 6; of quadratic tets that at the node.
 static void update_normals(Plant& plant) {
     const Model& model = *plant.model;
     const std::vector<Vec3>& modelled = model.cage.nodes;
     const VecX& x = cage_places(plant);
     std::vector<Mat3> cofactor(modelled.size(), Mat3::Zero());
-    for (const Tet& tet : model.cage.tets) {
-        const Mat3 M = edges_of(modelled[size_t(tet[0])], modelled[size_t(tet[1])], modelled[size_t(tet[2])],
-                                modelled[size_t(tet[3])]);
-        const Mat3 E = edges_of(point(x, tet[0]), point(x, tet[1]), point(x, tet[2]), point(x, tet[3]));
-        Mat3 C;
-        C.col(0) = E.col(1).cross(E.col(2));
-        C.col(1) = E.col(2).cross(E.col(0));
-        C.col(2) = E.col(0).cross(E.col(1));
-        const Mat3 weighted = C * M.transpose();
-        for (int corner : tet) cofactor[size_t(corner)] += weighted;
+    const auto modelled_edges = [&](const auto& tet) {
+        return edges_of(modelled[size_t(tet[0])], modelled[size_t(tet[1])], modelled[size_t(tet[2])],
+                        modelled[size_t(tet[3])]);
+    };
+    if (plant.nodes->order == 1) {
+        for (const Tet& tet : model.cage.tets) {
+            const Mat3 E = edges_of(point(x, tet[0]), point(x, tet[1]), point(x, tet[2]), point(x, tet[3]));
+            const Mat3 weighted = weighted_cofactor(E, modelled_edges(tet));
+            for (int corner : tet) cofactor[size_t(corner)] += weighted;
+        }
+    } else {
+        for (const QuadraticTet& tet : plant.nodes->of_tet) {
+            const Mat3 M = modelled_edges(tet);
+            for (size_t c = 0; c < 4; c++) cofactor[size_t(tet[c])] += weighted_cofactor(edges_at_corner(tet, c, x), M);
+        }
     }
     const Mat3 turn = plant.rotation.toRotationMatrix();
     for (Mat3& C : cofactor) C = turn * C;
@@ -64,7 +93,7 @@ void update_surface(Plant& plant, frond_effects effects) {
     plant.surface_normals.resize(3 * vertex_count);
     const Mat3 turn = plant.rotation.toRotationMatrix();
     for (size_t v = 0; v < vertex_count; v++) {
-        const Vec3 p = turn * bound_point(model, model.embedding, v, x) + plant.position;
+        const Vec3 p = turn * bound_point(plant, model.embedding, v, x) + plant.position;
         for (int axis = 0; axis < 3; axis++) plant.surface_positions[3 * v + size_t(axis)] = float(p[axis]);
     }
     if (effects & FROND_NORMALS) update_normals(plant);
@@ -73,7 +102,7 @@ void update_surface(Plant& plant, frond_effects effects) {
 }
 
 Vec3 vertex_position(const Plant& plant, int vertex) {
-    return plant.to_world(bound_point(*plant.model, plant.model->embedding, size_t(vertex), cage_places(plant)));
+    return plant.to_world(bound_point(plant, plant.model->embedding, size_t(vertex), cage_places(plant)));
 }
 
 int nearest_vertex(const Plant& plant, const Vec3& world_point) {
@@ -82,7 +111,7 @@ int nearest_vertex(const Plant& plant, const Vec3& world_point) {
     double best = INFINITY;
     for (size_t v = 0; v < plant.model->surface.positions.size(); v++) {
         const double distance =
-            (bound_point(*plant.model, plant.model->embedding, v, cage_places(plant)) - p).squaredNorm();
+            (bound_point(plant, plant.model->embedding, v, cage_places(plant)) - p).squaredNorm();
         if (distance < best) {
             best = distance;
             nearest = int(v);
@@ -98,7 +127,7 @@ void update_chain(Plant& plant) {
     for (size_t i = 0; i < count; i++)
         plant.chain_positions[i] = plant.follow
                                        ? Vec3(point(x, int(2 * i)))
-                                       : bound_point(*plant.model, plant.model->chain_embedding, i, x);
+                                       : bound_point(plant, plant.model->chain_embedding, i, x);
 }
 
 // Of a chain: the corner of the vertex's tet that it is nearest to stands for it, and a rigid arm reaches the rest.
@@ -106,15 +135,9 @@ Grip vertex_grip(const Plant& plant, int vertex) {
     const Embedding& embedding = plant.model->embedding;
     const Tet& tet = plant.model->cage.tets[size_t(embedding.tet[size_t(vertex)])];
     const std::array<double, 4>& weights = embedding.weights[size_t(vertex)];
-    Grip grip;
-    if (!plant.follow) {
-        grip.count = 4;
-        grip.node = tet;
-        grip.weight = weights;
-        return grip;
-    }
+    if (!plant.follow) return tet_grip(bound_place(plant, embedding, size_t(vertex)));
     const size_t most = size_t(std::max_element(weights.begin(), weights.end()) - weights.begin());
-    grip = plant.follow->grips[size_t(tet[most])];
+    Grip grip = plant.follow->grips[size_t(tet[most])];
     Vec3 reach = -plant.model->cage.nodes[size_t(tet[most])];
     for (size_t k = 0; k < 4; k++) reach += weights[k] * plant.model->cage.nodes[size_t(tet[k])];
     for (size_t k = 0; k < size_t(grip.count); k++) grip.arm[k] += grip.weight[k] * reach;

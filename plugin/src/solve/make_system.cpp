@@ -6,23 +6,27 @@
 
 namespace frond {
 
-std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass) {
+std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass,
+                                          int order) {
     if (!model) fail(FROND_INTERNAL, "a system was asked for without a model");
     if (mass < 0 || mass >= FROND_MASS_COUNT) fail(FROND_BAD_ARGUMENT, "there is no mass of number %d", int(mass));
     if (which < 0 || which >= FROND_MECHANICS_COUNT) fail(FROND_BAD_ARGUMENT, "there is no mechanics %d", int(which));
+    if (order < 1 || order > HIGHEST_ORDER) fail(FROND_BAD_ARGUMENT, "there are no elements of order %d", order);
     auto system = std::make_shared<System>();
     system->model = std::move(model);
-    const Mechanics& row = *(system->row = &mechanics(which));
+    const Mechanics& row = *(system->row = &mechanics(which, order));
     system->elements = row.make(*system->model, which);
     system->masses = row.masses(*system->elements, mass);
     system->plan = make_direct_plan(system->elements->pattern);
+
+    const BlockPattern& pattern = system->elements->pattern;
 
     // A node without elements would make the matrix singular.
     const int step = row.moves_chain ? 2 : 1;  // over rotations, which have no mass but inertia
     system->loose.assign(size_t(system->elements->node_count), 0);
     Vec3 lower = Vec3::Constant(INFINITY), upper = -lower;
     for (int i = 0; i < system->elements->node_count; i += step) {
-        system->loose[size_t(i)] = !(system->masses.node[i] > 0);
+        system->loose[size_t(i)] = !(system->masses.slot[size_t(pattern.start[size_t(i)])] > 0);
         lower = lower.cwiseMin(point(system->elements->rest_positions, i));
         upper = upper.cwiseMax(point(system->elements->rest_positions, i));
     }

@@ -10,10 +10,11 @@ namespace frond {
 
 // What all plants of one model share that have the same mechanics: elements, masses, sparsity and elimination order.
 struct System;
-// One a mechanics, since each has a rest shape of its own.
-std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass);
+// One a mechanics, since each has a rest shape of its own, and one an order of its elements.
+std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass,
+                                          int order = 1);
 const Elements& elements_of(const System& system);
-const VecX& node_mass_of(const System& system);  // lumped, one a node [kg]
+const VecX& node_mass_of(const System& system);  // sums of the mass matrix's rows, one a node [kg]
 
 // A spring between a point of the plant and a fixed target.
 struct Spring {

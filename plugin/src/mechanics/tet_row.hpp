@@ -1,0 +1,87 @@
+// A row of the table of mechanics from a material and an element. A material ("law") says what follows from the gradient
+// of deformation F at one point:
+//   Strain strain(share, F)                         what the rest is made of
+//   double energy(share, strain)                    a volume [J/m^3]
+//   Mat3 stress(share, strain)                      first Piola-Kirchhoff, dW/dF [Pa]
+//   TetStiffness stiffness(share, strain, tangent, scale)   scale times volume times d2W/dF2 between corners [N/m]
+//   bool inverted(strain)
+#pragma once
+
+#include "mechanics/rows.hpp"
+#include "mechanics/tet_element.hpp"
+
+namespace frond {
+
+template <class Law, class Element>
+struct TetRow {
+    static double energy(const Elements& body, const VecX& x) {
+        const TetElements& elements = as_tets(body);
+        double energy = 0;
+        for (size_t e = 0; e < elements.tets.size(); ++e) {
+            const TetShare share = Element::share(elements, e);
+            const auto places = Element::places(elements, e, x);
+            for (int q = 0; q < Element::POINTS; ++q)
+                energy += share.volume * Law::energy(share, Law::strain(share, Element::gradient(share, places, q)));
+        }
+        return energy;
+    }
+
+    static int add_force(const Elements& body, const VecX& x, VecX& f) {
+        const TetElements& elements = as_tets(body);
+        int inverted = 0;
+        for (size_t e = 0; e < elements.tets.size(); ++e) {
+            const TetShare share = Element::share(elements, e);
+            const auto places = Element::places(elements, e, x);
+            bool is_inverted = false;
+            for (int q = 0; q < Element::POINTS; ++q) {
+                const auto strain = Law::strain(share, Element::gradient(share, places, q));
+                Element::add_force(elements, e, share, q, Law::stress(share, strain), f);
+                is_inverted |= Law::inverted(strain);
+            }
+            inverted += is_inverted;
+        }
+        return inverted;
+    }
+
+    static void add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale, BlockMatrix& K) {
+        const TetElements& elements = as_tets(body);
+        for (size_t e = 0; e < elements.tets.size(); ++e) {
+            const TetShare share = Element::share(elements, e);
+            const auto places = Element::places(elements, e, x);
+            for (int q = 0; q < Element::POINTS; ++q) {
+                const auto strain = Law::strain(share, Element::gradient(share, places, q));
+                Element::add_stiffness(elements, e, q, Law::stiffness(share, strain, tangent, scale), K);
+            }
+        }
+    }
+
+    static int add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+        const TetElements& elements = as_tets(body);
+        int inverted = 0;
+        for (size_t e = 0; e < elements.tets.size(); ++e) {
+            const TetShare share = Element::share(elements, e);
+            const auto places = Element::places(elements, e, x);
+            bool is_inverted = false;
+            for (int q = 0; q < Element::POINTS; ++q) {
+                const auto strain = Law::strain(share, Element::gradient(share, places, q));
+                Element::add_force(elements, e, share, q, Law::stress(share, strain), f);
+                Element::add_stiffness(elements, e, q, Law::stiffness(share, strain, tangent, 1), K);
+                is_inverted |= Law::inverted(strain);
+            }
+            inverted += is_inverted;
+        }
+        return inverted;
+    }
+};
+
+template <class Law>
+Mechanics tet_row(const char* name, int order, bool needs_search) {
+    const auto row = [&](auto rows, auto make, auto is_calm) {
+        return Mechanics{name,           make,    tet_masses, rows.energy,  rows.add_force, rows.add_stiffness,
+                         rows.add_both, nullptr, is_calm,    needs_search, false};
+    };
+    if (order == 1) return row(TetRow<Law, LinearTet>(), make_tets<1>, tets_are_calm<LinearTet>);
+    return row(TetRow<Law, QuadraticTetElement>(), make_tets<2>, tets_are_calm<QuadraticTetElement>);
+}
+
+}  // namespace frond
