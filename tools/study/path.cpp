@@ -76,7 +76,7 @@ const Path& converged_path(const ModelPtr& model, const Setup& setup, const Star
     }
     session.notes.push_back(
         "Reference of " + std::string(frond_mechanics_name(setup.plant.mechanics)) +
-        (order_of(setup.plant) == 2 ? " T10, " : ", ") + resolution_text(setup) +
+        (setup.plant.element_order == 2 ? " T10, " : ", ") + resolution_text(setup) +
         ": sdirk2 with converged Newton; halving its step changed it, as the error is measured, by " + differences +
         ".");
     return session.references[key] = path;

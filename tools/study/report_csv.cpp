@@ -17,7 +17,7 @@ static void add_row(std::ostringstream& out, const Point& point) {
     const Outcome& outcome = point.outcome;
     const char* body = setup.body == Body::MESH ? "mesh" : setup.body == Body::STEM ? "stem" : "plant";
     out << csv_field(point.series.empty() ? "one at a time" : point.series) << ','
-        << frond_mechanics_name(plant.mechanics) << ',' << body << ',' << setup.resolution << ',' << order_of(plant)
+        << frond_mechanics_name(plant.mechanics) << ',' << body << ',' << setup.resolution << ',' << plant.element_order
         << ',' << setup.dt << ',' << frond_integrator_name(plant.integrator) << ',' << plant.newton_iterations << ','
         << plant.newton_tolerance << ',' << frond_linear_solver_name(plant.linear_solver) << ',' << plant.tolerance
         << ',' << frond_mass_name(plant.mass) << ',';

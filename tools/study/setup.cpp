@@ -38,7 +38,7 @@ std::string difference(const Setup& setup, const Setup& baseline) {
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
     if (a.mechanics != b.mechanics) add(frond_mechanics_name(a.mechanics));
-    if (order_of(a) != order_of(b)) add(order_of(a) == 2 ? "T10" : "T4");
+    if (a.element_order != b.element_order) add(a.element_order == 2 ? "T10" : "T4");
     if (setup.body != baseline.body) add(body_name(setup.body));
     if (setup.body != baseline.body || setup.resolution != baseline.resolution) add(resolution_text(setup));
     if (setup.dt != baseline.dt) add(time_step_text(setup.dt));
@@ -55,7 +55,7 @@ std::string key_of(const Setup& setup) {
     std::ostringstream out;
     const frond_plant_def& p = setup.plant;
     out.precision(17);
-    out << int(setup.body) << ' ' << setup.resolution << ' ' << setup.dt << ' ' << p.mechanics << ' ' << order_of(p)
+    out << int(setup.body) << ' ' << setup.resolution << ' ' << setup.dt << ' ' << p.mechanics << ' ' << p.element_order
         << ' ' << p.integrator << ' ' << p.linear_solver << ' ' << p.mass << ' ' << p.newton_iterations << ' '
         << p.newton_tolerance << ' ' << p.max_iterations << ' ' << p.tolerance << ' ' << p.mass_damping << ' '
         << p.stiffness_damping << ' ' << p.spectral_radius << ' ' << p.root_height << ' ' << p.effects;

@@ -33,27 +33,6 @@ struct Setup {
 };
 // Whether the chain moves and the cage follows.
 bool moves_chain(frond_mechanics mechanics);
-// Of the tets' shape functions: 1 for four nodes (T4), 2 for ten (T10), where the library has a choice.
-namespace detail {
-template <class Def>
-auto order_field(Def& def, int) -> decltype(&def.element_order) {
-    return &def.element_order;
-}
-template <class Def>
-int* order_field(Def&, long) {
-    return nullptr;
-}
-}  // namespace detail
-inline int order_of(const frond_plant_def& def) {
-    frond_plant_def copy = def;
-    const int* order = detail::order_field(copy, 0);
-    return order ? *order : 1;
-}
-inline bool set_order(frond_plant_def& def, int order) {
-    int* field = detail::order_field(def, 0);
-    if (field) *field = order;
-    return field || order == 1;
-}
 // "tet_corotational, stem, 10, 1/60 s, bdf2 ..." of what differs from `baseline`; "baseline" if nothing does.
 std::string difference(const Setup& setup, const Setup& baseline);
 std::string resolution_text(const Setup& setup);

@@ -52,7 +52,9 @@ void sweep_resolution(const Problem& problem, Effort effort, std::vector<Sweep>&
             for (int order : {1, 2}) {
                 Setup setup = with_body(base, body);
                 setup.plant.mechanics = mechanics;
-                if (!set_order(setup.plant, order) || (order == 2 && moves_chain(mechanics))) continue;
+                setup.plant.element_order = order;
+                // Cages are calibrated for order 1; rods have no order.
+                if (order == 2 && body != Body::MESH) continue;
                 Sweep sweep;
                 sweep.name = frond_mechanics_name(mechanics);
                 if (!moves_chain(mechanics)) sweep.name += order == 2 ? " T10" : " T4";
@@ -164,8 +166,8 @@ void change_shape(const Problem& problem, Effort effort, Changes& changes) {
         }
     if (!(problem.axes & (RESOLUTION | EVERYTHING))) return;
     const bool chain = moves_chain(base.plant.mechanics);
-    if (!chain) changes.add([&](Setup& s) { set_order(s.plant, 3 - order_of(base.plant)); });
-    for (int resolution : resolutions(base.body, order_of(base.plant), effort, problem.axes & TIME_STEP))
+    if (base.body == Body::MESH) changes.add([&](Setup& s) { s.plant.element_order = 3 - base.plant.element_order; });
+    for (int resolution : resolutions(base.body, base.plant.element_order, effort, problem.axes & TIME_STEP))
         changes.add([&](Setup& s) { s.resolution = resolution; });
     if (base.body == Body::STEM && !chain)
         changes.add([&](Setup& s) {
