@@ -1,0 +1,176 @@
+// Rods: force is minus the gradient of the energy, stiffness its derivative; turning and moving a rod costs nothing; a
+// tree that stands is in balance as modelled.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "mechanics/rod_elements.hpp"
+#include "mechanics/rotation.hpp"
+#include "support/dense.hpp"
+#include "support/meshes.hpp"
+
+namespace frond::test {
+namespace {
+
+// A forked chain with flat and round pieces that leave its root in all directions.
+Model chain_model(bool stands = false) {
+    Model model;
+    Organ organ;
+    organ.name = organ.kind = "stem";
+    organ.material = {};
+    organ.material.density = 900;
+    organ.material.young = 1e8;
+    organ.material.poisson = 0.3;
+    model.organs = {organ};
+    model.organ_stiffer = {1};
+    const std::vector<Vec3> places = {{0, 0, 0}, {0.02, 0.3, 0}, {0.1, 0.55, 0.05}, {-0.2, 0.5, 0.1}, {-0.3, 0.4, 0.3}};
+    const std::vector<int> parents = {-1, 0, 1, 1, 3};
+    for (size_t i = 0; i < places.size(); ++i) {
+        model.chain.nodes.push_back({places[i], 0.01, parents[i], 0, 0});
+        Section section = {};
+        const Vec3 from = parents[i] < 0 ? Vec3(places[i] - 0.1 * Vec3::UnitY()) : places[size_t(parents[i])];
+        section.length = (places[i] - from).norm();
+        section.axis = (places[i] - from) / section.length;
+        section.thin = section.axis.unitOrthogonal();
+        section.thickness = 0.01;
+        section.area = 2e-4;
+        section.inertia_thin = 2e-9;
+        section.inertia_wide = i % 2 ? 2e-9 : 5e-8;
+        finish_section(organ, section);
+        model.sections.push_back(section);
+        model.chain_mass.push_back(0.05 + 0.01 * double(i));
+    }
+    model.stands_as_modelled = stands;
+    return model;
+}
+
+// Places torn about and nodes turned by up to `turn`.
+VecX deformed(const RodElements& elements, Dice& dice, double shift, double turn) {
+    VecX x = elements.modelled;
+    for (int i = 0; i < elements.node_count; ++i)
+        for (int c = 0; c < 3; ++c) x[3 * i + c] += (i % 2 ? turn : shift) * dice.uniform(-1, 1);
+    return x;
+}
+
+class EveryRod : public testing::TestWithParam<int> {
+protected:
+    frond_mechanics which = frond_mechanics(GetParam());
+    const Mechanics& row = mechanics(which);
+    VecX force(const Elements& elements, const VecX& x) const {
+        VecX f = VecX::Zero(x.size());
+        row.add_force(elements, x, f);
+        return f;
+    }
+    Eigen::MatrixXd stiffness(const Elements& elements, const VecX& x, Tangent tangent) const {
+        BlockMatrix K;
+        K.set_pattern(elements.pattern);
+        K.set_zero();
+        row.add_stiffness(elements, x, tangent, 1, K);
+        return dense(K);
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Rods, EveryRod, testing::Values(int(FROND_ROD), int(FROND_SPRING_CHAIN)),
+                         [](const auto& info) { return frond_mechanics(info.param) == FROND_ROD ? "rod" : "spring_chain"; });
+
+TEST_P(EveryRod, ForceIsMinusTheGradientOfEnergy) {
+    Dice dice(1);
+    const RodElements elements = make_rod_elements(chain_model(true), which);
+    for (double turn : {0.01, 0.5, 1.2, 2.5}) {
+        const VecX x = deformed(elements, dice, 0.05, turn), f = force(elements, x);
+        for (Eigen::Index i = 0; i < x.size(); ++i) {
+            constexpr double H = 1e-6;
+            VecX left = x, right = x;
+            left[i] -= H;
+            right[i] += H;
+            const double slope = (row.energy(elements, right) - row.energy(elements, left)) / (2 * H);
+            EXPECT_NEAR(f[i], -slope, 1e-5 * f.norm()) << "turn " << turn << " at " << i;
+        }
+    }
+}
+
+TEST_P(EveryRod, ExactStiffnessIsTheDerivativeOfForce) {
+    Dice dice(2);
+    const RodElements elements = make_rod_elements(chain_model(true), which);
+    for (double turn : {0.01, 0.5, 1.2, 2.5}) {
+        const VecX x = deformed(elements, dice, 0.05, turn);
+        const Eigen::MatrixXd K = stiffness(elements, x, Tangent::exact);
+        for (Eigen::Index i = 0; i < x.size(); ++i) {
+            constexpr double H = 1e-6;
+            VecX left = x, right = x;
+            left[i] -= H;
+            right[i] += H;
+            const VecX slope = (force(elements, left) - force(elements, right)) / (2 * H);
+            EXPECT_LT((K.col(i) - slope).norm(), 1e-6 * K.norm()) << "turn " << turn << " at " << i;
+        }
+    }
+}
+
+TEST_P(EveryRod, PositiveStiffnessIsNeverNegativeAndExactWithoutLoad) {
+    Dice dice(3);
+    const RodElements elements = make_rod_elements(chain_model(), which);
+    const VecX x = deformed(elements, dice, 0.1, 1.5);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(stiffness(elements, x, Tangent::positive));
+    EXPECT_GT(eigen.eigenvalues()[0], -1e-9 * eigen.eigenvalues().tail(1)[0]);
+    const Eigen::MatrixXd at_rest = stiffness(elements, elements.modelled, Tangent::positive);
+    EXPECT_LT((at_rest - stiffness(elements, elements.modelled, Tangent::exact)).norm(), 1e-9 * at_rest.norm());
+}
+
+TEST_P(EveryRod, TurningAndMovingItAsAWholeCostsNothing) {
+    Dice dice(4);
+    const RodElements elements = make_rod_elements(chain_model(), which);
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        const Mat3 R = dice.rotation();
+        VecX x = elements.modelled;
+        for (int i = 0; i < elements.node_count; i += 2) {
+            point(x, i) = R * point(elements.modelled, i) + Vec3(1, 2, 3);
+            point(x, i + 1) = rotation_vector<double>(R);
+        }
+        EXPECT_LT(row.energy(elements, x), 1e-12);
+        EXPECT_LT(force(elements, x).norm(), 1e-6);
+    }
+}
+
+TEST_P(EveryRod, ForcesOnPlacesAddUpToNothing) {
+    Dice dice(5);
+    const RodElements elements = make_rod_elements(chain_model(true), which);
+    const VecX f = force(elements, deformed(elements, dice, 0.1, 1));
+    Vec3 sum = Vec3::Zero();
+    double size = 0;
+    for (int i = 0; i < elements.node_count; i += 2) {
+        sum += point(f, i);
+        size += point(f, i).norm();
+    }
+    EXPECT_LT(sum.norm(), 1e-12 * size);
+}
+
+TEST(Rod, StandsInBalanceAsModelled) {
+    const RodElements elements = make_rod_elements(chain_model(true), FROND_ROD);
+    VecX f = VecX::Zero(elements.modelled.size());
+    mechanics(FROND_ROD).add_force(elements, elements.modelled, f);
+    double weight = 0;
+    for (size_t i = 0; i < elements.mass.size(); ++i) {
+        f[Eigen::Index(6 * i) + 1] -= GRAVITY * elements.mass[i];
+        weight += GRAVITY * elements.mass[i];
+    }
+    // All but the root, which the ground holds.
+    EXPECT_LT(f.tail(f.size() - 6).norm(), 1e-9 * weight);
+}
+
+TEST(Rotation, RatesAndVectorsBelongTogether) {
+    Dice dice(6);
+    for (double angle : {1e-6, 1e-3, 0.5, 2.0, 3.1}) {
+        const Vec3 v = angle * Vec3(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)).normalized();
+        EXPECT_LT((rotation_vector<double>(rotation_of<double>(v)) - v).norm(), 1e-9) << angle;
+        EXPECT_LT((rate_matrix<double>(v) * inverse_rate_matrix<double>(v) - Mat3::Identity()).norm(), 1e-9) << angle;
+        // d(R)/dt = [T dv/dt] R
+        const Vec3 dv(0.3, -0.2, 0.5);
+        constexpr double H = 1e-6;
+        const Mat3 slope = (rotation_of<double>(v + H * dv) - rotation_of<double>(v - H * dv)) / (2 * H);
+        const Mat3 spin = cross_matrix<double>(rate_matrix<double>(v) * dv) * rotation_of<double>(v);
+        EXPECT_LT((slope - spin).norm(), 1e-8) << angle;
+    }
+}
+
+}  // namespace
+}  // namespace frond::test

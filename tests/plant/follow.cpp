@@ -1,0 +1,96 @@
+// Where the chain moves, the cage follows: exactly at rest, back again from any shape the chain can take, and across a
+// change of mechanics.
+#include <gtest/gtest.h>
+
+#include "build/build.hpp"
+#include "plant/plant.hpp"
+
+using namespace frond;
+
+static std::shared_ptr<const Model> forked_model() {
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.4, 0}, 0.015, 0.012},
+                                {0, {0, 0.4, 0}, {0.05, 0.9, 0}, 0.012, 0.006},
+                                {0, {0, 0.4, 0}, {-0.3, 0.6, 0.1}, 0.008, 0.004}};
+    frond_model_def def = {};
+    def.cage_smoothness = CageOptions().smoothness;
+    def.scale = 1;
+    def.up = {0, 1, 0};
+    return build_from_stems(stems, 3, def);
+}
+
+static std::unique_ptr<Plant> make_plant(frond_mechanics which) {
+    frond_plant_def def = {};
+    def.rotation = {0, 0, 0, 1};
+    def.mechanics = which;
+    def.element_order = 1;
+    def.integrator = FROND_BDF2;
+    def.newton_iterations = 1;
+    def.max_iterations = 1000;
+    def.tolerance = 1e-6;
+    def.effects = FROND_ALL_EFFECTS;
+    return create_plant(forked_model(), def);
+}
+
+static void swing(Plant& plant, int steps) {
+    Surroundings surroundings;
+    surroundings.gravity = Vec3(3, -9.81, 1);
+    for (int i = 0; i < steps; i++) {
+        step_plant(plant, surroundings, 1.0 / 60);
+        ASSERT_EQ(plant.trouble, 0u);
+    }
+}
+
+TEST(Follow, CageIsWhereItWasModelledAtRest) {
+    const auto plant = make_plant(FROND_ROD);
+    const VecX& x = cage_places(*plant);
+    for (size_t n = 0; n < plant->model->cage.nodes.size(); n++)
+        EXPECT_LT((point(x, int(n)) - plant->model->cage.nodes[n]).norm(), 1e-12);
+}
+
+TEST(Follow, AStateThatWasReadIsSetAgain) {
+    const auto plant = make_plant(FROND_ROD);
+    swing(*plant, 20);
+    const VecX x = cage_places(*plant), v = cage_velocities(*plant);
+    swing(*plant, 30);
+    EXPECT_GT((cage_places(*plant) - x).lpNorm<Eigen::Infinity>(), 1e-3);
+    set_state(*plant, x.data(), v.data());
+    EXPECT_LT((cage_places(*plant) - x).lpNorm<Eigen::Infinity>(), 1e-6);
+    EXPECT_LT((cage_velocities(*plant) - v).lpNorm<Eigen::Infinity>(), 1e-4 * v.lpNorm<Eigen::Infinity>());
+}
+
+TEST(Follow, ChangingMechanicsDoesNotMakeThePlantJump) {
+    const auto plant = make_plant(FROND_ROD);
+    swing(*plant, 20);
+    const VecX x = cage_places(*plant), v = cage_velocities(*plant);
+    set_mechanics(*plant, FROND_TET_COROTATIONAL);
+    EXPECT_EQ((cage_places(*plant) - x).norm(), 0);
+    EXPECT_EQ((cage_velocities(*plant) - v).norm(), 0);
+    swing(*plant, 20);
+    const VecX cage = cage_places(*plant);
+    set_mechanics(*plant, FROND_ROD);
+    // The chain cannot take every shape of the cage; it comes within a hundredth of the plant's height.
+    EXPECT_LT((cage_places(*plant) - cage).lpNorm<Eigen::Infinity>(), 0.01);
+    swing(*plant, 20);
+}
+
+TEST(Follow, PinsHoldCageNodesAndTheRootStaysWhereItIs) {
+    const auto plant = make_plant(FROND_ROD);
+    const std::vector<Vec3>& nodes = plant->model->cage.nodes;
+    size_t top = 0;
+    for (size_t n = 0; n < nodes.size(); n++)
+        if (nodes[n].y() > nodes[top].y()) top = n;
+    pin_node(*plant, int(top));
+    const Vec3 target = nodes[top] + Vec3(0.05, -0.01, 0.02);
+    move_pin(*plant, int(top), target);
+    Surroundings surroundings;
+    surroundings.gravity = Vec3(0, -9.81, 0);
+    for (int i = 0; i < 200; i++) step_plant(*plant, surroundings, 1.0 / 60);
+    EXPECT_LT((point(cage_places(*plant), int(top)) - target).norm(), 1e-5);
+    for (size_t n = 0; n < nodes.size(); n++)
+        if (plant->model->root[n]) {
+            EXPECT_LT((point(cage_places(*plant), int(n)) - nodes[n]).norm(), 1e-3);
+        }
+    unpin_node(*plant, int(top));
+    for (int i = 0; i < 60; i++) step_plant(*plant, surroundings, 1.0 / 60);
+    EXPECT_GT((point(cage_places(*plant), int(top)) - target).norm(), 1e-3);
+}
