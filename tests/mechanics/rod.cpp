@@ -18,7 +18,6 @@ Model chain_model(bool stands = false) {
     Model model;
     Organ organ;
     organ.name = organ.kind = "stem";
-    organ.material = {};
     organ.material.density = 900;
     organ.material.young = 1e8;
     organ.material.poisson = 0.3;

@@ -6,9 +6,7 @@
 // F the piece's frame in the modelled shape, R = R1 exp(log(R1^T R2) / 2) the rotation half way. The resistance to
 // shear is the residual bending flexibility, 12 EI / L^2 (MacNeal 1978): for small turns the piece then is the
 // Euler-Bernoulli beam with cubic shape functions, exact at its ends.
-#include <Eigen/Core>
-#include <unsupported/Eigen/AutoDiff>
-
+#include "mechanics/dual.hpp"
 #include "mechanics/rod_elements.hpp"
 #include "mechanics/rotation.hpp"
 #include "mechanics/rows.hpp"
@@ -18,7 +16,6 @@ namespace frond {
 namespace {
 
 using Twelve = Eigen::Matrix<double, 12, 1>;
-using Dual = Eigen::AutoDiffScalar<Twelve>;
 
 // A node as its rods see it.
 template <class S>
@@ -62,7 +59,8 @@ Mat3of<S> middle_share(const RodNode<S>& a, const Vec3of<S>& turn) {
     const S square = turn.squaredNorm();
     // tan(angle/4) / angle
     const S slope = square < 1e-8 ? S(S(0.25) + square / 192.) : S(tan(0.25 * sqrt(square)) / sqrt(square));
-    Mat3of<S> share = -S(0.5) * slope * cross_matrix<S>(a.rotation * turn);
+    const S scale = -0.5 * slope;
+    Mat3of<S> share = scale * cross_matrix<S>(a.rotation * turn);
     share.diagonal().array() += S(0.5);
     return share;
 }
@@ -115,11 +113,11 @@ Matrix12 exact_stiffness(const RodSegment& rod, const VecX& x) {
     Vec3of<Dual> v[4];
     for (int n = 0; n < 4; ++n)
         for (int c = 0; c < 3; ++c)
-            v[n][c] = Dual(x[3 * (2 * (n < 2 ? rod.a : rod.b) + n % 2) + c], 12, 3 * n + c);
+            v[n][c] = Dual::variable(x[3 * (2 * (n < 2 ? rod.a : rod.b) + n % 2) + c], 3 * n + c);
     const Eigen::Matrix<Dual, 12, 1> g =
         gradient<Dual>(rod, node_at<Dual>(v[0], v[1]), node_at<Dual>(v[2], v[3]));
     Matrix12 K;
-    for (int r = 0; r < 12; ++r) K.row(r) = g[r].derivatives().transpose();
+    for (int r = 0; r < 12; ++r) K.row(r) = g[r].slope.matrix().transpose();
     return 0.5 * (K + K.transpose());
 }
 

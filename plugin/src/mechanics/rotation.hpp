@@ -23,7 +23,8 @@ Mat3of<S> cross_matrix(const Vec3of<S>& v) {
 template <class S>
 Mat3of<S> rotation_series(const Vec3of<S>& v, const S& a, const S& b) {
     const Mat3of<S> K = cross_matrix(v);
-    Mat3of<S> m = a * K + b * (K * K);
+    const Mat3of<S> square = K * K;
+    Mat3of<S> m = a * K + b * square;
     m.diagonal().array() += S(1);
     return m;
 }
@@ -75,14 +76,14 @@ Vec3of<S> rotation_vector(const Mat3of<S>& R) {
     if (R(1, 1) > R(0, 0)) i = 1;
     if (R(2, 2) > R(i, i)) i = 2;
     if (trace > R(i, i)) {
-        const S s = sqrt(trace + 1.);
+        const S s = sqrt(trace + 1.), t = S(0.5) / s;
         w = 0.5 * s;
-        u = Vec3of<S>(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1)) * (0.5 / s);
+        u = Vec3of<S>(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1)) * t;
     } else {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         const S s = sqrt(R(i, i) - R(j, j) - R(k, k) + 1.);
         u[i] = 0.5 * s;
-        const S t = 0.5 / s;
+        const S t = S(0.5) / s;
         u[j] = (R(j, i) + R(i, j)) * t;
         u[k] = (R(k, i) + R(i, k)) * t;
         w = (R(k, j) - R(j, k)) * t;
@@ -94,10 +95,11 @@ Vec3of<S> rotation_vector(const Mat3of<S>& R) {
     const S square = u.squaredNorm();
     if (square < 1e-8) {
         // 2 asin(s)/s with s the sine of half the angle
-        return u * (S(2) + square / 3.);
+        const S scale = S(2) + square / 3.;
+        return u * scale;
     }
-    const S sine = sqrt(square);
-    return u * (2. * atan2(sine, w) / sine);
+    const S sine = sqrt(square), scale = 2. * atan2(sine, w) / sine;
+    return u * scale;
 }
 
 }  // namespace frond

@@ -13,7 +13,7 @@ using Material = frond_material;
 struct Organ {
     std::string name;  // "leaf_3"; no two organs of a model share one
     std::string kind;  // a row of the table in materials.cpp: "stem", "blade" ...
-    Material material;
+    Material material = {};
     bool material_given = false;  // by the caller, not a preset
 };
 
