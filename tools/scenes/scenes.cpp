@@ -12,7 +12,7 @@ namespace {
 
 void corn_defaults(Settings& settings) {
     settings.model.cage_size = PAPER_CORN_CELL;
-    settings.grab_stiffness = 120;  // a maize stalk is stiff
+    settings.grab_stiffness = 30;
 }
 void cucumber_defaults(Settings& settings) {
     settings.model.cage_size = PAPER_CUCUMBER_CELL;

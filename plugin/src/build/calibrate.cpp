@@ -348,7 +348,7 @@ bool calibrate_alone(LoneOrgan& lone, int organ, const Model& plant, const std::
                      const Energies& rods) {
     constexpr double MOST = 0.6;  // share of an organ from which it can be taken alone [-]
     constexpr int ROUNDS = 5;
-    constexpr double LARGEST_RATIO = 4;  // of neighbouring places in one round [-]
+    constexpr double SOFTEST = 0.5, STIFFEST = 8;  // of a place, over the organ as a whole [-]
     constexpr double BLUR = 0.3;        // of the organ's energy that counts at each of its places [-]
     Model& model = lone.model;
     if (drop_loose_tets(lone) < MOST) return false;
@@ -376,6 +376,7 @@ bool calibrate_alone(LoneOrgan& lone, int organ, const Model& plant, const std::
     if (!(*std::min_element(whole_rods.begin(), whole_rods.end()) > 0)) return false;
     const Energies wanted = balanced(rods_by_load, whole_rods);
     const double wanted_sum = sum_of(wanted);
+    std::vector<double> local(own_hangs.size(), 1.0);
     for (int round = 0; round < ROUNDS; round++) {
         const std::vector<Energies> by_load = cage_energies(model, loads, own_hangs, plant.chain.nodes.size());
         if (by_load.empty()) return false;
@@ -386,7 +387,9 @@ bool calibrate_alone(LoneOrgan& lone, int organ, const Model& plant, const std::
         for (size_t e = 0; e < own_hangs.size(); e++) {
             const size_t node = size_t(own_hangs[e]);
             const double here = (cage[node] + BLUR * cage_sum) / (wanted[node] + BLUR * wanted_sum) / whole;
-            model.tet_young[e] *= round == 0 ? whole : whole * std::clamp(here, 1 / LARGEST_RATIO, LARGEST_RATIO);
+            const double before = local[e];
+            if (round > 0) local[e] = std::clamp(before * here, SOFTEST, STIFFEST);
+            model.tet_young[e] *= whole * local[e] / before;
         }
     }
     return true;

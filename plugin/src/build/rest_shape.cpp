@@ -39,16 +39,17 @@ double edge_length(const VecX& x, const Tet& tet) {
 }
 
 // The longest part of a move of the rest shape that keeps every tet above a third of its volume and does not draw it
-// out to a needle, which has no inverse; 0 if none does.
-double longest_move(const Model& model, const VecX& x, const VecX& rest, const VecX& move) {
+// out to a needle, which has no inverse; 0 if none does, and then the organ that weight tears.
+double longest_move(const Model& model, const VecX& x, const VecX& rest, const VecX& move, int& torn) {
     constexpr double LONGEST = 10;  // of an edge, over its length in the modelled shape [-]
     for (double share = 1; share > 0.01; share /= 2) {
         const VecX moved = rest + share * move;
         bool good = moved.allFinite();
-        for (const Tet& tet : model.cage.tets) {
-            if (!good) break;
+        for (size_t e = 0; e < model.cage.tets.size() && good; e++) {
+            const Tet& tet = model.cage.tets[e];
             good = tet_volume(moved, tet) > tet_volume(x, tet) / 3 &&
                    edge_length(moved, tet) < LONGEST * edge_length(x, tet);
+            if (!good) torn = model.cage.tet_organ[e];
         }
         if (good) return share;
     }
@@ -73,6 +74,7 @@ struct Search {
     VecX x, rest;
     TetElements elements;
     StaticStiffness stiffness;
+    int torn = -1;  // the organ at which a balance failed
 
     Search(const Model& model, frond_mechanics which)
         : model(model),
@@ -86,28 +88,44 @@ struct Search {
     Search& operator=(const Search&) = delete;
     void move_to(const VecX& moved) {
         rest = moved;
-        TetElements fresh = make_tet_elements(model, &rest);
-        fresh.pattern = std::move(elements.pattern);  // the factor's matrix refers to it
-        elements = std::move(fresh);
-        stiffness.K.pattern = &elements.pattern;
+        set_rest_positions(elements, rest);
     }
 };
+
+// Of the node that moves farthest.
+int organ_of_largest(const Model& model, const VecX& move) {
+    int node = 0;
+    for (int i = 1; i < move.size() / 3; i++)
+        if (point(move, i).squaredNorm() > point(move, node).squaredNorm()) node = i;
+    for (size_t e = 0; e < model.cage.tets.size(); e++)
+        for (int corner : model.cage.tets[e])
+            if (corner == node) return model.cage.tet_organ[e];
+    return -1;
+}
 
 // Balances a share of gravity from where the search stands; false, with the search where it was, if that fails.
 bool balance(Search& search, double gravity) {
     constexpr int ROUNDS = 60;
     constexpr double TOLERANCE = 3e-9;  // how far a node is from its balance, over the plant's size [-]
+    constexpr int PATIENCE = 8;         // rounds in which moves must become half as large
     const VecX start = search.rest;
+    std::vector<double> sizes;
+    VecX move(search.x.size());
     for (int round = 0; round < ROUNDS; round++) {
         const VecX force = unbalanced_force(search.held, search.elements, search.which, search.x, gravity);
         if (!search.stiffness.set(search.elements, search.held, search.which, Tangent::positive, search.x)) break;
-        VecX move(search.x.size());
         solve(*search.stiffness.factor, force, move);
-        const double share = longest_move(search.model, search.x, search.rest, -move);
-        if (share == 0) break;
+        const double share = longest_move(search.model, search.x, search.rest, -move, search.torn);
+        if (share == 0) {
+            search.move_to(start);
+            return false;
+        }
         search.move_to(search.rest - share * move);
-        if (share == 1 && move.lpNorm<Eigen::Infinity>() < TOLERANCE * search.model.surface.size()) return true;
+        sizes.push_back(move.lpNorm<Eigen::Infinity>());
+        if (share == 1 && sizes.back() < TOLERANCE * search.model.surface.size()) return true;
+        if (round >= 2 * PATIENCE && !(sizes.back() < 0.5 * sizes[size_t(round - PATIENCE)])) break;
     }
+    search.torn = organ_of_largest(search.model, move);
     search.move_to(start);
     return false;
 }
@@ -124,6 +142,7 @@ struct Outcome {
     VecX rest;                 // empty unless the plant stands
     std::vector<double> work;  // of weight, by organ, on the way in which it topples; empty unless it does [-]
     double overload = 1;       // how many times too heavy it then is [-]
+    int torn = -1;             // else the organ at which no balance was found
 };
 
 // One organ's tets of an elements' pattern.
@@ -175,11 +194,11 @@ Outcome search_rest_shape(const Model& model, frond_mechanics which) {
             step *= 2;
         } else {
             step = 0.25 * (next - done);
-            if (step < SMALLEST_STEP) return {};
+            if (step < SMALLEST_STEP) return {VecX(), {}, 1, search.torn};
         }
     }
     if (search.stiffness.set(search.elements, search.held, which, Tangent::exact, search.x))
-        return {search.rest, {}, 1};
+        return {search.rest, {}, 1, -1};
     return find_outcome(search);
 }
 
@@ -249,6 +268,10 @@ WeakOrgan find_rest_shape(Model& model) {
         } else if (!torn) {
             stiffen_torn_organs(model);
             torn = true;
+        } else if (outcome.torn >= 0 && i <= FINE_TRIES) {
+            std::vector<double> only(factor.size(), 0.0);
+            only[size_t(outcome.torn)] = 1;
+            stiffen_toppling_organs(model, only, stiffer * stiffer, factor);
         } else {
             for (double& f : factor) f *= stiffer;
             for (double& young : model.tet_young) young *= stiffer;

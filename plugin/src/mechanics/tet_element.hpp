@@ -12,6 +12,9 @@
 
 namespace frond {
 
+// Another shape at rest for elements of order 1, node_count*3 [m].
+void set_rest_positions(TetElements& elements, const VecX& rest_positions);
+
 // What every row of the tets is given.
 inline const TetElements& as_tets(const Elements& elements) {
     return static_cast<const TetElements&>(elements);

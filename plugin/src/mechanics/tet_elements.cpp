@@ -47,6 +47,25 @@ std::array<int, PAIRS> slots_of(const BlockPattern& pattern, const std::array<in
 
 }  // namespace
 
+void set_rest_positions(TetElements& elements, const VecX& rest_positions) {
+    elements.rest_positions = rest_positions;
+    elements.rest_inverse.resize(elements.tets.size());
+    elements.volume.resize(elements.tets.size());
+    for (size_t e = 0; e < elements.tets.size(); ++e) {
+        const Tet& tet = elements.ordered[e];
+        Mat3 edges;
+        for (int a = 0; a < 3; ++a)
+            edges.col(a) = point(rest_positions, tet[size_t(a) + 1]) - point(rest_positions, tet[0]);
+
+        // A flat tet has no inverse; measure flatness against the tet's own size.
+        const double volume = std::abs(tet_volume(rest_positions, tet)), length = edges.norm();
+        if (!(volume > 1e-12 * length * length * length) || !std::isfinite(volume))
+            fail(FROND_BAD_GEOMETRY, "tet %zu has no volume at rest; remove it or move its nodes", e);
+        elements.rest_inverse[e] = edges.inverse();
+        elements.volume[e] = volume;
+    }
+}
+
 TetElements make_tet_elements(const Model& model, const VecX* rest_positions, int order) {
     check_model(model, rest_positions);
     TetElements out;
@@ -55,32 +74,21 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions, in
     out.nodes = make_tet_nodes(int(model.cage.nodes.size()), out.tets, order);
     out.node_count = out.nodes.count();
     out.modelled = node_places(out.nodes, [&](int i) { return model.cage.nodes[size_t(i)]; });
-    out.rest_positions =
-        rest_positions ? node_places(out.nodes, [&](int i) { return Vec3(point(*rest_positions, i)); }) : out.modelled;
+    // Ordering the nodes may mirror the tet; the deformation gradient does not see that.
+    for (Tet& tet : out.ordered) std::sort(tet.begin(), tet.end());
+    set_rest_positions(
+        out, rest_positions ? node_places(out.nodes, [&](int i) { return Vec3(point(*rest_positions, i)); })
+                            : out.modelled);
 
     out.pattern = order == 1 ? make_block_pattern(out.node_count, out.tets)
                              : make_block_pattern(out.node_count, out.nodes.of_tet);
     for (size_t e = 0; e < out.tets.size(); ++e) {
-        // Ordering the nodes may mirror the tet; the deformation gradient does not see that.
-        Tet& tet = out.ordered[e];
-        std::sort(tet.begin(), tet.end());
-        Mat3 edges;
-        for (int a = 0; a < 3; ++a)
-            edges.col(a) = point(out.rest_positions, tet[size_t(a) + 1]) - point(out.rest_positions, tet[0]);
-
-        // A flat tet has no inverse; measure flatness against the tet's own size.
-        const double volume = std::abs(tet_volume(out.rest_positions, tet)), length = edges.norm();
-        if (!(volume > 1e-12 * length * length * length) || !std::isfinite(volume))
-            fail(FROND_BAD_GEOMETRY, "tet %zu has no volume at rest; remove it or move its nodes", e);
-        out.rest_inverse.push_back(edges.inverse());
-        out.volume.push_back(volume);
-
         const double E = model.tet_young[e], nu = model.tet_poisson[e];
         out.lambda.push_back(E * nu / ((1 + nu) * (1 - 2 * nu)));
         out.mu.push_back(E / (2 * (1 + nu)));
 
         if (order == 1)
-            out.slots.push_back(slots_of<10>(out.pattern, tet));
+            out.slots.push_back(slots_of<10>(out.pattern, out.ordered[e]));
         else
             out.quadratic_slots.push_back(slots_of<55>(out.pattern, out.nodes.of_tet[e]));
     }
