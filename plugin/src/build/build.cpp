@@ -1,7 +1,9 @@
 // From a surface to a model: topology -> organs -> chain, cage -> calibration.
 #include "build/build.hpp"
-#include "build/weigh.hpp"
 
+#include <algorithm>
+
+#include "build/weigh.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/timer.hpp"
@@ -30,15 +32,19 @@ static void finish(Model& model) {
     model.cage_report = measure_cage(model.surface, model.cage, model.embedding);
 }
 
-// One warning for a plant that its materials do not carry.
-static void tell_stiffened(Model& model, const WeakOrgan& weak) {
-    constexpr double WORTH_A_WARNING = 2;  // more than the margin that chosen materials get anyway
-    model.stiffened = weak.factor;
-    if (model.stiffened < WORTH_A_WARNING) return;
-    warn(
-        "%s cannot carry its weight in the shape it was modelled in and was made %.3g times stiffer; check the scale "
-        "(the plant is %.3g m high) and the materials",
-        weak.name.c_str(), model.stiffened, model.surface.height());
+// One warning for a plant that its materials do not carry, or else for one that its cage does not.
+static void tell_stiffened(Model& model, const WeakOrgan& weak, const WeakOrgan& in_cage) {
+    constexpr double MUCH = 2;          // more than the margin that chosen materials get anyway
+    constexpr double MUCH_IN_CAGE = 4;  // cells as coarse as the paper's are not more exact than that
+    model.stiffened = std::max(weak.factor, in_cage.factor);
+    if (weak.factor >= MUCH)
+        warn(
+            "%s cannot carry its weight in the shape it was modelled in and was made %.3g times stiffer; check the "
+            "scale (the plant is %.3g m high) and the materials",
+            weak.name.c_str(), weak.factor, model.surface.height());
+    else if (in_cage.factor >= MUCH_IN_CAGE)
+        warn("the cage around %s would not stand and was made %.3g times stiffer; a smaller cage_size helps",
+             in_cage.name.c_str(), in_cage.factor);
 }
 
 // From a surface whose organs and chain stand.
@@ -53,8 +59,7 @@ static void build_body(Model& model, const frond_model_def& def) {
     if (model.stands_as_modelled) weak = strengthen(model);
     calibrate(model);
     if (!model.stands_as_modelled) return;
-    const WeakOrgan in_cage = find_rest_shape(model);
-    tell_stiffened(model, in_cage.factor > weak.factor ? in_cage : weak);
+    tell_stiffened(model, weak, find_rest_shape(model));
 }
 
 static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def, const Timer& total) {
