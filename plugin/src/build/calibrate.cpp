@@ -2,8 +2,8 @@
 // tets are too stiff in bending, by a factor of ten to a thousand; so each organ's Young's modulus in the cage is
 // scaled until the organ bends in the cage as the rod with its true section would. Each organ is taken alone, held
 // where it grows out of another one, and loaded with its own weight and that of what it bears, and at its tip, along
-// each of the three axes. Under equal loads elastic energy is inversely proportional to stiffness, so the ratio of the two energies, cage
-// to rod, is the factor: first for the organ, then place by place along it.
+// each of the three axes. Under equal loads elastic energy is inversely proportional to stiffness, so the ratio of the
+// two energies, cage to rod, is the factor: first for the organ, then place by place along it.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,7 +18,6 @@
 namespace frond {
 namespace {
 
-constexpr double WEIGHT = 9.81;         // [m/s^2]
 constexpr double LARGEST_FACTOR = 1e6;  // of a modulus [-]
 
 // An elastic energy for each chain node [J]: of the tets that hang on it, and of the halves of its capsules.
@@ -34,7 +33,7 @@ struct RodForce {
 std::vector<RodForce> rod_forces(const Model& model, const Weights& weights,
                                  int axis, bool organs_alone) {
     const std::vector<ChainNode>& nodes = model.chain.nodes;
-    const Vec3 load = WEIGHT * Vec3::Unit(axis);
+    const Vec3 load = GRAVITY * Vec3::Unit(axis);
     std::vector<Vec3> force(nodes.size()), moment(nodes.size());
     for (size_t i = 0; i < nodes.size(); i++) {
         force[i] = weights.mass[i] * load;
@@ -184,10 +183,7 @@ double drop_loose_tets(LoneOrgan& lone) {
 
 // Linear elastic energy of a tet whose nodes are displaced by u [J].
 double tet_energy(const TetElements& elements, size_t e, const VecX& u) {
-    const Tet& tet = elements.ordered[e];
-    Mat3 edges;
-    for (int k = 0; k < 3; k++) edges.col(k) = point(u, tet[size_t(k) + 1]) - point(u, tet[0]);
-    const Mat3 gradient = edges * elements.rest_inverse[e], strain = 0.5 * (gradient + gradient.transpose());
+    const Mat3 gradient = deformation_gradient(elements, e, u), strain = 0.5 * (gradient + gradient.transpose());
     const double trace = strain.trace();
     return elements.volume[e] * (elements.mu[e] * strain.squaredNorm() + 0.5 * elements.lambda[e] * trace * trace);
 }
@@ -217,7 +213,7 @@ std::vector<Energies> cage_energies(const Model& model, const std::vector<NodeMa
         for (int axis = 0; axis < 3; axis++) {
             load.setZero();
             for (const auto& [node, mass] : masses)
-                if (!model.root[size_t(node)]) load[3 * node + axis] = WEIGHT * mass;
+                if (!model.root[size_t(node)]) load[3 * node + axis] = GRAVITY * mass;
             solve(*stiffness.factor, load, u);
             for (size_t e = 0; e < elements.tets.size(); e++) energies[size_t(hangs[e])] += tet_energy(elements, e, u);
         }

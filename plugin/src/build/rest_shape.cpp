@@ -130,13 +130,6 @@ bool balance(Search& search, double gravity) {
     return false;
 }
 
-Mat3 displacement_gradient(const TetElements& elements, size_t e, const VecX& u) {
-    const Tet& tet = elements.ordered[e];
-    Mat3 edges;
-    for (int k = 0; k < 3; k++) edges.col(k) = point(u, tet[size_t(k) + 1]) - point(u, tet[0]);
-    return edges * elements.rest_inverse[e];
-}
-
 // What came of a search for a rest shape.
 struct Outcome {
     VecX rest;                 // empty unless the plant stands
@@ -212,7 +205,7 @@ std::vector<double> organ_strains(const Model& model) {
     solve(*search.stiffness.factor, force, u);
     std::vector<double> strains(model.organs.size(), 0.0);
     for (size_t e = 0; e < elements.tets.size(); e++) {
-        const Mat3 gradient = displacement_gradient(elements, e, u);
+        const Mat3 gradient = deformation_gradient(elements, e, u);
         double& strain = strains[size_t(model.cage.tet_organ[e])];
         strain = std::max(strain, 0.5 * (gradient + gradient.transpose()).norm());
     }

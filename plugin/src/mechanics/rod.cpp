@@ -67,8 +67,8 @@ Mat3of<S> middle_share(const RodNode<S>& a, const Vec3of<S>& turn) {
 
 // Gradient of the energy by the four nodes of the mechanics.
 template <class S>
-Eigen::Matrix<S, 12, 1> gradient(const RodSegment& rod, const RodNode<S>& a, const RodNode<S>& b) {
-    const Bent<S> bent = bend_between(rod, a, b);
+Eigen::Matrix<S, 12, 1> gradient(const RodSegment& rod, const RodNode<S>& a, const RodNode<S>& b,
+                                 const Bent<S>& bent) {
     const Vec3of<S> force = bent.middle * Vec3of<S>(rod.stretch.cast<S>().cwiseProduct(bent.strain));
     const Vec3of<S> middle_moment = force.cross(bent.chord);
     const Vec3of<S> couple = rod.frame.cast<S>() * Vec3of<S>(rod.bend.cast<S>().cwiseProduct(bent.curvature));
@@ -91,8 +91,8 @@ double energy_of(const RodSegment& rod, const RodNode<double>& a, const RodNode<
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 // The part of the stiffness that is never negative: how strains change with the nodes, weighted with resistance.
-Matrix12 positive_stiffness(const RodSegment& rod, const RodNode<double>& a, const RodNode<double>& b) {
-    const Bent<double> bent = bend_between(rod, a, b);
+Matrix12 positive_stiffness(const RodSegment& rod, const RodNode<double>& a, const RodNode<double>& b,
+                            const Bent<double>& bent) {
     const Mat3 share = middle_share(a, bent.turn), chord = cross_matrix<double>(bent.chord);
     Eigen::Matrix<double, 3, 12> strain;
     strain << -Mat3::Identity(), chord * (Mat3::Identity() - share) * a.rate, Mat3::Identity(), chord * share * b.rate;
@@ -114,8 +114,8 @@ Matrix12 exact_stiffness(const RodSegment& rod, const VecX& x) {
     for (int n = 0; n < 4; ++n)
         for (int c = 0; c < 3; ++c)
             v[n][c] = Dual::variable(x[3 * (2 * (n < 2 ? rod.a : rod.b) + n % 2) + c], 3 * n + c);
-    const Eigen::Matrix<Dual, 12, 1> g =
-        gradient<Dual>(rod, node_at<Dual>(v[0], v[1]), node_at<Dual>(v[2], v[3]));
+    const RodNode<Dual> a = node_at<Dual>(v[0], v[1]), b = node_at<Dual>(v[2], v[3]);
+    const Eigen::Matrix<Dual, 12, 1> g = gradient<Dual>(rod, a, b, bend_between(rod, a, b));
     Matrix12 K;
     for (int r = 0; r < 12; ++r) K.row(r) = g[r].slope.matrix().transpose();
     return 0.5 * (K + K.transpose());
@@ -150,24 +150,33 @@ double rod_energy(const Elements& body, const VecX& x) {
 
 int rod_add_force(const Elements& body, const VecX& x, VecX& f) {
     const std::vector<RodNode<double>> nodes = nodes_at(x);
-    for (const RodSegment& rod : as_rods(body).segments)
-        scatter_force(rod, gradient<double>(rod, nodes[size_t(rod.a)], nodes[size_t(rod.b)]), f);
+    for (const RodSegment& rod : as_rods(body).segments) {
+        const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
+        scatter_force(rod, gradient(rod, a, b, bend_between(rod, a, b)), f);
+    }
     return 0;
 }
 
 void rod_add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale, BlockMatrix& K) {
     const std::vector<RodNode<double>> nodes = nodes_at(x);
     for (const RodSegment& rod : as_rods(body).segments) {
-        const Matrix12 stiffness = tangent == Tangent::exact
-                                       ? exact_stiffness(rod, x)
-                                       : positive_stiffness(rod, nodes[size_t(rod.a)], nodes[size_t(rod.b)]);
+        const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
+        const Matrix12 stiffness = tangent == Tangent::exact ? exact_stiffness(rod, x)
+                                                             : positive_stiffness(rod, a, b, bend_between(rod, a, b));
         scatter_stiffness(rod, scale * stiffness, K);
     }
 }
 
 int rod_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
-    rod_add_stiffness(body, x, tangent, 1, K);
-    return rod_add_force(body, x, f);
+    const std::vector<RodNode<double>> nodes = nodes_at(x);
+    for (const RodSegment& rod : as_rods(body).segments) {
+        const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
+        const Bent<double> bent = bend_between(rod, a, b);
+        scatter_force(rod, gradient(rod, a, b, bent), f);
+        scatter_stiffness(
+            rod, tangent == Tangent::exact ? exact_stiffness(rod, x) : positive_stiffness(rod, a, b, bent), K);
+    }
+    return 0;
 }
 
 void rod_inertia(const Elements& body, const VecX& x, std::vector<Mat3>& out) {
