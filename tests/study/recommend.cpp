@@ -1,6 +1,8 @@
 // frond_recommend keeps what it promises, within a factor of two, on stems other than the one it was measured on.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "study/problems.hpp"
@@ -44,17 +46,25 @@ TEST(Recommend, KeepsItsErrorWithinAFactorOfTwo) {
         }
 }
 
-// The processor may be another than the table's: how much slower it is, is told by the cheapest settings of the beam
-// that was measured.
+// The processor may be another than the table's, and others may use it: each time is compared with that of the cheapest
+// settings of the beam that was measured, taken just before, and of three such pairs the middle one counts.
 TEST(Recommend, KeepsItsCostWithinAFactorOfTwo) {
     Session session;
     session.effort = Effort::QUICK;
     const frond_advice first = advice_for(*stem(BEAMS[1]), 0.2, 0);
-    const double slower = sway_of(BEAMS[1], setup_of(first), session).cpu_per_second / first.cpu;
+    const auto cost_of = [&](const Beam& beam, const frond_advice& advice) {
+        std::array<double, 3> costs;
+        for (double& cost : costs) {
+            const double slower = sway_of(BEAMS[1], setup_of(first), session).cpu_per_second / first.cpu;
+            cost = sway_of(beam, setup_of(advice), session).cpu_per_second / slower;
+        }
+        std::sort(costs.begin(), costs.end());
+        return costs[1];
+    };
     for (const Beam& beam : BEAMS)
         for (double wanted : {0.2, 0.04}) {
             const frond_advice advice = advice_for(*stem(beam), wanted, 0);
-            const double cpu = sway_of(beam, setup_of(advice), session).cpu_per_second / slower;
+            const double cpu = cost_of(beam, advice);
             EXPECT_LE(cpu, 2 * advice.cpu) << beam.young << " " << wanted;
             EXPECT_GE(cpu, advice.cpu / 2) << beam.young << " " << wanted;
         }

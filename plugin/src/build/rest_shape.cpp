@@ -1,13 +1,14 @@
 // Rest shape: an artist's mesh shows a plant as it stands, bent by its own weight. Inverse statics finds the shape X
-// without gravity from which weight bends it to the shape x that was modelled: elastic forces f(x; X) + weight = 0. To
-// first order a move of X acts on f as the stiffness, so X <- X - K^-1 (f + weight) converges in a few rounds; the
-// exact tangent at x then tells whether the plant stands there stably or would topple (Greenhill 1881).
-#include <Eigen/LU>
+// without gravity from which weight bends it to the shape x that was modelled: elastic forces f(x; X) + weight = 0, by
+// Newton's method with the exact derivative by X, which takes some six rounds. The exact tangent at x then tells whether
+// the plant stands there stably or would topple (Greenhill 1881).
 #include <algorithm>
 #include <cmath>
 
 #include "build/build.hpp"
 #include "build/firm_tets.hpp"
+#include "build/rest_system.hpp"
+#include "build/static_stiffness.hpp"
 #include "build/toppling.hpp"
 #include "mechanics/tet_element.hpp"
 #include "model/tet_geometry.hpp"
@@ -19,18 +20,6 @@ VecX modelled_positions(const Model& model) {
     VecX x(3 * Eigen::Index(model.cage.nodes.size()));
     for (size_t i = 0; i < model.cage.nodes.size(); i++) point(x, int(i)) = model.cage.nodes[i];
     return x;
-}
-
-// Elastic force and weight at x, zero for held nodes [N].
-VecX unbalanced_force(const std::vector<uint8_t>& held, const TetElements& elements, frond_mechanics which,
-                      const VecX& x, double gravity) {
-    VecX f = VecX::Zero(x.size());
-    for (size_t e = 0; e < elements.tets.size(); e++)
-        for (int corner : elements.tets[e]) f[3 * corner + 1] -= gravity * elements.density[e] * elements.volume[e] / 4;
-    mechanics(which).add_force(elements, x, f);
-    for (size_t i = 0; i < held.size(); i++)
-        if (held[i]) point(f, int(i)).setZero();
-    return f;
 }
 
 double edge_length(const VecX& x, const Tet& tet) {
@@ -74,6 +63,7 @@ struct Search {
     VecX x, rest;
     TetElements elements;
     StaticStiffness stiffness;
+    RestSystem system;
     int torn = -1;  // the organ at which a balance failed
 
     Search(const Model& model, frond_mechanics which)
@@ -83,7 +73,8 @@ struct Search {
           x(modelled_positions(model)),
           rest(x),
           elements(make_tet_elements(model)),
-          stiffness(elements.pattern) {}
+          stiffness(elements.pattern),
+          system(elements, held) {}
     Search(const Search&) = delete;
     Search& operator=(const Search&) = delete;
     void move_to(const VecX& moved) {
@@ -105,22 +96,22 @@ int organ_of_largest(const Model& model, const VecX& move) {
 
 // Balances a share of gravity from where the search stands; false, with the search where it was, if that fails.
 bool balance(Search& search, double gravity) {
-    constexpr int ROUNDS = 60;
+    constexpr int ROUNDS = 25;
     constexpr double TOLERANCE = 3e-9;  // how far a node is from its balance, over the plant's size [-]
-    constexpr int PATIENCE = 8;         // rounds in which moves must become half as large
+    constexpr double LEAST_SHARE = 0.1; // of a move; less gets nowhere [-]
+    constexpr int PATIENCE = 5;         // rounds in which moves must become half as large
     const VecX start = search.rest;
     std::vector<double> sizes;
     VecX move(search.x.size());
     for (int round = 0; round < ROUNDS; round++) {
-        const VecX force = unbalanced_force(search.held, search.elements, search.which, search.x, gravity);
-        if (!search.stiffness.set(search.elements, search.held, search.which, Tangent::positive, search.x)) break;
-        solve(*search.stiffness.factor, force, move);
-        const double share = longest_move(search.model, search.x, search.rest, -move, search.torn);
-        if (share == 0) {
+        const VecX force = unbalanced_force(search.elements, search.held, search.which, search.x, gravity);
+        if (!search.system.find_move(search.elements, search.which, search.x, gravity, force, move)) break;
+        const double share = longest_move(search.model, search.x, search.rest, move, search.torn);
+        if (share < LEAST_SHARE) {
             search.move_to(start);
             return false;
         }
-        search.move_to(search.rest - share * move);
+        search.move_to(search.rest + share * move);
         sizes.push_back(move.lpNorm<Eigen::Infinity>());
         if (share == 1 && sizes.back() < TOLERANCE * search.model.surface.size()) return true;
         if (round >= 2 * PATIENCE && !(sizes.back() < 0.5 * sizes[size_t(round - PATIENCE)])) break;
@@ -133,7 +124,7 @@ bool balance(Search& search, double gravity) {
 // What came of a search for a rest shape.
 struct Outcome {
     VecX rest;                 // empty unless the plant stands
-    std::vector<double> work;  // of weight, by organ, on the way in which it topples; empty unless it does [-]
+    std::vector<double> shares;  // of organs in the energy of the motion in which it topples; empty unless it does
     double overload = 1;       // how many times too heavy it then is [-]
     int torn = -1;             // else the organ at which no balance was found
 };
@@ -155,7 +146,7 @@ TetElements take_organ(const TetElements& all, const std::vector<int>& tet_organ
     return one;
 }
 
-// How an unstable plant topples, and what weight does in each organ on the way.
+// How an unstable plant topples, and which organs give way.
 Outcome find_outcome(Search& search) {
     BlockMatrix taken;
     taken.set_pattern(search.elements.pattern);
@@ -165,13 +156,14 @@ Outcome find_outcome(Search& search) {
     if (toppling.mode.size() == 0) return {};
     Outcome outcome;
     outcome.overload = toppling.overload;
-    VecX product(toppling.mode.size());
-    for (size_t organ = 0; organ < search.model.organs.size(); organ++) {
-        take_by_weight(take_organ(search.elements, search.model.cage.tet_organ, int(organ)), search.which, search.x,
-                       taken);
-        taken.multiply(toppling.mode, product);
-        outcome.work.push_back(toppling.mode.dot(product));
-    }
+
+    outcome.shares = find_shares(toppling, search.stiffness, taken, search.held, search.model.organs.size(),
+                                 [&](size_t organ, BlockMatrix& resists) {
+                                     const auto& tet_organ = search.model.cage.tet_organ;
+                                     mechanics(search.which)
+                                         .add_stiffness(take_organ(search.elements, tet_organ, int(organ)), search.x,
+                                                        Tangent::positive, 1, resists);
+                                 });
     return outcome;
 }
 
@@ -199,7 +191,7 @@ Outcome search_rest_shape(const Model& model, frond_mechanics which) {
 std::vector<double> organ_strains(const Model& model) {
     Search search(model, FROND_TET_LINEAR);
     const TetElements& elements = search.elements;
-    const VecX force = unbalanced_force(search.held, elements, FROND_TET_LINEAR, search.x, GRAVITY);
+    const VecX force = unbalanced_force(elements, search.held, FROND_TET_LINEAR, search.x, GRAVITY);
     if (!search.stiffness.set(elements, search.held, FROND_TET_LINEAR, Tangent::positive, search.x)) return {};
     VecX u(force.size());
     solve(*search.stiffness.factor, force, u);
@@ -232,43 +224,34 @@ void stiffen_torn_organs(Model& model) {
 
 }  // namespace
 
-// Makes those organs stiffer that give way in a toppling plant; notes by how much.
-static void stiffen_toppling_organs(Model& model, const std::vector<double>& work, double stiffer,
-                                    std::vector<double>& factor) {
-    constexpr double MUCH = 0.3;  // of what weight does in the organ that gives way most [-]
-    const double most = *std::max_element(work.begin(), work.end());
-    std::vector<char> bends(work.size());
-    for (size_t o = 0; o < work.size(); o++) {
-        bends[o] = work[o] >= MUCH * most;
-        if (bends[o]) factor[o] *= stiffer;
-    }
+// Makes one organ stiffer; notes by how much.
+static void stiffen(Model& model, size_t organ, double stiffer, std::vector<double>& factor) {
+    factor[organ] *= stiffer;
     for (size_t e = 0; e < model.tet_young.size(); e++)
-        if (bends[size_t(model.cage.tet_organ[e])]) model.tet_young[e] *= stiffer;
+        if (size_t(model.cage.tet_organ[e]) == organ) model.tet_young[e] *= stiffer;
+}
+
+// Makes those organs stiffer that give way most when the plant topples.
+static void stiffen_toppling_organs(Model& model, const Outcome& outcome, std::vector<double>& factor) {
+    const std::vector<double> stiffer = stiffer_by(outcome.shares, outcome.overload);
+    for (size_t o = 0; o < stiffer.size(); o++)
+        if (stiffer[o] > 1) stiffen(model, o, stiffer[o], factor);
 }
 
 WeakOrgan find_rest_shape(Model& model) {
     // The default mechanics decides how stiff the cage has to be.
-    constexpr double LEAST = 1.05, STIFFER = 1.5, MUCH_STIFFER = 2.5;
-    constexpr int FINE_TRIES = 30, MOST_TRIES = 40;
+    constexpr double STIFFER = 2;
+    constexpr int MOST_TRIES = 40;
     std::vector<double> factor(model.organs.size(), 1.0);
-    bool torn = false;
+    stiffen_torn_organs(model);
     Outcome outcome = search_rest_shape(model, FROND_TET_COROTATIONAL);
     for (int i = 0; i < MOST_TRIES && outcome.rest.size() == 0; i++) {
-        const double stiffer = i <= FINE_TRIES ? STIFFER : MUCH_STIFFER;
-        if (!outcome.work.empty()) {
-            const double needed = std::clamp(LEAST * outcome.overload, LEAST, MUCH_STIFFER);
-            stiffen_toppling_organs(model, outcome.work, needed, factor);
-        } else if (!torn) {
-            stiffen_torn_organs(model);
-            torn = true;
-        } else if (outcome.torn >= 0 && i <= FINE_TRIES) {
-            std::vector<double> only(factor.size(), 0.0);
-            only[size_t(outcome.torn)] = 1;
-            stiffen_toppling_organs(model, only, stiffer * stiffer, factor);
-        } else {
-            for (double& f : factor) f *= stiffer;
-            for (double& young : model.tet_young) young *= stiffer;
-        }
+        if (!outcome.shares.empty())
+            stiffen_toppling_organs(model, outcome, factor);
+        else if (outcome.torn >= 0)
+            stiffen(model, size_t(outcome.torn), STIFFER, factor);
+        else
+            for (size_t o = 0; o < factor.size(); o++) stiffen(model, o, STIFFER, factor);
         outcome = search_rest_shape(model, FROND_TET_COROTATIONAL);
     }
     model.rest_shapes->positions[FROND_TET_COROTATIONAL] = outcome.rest;

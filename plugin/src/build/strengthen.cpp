@@ -1,6 +1,6 @@
 // A plant that its materials would not carry is made stiffer, organ by organ, until it stands. Judged on the rods,
-// whose balance under weight is known without a search: where they would topple, the organs in which weight does most
-// on the way get what is wanting.
+// whose balance under weight is known without a search: where they would topple, the organs that give way most get what
+// is wanting.
 #include <algorithm>
 #include <cmath>
 
@@ -58,20 +58,19 @@ std::vector<double> organ_turns(const Model& model) {
 // The rods of a plant that stands, with the stiffness that resists, where each organ is weaker by its safety factor, and
 // what weight takes from it.
 struct Standing {
-    RodElements elements;
+    RodElements elements, weaker;
     std::vector<uint8_t> held;
     StaticStiffness resisting;
     BlockMatrix taken;  // G
     bool is_sound = false;
 
     Standing(const Model& model, const std::vector<double>& safety)
-        : elements(make_rod_elements(model, FROND_ROD)), resisting(elements.pattern) {
+        : elements(make_rod_elements(model, FROND_ROD)), weaker(elements), resisting(elements.pattern) {
         held.assign(size_t(elements.node_count), 0);
         for (size_t i = 0; i < model.chain.nodes.size(); i++)
             if (model.chain.nodes[i].parent < 0) held[2 * i] = held[2 * i + 1] = 1;
         taken.set_pattern(elements.pattern);
         take_by_weight(elements, FROND_ROD, elements.modelled, taken);
-        RodElements weaker = elements;
         for (RodSegment& segment : weaker.segments) {
             const double s = safety[size_t(model.chain.nodes[size_t(segment.b)].organ)];
             segment.stretch /= s;
@@ -81,23 +80,13 @@ struct Standing {
     }
 };
 
-// What weight does in a mode, by organ [-].
-std::vector<double> organ_works(const Model& model, const Standing& standing, const VecX& mode) {
-    std::vector<double> works(model.organs.size(), 0.0);
-    RodElements one = standing.elements;
-    BlockMatrix G;
-    G.set_pattern(standing.elements.pattern);
-    VecX product(mode.size());
-    for (size_t organ = 0; organ < works.size(); organ++) {
-        one.segments.clear();
-        for (const RodSegment& segment : standing.elements.segments)
-            if (model.chain.nodes[size_t(segment.b)].organ == int(organ)) one.segments.push_back(segment);
-        if (one.segments.empty()) continue;
-        take_by_weight(one, FROND_ROD, one.modelled, G);
-        G.multiply(mode, product);
-        works[organ] = mode.dot(product);
-    }
-    return works;
+// The rods of one organ, with the same nodes.
+RodElements take_organ(const Model& model, const RodElements& all, size_t organ) {
+    RodElements one = all;
+    one.segments.clear();
+    for (const RodSegment& segment : all.segments)
+        if (model.chain.nodes[size_t(segment.b)].organ == int(organ)) one.segments.push_back(segment);
+    return one;
 }
 
 std::vector<double> organ_masses(const Model& model) {
@@ -111,8 +100,6 @@ std::vector<double> organ_masses(const Model& model) {
 
 WeakOrgan strengthen(Model& model) {
     constexpr int MOST_ROUNDS = 300;
-    constexpr double MUCH = 0.3;        // of what weight does in the organ that gives way most [-]
-    constexpr double LARGEST_STEP = 8;  // of a modulus at once [-]
     std::vector<double>& stiffer = model.organ_stiffer;
     const std::vector<double> turns = organ_turns(model);
     std::vector<double> safety;
@@ -126,12 +113,14 @@ WeakOrgan strengthen(Model& model) {
         if (!standing.is_sound) break;
         const Toppling toppling = find_toppling(standing.resisting, standing.taken, standing.held);
         if (!(toppling.overload > 1)) break;
-        const std::vector<double> works = organ_works(model, standing, toppling.mode);
-        const double most = *std::max_element(works.begin(), works.end());
-        if (!(most > 0)) break;
-        const double factor = std::min(1.01 * toppling.overload, LARGEST_STEP);
-        for (size_t o = 0; o < stiffer.size(); o++)
-            if (works[o] >= MUCH * most) stiffer[o] *= factor;
+        const std::vector<double> shares = find_shares(
+            toppling, standing.resisting, standing.taken, standing.held, stiffer.size(),
+            [&](size_t organ, BlockMatrix& K) {
+                const RodElements one = take_organ(model, standing.weaker, organ);
+                mechanics(FROND_ROD).add_stiffness(one, one.modelled, Tangent::positive, 1, K);
+            });
+        const std::vector<double> factors = stiffer_by(shares, toppling.overload);
+        for (size_t o = 0; o < stiffer.size(); o++) stiffer[o] *= factors[o];
     }
 
     // Organs of no weight to speak of, silk and hairs, are not worth a word.

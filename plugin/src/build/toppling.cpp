@@ -1,5 +1,6 @@
 #include "build/toppling.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace frond {
@@ -10,7 +11,7 @@ void take_by_weight(const Elements& elements, frond_mechanics which, const VecX&
     mechanics(which).add_stiffness(elements, x, Tangent::exact, -1, taken);
 }
 
-static void hold(const std::vector<uint8_t>& held, VecX& x) {
+void hold(const std::vector<uint8_t>& held, VecX& x) {
     for (size_t i = 0; i < held.size(); i++)
         if (held[i]) point(x, int(i)).setZero();
 }
@@ -45,6 +46,40 @@ Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, con
         if (value >= 0 || shift > 0) return {mode, value};
         shift = -value;
     }
+}
+
+std::vector<double> find_shares(const Toppling& toppling, StaticStiffness& resisting, const BlockMatrix& taken,
+                                const std::vector<uint8_t>& held, size_t organ_count,
+                                const std::function<void(size_t organ, BlockMatrix& K)>& add_organ) {
+    // What weight takes in the motion bends the body in it once more, now without the noise that stiff organs feel most.
+    VecX product(toppling.mode.size()), smooth(toppling.mode.size());
+    taken.multiply(toppling.mode, product);
+    hold(held, product);
+    solve(*resisting.factor, product, smooth);
+    const double whole = smooth.dot(product);
+    std::vector<double> shares;
+    BlockMatrix own;
+    own.set_pattern(*taken.pattern);
+    for (size_t organ = 0; organ < organ_count; organ++) {
+        own.set_zero();
+        add_organ(organ, own);
+        own.multiply(smooth, product);
+        shares.push_back(smooth.dot(product) / whole);
+    }
+    return shares;
+}
+
+std::vector<double> stiffer_by(const std::vector<double>& shares, double overload) {
+    constexpr double MUCH = 0.3;  // of the largest share [-]
+    constexpr double MARGIN = 1.02, LARGEST = 8;
+    const double least = MUCH * *std::max_element(shares.begin(), shares.end());
+    double together = 0;
+    for (double share : shares)
+        if (share >= least) together += share;
+    const double factor = std::min(std::pow(MARGIN * std::max(overload, 1.0), 1 / together), LARGEST);
+    std::vector<double> stiffer;
+    for (double share : shares) stiffer.push_back(share >= least ? factor : 1.0);
+    return stiffer;
 }
 
 }  // namespace frond

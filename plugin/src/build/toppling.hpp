@@ -3,6 +3,8 @@
 // one (Greenhill 1881 for a single stem).
 #pragma once
 
+#include <functional>
+
 #include "build/static_stiffness.hpp"
 
 namespace frond {
@@ -15,7 +17,18 @@ struct Toppling {
 // What weight takes from a body's stiffness at x: the positive one less the exact one.
 void take_by_weight(const Elements& elements, frond_mechanics which, const VecX& x, BlockMatrix& taken);
 
+// Sets the three numbers of each held node to zero.
+void hold(const std::vector<uint8_t>& held, VecX& x);
 // `resisting` has its factor.
 Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, const std::vector<uint8_t>& held);
+
+// Organs' shares in the elastic energy of the motion: to first order, by how much, relatively, the load that the body
+// bears grows with an organ's modulus [-]. `add_organ` adds the stiffness of one organ.
+std::vector<double> find_shares(const Toppling& toppling, StaticStiffness& resisting, const BlockMatrix& taken,
+                                const std::vector<uint8_t>& held, size_t organ_count,
+                                const std::function<void(size_t organ, BlockMatrix& K)>& add_organ);
+// How many times stiffer each organ should be so that the body bears its load: those that have most share in it alike,
+// the others not at all. At most 8 at once, since shares change.
+std::vector<double> stiffer_by(const std::vector<double>& shares, double overload);
 
 }  // namespace frond

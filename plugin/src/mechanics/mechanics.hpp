@@ -53,6 +53,9 @@ struct Masses {
     std::vector<double> slot;  // one a block of the pattern, times the identity [kg]
 };
 
+// Of forces by places at rest, block (a, b): the force on corner a+1 by a move of corner b+1.
+using RestDerivative = std::array<std::array<Mat3, 3>, 3>;
+
 // Which derivative of the force: the exact one, or one that is always positive semi-definite.
 enum class Tangent { exact, positive };
 
@@ -76,6 +79,9 @@ struct Mechanics {
     // Whether all elements are strained and turned little on the way, so that forces and stiffness at `to` are worth
     // taking for a step that begins at `from`.
     bool (*is_calm)(const Elements& elements, const VecX& from, const VecX& to);
+    // Derivative of one element's forces on its corners 1, 2, 3 by their places at rest, both against corner 0 [N/m]; in
+    // the order of TetElements::ordered. Null for elements other than linear tets.
+    RestDerivative (*rest_derivative)(const Elements& elements, size_t e, const VecX& x);
     // One solve alone may blow up where tets are inside out: go on from there with a line search.
     bool needs_search;
     // Nodes are pairs of a chain node's place and its rotation; the cage follows. Else nodes are the cage's.

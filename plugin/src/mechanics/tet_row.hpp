@@ -74,14 +74,37 @@ struct TetRow {
     }
 };
 
+// A move of corner b at rest by dX acts on F as a move of it in space by -F dX does; it changes the volume V and the
+// gradients b_a besides. With H_a = V P b_a, minus the force on corner a, and K the stiffness at x,
+//   df_a/dX_b = K_ab F - H_a b_b^T + H_b b_a^T.
+template <class Law>
+RestDerivative rest_derivative(const Elements& body, size_t e, const VecX& x) {
+    const TetElements& elements = as_tets(body);
+    const TetShare share = LinearTet::share(elements, e);
+    const Mat3 F = LinearTet::gradient(share, LinearTet::places(elements, e, x), 0);
+    const auto strain = Law::strain(share, F);
+    const Mat3& B = share.rest_inverse;
+    const Mat3 H = Law::stress(share, strain) * B.transpose() * share.volume;
+    const TetStiffness k = Law::stiffness(share, strain, Tangent::exact, 1);
+    const Mat3 K[3][3] = {{k.k11, k.k21.transpose(), k.k31.transpose()},
+                          {k.k21, k.k22, k.k32.transpose()},
+                          {k.k31, k.k32, k.k33}};
+    RestDerivative out;
+    for (size_t a = 0; a < 3; ++a)
+        for (size_t b = 0; b < 3; ++b)
+            out[a][b] = K[a][b] * F - H.col(Eigen::Index(a)) * B.row(Eigen::Index(b)) +
+                        H.col(Eigen::Index(b)) * B.row(Eigen::Index(a));
+    return out;
+}
+
 template <class Law>
 Mechanics tet_row(const char* name, int order, bool needs_search) {
-    const auto row = [&](auto rows, auto make, auto is_calm) {
-        return Mechanics{name,           make,    tet_masses, rows.energy,  rows.add_force, rows.add_stiffness,
-                         rows.add_both, nullptr, is_calm,    needs_search, false};
+    const auto row = [&](auto rows, auto make, auto is_calm, auto rest_derivative) {
+        return Mechanics{name,          make,    tet_masses, rows.energy,     rows.add_force, rows.add_stiffness,
+                         rows.add_both, nullptr, is_calm,    rest_derivative, needs_search,   false};
     };
-    if (order == 1) return row(TetRow<Law, LinearTet>(), make_tets<1>, tets_are_calm<LinearTet>);
-    return row(TetRow<Law, QuadraticTetElement>(), make_tets<2>, tets_are_calm<QuadraticTetElement>);
+    if (order == 1) return row(TetRow<Law, LinearTet>(), make_tets<1>, tets_are_calm<LinearTet>, rest_derivative<Law>);
+    return row(TetRow<Law, QuadraticTetElement>(), make_tets<2>, tets_are_calm<QuadraticTetElement>, nullptr);
 }
 
 }  // namespace frond

@@ -1,0 +1,104 @@
+// In: elements at rest in X, places x. Out: the derivative of elastic force and weight at x by X, factorized.
+#include "build/rest_system.hpp"
+
+#include <Eigen/SparseLU>
+
+#include "mechanics/tet_element.hpp"
+
+namespace frond {
+
+VecX unbalanced_force(const TetElements& elements, const std::vector<uint8_t>& held, frond_mechanics which,
+                      const VecX& x, double gravity) {
+    VecX f = VecX::Zero(x.size());
+    for (size_t e = 0; e < elements.tets.size(); e++)
+        for (int corner : elements.tets[e]) f[3 * corner + 1] -= gravity * elements.density[e] * elements.volume[e] / 4;
+    mechanics(which).add_force(elements, x, f);
+    for (size_t i = 0; i < held.size(); i++)
+        if (held[i]) point(f, int(i)).setZero();
+    return f;
+}
+
+struct RestSystem::Inside {
+    std::vector<uint8_t> held;
+    Eigen::SparseMatrix<double> J;
+    std::vector<std::array<int, 16>> places;  // where an element's block (a, b) stands in its column, at [4 a + b]
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> lu;
+
+    // Adds a block of a free node's force by a free node's move.
+    void add(int row_node, int column_node, int place, const Mat3& block) {
+        if (held[size_t(row_node)] || held[size_t(column_node)]) return;
+        for (int c = 0; c < 3; c++)
+            Eigen::Map<Vec3>(J.valuePtr() + J.outerIndexPtr()[3 * column_node + c] + 3 * place) += block.col(c);
+    }
+};
+
+RestSystem::RestSystem(const TetElements& elements, std::vector<uint8_t> held) : inside(new Inside) {
+    inside->held = std::move(held);
+    // Neighbours of each node, itself among them, ascending.
+    const BlockPattern& lower = elements.pattern;
+    std::vector<std::vector<int>> neighbours(size_t(lower.node_count));
+    for (int j = 0; j < lower.node_count; j++)
+        for (int k = lower.start[size_t(j)]; k < lower.start[size_t(j) + 1]; k++) {
+            const int i = lower.row[size_t(k)];
+            neighbours[size_t(j)].push_back(i);
+            if (i != j) neighbours[size_t(i)].push_back(j);
+        }
+    for (std::vector<int>& list : neighbours) std::sort(list.begin(), list.end());
+
+    Eigen::SparseMatrix<double>& J = inside->J;
+    J.resize(3 * lower.node_count, 3 * lower.node_count);
+    Eigen::VectorXi sizes(J.cols());
+    for (int i = 0; i < sizes.size(); i++) sizes[i] = 3 * int(neighbours[size_t(i / 3)].size());
+    J.reserve(sizes);
+    for (int column = 0; column < J.cols(); column++)
+        for (int node : neighbours[size_t(column / 3)])
+            for (int r = 0; r < 3; r++) J.insert(3 * node + r, column) = 0;
+    J.makeCompressed();
+    for (const Tet& tet : elements.ordered) {
+        std::array<int, 16>& places = inside->places.emplace_back();
+        for (size_t a = 0; a < 4; a++)
+            for (size_t b = 0; b < 4; b++) {
+                const std::vector<int>& list = neighbours[size_t(tet[b])];
+                places[4 * a + b] = int(std::lower_bound(list.begin(), list.end(), tet[a]) - list.begin());
+            }
+    }
+    inside->lu.analyzePattern(J);
+}
+
+RestSystem::~RestSystem() = default;
+
+bool RestSystem::find_move(const TetElements& elements, frond_mechanics which, const VecX& x, double gravity,
+                           const VecX& unbalanced, VecX& move) {
+    Inside& in = *inside;
+    std::fill(in.J.valuePtr(), in.J.valuePtr() + in.J.nonZeros(), 0.0);
+    for (size_t e = 0; e < elements.tets.size(); e++) {
+        const RestDerivative d = mechanics(which).rest_derivative(elements, e, x);
+        // Forces of the corners add up to nothing, and moving all alike changes nothing.
+        Mat3 block[4][4];
+        for (auto& row : block)
+            for (Mat3& one : row) one.setZero();
+        for (size_t a = 1; a < 4; a++)
+            for (size_t b = 1; b < 4; b++) {
+                block[a][b] = d[a - 1][b - 1];
+                block[0][b] -= d[a - 1][b - 1];
+            }
+        // Every corner bears a quarter of the weight, which grows with the volume at rest.
+        const double weight = gravity * elements.density[e] * elements.volume[e] / 4;
+        for (auto& row : block)
+            for (size_t b = 1; b < 4; b++) row[b].row(1) -= weight * elements.rest_inverse[e].row(Eigen::Index(b) - 1);
+        const Tet& tet = elements.ordered[e];
+        for (size_t a = 0; a < 4; a++) {
+            block[a][0] = -(block[a][1] + block[a][2] + block[a][3]);
+            for (size_t b = 0; b < 4; b++) in.add(tet[a], tet[b], in.places[e][4 * a + b], block[a][b]);
+        }
+    }
+    for (size_t i = 0; i < in.held.size(); i++)
+        if (in.held[i])
+            for (int c = 0; c < 3; c++) in.J.coeffRef(3 * int(i) + c, 3 * int(i) + c) = 1;
+    in.lu.factorize(in.J);
+    if (in.lu.info() != Eigen::Success) return false;
+    move = in.lu.solve(-unbalanced);
+    return move.allFinite();
+}
+
+}  // namespace frond

@@ -1,0 +1,89 @@
+// The shape without gravity: weight bends it to the shape that was modelled, and organs that give way are told apart.
+#include <gtest/gtest.h>
+
+#include "build/build.hpp"
+#include "build/rest_system.hpp"
+#include "mechanics/tet_element.hpp"
+
+using namespace frond;
+
+namespace {
+
+frond_model_def model_def() {
+    frond_model_def def = {};
+    def.cage_smoothness = CageOptions().smoothness;
+    def.scale = 1;
+    def.up = {0, 1, 0};
+    return def;
+}
+
+// A thick stem with a thin arm that reaches far out; `young` is the arm's.
+std::shared_ptr<const Model> gallows(double young) {
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.6, 0}, 0.02, 0.02}, {0, {0, 0.6, 0}, {0.7, 0.65, 0}, 0.004, 0.003}};
+    frond_model_def def = model_def();
+    frond_organ_material organ = {"stem", *material_preset("stem")};
+    organ.material.young = young;
+    def.organs = &organ;
+    def.organ_count = 1;
+    def.cage_size = 0.05;
+    return build_from_stems(stems, 2, def);
+}
+
+struct EveryTets : testing::TestWithParam<frond_mechanics> {};
+INSTANTIATE_TEST_SUITE_P(RestShape, EveryTets,
+                         testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN),
+                         [](const auto& info) { return std::string(mechanics(info.param).name); });
+
+TEST_P(EveryTets, WeightBendsItToTheShapeThatWasModelled) {
+    const auto model = gallows(2e8);
+    ensure_rest_shape(*model, GetParam());
+    const VecX& rest = model->rest_shapes->positions[size_t(GetParam())];
+    ASSERT_GT(rest.size(), 0);
+    const TetElements elements = make_tet_elements(*model, &rest);
+    const std::vector<uint8_t> held(model->root.begin(), model->root.end());
+    const VecX force = unbalanced_force(elements, held, GetParam(), elements.modelled, GRAVITY);
+    double weight = 0;
+    for (size_t e = 0; e < elements.tets.size(); e++) weight += GRAVITY * elements.density[e] * elements.volume[e];
+    EXPECT_LT(force.norm(), 1e-6 * weight);
+    // The arm sags by more than its own thickness.
+    EXPECT_GT((rest - elements.modelled).lpNorm<Eigen::Infinity>(), 0.01);
+}
+
+TEST(RestShape, NewtonsMethodFindsItInAFewRounds) {
+    const auto model = gallows(2e8);
+    TetElements elements = make_tet_elements(*model);
+    const std::vector<uint8_t> held(model->root.begin(), model->root.end());
+    RestSystem system(elements, held);
+    VecX rest = elements.modelled, move;
+    std::vector<double> moves;
+    for (int round = 0; round < 8; round++) {
+        const VecX force = unbalanced_force(elements, held, FROND_TET_COROTATIONAL, elements.modelled, GRAVITY);
+        ASSERT_TRUE(system.find_move(elements, FROND_TET_COROTATIONAL, elements.modelled, GRAVITY, force, move));
+        rest += move;
+        set_rest_positions(elements, rest);
+        moves.push_back(move.lpNorm<Eigen::Infinity>());
+    }
+    EXPECT_GT(moves[0], 0.01);
+    EXPECT_LT(moves[7], 1e-9);
+}
+
+// A heavy head on a thin neck on a thick foot: it is the neck that has to be stiffer, not the head whose weight it is.
+TEST(Strengthen, FindsTheOrganThatGivesWay) {
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.4, 0}, 0.03, 0.03},
+                                {0, {0, 0.4, 0}, {0, 0.9, 0}, 0.004, 0.004},
+                                {1, {0, 0.9, 0}, {0, 1.0, 0}, 0.04, 0.04}};
+    const auto model = build_from_stems(stems, 3, model_def());
+    EXPECT_GT(model->stiffened, 2);
+    const Chain& chain = model->chain;
+    for (size_t i = 0; i < chain.nodes.size(); i++) {
+        if (chain.nodes[i].parent < 0) continue;
+        const double y = chain.nodes[i].position.y(), stiffer = model->organ_stiffer[size_t(chain.nodes[i].organ)];
+        if (y > 0.45 && y < 0.85) {
+            EXPECT_GT(stiffer, 2) << y;
+        } else if (y > 0.95) {
+            EXPECT_LT(stiffer, 1.1) << y;
+        }
+    }
+}
+
+}  // namespace
