@@ -96,7 +96,10 @@ enum {
     FROND_USER_FORCE = 1 << 2, /* frond_plant_add_force and grabs */
     FROND_SURFACE = 1 << 3,    /* deform the render mesh */
     FROND_NORMALS = 1 << 4,    /* and its normals; needs FROND_SURFACE */
-    FROND_ALL_EFFECTS = (1 << 5) - 1
+    FROND_RIGID_CONTACT = 1 << 5, /* bodies of the Bullet world push the plant */
+    FROND_FRICTION = 1 << 6,      /* and rub on it; needs FROND_RIGID_CONTACT */
+    FROND_TWO_WAY = 1 << 7,       /* and feel the same impulses; needs FROND_RIGID_CONTACT */
+    FROND_ALL_EFFECTS = (1 << 8) - 1
 };
 
 /* What moves by itself. Every model has a chain and a cage: with the tets the cage moves and the chain follows, with the
@@ -168,8 +171,9 @@ typedef struct frond_report {
     int solver_iterations;                  /* of all plants in the last substep; a direct solve counts as one */
     double residual;                        /* largest relative residual of a linear solve in the last substep [-] */
     double time;                            /* simulated [s] */
+    int contact_count;                      /* points at which bodies touched plants in the last substep */
     /* Wall clock of the last substep [ms]: all of it, then its parts in the order in which they run. */
-    double ms_step, ms_effects, ms_assembly, ms_solve, ms_capsules, ms_surface;
+    double ms_step, ms_collide, ms_effects, ms_assembly, ms_solve, ms_response, ms_capsules, ms_surface;
 } frond_report;
 
 typedef struct frond_ray_hit {
@@ -411,6 +415,16 @@ typedef struct frond_capsule {
     double radius;         /* [m] */
 } frond_capsule;
 
+/* A point at which a body of the Bullet world touched a plant in the last substep, or was about to. */
+typedef struct frond_contact {
+    frond_vec3 point;   /* on the plant [m] */
+    frond_vec3 normal;  /* from the body to the plant, length one */
+    frond_vec3 impulse; /* on the plant in that substep [N s]; the body got the opposite */
+    double gap;         /* before the substep, below zero they overlapped [m] */
+    int capsule;        /* of the plant */
+    const void* body;   /* the btCollisionObject; borrowed from the host */
+} frond_contact;
+
 FROND_API frond_plant_def frond_default_plant_def(void);
 FROND_API frond_result frond_plant_create(frond_world world, frond_model model, const frond_plant_def* def,
                                           frond_plant* out);
@@ -443,6 +457,12 @@ FROND_API frond_result frond_plant_get_energy(frond_plant plant, frond_energy* o
 FROND_API frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out);
 /* capsule_count must be the plant's; out: capsule_count. */
 FROND_API frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int capsule_count);
+/* Number of contacts of the last substep; 0 for an invalid handle. */
+FROND_API int frond_plant_get_contact_count(frond_plant plant);
+/* contact_count must be the plant's; out: contact_count. */
+FROND_API frond_result frond_plant_get_contacts(frond_plant plant, frond_contact* out, int contact_count);
+/* Of all nodes together, in the world's frame [kg m/s]. */
+FROND_API frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out);
 /* The highest point of the surface against gravity [m]. */
 FROND_API frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out);
 

@@ -1,4 +1,6 @@
 // frond_plant_*: one instance.
+#include <algorithm>
+
 #include "api/call.hpp"
 #include "api/handles.hpp"
 
@@ -243,6 +245,36 @@ frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int
             out[i].end = from_vec(p.to_world(p.chain_positions[size_t(end)]));
             out[i].radius = double(body.capsules[i]->getRadius());
         }
+    });
+}
+
+int frond_plant_get_contact_count(frond_plant plant) {
+    const PlantBody* body = plant_slots().find(plant.id);
+    if (!body) return 0;
+    const std::vector<Contact>& contacts = body->world->contacts;
+    return int(std::count_if(contacts.begin(), contacts.end(), [&](const Contact& c) { return c.plant == body; }));
+}
+
+frond_result frond_plant_get_contacts(frond_plant plant, frond_contact* out, int contact_count) {
+    return call([&] {
+        const PlantBody& body = get(plant);
+        check_count(contact_count, frond_plant_get_contact_count(plant), "contact_count");
+        if (contact_count > 0) check_pointer(out, "out");
+        for (const Contact& c : body.world->contacts)
+            if (c.plant == &body)
+                *out++ = {from_vec(c.on_plant), from_vec(c.normal), from_vec(c.impulse), c.gap, c.capsule, c.other};
+    });
+}
+
+frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        const Plant& p = *get(plant).plant;
+        const VecX& mass = node_mass_of(*p.system);
+        Vec3 sum = Vec3::Zero();
+        for (int i = 0; i < mass.size(); i++) sum += mass[i] * point(p.motion.v, i);
+        *out = from_vec(p.rotation * sum);
     });
 }
 

@@ -74,7 +74,12 @@ struct Surroundings {
 
 // `def` has been checked by the caller.
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def);
-// Effects -> solve -> accept or rewind -> chain.
+// A step in two halves, between which contacts may change what the first one found: effects and solve; then accept or
+// rewind, and the chain.
+void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
+bool step_is_sound(const Plant& plant);
+void accept_step(Plant& plant);
+// Both.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);
 // Forces given by frond_plant_add_force end.
 void clear_user_force(Plant& plant);

@@ -1,4 +1,4 @@
-// One step of a plant: effects -> solve -> accept or rewind -> chain.
+// One step of a plant: effects -> solve -> (contact response) -> accept or rewind -> chain.
 #include "core/timer.hpp"
 #include "plant/plant.hpp"
 
@@ -33,7 +33,7 @@ static bool is_sound(const Motion& motion, double size) {
     return motion.x.allFinite() && motion.v.allFinite() && motion.x.cwiseAbs().maxCoeff() < far_away;
 }
 
-void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
+void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     const frond_effects effects = plant.effects & surroundings.effects;
     Motion& motion = plant.motion;
     plant.x_good = motion.x;
@@ -52,15 +52,27 @@ void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.report = solve_step(*plant.workspace, settings, plant.loads, h, motion);
     if (!plant.report.converged) plant.trouble |= FROND_TROUBLE_NOT_CONVERGED;
     if (plant.report.inverted > 0) plant.trouble |= FROND_TROUBLE_INVERTED;
+}
 
+bool step_is_sound(const Plant& plant) {
+    return plant.report.ok && is_sound(plant.motion, plant.model->surface.size());
+}
+
+void accept_step(Plant& plant) {
+    Motion& motion = plant.motion;
     // Accept, or go back to the last good state and stand still there.
-    if (!plant.report.ok || !is_sound(motion, plant.model->surface.size())) {
+    if (!step_is_sound(plant)) {
         motion.x = plant.x_good;
         motion.v.setZero();
         motion.history.valid = false;
         plant.trouble |= FROND_TROUBLE_REWOUND;
     }
     moved(plant);
+}
+
+void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
+    solve_plant(plant, surroundings, h);
+    accept_step(plant);
 }
 
 void clear_user_force(Plant& plant) {

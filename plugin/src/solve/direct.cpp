@@ -130,10 +130,16 @@ int64_t fill_of(const DirectFactor& factor) {
     return factor.ldlt.fill();
 }
 
-LinearResult solve_direct(const BlockMatrix& A, const VecX& b, const LinearLimits&, LinearScratch& scratch, VecX& x) {
+LinearResult solve_direct(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
+                          VecX& x) {
+    if (!factorize(*scratch.factor, A)) return {};
+    return solve_direct_again(A, b, limits, scratch, x);
+}
+
+LinearResult solve_direct_again(const BlockMatrix& A, const VecX& b, const LinearLimits&, LinearScratch& scratch,
+                                VecX& x) {
     LinearResult result;
     result.iterations = 1;
-    if (!factorize(*scratch.factor, A)) return result;
     solve(*scratch.factor, b, x);
     result.residual = relative_residual(A, b, x, scratch.residual);
     result.ok = result.converged = std::isfinite(result.residual);

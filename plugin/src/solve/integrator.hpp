@@ -35,6 +35,9 @@ inline bool is_calm(const System& system, const VecX& from, const VecX& to) {
 // Adds the rotary inertia of free nodes that turn to the matrix in workspace.A.
 void add_inertia(Workspace& workspace, double scale);
 
+// x = M^-1 b for a lumped mass; rows of held nodes are left as they are.
+void divide_by_mass(const Workspace& workspace, const VecX& b, VecX& x);
+
 // Forces and damping at the start of the step [N], into workspace.force.
 void force_at_start(Workspace& workspace, const StepInput& input, SolveReport& report);
 

@@ -31,11 +31,15 @@ struct LinearSolver {
     const char* name;
     LinearResult (*solve)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
                           VecX& x);
+    // The same with the matrix of the last solve, which need not be factorized again.
+    LinearResult (*again)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
+                          VecX& x);
 };
 const LinearSolver& linear_solver(frond_linear_solver which);
 
 // The rows.
 LinearResult solve_direct(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
+LinearResult solve_direct_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_block_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_incomplete_cholesky(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&,

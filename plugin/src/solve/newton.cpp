@@ -276,6 +276,7 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
                 b > 0 && (iterations > 1 || workspace.system->row->needs_search),
                 false};
     workspace.v = workspace.v_start;
+    workspace.reach = stage.step;
     const bool converged_before = report.converged;
     const double first = solve_first(n);
     if (first < 0) return false;

@@ -81,6 +81,13 @@ WorkspacePtr make_workspace(std::shared_ptr<const System> system);
 SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, const Loads& loads, double h,
                        Motion& motion);
 
+// What an impulse on the nodes [N s] adds to the velocities with which the last step ended: dv = A^-1 impulse with the
+// matrix of that step's last solve, so that elastic forces answer within the step; held nodes get none. False if it has
+// no solution.
+bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& impulse, VecX& dv);
+// Adds such velocities, and where they lead within the step, to the motion that the step left.
+void add_response(const Workspace& workspace, const VecX& dv, Motion& motion);
+
 // Of nodes that turn: rotation vectors grown beyond half a turn become those of the same rotation the other way round,
 // here and in the history, and their rates follow.
 void unwind(Motion& motion);

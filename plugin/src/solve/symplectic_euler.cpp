@@ -30,6 +30,18 @@ bool solve_mass(Workspace& w, const StepInput& input, SolveReport& report) {
 
 }  // namespace
 
+void divide_by_mass(const Workspace& w, const VecX& b, VecX& x) {
+    x = b;
+    const auto turns = [&](size_t i) { return !w.inertia.empty() && i % 2 == 1; };
+    for (size_t i = 0; i < w.held.size(); ++i) {
+        if (w.held[i]) continue;
+        if (turns(i))
+            point(x, int(i)) = w.inertia[i / 2].ldlt().solve(point(b, int(i)));
+        else
+            point(x, int(i)) /= w.system->masses.node[Eigen::Index(i)];
+    }
+}
+
 bool step_symplectic_euler(Workspace& workspace, const StepInput& input, SolveReport& report) {
     Workspace& w = workspace;
     force_at_start(w, input, report);
@@ -38,21 +50,14 @@ bool step_symplectic_euler(Workspace& workspace, const StepInput& input, SolveRe
 
     Timer timer;
     if (w.system->masses.lumped) {
-        w.dv = w.force;
-        const auto turns = [&](size_t i) { return !w.inertia.empty() && i % 2 == 1; };
-        for (size_t i = 0; i < w.held.size(); ++i) {
-            if (w.held[i]) continue;
-            if (turns(i))
-                point(w.dv, int(i)) = w.inertia[i / 2].ldlt().solve(point(w.force, int(i)));
-            else
-                point(w.dv, int(i)) /= w.system->masses.node[Eigen::Index(i)];
-        }
+        divide_by_mass(w, w.force, w.dv);
     } else if (!w.force.allFinite() || !solve_mass(w, input, report)) {
         return false;
     }
     report.ms_solve += timer.lap();
     w.v = w.v_start + input.h * w.dv;
     w.x = input.motion.x + input.h * w.v;
+    w.reach = input.h;
     return true;
 }
 

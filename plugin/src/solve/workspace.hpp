@@ -24,6 +24,7 @@ struct Workspace {
     VecX x_rate, v_rate;                 // rates at the end of the step, for the next one
     VecX x_base, v_base, x_from;         // of the stage
     VecX force, impulse;                 // at the start of the step [N], [N s]
+    double reach = 0;                    // how far places at the end go with velocities there [s]
     VecX rhs_stage;                      // residual at v
     VecX direction, v_trial, rhs_trial;  // of a line search
 };

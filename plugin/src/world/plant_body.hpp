@@ -5,6 +5,8 @@
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <map>
+
 #include "frond/frond_bullet.hpp"
 #include "plant/plant.hpp"
 
@@ -13,12 +15,17 @@ inline namespace FROND_BULLET_PRECISION {
 
 struct World;
 
+// What a plant stood in when it came into the world, ground and pots, does not push it out: how deep, by capsule [m].
+using GrownIn = std::map<std::pair<int, const btCollisionObject*>, double>;
+
 struct PlantBody : btSoftBody {
     BT_DECLARE_ALIGNED_ALLOCATOR();
 
     std::unique_ptr<Plant> plant;
     World* world;
     frond_plant handle = {};
+    bool is_new = true;  // has not stepped yet
+    GrownIn grown_in;
     std::vector<std::unique_ptr<btCapsuleShape>> capsules;  // in the order of Model::capsules
 
     PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> plant);

@@ -1,4 +1,5 @@
 // A substep of all plants of a world, inside Bullet's own.
+#include <algorithm>
 #include <cmath>
 
 #include "core/timer.hpp"
@@ -29,8 +30,20 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     Surroundings surroundings;
     surroundings.gravity = gravity_of(*this);
     surroundings.effects = effects;
+    const auto wants_contact = [&](const std::unique_ptr<PlantBody>& body) {
+        return body->plant->effects & effects & FROND_RIGID_CONTACT;
+    };
+    contacts.clear();
+    const Timer find_timer;
+    if (std::any_of(bodies.begin(), bodies.end(), wants_contact)) contacts = find_contacts(*this, double(h));
+    report.ms_collide = find_timer.ms();
+    for (const std::unique_ptr<PlantBody>& body : bodies) solve_plant(*body->plant, surroundings, double(h));
+    const Timer response_timer;
+    if (!contacts.empty()) respond_to_contacts(*this, contacts, double(h));
+    report.ms_response = response_timer.ms();
+    report.contact_count = int(contacts.size());
     for (const std::unique_ptr<PlantBody>& body : bodies) {
-        step_plant(*body->plant, surroundings, double(h));
+        accept_step(*body->plant);
         add_to_report(*body->plant, report);
 
         const Timer capsule_timer;

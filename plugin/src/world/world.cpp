@@ -56,6 +56,7 @@ PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant) {
 
 void remove_plant(World& world, PlantBody* body) {
     world.bullet->removeCollisionObject(body);
+    world.contacts.clear();
     const auto is_body = [&](const std::unique_ptr<PlantBody>& other) { return other.get() == body; };
     world.bodies.erase(std::find_if(world.bodies.begin(), world.bodies.end(), is_body));
 }

@@ -4,7 +4,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "world/plant_body.hpp"
+#include "world/contact.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -25,6 +25,7 @@ struct World final : btActionInterface {
     frond_effects effects;
     double max_substep;  // [s]
     std::vector<std::unique_ptr<PlantBody>> bodies;
+    std::vector<Contact> contacts;  // of the last substep
     double time = 0;  // [s]
     frond_report report = {};
 

@@ -1,0 +1,75 @@
+// In: touches and how they are coupled. Out: impulses, by projected Gauss-Seidel: touch by touch the normal impulse and
+// then the one across are corrected by what is wrong with the velocity, and projected onto what can be (Moreau 1988,
+// Jean 1999, "The non-smooth contact dynamics method").
+#include "solve/impulses.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace frond {
+
+namespace {
+
+// How one touch answers to its own impulse, worked out once.
+struct Own {
+    Mat3 block = Mat3::Zero();
+    double along = 0, across = 0;  // correction of an impulse by speed, along the normal and across it [kg]
+};
+
+Own own_of(const Touch& touch, const std::vector<Coupling>& couplings, int i) {
+    Own own;
+    for (const Coupling& c : couplings)
+        if (c.other == i) own.block += c.block;
+    const double along = touch.normal.dot(own.block * touch.normal);
+    const Mat3 flat = Mat3::Identity() - touch.normal * touch.normal.transpose();
+    const Eigen::SelfAdjointEigenSolver<Mat3> sliding(flat * own.block * flat, Eigen::EigenvaluesOnly);
+    const double across = sliding.eigenvalues()[2];
+    // What nothing can move needs no impulse.
+    constexpr double IMMOVABLE = 1e-12;  // [1/kg]
+    own.along = along > IMMOVABLE ? 1 / along : 0;
+    own.across = across > IMMOVABLE ? 1 / across : 0;
+    return own;
+}
+
+}  // namespace
+
+ImpulseReport find_impulses(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
+                            const ImpulseLimits& limits, std::vector<Vec3>& impulses) {
+    const size_t count = touches.size();
+    impulses.resize(count, Vec3::Zero());
+    std::vector<Own> own;
+    for (size_t i = 0; i < count; i++) own.push_back(own_of(touches[i], coupling[i], int(i)));
+
+    ImpulseReport report;
+    while (report.iterations < limits.iterations && !report.converged) {
+        report.iterations++;
+        double largest = 0, change = 0;
+        for (size_t i = 0; i < count; i++) {
+            const Touch& touch = touches[i];
+            Vec3 velocity = touch.velocity;
+            for (const Coupling& c : coupling[i]) velocity += c.block * impulses[size_t(c.other)];
+            const Vec3 before = impulses[i];
+
+            // Along the normal: push, never pull.
+            const double push_before = before.dot(touch.normal);
+            const double lacking = touch.least_speed - velocity.dot(touch.normal);
+            const double push = std::max(0.0, push_before + own[i].along * lacking);
+
+            // Across: against the sliding that the push leaves, no more than friction can.
+            velocity += own[i].block * ((push - push_before) * touch.normal);
+            const Vec3 sliding = velocity - velocity.dot(touch.normal) * touch.normal;
+            Vec3 hold = before - push_before * touch.normal - own[i].across * sliding;
+            const double most = touch.friction * push, size = hold.norm();
+            if (size > most) hold *= most / size;
+
+            impulses[i] = push * touch.normal + hold;
+            largest = std::max(largest, impulses[i].norm());
+            change = std::max(change, (impulses[i] - before).norm());
+        }
+        report.converged = change <= limits.tolerance * largest;
+    }
+    return report;
+}
+
+}  // namespace frond

@@ -1,0 +1,26 @@
+// In: a step that was just taken, and impulses that it did not know of. Out: how velocities and places at its end change.
+#include "solve/integrator.hpp"
+
+namespace frond {
+
+bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& impulse, VecX& dv) {
+    Workspace& w = workspace;
+    w.rhs = impulse;
+    for (size_t i = 0; i < w.held.size(); ++i)
+        if (w.held[i]) point(w.rhs, int(i)).setZero();
+    if (integrator(settings.integrator).is_explicit && w.system->masses.lumped) {
+        divide_by_mass(w, w.rhs, dv);
+        return dv.allFinite();
+    }
+    const LinearResult result =
+        linear_solver(settings.linear_solver)
+            .again(w.A, w.rhs, {settings.max_iterations, settings.tolerance}, w.linear, dv);
+    return result.ok && dv.allFinite();
+}
+
+void add_response(const Workspace& workspace, const VecX& dv, Motion& motion) {
+    motion.v += dv;
+    motion.x += workspace.reach * dv;
+}
+
+}  // namespace frond

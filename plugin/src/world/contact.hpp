@@ -1,0 +1,30 @@
+// Contact: a point of a body of the host's that touches a capsule of a plant, or is about to within the step.
+#pragma once
+
+#include "world/plant_body.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+struct World;
+
+struct Contact {
+    PlantBody* plant;
+    int capsule;
+    double along;              // of the capsule, 0..1
+    btCollisionObject* other;
+    Vec3 on_plant, on_other;   // world frame [m]
+    Vec3 normal;               // from the other to the plant
+    double gap;                // between the two along the normal; below zero they overlap [m]
+    double friction;           // of both together [-]
+    Vec3 impulse = Vec3::Zero();  // on the plant, once it is known [N s]
+};
+
+// From Bullet's manifolds, and from sweeps of bodies that are so fast that they would be through before Bullet sees them.
+std::vector<Contact> find_contacts(World& world, double h);
+
+// Between the two halves of all plants' steps: impulses for the contacts, given to plants and bodies alike.
+void respond_to_contacts(World& world, std::vector<Contact>& contacts, double h);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

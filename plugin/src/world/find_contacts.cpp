@@ -1,0 +1,192 @@
+// In: where bodies and capsules are, and what Bullet's broad and narrow phase found. Out: contacts.
+//
+// Bullet keeps contact points of earlier substeps, whose side on the plant is stale since capsules move within their
+// compound. So a point tells only where the other body is touched; how far that is from the capsule is worked out anew.
+#include <algorithm>
+#include <cmath>
+
+#include "world/pusher.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+Vec3 from_bullet(const btVector3& v) {
+    return Vec3(double(v.x()), double(v.y()), double(v.z()));
+}
+
+// Triggers and the like push nothing; characters do though Bullet lets them through.
+bool pushes(const btCollisionObject& object) {
+    return object.hasContactResponse() || (object.getCollisionFlags() & btCollisionObject::CF_CHARACTER_OBJECT);
+}
+
+bool takes_part(const World& world, const PlantBody* body) {
+    return body && body->world == &world && (world.effects & body->plant->effects & FROND_RIGID_CONTACT);
+}
+
+// The point of a capsule's axis that is nearest to p, and where along the axis it is.
+struct OnAxis {
+    Vec3 point;
+    double along;
+};
+OnAxis nearest_on_axis(const PlantBody& body, int capsule, const Vec3& p) {
+    const Plant& plant = *body.plant;
+    const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
+    const Vec3 a = plant.to_world(plant.chain_positions[size_t(begin)]);
+    const Vec3 axis = plant.to_world(plant.chain_positions[size_t(end)]) - a;
+    const double square = axis.squaredNorm();
+    const double along = square > 0 ? std::clamp((p - a).dot(axis) / square, 0.0, 1.0) : 0.0;
+    return {a + along * axis, along};
+}
+
+double friction_of(const PlantBody& body, int capsule) {
+    const Model& model = *body.plant->model;
+    const int organ = model.chain.nodes[size_t(model.capsules[size_t(capsule)][1])].organ;
+    return organ >= 0 ? model.organs[size_t(organ)].material.friction : 0;
+}
+
+// Bullet multiplies the coefficients of two bodies.
+Contact contact_at(PlantBody& body, int capsule, btCollisionObject& other, const Vec3& on_other, const Vec3& towards) {
+    const OnAxis axis = nearest_on_axis(body, capsule, on_other);
+    const double radius = double(body.capsules[size_t(capsule)]->getRadius());
+    const Vec3 way = axis.point - on_other;
+    const double distance = way.norm();
+    // Where the body's point is past the axis, the way out is the one that Bullet found.
+    constexpr double SIDEWAYS = 0.2;
+    const bool outside = way.dot(towards) > SIDEWAYS * distance;
+    const Vec3 normal = outside ? Vec3(way / distance) : towards;
+    Contact contact;
+    contact.plant = &body;
+    contact.capsule = capsule;
+    contact.along = axis.along;
+    contact.other = &other;
+    contact.on_plant = axis.point - radius * normal;
+    contact.on_other = on_other;
+    contact.normal = normal;
+    contact.gap = way.dot(normal) - radius;
+    contact.friction = friction_of(body, capsule) * double(other.getFriction());
+    return contact;
+}
+
+void add_manifold(World& world, const btPersistentManifold& manifold, std::vector<Contact>& contacts) {
+    auto* first = const_cast<btCollisionObject*>(manifold.getBody0());
+    auto* second = const_cast<btCollisionObject*>(manifold.getBody1());
+    PlantBody* body = PlantBody::of(first);
+    const bool plant_first = body != nullptr;
+    if (!body) body = PlantBody::of(second);
+    btCollisionObject* other = plant_first ? second : first;
+    if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other)) return;
+    for (int i = 0; i < manifold.getNumContacts(); i++) {
+        const btManifoldPoint& p = manifold.getContactPoint(i);
+        const int capsule = plant_first ? p.m_index0 : p.m_index1;
+        if (capsule < 0 || size_t(capsule) >= body->capsules.size()) continue;
+        const btVector3 on_other = other->getWorldTransform() * (plant_first ? p.m_localPointB : p.m_localPointA);
+        const Vec3 towards = (plant_first ? 1.0 : -1.0) * from_bullet(p.m_normalWorldOnB);
+        Contact contact = contact_at(*body, capsule, *other, from_bullet(on_other), towards);
+        constexpr double FAR = 0.05;  // [m]
+        if (contact.gap < FAR) contacts.push_back(contact);
+    }
+}
+
+// All capsules of this world's plants in the way of a shape.
+struct Sweep : btCollisionWorld::ConvexResultCallback {
+    World& world;
+    btCollisionObject& other;
+    Vec3 way;
+    std::vector<Contact>& contacts;
+    Sweep(World& world, btCollisionObject& other, const Vec3& way, std::vector<Contact>& contacts)
+        : world(world), other(other), way(way), contacts(contacts) {}
+
+    bool needsCollision(btBroadphaseProxy* proxy) const override {
+        const PlantBody* body = PlantBody::of(static_cast<btCollisionObject*>(proxy->m_clientObject));
+        return takes_part(world, body) && btCollisionWorld::ConvexResultCallback::needsCollision(proxy);
+    }
+    btScalar addSingleResult(btCollisionWorld::LocalConvexResult& hit, bool normal_in_world) override {
+        auto* body = PlantBody::of(const_cast<btCollisionObject*>(hit.m_hitCollisionObject));
+        const int capsule = hit.m_localShapeInfo ? hit.m_localShapeInfo->m_triangleIndex : -1;
+        const bool known = std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+            return c.plant == body && c.capsule == capsule && c.other == &other;
+        });
+        if (known || capsule < 0 || size_t(capsule) >= body->capsules.size()) return 1;
+        btVector3 normal = hit.m_hitNormalLocal;
+        if (!normal_in_world) normal = body->getWorldTransform().getBasis() * normal;
+        const Vec3 passed = double(hit.m_hitFraction) * way, on_plant = from_bullet(hit.m_hitPointLocal);
+        Contact contact = contact_at(*body, capsule, other, on_plant - passed, -from_bullet(normal));
+        contact.normal = -from_bullet(normal);
+        contact.on_plant = on_plant;
+        contact.along = nearest_on_axis(*body, capsule, on_plant).along;
+        contact.gap = std::max(0.0, passed.dot(contact.normal));
+        contacts.push_back(contact);
+        return 1;  // go on: every capsule in the way counts
+    }
+};
+
+void sweep_shape(World& world, btCollisionObject& object, const btCollisionShape& shape, const btTransform& from,
+                 const btVector3& way, std::vector<Contact>& contacts) {
+    if (shape.isCompound()) {
+        const auto& compound = static_cast<const btCompoundShape&>(shape);
+        for (int i = 0; i < compound.getNumChildShapes(); i++)
+            sweep_shape(world, object, *compound.getChildShape(i), from * compound.getChildTransform(i), way, contacts);
+        return;
+    }
+    if (!shape.isConvex()) return;
+    Sweep sweep(world, object, from_bullet(way), contacts);
+    sweep.m_collisionFilterGroup = object.getBroadphaseHandle()->m_collisionFilterGroup;
+    sweep.m_collisionFilterMask = object.getBroadphaseHandle()->m_collisionFilterMask;
+    btTransform to = from;
+    to.setOrigin(from.getOrigin() + way);
+    world.bullet->convexSweepTest(static_cast<const btConvexShape*>(&shape), from, to, sweep);
+}
+
+// Bodies that go farther in a step than a stem is thick.
+void add_fast_bodies(World& world, double h, std::vector<Contact>& contacts) {
+    constexpr double FAR = 0.005;  // in a step [m]
+    const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
+    for (int i = 0; i < objects.size(); i++) {
+        btCollisionObject& object = *objects[i];
+        if (object.isStaticObject() || !object.isActive() || !pushes(object) || !object.getBroadphaseHandle()) continue;
+        btVector3 velocity;
+        if (const btRigidBody* rigid = btRigidBody::upcast(&object))
+            velocity = rigid->getLinearVelocity();
+        else if (const auto* link = btMultiBodyLinkCollider::upcast(&object))
+            velocity = link->m_link < 0 ? link->m_multiBody->getBaseVel()
+                                        : link->m_multiBody->getLink(link->m_link).m_absFrameTotVelocity.m_bottomVec;
+        else
+            continue;
+        const btVector3 way = velocity * btScalar(h);
+        if (!(double(way.length2()) > FAR * FAR) || !std::isfinite(double(way.length2()))) continue;
+        sweep_shape(world, object, *object.getCollisionShape(), object.getWorldTransform(), way, contacts);
+    }
+}
+
+// How deep capsules are in what does not move when their plant is new counts as no depth later.
+void discount_grown_in(std::vector<Contact>& contacts) {
+    for (Contact& contact : contacts) {
+        GrownIn& grown_in = contact.plant->grown_in;
+        const std::pair<int, const btCollisionObject*> key(contact.capsule, contact.other);
+        if (contact.plant->is_new && contact.other->isStaticObject() && contact.gap < 0)
+            grown_in[key] = std::max(grown_in[key], -contact.gap);
+        const auto found = grown_in.find(key);
+        if (found != grown_in.end()) contact.gap += found->second;
+    }
+}
+
+}  // namespace
+
+std::vector<Contact> find_contacts(World& world, double h) {
+    std::vector<Contact> contacts;
+    btDispatcher* dispatcher = world.bullet->getDispatcher();
+    for (int i = 0; i < dispatcher->getNumManifolds(); i++) {
+        const btPersistentManifold* manifold = dispatcher->getManifoldByIndexInternal(i);
+        if (manifold->getNumContacts() > 0) add_manifold(world, *manifold, contacts);
+    }
+    add_fast_bodies(world, h, contacts);
+    discount_grown_in(contacts);
+    for (const auto& body : world.bodies) body->is_new = false;
+    return contacts;
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

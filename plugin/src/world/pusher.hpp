@@ -1,0 +1,30 @@
+// Pusher: the other side of a contact, a body of the host's: rigid, a link of a multi-body, or one that nothing moves.
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <array>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+struct Pusher {
+    btCollisionObject* object;
+    btRigidBody* rigid = nullptr;                 // that impulses move
+    btMultiBodyLinkCollider* link = nullptr;
+    Vec3 point, velocity;                         // where it is touched, and how fast that moves [m], [m/s]
+    std::array<std::vector<btScalar>, 3> jacobian, answers;  // of a multi-body, along the world's axes
+};
+
+// With what gravity adds to a free body's velocity before it next moves, in h [s].
+Pusher make_pusher(btCollisionObject& object, const Vec3& point, double h);
+// Velocity at one by an impulse at the other [1/kg]; zero unless they are of one body that moves.
+Mat3 answer_between(const Pusher& at, const Pusher& by);
+void take_impulse(Pusher& pusher, const Vec3& impulse);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

@@ -1,0 +1,282 @@
+// Bodies of the host's and plants: they push each other, rub, and pass nothing through.
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "frond/frond_bullet.hpp"
+#include "support/stems.hpp"
+
+namespace {
+
+constexpr btScalar H = btScalar(1.0 / 60);
+
+// A world with one plant, and bodies.
+struct Scene {
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    btMultiBodyConstraintSolver solver;
+    btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+    std::vector<std::unique_ptr<btCollisionShape>> shapes;
+    std::vector<std::unique_ptr<btRigidBody>> bodies;
+    frond_world plants = {};
+    frond_plant plant = {};
+
+    explicit Scene(double gravity = -9.81) {
+        world.setGravity(btVector3(0, btScalar(gravity), 0));
+        EXPECT_EQ(frond::attach(&world, nullptr, &plants), FROND_OK) << frond_last_error();
+    }
+    ~Scene() {
+        frond_world_destroy(plants);
+        for (auto& body : bodies) world.removeRigidBody(body.get());
+    }
+    btRigidBody& add(btCollisionShape* shape, double mass, const btVector3& place) {
+        shapes.emplace_back(shape);
+        btVector3 inertia(0, 0, 0);
+        if (mass > 0) shape->calculateLocalInertia(btScalar(mass), inertia);
+        bodies.push_back(std::make_unique<btRigidBody>(btScalar(mass), nullptr, shape, inertia));
+        btTransform frame = btTransform::getIdentity();
+        frame.setOrigin(place);
+        bodies.back()->setWorldTransform(frame);
+        world.addRigidBody(bodies.back().get());
+        return *bodies.back();
+    }
+    void add_stems(const std::vector<frond_stem>& stems, double young, frond_mechanics mechanics,
+                   double root_height = 0, double friction = 0.5) {
+        frond_model_def def = frond_default_model_def();
+        frond_organ_material organ = {"stem", {}};
+        ASSERT_EQ(frond_material_preset("stem", &organ.material), FROND_OK);
+        organ.material.young = young;
+        organ.material.friction = friction;
+        def.organs = &organ;
+        def.organ_count = 1;
+        def.scale = 1;
+        def.up = {0, 1, 0};
+        frond_model model;
+        ASSERT_EQ(frond_model_from_stems(stems.data(), int(stems.size()), &def, &model), FROND_OK)
+            << frond_last_error();
+        frond_plant_def plant_def = frond_default_plant_def();
+        plant_def.mechanics = mechanics;
+        plant_def.root_height = root_height;
+        ASSERT_EQ(frond_plant_create(plants, model, &plant_def, &plant), FROND_OK) << frond_last_error();
+        frond_model_destroy(model);
+    }
+    void add_stem(const frond_vec3& begin, const frond_vec3& end, double radius, double young,
+                  frond_mechanics mechanics, double root_height = 0, double friction = 0.5) {
+        add_stems({{-1, begin, end, radius, radius}}, young, mechanics, root_height, friction);
+    }
+    void steps(int count) {
+        for (int i = 0; i < count; i++) world.stepSimulation(H, 0);
+    }
+    frond_vec3 tip() const {
+        frond_vec3 tip = {};
+        EXPECT_EQ(frond_plant_get_tip(plant, &tip), FROND_OK);
+        return tip;
+    }
+    frond_report report() const {
+        frond_report report = {};
+        EXPECT_EQ(frond_world_get_report(plants, &report), FROND_OK);
+        return report;
+    }
+};
+
+struct EveryBody : testing::TestWithParam<frond_mechanics> {};
+INSTANTIATE_TEST_SUITE_P(Contact, EveryBody, testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD),
+                         [](const auto& info) {
+                             return std::string(info.param == FROND_ROD               ? "rod"
+                                                : info.param == FROND_TET_NEOHOOKEAN ? "tet_neohookean"
+                                                                                      : "tet_corotational");
+                         });
+
+TEST_P(EveryBody, ABallPushesAStemAsideAndIsSlowed) {
+    Scene scene(0);
+    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, GetParam());
+    btRigidBody& ball = scene.add(new btSphereShape(btScalar(0.05)), 0.2, btVector3(btScalar(-0.15), btScalar(0.9), 0));
+    ball.setLinearVelocity(btVector3(1, 0, 0));
+    double farthest = 0, slowest = 1;
+    for (int i = 0; i < 60; i++) {
+        scene.steps(1);
+        farthest = std::max(farthest, scene.tip().x);
+        slowest = std::min(slowest, double(ball.getLinearVelocity().x()));
+        EXPECT_EQ(scene.report().trouble & FROND_TROUBLE_REWOUND, 0u);
+    }
+    EXPECT_GT(farthest, 0.05);
+    EXPECT_LT(slowest, 0.5);
+}
+
+// 5 cm, 20 m/s, a stem of 1 cm: a light ball bounces off, a heavy one loses speed to a stem that it carries along.
+TEST_P(EveryBody, AFastBallDoesNotTunnel) {
+    for (const double mass : {0.003, 0.05})
+        for (const double offset : {0.0, 0.01, 0.05, 0.13, 0.27}) {
+            Scene scene(0);
+            scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.005, 1e9, GetParam());
+            btRigidBody& ball =
+                scene.add(new btSphereShape(btScalar(0.025)), mass, btVector3(btScalar(-1 + offset), btScalar(0.5), 0));
+            ball.setLinearVelocity(btVector3(20, 0, 0));
+            scene.steps(20);
+            EXPECT_LT(double(ball.getLinearVelocity().x()), mass < 0.01 ? 0 : 15) << mass << " " << offset;
+            if (mass < 0.01) {
+                EXPECT_LT(double(ball.getWorldTransform().getOrigin().x()), 0.1) << offset;
+            }
+        }
+}
+
+TEST_P(EveryBody, AFreeStemAndABallKeepTheirMomentum) {
+    Scene scene(0);
+    scene.add_stem({0, 0, 0}, {0, 0.5, 0}, 0.02, 1e8, GetParam(), -1);
+    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_DAMPING)), FROND_OK);
+    btRigidBody& ball = scene.add(new btSphereShape(btScalar(0.05)), 0.3, btVector3(btScalar(-0.2), btScalar(0.4), 0));
+    ball.setLinearVelocity(btVector3(2, 0, 0));
+    ball.setDamping(0, 0);
+    scene.steps(60);
+    frond_vec3 momentum = {};
+    ASSERT_EQ(frond_plant_get_momentum(scene.plant, &momentum), FROND_OK);
+    const btVector3 v = ball.getLinearVelocity();
+    EXPECT_LT(double(v.x()), 1.9);
+    EXPECT_NEAR(momentum.x + 0.3 * double(v.x()), 0.6, 6e-7);
+    EXPECT_NEAR(momentum.y + 0.3 * double(v.y()), 0, 6e-7);
+}
+
+// A block on a stiff plank that slopes a little less, or more, than friction holds.
+TEST_P(EveryBody, ABlockSlidesWhereFrictionEnds) {
+    const double friction = 0.5;  // times the block's 1
+    const double limit = std::atan(friction);
+    for (const double angle : {0.98 * limit, 1.02 * limit}) {
+        Scene scene;
+        scene.add_stem({-1, 1, 0}, {1, 1, 0}, 0.05, 1e10, GetParam(), 10, friction);
+        btRigidBody& block =
+            scene.add(new btBoxShape(btVector3(btScalar(0.2), btScalar(0.05), btScalar(0.2))), 1,
+                      btVector3(0, btScalar(1.1), 0));
+        block.setFriction(1);
+        block.setSleepingThresholds(0, 0);
+        block.setAngularFactor(btVector3(0, 0, 1));
+        // Gravity slopes, not the plank. What it gave the block before friction set in takes its time to stop.
+        const btVector3 sloping(btScalar(9.81 * std::sin(angle)), btScalar(-9.81 * std::cos(angle)), 0);
+        scene.world.setGravity(sloping);
+        block.setGravity(sloping);
+        scene.steps(150);
+        const double before = double(block.getWorldTransform().getOrigin().x());
+        scene.steps(60);
+        const double moved = double(block.getWorldTransform().getOrigin().x()) - before;
+        if (angle < limit) {
+            EXPECT_LT(moved, 1e-4) << angle;
+        } else {
+            EXPECT_GT(moved, 0.1) << angle;
+        }
+    }
+}
+
+// Four arms on a post, and a box dropped onto them.
+TEST_P(EveryBody, ABoxComesToRestOnBranchesAndStays) {
+    Scene scene;
+    scene.add_stems({{-1, {0, 0, 0}, {0, 0.5, 0}, 0.03, 0.03},
+                     {0, {0, 0.5, 0}, {0.3, 0.6, 0.05}, 0.012, 0.008},
+                     {0, {0, 0.5, 0}, {-0.3, 0.6, -0.05}, 0.012, 0.008},
+                     {0, {0, 0.5, 0}, {-0.05, 0.6, 0.3}, 0.012, 0.008},
+                     {0, {0, 0.5, 0}, {0.05, 0.6, -0.3}, 0.012, 0.008}},
+                    1e9, GetParam());
+    btRigidBody& box = scene.add(new btBoxShape(btVector3(btScalar(0.2), btScalar(0.05), btScalar(0.2))), 0.3,
+                                 btVector3(0, btScalar(0.75), 0));
+    box.setSleepingThresholds(0, 0);
+    scene.steps(360);
+    const btVector3 before = box.getWorldTransform().getOrigin();
+    btVector3 last = before;
+    for (int i = 0; i < 60; i++) {
+        scene.steps(1);
+        const btVector3 now = box.getWorldTransform().getOrigin();
+        EXPECT_LT(double((now - last).length()) / double(H), 0.001) << i;  // no jitter above 1 mm/s
+        last = now;
+    }
+    EXPECT_NEAR(double(last.y()), 0.62, 0.05);
+    EXPECT_LT(double((last - before).length()), 0.002);
+}
+
+// A kinematic box that is moved through a stem takes it along and does not feel it.
+TEST_P(EveryBody, AKinematicBoxTakesAStemAlong) {
+    Scene scene(0);
+    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, GetParam());
+    btRigidBody& box = scene.add(new btBoxShape(btVector3(btScalar(0.05), btScalar(0.05), btScalar(0.2))), 0,
+                                 btVector3(btScalar(-0.1), btScalar(0.9), 0));
+    box.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    box.setActivationState(DISABLE_DEACTIVATION);
+    for (int i = 0; i < 60; i++) {
+        btTransform frame = box.getWorldTransform();
+        frame.setOrigin(frame.getOrigin() + btVector3(btScalar(0.005), 0, 0));
+        box.setWorldTransform(frame);
+        scene.steps(1);
+    }
+    EXPECT_GT(scene.tip().x, 0.2);
+    EXPECT_NEAR(double(box.getWorldTransform().getOrigin().x()), 0.2, 1e-5);
+}
+
+TEST(ContactEffects, OffMeansThatNothingTouches) {
+    Scene scene(0);
+    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_ROD);
+    btRigidBody& ball = scene.add(new btSphereShape(btScalar(0.05)), 0.2, btVector3(btScalar(-0.15), btScalar(0.9), 0));
+    ball.setLinearVelocity(btVector3(2, 0, 0));
+    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
+    scene.steps(60);
+    EXPECT_NEAR(double(ball.getLinearVelocity().x()), 2, 1e-6);
+    EXPECT_LT(scene.tip().x, 0.01);
+}
+
+TEST(ContactEffects, OneWayPushesThePlantOnly) {
+    Scene scene(0);
+    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_ROD);
+    btRigidBody& ball = scene.add(new btSphereShape(btScalar(0.05)), 0.2, btVector3(btScalar(-0.15), btScalar(0.9), 0));
+    ball.setLinearVelocity(btVector3(2, 0, 0));
+    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_TWO_WAY)), FROND_OK);
+    scene.steps(15);
+    EXPECT_NEAR(double(ball.getLinearVelocity().x()), 2, 1e-6);
+    EXPECT_GT(scene.tip().x, 0.05);
+}
+
+// A link of a robot that swings into a stem is held back, and tells with what impulse.
+TEST(ContactEffects, AMultiBodyFeelsThePlant) {
+    const auto swing = [](bool with_plant, double& impulse) {
+        Scene scene(0);
+        if (with_plant) scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e9, FROND_ROD);
+        btBoxShape shape(btVector3(btScalar(0.2), btScalar(0.02), btScalar(0.02)));
+        btMultiBody arm(1, 0, btVector3(0, 0, 0), true, false);
+        arm.setBasePos(btVector3(btScalar(-0.5), btScalar(0.8), btScalar(-0.2)));
+        arm.setupRevolute(0, 1, btVector3(btScalar(0.01), btScalar(0.02), btScalar(0.02)), -1,
+                          btQuaternion::getIdentity(), btVector3(0, 1, 0), btVector3(0, 0, 0),
+                          btVector3(btScalar(0.4), 0, 0), true);
+        arm.finalizeMultiDof();
+        arm.setLinearDamping(0);
+        arm.setAngularDamping(0);
+        scene.world.addMultiBody(&arm);
+        btMultiBodyLinkCollider collider(&arm, 0);
+        collider.setCollisionShape(&shape);
+        scene.world.addCollisionObject(&collider);
+        arm.getLink(0).m_collider = &collider;
+        arm.setJointVel(0, btScalar(-2));
+        impulse = 0;
+        for (int i = 0; i < 30; i++) {
+            scene.steps(1);
+            if (!with_plant) continue;
+            std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(scene.plant)));
+            EXPECT_EQ(frond_plant_get_contacts(scene.plant, contacts.data(), int(contacts.size())), FROND_OK);
+            for (const frond_contact& contact : contacts) {
+                EXPECT_EQ(contact.body, &collider);
+                impulse += contact.impulse.z;
+            }
+        }
+        const double speed = double(arm.getJointVel(0));
+        scene.world.removeCollisionObject(&collider);
+        scene.world.removeMultiBody(&arm);
+        return speed;
+    };
+    double impulse = 0;
+    EXPECT_NEAR(swing(false, impulse), -2, 0.01);
+    EXPECT_GT(swing(true, impulse), -1.5);
+    EXPECT_GT(impulse, 0.1);
+}
+
+}  // namespace
