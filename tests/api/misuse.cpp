@@ -332,3 +332,77 @@ TEST(Log, GoesWhereTheHostWants) {
     frond_set_log(nullptr, nullptr);
     frond_model_destroy(model);
 }
+
+TEST(Misuse, OfRigidBodiesIsRefused) {
+    SmallWorld small;
+    const frond_rigid_def good = frond_default_rigid_def();
+    frond_rigid rigid = {7};
+    EXPECT_EQ(frond_rigid_create(small.world, nullptr, &rigid), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(rigid.id, 0u);
+    EXPECT_EQ(frond_rigid_create(small.world, &good, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_rigid_create({}, &good, &rigid), FROND_BAD_HANDLE);
+    const auto refused = [&](const frond_rigid_def& def, const char* word) {
+        EXPECT_NE(frond_rigid_create(small.world, &def, &rigid), FROND_OK) << word;
+        EXPECT_TRUE(error_names(word));
+    };
+    refused({}, "frond_default_rigid_def");
+    frond_rigid_def def = good;
+    def.shape = frond_shape(77);
+    refused(def, "shape");
+    for (double size : {0.0, -1.0, NOT_A_NUMBER, INFINITE, 1e9}) {
+        def = good;
+        def.size.x = size;
+        refused(def, "size");
+        def = good;
+        def.mass = size == 0 ? -1 : size == 1e9 ? 1e30 : size;
+        refused(def, "mass");
+    }
+    def = good;
+    def.friction = -1;
+    refused(def, "friction");
+    def = good;
+    def.state.rotation = {0, 0, 0, 0};
+    refused(def, "rotation");
+    def = good;
+    def.state.velocity.z = NOT_A_NUMBER;
+    refused(def, "velocity");
+
+    ASSERT_EQ(frond_rigid_create(small.world, &good, &rigid), FROND_OK) << frond_last_error();
+    EXPECT_TRUE(frond_rigid_is_valid(rigid));
+    EXPECT_NE(frond_rigid_get_body(rigid), nullptr);
+    frond_rigid_state state;
+    EXPECT_EQ(frond_rigid_get_state(rigid, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_rigid_set_state(rigid, nullptr), FROND_BAD_ARGUMENT);
+    ASSERT_EQ(frond_rigid_get_state(rigid, &state), FROND_OK);
+    state.position.x = INFINITE;
+    EXPECT_EQ(frond_rigid_set_state(rigid, &state), FROND_BAD_ARGUMENT);
+    frond_rigid_destroy(rigid);
+    frond_rigid_destroy(rigid);
+    EXPECT_FALSE(frond_rigid_is_valid(rigid));
+    EXPECT_EQ(frond_rigid_get_body(rigid), nullptr);
+    EXPECT_EQ(frond_rigid_get_state(rigid, &state), FROND_BAD_HANDLE);
+
+    // A plane stays where it is, and a world takes its bodies along.
+    def = good;
+    def.shape = FROND_PLANE;
+    ASSERT_EQ(frond_rigid_create(small.world, &def, &rigid), FROND_OK) << frond_last_error();
+    ASSERT_EQ(frond_rigid_get_state(rigid, &state), FROND_OK);
+    EXPECT_EQ(frond_rigid_set_state(rigid, &state), FROND_BAD_ARGUMENT);
+    frond_world_destroy(small.world);
+    EXPECT_FALSE(frond_rigid_is_valid(rigid));
+    EXPECT_EQ(frond_rigid_set_state(rigid, &state), FROND_BAD_HANDLE);
+}
+
+TEST(Misuse, OfContactsIsRefused) {
+    SmallWorld small;
+    frond_contact contact;
+    frond_vec3 momentum = {1, 1, 1};
+    EXPECT_EQ(frond_plant_get_contact_count(small.plant), 0);
+    EXPECT_EQ(frond_plant_get_contact_count({}), 0);
+    EXPECT_EQ(frond_plant_get_contacts(small.plant, nullptr, 0), FROND_OK);
+    EXPECT_EQ(frond_plant_get_contacts(small.plant, &contact, 1), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_contacts({}, &contact, 0), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_get_momentum(small.plant, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_momentum({}, &momentum), FROND_BAD_HANDLE);
+    EXPECT_EQ(momentum.x, 0);
+}

@@ -18,12 +18,17 @@ struct BenchOptions {
 };
 
 struct Stages {
-    static constexpr const char* NAMES[] = {"effects", "assembly", "solve", "capsules", "surface", "all"};
-    static constexpr int COUNT = 6;
+    static constexpr const char* NAMES[] = {"effects", "assembly", "solve", "contact", "capsules", "surface", "all"};
+    static constexpr int COUNT = 7;
     std::vector<double> ms[COUNT];
     void add(const frond_report& report) {
-        const double values[COUNT] = {report.ms_effects,  report.ms_assembly, report.ms_solve,
-                                      report.ms_capsules, report.ms_surface,  report.ms_step + report.ms_surface};
+        const double values[COUNT] = {report.ms_effects,
+                                      report.ms_assembly,
+                                      report.ms_solve,
+                                      report.ms_collide + report.ms_response,
+                                      report.ms_capsules,
+                                      report.ms_surface,
+                                      report.ms_step + report.ms_surface};
         for (int i = 0; i < COUNT; i++) ms[i].push_back(values[i]);
     }
 };

@@ -76,6 +76,8 @@ nlohmann::ordered_json summary(const Play& play, const Record& record) {
                           {"effects", median_of(record, [](const frond_report& r) { return r.ms_effects; })},
                           {"assembly", median_of(record, [](const frond_report& r) { return r.ms_assembly; })},
                           {"solve", median_of(record, [](const frond_report& r) { return r.ms_solve; })},
+                          {"contact",
+                           median_of(record, [](const frond_report& r) { return r.ms_collide + r.ms_response; })},
                           {"capsules", median_of(record, [](const frond_report& r) { return r.ms_capsules; })},
                           {"surface", median(record.ms_surface)}};
     return out;
@@ -91,9 +93,11 @@ void print(const nlohmann::ordered_json& out) {
                 out["tip"][1].get<double>(), out["tip_farthest"].get<double>(),
                 out["trouble"].get<std::string>().c_str());
     const auto& ms = out["ms_per_step"];
-    std::printf("  median step %.3f ms: effects %.3f, assembly %.3f, solve %.3f, capsules %.3f; surface %.3f ms\n",
+    std::printf("  median step %.3f ms: effects %.3f, assembly %.3f, solve %.3f, contact %.3f, capsules %.3f; "
+                "surface %.3f ms\n",
                 ms["all"].get<double>(), ms["effects"].get<double>(), ms["assembly"].get<double>(),
-                ms["solve"].get<double>(), ms["capsules"].get<double>(), ms["surface"].get<double>());
+                ms["solve"].get<double>(), ms["contact"].get<double>(), ms["capsules"].get<double>(),
+                ms["surface"].get<double>());
 }
 
 // Frames as PNG files, a contact sheet and a moving picture.
@@ -208,7 +212,7 @@ void add_run(CLI::App& app) {
     command->add_option("--frames", options->frames,
                         "write frames, a contact sheet and a moving picture to this folder");
     command->add_option("--every", options->every, "steps from frame to frame, default 2");
-    command->add_option("--overlay", options->view.overlays, "cage, faces, capsules")->delimiter(',');
+    command->add_option("--overlay", options->view.overlays, "cage, faces, capsules, contacts")->delimiter(',');
     command->add_option("--azimuth", options->view.azimuth, "of the camera [rad]");
     command->add_option("--elevation", options->view.elevation, "of the camera [rad]");
     command->add_option("--width", options->view.width, "of pictures [pixel]");

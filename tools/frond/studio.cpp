@@ -14,8 +14,9 @@ void must(bool ok) {
 
 Studio::Studio(const View& view) : view(view) {
     for (const std::string& overlay : view.overlays)
-        if (overlay != "cage" && overlay != "faces" && overlay != "capsules" && overlay != "force")
-            throw SceneError("there is no overlay \"" + overlay + "\"; there are cage, faces, capsules, force");
+        if (overlay != "cage" && overlay != "faces" && overlay != "capsules" && overlay != "contacts" &&
+            overlay != "force")
+            throw SceneError("there is no overlay \"" + overlay + "\"; there are cage, faces, capsules, contacts, force");
     frond_picture_def def = frond_default_picture_def();
     def.width = view.width;
     def.height = view.height;
@@ -47,8 +48,12 @@ const uint8_t* Studio::shoot(const Stage& stage) {
     if (wants("cage")) what |= FROND_PICTURE_CAGE;
     if (wants("faces")) what |= FROND_PICTURE_CAGE_FACES;
     if (wants("capsules")) what |= FROND_PICTURE_CAPSULES;
+    if (wants("contacts")) what |= FROND_PICTURE_CONTACTS;
     for (size_t i = 0; i < stage.plants.size(); i++)
         must(frond_picture_draw_plant(picture, stage.plants[i], stage.plant_models[i], what));
+    const frond_color clay = {0.55f, 0.16f, 0.07f, 1};
+    for (size_t i = 0; i < stage.rigids.size(); i++)
+        must(frond_picture_draw_rigid(picture, &stage.rigid_defs[i], stage.rigids[i], clay));
     for (frond_grab grab : stage.grabs) must(frond_picture_draw_grab(picture, grab));
     must(frond_picture_end(picture));
     return frond_picture_get_pixels(picture);

@@ -3,18 +3,11 @@
 
 #include "error.hpp"
 #include "frond_picture.h"
+#include "require.hpp"
 
 using namespace picture;
 
 namespace {
-
-// The library's own text goes on as ours.
-void require(frond_result result, const char* what) {
-    if (result != FROND_OK) fail("%s: %s", what, frond_last_error());
-}
-void require(bool ok) {
-    if (!ok) fail("%s", std::string(frond_picture_last_error()).c_str());
-}
 
 bool is_thin(const char* kind) {
     const std::string text = kind ? kind : "";
@@ -74,20 +67,32 @@ void draw_capsules(frond_picture* picture, frond_plant plant) {
                                            {0.95f, 0.45f, 0.05f, 0.35f}));
 }
 
+void draw_contacts(frond_picture* picture, frond_plant plant) {
+    std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
+    require(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())), "the plant's contacts");
+    for (const frond_contact& contact : contacts) {
+        const bool pushes = contact.impulse.x != 0 || contact.impulse.y != 0 || contact.impulse.z != 0;
+        const frond_color red = {0.85f, 0.02f, 0.02f, 1}, grey = {0.2f, 0.2f, 0.2f, 0.7f};
+        require(frond_picture_draw_point(picture, contact.point, 8, pushes ? red : grey));
+    }
+}
+
 }  // namespace
 
 bool frond_picture_draw_plant(frond_picture* picture, frond_plant plant, frond_model model, uint32_t what) {
     return guarded([&] {
         int width = 0;
         require(frond_picture_get_size(picture, &width, nullptr));
-        if (what & ~uint32_t(15))
-            fail("0x%x is not made of FROND_PICTURE_SURFACE, _CAGE, _CAGE_FACES and _CAPSULES", unsigned(what));
+        if (what & ~uint32_t(31))
+            fail("0x%x is not made of FROND_PICTURE_SURFACE, _CAGE, _CAGE_FACES, _CAPSULES and _CONTACTS",
+                 unsigned(what));
         frond_model_info info;
         require(frond_model_get_info(model, &info), "the model");
         if (!frond_plant_is_valid(plant)) fail("the plant's handle is null or destroyed");
         if (what & FROND_PICTURE_SURFACE) draw_surface(picture, plant, model, info);
         if (what & (FROND_PICTURE_CAGE | FROND_PICTURE_CAGE_FACES)) draw_cage(picture, plant, model, what);
         if (what & FROND_PICTURE_CAPSULES) draw_capsules(picture, plant);
+        if (what & FROND_PICTURE_CONTACTS) draw_contacts(picture, plant);
     });
 }
 

@@ -160,11 +160,14 @@ enum {
     FROND_PICTURE_SURFACE = 1 << 0,
     FROND_PICTURE_CAGE = 1 << 1,       /* edges of the cage */
     FROND_PICTURE_CAGE_FACES = 1 << 2, /* its outside, translucent */
-    FROND_PICTURE_CAPSULES = 1 << 3    /* translucent */
+    FROND_PICTURE_CAPSULES = 1 << 3,   /* translucent */
+    FROND_PICTURE_CONTACTS = 1 << 4    /* dots where bodies touched it in the last step, red where they pushed */
 };
 /* A plant as it is now, with its model's colours and textures. what: bits of the above. A texture that cannot be
  * decoded is left away. */
 bool frond_picture_draw_plant(frond_picture* picture, frond_plant plant, frond_model model, uint32_t what);
+/* A body that Frond made, as it is now; a plane is left to the scene's ground. */
+bool frond_picture_draw_rigid(frond_picture* picture, const frond_rigid_def* def, frond_rigid rigid, frond_color color);
 /* A red arrow from the held point to where it is pulled. */
 bool frond_picture_draw_grab(frond_picture* picture, frond_grab grab);
 

@@ -48,6 +48,8 @@ struct Stage {
     std::vector<frond_plant> plants;
     std::vector<frond_model> plant_models;  // one a plant
     std::vector<frond_grab> grabs;
+    std::vector<frond_rigid_def> rigid_defs;  // as they were made
+    std::vector<frond_rigid> rigids;
     frond_vec3 lower = {}, upper = {};  // box of all plants at the start [m]
     double time = 0;                    // [s]
     frond_vec3 drag_start = {};         // where the user took hold [m]
@@ -59,6 +61,7 @@ struct Stage {
     ~Stage();
     frond_model load(const std::string& path);
     frond_plant plant(frond_model model, frond_vec3 position);
+    frond_rigid rigid(const frond_rigid_def& def);
 };
 
 struct Scene {

@@ -86,6 +86,52 @@ void drag(Stage& stage) {
     must(frond_grab_move(stage.grabs[0], {from.x + way, from.y - 0.3 * way, from.z}));
 }
 
+// ---- bodies that touch plants ---------------------------------------------------------------------------------
+
+frond_rigid_def rigid_def(frond_shape shape, frond_vec3 size, double mass, frond_vec3 place) {
+    frond_rigid_def def = frond_default_rigid_def();
+    def.shape = shape;
+    def.size = size;
+    def.mass = mass;
+    def.state.position = place;
+    return def;
+}
+void add_ground(Stage& stage) {
+    stage.rigid(rigid_def(FROND_PLANE, {}, 0, {0, 0, 0}));
+}
+
+// A football, thrown at the stalk.
+void build_ball(Stage& stage) {
+    build_corn(stage);
+    add_ground(stage);
+    frond_rigid_def ball = rigid_def(FROND_SPHERE, {0.11, 0, 0}, 0.43, {-1.6, 1.1, 0.02});
+    ball.state.velocity = {6, 1.2, 0};
+    stage.rigid(ball);
+}
+
+// A walker's capsule in a row of ten.
+constexpr int ROW = 10;
+constexpr double ROW_STEP = 0.35, WALK_SPEED = 1.2;  // [m], [m/s]
+void build_walk(Stage& stage) {
+    const frond_model model = stage.load(model_path("corn/corn.obj"));
+    for (int i = 0; i < ROW; i++) stage.plant(model, {ROW_STEP * i, 0, i % 2 ? 0.15 : -0.15});
+    add_ground(stage);
+    stage.rigid(rigid_def(FROND_CAPSULE, {0.22, 0.62, 0}, 0, {-1, 0.86, 0}));
+}
+void walk(Stage& stage) {
+    frond_rigid_state state;
+    must(frond_rigid_get_state(stage.rigids.back(), &state));
+    state.position.x += WALK_SPEED * stage.settings.dt;
+    must(frond_rigid_set_state(stage.rigids.back(), &state));
+}
+
+// A crate that is let go a little above the cucumber's leaves.
+void build_crate(Stage& stage) {
+    build_cucumber(stage);
+    add_ground(stage);
+    stage.rigid(rigid_def(FROND_BOX, {0.1, 0.06, 0.1}, 0.1, {0.14, 1.35, 0.06}));
+}
+
 }  // namespace
 
 // Of the chain's nodes near that height, the one that carries most others.
@@ -118,6 +164,9 @@ const std::vector<Scene>& scenes() {
         {"cucumber", "a cucumber plant stands in gravity", 5, cucumber_defaults, build_cucumber, rest},
         {"drag", "a corn plant is pulled aside and let go", 5, corn_defaults, build_corn, drag},
         {"cucumber_drag", "a cucumber plant is pulled aside and let go", 5, cucumber_defaults, build_cucumber, drag},
+        {"ball", "a football is thrown at a corn plant", 3, corn_defaults, build_ball, rest},
+        {"walk", "a walker's capsule pushes through a row of ten corn plants", 4, corn_defaults, build_walk, walk},
+        {"crate", "a small crate is let fall on a cucumber's leaves", 3, cucumber_defaults, build_crate, rest},
         {"tug", "a plant file: it stands, is pulled aside and let go", 5, tug_defaults, nullptr, drag},
     };
     return table;

@@ -84,6 +84,14 @@ frond_plant Stage::plant(frond_model model, frond_vec3 position) {
     return plant;
 }
 
+frond_rigid Stage::rigid(const frond_rigid_def& def) {
+    frond_rigid rigid = {};
+    must(frond_rigid_create(world, &def, &rigid));
+    rigid_defs.push_back(def);
+    rigids.push_back(rigid);
+    return rigid;
+}
+
 std::string model_path(const std::string& name) {
     std::vector<std::string> folders;
     if (const char* folder = std::getenv("FROND_MODELS")) folders.push_back(folder);

@@ -85,6 +85,9 @@ typedef struct frond_plant {
 typedef struct frond_grab {
     uint64_t id;
 } frond_grab;
+typedef struct frond_rigid {
+    uint64_t id;
+} frond_rigid;
 
 /* ---- choices ------------------------------------------------------------------------------------------- */
 
@@ -475,6 +478,49 @@ FROND_API frond_result frond_grab_move(frond_grab grab, frond_vec3 target);
 FROND_API frond_result frond_grab_get(frond_grab grab, frond_vec3* point, frond_vec3* target, frond_vec3* force);
 FROND_API void frond_grab_destroy(frond_grab grab);
 FROND_API bool frond_grab_is_valid(frond_grab grab);
+
+/* ---- rigid: bodies that plants touch, for those who have no Bullet world of their own ------------------------- */
+
+/* What the three numbers of frond_rigid_def.size are [m]. All stand along their own y axis. */
+#define FROND_SHAPES(X)                                                                  \
+    X(SPHERE, "sphere")     /* radius */                                                 \
+    X(BOX, "box")           /* half extents */                                           \
+    X(CAPSULE, "capsule")   /* radius, half the length between the half spheres' centres */ \
+    X(CYLINDER, "cylinder") /* radius, half the length */                                \
+    X(CONE, "cone")         /* radius, half the height */                                \
+    X(PLANE, "plane")       /* none: all below its origin; does not move */
+#define FROND_SHAPE_ENUM(code, text) FROND_##code,
+typedef enum frond_shape { FROND_SHAPES(FROND_SHAPE_ENUM) FROND_SHAPE_COUNT } frond_shape;
+#undef FROND_SHAPE_ENUM
+
+typedef struct frond_rigid_state {
+    frond_vec3 position; /* of the centre of mass [m] */
+    frond_quat rotation; /* need not have length one when it is set */
+    frond_vec3 velocity; /* [m/s] */
+    frond_vec3 spin;     /* [rad/s] */
+} frond_rigid_state;
+
+typedef struct frond_rigid_def {
+    frond_shape shape;       /* default FROND_SPHERE */
+    frond_vec3 size;         /* see FROND_SHAPES; default 0.1 each */
+    double mass;             /* [kg]; default 1; 0: nothing moves it but frond_rigid_set_state */
+    double friction;         /* default 0.5; Bullet multiplies it by the other body's or organ's */
+    frond_rigid_state state; /* at the beginning; default at the origin, at rest */
+    uint32_t cookie;         /* do not set */
+} frond_rigid_def;
+
+FROND_API const char* frond_shape_name(frond_shape shape);
+FROND_API frond_rigid_def frond_default_rigid_def(void);
+FROND_API frond_result frond_rigid_create(frond_world world, const frond_rigid_def* def, frond_rigid* out);
+/* Null and stale handles are ignored. Its world's end is its end. */
+FROND_API void frond_rigid_destroy(frond_rigid rigid);
+FROND_API bool frond_rigid_is_valid(frond_rigid rigid);
+FROND_API frond_result frond_rigid_get_state(frond_rigid rigid, frond_rigid_state* out);
+/* A body without mass is carried there within the next step and takes plants along; one with mass is put there, with
+ * these velocities. BAD_ARGUMENT for a plane. */
+FROND_API frond_result frond_rigid_set_state(frond_rigid rigid, const frond_rigid_state* state);
+/* As frond_contact.body names it. Null for an invalid handle. */
+FROND_API const void* frond_rigid_get_body(frond_rigid rigid);
 
 /* ---- advice: which settings for which accuracy -------------------------------------------------------------- */
 

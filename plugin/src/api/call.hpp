@@ -68,6 +68,7 @@ void check_def(const Def* def, uint32_t cookie, const char* name) {
         fail(FROND_BAD_DEF, "the def was not made by frond_default_%s_def(); start from it", name);
 }
 
-constexpr uint32_t WORLD_DEF_COOKIE = 0x46724e57, MODEL_DEF_COOKIE = 0x46724e4d, PLANT_DEF_COOKIE = 0x46724e50;
+constexpr uint32_t WORLD_DEF_COOKIE = 0x46724e57, MODEL_DEF_COOKIE = 0x46724e4d, PLANT_DEF_COOKIE = 0x46724e50,
+                   RIGID_DEF_COOKIE = 0x46724e52;
 
 }  // namespace frond

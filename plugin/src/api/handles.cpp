@@ -23,6 +23,9 @@ PlantSlots& plant_slots() {
 GrabSlots& grab_slots() {
     return slots<GrabSlots>();
 }
+RigidSlots& rigid_slots() {
+    return slots<RigidSlots>();
+}
 
 // One text for what is wrong with a handle.
 static void require(bool found, uint64_t id, const char* noun) {
@@ -51,6 +54,12 @@ GrabEntry get(frond_grab grab) {
     const GrabEntry found = grab_slots().find(grab.id);
     require(found.grab, grab.id, "grab");
     return found;
+}
+
+Rigid& get(frond_rigid rigid) {
+    Rigid* found = rigid_slots().find(rigid.id);
+    require(found, rigid.id, "rigid");
+    return *found;
 }
 
 void forget(PlantBody& body) {

@@ -16,16 +16,19 @@ using WorldSlots = Slots<std::shared_ptr<World>, 1>;
 using ModelSlots = Slots<std::shared_ptr<const Model>, 2>;
 using PlantSlots = Slots<PlantBody*, 3>;
 using GrabSlots = Slots<GrabEntry, 4>;
+using RigidSlots = Slots<Rigid*, 5>;
 WorldSlots& world_slots();
 ModelSlots& model_slots();
 PlantSlots& plant_slots();
 GrabSlots& grab_slots();
+RigidSlots& rigid_slots();
 
 // What a handle stands for; BAD_HANDLE when it stands for nothing.
 World& get(frond_world world);
 const std::shared_ptr<const Model> get(frond_model model);
 PlantBody& get(frond_plant plant);
 GrabEntry get(frond_grab grab);
+Rigid& get(frond_rigid rigid);
 
 // Takes the handles of a plant and its grabs back; the plant itself is the world's.
 void forget(PlantBody& body);

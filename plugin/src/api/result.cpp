@@ -29,6 +29,7 @@ static const char* const MECHANICS_NAMES[] = {FROND_MECHANICS(ROW_TEXT)};
 static const char* const INTEGRATOR_NAMES[] = {FROND_INTEGRATORS(ROW_TEXT)};
 static const char* const LINEAR_SOLVER_NAMES[] = {FROND_LINEAR_SOLVERS(ROW_TEXT)};
 static const char* const MASS_NAMES[] = {FROND_MASSES(ROW_TEXT)};
+static const char* const SHAPE_NAMES[] = {FROND_SHAPES(ROW_TEXT)};
 #undef ROW_TEXT
 
 extern "C" {
@@ -54,6 +55,9 @@ const char* frond_integrator_name(frond_integrator integrator) {
 }
 const char* frond_linear_solver_name(frond_linear_solver solver) {
     return row_name(LINEAR_SOLVER_NAMES, int(solver), "?");
+}
+const char* frond_shape_name(frond_shape shape) {
+    return row_name(SHAPE_NAMES, int(shape), "?");
 }
 const char* frond_mass_name(frond_mass mass) {
     return row_name(MASS_NAMES, int(mass), "?");

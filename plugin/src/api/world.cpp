@@ -63,6 +63,7 @@ void frond_world_destroy(frond_world world) {
         const std::shared_ptr<World> taken = world_slots().erase(world.id);
         if (!taken) return;
         for (const auto& body : taken->bodies) forget(*body);
+        for (const auto& rigid : taken->rigids) rigid_slots().erase(rigid->handle.id);
     });
 }
 

@@ -161,7 +161,8 @@ void add_fast_bodies(World& world, double h, std::vector<Contact>& contacts) {
     }
 }
 
-// How deep capsules are in what does not move when their plant is new counts as no depth later.
+// How deep capsules are in what does not move when their plant is new counts as no depth later. Those whose axis is in it,
+// roots in the ground, do not touch it at all.
 void discount_grown_in(std::vector<Contact>& contacts) {
     for (Contact& contact : contacts) {
         GrownIn& grown_in = contact.plant->grown_in;
@@ -169,8 +170,12 @@ void discount_grown_in(std::vector<Contact>& contacts) {
         if (contact.plant->is_new && contact.other->isStaticObject() && contact.gap < 0)
             grown_in[key] = std::max(grown_in[key], -contact.gap);
         const auto found = grown_in.find(key);
-        if (found != grown_in.end()) contact.gap += found->second;
+        if (found == grown_in.end()) continue;
+        const double radius = double(contact.plant->capsules[size_t(contact.capsule)]->getRadius());
+        contact.gap += found->second > radius ? INFINITY : found->second;
     }
+    const auto is_far = [](const Contact& contact) { return !std::isfinite(contact.gap); };
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_far), contacts.end());
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ World::World(std::unique_ptr<OwnBullet> given, btDynamicsWorld* bullet, const fr
 
 World::~World() {
     while (!bodies.empty()) remove_plant(*this, bodies.back().get());
+    while (!rigids.empty()) remove_rigid(*this, rigids.back().get());
     bullet->removeAction(this);
     std::lock_guard<std::mutex> lock(attached_mutex);
     attached_worlds().erase(bullet);
@@ -36,6 +37,7 @@ std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def
     if (!bullet) {
         own = std::make_unique<OwnBullet>();
         bullet = &own->world;
+        own->configuration.setPlaneConvexMultipointIterations();  // or a box would sink into a plane on one corner
         bullet->setGravity(btVector3(btScalar(def.gravity.x), btScalar(def.gravity.y), btScalar(def.gravity.z)));
     }
     {

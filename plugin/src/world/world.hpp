@@ -5,6 +5,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "world/contact.hpp"
+#include "world/rigid.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -25,6 +26,7 @@ struct World final : btActionInterface {
     frond_effects effects;
     double max_substep;  // [s]
     std::vector<std::unique_ptr<PlantBody>> bodies;
+    std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
     std::vector<Contact> contacts;  // of the last substep
     double time = 0;  // [s]
     frond_report report = {};

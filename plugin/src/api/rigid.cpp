@@ -1,0 +1,101 @@
+// frond_rigid_*: bodies that plants touch.
+#include "api/call.hpp"
+#include "api/handles.hpp"
+
+using namespace frond;
+
+static void check_state(const frond_rigid_state& state) {
+    check_vec(state.position, "state.position [m]");
+    const frond_quat& q = state.rotation;
+    const double length = Quat(q.w, q.x, q.y, q.z).norm();
+    if (!(length > 1e-9 && length < 1e9))
+        fail(FROND_BAD_ARGUMENT, "state.rotation has no direction; (0,0,0,1) is none");
+    constexpr double FASTEST = 1e6;
+    for (double v : {state.velocity.x, state.velocity.y, state.velocity.z})
+        check_range(v, -FASTEST, FASTEST, "state.velocity [m/s]");
+    for (double v : {state.spin.x, state.spin.y, state.spin.z}) check_range(v, -FASTEST, FASTEST, "state.spin [rad/s]");
+}
+
+// How many of the three numbers of the size a shape has.
+static int size_count(int shape) {
+    static const int COUNTS[] = {1, 3, 2, 2, 2, 0};
+    static_assert(sizeof COUNTS / sizeof COUNTS[0] == FROND_SHAPE_COUNT, "every shape needs its size");
+    return COUNTS[shape];
+}
+
+static void check_rigid_def(const frond_rigid_def* def) {
+    check_def(def, RIGID_DEF_COOKIE, "rigid");
+    const int shape = number_of(def->shape);
+    if (shape < 0 || shape >= FROND_SHAPE_COUNT)
+        fail(FROND_BAD_ARGUMENT, "def.shape is %d; use one of frond_shape's names", shape);
+    const double size[] = {def->size.x, def->size.y, def->size.z};
+    for (int i = 0; i < size_count(shape); i++) check_range(size[i], 1e-4, 1e4, "def.size [m]");
+    if (def->mass != 0) check_range(def->mass, 1e-6, 1e9, "def.mass [kg]");
+    check_range(def->friction, 0, 100, "def.friction");
+    check_state(def->state);
+}
+
+extern "C" {
+
+frond_rigid_def frond_default_rigid_def(void) {
+    frond_rigid_def def = {};
+    def.shape = FROND_SPHERE;
+    def.size = {0.1, 0.1, 0.1};
+    def.mass = 1;
+    def.friction = 0.5;
+    def.state.rotation = {0, 0, 0, 1};
+    def.cookie = RIGID_DEF_COOKIE;
+    return def;
+}
+
+frond_result frond_rigid_create(frond_world world, const frond_rigid_def* def, frond_rigid* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        World& w = get(world);
+        check_rigid_def(def);
+        Rigid* rigid = add_rigid(w, *def);
+        rigid->handle.id = rigid_slots().insert(rigid);
+        if (!rigid->handle.id) {
+            remove_rigid(w, rigid);
+            fail(FROND_OUT_OF_MEMORY, "too many rigid bodies; destroy some");
+        }
+        *out = rigid->handle;
+    });
+}
+
+void frond_rigid_destroy(frond_rigid rigid) {
+    call([&] {
+        Rigid* found = rigid_slots().erase(rigid.id);
+        if (found) remove_rigid(*found->world, found);
+    });
+}
+
+bool frond_rigid_is_valid(frond_rigid rigid) {
+    return rigid_slots().find(rigid.id) != nullptr;
+}
+
+frond_result frond_rigid_get_state(frond_rigid rigid, frond_rigid_state* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        *out = state_of(get(rigid));
+    });
+}
+
+frond_result frond_rigid_set_state(frond_rigid rigid, const frond_rigid_state* state) {
+    return call([&] {
+        check_pointer(state, "state");
+        Rigid& found = get(rigid);
+        check_state(*state);
+        if (found.is_plane) fail(FROND_BAD_ARGUMENT, "the rigid body is a plane, which does not move; use a box");
+        set_state(found, *state);
+    });
+}
+
+const void* frond_rigid_get_body(frond_rigid rigid) {
+    const Rigid* found = rigid_slots().find(rigid.id);
+    return found ? static_cast<const btCollisionObject*>(found->body.get()) : nullptr;
+}
+
+}  // extern "C"

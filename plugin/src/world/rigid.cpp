@@ -1,0 +1,94 @@
+#include "world/rigid.hpp"
+
+#include <algorithm>
+
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+static btVector3 to_bullet(const frond_vec3& v) {
+    return btVector3(btScalar(v.x), btScalar(v.y), btScalar(v.z));
+}
+static frond_vec3 from_bullet(const btVector3& v) {
+    return {double(v.x()), double(v.y()), double(v.z())};
+}
+
+static btTransform frame_of(const frond_rigid_state& state) {
+    const frond_quat& q = state.rotation;
+    const Quat turn = Quat(q.w, q.x, q.y, q.z).normalized();
+    return btTransform(btQuaternion(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), btScalar(turn.w())),
+                       to_bullet(state.position));
+}
+
+static std::unique_ptr<btCollisionShape> make_shape(frond_shape shape, const frond_vec3& size) {
+    const btScalar x = btScalar(size.x), y = btScalar(size.y);
+    switch (shape) {
+        case FROND_BOX:
+            return std::make_unique<btBoxShape>(to_bullet(size));
+        case FROND_CAPSULE:
+            return std::make_unique<btCapsuleShape>(x, 2 * y);
+        case FROND_CYLINDER:
+            return std::make_unique<btCylinderShape>(btVector3(x, y, x));
+        case FROND_CONE:
+            return std::make_unique<btConeShape>(x, 2 * y);
+        case FROND_PLANE:
+            return std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0));
+        default:
+            return std::make_unique<btSphereShape>(x);
+    }
+}
+
+Rigid* add_rigid(World& world, const frond_rigid_def& def) {
+    auto rigid = std::make_unique<Rigid>();
+    rigid->world = &world;
+    rigid->is_plane = def.shape == FROND_PLANE;
+    rigid->shape = make_shape(def.shape, def.size);
+    const btScalar mass = rigid->is_plane ? 0 : btScalar(def.mass);
+    btVector3 inertia(0, 0, 0);
+    if (mass > 0) rigid->shape->calculateLocalInertia(mass, inertia);
+    btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, rigid->shape.get(), inertia);
+    info.m_startWorldTransform = frame_of(def.state);
+    info.m_friction = btScalar(def.friction);
+    rigid->body = std::make_unique<btRigidBody>(info);
+    // What the host carries about stays awake, or Bullet would not see how fast it moves.
+    if (mass == 0 && !rigid->is_plane) {
+        rigid->body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+        rigid->body->setActivationState(DISABLE_DEACTIVATION);
+    }
+    rigid->body->setLinearVelocity(to_bullet(def.state.velocity));
+    rigid->body->setAngularVelocity(to_bullet(def.state.spin));
+    world.bullet->addRigidBody(rigid->body.get());
+    world.rigids.push_back(std::move(rigid));
+    return world.rigids.back().get();
+}
+
+void remove_rigid(World& world, Rigid* rigid) {
+    world.bullet->removeRigidBody(rigid->body.get());
+    world.contacts.clear();
+    const auto is_it = [&](const std::unique_ptr<Rigid>& other) { return other.get() == rigid; };
+    world.rigids.erase(std::find_if(world.rigids.begin(), world.rigids.end(), is_it));
+}
+
+frond_rigid_state state_of(const Rigid& rigid) {
+    const btTransform& frame = rigid.body->getWorldTransform();
+    const btQuaternion q = frame.getRotation();
+    return {from_bullet(frame.getOrigin()),
+            {double(q.x()), double(q.y()), double(q.z()), double(q.w())},
+            from_bullet(rigid.body->getLinearVelocity()),
+            from_bullet(rigid.body->getAngularVelocity())};
+}
+
+void set_state(Rigid& rigid, const frond_rigid_state& state) {
+    btRigidBody& body = *rigid.body;
+    const btTransform frame = frame_of(state);
+    body.setWorldTransform(frame);
+    if (body.isKinematicObject()) return;  // its velocity follows from where it was
+    body.setInterpolationWorldTransform(frame);
+    body.setLinearVelocity(to_bullet(state.velocity));
+    body.setAngularVelocity(to_bullet(state.spin));
+    body.activate(true);
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

@@ -1,0 +1,18 @@
+// Failures of the two libraries' calls become errors of the picture's, with the text that came.
+#pragma once
+
+#include <string>
+
+#include "error.hpp"
+#include "frond_picture.h"
+
+namespace picture {
+
+inline void require(frond_result result, const char* what) {
+    if (result != FROND_OK) fail("%s: %s", what, frond_last_error());
+}
+inline void require(bool ok) {
+    if (!ok) fail("%s", std::string(frond_picture_last_error()).c_str());
+}
+
+}  // namespace picture
