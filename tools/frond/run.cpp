@@ -52,6 +52,7 @@ std::string trouble_text(uint32_t trouble) {
     if (trouble & FROND_TROUBLE_NOT_CONVERGED) text += " not_converged";
     if (trouble & FROND_TROUBLE_REWOUND) text += " rewound";
     if (trouble & FROND_TROUBLE_INVERTED) text += " inverted";
+    if (trouble & FROND_TROUBLE_RETRIED) text += " retried";
     return text.empty() ? "none" : text.substr(1);
 }
 

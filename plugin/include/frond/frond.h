@@ -166,7 +166,10 @@ enum {
      * last good state and brought to rest. Remedy: smaller steps, weaker forces. */
     FROND_TROUBLE_REWOUND = 1 << 1,
     /* Cause: a tet turned inside out. Effect: none lasting with FROND_TET_COROTATIONAL. Remedy: smaller steps. */
-    FROND_TROUBLE_INVERTED = 1 << 2
+    FROND_TROUBLE_INVERTED = 1 << 2,
+    /* A step ran away and was solved again by implicit Euler with a line search, which costs several times as much and
+     * damps. Remedy: a shorter time step, or gentler pushes. */
+    FROND_TROUBLE_RETRIED = 1 << 3
 };
 typedef struct frond_report {
     uint32_t trouble;

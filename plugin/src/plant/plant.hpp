@@ -30,7 +30,7 @@ struct Plant {
     frond_mass mass;
     std::shared_ptr<const System> system;
     WorkspacePtr workspace;
-    SolveSettings settings;
+    SolveSettings settings, step_settings;  // the latter without what the running step's effects leave out
     frond_effects effects;
     Vec3 position;  // of the model's frame in the world [m]
     Quat rotation;
@@ -45,6 +45,7 @@ struct Plant {
     bool pins_changed = true;
     bool stands_on_roots = false;          // the model's own root holds it
     VecX x_good, v_good;  // before the running step, of the motion
+    VecX contact_impulse;  // of the running step's contacts on the nodes of the mechanics [N s]; empty: none
     Loads loads;          // of the running step, kept to reuse its memory
     VecX user_force;      // on cage nodes, until the end of the host's step, world frame [N]
     bool has_user_force = false;
@@ -77,6 +78,8 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 // A step in two halves, between which contacts may change what the first one found: effects and solve; then accept or
 // rewind, and the chain.
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
+// Takes contact_impulse into the step that was solved.
+void add_contacts(Plant& plant, double h);
 bool step_is_sound(const Plant& plant);
 void accept_step(Plant& plant);
 // Both.

@@ -1,6 +1,9 @@
 // One step of a plant: effects -> solve -> (contact response) -> accept or rewind -> chain.
+#include <algorithm>
+
 #include "core/timer.hpp"
 #include "plant/plant.hpp"
+#include "solve/integrator.hpp"
 
 namespace frond {
 
@@ -27,10 +30,34 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
         loads.springs.push_back({vertex_grip(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
 }
 
-static bool is_sound(const Motion& motion, double size) {
-    constexpr double FARTHEST = 100;  // a plant stretched to so many times its size has run away [-]
-    const double far_away = FARTHEST * size;
-    return motion.x.allFinite() && motion.v.allFinite() && motion.x.cwiseAbs().maxCoeff() < far_away;
+// Whether all places, not the rotations of a chain, are nearer than that to where the plant was modelled or to `from`.
+static bool are_near(const Plant& plant, const VecX& from, double distance) {
+    const VecX& x = plant.motion.x;
+    const int next = plant.follow ? 2 : 1;
+    for (int i = 0; i < x.size() / 3; i += next)
+        if (!((point(x, i) - point(from, i)).squaredNorm() < distance * distance)) return false;
+    return true;
+}
+
+// No node has gone farther than the plant is long.
+static bool is_plausible(const Plant& plant) {
+    return are_near(plant, plant.x_good, plant.model->surface.size());
+}
+
+// Again from the start, by what cannot overshoot.
+static void solve_carefully(Plant& plant, double h) {
+    constexpr int ITERATIONS = 30;
+    SolveSettings settings = plant.step_settings;
+    plant.motion.x = plant.x_good;
+    plant.motion.v = plant.v_good;
+    plant.motion.history.valid = false;
+    settings.integrator = FROND_IMPLICIT_EULER;
+    settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
+    settings.careful = true;
+    const SolveReport first = plant.report;
+    plant.report = solve_step(*plant.workspace, settings, plant.loads, h, plant.motion);
+    plant.report.ms_assembly += first.ms_assembly;
+    plant.report.ms_solve += first.ms_solve;
 }
 
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
@@ -44,18 +71,37 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     Timer timer;
     apply_pins(plant);
     gather_loads(plant, surroundings, effects);
-    SolveSettings settings = plant.settings;
+    SolveSettings& settings = plant.step_settings = plant.settings;
     if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = 0;
     plant.ms_effects = timer.lap();
 
     // Solve.
     plant.report = solve_step(*plant.workspace, settings, plant.loads, h, motion);
+    if (!plant.report.ok || !is_plausible(plant)) {
+        solve_carefully(plant, h);
+        plant.trouble |= FROND_TROUBLE_RETRIED;
+    }
     if (!plant.report.converged) plant.trouble |= FROND_TROUBLE_NOT_CONVERGED;
     if (plant.report.inverted > 0) plant.trouble |= FROND_TROUBLE_INVERTED;
 }
 
+void add_contacts(Plant& plant, double h) {
+    if (plant.contact_impulse.size() == 0) return;
+    VecX dv;
+    const VecX impulse = std::move(plant.contact_impulse);
+    plant.contact_impulse.resize(0);
+    if (respond(*plant.workspace, plant.settings, impulse, dv)) add_response(*plant.workspace, dv, plant.motion);
+    if (is_calm(*plant.system, plant.x_good, plant.motion.x)) return;
+    // Too much for a linear answer: the same push, along the plant's own curve.
+    plant.loads.force += impulse / h;
+    solve_carefully(plant, h);
+}
+
 bool step_is_sound(const Plant& plant) {
-    return plant.report.ok && is_sound(plant.motion, plant.model->surface.size());
+    constexpr double FARTHEST = 100;  // a plant stretched to so many times its size has run away [-]
+    const Motion& motion = plant.motion;
+    return plant.report.ok && motion.x.allFinite() && motion.v.allFinite() && is_plausible(plant) &&
+           are_near(plant, elements_of(*plant.system).modelled, FARTHEST * plant.model->surface.size());
 }
 
 void accept_step(Plant& plant) {

@@ -1,7 +1,5 @@
 #include "plant/touch.hpp"
 
-#include "mechanics/rotation.hpp"
-
 namespace frond {
 
 // Both chain nodes' tets together; of quadratic ones, which have too many nodes for that, those of the nearer node.
@@ -25,20 +23,13 @@ static Grip cage_grip(const Plant& plant, int begin, int end, double along) {
     return grip;
 }
 
-Grip capsule_grip(const Plant& plant, int capsule, double along, const Vec3& point_in_world) {
+Grip capsule_grip(const Plant& plant, int capsule, double along) {
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
     if (!plant.follow) return cage_grip(plant, begin, end, along);
-    const Vec3 axis = (1 - along) * plant.chain_positions[size_t(begin)] + along * plant.chain_positions[size_t(end)];
-    const Vec3 arm = plant.to_model(point_in_world) - axis;
     Grip grip;
-    grip.turns = true;
     grip.count = begin == end ? 1 : 2;
     grip.node = {2 * begin, 2 * end};
     grip.weight = {begin == end ? 1 : 1 - along, along};
-    for (size_t k = 0; k < size_t(grip.count); k++) {
-        const Mat3 turn = rotation_of<double>(point(plant.x_good, grip.node[k] + 1));
-        grip.arm[k] = grip.weight[k] * (turn.transpose() * arm);
-    }
     return grip;
 }
 
@@ -66,9 +57,8 @@ Mat3 answer_at(const Plant& plant, const Grip& grip, const PlantTouch& touch) {
 }
 
 void take_impulse(Plant& plant, const PlantTouch& touch, const Vec3& impulse) {
-    VecX dv = VecX::Zero(plant.motion.v.size());
-    for (int axis = 0; axis < 3; axis++) dv += impulse[axis] * touch.answers[size_t(axis)];
-    add_response(*plant.workspace, dv, plant.motion);
+    if (plant.contact_impulse.size() == 0) plant.contact_impulse = VecX::Zero(plant.motion.v.size());
+    add_grip_force(touch.grip, plant.x_good, plant.rotation.conjugate() * impulse, plant.contact_impulse);
 }
 
 }  // namespace frond

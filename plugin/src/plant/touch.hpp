@@ -7,9 +7,9 @@
 
 namespace frond {
 
-// The point of a capsule at `along` of the way from its first node to its second, 0..1, with an arm from there to `point`
-// (world frame), which turns with the nodes where the mechanics turn them. Of the shape before the step.
-Grip capsule_grip(const Plant& plant, int capsule, double along, const Vec3& point);
+// The point of a capsule's axis at `along` of the way from its first node to its second, 0..1. A push on the capsule's
+// side is taken there: as a lever it would spin hairs by radians in a step, which no linear answer can tell.
+Grip capsule_grip(const Plant& plant, int capsule, double along);
 
 // One touch of a plant, between the two halves of a step.
 struct PlantTouch {
@@ -21,7 +21,7 @@ struct PlantTouch {
 bool make_touch(Plant& plant, const Grip& grip, PlantTouch& touch);
 // Velocity at a grip by an impulse at a touch, both in the world's frame [1/kg].
 Mat3 answer_at(const Plant& plant, const Grip& grip, const PlantTouch& touch);
-// An impulse at a touch [N s], world frame.
+// An impulse at a touch [N s], world frame; it adds to plant.contact_impulse.
 void take_impulse(Plant& plant, const PlantTouch& touch, const Vec3& impulse);
 
 }  // namespace frond

@@ -207,7 +207,7 @@ double solve_first(Newton& n) {
     constexpr int SEARCHED_ITERATIONS = 20;
     Timer timer;
     linearize_at_start(n);
-    if (n.body.needs_search && n.report.inverted > 0) {
+    if (n.input.settings.careful || (n.body.needs_search && n.report.inverted > 0)) {
         n.iterations = std::max(n.iterations, SEARCHED_ITERATIONS);
         n.skipped = true;
         const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
@@ -273,7 +273,7 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
                 *workspace.system->row,
                 b,
                 iterations,
-                b > 0 && (iterations > 1 || workspace.system->row->needs_search),
+                b > 0 && (iterations > 1 || workspace.system->row->needs_search || input.settings.careful),
                 false};
     workspace.v = workspace.v_start;
     workspace.reach = stage.step;

@@ -31,6 +31,7 @@ struct SolveSettings {
     double newton_tolerance, tolerance;
     double mass_damping, stiffness_damping;  // zero when the damping effect is off [1/s], [s]
     double spectral_radius = 0.8;            // of generalized_alpha at infinite frequency, 0..1 [-]
+    bool careful = false;                    // every solve goes no farther than a line search says
 };
 
 // What a method that looks back keeps of its last step. It holds only for the motion that this step left: where

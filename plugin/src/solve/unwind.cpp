@@ -8,10 +8,12 @@
 
 namespace frond {
 
-// The same rotation the other way round; `rates` of the vector keep their angular velocities.
+// The same rotation as a vector within half a turn; `rates` of the vector keep their angular velocities.
 static void turn_back(VecX& x, int node, std::initializer_list<VecX*> rates) {
     const Vec3 turn = point(x, node);
-    const Vec3 back = turn * (1 - 2 * M_PI / turn.norm());
+    const double angle = turn.norm(), whole = 2 * M_PI * std::round(angle / (2 * M_PI));
+    if (whole == 0 || !std::isfinite(angle)) return;
+    const Vec3 back = turn * (1 - whole / angle);
     const Mat3 change = inverse_rate_matrix<double>(back) * rate_matrix<double>(turn);
     for (VecX* rate : rates)
         if (rate->size() == x.size()) point(*rate, node) = change * point(*rate, node);

@@ -35,8 +35,7 @@ Sides make_sides(std::vector<Contact>& contacts, double h) {
     for (Contact& contact : contacts) {
         Plant& plant = *contact.plant->plant;
         PlantTouch touch;
-        const Grip grip = capsule_grip(plant, contact.capsule, contact.along, contact.on_plant);
-        if (!make_touch(plant, grip, touch)) continue;
+        if (!make_touch(plant, capsule_grip(plant, contact.capsule, contact.along), touch)) continue;
         sides.contacts.push_back(&contact);
         sides.plants.push_back(std::move(touch));
         sides.pushers.push_back(make_pusher(*contact.other, contact.on_other, h));
@@ -75,6 +74,7 @@ void respond_to_contacts(World& world, std::vector<Contact>& contacts, double h)
         sides.contacts[i]->impulse = impulses[i];
         take_impulse(*sides.contacts[i]->plant->plant, sides.plants[i], impulses[i]);
     }
+    for (const std::unique_ptr<PlantBody>& body : world.bodies) add_contacts(*body->plant, h);
     // A plant that cannot bear it is put back, and then pushes nothing.
     for (size_t i = 0; i < impulses.size(); i++) {
         const Plant& plant = *sides.contacts[i]->plant->plant;
