@@ -62,6 +62,29 @@ TEST(Place, GuessesTheUnitOfAnAbsurdHeightAndWarns) {
     }
 }
 
+TEST(Place, APlantCalledAHerbIsNoTree) {
+    const struct {
+        const char *file, *part;
+        double height, scale;
+    } rows[] = {{"white_lily.glb", "pPlane1", 20, 0.1},   {"plant.glb", "Potted_Plant_Leaf_0", 10, 0.1},
+                {"flower.ply", "", 28, 0.1},              {"sunflower.glb", "", 2.5, 1},
+                {"tree.glb", "", 28, 1},                  {"bobble.obj", "Circle", 39, 1},
+                {"flower_tree.glb", "petals", 20, 1},     {"plant.glb", "Flowerless", 20, 1}};
+    for (const auto& row : rows) {
+        last_warning.clear();
+        set_log(keep_warning, nullptr);
+        Surface surface = make_plant(row.height, Vec3::UnitY());
+        surface.parts[0].name = row.part;
+        place_surface(surface, {0, Vec3::Zero(), row.file});
+        EXPECT_NEAR(surface.scale, row.scale, 1e-9) << row.file;
+        EXPECT_EQ(last_warning.empty(), row.scale == 1) << row.file;
+    }
+    // A scale that is given is taken.
+    Surface surface = make_plant(20, Vec3::UnitY());
+    place_surface(surface, {1, Vec3::Zero(), "lily.glb"});
+    EXPECT_EQ(surface.scale, 1);
+}
+
 TEST(Place, TakesScaleAndUpAsTold) {
     Surface surface = make_plant(2, Vec3::UnitX());
     place_surface(surface, {0.5, Vec3(3, 0, 0)});

@@ -177,7 +177,12 @@ TEST(Organs, OfALargeRoundShapeThatIsHeldUpAreFoliage) {
     sketch.surface.parts[0].name = "Object_1";
     const Grown grown = grow(sketch);
     ASSERT_EQ(grown.organs.size(), 2u) << "all of the ball is of one kind";
-    EXPECT_EQ(grown.organs[1].kind, "blade");
+    EXPECT_EQ(grown.organs[1].kind, "crown");
+    // What encloses nothing is a heap of leaves.
+    Sketch heap = ball_tree();
+    for (size_t i = 0; i < heap.surface.triangles.size(); i += 2)
+        std::swap(heap.surface.triangles[i][0], heap.surface.triangles[i][1]);
+    EXPECT_EQ(grow(heap).organs[1].kind, "blade");
     // Stems that fill the same box with little surface are none.
     Sketch bare;
     bare.tube(line({0, 0, 0}, {0, 4, 0}, 8), 0.1, 8);
@@ -185,6 +190,19 @@ TEST(Organs, OfALargeRoundShapeThatIsHeldUpAreFoliage) {
     const int second = bare.tube(line({0, 4, -1}, {0, 6, 1}, 8), 0.05, 8);
     bare.triangle(first + 32, second + 32, second + 33);  // they cross, as one component
     for (const Organ& organ : grow(bare).organs) EXPECT_EQ(organ.kind, "branch");
+}
+
+TEST(Organs, OfABushMayBeFoliageFromTheGroundOn) {
+    for (const char* name : {"Object_1", "BushBerries_2", "Hedge"}) {
+        Sketch sketch = ball_tree();
+        // The trunk shrinks to 7 cm.
+        for (Vec3& position : sketch.surface.positions)
+            position.y() = position.y() <= 4 ? 0.0175 * position.y() : position.y() - 3.93;
+        sketch.surface.parts[0].name = name;
+        bool has_crown = false;
+        for (const Organ& organ : grow(sketch).organs) has_crown = has_crown || organ.kind == "crown";
+        EXPECT_EQ(has_crown, std::string(name) != "Object_1") << name;
+    }
 }
 
 TEST(Organs, ThatAreGreenAndGrowOnWoodAreFoliage) {

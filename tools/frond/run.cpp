@@ -14,7 +14,7 @@ namespace {
 
 struct RunOptions {
     std::string what, shot, frames;
-    int steps = -1;  // the scene's own length
+    int steps = -1;  // none given: the scene's own length
     int every = 2;   // steps a frame
     bool json = false;
     std::vector<std::string> assignments;
@@ -67,7 +67,7 @@ nlohmann::ordered_json summary(const Play& play, const Record& record) {
     out["plants"] = last.plant_count;
     out["nodes"] = last.node_count;
     out["tets"] = last.tet_count;
-    out["steps"] = record.reports.size();
+    out["steps"] = record.ms_surface.size();
     out["time"] = last.time;
     out["tip_at_start"] = {record.tip_at_start.x, record.tip_at_start.y, record.tip_at_start.z};
     out["tip"] = {record.tip.x, record.tip.y, record.tip.z};
@@ -105,7 +105,9 @@ void print(const nlohmann::ordered_json& out) {
 class Film {
 public:
     Film(const std::string& folder, const View& view, double frames_per_second) : folder(folder) {
-        std::filesystem::create_directories(folder);
+        std::error_code failure;
+        std::filesystem::create_directories(folder, failure);
+        if (failure) throw SceneError("cannot make the folder " + folder + ": " + failure.message());
         frond_film_def def = frond_default_film_def();
         def.width = view.width;
         def.height = view.height;
@@ -166,6 +168,7 @@ void run(const RunOptions& options) {
     const int tip = tip_vertex(play.stage.plants[0]);
     record.tip = record.tip_at_start = vertex_place(play.stage.plants[0], tip);
     record.reports.resize(1);
+    must(frond_world_get_report(play.stage.world, &record.reports[0]));
     Progress progress("step", steps);
     for (int i = 0; i < steps; i++) {
         play.step();
@@ -208,7 +211,7 @@ void add_run(CLI::App& app) {
     for (const Scene& scene : scenes())
         if (scene.build) text += std::string(" ") + scene.name + " (" + scene.text + ")";
     command->add_option("what", options->what, text)->required();
-    command->add_option("--steps", options->steps, "default: the scene's own length");
+    command->add_option("--steps", options->steps, "default: the scene's own length")->check(CLI::Range(0, 1000000000));
     command->add_option("--shot", options->shot, "write a picture (PNG) of the end");
     command->add_option("--frames", options->frames,
                         "write frames, a contact sheet and a moving picture to this folder");

@@ -11,7 +11,7 @@ namespace {
 
 bool is_thin(const char* kind) {
     const std::string text = kind ? kind : "";
-    return text == "blade" || text == "flower" || text == "tendril";
+    return text == "blade" || text == "crown" || text == "flower" || text == "tendril";
 }
 
 void draw_surface(frond_picture* picture, frond_plant plant, frond_model model, const frond_model_info& info) {

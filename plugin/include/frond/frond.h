@@ -244,8 +244,8 @@ typedef struct frond_organ_material {
     frond_material material;
 } frond_organ_material;
 /* Published values for the kinds "stem", "petiole", "blade", "midrib", "peduncle", "flower", "fruit", "branch", "root",
- * "tendril" and "support" (stakes, pots), and for "grass_stem" and "grass_blade", which stems and blades get whose name
- * or material names a grass ("maize_blade"). Sources stand in plugin/src/model/materials.cpp. BAD_ARGUMENT names the
+ * "tendril", "crown" (foliage drawn as a solid) and "support" (stakes, pots), and for "grass_stem" and "grass_blade",
+ * which stems and blades get whose name or material names a grass. Sources stand in plugin/src/model/materials.cpp. BAD_ARGUMENT names the
  * kinds there are. */
 FROND_API frond_result frond_material_preset(const char* kind, frond_material* out);
 

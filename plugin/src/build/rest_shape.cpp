@@ -83,11 +83,12 @@ struct Search {
     }
 };
 
-// Of the node that moves farthest.
+// Of the node that moves farthest; -1 if none moves.
 int organ_of_largest(const Model& model, const VecX& move) {
     int node = 0;
     for (int i = 1; i < move.size() / 3; i++)
         if (point(move, i).squaredNorm() > point(move, node).squaredNorm()) node = i;
+    if (point(move, node).isZero(0)) return -1;
     for (size_t e = 0; e < model.cage.tets.size(); e++)
         for (int corner : model.cage.tets[e])
             if (corner == node) return model.cage.tet_organ[e];
@@ -102,7 +103,7 @@ bool balance(Search& search, double gravity) {
     constexpr int PATIENCE = 5;         // rounds in which moves must become half as large
     const VecX start = search.rest;
     std::vector<double> sizes;
-    VecX move(search.x.size());
+    VecX move = VecX::Zero(search.x.size());
     for (int round = 0; round < ROUNDS; round++) {
         const VecX force = unbalanced_force(search.elements, search.held, search.which, search.x, gravity);
         if (!search.system.find_move(search.elements, search.which, search.x, gravity, force, move)) break;

@@ -27,7 +27,7 @@ constexpr double SHORT_PIECE = 0.15;                  // of a band: nor is one i
 
 // Sheets, fruits and supports are cut apart from tubes, so that a leaf does not pull the stem's node aside.
 int group_of_kind(const std::string& kind) {
-    if (kind == "blade" || kind == "midrib" || kind == "flower") return 1;
+    if (kind == "blade" || kind == "midrib" || kind == "flower" || kind == "crown") return 1;
     if (kind == "fruit") return 2;
     if (kind == "support") return SUPPORT_GROUP;
     return 0;

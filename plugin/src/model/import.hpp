@@ -8,6 +8,7 @@ namespace frond {
 struct ImportOptions {
     double scale = 0;        // 0: guess
     Vec3 up = Vec3::Zero();  // zero: guess
+    std::string name = {};   // of the file, which may say what plant it is
 };
 
 // A tet mesher's output: nodes and tets as they stand, and their boundary as surface.

@@ -6,11 +6,13 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "model/import.hpp"
+#include "model/organ_clues.hpp"
 
 namespace frond {
 
 // Heights that are believed [m], and the range that a guess aims at.
 static constexpr double SMALLEST_PLANT = 0.02, TALLEST_PLANT = 50;
+static constexpr double TALLEST_HERB = 6;  // sunflowers, tree ferns; a plant in a pot
 static constexpr double GUESS_LOWER = 0.1, GUESS_UPPER = 3;
 // z must beat y by this much to be taken for up.
 static constexpr double UP_MARGIN = 0.25;
@@ -122,14 +124,25 @@ static void turn_surface(Surface& surface, const Vec3& up) {
     surface.up = up;
 }
 
-static void scale_surface(Surface& surface, double wanted) {
+// What is called a lily is no 20 m high.
+static double tallest_of(const Surface& surface, const std::string& file) {
+    std::vector<std::string> names = {file};
+    for (const Part& part : surface.parts) {
+        names.push_back(part.name);
+        names.push_back(part.material);
+    }
+    return names_a_herb(names) ? TALLEST_HERB : TALLEST_PLANT;
+}
+
+static void scale_surface(Surface& surface, const ImportOptions& options) {
+    const double wanted = options.scale;
     double factor = wanted > 0 ? wanted / surface.scale : 1;
     if (wanted == 0) {
         // A flat plant (a leaf lying on the ground) is judged by its length.
         const Eigen::AlignedBox3d box = box_of(surface.positions);
         const double size = box.isEmpty() ? 0 : box.diagonal().norm();
         const double height = size > 0 && box.sizes().y() < 0.05 * size ? size : box.sizes().y();
-        if (size > 0 && (height < SMALLEST_PLANT || height > TALLEST_PLANT)) {
+        if (size > 0 && (height < SMALLEST_PLANT || height > tallest_of(surface, options.name))) {
             factor = guess_scale(height);
             warn(
                 "the plant would be %.3g m tall; taking one file unit as %.3g m, so that it is %.3g m; set the scale "
@@ -161,7 +174,7 @@ void place_surface(Surface& surface, const ImportOptions& options) {
         turn_surface(surface, options.up.normalized());
     else if (!surface.up_declared)
         turn_surface(surface, guess_up(surface));
-    scale_surface(surface, options.scale);
+    scale_surface(surface, options);
     clean_surface(surface);
     fetch_surface(surface);
     surface.placed = true;
@@ -172,7 +185,7 @@ void place_points(std::vector<Vec3>& points, const ImportOptions& options, Surfa
     check_options(options);
     surface.positions.swap(points);
     if (!options.up.isZero(0)) turn_surface(surface, options.up.normalized());
-    scale_surface(surface, options.scale);
+    scale_surface(surface, options);
     surface.positions.swap(points);
 }
 

@@ -249,7 +249,9 @@ Surface run_importer(const std::string& path, const ImportLimits& wanted) {
 Surface import_surface(const std::string& path, const ImportOptions& options) {
     Surface surface = run_importer(path, ImportLimits());
     try {
-        place_surface(surface, options);
+        ImportOptions named = options;
+        named.name = file_name(path);
+        place_surface(surface, named);
     } catch (const Error& error) {
         throw Error(error.code, file_name(path) + ": " + error.what());
     }

@@ -109,6 +109,10 @@ static const MaterialRow MATERIALS[] = {
     // The middle of living branches [4]; green wood sinks or nearly so. Twist [14], damping [15], yield and strength
     // [19], creep [20]. Friction: estimate, bark is rougher than stems.
     {"branch", {950, 3.0e9, 0.35, 3.0e-3, 0, 7, 0.03, 0.5, 0.008, WOOD_CREEP, 4.5e7}},
+    // Foliage drawn as one solid: leaves, twigs and mostly air. Estimates: 2-5 m^2 of leaf a cubic metre, 0.25 kg each
+    // when fresh, and as much again in twigs; stiff enough to keep its shape and too soft to hold up the branches in it.
+    // It gives way without harm.
+    {"crown", {4, 5.0e4, 0.20, 0.4e-3, 0, ISOTROPIC, 0.10, 0.38, 0, 0, 0}},
     // Hydrated: between herbs and wood [11]. Strength: thick roots of herbs [22]. Friction: estimate, as bark.
     {"root", {1000, 2.0e8, 0.35, 2.0e-3, 0, ISOTROPIC, 0.06, 0.5, 0.025, HERB_CREEP, 7.5e6}},
     // Thin, lignified late [10]. Strength: 2 N [23] on a tendril of half a millimetre. Friction: estimate, they hold on

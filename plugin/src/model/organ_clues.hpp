@@ -14,9 +14,16 @@ struct NameClue {
 NameClue read_name(const std::string& name);
 // "maize_blade", "wheat culm": grasses have stiffer stems and blades than herbs.
 bool names_a_grass(const std::string& name);
+// "BushBerries": a round solid that stands on the ground may be foliage.
+bool names_a_bush(const std::string& name);
+// Whether names speak of a herb or a pot plant, and none of a tree: it grows to some metres at most.
+bool names_a_herb(const std::vector<std::string>& names);
 // For each part its kind, or empty; node names go before material names.
 std::vector<std::string> kinds_by_name(const Surface& surface);
 // For each triangle whether it belongs to a sheet (a leaf, open or closed) rather than to a tube.
 std::vector<char> find_sheets(const Topology& topology);
+// For each triangle whether it belongs to foliage that is drawn as one solid: held up by something else, or also on the
+// ground where that may be.
+std::vector<char> find_crowns(const Topology& topology, bool on_ground);
 
 }  // namespace frond

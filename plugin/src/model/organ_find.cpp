@@ -52,11 +52,18 @@ static std::vector<std::string> kinds_of_triangles(const Surface& surface, const
         find_cards(surface, sheets, named);
         find_foliage(surface, named);
     }
+    const bool is_bush = std::any_of(surface.parts.begin(), surface.parts.end(), [](const Part& part) {
+        return names_a_bush(part.name) || names_a_bush(part.material);
+    });
+    const std::vector<char> crowns = find_crowns(topology, is_bush);
     const std::string tube = surface.height() > TREE_HEIGHT ? "branch" : "stem";
     for (size_t i = 0; i < surface.parts.size(); i++) {
         const Part& part = surface.parts[i];
         for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
-            kinds[size_t(t)] = !named[i].empty() ? named[i] : sheets[size_t(t)] ? "blade" : tube;
+            if (crowns[size_t(t)] && (named[i].empty() || named[i] == "blade"))
+                kinds[size_t(t)] = "crown";
+            else
+                kinds[size_t(t)] = !named[i].empty() ? named[i] : sheets[size_t(t)] ? "blade" : tube;
     }
     return kinds;
 }

@@ -199,12 +199,34 @@ NameClue read_name(const std::string& name) {
     return {kind, false};
 }
 
-bool names_a_grass(const std::string& name) {
-    static const std::set<std::string> grasses = {"grass", "maize",  "corn",   "wheat",   "barley", "rye",
-                                                  "oat",   "rice",   "millet", "sorghum", "reed",   "bamboo",
-                                                  "cane",  "cereal", "culm",   "mais",    "weizen", "gras"};
+static bool has_word(const std::string& name, const std::set<std::string>& wanted) {
     const std::vector<std::string> words = words_of(name);
-    return std::any_of(words.begin(), words.end(), [](const std::string& word) { return grasses.count(word) > 0; });
+    return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+        return wanted.count(word) > 0 || (word.back() == 's' && wanted.count(word.substr(0, word.size() - 1)) > 0);
+    });
+}
+
+bool names_a_grass(const std::string& name) {
+    return has_word(name,
+                    {"grass", "maize", "corn", "wheat", "barley", "rye", "oat", "rice", "millet", "sorghum", "reed",
+                     "bamboo", "cane", "cereal", "culm", "mais", "weizen", "gras"});
+}
+
+bool names_a_bush(const std::string& name) {
+    return has_word(name, {"bush", "shrub", "hedge", "busch", "strauch", "hecke", "arbusto", "arbuste", "buisson"});
+}
+
+bool names_a_herb(const std::vector<std::string>& names) {
+    static const std::set<std::string> trees = {"tree", "trunk", "bark",  "wood", "log",  "palm", "twig",  "bush",
+                                                "pine", "oak",   "baum",  "ast",  "stamm", "holz", "arbre", "bamboo"};
+    static const std::set<std::string> herbs = {
+        "flower", "tulip",    "rose",  "daisy", "lily",  "orchid", "poppy", "sunflower", "daffodil",  "dandelion",
+        "blume",  "fern",     "herb",  "wheat", "corn",  "maize",  "crop",  "tomato",    "basil",     "monstera",
+        "pot",    "plantpot", "potted"};
+    const auto speak_of = [&](const std::set<std::string>& words) {
+        return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return has_word(name, words); });
+    };
+    return speak_of(herbs) && !speak_of(trees);
 }
 
 // Words that all names have and that would make all parts pots, fruits or flowers: "FlowerPot6" is the whole.

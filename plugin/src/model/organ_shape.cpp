@@ -2,7 +2,7 @@
 // The plant is cut into short bands along its distance from the ground. A piece of a band is a sheet when its normals,
 // taken without sign, all point nearly the same way, or when open edges run along it on both sides; a ring of a tube
 // has normals all around and no open edge along it. That works for closed thin leaves and for coarse tubes alike. A
-// large round component that is held up is a crown, and counts as leaves.
+// large round component that is held up stands for leaves; if it encloses a volume it is a crown drawn as a solid.
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -95,32 +95,59 @@ static void smooth_pieces(const Bands& bands, std::vector<char>& sheet) {
         if (same[i] == 0 && other[i] > 1.5 * bands.pieces[i].area) sheet[i] = !sheet[i];
 }
 
-// Crowns drawn as solids: components that are about as wide as high, with as much surface as a ball of that size at
-// least, large, and held up by something else. What they stand for are leaves.
-static std::vector<char> find_crowns(const Topology& topology) {
-    constexpr double ROUND = 0.35, SOLID = 0.35, LARGE = 0.2, HELD_UP = 0.12;
-    std::vector<Eigen::AlignedBox3d> boxes(size_t(topology.component_count));
-    std::vector<double> areas(boxes.size(), 0.0);
-    Eigen::AlignedBox3d whole;
+// A component as it looks from afar.
+struct Lump {
+    Eigen::AlignedBox3d box;
+    double area = 0;    // [m^2]
+    double volume = 0;  // that its triangles enclose, seen from a corner of the first one [m^3]
+};
+
+static std::vector<Lump> measure_lumps(const Topology& topology) {
+    std::vector<Lump> lumps(size_t(topology.component_count));
+    std::vector<Vec3> origin(lumps.size());
     for (size_t t = 0; t < topology.triangles.size(); t++) {
         const size_t component = size_t(topology.triangle_component[t]);
+        Lump& lump = lumps[component];
         const Triangle& corners = topology.triangles[t];
         const Vec3 &a = topology.points[size_t(corners[0])], &b = topology.points[size_t(corners[1])],
                    &c = topology.points[size_t(corners[2])];
-        boxes[component].extend(a).extend(b).extend(c);
-        areas[component] += 0.5 * (b - a).cross(c - a).norm();
+        if (lump.box.isEmpty()) origin[component] = a;
+        lump.box.extend(a).extend(b).extend(c);
+        lump.area += 0.5 * (b - a).cross(c - a).norm();
+        lump.volume += (a - origin[component]).dot((b - origin[component]).cross(c - origin[component])) / 6;
     }
-    for (const Eigen::AlignedBox3d& box : boxes) whole.extend(box);
-    std::vector<char> crown(boxes.size(), 0);
-    for (size_t i = 0; i < boxes.size(); i++) {
-        if (boxes[i].isEmpty()) continue;
-        const Vec3 size = boxes[i].sizes();
+    return lumps;
+}
+
+// Components that stand for many leaves: about as wide as high, with as much surface as a ball of that size at least,
+// large, and held up by something else unless they may stand on the ground.
+static std::vector<char> find_round(const std::vector<Lump>& lumps, bool on_ground) {
+    constexpr double ROUND = 0.35, SOLID = 0.35, LARGE = 0.2, HELD_UP = 0.12;
+    Eigen::AlignedBox3d whole;
+    for (const Lump& lump : lumps) whole.extend(lump.box);
+    std::vector<char> round(lumps.size(), 0);
+    for (size_t i = 0; i < lumps.size(); i++) {
+        if (lumps[i].box.isEmpty()) continue;
+        const Vec3 size = lumps[i].box.sizes();
         const double surface = 2 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
-        crown[i] = size.minCoeff() > ROUND * size.maxCoeff() && areas[i] > SOLID * surface &&
-                   size.norm() > LARGE * whole.sizes().norm() &&
-                   boxes[i].min().y() > whole.min().y() + HELD_UP * whole.sizes().y();
+        const double foot = whole.min().y() + HELD_UP * whole.sizes().y();
+        round[i] = size.minCoeff() > ROUND * size.maxCoeff() && lumps[i].area > SOLID * surface &&
+                   size.norm() > LARGE * whole.sizes().norm() && (on_ground || lumps[i].box.min().y() > foot);
     }
-    return crown;
+    return round;
+}
+
+std::vector<char> find_crowns(const Topology& topology, bool on_ground) {
+    constexpr double FULL = 0.2;     // share of its box that a solid fills: a cone 0.26, a ball 0.52
+    constexpr double COMPACT = 0.2;  // 36 pi V^2 / A^3: a ball 1, a cube 0.52; a rosette of thick leaves 0.1
+    const std::vector<Lump> lumps = measure_lumps(topology);
+    std::vector<char> crown = find_round(lumps, on_ground);
+    for (size_t i = 0; i < lumps.size(); i++)
+        crown[i] = crown[i] && std::abs(lumps[i].volume) > FULL * lumps[i].box.volume() &&
+                   36 * M_PI * std::pow(lumps[i].volume, 2) > COMPACT * std::pow(lumps[i].area, 3);
+    std::vector<char> found(topology.triangles.size());
+    for (size_t t = 0; t < found.size(); t++) found[t] = crown[size_t(topology.triangle_component[t])];
+    return found;
 }
 
 std::vector<char> find_sheets(const Topology& topology) {
@@ -152,12 +179,12 @@ std::vector<char> find_sheets(const Topology& topology) {
         area[size_t(bands.pieces[i].component)] += bands.pieces[i].area;
         if (sheet[i]) flat[size_t(bands.pieces[i].component)] += bands.pieces[i].area;
     }
-    const std::vector<char> crown = find_crowns(topology);
+    const std::vector<char> round = find_round(measure_lumps(topology), false);
     std::vector<char> found(count);
     for (size_t t = 0; t < count; t++) {
         const size_t component = size_t(topology.triangle_component[t]);
         const double share = area[component] > 0 ? flat[component] / area[component] : 1;
-        found[t] = crown[component] || share >= WHOLE ||
+        found[t] = round[component] || share >= WHOLE ||
                    (share > 1 - WHOLE && sheet[size_t(piece_of(topology, bands, t))]);
     }
     return found;
