@@ -25,9 +25,9 @@ StaticStiffness::StaticStiffness(const BlockPattern& pattern) : plan(make_direct
 }
 
 bool StaticStiffness::set(const Elements& elements, const std::vector<uint8_t>& held, frond_mechanics which,
-                          Tangent tangent, const VecX& x) {
+                          Tangent tangent, const VecX& x, int order) {
     K.set_zero();
-    mechanics(which).add_stiffness(elements, x, tangent, 1, K);
+    mechanics(which, order).add_stiffness(elements, x, tangent, 1, K);
     hold(held, K);
     return factorize(*factor, K);
 }

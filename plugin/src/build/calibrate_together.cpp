@@ -1,0 +1,86 @@
+// Organs that cannot be taken alone, because their tets lie scattered among those of others, get one factor together:
+// under equal loads elastic energy is inversely proportional to modulus, so under the plant's weight, along each of the
+// three axes, the ratio of energies, cage over rods, is the factor.
+#include <algorithm>
+#include <cmath>
+
+#include "build/calibrate_together.hpp"
+#include "build/static_stiffness.hpp"
+#include "mechanics/tet_element.hpp"
+
+namespace frond {
+namespace {
+
+// Elastic energy of organs' rods under weight along an axis [J]; forces and moments are summed from the tips down.
+double rod_energy(const Model& model, int axis, const std::vector<char>& left_out) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    std::vector<Vec3> force(nodes.size()), moment(nodes.size());
+    for (size_t i = 0; i < nodes.size(); i++) {
+        force[i] = GRAVITY * model.chain_mass[i] * Vec3::Unit(axis);
+        moment[i] = nodes[i].position.cross(force[i]);
+    }
+    double sum = 0;
+    for (size_t i = nodes.size(); i-- > 0;) {
+        if (nodes[i].parent < 0) continue;
+        const size_t parent = size_t(nodes[i].parent), organ = size_t(nodes[i].organ);
+        const Section& section = model.sections[i];
+        const Vec3 M = moment[i] - (0.5 * (nodes[i].position + nodes[parent].position)).cross(force[i]);
+        const auto share = [&](double load, double stiffness) { return load * load / stiffness; };
+        if (!left_out[organ])
+            sum += section.length / (2 * model.organ_stiffer[organ]) *
+                   (share(M.dot(section.wide()), section.bending_thin()) +
+                    share(M.dot(section.thin), section.bending_wide()) +
+                    share(M.dot(section.axis), section.twisting()) +
+                    share(force[i].dot(section.axis), section.stretching()));
+        force[parent] += force[i];
+        moment[parent] += moment[i];
+    }
+    return sum;
+}
+
+// Elastic energy of organs' tets whose nodes moved [J].
+double cage_energy(const Model& model, const TetElements& elements, const VecX& moved, const std::vector<char>& left_out) {
+    double sum = 0;
+    for (size_t e = 0; e < elements.tets.size(); e++) {
+        if (left_out[size_t(model.cage.tet_organ[e])]) continue;
+        const Mat3 F = deformation_gradient(elements, e, moved), strain = 0.5 * (F + F.transpose());
+        const double trace = strain.trace();
+        sum += elements.volume[e] * (elements.mu[e] * strain.squaredNorm() + 0.5 * elements.lambda[e] * trace * trace);
+    }
+    return sum;
+}
+
+}  // namespace
+
+void calibrate_together(Model& model, const std::vector<char>& alone) {
+    constexpr int ROUNDS = 4;
+    constexpr double LARGEST_FACTOR = 1e6;  // of a modulus in a round [-]
+    if (std::all_of(alone.begin(), alone.end(), [](char is) { return is; })) return;
+    double rods = 0;
+    for (int axis = 0; axis < 3; axis++) rods += rod_energy(model, axis, alone);
+    TetElements elements = make_tet_elements(model);
+    StaticStiffness stiffness(elements.pattern);
+    const VecX masses = mechanics(FROND_TET_LINEAR).masses(elements, FROND_LUMPED).node;
+    VecX load(elements.rest_positions.size()), moved(load.size());
+    for (int round = 0; round < ROUNDS; round++) {
+        if (!stiffness.set(elements, model.root, FROND_TET_LINEAR, Tangent::positive, elements.rest_positions)) return;
+        double cage = 0;
+        for (int axis = 0; axis < 3; axis++) {
+            load.setZero();
+            for (size_t i = 0; i < model.root.size(); i++)
+                if (!model.root[i]) load[3 * Eigen::Index(i) + axis] = GRAVITY * masses[Eigen::Index(i)];
+            solve(*stiffness.factor, load, moved);
+            cage += cage_energy(model, elements, moved, alone);
+        }
+        if (!(rods > 0 && cage > 0)) return;
+        const double factor = std::clamp(cage / rods, 1 / LARGEST_FACTOR, LARGEST_FACTOR);
+        for (size_t e = 0; e < model.tet_young.size(); e++) {
+            if (alone[size_t(model.cage.tet_organ[e])]) continue;
+            model.tet_young[e] *= factor;
+            elements.mu[e] *= factor;
+            elements.lambda[e] *= factor;
+        }
+    }
+}
+
+}  // namespace frond
