@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.21)
 # Each folder of plugin/src may include only itself and those named before it; Eigen and Bullet stay out of frond.h, and
 # examples and tools see public headers only.
-set(order core model mechanics solve build plant collide world api)
+set(order core model mechanics solve collide build plant world api)
 set(errors "")
 
 set(allowed "")

@@ -62,6 +62,22 @@ static bool crosses(const Vec3& begin, const Vec3& end, const Corners& triangle,
     return true;
 }
 
+NearestPair nearest_of_segment_and_triangle(const Vec3& begin, const Vec3& end, const Corners& triangle) {
+    Vec3 place;
+    if (crosses(begin, end, triangle, place)) return {place, place, 0};
+    NearestPair best = nearest_of_segments(begin, end, triangle[0], triangle[1]);
+    const auto take = [&best](const NearestPair& pair) {
+        if (pair.squared < best.squared) best = pair;
+    };
+    take(nearest_of_segments(begin, end, triangle[1], triangle[2]));
+    take(nearest_of_segments(begin, end, triangle[2], triangle[0]));
+    for (const Vec3& tip : {begin, end}) {
+        const Vec3 in_triangle = nearest_in_triangle(triangle, tip);
+        take({tip, in_triangle, (tip - in_triangle).squaredNorm()});
+    }
+    return best;
+}
+
 bool are_apart(const Corners& a, const Corners& b, const Vec3& direction, double squared) {
     const double a0 = direction.dot(a[0]), a1 = direction.dot(a[1]), a2 = direction.dot(a[2]);
     const double b0 = direction.dot(b[0]), b1 = direction.dot(b[1]), b2 = direction.dot(b[2]);

@@ -1,0 +1,47 @@
+// CageContact: a place where two cages, or two parts of one, are in each other, and the way by which they come apart.
+#pragma once
+
+#include <memory>
+
+#include "collide/overlap.hpp"
+
+namespace frond {
+
+enum ContactKind : uint8_t {
+    CONTACT_NODE_IN_TET,   // a is a node, b the tet around it
+    CONTACT_EDGE_ON_EDGE,  // both are boundary edges, which have passed each other
+    CONTACT_EDGE_IN_FACE   // a is an edge, b a face through which it goes
+};
+
+// A point of a cage: the sum of weights[k] * place of nodes[k]. Entries from node_count on are zero.
+struct ContactSide {
+    int body;   // as in what find_cage_contacts was given
+    int organ;  // as in Cage::tet_organ
+    int node_count;
+    std::array<int, 4> nodes;
+    std::array<double, 4> weights;  // add up to one
+};
+
+// Both points are at one place or lie along the normal from each other, so that opposite forces on them have no torque.
+struct CageContact {
+    ContactKind kind;
+    ContactSide a, b;
+    Vec3 point;    // of a [m]
+    Vec3 normal;   // along which a leaves b, length one
+    double depth;  // how far a has to move along it [m], > 0
+};
+
+// Memory that is kept between searches.
+struct ContactSearch;
+using ContactSearchPtr = std::unique_ptr<ContactSearch, void (*)(ContactSearch*)>;
+ContactSearchPtr make_contact_search();
+
+// Contacts of all bodies with each other, and with themselves where they say so. The order is by bodies and then by
+// their nodes and edges; nothing of it depends on the settings. A node within a tet gets depth and normal from where
+// its neighbours' edges enter, and deeper nodes get theirs from these (Heidelberger, Teschner, Keiser, Mueller, Gross
+// 2004, "Consistent Penetration Depth Estimation for Deformable Collision Response"). An edge that passes through
+// without a node inside leaves across the boundary edge of the other cage that is beside it, deeper ones as those do.
+void find_cage_contacts(ContactSearch& search, const std::vector<CollisionBody>& bodies, const HashSettings& settings,
+                   std::vector<CageContact>& out);
+
+}  // namespace frond

@@ -1,0 +1,62 @@
+// Hash: which boxes overlap, found through cells of space. The layouts are rows of a table; all of them, and the twin
+// that tries every pair, give the same pairs always.
+#pragma once
+
+#include "core/types.hpp"
+
+namespace frond {
+
+enum HashLayout {
+    HASH_GRID,         // a dense grid of cells whose entries lie side by side
+    HASH_PAPER,        // a table of buckets, as in the paper
+    HASH_BRUTE_FORCE,  // every pair
+    HASH_LAYOUT_COUNT
+};
+
+struct HashSettings {
+    HashLayout layout = HASH_GRID;
+    int table_size = 0;    // n, buckets of HASH_PAPER; 0 chooses
+    double cell_size = 0;  // l [m]; 0 chooses one and a half mean edges. Never below an eighth of the mean edge
+};
+
+// Boxes of one group do not meet each other.
+struct BoxSet {
+    struct Bounds {
+        double lower[3], upper[3];  // [m]
+        int group;
+    };
+    std::vector<Bounds> boxes;
+};
+
+// Memory that is kept between searches.
+struct HashMemory {
+    std::vector<std::array<int, 2>> entries;  // a cell or bucket, and an item in it
+    std::vector<int> owner, start, items, next;
+};
+
+// Adds pairs (item, query) of boxes that overlap or touch and are of different groups, in any order, perhaps several
+// times.
+struct HashRow {
+    const char* name;
+    // Drops boxes (0 in `kept`) near which there is none of another group, not all of them; null: drops none.
+    void (*cull)(const BoxSet& boxes, double cell_size, HashMemory& memory, std::vector<uint8_t>& kept);
+    void (*find)(const BoxSet& items, const BoxSet& queries, int table_size, double cell_size, HashMemory& memory,
+                 std::vector<std::array<int, 2>>& out);
+};
+const HashRow& hash_row(HashLayout layout);
+
+// The rows.
+void cull_by_grid(const BoxSet& boxes, double cell_size, HashMemory& memory, std::vector<uint8_t>& kept);
+void find_pairs_by_grid(const BoxSet& items, const BoxSet& queries, int table_size, double cell_size,
+                        HashMemory& memory, std::vector<std::array<int, 2>>& out);
+void find_pairs_by_table(const BoxSet& items, const BoxSet& queries, int table_size, double cell_size,
+                         HashMemory& memory, std::vector<std::array<int, 2>>& out);
+void find_pairs_by_trying(const BoxSet& items, const BoxSet& queries, int table_size, double cell_size,
+                          HashMemory& memory, std::vector<std::array<int, 2>>& out);
+
+inline bool boxes_meet(const BoxSet::Bounds& a, const BoxSet::Bounds& b) {
+    return a.group != b.group && a.lower[0] <= b.upper[0] && b.lower[0] <= a.upper[0] && a.lower[1] <= b.upper[1] &&
+           b.lower[1] <= a.upper[1] && a.lower[2] <= b.upper[2] && b.lower[2] <= a.upper[2];
+}
+
+}  // namespace frond

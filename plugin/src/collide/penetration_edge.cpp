@@ -1,0 +1,184 @@
+// Contacts of edges: edges of one body that go through faces of another without an end inside come in, contacts with
+// depth and normal go out. Where a boundary edge of the other body is beside the faces that are gone through, and both
+// edges are the outermost along the line across both (the Gauss-map test of edge pairs in separating-axis tests:
+// Gregorius 2013, "The Separating Axis Test between Convex Polyhedra"), that is the way out; edges deeper inside take
+// it over from their neighbours as nodes do.
+#include <algorithm>
+#include <map>
+
+#include "collide/penetration.hpp"
+
+namespace frond {
+
+// An edge of a inside b, from where it goes in to where it comes out.
+struct Chord {
+    int edge, first, last;  // overlaps
+    int other_edge = -1;    // of b, across which it leaves
+    double along = 0, other_along = 0;
+};
+
+static Vec3 edge_place(const OverlapScene& scene, int body, int edge, double along) {
+    const auto& ends = scene.bodies[size_t(body)].collider->edges[size_t(edge)];
+    return scene.place(body, ends[0]) + along * (scene.place(body, ends[1]) - scene.place(body, ends[0]));
+}
+
+static std::vector<Chord> find_chords(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside) {
+    const OverlapScene& scene = search.scene;
+    const Collider& a = *scene.bodies[size_t(pair.a)].collider;
+    const int base = scene.first_node[size_t(pair.a)];
+    std::vector<Chord> chords;
+    for (size_t k = 0; k < pair.edges.size();) {
+        const size_t first = k;
+        const int edge = search.edges[size_t(pair.edges[k])].edge;
+        while (k < pair.edges.size() && search.edges[size_t(pair.edges[k])].edge == edge) ++k;
+        const int number = scene.edge[size_t(edge)];
+        const auto& ends = a.edges[size_t(number)];
+        if (inside[size_t(base + ends[0])] >= 0 || inside[size_t(base + ends[1])] >= 0) continue;
+        chords.push_back({number, pair.edges[first], pair.edges[k - 1]});
+    }
+    return chords;
+}
+
+// The boundary edges of the faces that a chord goes through, and of the faces beside those.
+static void gather_edges(const Collider& b, const OverlapScene& scene, const OverlapSearch& search, const Chord& chord,
+                         std::vector<int>& out) {
+    out.clear();
+    for (const int overlap : {chord.first, chord.last})
+        for (const int edge : b.face_edges[size_t(scene.face[size_t(search.edges[size_t(overlap)].face)])])
+            for (const int face : b.edge_faces[size_t(edge)])
+                out.insert(out.end(), b.face_edges[size_t(face)].begin(), b.face_edges[size_t(face)].end());
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+}
+
+// Whether a direction across an edge points between the normals of its two faces, which form a ridge.
+static bool is_outward(const OverlapScene& scene, int body, int edge, const Vec3& direction) {
+    constexpr double FLAT = 1e-4, ROUNDING = 0.01;
+    const Collider& collider = *scene.bodies[size_t(body)].collider;
+    const auto [f, g] = collider.edge_faces[size_t(edge)];
+    const Vec3 n = face_normal(scene, body, f), m = face_normal(scene, body, g);
+    const double cosine = n.dot(m), sine_squared = 1 - cosine * cosine;
+    if (!(sine_squared > FLAT)) return false;
+    // A ridge: the far corner of the one face is below the other.
+    const auto& ends = collider.edges[size_t(edge)];
+    const Triangle& other = collider.faces[size_t(g)];
+    int far_corner = other[0];
+    for (const int corner : other)
+        if (corner != ends[0] && corner != ends[1]) far_corner = corner;
+    if (n.dot(scene.place(body, far_corner) - scene.place(body, ends[0])) >= 0) return false;
+    const double along_n = direction.dot(n), along_m = direction.dot(m);
+    return along_n - cosine * along_m >= -ROUNDING * sine_squared &&
+           along_m - cosine * along_n >= -ROUNDING * sine_squared;
+}
+
+// Across which edge of b the chord leaves on the shortest way.
+static WayOut leave_across(const OverlapScene& scene, const BodyPair& pair, const std::vector<int>& candidates,
+                           Chord& chord) {
+    WayOut best;
+    const Vec3 p = edge_place(scene, pair.a, chord.edge, 0), d = edge_place(scene, pair.a, chord.edge, 1) - p;
+    for (const int edge : candidates) {
+        const Vec3 q = edge_place(scene, pair.b, edge, 0), e = edge_place(scene, pair.b, edge, 1) - q;
+        const Vec3 across = d.cross(e);
+        const double squared = across.squaredNorm();
+        if (!(squared > 1e-6 * d.squaredNorm() * e.squaredNorm())) continue;
+        // Where the lines are nearest.
+        const double along = (q - p).cross(e).dot(across) / squared;
+        const double other_along = (q - p).cross(d).dot(across) / squared;
+        if (along < 0 || along > 1 || other_along < 0 || other_along > 1) continue;
+        Vec3 normal = across / std::sqrt(squared);
+        double depth = normal.dot(q - p);
+        if (depth < 0) {
+            normal = -normal;
+            depth = -depth;
+        }
+        if (!(depth > 0) || (best.known && depth >= best.depth) || !is_outward(scene, pair.b, edge, normal)) continue;
+        best = {p + along * d, normal, depth, true};
+        chord.other_edge = edge;
+        chord.along = along;
+        chord.other_along = other_along;
+    }
+    return best;
+}
+
+// Where nothing beside tells the way: out on the side of the faces gone through, else back against a's own outside.
+static void leave_anyhow(const OverlapSearch& search, const BodyPair& pair, const Chord& chord, WayOut& way) {
+    const OverlapScene& scene = search.scene;
+    const auto normal_at = [&](int overlap) {
+        return face_normal(scene, pair.b, scene.face[size_t(search.edges[size_t(overlap)].face)]);
+    };
+    Vec3 normal = normal_at(chord.first) + normal_at(chord.last);
+    if (!(normal.norm() > 0.2)) {
+        const auto& faces = scene.bodies[size_t(pair.a)].collider->edge_faces[size_t(chord.edge)];
+        normal = -face_normal(scene, pair.a, faces[0]) - face_normal(scene, pair.a, faces[1]);
+    }
+    if (!(normal.norm() > 1e-6)) return;
+    // Half of what is inside.
+    way.normal = normal.normalized();
+    way.depth = 0.5 * (edge_place(scene, pair.a, chord.edge, search.edges[size_t(chord.last)].along) -
+                       edge_place(scene, pair.a, chord.edge, search.edges[size_t(chord.first)].along)).norm();
+    way.known = true;
+}
+
+// Chords whose edges share a node.
+static std::vector<std::vector<int>> find_neighbours(const Collider& a, const std::vector<Chord>& chords) {
+    std::map<int, std::vector<int>> at_node;
+    for (size_t i = 0; i < chords.size(); ++i)
+        for (const int end : a.edges[size_t(chords[i].edge)]) at_node[end].push_back(int(i));
+    std::vector<std::vector<int>> neighbours(chords.size());
+    for (const auto& [node, list] : at_node)
+        for (const int i : list)
+            for (const int j : list)
+                if (i != j) neighbours[size_t(i)].push_back(j);
+    return neighbours;
+}
+
+static CageContact contact_of(const OverlapSearch& search, const BodyPair& pair, const Chord& chord,
+                              const WayOut& way) {
+    const OverlapScene& scene = search.scene;
+    const Collider &a = *scene.bodies[size_t(pair.a)].collider, &b = *scene.bodies[size_t(pair.b)].collider;
+    const int a_tet = a.face_tet[size_t(a.edge_faces[size_t(chord.edge)][0])];
+    const bool across = chord.other_edge >= 0;
+    const EdgeOverlap& overlap = search.edges[size_t(chord.first)];
+    const double along = across ? chord.along : overlap.along;
+    const std::array<double, 2> weights = {1 - along, along};
+    CageContact contact;
+    contact.kind = across ? CONTACT_EDGE_ON_EDGE : CONTACT_EDGE_IN_FACE;
+    contact.a = side_of_nodes(a, pair.a, a.edges[size_t(chord.edge)].data(), weights.data(), 2, a_tet);
+    if (across) {
+        const std::array<double, 2> other = {1 - chord.other_along, chord.other_along};
+        const int tet = b.face_tet[size_t(b.edge_faces[size_t(chord.other_edge)][0])];
+        contact.b = side_of_nodes(b, pair.b, b.edges[size_t(chord.other_edge)].data(), other.data(), 2, tet);
+    } else {
+        const int face = scene.face[size_t(overlap.face)];
+        contact.b = side_of_nodes(b, pair.b, b.faces[size_t(face)].data(), overlap.weights.data(), 3,
+                                  b.face_tet[size_t(face)]);
+    }
+    contact.point = edge_place(scene, pair.a, chord.edge, along);
+    contact.normal = way.normal;
+    contact.depth = way.depth;
+    return contact;
+}
+
+void find_edge_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
+                        std::vector<CageContact>& out) {
+    const OverlapScene& scene = search.scene;
+    const Collider &a = *scene.bodies[size_t(pair.a)].collider, &b = *scene.bodies[size_t(pair.b)].collider;
+    std::vector<Chord> chords = find_chords(search, pair, inside);
+    std::vector<WayOut> ways(chords.size());
+    std::vector<int> candidates;
+    for (size_t i = 0; i < chords.size(); ++i) {
+        gather_edges(b, scene, search, chords[i], candidates);
+        ways[i] = leave_across(scene, pair, candidates, chords[i]);
+        if (ways[i].known) continue;
+        const double first = search.edges[size_t(chords[i].first)].along;
+        const double last = search.edges[size_t(chords[i].last)].along;
+        ways[i].point = edge_place(scene, pair.a, chords[i].edge, 0.5 * (first + last));
+    }
+    spread_ways_out(ways, find_neighbours(a, chords));
+    for (size_t i = 0; i < chords.size(); ++i) {
+        if (!ways[i].known || !(ways[i].depth > 0)) leave_anyhow(search, pair, chords[i], ways[i]);
+        if (ways[i].known && ways[i].depth > 0) out.push_back(contact_of(search, pair, chords[i], ways[i]));
+    }
+}
+
+}  // namespace frond

@@ -1,0 +1,75 @@
+// Every layout of the hash finds the pairs that trying all of them finds, whatever its cells and its table.
+#include "collide/hash.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/meshes.hpp"
+
+namespace frond::test {
+namespace {
+
+using Pairs = std::vector<std::array<int, 2>>;
+
+Pairs pairs_of(HashLayout layout, const BoxSet& items, const BoxSet& queries, int table_size, double cell_size) {
+    HashMemory memory;
+    Pairs pairs;
+    // Twice, so that memory from before does not show.
+    for (int n = 0; n < 2; ++n) {
+        pairs.clear();
+        hash_row(layout).find(items, queries, table_size, cell_size, memory, pairs);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+}
+
+BoxSet random_boxes(Dice& dice, int count, double extent, double size, int groups) {
+    BoxSet set;
+    for (int n = 0; n < count; ++n) {
+        BoxSet::Bounds box;
+        for (int k = 0; k < 3; ++k) {
+            box.lower[k] = dice.uniform(-extent, extent);
+            box.upper[k] = box.lower[k] + dice.uniform(0, size);
+        }
+        box.group = int(dice.uniform(0, groups));
+        set.boxes.push_back(box);
+    }
+    return set;
+}
+
+TEST(Hash, EveryLayoutFindsThePairsThatTryingFinds) {
+    Dice dice(1);
+    size_t found = 0;
+    for (int n = 0; n < 8; ++n) {
+        const double shift = n % 4 == 3 ? 1e4 : 0;
+        BoxSet items = random_boxes(dice, 200, 1, n % 2 ? 0 : 0.3, 3), queries = random_boxes(dice, 200, 1.2, 0.4, 3);
+        for (BoxSet* set : {&items, &queries})
+            for (BoxSet::Bounds& box : set->boxes) {
+                box.lower[1] += shift;
+                box.upper[1] += shift;
+            }
+        const Pairs expected = pairs_of(HASH_BRUTE_FORCE, items, queries, 0, 0.1);
+        found += expected.size();
+        for (int layout = 0; layout < HASH_LAYOUT_COUNT; ++layout)
+            for (const double cell_size : {0.1, 0.37, 10.0})
+                for (const int table_size : {0, 97, 10007})
+                    EXPECT_EQ(pairs_of(HashLayout(layout), items, queries, table_size, cell_size), expected)
+                        << hash_row(HashLayout(layout)).name << ", cells of " << cell_size << ", table of "
+                        << table_size;
+        EXPECT_EQ(pairs_of(HASH_PAPER, items, queries, 1, 10), expected);
+    }
+    EXPECT_GT(found, 300u);
+}
+
+TEST(Hash, BoxesThatTouchAreAPairAndThoseOfAGroupAreNot) {
+    for (int layout = 0; layout < HASH_LAYOUT_COUNT; ++layout) {
+        const BoxSet items = {{{{0, 0, 0}, {1, 1, 1}, 0}, {{0, 0, 0}, {1, 1, 1}, 1}}};
+        const BoxSet queries = {{{{1, 1, 1}, {2, 2, 2}, 1}, {{1.1, 0, 0}, {2, 1, 1}, 5}}};
+        EXPECT_EQ(pairs_of(HashLayout(layout), items, queries, 0, 0.25), (Pairs{{0, 0}}));
+        EXPECT_TRUE(pairs_of(HashLayout(layout), items, {}, 0, 0.25).empty());
+        EXPECT_TRUE(pairs_of(HashLayout(layout), {}, queries, 0, 0.25).empty());
+    }
+}
+
+}  // namespace
+}  // namespace frond::test
