@@ -212,6 +212,7 @@ TEST(Misuse, OfPlantsIsRefused) {
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.tolerance = NOT_A_NUMBER; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.mass_damping = -1; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.stiffness_damping = INFINITE; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.material_damping = -1; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.root_height = NOT_A_NUMBER; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.spectral_radius = 1.5; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.spectral_radius = NOT_A_NUMBER; }));

@@ -92,7 +92,7 @@ typedef struct frond_grab {
 typedef uint32_t frond_effects;
 enum {
     FROND_GRAVITY = 1 << 0,
-    FROND_DAMPING = 1 << 1,    /* mass_damping and stiffness_damping of the plant's def */
+    FROND_DAMPING = 1 << 1,    /* mass_, stiffness_ and material_damping of the plant's def */
     FROND_USER_FORCE = 1 << 2, /* frond_plant_add_force and grabs */
     FROND_SURFACE = 1 << 3,    /* deform the render mesh */
     FROND_NORMALS = 1 << 4,    /* and its normals; needs FROND_SURFACE */
@@ -217,7 +217,9 @@ typedef struct frond_material {
      * principal bending stiffnesses. 0: as an isotropic section of its shape, which for a round one is 1 + poisson;
      * else 0.01 .. 100. */
     double twist_to_bend;
-    /* Share of critical damping of the organ's own first bending mode [-], 0 .. 1. */
+    /* Share of critical damping that the plant's first sway would have if all organs were of this material [-], 0 .. 1.
+     * Each organ damps what bends in itself, in proportion to stiffness: what sways n times as fast as the plant, a
+     * leaf on its own, has n times the ratio. frond_plant_def.material_damping scales it. */
     double damping_ratio;
     double friction; /* Coulomb's coefficient against what it touches [-], 0 .. 100 */
     /* Strain of the outermost fibre beyond which a part of the deformation stays [-], 0 (never), else 1e-6 .. 10. */
@@ -382,6 +384,8 @@ typedef struct frond_plant_def {
     double tolerance;         /* of an iterative linear solver, relative residual [-], default 1e-6 */
     double mass_damping;      /* Rayleigh: D = mass_damping M + stiffness_damping K [1/s], default 0.1 */
     double stiffness_damping; /* [s], default 0.002 */
+    double material_damping;  /* how much of their materials' damping_ratio the organs have, on top of the two above [-],
+                               * 0 (none) .. 100, default 1 */
     double spectral_radius;   /* of FROND_GENERALIZED_ALPHA at infinite frequency, 0..1 [-], default 0.8: 1 damps
                                * nothing, 0 most */
     double root_height;       /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses

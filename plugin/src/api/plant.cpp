@@ -28,6 +28,7 @@ static void check_plant_def(const frond_plant_def* def) {
     check_range(def->tolerance, 1e-15, 1, "def.tolerance");
     check_range(def->mass_damping, 0, 1e6, "def.mass_damping [1/s]");
     check_range(def->stiffness_damping, 0, 1e3, "def.stiffness_damping [s]");
+    check_range(def->material_damping, 0, 100, "def.material_damping");
     check_range(def->spectral_radius, 0, 1, "def.spectral_radius");
     check_range(def->root_height, -LARGEST_COORDINATE, LARGEST_COORDINATE, "def.root_height [m]");
     check_effects(def->effects);
@@ -67,6 +68,7 @@ frond_plant_def frond_default_plant_def(void) {
     def.tolerance = 1e-6;
     def.mass_damping = 0.1;
     def.stiffness_damping = 0.002;
+    def.material_damping = 1;
     def.spectral_radius = 0.8;
     def.effects = FROND_ALL_EFFECTS;
     def.cookie = PLANT_DEF_COOKIE;

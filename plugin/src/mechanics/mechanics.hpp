@@ -18,6 +18,7 @@ struct Elements {
     VecX rest_positions;  // without load, node_count*3 [m]
     VecX modelled;        // where the nodes are in the shape that was modelled, node_count*3 [m]
     BlockPattern pattern;
+    std::vector<double> damping_ratio;  // of the organ that each element belongs to [-]
     virtual ~Elements() = default;
 
 protected:
@@ -73,6 +74,9 @@ struct Mechanics {
     void (*add_stiffness)(const Elements& elements, const VecX& x, Tangent tangent, double scale, BlockMatrix& K);
     // Both of the above in one pass over the elements, the stiffness with scale one.
     int (*add_force_and_stiffness)(const Elements& elements, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K);
+    // The same with the positive stiffness, and damping[e] [s] times each element's own part of it added to D [N s/m].
+    int (*add_force_stiffness_and_damping)(const Elements& elements, const VecX& x, const std::vector<double>& damping,
+                                           VecX& f, BlockMatrix& K, BlockMatrix& D);
     // Rotary inertia of each pair of nodes, place and rotation, by the rate of the rotation vector at x [kg m^2]; null
     // where no node turns.
     void (*rotary_inertia)(const Elements& elements, const VecX& x, std::vector<Mat3>& out);

@@ -179,6 +179,22 @@ int rod_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, 
     return 0;
 }
 
+int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double>& damping, VecX& f, BlockMatrix& K,
+                   BlockMatrix& D) {
+    const std::vector<RodNode<double>> nodes = nodes_at(x);
+    const std::vector<RodSegment>& segments = as_rods(body).segments;
+    for (size_t s = 0; s < segments.size(); ++s) {
+        const RodSegment& rod = segments[s];
+        const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
+        const Bent<double> bent = bend_between(rod, a, b);
+        scatter_force(rod, gradient(rod, a, b, bent), f);
+        const Matrix12 stiffness = positive_stiffness(rod, a, b, bent);
+        scatter_stiffness(rod, stiffness, K);
+        scatter_stiffness(rod, damping[s] * stiffness, D);
+    }
+    return 0;
+}
+
 void rod_inertia(const Elements& body, const VecX& x, std::vector<Mat3>& out) {
     const RodElements& elements = as_rods(body);
     out.resize(elements.inertia.size());

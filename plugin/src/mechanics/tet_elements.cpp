@@ -98,7 +98,10 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions, in
 template <int ORDER>
 std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which) {
     const VecX& rest = model.rest_shapes->positions[size_t(which)];
-    return std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr, ORDER));
+    auto elements = std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr, ORDER));
+    for (int organ : model.cage.tet_organ)
+        elements->damping_ratio.push_back(model.organs[size_t(organ)].material.damping_ratio);
+    return elements;
 }
 template std::unique_ptr<const Elements> make_tets<1>(const Model&, frond_mechanics);
 template std::unique_ptr<const Elements> make_tets<2>(const Model&, frond_mechanics);

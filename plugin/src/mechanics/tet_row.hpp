@@ -55,7 +55,9 @@ struct TetRow {
         }
     }
 
-    static int add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+    // `also` is given each element's stiffness after it was added to K.
+    template <class Also>
+    static int add_all(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K, Also&& also) {
         const TetElements& elements = as_tets(body);
         int inverted = 0;
         for (size_t e = 0; e < elements.tets.size(); ++e) {
@@ -65,12 +67,28 @@ struct TetRow {
             for (int q = 0; q < Element::POINTS; ++q) {
                 const auto strain = Law::strain(share, Element::gradient(share, places, q));
                 Element::add_force(elements, e, share, q, Law::stress(share, strain), f);
-                Element::add_stiffness(elements, e, q, Law::stiffness(share, strain, tangent, 1), K);
+                const TetStiffness k = Law::stiffness(share, strain, tangent, 1);
+                Element::add_stiffness(elements, e, q, k, K);
+                also(elements, e, q, k);
                 is_inverted |= Law::inverted(strain);
             }
             inverted += is_inverted;
         }
         return inverted;
+    }
+
+    static int add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+        return add_all(body, x, tangent, f, K, [](const TetElements&, size_t, int, const TetStiffness&) {});
+    }
+
+    static int add_damped(const Elements& body, const VecX& x, const std::vector<double>& damping, VecX& f,
+                          BlockMatrix& K, BlockMatrix& D) {
+        const auto damp = [&](const TetElements& elements, size_t e, int q, const TetStiffness& k) {
+            const double b = damping[e];
+            Element::add_stiffness(elements, e, q, {b * k.k11, b * k.k21, b * k.k31, b * k.k22, b * k.k32, b * k.k33},
+                                   D);
+        };
+        return add_all(body, x, Tangent::positive, f, K, damp);
     }
 };
 
@@ -100,8 +118,9 @@ RestDerivative rest_derivative(const Elements& body, size_t e, const VecX& x) {
 template <class Law>
 Mechanics tet_row(const char* name, int order, bool needs_search) {
     const auto row = [&](auto rows, auto make, auto is_calm, auto rest_derivative) {
-        return Mechanics{name,          make,    tet_masses, rows.energy,     rows.add_force, rows.add_stiffness,
-                         rows.add_both, nullptr, is_calm,    rest_derivative, needs_search,   false};
+        return Mechanics{name,          make,            tet_masses, rows.energy, rows.add_force,  rows.add_stiffness,
+                         rows.add_both, rows.add_damped, nullptr,    is_calm,     rest_derivative, needs_search,
+                         false};
     };
     if (order == 1) return row(TetRow<Law, LinearTet>(), make_tets<1>, tets_are_calm<LinearTet>, rest_derivative<Law>);
     return row(TetRow<Law, QuadraticTetElement>(), make_tets<2>, tets_are_calm<QuadraticTetElement>, nullptr);

@@ -31,6 +31,7 @@ struct Plant {
     std::shared_ptr<const System> system;
     WorkspacePtr workspace;
     SolveSettings settings;
+    double material_damping;  // share of the organs' damping ratios that counts [-]
     frond_effects effects;
     Vec3 position;  // of the model's frame in the world [m]
     Quat rotation;

@@ -45,7 +45,7 @@ void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
     apply_pins(plant);
     gather_loads(plant, surroundings, effects);
     SolveSettings settings = plant.settings;
-    if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = 0;
+    if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     plant.ms_effects = timer.lap();
 
     // Solve.
