@@ -96,7 +96,8 @@ enum {
     FROND_USER_FORCE = 1 << 2, /* frond_plant_add_force and grabs */
     FROND_SURFACE = 1 << 3,    /* deform the render mesh */
     FROND_NORMALS = 1 << 4,    /* and its normals; needs FROND_SURFACE */
-    FROND_ALL_EFFECTS = (1 << 5) - 1
+    FROND_PLASTICITY = 1 << 5, /* what is bent beyond its material's yield_strain keeps a set, and creeps */
+    FROND_ALL_EFFECTS = (1 << 6) - 1
 };
 
 /* What moves by itself. Every model has a chain and a cage: with the tets the cage moves and the chain follows, with the
@@ -222,9 +223,11 @@ typedef struct frond_material {
      * leaf on its own, has n times the ratio. frond_plant_def.material_damping scales it. */
     double damping_ratio;
     double friction; /* Coulomb's coefficient against what it touches [-], 0 .. 100 */
-    /* Strain of the outermost fibre beyond which a part of the deformation stays [-], 0 (never), else 1e-6 .. 10. */
+    /* Strain of the outermost fibre, in bending or in pulling, beyond which a part of the deformation stays [-], 0
+     * (never), else 1e-6 .. 10. Sections then yield from the rim inwards, elastic and perfectly plastic. Where a plant
+     * stands with more than two thirds of it under its own weight, one and a half times that counts instead. */
     double yield_strain;
-    /* Share of the strain beyond yield_strain that becomes lasting, a second [1/s], 0 (none) .. 1e6. */
+    /* Share of the elastic strain beyond yield_strain that becomes lasting, a second [1/s], 0 (none) .. 1e6. */
     double creep_rate;
     /* Tension in the outermost fibre at which the organ breaks, in bending or in pulling [Pa], 0 (never),
      * else 1 .. 1e12. */
@@ -436,6 +439,13 @@ FROND_API int frond_plant_get_capsule_count(frond_plant plant);
 FROND_API frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count);
 FROND_API frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
                                              int node_count);
+/* What of the plant's shape is lasting, besides the state above: how many numbers that is, 0 as long as nothing has yielded
+ * or for an invalid handle, and the numbers, of use only to another plant of the same model and mechanics. count must be
+ * what the first says, for set that of the plant they came from: 0 takes all sets away. Tets hand them to other tets
+ * when mechanics change and the chain to the chain; between the two they are lost. */
+FROND_API int frond_plant_get_lasting_count(frond_plant plant);
+FROND_API frond_result frond_plant_get_lasting(frond_plant plant, double* values, int count);
+FROND_API frond_result frond_plant_set_lasting(frond_plant plant, const double* values, int count);
 /* Holds a cage node where it is, or lets it go. */
 FROND_API frond_result frond_plant_pin(frond_plant plant, int node);
 FROND_API frond_result frond_plant_unpin(frond_plant plant, int node);

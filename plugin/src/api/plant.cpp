@@ -1,4 +1,7 @@
 // frond_plant_*: one instance.
+#include <algorithm>
+#include <climits>
+
 #include "api/call.hpp"
 #include "api/handles.hpp"
 
@@ -166,6 +169,30 @@ frond_result frond_plant_set_state(frond_plant plant, const double* positions, c
         set_state(*body.plant, positions, velocities);
         move_capsules(body);
         body.world->bullet->updateSingleAabb(&body);
+    });
+}
+
+int frond_plant_get_lasting_count(frond_plant plant) {
+    const PlantBody* body = plant_slots().find(plant.id);
+    return body ? int(lasting_of(*body->plant).size()) : 0;
+}
+
+frond_result frond_plant_get_lasting(frond_plant plant, double* values, int count) {
+    return call([&] {
+        const std::vector<double> lasting = lasting_of(*get(plant).plant);
+        check_count(count, int(lasting.size()), "count");
+        if (count > 0) check_pointer(values, "values");
+        std::copy(lasting.begin(), lasting.end(), values);
+    });
+}
+
+frond_result frond_plant_set_lasting(frond_plant plant, const double* values, int count) {
+    return call([&] {
+        Plant& p = *get(plant).plant;
+        check_range(count, 0, INT_MAX, "count");
+        if (count > 0) check_pointer(values, "values");
+        check_numbers(values, count, "values");
+        set_lasting(p, std::vector<double>(values, values + count));
     });
 }
 

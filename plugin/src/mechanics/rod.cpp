@@ -140,6 +140,17 @@ void scatter_stiffness(const RodSegment& rod, const Matrix12& stiffness, BlockMa
 
 }  // namespace
 
+std::vector<RodStrain> rod_strains(const RodElements& elements, const VecX& x) {
+    const std::vector<RodNode<double>> nodes = nodes_at(x);
+    std::vector<RodStrain> strains;
+    strains.reserve(elements.segments.size());
+    for (const RodSegment& rod : elements.segments) {
+        const Bent<double> bent = bend_between(rod, nodes[size_t(rod.a)], nodes[size_t(rod.b)]);
+        strains.push_back({bent.strain, bent.curvature});
+    }
+    return strains;
+}
+
 double rod_energy(const Elements& body, const VecX& x) {
     const std::vector<RodNode<double>> nodes = nodes_at(x);
     double energy = 0;

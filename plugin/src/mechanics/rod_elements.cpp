@@ -27,8 +27,10 @@ void set_resistance(const Model& model, size_t node, frond_mechanics which, RodS
     const double over = 12 / (rod.length * rod.length);
     double area = section.area, thin = section.inertia_thin, wide = section.inertia_wide;
     double twisting = stiffer * section.twisting();
+    rod.reach_thin = 0.5 * section.thickness;
+    rod.reach_wide = 0.5 * section.width;
     if (which == FROND_SPRING_CHAIN) {
-        const double r = model.chain.nodes[node].radius;
+        const double r = rod.reach_thin = rod.reach_wide = model.chain.nodes[node].radius;
         area = M_PI * r * r;
         thin = wide = area * r * r / 4;
         twisting = E * (thin + wide) / (2 * (1 + material.poisson));
@@ -129,7 +131,9 @@ RodElements make_rod_elements(const Model& model, frond_mechanics which) {
 }
 
 std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics which) {
-    return std::make_unique<RodElements>(make_rod_elements(model, which));
+    auto elements = std::make_unique<RodElements>(make_rod_elements(model, which));
+    let_rods_yield(model, *elements);
+    return elements;
 }
 
 // Lumped: each node its own. Consistent: of linear shape functions, a third of a piece's mass to its ends and a sixth to

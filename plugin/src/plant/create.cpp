@@ -74,6 +74,7 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.system = std::shared_ptr<const System>(shared, shared->system.get());
     plant.settings.full_damping = plant.material_damping * shared->full_damping;
     plant.workspace = make_workspace(plant.system);
+    plant.own_elements = nullptr;
     plant.follow = nullptr;
     if (mechanics(which).moves_chain)
         plant.follow = shared_of<Follow>(plant.model, nodes.order,
@@ -153,7 +154,11 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 void set_mechanics(Plant& plant, frond_mechanics which) {
     if (which == plant.which) return;
     const VecX places = cage_places(plant), velocities = cage_velocities(plant);
+    // Tets have their points in common, rods their pieces.
+    const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
+    const std::vector<double> lasting = keeps ? lasting_of(plant) : std::vector<double>();
     take_mechanics(plant, which);
+    set_lasting(plant, lasting);
     if (plant.follow) {
         fit_chain(*plant.follow, *plant.model, places, plant.motion.x);
         fit_velocities(*plant.follow, plant.motion.x, velocities, plant.motion.v);

@@ -29,7 +29,8 @@ struct Plant {
     frond_mechanics which;
     frond_mass mass;
     std::shared_ptr<const System> system;
-    WorkspacePtr workspace;
+    std::unique_ptr<Elements> own_elements;  // of a plant that has yielded, with what of its shape is lasting; else null
+    WorkspacePtr workspace;  // refers to them
     SolveSettings settings;
     double material_damping;  // share of the organs' damping ratios that counts [-]
     frond_effects effects;
@@ -75,7 +76,7 @@ struct Surroundings {
 
 // `def` has been checked by the caller.
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def);
-// Effects -> solve -> accept or rewind -> chain.
+// Effects -> solve -> accept, with what becomes lasting, or rewind -> chain.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);
 // Forces given by frond_plant_add_force end.
 void clear_user_force(Plant& plant);
@@ -88,6 +89,9 @@ Vec3 vertex_position(const Plant& plant, int vertex);   // world frame [m]
 Vec3 grab_force(const Plant& plant, const Grab& grab);  // on the plant, world frame [N]
 // Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave that part as it is.
 void set_state(Plant& plant, const double* positions, const double* velocities);
+// All that is lasting in its shape, in numbers; none if nothing has yielded. Setting none makes it straight again.
+std::vector<double> lasting_of(const Plant& plant);
+void set_lasting(Plant& plant, const std::vector<double>& values);
 void update_chain(Plant& plant);
 // After the motion was changed: the chain now, cage and surface when somebody looks.
 void moved(Plant& plant);

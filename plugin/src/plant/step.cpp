@@ -1,4 +1,4 @@
-// One step of a plant: effects -> solve -> accept or rewind -> chain.
+// One step of a plant: effects -> solve -> accept, with what becomes lasting, or rewind -> chain.
 #include "core/timer.hpp"
 #include "plant/plant.hpp"
 
@@ -33,6 +33,19 @@ static bool is_sound(const Motion& motion, double size) {
     return motion.x.allFinite() && motion.v.allFinite() && motion.x.cwiseAbs().maxCoeff() < far_away;
 }
 
+// What is bent beyond its yield keeps a part of that.
+static void keep_sets(Plant& plant, double h) {
+    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
+    const Elements& shared = elements_of(*plant.system);
+    if (shared.yields.empty()) return;
+    if (!plant.own_elements) {
+        if (!row.yields(shared, plant.motion.x)) return;
+        plant.own_elements = row.copy(shared);
+        use_elements(*plant.workspace, plant.own_elements.get());
+    }
+    row.flow(*plant.own_elements, plant.motion.x, h);
+}
+
 void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
     const frond_effects effects = plant.effects & surroundings.effects;
     Motion& motion = plant.motion;
@@ -59,6 +72,8 @@ void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
         motion.v.setZero();
         motion.history.valid = false;
         plant.trouble |= FROND_TROUBLE_REWOUND;
+    } else if (effects & FROND_PLASTICITY) {
+        keep_sets(plant, h);
     }
     moved(plant);
 }

@@ -18,17 +18,17 @@ void force_at_start(Workspace& w, const StepInput& input, SolveReport& report) {
     if (!w.element_damping.empty()) {
         w.A.set_zero();
         w.damping.set_zero();
-        report.inverted = body.add_force_stiffness_and_damping(*system.elements, x, w.element_damping, w.force, w.A,
+        report.inverted = body.add_force_stiffness_and_damping(*w.elements, x, w.element_damping, w.force, w.A,
                                                                w.damping);
         w.damping.multiply(w.v_start, w.product);
         w.force -= w.product;
     } else if (b > 0) {
         w.A.set_zero();
-        report.inverted = body.add_force_and_stiffness(*system.elements, x, Tangent::positive, w.force, w.A);
+        report.inverted = body.add_force_and_stiffness(*w.elements, x, Tangent::positive, w.force, w.A);
         w.A.multiply(w.v_start, w.product);
         w.force -= b * w.product;
     } else {
-        report.inverted = body.add_force(*system.elements, x, w.force);
+        report.inverted = body.add_force(*w.elements, x, w.force);
     }
     multiply_mass(system, w.inertia, w.v_start, w.momentum);
     w.force -= input.settings.mass_damping * w.momentum;

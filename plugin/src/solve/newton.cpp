@@ -65,9 +65,9 @@ void linearize_at_start(Newton& n) {
         w.A.set_zero();
         if (n.apart) w.damping.set_zero();
         n.report.inverted =
-            n.apart ? n.body.add_force_stiffness_and_damping(*n.system.elements, x, w.element_damping, w.elastic, w.A,
+            n.apart ? n.body.add_force_stiffness_and_damping(*n.w.elements, x, w.element_damping, w.elastic, w.A,
                                                              w.damping)
-                    : n.body.add_force_and_stiffness(*n.system.elements, x, Tangent::positive, w.elastic, w.A);
+                    : n.body.add_force_and_stiffness(*n.w.elements, x, Tangent::positive, w.elastic, w.A);
         move(n, w.v);
         w.dv = w.x - x;
     };
@@ -92,7 +92,7 @@ double residual_at(Newton& n, const VecX& v, VecX& rhs) {
     Workspace& w = n.w;
     move(n, v);
     w.elastic.setZero(v.size());
-    n.report.inverted = n.body.add_force(*n.system.elements, w.x, w.elastic);
+    n.report.inverted = n.body.add_force(*n.w.elements, w.x, w.elastic);
     start_residual(n, v, rhs);
     if (n.keep_damping) {
         w.damping.multiply(v, w.product);
@@ -106,7 +106,7 @@ double potential_at(const Newton& n, const VecX& v) {
     Workspace& w = n.w;
     const double step = n.stage.step, a = n.input.settings.mass_damping;
     move(n, v);
-    double potential = n.body.energy(*n.system.elements, w.x) + spring_energy(n.input.loads.springs, w.x) -
+    double potential = n.body.energy(*n.w.elements, w.x) + spring_energy(n.input.loads.springs, w.x) -
                        step * w.external.dot(v);
     w.dv = v - n.stage.v_base;
     multiply_mass(n.system, w.inertia, w.dv, w.momentum);
@@ -173,7 +173,7 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
         n.w.rhs = rhs;
         n.w.A.set_zero();
         move(n, n.w.v);
-        n.body.add_stiffness(*n.system.elements, n.w.x, tangent, 1, n.w.A);
+        n.body.add_stiffness(*n.w.elements, n.w.x, tangent, 1, n.w.A);
         form_matrix(n, false);
         hold(n);
         n.report.ms_assembly += timer.lap();

@@ -80,6 +80,9 @@ struct WorkspaceDeleter {
 using WorkspacePtr = std::unique_ptr<Workspace, WorkspaceDeleter>;
 WorkspacePtr make_workspace(std::shared_ptr<const System> system);
 
+// Steps of this workspace take a plant's own elements, which must live as long; null: the system's again.
+void use_elements(Workspace& workspace, const Elements* own);
+
 // Advances motion by h [s].
 SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, const Loads& loads, double h,
                        Motion& motion);

@@ -34,7 +34,7 @@ void prepare(Workspace& workspace, const StepInput& input) {
     const System& system = *workspace.system;
     const Motion& motion = input.motion;
     workspace.held = system.loose;
-    if (system.row->rotary_inertia) system.row->rotary_inertia(*system.elements, motion.x, workspace.inertia);
+    if (system.row->rotary_inertia) system.row->rotary_inertia(*workspace.elements, motion.x, workspace.inertia);
     workspace.external = input.loads.force;
     workspace.v_start = motion.v;
     for (int i = 0; i < system.elements->node_count; ++i) {

@@ -8,6 +8,7 @@ namespace frond {
 
 struct Workspace {
     std::shared_ptr<const System> system;
+    const Elements* elements = nullptr;  // the system's, or a plant's own that has yielded
     BlockMatrix A;        // stiffness, then the matrix of the linear system
     // D = mass_damping M + damping_scale K + damping, of K at the start of the step. Where all elements damp alike,
     // `damping` is that K and filled only if several Newton iterations need it; else K has each element's own share in it.
