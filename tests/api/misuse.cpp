@@ -212,6 +212,7 @@ TEST(Misuse, OfPlantsIsRefused) {
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.tolerance = NOT_A_NUMBER; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.mass_damping = -1; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.stiffness_damping = INFINITE; }));
+    EXPECT_TRUE(refuses([](frond_plant_def& d) { d.material_damping = -1; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.root_height = NOT_A_NUMBER; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.spectral_radius = 1.5; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.spectral_radius = NOT_A_NUMBER; }));
@@ -229,6 +230,12 @@ TEST(Misuse, OfPlantsIsRefused) {
     EXPECT_EQ(frond_plant_set_state(small.plant, numbers.data(), nullptr, count + 1), FROND_BAD_ARGUMENT);
     numbers[4] = NOT_A_NUMBER;
     EXPECT_EQ(frond_plant_set_state(small.plant, nullptr, numbers.data(), count), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_lasting_count(small.plant), 0);
+    EXPECT_EQ(frond_plant_get_lasting(small.plant, numbers.data(), 1), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_lasting(small.plant, numbers.data(), 1), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_lasting(small.plant, nullptr, 10), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_lasting(small.plant, nullptr, -1), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_lasting(small.plant, nullptr, 0), FROND_OK);
     for (int node : {-1, count, 1 << 30}) {
         EXPECT_EQ(frond_plant_pin(small.plant, node), FROND_BAD_ARGUMENT);
         EXPECT_EQ(frond_plant_unpin(small.plant, node), FROND_BAD_ARGUMENT);
@@ -265,6 +272,9 @@ TEST(Misuse, OfStalePlantsIsRecognised) {
         EXPECT_EQ(frond_plant_get_capsule_count(bad), 0);
         EXPECT_EQ(frond_plant_get_user(bad), nullptr);
         EXPECT_EQ(frond_plant_set_effects(bad, 0), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_lasting_count(bad), 0);
+        EXPECT_EQ(frond_plant_get_lasting(bad, nullptr, 0), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_set_lasting(bad, nullptr, 0), FROND_BAD_HANDLE);
         EXPECT_EQ(frond_plant_get_state(bad, nullptr, nullptr, 0), FROND_BAD_HANDLE);
         EXPECT_EQ(frond_plant_set_state(bad, nullptr, nullptr, 0), FROND_BAD_HANDLE);
         EXPECT_EQ(frond_plant_pin(bad, 0), FROND_BAD_HANDLE);

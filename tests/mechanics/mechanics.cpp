@@ -47,7 +47,7 @@ std::vector<Mat3> gradients(const TetElements& elements, const VecX& x) {
     std::vector<Mat3> all;
     for (size_t e = 0; e < elements.tets.size(); ++e)
         for (int q = 0; q < Element::POINTS; ++q)
-            all.push_back(Element::gradient(Element::share(elements, e), Element::places(elements, e, x), q));
+            all.push_back(Element::gradient(Element::share(elements, e, q), Element::places(elements, e, x), q));
     return all;
 }
 std::vector<Mat3> gradients(const TetElements& elements, const VecX& x) {

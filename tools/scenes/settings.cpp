@@ -96,6 +96,8 @@ const std::vector<Key>& keys() {
         real("tolerance", "of an iterative solver", &Settings::plant, &frond_plant_def::tolerance),
         real("mass_damping", "Rayleigh [1/s]", &Settings::plant, &frond_plant_def::mass_damping),
         real("stiffness_damping", "Rayleigh [s]", &Settings::plant, &frond_plant_def::stiffness_damping),
+        real("material_damping", "share of the organs' damping ratios", &Settings::plant,
+             &frond_plant_def::material_damping),
         real("spectral_radius", "of generalized_alpha, 0..1", &Settings::plant, &frond_plant_def::spectral_radius),
         real("root_height", "pinned above the foot [m], 0: chosen, < 0: none", &Settings::plant,
              &frond_plant_def::root_height),

@@ -231,7 +231,7 @@ std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ram
     Setup patient = setup;
     patient.plant.integrator = FROND_IMPLICIT_EULER;
     patient.plant.newton_tolerance = 1e-9;
-    patient.plant.mass_damping = patient.plant.stiffness_damping = 0;
+    patient.plant.mass_damping = patient.plant.stiffness_damping = patient.plant.material_damping = 0;
     // Converged steps find most shapes; single solves, which take loads that follow anew each time, find the others.
     for (int solves : {10, 1}) {
         patient.plant.newton_iterations = solves;

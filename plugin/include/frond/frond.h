@@ -95,14 +95,15 @@ typedef struct frond_rigid {
 typedef uint32_t frond_effects;
 enum {
     FROND_GRAVITY = 1 << 0,
-    FROND_DAMPING = 1 << 1,    /* mass_damping and stiffness_damping of the plant's def */
+    FROND_DAMPING = 1 << 1,    /* mass_, stiffness_ and material_damping of the plant's def */
     FROND_USER_FORCE = 1 << 2, /* frond_plant_add_force and grabs */
     FROND_SURFACE = 1 << 3,    /* deform the render mesh */
     FROND_NORMALS = 1 << 4,    /* and its normals; needs FROND_SURFACE */
     FROND_RIGID_CONTACT = 1 << 5, /* bodies of the Bullet world push the plant */
     FROND_FRICTION = 1 << 6,      /* and rub on it; needs FROND_RIGID_CONTACT */
     FROND_TWO_WAY = 1 << 7,       /* and feel the same impulses; needs FROND_RIGID_CONTACT */
-    FROND_ALL_EFFECTS = (1 << 8) - 1
+    FROND_PLASTICITY = 1 << 8,    /* what is bent beyond its material's yield_strain keeps a set, and creeps */
+    FROND_ALL_EFFECTS = (1 << 9) - 1
 };
 
 /* What moves by itself. Every model has a chain and a cage: with the tets the cage moves and the chain follows, with the
@@ -227,12 +228,16 @@ typedef struct frond_material {
      * principal bending stiffnesses. 0: as an isotropic section of its shape, which for a round one is 1 + poisson;
      * else 0.01 .. 100. */
     double twist_to_bend;
-    /* Share of critical damping of the organ's own first bending mode [-], 0 .. 1. */
+    /* Share of critical damping that the plant's first sway would have if all organs were of this material [-], 0 .. 1.
+     * Each organ damps what bends in itself, in proportion to stiffness: what sways n times as fast as the plant, a
+     * leaf on its own, has n times the ratio. frond_plant_def.material_damping scales it. */
     double damping_ratio;
     double friction; /* Coulomb's coefficient against what it touches [-], 0 .. 100 */
-    /* Strain of the outermost fibre beyond which a part of the deformation stays [-], 0 (never), else 1e-6 .. 10. */
+    /* Strain of the outermost fibre, in bending or in pulling, beyond which a part of the deformation stays [-], 0
+     * (never), else 1e-6 .. 10. Sections then yield from the rim inwards, elastic and perfectly plastic. Where a plant
+     * stands with more than two thirds of it under its own weight, one and a half times that counts instead. */
     double yield_strain;
-    /* Share of the strain beyond yield_strain that becomes lasting, a second [1/s], 0 (none) .. 1e6. */
+    /* Share of the elastic strain beyond yield_strain that becomes lasting, a second [1/s], 0 (none) .. 1e6. */
     double creep_rate;
     /* Tension in the outermost fibre at which the organ breaks, in bending or in pulling [Pa], 0 (never),
      * else 1 .. 1e12. */
@@ -392,6 +397,8 @@ typedef struct frond_plant_def {
     double tolerance;         /* of an iterative linear solver, relative residual [-], default 1e-6 */
     double mass_damping;      /* Rayleigh: D = mass_damping M + stiffness_damping K [1/s], default 0.1 */
     double stiffness_damping; /* [s], default 0.002 */
+    double material_damping;  /* how much of their materials' damping_ratio the organs have, on top of the two above [-],
+                               * 0 (none) .. 100, default 1 */
     double spectral_radius;   /* of FROND_GENERALIZED_ALPHA at infinite frequency, 0..1 [-], default 0.8: 1 damps
                                * nothing, 0 most */
     double root_height;       /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
@@ -452,6 +459,13 @@ FROND_API int frond_plant_get_capsule_count(frond_plant plant);
 FROND_API frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count);
 FROND_API frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
                                              int node_count);
+/* What of the plant's shape is lasting, besides the state above: how many numbers that is, 0 as long as nothing has yielded
+ * or for an invalid handle, and the numbers, of use only to another plant of the same model and mechanics. count must be
+ * what the first says, for set that of the plant they came from: 0 takes all sets away. Tets hand them to other tets
+ * when mechanics change and the chain to the chain; between the two they are lost. */
+FROND_API int frond_plant_get_lasting_count(frond_plant plant);
+FROND_API frond_result frond_plant_get_lasting(frond_plant plant, double* values, int count);
+FROND_API frond_result frond_plant_set_lasting(frond_plant plant, const double* values, int count);
 /* Holds a cage node where it is, or lets it go. */
 FROND_API frond_result frond_plant_pin(frond_plant plant, int node);
 FROND_API frond_result frond_plant_unpin(frond_plant plant, int node);

@@ -1,5 +1,6 @@
 // frond_plant_*: one instance.
 #include <algorithm>
+#include <climits>
 
 #include "api/call.hpp"
 #include "api/handles.hpp"
@@ -30,6 +31,7 @@ static void check_plant_def(const frond_plant_def* def) {
     check_range(def->tolerance, 1e-15, 1, "def.tolerance");
     check_range(def->mass_damping, 0, 1e6, "def.mass_damping [1/s]");
     check_range(def->stiffness_damping, 0, 1e3, "def.stiffness_damping [s]");
+    check_range(def->material_damping, 0, 100, "def.material_damping");
     check_range(def->spectral_radius, 0, 1, "def.spectral_radius");
     check_range(def->root_height, -LARGEST_COORDINATE, LARGEST_COORDINATE, "def.root_height [m]");
     check_effects(def->effects);
@@ -69,6 +71,7 @@ frond_plant_def frond_default_plant_def(void) {
     def.tolerance = 1e-6;
     def.mass_damping = 0.1;
     def.stiffness_damping = 0.002;
+    def.material_damping = 1;
     def.spectral_radius = 0.8;
     def.effects = FROND_ALL_EFFECTS;
     def.cookie = PLANT_DEF_COOKIE;
@@ -166,6 +169,30 @@ frond_result frond_plant_set_state(frond_plant plant, const double* positions, c
         set_state(*body.plant, positions, velocities);
         move_capsules(body);
         body.world->bullet->updateSingleAabb(&body);
+    });
+}
+
+int frond_plant_get_lasting_count(frond_plant plant) {
+    const PlantBody* body = plant_slots().find(plant.id);
+    return body ? int(lasting_of(*body->plant).size()) : 0;
+}
+
+frond_result frond_plant_get_lasting(frond_plant plant, double* values, int count) {
+    return call([&] {
+        const std::vector<double> lasting = lasting_of(*get(plant).plant);
+        check_count(count, int(lasting.size()), "count");
+        if (count > 0) check_pointer(values, "values");
+        std::copy(lasting.begin(), lasting.end(), values);
+    });
+}
+
+frond_result frond_plant_set_lasting(frond_plant plant, const double* values, int count) {
+    return call([&] {
+        Plant& p = *get(plant).plant;
+        check_range(count, 0, INT_MAX, "count");
+        if (count > 0) check_pointer(values, "values");
+        check_numbers(values, count, "values");
+        set_lasting(p, std::vector<double>(values, values + count));
     });
 }
 

@@ -100,8 +100,8 @@ CageLoads cage_loads(const LoneOrgan& lone, const TetElements& elements, const M
 std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElements& elements,
                                          StaticStiffness& stiffness, const CageLoads& loads) {
     const int order = elements.nodes.order;
-    if (!stiffness.set(elements, held_nodes(lone, elements), FROND_TET_LINEAR, Tangent::positive,
-                       elements.rest_positions, order))
+    if (!stiffness.set(elements, held_nodes(lone, elements), mechanics(FROND_TET_LINEAR, order), Tangent::positive,
+                       elements.rest_positions))
         return {};
     std::array<VecX, LOAD_COUNT> moves;
     for (int l = 0; l < LOAD_COUNT; l++) {

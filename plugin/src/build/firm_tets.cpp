@@ -75,4 +75,13 @@ std::vector<char> find_firm_tets(const Cage& cage, const std::vector<uint8_t>& h
     return firm_tets;
 }
 
+std::vector<uint8_t> find_held_nodes(const Cage& cage, const std::vector<uint8_t>& root) {
+    std::vector<uint8_t> held(cage.nodes.size(), 1);
+    const std::vector<char> firm = find_firm_tets(cage, root);
+    for (size_t e = 0; e < firm.size(); e++)
+        if (firm[e])
+            for (int corner : cage.tets[e]) held[size_t(corner)] = root[size_t(corner)];
+    return held;
+}
+
 }  // namespace frond

@@ -45,16 +45,6 @@ double longest_move(const Model& model, const VecX& x, const VecX& rest, const V
     return 0;
 }
 
-// Root nodes, and those of bits that swing on an edge or a corner of the cage, which no stiffness could hold upright.
-std::vector<uint8_t> held_nodes(const Model& model) {
-    std::vector<uint8_t> held(model.cage.nodes.size(), 1);
-    const std::vector<char> firm = find_firm_tets(model.cage, model.root);
-    for (size_t e = 0; e < firm.size(); e++)
-        if (firm[e])
-            for (int corner : model.cage.tets[e]) held[size_t(corner)] = model.root[size_t(corner)];
-    return held;
-}
-
 // A rest shape with its elements, and the stiffness that moves it.
 struct Search {
     const Model& model;
@@ -68,7 +58,7 @@ struct Search {
 
     Search(const Model& model, frond_mechanics which)
         : model(model),
-          held(held_nodes(model)),
+          held(find_held_nodes(model.cage, model.root)),
           which(which),
           x(modelled_positions(model)),
           rest(x),

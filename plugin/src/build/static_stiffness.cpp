@@ -25,9 +25,14 @@ StaticStiffness::StaticStiffness(const BlockPattern& pattern) : plan(make_direct
 }
 
 bool StaticStiffness::set(const Elements& elements, const std::vector<uint8_t>& held, frond_mechanics which,
-                          Tangent tangent, const VecX& x, int order) {
+                          Tangent tangent, const VecX& x) {
+    return set(elements, held, mechanics(which), tangent, x);
+}
+
+bool StaticStiffness::set(const Elements& elements, const std::vector<uint8_t>& held, const Mechanics& row,
+                          Tangent tangent, const VecX& x) {
     K.set_zero();
-    mechanics(which, order).add_stiffness(elements, x, tangent, 1, K);
+    row.add_stiffness(elements, x, tangent, 1, K);
     hold(held, K);
     return factorize(*factor, K);
 }

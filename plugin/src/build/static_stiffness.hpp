@@ -13,7 +13,9 @@ struct StaticStiffness {
     explicit StaticStiffness(const BlockPattern& pattern);
     // Fills and factorizes it at x; false if it is not positive definite, so that x is not stable.
     bool set(const Elements& elements, const std::vector<uint8_t>& held, frond_mechanics which, Tangent tangent,
-             const VecX& x, int order = 1);
+             const VecX& x);
+    bool set(const Elements& elements, const std::vector<uint8_t>& held, const Mechanics& row, Tangent tangent,
+             const VecX& x);
 };
 
 }  // namespace frond

@@ -6,6 +6,7 @@
 #include "core/types.hpp"
 #include "frond/frond.h"
 #include "mechanics/block_matrix.hpp"
+#include "mechanics/plasticity.hpp"
 #include "mechanics/tet_nodes.hpp"
 #include "model/model.hpp"
 
@@ -18,6 +19,8 @@ struct Elements {
     VecX rest_positions;  // without load, node_count*3 [m]
     VecX modelled;        // where the nodes are in the shape that was modelled, node_count*3 [m]
     BlockPattern pattern;
+    std::vector<double> damping_ratio;  // of the organ that each element belongs to [-]
+    std::vector<Yield> yields;          // one an element; none where nothing can yield
     virtual ~Elements() = default;
 
 protected:
@@ -29,6 +32,13 @@ protected:
 };
 
 // Nodes are the cage's, with order 2 the middles of its edges too. Edges are straight at rest.
+// What of the deformation at a point of integration is lasting: F = F_e F_p.
+struct TetLasting {
+    Mat3 rest_inverse;  // the tet's, times F_p^-1 [1/m]
+    Mat3 inverse;       // F_p^-1, of determinant one
+    double hardening;   // see elastic_share()
+};
+
 struct TetElements : Elements {
     TetNodes nodes;
     std::vector<Tet> tets;           // as in the cage
@@ -37,6 +47,7 @@ struct TetElements : Elements {
     std::vector<double> volume;      // [m^3]
     std::vector<double> lambda, mu;  // Lame's constants [Pa]
     std::vector<double> density;     // [kg/m^3]
+    std::vector<TetLasting> lasting;  // by tets and their points; of a plant that has yielded, else none
     // Blocks of an element's nodes a >= b, in the order of nodes.of_tet, at [a(a+1)/2 + b] in a BlockMatrix of this
     // pattern: ten with order 1, else 55.
     std::vector<std::array<int, 10>> slots;
@@ -73,6 +84,9 @@ struct Mechanics {
     void (*add_stiffness)(const Elements& elements, const VecX& x, Tangent tangent, double scale, BlockMatrix& K);
     // Both of the above in one pass over the elements, the stiffness with scale one.
     int (*add_force_and_stiffness)(const Elements& elements, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K);
+    // The same with the positive stiffness, and damping[e] [s] times each element's own part of it added to D [N s/m].
+    int (*add_force_stiffness_and_damping)(const Elements& elements, const VecX& x, const std::vector<double>& damping,
+                                           VecX& f, BlockMatrix& K, BlockMatrix& D);
     // Rotary inertia of each pair of nodes, place and rotation, by the rate of the rotation vector at x [kg m^2]; null
     // where no node turns.
     void (*rotary_inertia)(const Elements& elements, const VecX& x, std::vector<Mat3>& out);
@@ -82,6 +96,15 @@ struct Mechanics {
     // Derivative of one element's forces on its corners 1, 2, 3 by their places at rest, both against corner 0 [N/m]; in
     // the order of TetElements::ordered. Null for elements other than linear tets.
     RestDerivative (*rest_derivative)(const Elements& elements, size_t e, const VecX& x);
+    // Plasticity. Whether something is strained beyond its yield at x; elements without `yields` are not to be asked.
+    bool (*yields)(const Elements& elements, const VecX& x);
+    // For a plant of its own that has yielded.
+    std::unique_ptr<Elements> (*copy)(const Elements& elements);
+    // What of such a copy's deformation at x becomes lasting within h [s]. Elastic energy does not grow by it.
+    void (*flow)(Elements& own, const VecX& x, double h);
+    // All that is lasting, in numbers; set throws BAD_ARGUMENT, with nothing changed, for what get cannot have given.
+    std::vector<double> (*get_lasting)(const Elements& own);
+    void (*set_lasting)(Elements& own, const std::vector<double>& values);
     // One solve alone may blow up where tets are inside out: go on from there with a line search.
     bool needs_search;
     // Nodes are pairs of a chain node's place and its rotation; the cage follows. Else nodes are the cage's.

@@ -140,6 +140,17 @@ void scatter_stiffness(const RodSegment& rod, const Matrix12& stiffness, BlockMa
 
 }  // namespace
 
+std::vector<RodStrain> rod_strains(const RodElements& elements, const VecX& x) {
+    const std::vector<RodNode<double>> nodes = nodes_at(x);
+    std::vector<RodStrain> strains;
+    strains.reserve(elements.segments.size());
+    for (const RodSegment& rod : elements.segments) {
+        const Bent<double> bent = bend_between(rod, nodes[size_t(rod.a)], nodes[size_t(rod.b)]);
+        strains.push_back({bent.strain, bent.curvature});
+    }
+    return strains;
+}
+
 double rod_energy(const Elements& body, const VecX& x) {
     const std::vector<RodNode<double>> nodes = nodes_at(x);
     double energy = 0;
@@ -175,6 +186,22 @@ int rod_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, 
         scatter_force(rod, gradient(rod, a, b, bent), f);
         scatter_stiffness(
             rod, tangent == Tangent::exact ? exact_stiffness(rod, x) : positive_stiffness(rod, a, b, bent), K);
+    }
+    return 0;
+}
+
+int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double>& damping, VecX& f, BlockMatrix& K,
+                   BlockMatrix& D) {
+    const std::vector<RodNode<double>> nodes = nodes_at(x);
+    const std::vector<RodSegment>& segments = as_rods(body).segments;
+    for (size_t s = 0; s < segments.size(); ++s) {
+        const RodSegment& rod = segments[s];
+        const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
+        const Bent<double> bent = bend_between(rod, a, b);
+        scatter_force(rod, gradient(rod, a, b, bent), f);
+        const Matrix12 stiffness = positive_stiffness(rod, a, b, bent);
+        scatter_stiffness(rod, stiffness, K);
+        scatter_stiffness(rod, damping[s] * stiffness, D);
     }
     return 0;
 }

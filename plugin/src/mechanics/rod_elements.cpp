@@ -14,17 +14,23 @@ namespace frond {
 
 namespace {
 
+size_t organ_of(const Model& model, size_t node) {
+    return size_t(std::max(model.chain.nodes[node].organ, 0));
+}
+
 // Resistance of a piece's section: along, thin, wide.
 void set_resistance(const Model& model, size_t node, frond_mechanics which, RodSegment& rod) {
     const Section& section = model.sections[node];
-    const size_t organ = size_t(std::max(model.chain.nodes[node].organ, 0));
+    const size_t organ = organ_of(model, node);
     const Material& material = model.organs[organ].material;
     const double stiffer = model.organ_stiffer[organ], E = material.young * stiffer;
     const double over = 12 / (rod.length * rod.length);
     double area = section.area, thin = section.inertia_thin, wide = section.inertia_wide;
     double twisting = stiffer * section.twisting();
+    rod.reach_thin = 0.5 * section.thickness;
+    rod.reach_wide = 0.5 * section.width;
     if (which == FROND_SPRING_CHAIN) {
-        const double r = model.chain.nodes[node].radius;
+        const double r = rod.reach_thin = rod.reach_wide = model.chain.nodes[node].radius;
         area = M_PI * r * r;
         thin = wide = area * r * r / 4;
         twisting = E * (thin + wide) / (2 * (1 + material.poisson));
@@ -104,7 +110,9 @@ RodElements make_rod_elements(const Model& model, frond_mechanics which) {
     for (size_t i = 0; i < nodes.size(); ++i) {
         const int a = nodes[i].parent, b = int(i);
         pairs.push_back(a < 0 ? Tet{2 * b, 2 * b + 1, 2 * b, 2 * b + 1} : Tet{2 * a, 2 * a + 1, 2 * b, 2 * b + 1});
-        if (a >= 0) out.segments.push_back(make_segment(model, i, which));
+        if (a < 0) continue;
+        out.segments.push_back(make_segment(model, i, which));
+        out.damping_ratio.push_back(model.organs[organ_of(model, i)].material.damping_ratio);
     }
     out.pattern = make_block_pattern(out.node_count, pairs);
     for (RodSegment& rod : out.segments) {
@@ -123,7 +131,9 @@ RodElements make_rod_elements(const Model& model, frond_mechanics which) {
 }
 
 std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics which) {
-    return std::make_unique<RodElements>(make_rod_elements(model, which));
+    auto elements = std::make_unique<RodElements>(make_rod_elements(model, which));
+    let_rods_yield(model, *elements);
+    return elements;
 }
 
 // Lumped: each node its own. Consistent: of linear shape functions, a third of a piece's mass to its ends and a sixth to

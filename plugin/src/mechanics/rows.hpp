@@ -24,7 +24,14 @@ double rod_energy(const Elements&, const VecX& x);
 int rod_add_force(const Elements&, const VecX& x, VecX& f);
 void rod_add_stiffness(const Elements&, const VecX& x, Tangent, double scale, BlockMatrix& K);
 int rod_add_both(const Elements&, const VecX& x, Tangent, VecX& f, BlockMatrix& K);
+int rod_add_damped(const Elements&, const VecX& x, const std::vector<double>& damping, VecX& f, BlockMatrix& K,
+                   BlockMatrix& D);
 void rod_inertia(const Elements&, const VecX& x, std::vector<Mat3>& out);
+bool rods_yield(const Elements&, const VecX& x);
+std::unique_ptr<Elements> copy_rods(const Elements&);
+void rods_flow(Elements& own, const VecX& x, double h);
+std::vector<double> lasting_of_rods(const Elements& own);
+void set_lasting_of_rods(Elements& own, const std::vector<double>& values);
 bool rods_are_calm(const Elements&, const VecX& from, const VecX& to);
 
 }  // namespace frond

@@ -26,6 +26,11 @@ struct TetShare {
     double volume, lambda, mu;
 };
 
+inline const Mat3& rest_inverse(const TetElements& elements, size_t e, int q, int points) {
+    if (elements.lasting.empty()) return elements.rest_inverse[e];
+    return elements.lasting[e * size_t(points) + size_t(q)].rest_inverse;
+}
+
 // Stiffness between corners 1, 2, 3 of a linear tet; corner 0 follows, since moving all alike gives no force.
 struct TetStiffness {
     Mat3 k11, k21, k31, k22, k32, k33;
@@ -35,8 +40,8 @@ struct LinearTet {
     static constexpr int POINTS = 1;
     using Places = Mat3;  // edges from the first corner
 
-    static TetShare share(const TetElements& elements, size_t e) {
-        return {elements.rest_inverse[e], elements.volume[e], elements.lambda[e], elements.mu[e]};
+    static TetShare share(const TetElements& elements, size_t e, int q = 0) {
+        return {rest_inverse(elements, e, q, POINTS), elements.volume[e], elements.lambda[e], elements.mu[e]};
     }
 
     static Places places(const TetElements& elements, size_t e, const VecX& x) {
@@ -93,8 +98,8 @@ struct QuadraticTetElement {
         std::array<Vec3, 4> corner;  // y but for what is more at a point
     };
 
-    static TetShare share(const TetElements& elements, size_t e) {
-        return {elements.rest_inverse[e], elements.volume[e] / POINTS, elements.lambda[e], elements.mu[e]};
+    static TetShare share(const TetElements& elements, size_t e, int q) {
+        return {rest_inverse(elements, e, q, POINTS), elements.volume[e] / POINTS, elements.lambda[e], elements.mu[e]};
     }
 
     static Places places(const TetElements& elements, size_t e, const VecX& x) {

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/rows.hpp"
-#include "mechanics/tet_element.hpp"
+#include "mechanics/tet_plasticity.hpp"
 #include "model/tet_geometry.hpp"
 
 namespace frond {
@@ -98,7 +98,11 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions, in
 template <int ORDER>
 std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which) {
     const VecX& rest = model.rest_shapes->positions[size_t(which)];
-    return std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr, ORDER));
+    auto elements = std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr, ORDER));
+    for (int organ : model.cage.tet_organ)
+        elements->damping_ratio.push_back(model.organs[size_t(organ)].material.damping_ratio);
+    let_tets_yield(model, *elements);
+    return elements;
 }
 template std::unique_ptr<const Elements> make_tets<1>(const Model&, frond_mechanics);
 template std::unique_ptr<const Elements> make_tets<2>(const Model&, frond_mechanics);
@@ -160,9 +164,9 @@ bool tets_are_calm(const Elements& body, const VecX& from, const VecX& to) {
     constexpr double MOST = 0.5;  // change of the deformation gradient [-]; as a turn, about 20 degrees
     const TetElements& elements = as_tets(body);
     for (size_t e = 0; e < elements.tets.size(); ++e) {
-        const TetShare share = Element::share(elements, e);
         const auto before = Element::places(elements, e, from), after = Element::places(elements, e, to);
         for (int q = 0; q < Element::POINTS; ++q) {
+            const TetShare share = Element::share(elements, e, q);
             const Mat3 change = Element::gradient(share, after, q) - Element::gradient(share, before, q);
             if (!(change.squaredNorm() < MOST * MOST)) return false;
         }

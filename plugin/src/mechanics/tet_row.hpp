@@ -8,7 +8,7 @@
 #pragma once
 
 #include "mechanics/rows.hpp"
-#include "mechanics/tet_element.hpp"
+#include "mechanics/tet_plasticity.hpp"
 
 namespace frond {
 
@@ -18,10 +18,11 @@ struct TetRow {
         const TetElements& elements = as_tets(body);
         double energy = 0;
         for (size_t e = 0; e < elements.tets.size(); ++e) {
-            const TetShare share = Element::share(elements, e);
             const auto places = Element::places(elements, e, x);
-            for (int q = 0; q < Element::POINTS; ++q)
+            for (int q = 0; q < Element::POINTS; ++q) {
+                const TetShare share = Element::share(elements, e, q);
                 energy += share.volume * Law::energy(share, Law::strain(share, Element::gradient(share, places, q)));
+            }
         }
         return energy;
     }
@@ -30,10 +31,10 @@ struct TetRow {
         const TetElements& elements = as_tets(body);
         int inverted = 0;
         for (size_t e = 0; e < elements.tets.size(); ++e) {
-            const TetShare share = Element::share(elements, e);
             const auto places = Element::places(elements, e, x);
             bool is_inverted = false;
             for (int q = 0; q < Element::POINTS; ++q) {
+                const TetShare share = Element::share(elements, e, q);
                 const auto strain = Law::strain(share, Element::gradient(share, places, q));
                 Element::add_force(elements, e, share, q, Law::stress(share, strain), f);
                 is_inverted |= Law::inverted(strain);
@@ -46,32 +47,75 @@ struct TetRow {
     static void add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale, BlockMatrix& K) {
         const TetElements& elements = as_tets(body);
         for (size_t e = 0; e < elements.tets.size(); ++e) {
-            const TetShare share = Element::share(elements, e);
             const auto places = Element::places(elements, e, x);
             for (int q = 0; q < Element::POINTS; ++q) {
+                const TetShare share = Element::share(elements, e, q);
                 const auto strain = Law::strain(share, Element::gradient(share, places, q));
                 Element::add_stiffness(elements, e, q, Law::stiffness(share, strain, tangent, scale), K);
             }
         }
     }
 
-    static int add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+    // `also` is given each element's stiffness after it was added to K.
+    template <class Also>
+    static int add_all(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K, Also&& also) {
         const TetElements& elements = as_tets(body);
         int inverted = 0;
         for (size_t e = 0; e < elements.tets.size(); ++e) {
-            const TetShare share = Element::share(elements, e);
             const auto places = Element::places(elements, e, x);
             bool is_inverted = false;
             for (int q = 0; q < Element::POINTS; ++q) {
+                const TetShare share = Element::share(elements, e, q);
                 const auto strain = Law::strain(share, Element::gradient(share, places, q));
                 Element::add_force(elements, e, share, q, Law::stress(share, strain), f);
-                Element::add_stiffness(elements, e, q, Law::stiffness(share, strain, tangent, 1), K);
+                const TetStiffness k = Law::stiffness(share, strain, tangent, 1);
+                Element::add_stiffness(elements, e, q, k, K);
+                also(elements, e, q, k);
                 is_inverted |= Law::inverted(strain);
             }
             inverted += is_inverted;
         }
         return inverted;
     }
+
+    static int add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+        return add_all(body, x, tangent, f, K, [](const TetElements&, size_t, int, const TetStiffness&) {});
+    }
+
+    static int add_damped(const Elements& body, const VecX& x, const std::vector<double>& damping, VecX& f,
+                          BlockMatrix& K, BlockMatrix& D) {
+        const auto damp = [&](const TetElements& elements, size_t e, int q, const TetStiffness& k) {
+            const double b = damping[e];
+            Element::add_stiffness(elements, e, q, {b * k.k11, b * k.k21, b * k.k31, b * k.k22, b * k.k32, b * k.k33},
+                                   D);
+        };
+        return add_all(body, x, Tangent::positive, f, K, damp);
+    }
+
+    static void flow(Elements& body, const VecX& x, double h) {
+        TetElements& elements = static_cast<TetElements&>(body);
+        Strained now;
+        for (size_t e = 0; e < elements.tets.size(); ++e) {
+            const auto places = Element::places(elements, e, x);
+            for (int q = 0; q < Element::POINTS; ++q) {
+                const TetShare share = Element::share(elements, e, q);
+                const Mat3 F = Element::gradient(share, places, q);
+                if (!exceeds(share, F, elements.yields[e].strain, now)) continue;
+                TetLasting& lasting = elements.lasting[e * Element::POINTS + size_t(q)], next = lasting;
+                const double elastic = elastic_share(elements.yields[e], now.strain, 1, h, next.hardening);
+                const Mat3 change = flow_of(now.S, elastic);
+                next.inverse *= change;
+                next.rest_inverse = elements.rest_inverse[e] * next.inverse;
+                // A change of shape may change the volume's energy at second order: energy never grows.
+                if (next.inverse.squaredNorm() < FARTHEST &&
+                    Law::energy(share, Law::strain(share, F * change)) <= Law::energy(share, Law::strain(share, F)))
+                    lasting = next;
+            }
+        }
+    }
+
+    // What flows on and on ends as a needle, which has no inverse: where a lasting stretch nears five, tets stay elastic.
+    static constexpr double FARTHEST = 25;  // square of the norm of F_p^-1 [-]
 };
 
 // A move of corner b at rest by dX acts on F as a move of it in space by -F dX does; it changes the volume V and the
@@ -99,12 +143,16 @@ RestDerivative rest_derivative(const Elements& body, size_t e, const VecX& x) {
 
 template <class Law>
 Mechanics tet_row(const char* name, int order, bool needs_search) {
-    const auto row = [&](auto rows, auto make, auto is_calm, auto rest_derivative) {
-        return Mechanics{name,          make,    tet_masses, rows.energy,     rows.add_force, rows.add_stiffness,
-                         rows.add_both, nullptr, is_calm,    rest_derivative, needs_search,   false};
+    const auto row = [&](auto rows, auto make, auto is_calm, auto yields, auto rest_derivative) {
+        return Mechanics{name,          make,            tet_masses, rows.energy, rows.add_force, rows.add_stiffness,
+                         rows.add_both, rows.add_damped, nullptr,    is_calm,     rest_derivative, yields,
+                         copy_tets,     rows.flow,       lasting_of_tets, set_lasting_of_tets, needs_search, false};
     };
-    if (order == 1) return row(TetRow<Law, LinearTet>(), make_tets<1>, tets_are_calm<LinearTet>, rest_derivative<Law>);
-    return row(TetRow<Law, QuadraticTetElement>(), make_tets<2>, tets_are_calm<QuadraticTetElement>, nullptr);
+    if (order == 1)
+        return row(TetRow<Law, LinearTet>(), make_tets<1>, tets_are_calm<LinearTet>, tets_yield<LinearTet>,
+                   rest_derivative<Law>);
+    return row(TetRow<Law, QuadraticTetElement>(), make_tets<2>, tets_are_calm<QuadraticTetElement>,
+               tets_yield<QuadraticTetElement>, nullptr);
 }
 
 }  // namespace frond

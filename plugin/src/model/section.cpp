@@ -9,11 +9,12 @@
 #include "model/section_parts.hpp"
 
 namespace frond {
-namespace {
 
 bool is_sheet(const Organ& organ) {
     return organ.kind == "blade" || organ.kind == "flower";
 }
+
+namespace {
 
 std::vector<CapsuleFrame> make_frames(const Chain& chain) {
     std::vector<CapsuleFrame> frames(chain.nodes.size());

@@ -45,6 +45,9 @@ std::vector<Section> measure_sections(const Surface& surface, const Topology& to
 // From the outline, axis to inertia_wide, to the organ: sizes, the hole, torsion and the material's constants.
 void finish_section(const Organ& organ, Section& section);
 
+// Blades and flowers.
+bool is_sheet(const Organ& organ);
+
 // Share of an organ's outline that is a hole [-]: hollow squared; 0 for blades and flowers.
 double hole_share(const Organ& organ);
 

@@ -1,9 +1,11 @@
 // A plant at rest in its place, with its root held.
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <tuple>
 
 #include "build/build.hpp"
+#include "build/sway_frequency.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {
@@ -25,14 +27,23 @@ struct Shared {
     }
 };
 
-static std::shared_ptr<const System> shared_system(const std::shared_ptr<const Model>& model, frond_mechanics which,
+// What all plants of one model and mechanics share.
+struct SharedSystem {
+    std::shared_ptr<const System> system;
+    double full_damping;  // of full_damping(); 0 where no organ has a damping ratio [s]
+};
+
+static std::shared_ptr<const SharedSystem> shared_system(const std::shared_ptr<const Model>& model, frond_mechanics which,
                                                    frond_mass mass, int order) {
-    static Shared<std::tuple<const Model*, frond_mechanics, frond_mass, int>, System> systems;
-    return systems.find_or_make({model.get(), which, mass, order},
-                                [&] {
-                                    ensure_rest_shape(*model, which);
-                                    return make_system(model, which, mass, order);
-                                });
+    static Shared<std::tuple<const Model*, frond_mechanics, frond_mass, int>, SharedSystem> systems;
+    return systems.find_or_make({model.get(), which, mass, order}, [&] {
+        ensure_rest_shape(*model, which);
+        SharedSystem shared = {make_system(model, which, mass, order), 0};
+        const std::vector<Organ>& organs = model->organs;
+        if (std::any_of(organs.begin(), organs.end(), [](const Organ& o) { return o.material.damping_ratio > 0; }))
+            shared.full_damping = full_damping(*shared.system, which, order);
+        return std::make_shared<const SharedSystem>(std::move(shared));
+    });
 }
 
 // Something made from a model, which keeps that alive, so that another one at the same address is not taken for it.
@@ -59,8 +70,11 @@ static CageNodes make_nodes(const Cage& cage, int order) {
 static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.which = which;
     const CageNodes& nodes = *plant.nodes;
-    plant.system = shared_system(plant.model, which, plant.mass, nodes.order);
+    const std::shared_ptr<const SharedSystem> shared = shared_system(plant.model, which, plant.mass, nodes.order);
+    plant.system = std::shared_ptr<const System>(shared, shared->system.get());
+    plant.settings.full_damping = plant.material_damping * shared->full_damping;
     plant.workspace = make_workspace(plant.system);
+    plant.own_elements = nullptr;
     plant.follow = nullptr;
     if (mechanics(which).moves_chain)
         plant.follow = shared_of<Follow>(plant.model, nodes.order,
@@ -117,6 +131,7 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     plant->settings.tolerance = def.tolerance;
     plant->settings.mass_damping = def.mass_damping;
     plant->settings.stiffness_damping = def.stiffness_damping;
+    plant->material_damping = def.material_damping;
     plant->settings.spectral_radius = def.spectral_radius;
     plant->effects = def.effects;
     plant->position = Vec3(def.position.x, def.position.y, def.position.z);
@@ -139,7 +154,11 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 void set_mechanics(Plant& plant, frond_mechanics which) {
     if (which == plant.which) return;
     const VecX places = cage_places(plant), velocities = cage_velocities(plant);
+    // Tets have their points in common, rods their pieces.
+    const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
+    const std::vector<double> lasting = keeps ? lasting_of(plant) : std::vector<double>();
     take_mechanics(plant, which);
+    set_lasting(plant, lasting);
     if (plant.follow) {
         fit_chain(*plant.follow, *plant.model, places, plant.motion.x);
         fit_velocities(*plant.follow, plant.motion.x, velocities, plant.motion.v);

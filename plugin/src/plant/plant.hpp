@@ -29,8 +29,10 @@ struct Plant {
     frond_mechanics which;
     frond_mass mass;
     std::shared_ptr<const System> system;
-    WorkspacePtr workspace;
+    std::unique_ptr<Elements> own_elements;  // of a plant that has yielded, with what of its shape is lasting; else null
+    WorkspacePtr workspace;  // refers to them
     SolveSettings settings, step_settings;  // the latter without what the running step's effects leave out
+    double material_damping;  // share of the organs' damping ratios that counts [-]
     frond_effects effects;
     Vec3 position;  // of the model's frame in the world [m]
     Quat rotation;
@@ -75,13 +77,13 @@ struct Surroundings {
 
 // `def` has been checked by the caller.
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def);
-// A step in two halves, between which contacts may change what the first one found: effects and solve; then accept or
-// rewind, and the chain.
+// A step in two halves, between which contacts may change what the first one found: effects and solve; then accept, with
+// what becomes lasting, or rewind, and the chain.
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
 // Takes contact_impulse into the step that was solved.
 void add_contacts(Plant& plant, double h);
 bool step_is_sound(const Plant& plant);
-void accept_step(Plant& plant);
+void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Both.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);
 // Forces given by frond_plant_add_force end.
@@ -95,6 +97,9 @@ Vec3 vertex_position(const Plant& plant, int vertex);   // world frame [m]
 Vec3 grab_force(const Plant& plant, const Grab& grab);  // on the plant, world frame [N]
 // Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave that part as it is.
 void set_state(Plant& plant, const double* positions, const double* velocities);
+// All that is lasting in its shape, in numbers; none if nothing has yielded. Setting none makes it straight again.
+std::vector<double> lasting_of(const Plant& plant);
+void set_lasting(Plant& plant, const std::vector<double>& values);
 void update_chain(Plant& plant);
 // After the motion was changed: the chain now, cage and surface when somebody looks.
 void moved(Plant& plant);

@@ -7,7 +7,8 @@ frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
     const VecX& mass = node_mass_of(*plant.system);
     frond_energy energy = {};
     energy.kinetic = kinetic_energy(*plant.system, plant.motion.x, plant.motion.v);
-    energy.elastic = mechanics(plant.which, plant.nodes->order).energy(elements_of(*plant.system), plant.motion.x);
+    energy.elastic = mechanics(plant.which, plant.nodes->order).energy(
+        plant.own_elements ? *plant.own_elements : elements_of(*plant.system), plant.motion.x);
     for (int i = 0; i < mass.size(); i++)
         energy.gravity -= mass[i] * gravity.dot(plant.to_world(point(plant.motion.x, i)));
     return energy;
@@ -39,6 +40,22 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
     plant.pins_changed = true;
     apply_pins(plant);
     moved(plant);
+}
+
+std::vector<double> lasting_of(const Plant& plant) {
+    if (!plant.own_elements) return {};
+    return mechanics(plant.which, plant.nodes->order).get_lasting(*plant.own_elements);
+}
+
+void set_lasting(Plant& plant, const std::vector<double>& values) {
+    std::unique_ptr<Elements> own;
+    if (!values.empty()) {
+        const Mechanics& row = mechanics(plant.which, plant.nodes->order);
+        own = row.copy(elements_of(*plant.system));
+        row.set_lasting(*own, values);
+    }
+    use_elements(*plant.workspace, own.get());
+    plant.own_elements = std::move(own);
 }
 
 int node_count_of(const Plant& plant) {

@@ -1,4 +1,4 @@
-// One step of a plant: effects -> solve -> (contact response) -> accept or rewind -> chain.
+// One step of a plant: effects -> solve -> (contact response) -> accept, with what becomes lasting, or rewind -> chain.
 #include <algorithm>
 
 #include "core/timer.hpp"
@@ -39,6 +39,19 @@ static bool are_near(const Plant& plant, const VecX& from, double distance) {
     return true;
 }
 
+// What is bent beyond its yield keeps a part of that.
+static void keep_sets(Plant& plant, double h) {
+    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
+    const Elements& shared = elements_of(*plant.system);
+    if (shared.yields.empty()) return;
+    if (!plant.own_elements) {
+        if (!row.yields(shared, plant.motion.x)) return;
+        plant.own_elements = row.copy(shared);
+        use_elements(*plant.workspace, plant.own_elements.get());
+    }
+    row.flow(*plant.own_elements, plant.motion.x, h);
+}
+
 // No node has gone farther than the plant is long.
 static bool is_plausible(const Plant& plant) {
     return are_near(plant, plant.x_good, plant.model->surface.size());
@@ -72,7 +85,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     apply_pins(plant);
     gather_loads(plant, surroundings, effects);
     SolveSettings& settings = plant.step_settings = plant.settings;
-    if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = 0;
+    if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     plant.ms_effects = timer.lap();
 
     // Solve.
@@ -104,7 +117,8 @@ bool step_is_sound(const Plant& plant) {
            are_near(plant, elements_of(*plant.system).modelled, FARTHEST * plant.model->surface.size());
 }
 
-void accept_step(Plant& plant) {
+void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
+    const frond_effects effects = plant.effects & surroundings.effects;
     Motion& motion = plant.motion;
     // Accept, or go back to the last good state and stand still there.
     if (!step_is_sound(plant)) {
@@ -112,13 +126,15 @@ void accept_step(Plant& plant) {
         motion.v.setZero();
         motion.history.valid = false;
         plant.trouble |= FROND_TROUBLE_REWOUND;
+    } else if (effects & FROND_PLASTICITY) {
+        keep_sets(plant, h);
     }
     moved(plant);
 }
 
 void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
     solve_plant(plant, surroundings, h);
-    accept_step(plant);
+    accept_step(plant, surroundings, h);
 }
 
 void clear_user_force(Plant& plant) {

@@ -10,18 +10,25 @@ void force_at_start(Workspace& w, const StepInput& input, SolveReport& report) {
     const System& system = *w.system;
     const Mechanics& body = *system.row;
     const VecX& x = input.motion.x;
-    const double b = input.settings.stiffness_damping;
+    const double b = w.damping_scale;
     w.force = w.external;
     add_spring_force(input.loads.springs, x, w.force);
 
-    // D = a M + b K, the positive K as in a stage.
-    if (b > 0) {
+    // D = a M + b K, or elements' own parts of it, the positive K as in a stage.
+    if (!w.element_damping.empty()) {
         w.A.set_zero();
-        report.inverted = body.add_force_and_stiffness(*system.elements, x, Tangent::positive, w.force, w.A);
+        w.damping.set_zero();
+        report.inverted = body.add_force_stiffness_and_damping(*w.elements, x, w.element_damping, w.force, w.A,
+                                                               w.damping);
+        w.damping.multiply(w.v_start, w.product);
+        w.force -= w.product;
+    } else if (b > 0) {
+        w.A.set_zero();
+        report.inverted = body.add_force_and_stiffness(*w.elements, x, Tangent::positive, w.force, w.A);
         w.A.multiply(w.v_start, w.product);
         w.force -= b * w.product;
     } else {
-        report.inverted = body.add_force(*system.elements, x, w.force);
+        report.inverted = body.add_force(*w.elements, x, w.force);
     }
     multiply_mass(system, w.inertia, w.v_start, w.momentum);
     w.force -= input.settings.mass_damping * w.momentum;

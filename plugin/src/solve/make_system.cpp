@@ -1,5 +1,7 @@
 // In: a model and how mass is given to nodes. Out: elements, mass matrix and elimination order.
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/error.hpp"
 #include "solve/system.hpp"
@@ -17,6 +19,8 @@ std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, fr
     const Mechanics& row = *(system->row = &mechanics(which, order));
     system->elements = row.make(*system->model, which);
     system->masses = row.masses(*system->elements, mass);
+    const std::vector<double>& ratio = system->elements->damping_ratio;
+    system->damps_alike = std::adjacent_find(ratio.begin(), ratio.end(), std::not_equal_to<>()) == ratio.end();
     system->plan = make_direct_plan(system->elements->pattern);
 
     const BlockPattern& pattern = system->elements->pattern;
@@ -34,6 +38,9 @@ std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, fr
     return system;
 }
 
+const Model& model_of(const System& system) {
+    return *system.model;
+}
 const Elements& elements_of(const System& system) {
     return *system.elements;
 }

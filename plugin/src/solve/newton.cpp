@@ -5,8 +5,8 @@
 // exact stiffness, which converges quadratically, and fall back to the positive one when that has no factor. A line
 // search keeps them from making the residual and the stage's potential both larger.
 //
-// D = mass_damping M + stiffness_damping K, K being the positive stiffness at the start of the step: it never feeds
-// energy and does not resist turning as a whole.
+// D = mass_damping M + stiffness_damping K, K being the positive stiffness at the start of the step, and an element's own
+// damping times its part of K: it never feeds energy and does not resist turning as a whole.
 #include <algorithm>
 #include <cmath>
 
@@ -25,9 +25,10 @@ struct Newton {
     SolveReport& report;
     const System& system;
     const Mechanics& body;
-    double rayleigh;    // stiffness_damping [s]
+    double rayleigh;    // workspace.damping_scale [s]
     int iterations;     // at most
-    bool keep_damping;  // the stiffness of the damping is needed again after the first solve
+    bool apart;         // elements damp each in its own way: the damping is not a multiple of the stiffness
+    bool keep_damping;  // the damping is needed besides the stiffness
     bool skipped;       // the first solve was left to the line search
 };
 
@@ -62,7 +63,11 @@ void linearize_at_start(Newton& n) {
     const auto assemble = [&](const VecX& x) {
         w.elastic.setZero(x.size());
         w.A.set_zero();
-        n.report.inverted = n.body.add_force_and_stiffness(*n.system.elements, x, Tangent::positive, w.elastic, w.A);
+        if (n.apart) w.damping.set_zero();
+        n.report.inverted =
+            n.apart ? n.body.add_force_stiffness_and_damping(*n.w.elements, x, w.element_damping, w.elastic, w.A,
+                                                             w.damping)
+                    : n.body.add_force_and_stiffness(*n.w.elements, x, Tangent::positive, w.elastic, w.A);
         move(n, w.v);
         w.dv = w.x - x;
     };
@@ -70,11 +75,16 @@ void linearize_at_start(Newton& n) {
     const VecX& start = n.input.motion.x;
     const bool calm = &n.stage.x_from == &start || is_calm(n.system, start, n.stage.x_from);
     assemble(calm ? n.stage.x_from : start);
-    w.dv += n.rayleigh * w.v;
+    if (!n.apart) w.dv += n.rayleigh * w.v;
     w.A.multiply(w.dv, w.product);
     start_residual(n, w.v, w.rhs);
     w.rhs -= n.stage.step * w.product;
-    if (n.keep_damping) w.damping = w.A;
+    if (n.apart) {
+        w.damping.multiply(w.v, w.product);
+        w.rhs -= n.stage.step * w.product;
+    } else if (n.keep_damping) {
+        w.damping = w.A;
+    }
 }
 
 // The residual at the end of the stage with velocities v; leaves its elastic force and positions in the workspace.
@@ -82,7 +92,7 @@ double residual_at(Newton& n, const VecX& v, VecX& rhs) {
     Workspace& w = n.w;
     move(n, v);
     w.elastic.setZero(v.size());
-    n.report.inverted = n.body.add_force(*n.system.elements, w.x, w.elastic);
+    n.report.inverted = n.body.add_force(*n.w.elements, w.x, w.elastic);
     start_residual(n, v, rhs);
     if (n.keep_damping) {
         w.damping.multiply(v, w.product);
@@ -96,7 +106,7 @@ double potential_at(const Newton& n, const VecX& v) {
     Workspace& w = n.w;
     const double step = n.stage.step, a = n.input.settings.mass_damping;
     move(n, v);
-    double potential = n.body.energy(*n.system.elements, w.x) + spring_energy(n.input.loads.springs, w.x) -
+    double potential = n.body.energy(*n.w.elements, w.x) + spring_energy(n.input.loads.springs, w.x) -
                        step * w.external.dot(v);
     w.dv = v - n.stage.v_base;
     multiply_mass(n.system, w.inertia, w.dv, w.momentum);
@@ -111,13 +121,15 @@ double potential_at(const Newton& n, const VecX& v) {
     return potential;
 }
 
-// A = (1 + step a) M + step^2 K + step b K_damping + springs. `first`: both K are the one that stands in A.
+// A = (1 + step a) M + step^2 K + step b K_damping + springs. `first`: K is the one at the start of the step, of which
+// the damping is a multiple unless elements damp each in its own way.
 void form_matrix(Newton& n, bool first) {
     BlockMatrix& A = n.w.A;
     const double step = n.stage.step, mass = 1 + step * n.input.settings.mass_damping;
-    const double scale = step * step + (first ? step * n.rayleigh : 0);
+    const bool alike = first && !n.apart;
+    const double scale = step * step + (alike ? step * n.rayleigh : 0);
     for (double& value : A.values) value *= scale;
-    if (!first && n.keep_damping)
+    if (!alike && n.keep_damping)
         for (size_t k = 0; k < A.values.size(); ++k) A.values[k] += step * n.rayleigh * n.w.damping.values[k];
     for (size_t k = 0; k < n.system.masses.slot.size(); ++k) {
         const double m = mass * n.system.masses.slot[k];
@@ -161,7 +173,7 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
         n.w.rhs = rhs;
         n.w.A.set_zero();
         move(n, n.w.v);
-        n.body.add_stiffness(*n.system.elements, n.w.x, tangent, 1, n.w.A);
+        n.body.add_stiffness(*n.w.elements, n.w.x, tangent, 1, n.w.A);
         form_matrix(n, false);
         hold(n);
         n.report.ms_assembly += timer.lap();
@@ -264,7 +276,8 @@ void add_inertia(Workspace& w, double scale) {
 
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report) {
     const int iterations = stage.iterations > 0 ? stage.iterations : input.settings.newton_iterations;
-    const double b = input.settings.stiffness_damping;
+    const double b = workspace.damping_scale;
+    const bool apart = !workspace.element_damping.empty();
     Newton n = {workspace,
                 input,
                 stage,
@@ -273,7 +286,8 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
                 *workspace.system->row,
                 b,
                 iterations,
-                b > 0 && (iterations > 1 || workspace.system->row->needs_search || input.settings.careful),
+                apart,
+                apart || (b > 0 && (iterations > 1 || workspace.system->row->needs_search || input.settings.careful)),
                 false};
     workspace.v = workspace.v_start;
     workspace.reach = stage.step;

@@ -13,6 +13,7 @@ struct System;
 // One a mechanics, since each has a rest shape of its own, and one an order of its elements.
 std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass,
                                           int order = 1);
+const Model& model_of(const System& system);
 const Elements& elements_of(const System& system);
 const VecX& node_mass_of(const System& system);  // sums of the mass matrix's rows, one a node [kg]
 
@@ -30,6 +31,8 @@ struct SolveSettings {
     int newton_iterations, max_iterations;
     double newton_tolerance, tolerance;
     double mass_damping, stiffness_damping;  // zero when the damping effect is off [1/s], [s]
+    // Stiffness-proportional damping of an element whose organ has a damping ratio of one; adds to the above [s].
+    double full_damping = 0;
     double spectral_radius = 0.8;            // of generalized_alpha at infinite frequency, 0..1 [-]
     bool careful = false;                    // every solve goes no farther than a line search says
 };
@@ -77,6 +80,9 @@ struct WorkspaceDeleter {
 };
 using WorkspacePtr = std::unique_ptr<Workspace, WorkspaceDeleter>;
 WorkspacePtr make_workspace(std::shared_ptr<const System> system);
+
+// Steps of this workspace take a plant's own elements, which must live as long; null: the system's again.
+void use_elements(Workspace& workspace, const Elements* own);
 
 // Advances motion by h [s].
 SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, const Loads& loads, double h,

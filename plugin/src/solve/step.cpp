@@ -19,6 +19,7 @@ bool input_is_sound(const System& system, const StepInput& input) {
     if (!(input.h > 0) || !std::isfinite(input.h) || !(s.mass_damping >= 0) || !std::isfinite(s.mass_damping) ||
         !(s.stiffness_damping >= 0) || !std::isfinite(s.stiffness_damping))
         return false;
+    if (!(s.full_damping >= 0) || !std::isfinite(s.full_damping)) return false;
     if (motion.x.size() != n || motion.v.size() != n || input.loads.force.size() != n) return false;
     if (!motion.pinned.empty() && (motion.pinned.size() * 3 != size_t(n) || motion.pin_target.size() != n))
         return false;
@@ -33,7 +34,7 @@ void prepare(Workspace& workspace, const StepInput& input) {
     const System& system = *workspace.system;
     const Motion& motion = input.motion;
     workspace.held = system.loose;
-    if (system.row->rotary_inertia) system.row->rotary_inertia(*system.elements, motion.x, workspace.inertia);
+    if (system.row->rotary_inertia) system.row->rotary_inertia(*workspace.elements, motion.x, workspace.inertia);
     workspace.external = input.loads.force;
     workspace.v_start = motion.v;
     for (int i = 0; i < system.elements->node_count; ++i) {
@@ -44,6 +45,23 @@ void prepare(Workspace& workspace, const StepInput& input) {
         // The rows of either mass matrix add up to the lumped mass.
         point(workspace.external, i) += system.masses.node[i] * input.loads.gravity;
     }
+}
+
+// Stiffness-proportional damping: the same for all elements, or each its own in a matrix apart.
+void prepare_damping(Workspace& workspace, const SolveSettings& settings) {
+    const System& system = *workspace.system;
+    const std::vector<double>& ratio = system.elements->damping_ratio;
+    workspace.element_damping.clear();
+    workspace.damping_scale = settings.stiffness_damping;
+    if (settings.full_damping == 0 || ratio.empty()) return;
+    if (system.damps_alike) {
+        workspace.damping_scale += settings.full_damping * ratio.front();
+        return;
+    }
+    workspace.damping_scale = 1;
+    workspace.damping.set_pattern(system.elements->pattern);
+    for (double share : ratio)
+        workspace.element_damping.push_back(settings.stiffness_damping + settings.full_damping * share);
 }
 
 // A method that looks back may do so only from the state that it left itself, and not over a jump of the time step.
@@ -88,6 +106,7 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     const StepInput input = {settings, loads, motion, h};
     if (!input_is_sound(*workspace.system, input)) return report;
     prepare(workspace, input);
+    prepare_damping(workspace, settings);
     const Integrator& method = integrator(settings.integrator);
     motion.history.valid = method.looks_back && history_holds(input);
     if (!method.step(workspace, input, report)) return report;

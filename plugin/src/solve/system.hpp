@@ -11,6 +11,7 @@ struct System {
     const Mechanics* row = nullptr;
     std::unique_ptr<const Elements> elements;
     Masses masses;
+    bool damps_alike = true;        // all elements have the same damping ratio
     std::vector<uint8_t> loose;     // one a node: no element holds it
     double size = 0;                // longest side of the box around the nodes at rest [m]
     DirectPlan plan;

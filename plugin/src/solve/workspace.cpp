@@ -10,8 +10,13 @@ WorkspacePtr make_workspace(std::shared_ptr<const System> system) {
     WorkspacePtr workspace(new Workspace);
     workspace->A.set_pattern(system->elements->pattern);
     workspace->linear.factor = make_direct_factor(system->plan);
+    workspace->elements = system->elements.get();
     workspace->system = std::move(system);
     return workspace;
+}
+
+void use_elements(Workspace& workspace, const Elements* own) {
+    workspace.elements = own ? own : workspace.system->elements.get();
 }
 
 void WorkspaceDeleter::operator()(Workspace* workspace) const {

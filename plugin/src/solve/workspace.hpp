@@ -8,8 +8,13 @@ namespace frond {
 
 struct Workspace {
     std::shared_ptr<const System> system;
+    const Elements* elements = nullptr;  // the system's, or a plant's own that has yielded
     BlockMatrix A;        // stiffness, then the matrix of the linear system
-    BlockMatrix damping;  // stiffness at the start of the step; filled only when several Newton iterations need it
+    // D = mass_damping M + damping_scale K + damping, of K at the start of the step. Where all elements damp alike,
+    // `damping` is that K and filled only if several Newton iterations need it; else K has each element's own share in it.
+    double damping_scale = 0;             // [s]
+    std::vector<double> element_damping;  // one an element, if they do not damp alike [s]
+    BlockMatrix damping;
     LinearScratch linear;
 
     std::vector<Mat3> inertia;           // rotary, at the start of the step, of nodes that turn [kg m^2]

@@ -43,7 +43,7 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     report.ms_response = response_timer.ms();
     report.contact_count = int(contacts.size());
     for (const std::unique_ptr<PlantBody>& body : bodies) {
-        accept_step(*body->plant);
+        accept_step(*body->plant, surroundings, double(h));
         add_to_report(*body->plant, report);
 
         const Timer capsule_timer;
@@ -64,16 +64,17 @@ void advance(World& world, double dt) {
     for (const std::unique_ptr<PlantBody>& body : world.bodies) clear_user_force(*body->plant);
 }
 
-// FNV-1a over the bits of all nodes.
+// FNV-1a over the bits of all nodes and of what is lasting.
 uint64_t state_hash(const World& world) {
     uint64_t hash = 0xcbf29ce484222325u;
-    const auto add = [&](const VecX& values) {
+    const auto add = [&](const auto& values) {
         const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
         for (size_t i = 0; i < size_t(values.size()) * sizeof(double); i++) hash = (hash ^ bytes[i]) * 0x100000001b3u;
     };
     for (const std::unique_ptr<PlantBody>& body : world.bodies) {
         add(body->plant->motion.x);
         add(body->plant->motion.v);
+        add(lasting_of(*body->plant));
     }
     return hash;
 }

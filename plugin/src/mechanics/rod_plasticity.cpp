@@ -1,0 +1,104 @@
+// In: rods and where their nodes are. Out: what of their curvature and stretch is lasting. A piece has one strain, that
+// of the outermost fibre: what its axis is stretched by and what its two curvatures add to that; the return to what the
+// section bears scales all of them alike, so that elastic energy never grows by it. Twist and shear stay elastic.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "mechanics/rod_elements.hpp"
+#include "mechanics/rows.hpp"
+
+namespace frond {
+
+namespace {
+
+// Of a piece's outermost fibre.
+struct FibreStrain {
+    double pull, bend;
+    double sum() const { return pull + bend; }
+};
+FibreStrain fibre_strain(const RodSegment& rod, const RodStrain& s) {
+    return {std::abs(s.strain[0]), std::hypot(rod.reach_wide * s.curvature[1], rod.reach_thin * s.curvature[2])};
+}
+
+void apply(const RodLasting& lasting, RodSegment& rod) {
+    rod.rest_strain = lasting.rest_strain + Vec3(lasting.stretch, 0, 0);
+    rod.rest_curvature = lasting.rest_curvature + Vec3(0, lasting.bend_wide, lasting.bend_thin);
+}
+
+constexpr size_t NUMBERS = 4;  // of a piece: stretch, the two curvatures, hardening
+
+}  // namespace
+
+void let_rods_yield(const Model& model, RodElements& elements) {
+    std::vector<Yield> yields;
+    for (const RodSegment& rod : elements.segments)
+        yields.push_back(yield_of(model, model.chain.nodes[size_t(rod.b)].organ));
+    if (std::all_of(yields.begin(), yields.end(), [](const Yield& y) { return y.strain == 0; })) return;
+    const std::vector<RodStrain> standing = rod_strains(elements, elements.modelled);
+    for (size_t s = 0; s < yields.size(); ++s)
+        if (yields[s].strain > 0)
+            yields[s].strain =
+                firm_strain(yields[s].strain, fibre_strain(elements.segments[s], standing[s]).sum());
+    elements.yields = std::move(yields);
+}
+
+bool rods_yield(const Elements& body, const VecX& x) {
+    const RodElements& elements = as_rods(body);
+    const std::vector<RodStrain> strains = rod_strains(elements, x);
+    for (size_t s = 0; s < strains.size(); ++s) {
+        const double most = elements.yields[s].strain;
+        if (most > 0 && fibre_strain(elements.segments[s], strains[s]).sum() > most) return true;
+    }
+    return false;
+}
+
+std::unique_ptr<Elements> copy_rods(const Elements& body) {
+    auto own = std::make_unique<RodElements>(as_rods(body));
+    for (const RodSegment& rod : own->segments)
+        own->lasting.push_back({rod.rest_strain, rod.rest_curvature, 0, 0, 0, 0});
+    return own;
+}
+
+void rods_flow(Elements& body, const VecX& x, double h) {
+    RodElements& elements = static_cast<RodElements&>(body);
+    const std::vector<RodStrain> strains = rod_strains(elements, x);
+    for (size_t s = 0; s < strains.size(); ++s) {
+        const Yield& yield = elements.yields[s];
+        const FibreStrain fibre = fibre_strain(elements.segments[s], strains[s]);
+        if (yield.strain == 0 || !(fibre.sum() > yield.strain)) continue;
+        RodLasting& lasting = elements.lasting[s];
+        const double gone =
+            1 - elastic_share(yield, fibre.sum(), fibre.bend / fibre.sum(), h, lasting.hardening);
+        lasting.stretch += gone * strains[s].strain[0];
+        lasting.bend_wide += gone * strains[s].curvature[1];
+        lasting.bend_thin += gone * strains[s].curvature[2];
+        apply(lasting, elements.segments[s]);
+    }
+}
+
+std::vector<double> lasting_of_rods(const Elements& body) {
+    std::vector<double> values;
+    for (const RodLasting& l : as_rods(body).lasting)
+        values.insert(values.end(), {l.stretch, l.bend_wide, l.bend_thin, l.hardening});
+    return values;
+}
+
+void set_lasting_of_rods(Elements& body, const std::vector<double>& values) {
+    RodElements& elements = static_cast<RodElements&>(body);
+    if (values.size() != NUMBERS * elements.segments.size())
+        fail(FROND_BAD_ARGUMENT, "%zu numbers of what is lasting were given, but a plant of these rods has %zu",
+             values.size(), NUMBERS * elements.segments.size());
+    for (size_t s = 0; s < elements.segments.size(); ++s) {
+        const double* v = values.data() + NUMBERS * s;
+        if (!(v[3] >= 0)) fail(FROND_BAD_ARGUMENT, "what is lasting has a hardening of %g; it is never below 0", v[3]);
+    }
+    for (size_t s = 0; s < elements.segments.size(); ++s) {
+        const double* v = values.data() + NUMBERS * s;
+        RodLasting& lasting = elements.lasting[s];
+        lasting.stretch = v[0], lasting.bend_wide = v[1], lasting.bend_thin = v[2], lasting.hardening = v[3];
+        apply(lasting, elements.segments[s]);
+    }
+}
+
+}  // namespace frond

@@ -1,0 +1,28 @@
+// What the plasticity of tets shares between materials.
+#pragma once
+
+#include "mechanics/tet_element.hpp"
+
+namespace frond {
+
+// The elastic stretch S at a point, a symmetric matrix, and the strain of a bar that is pulled as much out of shape: that
+// of von Mises, of logarithmic strains [-]; 0 for what is turned inside out or flat.
+struct Strained {
+    Mat3 S;
+    double strain;
+};
+Strained strained_at(const TetShare& share, const Mat3& F);
+// Whether that strain is beyond `most`, which is never where `most` is zero. Most tets are told without a rotation.
+bool exceeds(const TetShare& share, const Mat3& F, double most, Strained& out);
+// Makes 1 - `elastic` of the distortion of S lasting: F becomes F times this, of determinant one.
+Mat3 flow_of(const Mat3& S, double elastic);
+
+// Sets `yields` of elements that are complete otherwise.
+void let_tets_yield(const Model& model, TetElements& elements);
+template <class Element>
+bool tets_yield(const Elements& elements, const VecX& x);
+std::unique_ptr<Elements> copy_tets(const Elements& elements);
+std::vector<double> lasting_of_tets(const Elements& own);
+void set_lasting_of_tets(Elements& own, const std::vector<double>& values);
+
+}  // namespace frond
