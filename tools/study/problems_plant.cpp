@@ -79,7 +79,7 @@ using AtRest = std::function<std::vector<double>(const Setup& setup)>;
 // Rods have no cage to lock, so they are the reference where there are any; else the default mechanics.
 Setup finest_setup(const Setup& setup) {
     Setup fine = setup;
-    fine.plant = frond_default_plant_def();
+    fine.plant = elastic_plant_def();
     for (int m = 0; m < FROND_MECHANICS_COUNT; m++)
         if (std::strcmp(frond_mechanics_name(frond_mechanics(m)), "rod") == 0)
             fine.plant.mechanics = frond_mechanics(m);

@@ -24,12 +24,19 @@ enum class Body {
     PLANT  // a plant from a file, in Frond's calibrated cage or on its chain
 };
 
+// The default plant, but that nothing yields: the known answers are elastic ones.
+inline frond_plant_def elastic_plant_def() {
+    frond_plant_def def = frond_default_plant_def();
+    def.effects &= ~uint32_t(FROND_PLASTICITY);
+    return def;
+}
+
 // One choice of everything that can be chosen.
 struct Setup {
     Body body = Body::STEM;
     int resolution = 10;   // MESH: cells across; STEM and PLANT: pieces of cage or chain along the height
     double dt = 1.0 / 60;  // [s]
-    frond_plant_def plant = frond_default_plant_def();
+    frond_plant_def plant = elastic_plant_def();
 };
 // Whether the chain moves and the cage follows.
 bool moves_chain(frond_mechanics mechanics);

@@ -198,7 +198,7 @@ std::vector<double> organ_strains(const Model& model) {
 // Organs that weight would tear apart in the cage, loose bits that hang on a corner, are made stiffer by themselves, so
 // that the rest of the plant need not be.
 void stiffen_torn_organs(Model& model) {
-    constexpr double LARGEST_STRAIN = 0.5;
+    constexpr double LARGEST_STRAIN = 0.35;
     constexpr int ROUNDS = 3;
     for (int round = 0; round < ROUNDS; round++) {
         const std::vector<double> strains = organ_strains(model);

@@ -13,11 +13,11 @@ using Products = Eigen::Matrix<double, COUNT, COUNT>;
 
 template <class Element, int COUNT>
 Products<COUNT> products_in_tet(const TetElements& elements, size_t e, const std::array<VecX, COUNT>& moves) {
-    const TetShare share = Element::share(elements, e);
     std::array<typename Element::Places, COUNT> places;
     for (size_t i = 0; i < COUNT; i++) places[i] = Element::places(elements, e, moves[i]);
     Products<COUNT> sum = Products<COUNT>::Zero();
     for (int q = 0; q < Element::POINTS; q++) {
+        const TetShare share = Element::share(elements, e, q);
         // Strains as columns: three along the axes, three across times the root of two.
         Eigen::Matrix<double, 6, COUNT> strains;
         for (int i = 0; i < COUNT; i++) {

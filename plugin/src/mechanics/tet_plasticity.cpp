@@ -61,21 +61,29 @@ std::vector<size_t> capsules_of_tets(const Model& model) {
     return capsule;
 }
 
-// Tets are strained unevenly: at the mean square the first ones would yield at six tenths of the rod's load. At so many
-// times its root stems of 24 and 36 mm in cells of 50 and 80 mm keep 0.6 to 1.5 of the set that they keep as rods.
-constexpr double RIM = 1.2;
+// Tets are strained unevenly: at the mean square the first ones would yield long before the rod's rim. At so many times
+// its root they keep their shape at half of the rod's load, and at one and a half times it within half of the rod's set
+// (tests/plant/plasticity.cpp).
+constexpr double RIM = 1.4;
 
-// The strain at which a calibrated cage's tets yield over that of its organ's outermost fibre, by capsule [-].
+// The strain at which a calibrated cage's tets yield over that of its organ's outermost fibre, one a tet [-]. Within a
+// capsule tets of other moduli bear the same energy a volume.
 std::vector<double> strain_in_cage(const Model& model, const std::vector<size_t>& capsule) {
     std::vector<double> resistance(model.chain.nodes.size(), 0);  // sum of E V [J]
-    for (size_t e = 0; e < capsule.size(); ++e)
-        resistance[capsule[e]] += model.tet_young[e] * std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
-    std::vector<double> share(resistance.size(), 1);
-    for (size_t i = 0; i < share.size(); ++i) {
+    std::vector<double> volume(resistance.size(), 0);
+    for (size_t e = 0; e < capsule.size(); ++e) {
+        const double own = std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
+        resistance[capsule[e]] += model.tet_young[e] * own;
+        volume[capsule[e]] += own;
+    }
+    std::vector<double> share(capsule.size(), 1);
+    for (size_t e = 0; e < share.size(); ++e) {
+        const size_t i = capsule[e];
         const Section& section = model.sections[i];
         const double stiffer = model.organ_stiffer[size_t(std::max(model.chain.nodes[i].organ, 0))];
         if (model.chain.nodes[i].parent < 0 || resistance[i] == 0) continue;
-        share[i] = RIM * std::sqrt(stiffer * section.bending_thin() * section.length / resistance[i]) /
+        share[e] = RIM *
+                   std::sqrt(stiffer * section.bending_thin() * section.length / (volume[i] * model.tet_young[e])) /
                    (0.5 * section.thickness);
     }
     return share;
@@ -130,7 +138,7 @@ void let_tets_yield(const Model& model, TetElements& elements) {
     if (model.calibrated) {
         const std::vector<size_t> capsule = capsules_of_tets(model);
         const std::vector<double> share = strain_in_cage(model, capsule);
-        for (size_t e = 0; e < yields.size(); ++e) yields[e].strain *= share[capsule[e]];
+        for (size_t e = 0; e < yields.size(); ++e) yields[e].strain *= share[e];
     }
     for (size_t e = 0; e < yields.size(); ++e) {
         const double standing = elements.nodes.order == 1 ? standing_strain<LinearTet>(elements, e)

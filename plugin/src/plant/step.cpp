@@ -52,9 +52,10 @@ static void keep_sets(Plant& plant, double h) {
     row.flow(*plant.own_elements, plant.motion.x, h);
 }
 
-// No node has gone farther than the plant is long.
+// No node has gone much farther than the plant is long.
 static bool is_plausible(const Plant& plant) {
-    return are_near(plant, plant.x_good, plant.model->surface.size());
+    constexpr double FARTHEST = 4;  // in a step, over the plant's size [-]
+    return are_near(plant, plant.x_good, FARTHEST * plant.model->surface.size());
 }
 
 // Again from the start, by what cannot overshoot.
