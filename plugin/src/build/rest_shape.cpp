@@ -158,8 +158,8 @@ Outcome find_outcome(Search& search) {
     return outcome;
 }
 
-// The rest shape of one mechanics. Gravity is let in little by little, the steps as large as the search bears.
-Outcome search_rest_shape(const Model& model, frond_mechanics which) {
+// The rest shape of one mechanics, of a plant that could bear `margin` times its weight. Gravity is let in little by little, the steps as large as the search bears.
+Outcome search_rest_shape(const Model& model, frond_mechanics which, double margin = 1) {
     constexpr double SMALLEST_STEP = 1.0 / 8;
     Search search(model, which);
     double step = 1;
@@ -173,9 +173,12 @@ Outcome search_rest_shape(const Model& model, frond_mechanics which) {
             if (step < SMALLEST_STEP) return {VecX(), {}, 1, search.torn};
         }
     }
-    if (search.stiffness.set(search.elements, search.held, which, Tangent::exact, search.x))
-        return {search.rest, {}, 1, -1};
-    return find_outcome(search);
+    const bool stands = search.stiffness.set(search.elements, search.held, which, Tangent::exact, search.x);
+    if (stands && margin == 1) return {search.rest, {}, 1, -1};
+    Outcome outcome = find_outcome(search);
+    outcome.overload *= margin;
+    if (stands && !(outcome.overload > 1)) outcome = {search.rest, {}, 1, -1};
+    return outcome;
 }
 
 // The largest strain in each organ's tets under the plant's weight, linearly [-]; empty if the root does not hold it.
@@ -231,11 +234,15 @@ static void stiffen_toppling_organs(Model& model, const Outcome& outcome, std::v
 
 WeakOrgan find_rest_shape(Model& model) {
     // The default mechanics decides how stiff the cage has to be.
-    constexpr double STIFFER = 2;
+    constexpr double STIFFER = 2, MARGIN = 1.3;
     constexpr int MOST_TRIES = 40;
     std::vector<double> factor(model.organs.size(), 1.0);
+    // Where all materials are Frond's choice, a touch must not topple the plant either; rods have more margin.
+    const bool given = std::any_of(model.organs.begin(), model.organs.end(),
+                                   [](const Organ& organ) { return organ.material_given; });
+    const double margin = given ? 1 : MARGIN;
     stiffen_torn_organs(model);
-    Outcome outcome = search_rest_shape(model, FROND_TET_COROTATIONAL);
+    Outcome outcome = search_rest_shape(model, FROND_TET_COROTATIONAL, margin);
     for (int i = 0; i < MOST_TRIES && outcome.rest.size() == 0; i++) {
         if (!outcome.shares.empty())
             stiffen_toppling_organs(model, outcome, factor);
@@ -243,7 +250,7 @@ WeakOrgan find_rest_shape(Model& model) {
             stiffen(model, size_t(outcome.torn), STIFFER, factor);
         else
             for (size_t o = 0; o < factor.size(); o++) stiffen(model, o, STIFFER, factor);
-        outcome = search_rest_shape(model, FROND_TET_COROTATIONAL);
+        outcome = search_rest_shape(model, FROND_TET_COROTATIONAL, margin);
     }
     model.rest_shapes->positions[FROND_TET_COROTATIONAL] = outcome.rest;
     model.rest_shapes->known[FROND_TET_COROTATIONAL] = true;
