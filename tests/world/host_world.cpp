@@ -12,7 +12,9 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "frond/frond_bullet.hpp"
 #include "support/stems.hpp"
@@ -205,4 +207,54 @@ TEST(Attach, LeavesTheHostsOwnSoftBodiesAlone) {
         delete cloth;
     }
     EXPECT_EQ(height[0], height[1]);
+}
+
+TEST_P(HostWorld, BodiesPushItsPlantsAndBothComeAndGoWhileTheyTouch) {
+    Host host(GetParam());
+    host.world->setGravity(btVector3(0, 0, 0));
+    frond_world plants;
+    ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK) << frond_last_error();
+    const frond_model model = make_small_model(1e8);
+    const frond_plant_def def = frond_default_plant_def();
+    const auto throw_ball = [&] {
+        btTransform place = btTransform::getIdentity();
+        place.setOrigin(btVector3(btScalar(-0.12), btScalar(0.5), 0));
+        host.ball.setWorldTransform(place);
+        host.ball.setInterpolationWorldTransform(place);
+        host.ball.setGravity(btVector3(0, 0, 0));
+        host.ball.setLinearVelocity(btVector3(1, 0, 0));
+        host.ball.activate(true);
+    };
+    frond_plant plant;
+    const auto touches_ball = [&] {
+        std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
+        EXPECT_EQ(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())), FROND_OK);
+        return std::any_of(contacts.begin(), contacts.end(),
+                           [&](const frond_contact& contact) { return contact.body == &host.ball; });
+    };
+    for (int round = 0; round < 3; round++) {
+        ASSERT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK) << frond_last_error();
+        throw_ball();
+        int touched = 0;
+        for (int i = 0; i < 12; i++) {
+            host.world->stepSimulation(btScalar(1.0 / 60), 0);
+            touched += touches_ball();
+        }
+        EXPECT_GT(touched, 0) << round;
+        EXPECT_LT(double(host.ball.getLinearVelocity().x()), 0.9) << round;
+        frond_report report;
+        ASSERT_EQ(frond_world_get_report(plants, &report), FROND_OK);
+        EXPECT_EQ(report.trouble & FROND_TROUBLE_REWOUND, 0u);
+        // One of the two goes while they touch, and time goes on.
+        if (round == 1) {
+            host.world->removeRigidBody(&host.ball);
+            host.world->stepSimulation(btScalar(1.0 / 60), 0);
+            EXPECT_FALSE(touches_ball());
+            host.world->addRigidBody(&host.ball);
+        }
+        frond_plant_destroy(plant);
+        host.world->stepSimulation(btScalar(1.0 / 60), 0);
+    }
+    frond_world_destroy(plants);
+    frond_model_destroy(model);
 }

@@ -48,7 +48,8 @@ static void drop_doubles(std::vector<CageContact>& contacts) {
     std::map<std::tuple<decltype(key(contacts[0].a)), decltype(key(contacts[0].a))>, bool> known;
     const auto is_double = [&](const CageContact& contact) {
         if (contact.kind != CONTACT_EDGE_ON_EDGE) return false;
-        const auto [low, high] = std::minmax(key(contact.a), key(contact.b));
+        auto low = key(contact.a), high = key(contact.b);
+        if (high < low) std::swap(low, high);
         return !known.insert({{low, high}, true}).second;
     };
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_double), contacts.end());

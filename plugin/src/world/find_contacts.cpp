@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/convert.hpp"
 #include "world/pusher.hpp"
 #include "world/world.hpp"
 
@@ -12,10 +13,6 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 namespace {
-
-Vec3 from_bullet(const btVector3& v) {
-    return Vec3(double(v.x()), double(v.y()), double(v.z()));
-}
 
 // Triggers and the like push nothing; characters do though Bullet lets them through.
 bool pushes(const btCollisionObject& object) {

@@ -1,11 +1,9 @@
 #include "world/plant_body.hpp"
 
+#include "world/convert.hpp"
+
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
-
-static btVector3 to_bullet(const Vec3& p) {
-    return btVector3(btScalar(p.x()), btScalar(p.y()), btScalar(p.z()));
-}
 
 // The frame of a capsule, whose axis is y, between two points.
 static btTransform capsule_frame(const Vec3& begin, const Vec3& end) {

@@ -2,15 +2,10 @@
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
+#include "world/convert.hpp"
+
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
-
-static Vec3 from_bullet(const btVector3& v) {
-    return Vec3(double(v.x()), double(v.y()), double(v.z()));
-}
-static btVector3 to_bullet(const Vec3& v) {
-    return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z()));
-}
 
 static Mat3 cross_matrix_of(const Vec3& r) {
     Mat3 m;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/types.hpp"
+#include "frond/frond_bullet.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

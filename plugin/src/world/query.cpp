@@ -1,4 +1,5 @@
 // Rays against the capsules, through Bullet's own ray test.
+#include "world/convert.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -26,8 +27,7 @@ struct NearestPlant : btCollisionWorld::RayResultCallback {
 RayHit cast_ray(World& world, const Vec3& from, const Vec3& to) {
     NearestPlant nearest;
     nearest.world = &world;
-    world.bullet->rayTest(btVector3(btScalar(from.x()), btScalar(from.y()), btScalar(from.z())),
-                          btVector3(btScalar(to.x()), btScalar(to.y()), btScalar(to.z())), nearest);
+    world.bullet->rayTest(to_bullet(from), to_bullet(to), nearest);
     RayHit hit;
     if (!nearest.body) return hit;
     hit.body = const_cast<PlantBody*>(nearest.body);

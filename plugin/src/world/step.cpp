@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "core/timer.hpp"
+#include "world/convert.hpp"
 #include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 Vec3 gravity_of(const World& world) {
-    const btVector3 gravity = world.bullet->getGravity();
-    return Vec3(double(gravity.x()), double(gravity.y()), double(gravity.z()));
+    return from_bullet(world.bullet->getGravity());
 }
 
 // Adds what a plant did in this substep to the world's report.
