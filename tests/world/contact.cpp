@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "frond/frond_bullet.hpp"
+#include "support/sanitized.hpp"
 #include "support/stems.hpp"
 
 namespace {
@@ -87,7 +88,11 @@ struct Scene {
 };
 
 struct EveryBody : testing::TestWithParam<frond_mechanics> {};
-INSTANTIATE_TEST_SUITE_P(Contact, EveryBody, testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD),
+std::vector<frond_mechanics> mechanics_that_touch() {
+    if (SANITIZED) return {FROND_TET_COROTATIONAL, FROND_ROD};
+    return {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD};
+}
+INSTANTIATE_TEST_SUITE_P(Contact, EveryBody, testing::ValuesIn(mechanics_that_touch()),
                          [](const auto& info) {
                              return std::string(info.param == FROND_ROD               ? "rod"
                                                 : info.param == FROND_TET_NEOHOOKEAN ? "tet_neohookean"
@@ -113,7 +118,8 @@ TEST_P(EveryBody, ABallPushesAStemAsideAndIsSlowed) {
 // 5 cm, 20 m/s, a stem of 1 cm: a light ball bounces off, a heavy one loses speed to a stem that it carries along.
 TEST_P(EveryBody, AFastBallDoesNotTunnel) {
     for (const double mass : {0.003, 0.05})
-        for (const double offset : {0.0, 0.01, 0.05, 0.13, 0.27}) {
+        for (const double offset : {0.05, 0.0, 0.01, 0.13, 0.27}) {
+            if (SANITIZED && offset != 0.05) break;
             Scene scene(0);
             scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.005, 1e9, GetParam());
             btRigidBody& ball =
