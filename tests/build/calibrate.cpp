@@ -5,16 +5,10 @@
 
 #include "build/build.hpp"
 #include "build/static_stiffness.hpp"
+#include "support/model_def.hpp"
 
 using namespace frond;
-
-static frond_model_def model_def() {
-    frond_model_def def = {};
-    def.cage_smoothness = CageOptions().smoothness;
-    def.scale = 1;
-    def.up = {0, 1, 0};
-    return def;
-}
+using frond::test::model_def;
 
 // A straight stem, held at its begin.
 struct Stem {

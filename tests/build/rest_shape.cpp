@@ -4,18 +4,12 @@
 #include "build/build.hpp"
 #include "build/rest_system.hpp"
 #include "mechanics/tet_element.hpp"
+#include "support/model_def.hpp"
 
 using namespace frond;
+using frond::test::model_def;
 
 namespace {
-
-frond_model_def model_def() {
-    frond_model_def def = {};
-    def.cage_smoothness = CageOptions().smoothness;
-    def.scale = 1;
-    def.up = {0, 1, 0};
-    return def;
-}
 
 // A thick stem with a thin arm that reaches far out; `young` is the arm's.
 std::shared_ptr<const Model> gallows(double young) {

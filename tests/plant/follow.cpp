@@ -4,6 +4,7 @@
 
 #include "build/build.hpp"
 #include "plant/plant.hpp"
+#include "support/model_def.hpp"
 
 using namespace frond;
 
@@ -11,11 +12,7 @@ static std::shared_ptr<const Model> forked_model() {
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.4, 0}, 0.015, 0.012},
                                 {0, {0, 0.4, 0}, {0.05, 0.9, 0}, 0.012, 0.006},
                                 {0, {0, 0.4, 0}, {-0.3, 0.6, 0.1}, 0.008, 0.004}};
-    frond_model_def def = {};
-    def.cage_smoothness = CageOptions().smoothness;
-    def.scale = 1;
-    def.up = {0, 1, 0};
-    return build_from_stems(stems, 3, def);
+    return build_from_stems(stems, 3, frond::test::model_def());
 }
 
 static std::unique_ptr<Plant> make_plant(frond_mechanics which) {

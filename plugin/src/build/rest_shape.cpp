@@ -89,7 +89,7 @@ int organ_of_largest(const Model& model, const VecX& move) {
 bool balance(Search& search, double gravity) {
     constexpr int ROUNDS = 25;
     constexpr double TOLERANCE = 3e-9;  // how far a node is from its balance, over the plant's size [-]
-    constexpr double LEAST_SHARE = 0.1; // of a move; less gets nowhere [-]
+    constexpr double LEAST_SHARE = 0.1;  // of a move; less gets nowhere [-]
     constexpr int PATIENCE = 5;         // rounds in which moves must become half as large
     const VecX start = search.rest;
     std::vector<double> sizes;
@@ -158,7 +158,8 @@ Outcome find_outcome(Search& search) {
     return outcome;
 }
 
-// The rest shape of one mechanics, of a plant that could bear `margin` times its weight. Gravity is let in little by little, the steps as large as the search bears.
+// The rest shape of one mechanics, of a plant that could bear `margin` times its weight. Gravity is let in little by
+// little, the steps as large as the search bears.
 Outcome search_rest_shape(const Model& model, frond_mechanics which, double margin = 1) {
     constexpr double SMALLEST_STEP = 1.0 / 8;
     Search search(model, which);

@@ -30,7 +30,7 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
         loads.springs.push_back({vertex_grip(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
 }
 
-// Whether all places, not the rotations of a chain, are nearer than that to where the plant was modelled or to `from`.
+// Whether all places, not the rotations of a chain, are nearer than that to `from`.
 static bool are_near(const Plant& plant, const VecX& from, double distance) {
     const VecX& x = plant.motion.x;
     const int next = plant.follow ? 2 : 1;

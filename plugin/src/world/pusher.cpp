@@ -2,16 +2,11 @@
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
+#include "mechanics/rotation.hpp"
 #include "world/convert.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
-
-static Mat3 cross_matrix_of(const Vec3& r) {
-    Mat3 m;
-    m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-    return m;
-}
 
 // How joints and base answer to impulses at the point, by the articulated inertia of Bullet's last step.
 static void prepare_link(Pusher& pusher) {
@@ -64,7 +59,7 @@ Mat3 answer_between(const Pusher& at, const Pusher& by) {
             for (int c = 0; c < 3; c++) inertia(r, c) = double(inverse[r][c]);
         const Vec3 centre = from_bullet(at.rigid->getCenterOfMassPosition());
         return double(at.rigid->getInvMass()) * Mat3::Identity() -
-               cross_matrix_of(at.point - centre) * inertia * cross_matrix_of(by.point - centre);
+               cross_matrix<double>(at.point - centre) * inertia * cross_matrix<double>(by.point - centre);
     }
     Mat3 block = Mat3::Zero();
     if (!at.link || !by.link || at.link->m_multiBody != by.link->m_multiBody) return block;
