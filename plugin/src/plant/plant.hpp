@@ -62,6 +62,7 @@ struct Plant {
 
     // Of the last step.
     SolveReport report;
+    bool is_sound = true;  // what was found can be the next state
     uint32_t trouble = 0;
     double ms_effects = 0, ms_surface = 0;
 
@@ -82,7 +83,6 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
 // Takes contact_impulse into the step that was solved.
 void add_contacts(Plant& plant, double h);
-bool step_is_sound(const Plant& plant);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Both.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);

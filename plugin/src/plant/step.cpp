@@ -58,6 +58,14 @@ static bool is_plausible(const Plant& plant) {
     return are_near(plant, plant.x_good, FARTHEST * plant.model->surface.size());
 }
 
+// Whether what was found can be the plant's next state.
+static bool is_sound(const Plant& plant) {
+    constexpr double FARTHEST = 100;  // a plant stretched to so many times its size has run away [-]
+    const Motion& motion = plant.motion;
+    return plant.report.ok && motion.x.allFinite() && motion.v.allFinite() && is_plausible(plant) &&
+           are_near(plant, elements_of(*plant.system).modelled, FARTHEST * plant.model->surface.size());
+}
+
 // Again from the start, by what cannot overshoot.
 static void solve_carefully(Plant& plant, double h) {
     constexpr int ITERATIONS = 30;
@@ -69,6 +77,7 @@ static void solve_carefully(Plant& plant, double h) {
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
     const SolveReport first = plant.report;
+    plant.trouble |= FROND_TROUBLE_RETRIED;
     plant.report = solve_step(*plant.workspace, settings, plant.loads, h, plant.motion);
     plant.report.ms_assembly += first.ms_assembly;
     plant.report.ms_solve += first.ms_solve;
@@ -91,12 +100,8 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
 
     // Solve.
     plant.report = solve_step(*plant.workspace, settings, plant.loads, h, motion);
-    if (!plant.report.ok || !is_plausible(plant)) {
-        solve_carefully(plant, h);
-        plant.trouble |= FROND_TROUBLE_RETRIED;
-    }
-    if (!plant.report.converged) plant.trouble |= FROND_TROUBLE_NOT_CONVERGED;
-    if (plant.report.inverted > 0) plant.trouble |= FROND_TROUBLE_INVERTED;
+    if (!plant.report.ok || !is_plausible(plant)) solve_carefully(plant, h);
+    plant.is_sound = is_sound(plant);
 }
 
 void add_contacts(Plant& plant, double h) {
@@ -105,24 +110,21 @@ void add_contacts(Plant& plant, double h) {
     const VecX impulse = std::move(plant.contact_impulse);
     plant.contact_impulse.resize(0);
     if (respond(*plant.workspace, plant.settings, impulse, dv)) add_response(*plant.workspace, dv, plant.motion);
-    if (is_calm(*plant.system, plant.x_good, plant.motion.x)) return;
-    // Too much for a linear answer: the same push, along the plant's own curve.
-    plant.loads.force += impulse / h;
-    solve_carefully(plant, h);
-}
-
-bool step_is_sound(const Plant& plant) {
-    constexpr double FARTHEST = 100;  // a plant stretched to so many times its size has run away [-]
-    const Motion& motion = plant.motion;
-    return plant.report.ok && motion.x.allFinite() && motion.v.allFinite() && is_plausible(plant) &&
-           are_near(plant, elements_of(*plant.system).modelled, FARTHEST * plant.model->surface.size());
+    if (!is_calm(*plant.system, plant.x_good, plant.motion.x)) {
+        // Too much for a linear answer: the same push, along the plant's own curve.
+        plant.loads.force += impulse / h;
+        solve_carefully(plant, h);
+    }
+    plant.is_sound = is_sound(plant);
 }
 
 void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     const frond_effects effects = plant.effects & surroundings.effects;
     Motion& motion = plant.motion;
+    if (!plant.report.converged) plant.trouble |= FROND_TROUBLE_NOT_CONVERGED;
+    if (plant.report.inverted > 0) plant.trouble |= FROND_TROUBLE_INVERTED;
     // Accept, or go back to the last good state and stand still there.
-    if (!step_is_sound(plant)) {
+    if (!plant.is_sound) {
         motion.x = plant.x_good;
         motion.v.setZero();
         motion.history.valid = false;

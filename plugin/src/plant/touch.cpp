@@ -34,7 +34,7 @@ Grip capsule_grip(const Plant& plant, int capsule, double along) {
 }
 
 bool make_touch(Plant& plant, const Grip& grip, PlantTouch& touch) {
-    if (!step_is_sound(plant)) return false;
+    if (!plant.is_sound) return false;
     touch.grip = grip;
     const Mat3 to_model = plant.rotation.conjugate().toRotationMatrix();
     VecX impulse(plant.motion.v.size());

@@ -44,6 +44,20 @@ double friction_of(const PlantBody& body, int capsule) {
     return organ >= 0 ? model.organs[size_t(organ)].material.friction : 0;
 }
 
+// GImpact meshes do not say which of the compound's capsules they met.
+int nearest_capsule(const PlantBody& body, const Vec3& p) {
+    int nearest = -1;
+    double least = INFINITY;
+    for (size_t capsule = 0; capsule < body.capsules.size(); capsule++) {
+        const double distance =
+            (nearest_on_axis(body, int(capsule), p).point - p).norm() - double(body.capsules[capsule]->getRadius());
+        if (distance >= least) continue;
+        least = distance;
+        nearest = int(capsule);
+    }
+    return nearest;
+}
+
 // Bullet multiplies the coefficients of two bodies.
 Contact contact_at(PlantBody& body, int capsule, btCollisionObject& other, const Vec3& on_other, const Vec3& towards) {
     const OnAxis axis = nearest_on_axis(body, capsule, on_other);
@@ -77,9 +91,10 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
     if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other)) return;
     for (int i = 0; i < manifold.getNumContacts(); i++) {
         const btManifoldPoint& p = manifold.getContactPoint(i);
-        const int capsule = plant_first ? p.m_index0 : p.m_index1;
-        if (capsule < 0 || size_t(capsule) >= body->capsules.size()) continue;
         const btVector3 on_other = other->getWorldTransform() * (plant_first ? p.m_localPointB : p.m_localPointA);
+        int capsule = plant_first ? p.m_index0 : p.m_index1;
+        if (capsule < 0) capsule = nearest_capsule(*body, from_bullet(on_other));
+        if (capsule < 0 || size_t(capsule) >= body->capsules.size()) continue;
         const Vec3 towards = (plant_first ? 1.0 : -1.0) * from_bullet(p.m_normalWorldOnB);
         Contact contact = contact_at(*body, capsule, *other, from_bullet(on_other), towards);
         constexpr double FAR = 0.05;  // [m]
@@ -163,7 +178,8 @@ void add_fast_bodies(World& world, double h, std::vector<Contact>& contacts) {
 void discount_grown_in(std::vector<Contact>& contacts) {
     for (Contact& contact : contacts) {
         GrownIn& grown_in = contact.plant->grown_in;
-        const std::pair<int, const btCollisionObject*> key(contact.capsule, contact.other);
+        const btBroadphaseProxy* proxy = contact.other->getBroadphaseHandle();
+        const GrownIn::key_type key(contact.capsule, contact.other, proxy ? proxy->m_uniqueId : 0);
         if (contact.plant->is_new && contact.other->isStaticObject() && contact.gap < 0)
             grown_in[key] = std::max(grown_in[key], -contact.gap);
         const auto found = grown_in.find(key);

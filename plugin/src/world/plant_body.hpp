@@ -6,6 +6,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <map>
+#include <tuple>
 
 #include "frond/frond_bullet.hpp"
 #include "plant/plant.hpp"
@@ -15,8 +16,9 @@ inline namespace FROND_BULLET_PRECISION {
 
 struct World;
 
-// What a plant stood in when it came into the world, ground and pots, does not push it out: how deep, by capsule [m].
-using GrownIn = std::map<std::pair<int, const btCollisionObject*>, double>;
+// What a plant stood in when it came into the world, ground and pots, does not push it out: how deep, by capsule, body
+// and the body's number in the broad phase, which tells it from a later one in the same memory [m].
+using GrownIn = std::map<std::tuple<int, const btCollisionObject*, int>, double>;
 
 struct PlantBody : btSoftBody {
     BT_DECLARE_ALIGNED_ALLOCATOR();

@@ -79,7 +79,7 @@ void respond_to_contacts(World& world, std::vector<Contact>& contacts, double h)
     for (size_t i = 0; i < impulses.size(); i++) {
         const Plant& plant = *sides.contacts[i]->plant->plant;
         const bool pushes_back = world.effects & plant.effects & FROND_TWO_WAY;
-        if (pushes_back && step_is_sound(plant)) take_impulse(sides.pushers[i], -impulses[i]);
+        if (pushes_back && plant.is_sound) take_impulse(sides.pushers[i], -impulses[i]);
     }
 }
 

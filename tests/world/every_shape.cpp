@@ -1,0 +1,234 @@
+// Every shape that Bullet has, raised from below against a stem that reaches out sideways, lifts it; so does a character.
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+#include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
+#include <BulletCollision/Gimpact/btGImpactShape.h>
+#include <BulletDynamics/Character/btKinematicCharacterController.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <iterator>
+#include <memory>
+#include <vector>
+
+#include "frond/frond_bullet.hpp"
+#include "support/stems.hpp"
+
+namespace {
+
+constexpr double STEM_AT = 0.5, REACH = 0.6, RADIUS = 0.01;  // its height, length and thickness [m]
+
+// A stem that grows out of a wall along x, in a host's world without gravity.
+struct Scene {
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+    frond_world plants = {};
+    frond_model model = {};
+    frond_plant plant = {};
+
+    Scene() {
+        btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher);
+        world.setGravity(btVector3(0, 0, 0));
+        EXPECT_EQ(frond::attach(&world, nullptr, &plants), FROND_OK) << frond_last_error();
+        const frond_stem stem = {-1, {0, STEM_AT, 0}, {REACH, STEM_AT, 0}, RADIUS, RADIUS};
+        frond_model_def def = frond_default_model_def();
+        frond_organ_material organ = {"stem", {}};
+        EXPECT_EQ(frond_material_preset("stem", &organ.material), FROND_OK);
+        organ.material.young = 1e8;
+        def.organs = &organ;
+        def.organ_count = 1;
+        def.scale = 1;
+        def.up = {0, 1, 0};
+        def.rest = FROND_REST_WITHOUT_GRAVITY;
+        EXPECT_EQ(frond_model_from_stems(&stem, 1, &def, &model), FROND_OK) << frond_last_error();
+        frond_plant_def plant_def = frond_default_plant_def();
+        plant_def.mechanics = FROND_ROD;
+        plant_def.root_height = -1;
+        EXPECT_EQ(frond_plant_create(plants, model, &plant_def, &plant), FROND_OK) << frond_last_error();
+        // It is held where it leaves the wall.
+        frond_cage_view cage;
+        EXPECT_EQ(frond_model_get_cage(model, &cage), FROND_OK);
+        for (int i = 0; i < cage.node_count; i++)
+            if (cage.nodes[3 * i] < 0.1) {
+                EXPECT_EQ(frond_plant_pin(plant, i), FROND_OK);
+            }
+    }
+    ~Scene() {
+        frond_world_destroy(plants);
+        frond_model_destroy(model);
+    }
+    double lifted() const {
+        frond_vec3 tip = {};
+        EXPECT_EQ(frond_plant_get_tip(plant, &tip), FROND_OK);
+        return tip.y - (STEM_AT + RADIUS);
+    }
+    double push(const btCollisionObject& by) const {
+        std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
+        EXPECT_EQ(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())), FROND_OK);
+        double sum = 0;
+        for (const frond_contact& contact : contacts)
+            if (contact.body == &by) sum += contact.impulse.y;
+        return sum;
+    }
+    double steps(int count, const btCollisionObject& by) {
+        double sum = 0;
+        for (int i = 0; i < count; i++) {
+            world.stepSimulation(btScalar(1.0 / 60), 0);
+            sum += push(by);
+        }
+        return sum;
+    }
+};
+
+// A shape whose top is at the origin of its frame, with what it borrows.
+struct Shape {
+    std::vector<std::unique_ptr<btCollisionShape>> parts;  // the last is the shape itself, which uses the others
+    std::unique_ptr<btTriangleMesh> mesh;
+    std::vector<float> heights;
+    double top = 0;      // above the frame's origin [m]
+    double sloping = 0;  // turn about z, so that what has no end stays clear of where the stem is held [rad]
+    ~Shape() {
+        while (!parts.empty()) parts.pop_back();
+    }
+};
+constexpr double HALF = 0.15;  // of every shape but planes and terrain [m]
+
+btVector3 vec(double x, double y, double z) {
+    return btVector3(btScalar(x), btScalar(y), btScalar(z));
+}
+template <class T, class... Args>
+T& add(Shape& shape, Args&&... args) {
+    shape.parts.push_back(std::make_unique<T>(std::forward<Args>(args)...));
+    return static_cast<T&>(*shape.parts.back());
+}
+// The eight corners of a box make twelve triangles.
+void make_box_mesh(Shape& shape) {
+    shape.mesh = std::make_unique<btTriangleMesh>();
+    const auto corner = [](int i) { return HALF * vec(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1); };
+    const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& q : quads) {
+        shape.mesh->addTriangle(corner(q[0]), corner(q[1]), corner(q[2]));
+        shape.mesh->addTriangle(corner(q[0]), corner(q[2]), corner(q[3]));
+    }
+}
+
+struct Kind {
+    const char* name;
+    void (*make)(Shape&);
+};
+const Kind KINDS[] = {
+    {"plane",
+     [](Shape& s) {
+         s.sloping = 0.5;
+         add<btStaticPlaneShape>(s, vec(0, 1, 0), btScalar(0));
+     }},
+    {"sphere", [](Shape& s) { add<btSphereShape>(s, btScalar(s.top = HALF)); }},
+    {"box", [](Shape& s) { add<btBoxShape>(s, vec(HALF, s.top = HALF, HALF)); }},
+    {"capsule",
+     [](Shape& s) {
+         s.top = 1.5 * HALF;
+         add<btCapsuleShape>(s, btScalar(HALF / 2), btScalar(2 * HALF));
+     }},
+    {"cylinder", [](Shape& s) { add<btCylinderShape>(s, vec(HALF, s.top = HALF, HALF)); }},
+    {"cone", [](Shape& s) { add<btConeShape>(s, btScalar(HALF), btScalar(2 * (s.top = HALF))); }},
+    {"hull",
+     [](Shape& s) {
+         s.top = HALF;
+         auto& hull = add<btConvexHullShape>(s);
+         hull.setMargin(btScalar(0.005));
+         for (int i = 0; i < 8; i++) hull.addPoint(HALF * vec(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 0.7 : -0.7));
+     }},
+    {"compound",
+     [](Shape& s) {
+         s.top = HALF;
+         auto& ball = add<btSphereShape>(s, btScalar(HALF / 2));
+         auto& compound = add<btCompoundShape>(s);
+         for (const double side : {-1.0, 1.0})
+             compound.addChildShape(btTransform(btQuaternion::getIdentity(), vec(side * HALF, HALF / 2, 0)), &ball);
+     }},
+    {"mesh",
+     [](Shape& s) {
+         s.top = HALF;
+         make_box_mesh(s);
+         add<btBvhTriangleMeshShape>(s, s.mesh.get(), true);
+     }},
+    {"gimpact",
+     [](Shape& s) {
+         s.top = HALF;
+         make_box_mesh(s);
+         add<btGImpactMeshShape>(s, s.mesh.get()).updateBound();
+     }},
+    {"heightfield", [](Shape& s) {
+         s.sloping = 0.5;
+         s.heights.assign(9 * 9, 0);
+         auto& field = add<btHeightfieldTerrainShape>(s, 9, 9, s.heights.data(), btScalar(1), btScalar(-1), btScalar(1),
+                                                      1, PHY_FLOAT, false);
+         field.setLocalScaling(vec(0.2, 1, 0.2));
+     }}};
+
+struct EveryBulletShape : testing::TestWithParam<size_t> {};
+INSTANTIATE_TEST_SUITE_P(Contact, EveryBulletShape, testing::Range(size_t(0), std::size(KINDS)),
+                         [](const auto& info) { return std::string(KINDS[info.param].name); });
+
+TEST_P(EveryBulletShape, LiftsAStem) {
+    constexpr double BELOW = 0.03, UP = 0.15;  // how far it begins below the stem, and goes [m]
+    constexpr int STEPS = 90;
+    Shape shape;
+    KINDS[GetParam()].make(shape);
+    Scene scene;
+    btRigidBody body(0, nullptr, shape.parts.back().get());
+    btTransform frame = btTransform::getIdentity();
+    frame.setOrigin(vec(0.5, STEM_AT - RADIUS - BELOW - shape.top, 0.001));
+    frame.setRotation(btQuaternion(vec(0, 0, 1), btScalar(shape.sloping)));
+    body.setWorldTransform(frame);
+    body.setInterpolationWorldTransform(frame);
+    body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    body.setActivationState(DISABLE_DEACTIVATION);
+    scene.world.addRigidBody(&body);
+    double push = 0;
+    for (int i = 0; i < STEPS; i++) {
+        frame.setOrigin(frame.getOrigin() + vec(0, UP / STEPS, 0));
+        body.setWorldTransform(frame);
+        push += scene.steps(1, body);
+    }
+    push += scene.steps(30, body);
+    EXPECT_GT(push, 0);
+    // The stem is lifted where it is touched, from the middle of its length on, and its tip farther than that.
+    EXPECT_GT(scene.lifted(), 0.8 * (UP - BELOW));
+    EXPECT_LT(scene.lifted(), 3 * (UP - BELOW));
+    scene.world.removeRigidBody(&body);
+}
+
+// Bullet's character controller moves a ghost, which has no velocity and lets all bodies through but stops at them.
+TEST(Contact, ACharacterPushesAStemAside) {
+    Scene scene;
+    btGhostPairCallback pairs;
+    scene.broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(&pairs);
+    btCapsuleShape shape(btScalar(0.1), btScalar(0.8));
+    btPairCachingGhostObject ghost;
+    btTransform frame = btTransform::getIdentity();
+    frame.setOrigin(vec(0.45, STEM_AT, -0.2));
+    ghost.setWorldTransform(frame);
+    ghost.setCollisionShape(&shape);
+    ghost.setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
+    scene.world.addCollisionObject(&ghost, btBroadphaseProxy::CharacterFilter,
+                                   btBroadphaseProxy::AllFilter & ~btBroadphaseProxy::CharacterFilter);
+    // It walks as controllers do that push plants aside: moved by the game, with plants not in its own way.
+    double aside = 0;
+    for (int i = 0; i < 60; i++) {
+        frame.setOrigin(frame.getOrigin() + vec(0, 0, 0.005));
+        ghost.setWorldTransform(frame);
+        scene.steps(1, ghost);
+        frond_capsule capsules[64];
+        const int count = frond_plant_get_capsule_count(scene.plant);
+        ASSERT_LE(count, 64);
+        ASSERT_EQ(frond_plant_get_capsules(scene.plant, capsules, count), FROND_OK);
+        for (int c = 0; c < count; c++) aside = std::max(aside, capsules[c].end.z);
+    }
+    EXPECT_GT(aside, 0.1);
+    scene.world.removeCollisionObject(&ghost);
+}
+
+}  // namespace
