@@ -197,6 +197,7 @@ TEST_P(EveryBody, ABoxComesToRestOnBranchesAndStays) {
         scene.steps(1);
         const btVector3 now = box.getWorldTransform().getOrigin();
         EXPECT_LT(double((now - last).length()) / double(H), 0.001) << i;  // no jitter above 1 mm/s
+        EXPECT_LT(double(box.getLinearVelocity().length()), 0.001) << i;
         last = now;
     }
     EXPECT_NEAR(double(last.y()), 0.62, 0.05);

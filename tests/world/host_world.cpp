@@ -258,3 +258,45 @@ TEST_P(HostWorld, BodiesPushItsPlantsAndBothComeAndGoWhileTheyTouch) {
     frond_world_destroy(plants);
     frond_model_destroy(model);
 }
+
+// A ball in a cup of four arms lies still, and says so.
+TEST_P(HostWorld, ABodyAtRestOnAPlantHasNoVelocity) {
+    Host host(GetParam());
+    frond_world plants;
+    ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK) << frond_last_error();
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.5, 0}, 0.03, 0.03},
+                                {0, {0, 0.5, 0}, {0.15, 0.6, 0}, 0.012, 0.012},
+                                {0, {0, 0.5, 0}, {-0.15, 0.6, 0}, 0.012, 0.012},
+                                {0, {0, 0.5, 0}, {0, 0.6, 0.15}, 0.012, 0.012},
+                                {0, {0, 0.5, 0}, {0, 0.6, -0.15}, 0.012, 0.012}};
+    frond_model_def def = frond_default_model_def();
+    frond_organ_material organ = {"stem", {}};
+    ASSERT_EQ(frond_material_preset("stem", &organ.material), FROND_OK);
+    organ.material.young = 1e9;
+    def.organs = &organ;
+    def.organ_count = 1;
+    def.scale = 1;
+    def.up = {0, 1, 0};
+    frond_model model;
+    ASSERT_EQ(frond_model_from_stems(stems, 5, &def, &model), FROND_OK) << frond_last_error();
+    frond_plant_def plant_def = frond_default_plant_def();
+    plant_def.mechanics = FROND_ROD;
+    frond_plant plant;
+    ASSERT_EQ(frond_plant_create(plants, model, &plant_def, &plant), FROND_OK) << frond_last_error();
+    host.ball.setSleepingThresholds(0, 0);
+    btTransform place = btTransform::getIdentity();
+    place.setOrigin(btVector3(0, btScalar(0.62), 0));
+    host.ball.setWorldTransform(place);
+    host.ball.setInterpolationWorldTransform(place);
+    // In substeps of a longer step too, over which Bullet adds forces up.
+    for (int i = 0; i < 150; i++) host.world->stepSimulation(btScalar(1.0 / 30), 2, btScalar(1.0 / 60));
+    const btVector3 before = host.ball.getWorldTransform().getOrigin();
+    for (int i = 0; i < 10; i++) {
+        host.world->stepSimulation(btScalar(1.0 / 30), 2, btScalar(1.0 / 60));
+        EXPECT_LT(double(host.ball.getLinearVelocity().length()), 0.001) << i;
+    }
+    EXPECT_GT(double(before.y()), 0.53);
+    EXPECT_LT(double((host.ball.getWorldTransform().getOrigin() - before).length()), 1e-4);
+    frond_world_destroy(plants);
+    frond_model_destroy(model);
+}

@@ -1,6 +1,7 @@
 #include "world/plant_body.hpp"
 
 #include "world/convert.hpp"
+#include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -13,13 +14,28 @@ static btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
     return btTransform(rotation, to_bullet(0.5 * (begin + end)));
 }
 
+namespace {
+
+// Asked by Bullet for its box once a substep, after gravity was given to bodies and before the solver: the one place there
+// for what has to be done between the two.
+struct PlantShape : btCompoundShape {
+    World* world;
+    explicit PlantShape(World* world) : world(world) {}
+    void getAabb(const btTransform& frame, btVector3& lower, btVector3& upper) const override {
+        if (!world->is_stepping) hold_gravity(world->gravity_ahead, *world->bullet);
+        btCompoundShape::getAabb(frame, lower, upper);
+    }
+};
+
+}  // namespace
+
 PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> given)
     : btSoftBody(info), plant(std::move(given)), world(world) {
     m_softBodySolver = nullptr;  // Bullet's constructor leaves it open
 
     // One compound in place of the soft body's own shape; btSoftBody deletes it.
     delete m_collisionShape;
-    btCompoundShape* shape = new btCompoundShape();
+    btCompoundShape* shape = new PlantShape(world);
     m_collisionShape = shape;
     const Model& model = *plant->model;
     for (const auto& [begin, end] : model.capsules) {

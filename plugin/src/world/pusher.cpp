@@ -30,6 +30,12 @@ static void prepare_link(Pusher& pusher) {
     }
 }
 
+void wake(btCollisionObject& object, const Vec3& normal, const Vec3& plant_velocity) {
+    constexpr double SLOW = 0.02;  // what rests on a plant that hardly moves sleeps on [m/s]
+    if (object.isActive() || object.isStaticOrKinematicObject()) return;
+    if (plant_velocity.dot(normal) < -SLOW) object.activate();
+}
+
 Pusher make_pusher(btCollisionObject& object, const Vec3& point, double h) {
     Pusher pusher;
     pusher.object = &object;

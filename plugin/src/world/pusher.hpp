@@ -21,6 +21,8 @@ struct Pusher {
     std::array<std::vector<btScalar>, 3> jacobian, answers;  // of a multi-body, along the world's axes
 };
 
+// Wakes a body that sleeps in the way of a plant that moves there; `normal` points to the plant.
+void wake(btCollisionObject& object, const Vec3& normal, const Vec3& plant_velocity);
 // With what gravity adds to a free body's velocity before it next moves, in h [s].
 Pusher make_pusher(btCollisionObject& object, const Vec3& point, double h);
 // Velocity at one by an impulse at the other [1/kg]; zero unless they are of one body that moves.

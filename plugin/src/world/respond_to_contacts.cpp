@@ -36,6 +36,7 @@ Sides make_sides(std::vector<Contact>& contacts, double h) {
         Plant& plant = *contact.plant->plant;
         PlantTouch touch;
         if (!make_touch(plant, capsule_grip(plant, contact.capsule, contact.along), touch)) continue;
+        wake(*contact.other, contact.normal, touch.velocity);
         sides.contacts.push_back(&contact);
         sides.plants.push_back(std::move(touch));
         sides.pushers.push_back(make_pusher(*contact.other, contact.on_other, h));
@@ -79,7 +80,9 @@ void respond_to_contacts(World& world, std::vector<Contact>& contacts, double h)
     for (size_t i = 0; i < impulses.size(); i++) {
         const Plant& plant = *sides.contacts[i]->plant->plant;
         const bool pushes_back = world.effects & plant.effects & FROND_TWO_WAY;
-        if (pushes_back && plant.is_sound) take_impulse(sides.pushers[i], -impulses[i]);
+        if (!pushes_back || !plant.is_sound || impulses[i].isZero(0)) continue;
+        take_impulse(sides.pushers[i], -impulses[i]);
+        if (sides.pushers[i].rigid) give_gravity(world.gravity_ahead, *sides.pushers[i].rigid, h);
     }
 }
 

@@ -26,6 +26,8 @@ static void add_to_report(const Plant& plant, frond_report& report) {
 void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     if (!(h > 0)) return;
     const Timer step_timer;
+    is_stepping = true;
+    end_hold(gravity_ahead, *collision_world);
     report = {};
     Surroundings surroundings;
     surroundings.gravity = gravity_of(*this);
@@ -54,6 +56,7 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     }
     time += double(h);
     report.ms_step = step_timer.ms();
+    is_stepping = false;
 }
 
 void World::debugDraw(btIDebugDraw*) {}

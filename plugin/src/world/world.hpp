@@ -5,6 +5,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "world/contact.hpp"
+#include "world/gravity_ahead.hpp"
 #include "world/rigid.hpp"
 
 namespace frond {
@@ -28,6 +29,8 @@ struct World final : btActionInterface {
     std::vector<std::unique_ptr<PlantBody>> bodies;
     std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
     std::vector<Contact> contacts;  // of the last substep
+    GravityAhead gravity_ahead;     // of the bodies in them
+    bool is_stepping = false;       // in updateAction
     double time = 0;  // [s]
     frond_report report = {};
 
