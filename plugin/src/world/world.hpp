@@ -4,7 +4,9 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "solve/impulses.hpp"
 #include "world/contact.hpp"
+#include "world/plant_contact.hpp"
 #include "world/rigid.hpp"
 
 namespace frond {
@@ -25,9 +27,14 @@ struct World final : btActionInterface {
     btSoftBodyWorldInfo soft_info;  // what btSoftBody's constructor asks for; not otherwise used
     frond_effects effects;
     double max_substep;  // [s]
+    HashSettings hash;
+    frond_response response;
+    ResponseSettings response_settings;
     std::vector<std::unique_ptr<PlantBody>> bodies;
     std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
-    std::vector<Contact> contacts;  // of the last substep
+    std::vector<Contact> contacts;  // of the last substep, with bodies
+    std::vector<PlantContact> plant_contacts;  // likewise, of plants with each other and themselves
+    std::unique_ptr<PlantSearch> plant_search;  // null until plants may touch
     double time = 0;  // [s]
     frond_report report = {};
 
