@@ -33,6 +33,10 @@ TEST(Header, EveryEnumHasANameAndOutOfRangeHasOneToo) {
     EXPECT_STREQ(frond_integrator_name(frond_integrator(-5)), "?");
     EXPECT_STREQ(frond_linear_solver_name(FROND_DIRECT), "direct");
     EXPECT_STREQ(frond_mass_name(FROND_CONSISTENT), "consistent");
+    EXPECT_STREQ(frond_hash_layout_name(FROND_HASH_PAPER), "paper");
+    EXPECT_STREQ(frond_hash_layout_name(frond_hash_layout(-1)), "?");
+    EXPECT_STREQ(frond_response_name(FROND_RESPONSE_IMPULSE), "impulse");
+    EXPECT_STREQ(frond_response_name(FROND_RESPONSE_COUNT), "?");
     EXPECT_GT(std::strlen(frond_version_string()), 2u);
 }
 
@@ -54,6 +58,20 @@ TEST(Misuse, OfWorldsIsRefused) {
     def = frond_default_world_def();
     def.effects = ~0u;
     EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT);
+    const std::pair<const char*, void (*)(frond_world_def&)> wrong[] = {
+        {"hash_layout", [](frond_world_def& d) { d.hash_layout = frond_hash_layout(FROND_HASH_LAYOUT_COUNT); }},
+        {"hash_table_size", [](frond_world_def& d) { d.hash_table_size = -1; }},
+        {"hash_cell_size", [](frond_world_def& d) { d.hash_cell_size = NOT_A_NUMBER; }},
+        {"response", [](frond_world_def& d) { d.response = frond_response(-1); }},
+        {"response_iterations", [](frond_world_def& d) { d.response_iterations = 0; }},
+        {"response_tolerance", [](frond_world_def& d) { d.response_tolerance = 2; }},
+        {"penalty_stiffness", [](frond_world_def& d) { d.penalty_stiffness = INFINITE; }}};
+    for (const auto& [word, change] : wrong) {
+        def = frond_default_world_def();
+        change(def);
+        EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT) << word;
+        EXPECT_TRUE(error_names(word));
+    }
 
     const frond_world null_world = {}, nonsense = {0x1234567890abcdefu};
     frond_report report;

@@ -10,7 +10,7 @@ namespace {
 
 using Pairs = std::vector<std::array<int, 2>>;
 
-Pairs pairs_of(HashLayout layout, const BoxSet& items, const BoxSet& queries, int table_size, double cell_size) {
+Pairs pairs_of(frond_hash_layout layout, const BoxSet& items, const BoxSet& queries, int table_size, double cell_size) {
     HashMemory memory;
     Pairs pairs;
     // Twice, so that memory from before does not show.
@@ -48,26 +48,26 @@ TEST(Hash, EveryLayoutFindsThePairsThatTryingFinds) {
                 box.lower[1] += shift;
                 box.upper[1] += shift;
             }
-        const Pairs expected = pairs_of(HASH_BRUTE_FORCE, items, queries, 0, 0.1);
+        const Pairs expected = pairs_of(FROND_HASH_BRUTE_FORCE, items, queries, 0, 0.1);
         found += expected.size();
-        for (int layout = 0; layout < HASH_LAYOUT_COUNT; ++layout)
+        for (int layout = 0; layout < FROND_HASH_LAYOUT_COUNT; ++layout)
             for (const double cell_size : {0.1, 0.37, 10.0})
                 for (const int table_size : {0, 97, 10007})
-                    EXPECT_EQ(pairs_of(HashLayout(layout), items, queries, table_size, cell_size), expected)
-                        << hash_row(HashLayout(layout)).name << ", cells of " << cell_size << ", table of "
+                    EXPECT_EQ(pairs_of(frond_hash_layout(layout), items, queries, table_size, cell_size), expected)
+                        << hash_row(frond_hash_layout(layout)).name << ", cells of " << cell_size << ", table of "
                         << table_size;
-        EXPECT_EQ(pairs_of(HASH_PAPER, items, queries, 1, 10), expected);
+        EXPECT_EQ(pairs_of(FROND_HASH_PAPER, items, queries, 1, 10), expected);
     }
     EXPECT_GT(found, 300u);
 }
 
 TEST(Hash, BoxesThatTouchAreAPairAndThoseOfAGroupAreNot) {
-    for (int layout = 0; layout < HASH_LAYOUT_COUNT; ++layout) {
+    for (int layout = 0; layout < FROND_HASH_LAYOUT_COUNT; ++layout) {
         const BoxSet items = {{{{0, 0, 0}, {1, 1, 1}, 0}, {{0, 0, 0}, {1, 1, 1}, 1}}};
         const BoxSet queries = {{{{1, 1, 1}, {2, 2, 2}, 1}, {{1.1, 0, 0}, {2, 1, 1}, 5}}};
-        EXPECT_EQ(pairs_of(HashLayout(layout), items, queries, 0, 0.25), (Pairs{{0, 0}}));
-        EXPECT_TRUE(pairs_of(HashLayout(layout), items, {}, 0, 0.25).empty());
-        EXPECT_TRUE(pairs_of(HashLayout(layout), {}, queries, 0, 0.25).empty());
+        EXPECT_EQ(pairs_of(frond_hash_layout(layout), items, queries, 0, 0.25), (Pairs{{0, 0}}));
+        EXPECT_TRUE(pairs_of(frond_hash_layout(layout), items, {}, 0, 0.25).empty());
+        EXPECT_TRUE(pairs_of(frond_hash_layout(layout), {}, queries, 0, 0.25).empty());
     }
 }
 

@@ -1,5 +1,6 @@
-// frond bench step: time of a step by stage.
+// frond bench step: time of a step by stage. frond bench contact: of contact, by the number of plants that touch.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -83,6 +84,84 @@ void bench_step(const BenchOptions& options) {
     }
 }
 
+// Stages of plants that touch, in the order in which they run.
+struct ContactStage {
+    const char* name;
+    double (*ms)(const frond_report& report);
+};
+constexpr ContactStage CONTACT_STAGES[] = {
+    {"broad", [](const frond_report& r) { return r.ms_broad; }},
+    {"hash", [](const frond_report& r) { return r.ms_hash; }},
+    {"narrow", [](const frond_report& r) { return r.ms_narrow; }},
+    {"response", [](const frond_report& r) { return r.ms_response; }},
+    {"solve", [](const frond_report& r) { return r.ms_assembly + r.ms_solve; }},
+    {"all", [](const frond_report& r) { return r.ms_step; }},
+};
+constexpr size_t CONTACT_STAGE_COUNT = sizeof CONTACT_STAGES / sizeof CONTACT_STAGES[0];
+
+// Some plants of a field that have settled against each other: the median of each stage.
+struct ContactFigures {
+    int plants = 0, tets = 0, contacts = 0;
+    double ms[CONTACT_STAGE_COUNT] = {};
+};
+
+ContactFigures measure_field(int plants, const BenchOptions& options) {
+    constexpr int WARM_UP = 90;
+    std::vector<std::string> assignments = options.assignments;
+    assignments.push_back("plants=" + std::to_string(plants));
+    const Casting casting = cast("corn_field");
+    Play play(casting, settings_of(casting, assignments));
+    for (int i = 0; i < WARM_UP; i++) play.step();
+    std::vector<double> ms[CONTACT_STAGE_COUNT], contacts;
+    ContactFigures figures;
+    for (int i = 0; i < options.rounds; i++) {
+        play.step();
+        frond_report report;
+        must(frond_world_get_report(play.stage.world, &report));
+        for (size_t k = 0; k < CONTACT_STAGE_COUNT; k++) ms[k].push_back(CONTACT_STAGES[k].ms(report));
+        contacts.push_back(report.plant_contact_count);
+        figures.plants = report.plant_count;
+        figures.tets = report.tet_count;
+    }
+    const auto median = [](std::vector<double>& values) {
+        std::sort(values.begin(), values.end());
+        return values[values.size() / 2];
+    };
+    for (size_t k = 0; k < CONTACT_STAGE_COUNT; k++) figures.ms[k] = median(ms[k]);
+    figures.contacts = int(median(contacts));
+    return figures;
+}
+
+void bench_contact(const BenchOptions& options) {
+    constexpr int COUNTS[] = {1, 2, 4, 8, 17};
+    std::vector<ContactFigures> all;
+    for (const int plants : COUNTS) all.push_back(measure_field(plants, options));
+    if (options.csv) {
+        std::printf("plants,tets,contacts,stage,median_ms,processor,compiler,version,commit\n");
+        for (const ContactFigures& f : all)
+            for (size_t k = 0; k < CONTACT_STAGE_COUNT; k++)
+                std::printf("%d,%d,%d,%s,%.6f,\"%s\",\"%s\",%s,%s\n", f.plants, f.tets, f.contacts,
+                            CONTACT_STAGES[k].name, f.ms[k], study::processor_name().c_str(), FROND_COMPILER,
+                            frond_version_string(), FROND_COMMIT);
+        return;
+    }
+    std::printf("corn_field, settled; median of %d steps [ms], one core\n%s, %s, frond %s %s\n%-8s %8s %8s",
+                options.rounds, study::processor_name().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT,
+                "plants", "tets", "contacts");
+    for (const ContactStage& stage : CONTACT_STAGES) std::printf(" %9s", stage.name);
+    for (const ContactFigures& f : all) {
+        std::printf("\n%-8d %8d %8d", f.plants, f.tets, f.contacts);
+        for (const double ms : f.ms) std::printf(" %9.3f", ms);
+    }
+    // Time goes as the number of plants to this power, from two plants to all.
+    const ContactFigures &few = all[1], &many = all.back();
+    const double ratio = std::log(double(many.plants) / few.plants);
+    std::printf("\n%-8s %8s %8.2f", "growth", "", std::log(std::max(many.contacts, 1) / std::max(double(few.contacts), 1.0)) / ratio);
+    for (size_t k = 0; k < CONTACT_STAGE_COUNT; k++)
+        std::printf(" %9.2f", few.ms[k] > 0 ? std::log(many.ms[k] / few.ms[k]) / ratio : 0.0);
+    std::printf("\n");
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app) {
@@ -95,6 +174,12 @@ void add_bench(CLI::App& app) {
     step->add_flag("--csv", options->csv, "print CSV");
     step->add_option("--set", options->assignments, "key=value, may be repeated; see frond run --help");
     step->callback([options] { bench_step(*options); });
+    auto contact_options = std::make_shared<BenchOptions>();
+    CLI::App* contact = bench->add_subcommand("contact", "time of plants that touch, by stage and number of plants");
+    contact->add_option("--rounds", contact_options->rounds, "steps, default 20")->check(CLI::Range(1, 100000));
+    contact->add_flag("--csv", contact_options->csv, "print CSV");
+    contact->add_option("--set", contact_options->assignments, "key=value, may be repeated; see frond run --help");
+    contact->callback([contact_options] { bench_contact(*contact_options); });
 }
 
 }  // namespace frond::tools

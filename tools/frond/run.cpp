@@ -72,6 +72,7 @@ nlohmann::ordered_json summary(const Play& play, const Record& record) {
     out["tip_at_start"] = {record.tip_at_start.x, record.tip_at_start.y, record.tip_at_start.z};
     out["tip"] = {record.tip.x, record.tip.y, record.tip.z};
     out["tip_farthest"] = record.farthest;
+    out["contacts"] = last.contact_count + last.plant_contact_count;
     out["trouble"] = trouble_text(record.trouble);
     out["ms_per_step"] = {{"all", median_of(record, [](const frond_report& r) { return r.ms_step; })},
                           {"effects", median_of(record, [](const frond_report& r) { return r.ms_effects; })},
@@ -89,9 +90,10 @@ void print(const nlohmann::ordered_json& out) {
                 out["plants"].get<int>(), out["nodes"].get<int>(), out["tets"].get<int>(),
                 out["mechanics"].get<std::string>().c_str(), out["integrator"].get<std::string>().c_str(),
                 out["linear_solver"].get<std::string>().c_str());
-    std::printf("  %d steps, %.2f s; tip from %.3f m to %.3f m high, at most %.3f m from where it began; trouble: %s\n",
+    std::printf("  %d steps, %.2f s; tip from %.3f m to %.3f m high, at most %.3f m from where it began; %d contacts; "
+                "trouble: %s\n",
                 out["steps"].get<int>(), out["time"].get<double>(), out["tip_at_start"][1].get<double>(),
-                out["tip"][1].get<double>(), out["tip_farthest"].get<double>(),
+                out["tip"][1].get<double>(), out["tip_farthest"].get<double>(), out["contacts"].get<int>(),
                 out["trouble"].get<std::string>().c_str());
     const auto& ms = out["ms_per_step"];
     std::printf("  median step %.3f ms: effects %.3f, assembly %.3f, solve %.3f, contact %.3f, capsules %.3f; "
@@ -150,8 +152,7 @@ frond_vec3 vertex_place(frond_plant plant, int vertex) {
     return {p[0], p[1], p[2]};
 }
 
-void run(const RunOptions& options) {
-    const Casting casting = cast(options.what);
+nlohmann::ordered_json play_once(const RunOptions& options, const Casting& casting) {
     const Settings settings = settings_of(casting, options.assignments);
     if (!(settings.dt > 0 && settings.dt <= 1)) throw SceneError("dt must be above 0 and at most 1 s");
     const int steps = options.steps >= 0 ? options.steps : int(std::lround(casting.scene->duration / settings.dt));
@@ -190,16 +191,41 @@ void run(const RunOptions& options) {
         progress.at(i + 1);
     }
 
-    const nlohmann::ordered_json out = summary(play, record);
-    if (options.json)
-        std::printf("%s\n", out.dump(2).c_str());
-    else
-        print(out);
     if (film) film->finish();
     if (!options.shot.empty()) {
         studio->shoot(play.stage);
         studio->write(options.shot);
     }
+    return summary(play, record);
+}
+
+// A scene that has something to be compared with is played twice, (a) that way and (b) as it is, and always pictured.
+std::vector<RunOptions> takes_of(const RunOptions& options, const Scene& scene) {
+    if (!scene.without) return {options};
+    RunOptions a = options;
+    if (a.shot.empty()) a.shot = std::string(scene.name) + ".png";
+    if (a.view.overlays.empty()) a.view.overlays = {"contacts"};
+    RunOptions b = a;
+    const std::filesystem::path shot = a.shot, stem = shot.parent_path() / shot.stem();
+    a.shot = stem.string() + "_a" + shot.extension().string();
+    b.shot = stem.string() + "_b" + shot.extension().string();
+    a.frames.clear();
+    a.assignments.push_back(scene.without);
+    return {a, b};
+}
+
+void run(const RunOptions& options) {
+    const Casting casting = cast(options.what);
+    const std::vector<RunOptions> takes = takes_of(options, *casting.scene);
+    std::vector<nlohmann::ordered_json> results;
+    for (const RunOptions& take : takes) {
+        results.push_back(play_once(take, casting));
+        if (options.json) continue;
+        if (takes.size() > 1) std::printf("%s:\n", take.shot.c_str());
+        print(results.back());
+    }
+    const nlohmann::ordered_json all = takes.size() > 1 ? nlohmann::ordered_json(results) : results.front();
+    if (options.json) std::printf("%s\n", all.dump(2).c_str());
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Settings {
     frond_plant_def plant = frond_default_plant_def();
     double dt = 1.0 / 60;        // [s]
     double pull = 0.2;           // how far the user drags, as a share of the plant's height [-]
+    int plants = 0;              // of a field; 0: as many as it has
     double grab_stiffness = 60;  // [N/m]; 0: as stiff as it takes to move the plant
     struct OrganOverride {
         std::string organ;
@@ -60,7 +61,10 @@ struct Stage {
     Stage& operator=(const Stage&) = delete;
     ~Stage();
     frond_model load(const std::string& path);
-    frond_plant plant(frond_model model, frond_vec3 position);
+    // Takes the model over.
+    frond_model keep(frond_model model);
+    // Turned about its own height by `turn` [rad].
+    frond_plant plant(frond_model model, frond_vec3 position, double turn = 0);
     frond_rigid rigid(const frond_rigid_def& def);
 };
 
@@ -71,6 +75,7 @@ struct Scene {
     void (*set_defaults)(Settings& settings);
     void (*build)(Stage& stage);
     void (*drive)(Stage& stage);  // before each step
+    const char* without = nullptr;  // a setting with which it is played, and pictured, for comparison
 };
 const std::vector<Scene>& scenes();
 // The scene of that name, or the scene "tug" around a plant file. Throws a SceneError that names the scenes there are.

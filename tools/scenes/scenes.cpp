@@ -125,6 +125,82 @@ void walk(Stage& stage) {
     must(frond_rigid_set_state(stage.rigids.back(), &state));
 }
 
+// Two of the paper's plants, so near that their leaves are in each other (its figure 5).
+void build_corn_pair(Stage& stage) {
+    const frond_model model = stage.load(model_path("corn/corn.obj"));
+    stage.plant(model, {-0.45, 0, 0}, 0.1);
+    stage.plant(model, {0.45, 0, 0.03}, -0.05);
+}
+
+// Two plants that stand in each other's leaves, and the user takes one away.
+void build_tangle(Stage& stage) {
+    const frond_model model = stage.load(model_path("corn/corn.obj"));
+    stage.plant(model, {0, 0, 0});
+    stage.plant(model, {-0.35, 0, 0.06}, 0.5);
+}
+
+// A field of touching plants, in rows that stand in the gaps of each other.
+constexpr int FIELD = 17;
+void build_corn_field(Stage& stage) {
+    constexpr double STEP = 0.8;  // [m]
+    const frond_model model = stage.load(model_path("corn/corn.obj"));
+    const int count = stage.settings.plants > 0 ? stage.settings.plants : FIELD;
+    for (int i = 0; i < count; i++) {
+        const int row = i / 5, place = i % 5;
+        const double x = STEP * (place + (row % 2 ? 0.5 : 0)), z = 0.87 * STEP * row;
+        stage.plant(model, {x, 0, z}, 2.4 * i);
+    }
+}
+
+// A leaf like a flag: a ribbon, held at one end, whose other end the user lays back onto it, and further.
+constexpr double FLAG_LENGTH = 0.6, FLAG_WIDTH = 0.08, FLAG_HEIGHT = 0.4;  // [m]
+void flag_defaults(Settings& settings) {
+    settings.model.rest = FROND_REST_WITHOUT_GRAVITY;
+    settings.plant.effects |= FROND_SELF_CONTACT;
+    settings.world.gravity = {0, 0, 0};
+    settings.grab_stiffness = 40;
+}
+void build_flag(Stage& stage) {
+    constexpr int LONG = 24, WIDE = 2;
+    std::vector<float> xyz;
+    std::vector<int32_t> indices;
+    for (int i = 0; i <= LONG; i++)
+        for (int k = 0; k <= WIDE; k++)
+            for (const double value : {FLAG_LENGTH * i / LONG, FLAG_HEIGHT, FLAG_WIDTH * (double(k) / WIDE - 0.5)})
+                xyz.push_back(float(value));
+    for (int32_t i = 0; i < LONG; i++)
+        for (int32_t k = 0; k < WIDE; k++) {
+            const int32_t a = i * (WIDE + 1) + k, b = a + WIDE + 1;
+            indices.insert(indices.end(), {a, b, a + 1, a + 1, b, b + 1});
+        }
+    frond_material material;
+    must(frond_material_preset("blade", &material));
+    material.young = 2e7;
+    const frond_organ_material organs[] = {{"blade", material}, {"stem", material}};
+    frond_model_def def = stage.settings.model;
+    def.organs = organs;
+    def.organ_count = 2;
+    frond_model model = {};
+    must(frond_model_from_triangles(xyz.data(), int(xyz.size() / 3), indices.data(), int(indices.size() / 3), &def,
+                                    &model));
+    stage.plant(stage.keep(model), {0, 0, 0});
+}
+
+// Over in a half circle, and then past where it is held.
+void fold(Stage& stage) {
+    constexpr double PI = 3.14159265358979, BEGIN = 0.2, OVER = 1.4, PAST = 2.2;  // [s]
+    const double t = stage.time;
+    if (t < BEGIN) return;
+    if (stage.grabs.empty()) {
+        stage.drag_stiffness = stage.settings.grab_stiffness;
+        take_hold(stage, {FLAG_LENGTH, FLAG_HEIGHT, 0});
+    }
+    const double turn = PI * std::clamp((t - BEGIN) / (OVER - BEGIN), 0.0, 1.0);
+    const double down = std::clamp((t - OVER) / (PAST - OVER), 0.0, 1.0);
+    const double x = FLAG_LENGTH * (0.6 + 0.4 * std::cos(turn)), y = FLAG_HEIGHT + 0.45 * FLAG_LENGTH * std::sin(turn);
+    must(frond_grab_move(stage.grabs[0], {x, y - 0.2 * FLAG_LENGTH * down, 0}));
+}
+
 // A crate that is let go a little above the cucumber's leaves.
 void build_crate(Stage& stage) {
     build_cucumber(stage);
@@ -166,6 +242,11 @@ const std::vector<Scene>& scenes() {
         {"cucumber_drag", "a cucumber plant is pulled aside and let go", 5, cucumber_defaults, build_cucumber, drag},
         {"ball", "a football is thrown at a corn plant", 3, corn_defaults, build_ball, rest},
         {"walk", "a walker's capsule pushes through a row of ten corn plants", 4, corn_defaults, build_walk, walk},
+        {"corn_pair", "two corn plants in each other's leaves come apart", 2, corn_defaults, build_corn_pair, rest,
+         "response=none"},
+        {"tangle", "one of two tangled corn plants is pulled away and let go", 4, corn_defaults, build_tangle, drag},
+        {"corn_field", "17 corn plants touch", 3, corn_defaults, build_corn_field, rest},
+        {"flag", "a ribbon of a leaf is folded onto itself", 3, flag_defaults, build_flag, fold},
         {"crate", "a small crate is let fall on a cucumber's leaves", 3, cucumber_defaults, build_crate, rest},
         {"tug", "a plant file: it stands, is pulled aside and let go", 5, tug_defaults, nullptr, drag},
     };

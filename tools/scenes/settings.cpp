@@ -66,15 +66,44 @@ Key choice(const char* name, const char* text, Row frond_plant_def::*field, int 
             [=](Settings& s, const std::string& value) { s.plant.*field = row<Row>(value, rows, row_name); }};
 }
 
+template <class Row>
+Key choice(const char* name, const char* text, Row frond_world_def::*field, int rows, const char* (*row_name)(Row)) {
+    return {name, text,
+            [=](Settings& s, const std::string& value) { s.world.*field = row<Row>(value, rows, row_name); }};
+}
+// An effect of all plants, on or off.
+Key effect(const char* name, const char* text, frond_effects bit) {
+    return {name, text, [=](Settings& s, const std::string& value) {
+                if (value != "on" && value != "off") throw SceneError("\"" + value + "\" is neither on nor off");
+                s.plant.effects = value == "on" ? s.plant.effects | bit : s.plant.effects & ~bit;
+            }};
+}
+
 const std::vector<Key>& keys() {
     static const std::vector<Key> table = {
         {"dt", "time step [s]", [](Settings& s, const std::string& value) { s.dt = number(value); }},
         {"pull", "how far the user drags, share of the height",
          [](Settings& s, const std::string& value) { s.pull = number(value); }},
+        {"plants", "of corn_field, 0: 17",
+         [](Settings& s, const std::string& value) { s.plants = int(number(value)); }},
         {"grab_stiffness", "of the user's spring [N/m], 0: as it takes",
          [](Settings& s, const std::string& value) { s.grab_stiffness = number(value); }},
         triple("gravity", "x,y,z [m/s^2]", &Settings::world, &frond_world_def::gravity),
         real("max_substep", "longest solver step [s]", &Settings::world, &frond_world_def::max_substep),
+        choice("hash_layout", "where cages meet, row of the table", &frond_world_def::hash_layout,
+               FROND_HASH_LAYOUT_COUNT, frond_hash_layout_name),
+        count("hash_table_size", "n of the paper, 0: chosen", &Settings::world, &frond_world_def::hash_table_size),
+        real("hash_cell_size", "l of the paper [m], 0: chosen", &Settings::world, &frond_world_def::hash_cell_size),
+        choice("response", "what contacts do, row of the table", &frond_world_def::response, FROND_RESPONSE_COUNT,
+               frond_response_name),
+        count("response_iterations", "rounds over all contacts", &Settings::world,
+              &frond_world_def::response_iterations),
+        real("response_tolerance", "share of the largest impulse", &Settings::world,
+             &frond_world_def::response_tolerance),
+        real("penalty_stiffness", "of response=penalty [N/m]", &Settings::world, &frond_world_def::penalty_stiffness),
+        effect("plant_contact", "on or off", FROND_PLANT_CONTACT),
+        effect("self_contact", "on or off", FROND_SELF_CONTACT),
+        effect("friction", "on or off", FROND_FRICTION),
         real("scale", "metres per file unit, 0: guess", &Settings::model, &frond_model_def::scale),
         triple("up", "up axis of the file, 0,0,0: guess", &Settings::model, &frond_model_def::up),
         real("capsule_height", "h of the paper [m], 0: chosen", &Settings::model, &frond_model_def::capsule_height),

@@ -1,5 +1,6 @@
 // The stage: worlds, models and plants of a running scene, and where their files are.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -61,13 +62,18 @@ frond_model Stage::load(const std::string& path) {
         def.organ_count = int(list.size());
         must(frond_model_load(path.c_str(), &def, &model));
     }
+    return keep(model);
+}
+
+frond_model Stage::keep(frond_model model) {
     models.push_back(model);
     return model;
 }
 
-frond_plant Stage::plant(frond_model model, frond_vec3 position) {
+frond_plant Stage::plant(frond_model model, frond_vec3 position, double turn) {
     frond_plant_def def = settings.plant;
     def.position = position;
+    if (turn != 0) def.rotation = {0, std::sin(turn / 2), 0, std::cos(turn / 2)};
     frond_plant plant = {};
     must(frond_plant_create(world, model, &def, &plant));
     frond_model_info info;
@@ -76,9 +82,15 @@ frond_plant Stage::plant(frond_model model, frond_vec3 position) {
         low = plants.empty() ? a : std::min(low, a);
         high = plants.empty() ? b : std::max(high, b);
     };
-    grow(lower.x, upper.x, position.x + info.lower.x, position.x + info.upper.x);
+    // The box of the turned box.
+    const double c = std::cos(turn), s = std::sin(turn);
+    const double middle_x = (info.lower.x + info.upper.x) / 2, half_x = (info.upper.x - info.lower.x) / 2;
+    const double middle_z = (info.lower.z + info.upper.z) / 2, half_z = (info.upper.z - info.lower.z) / 2;
+    const double x = position.x + c * middle_x + s * middle_z, z = position.z - s * middle_x + c * middle_z;
+    const double wide = std::abs(c) * half_x + std::abs(s) * half_z, deep = std::abs(s) * half_x + std::abs(c) * half_z;
+    grow(lower.x, upper.x, x - wide, x + wide);
     grow(lower.y, upper.y, position.y + info.lower.y, position.y + info.upper.y);
-    grow(lower.z, upper.z, position.z + info.lower.z, position.z + info.upper.z);
+    grow(lower.z, upper.z, z - deep, z + deep);
     plants.push_back(plant);
     plant_models.push_back(model);
     return plant;

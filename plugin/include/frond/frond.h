@@ -100,10 +100,14 @@ enum {
     FROND_SURFACE = 1 << 3,    /* deform the render mesh */
     FROND_NORMALS = 1 << 4,    /* and its normals; needs FROND_SURFACE */
     FROND_RIGID_CONTACT = 1 << 5, /* bodies of the Bullet world push the plant */
-    FROND_FRICTION = 1 << 6,      /* and rub on it; needs FROND_RIGID_CONTACT */
+    FROND_FRICTION = 1 << 6,      /* and rub on it; likewise plants on plants */
     FROND_TWO_WAY = 1 << 7,       /* and feel the same impulses; needs FROND_RIGID_CONTACT */
     FROND_PLASTICITY = 1 << 8,    /* what is bent beyond its material's yield_strain keeps a set, and creeps */
-    FROND_ALL_EFFECTS = (1 << 9) - 1
+    FROND_PLANT_CONTACT = 1 << 9, /* plants push each other by their cages, where both have this bit. Those that stand
+                                   * in each other when they are made come apart, slowly. */
+    FROND_SELF_CONTACT = 1 << 10, /* and parts of a plant do, but for those that meet in the modelled shape */
+    FROND_ALL_EFFECTS = (1 << 11) - 1,
+    FROND_DEFAULT_EFFECTS = FROND_ALL_EFFECTS & ~FROND_SELF_CONTACT /* of a plant; a world allows all */
 };
 
 /* What moves by itself. Every model has a chain and a cage: with the tets the cage moves and the chain follows, with the
@@ -131,6 +135,17 @@ enum {
 /* How the mass of a tet is given to its nodes. */
 #define FROND_MASSES(X) X(LUMPED, "lumped") X(CONSISTENT, "consistent")
 
+/* How it is found out where cages are in each other. All of them find the same. */
+#define FROND_HASH_LAYOUTS(X)                                                                                     \
+    X(HASH_GRID, "grid")               /* a grid of cells, only those in which two plants are: quickest */        \
+    X(HASH_PAPER, "paper")             /* the paper's table of n buckets over cells of size l */                  \
+    X(HASH_BRUTE_FORCE, "brute_force") /* everything with everything, to compare with */
+/* What contacts do. */
+#define FROND_RESPONSES(X)                                                                                        \
+    X(RESPONSE_IMPULSE, "impulse") /* impulses that fit together, with friction, each body answering as it moves: exact */ \
+    X(RESPONSE_PENALTY, "penalty") /* a spring at each contact, stable however stiff: cheap, yields a little */   \
+    X(RESPONSE_NONE, "none")       /* contacts are told but nothing pushes */
+
 #define FROND_MECHANICS_ENUM(code, text) FROND_##code,
 typedef enum frond_mechanics { FROND_MECHANICS(FROND_MECHANICS_ENUM) FROND_MECHANICS_COUNT } frond_mechanics;
 typedef enum frond_integrator { FROND_INTEGRATORS(FROND_MECHANICS_ENUM) FROND_INTEGRATOR_COUNT } frond_integrator;
@@ -138,6 +153,10 @@ typedef enum frond_linear_solver {
     FROND_LINEAR_SOLVERS(FROND_MECHANICS_ENUM) FROND_LINEAR_SOLVER_COUNT
 } frond_linear_solver;
 typedef enum frond_mass { FROND_MASSES(FROND_MECHANICS_ENUM) FROND_MASS_COUNT } frond_mass;
+typedef enum frond_hash_layout {
+    FROND_HASH_LAYOUTS(FROND_MECHANICS_ENUM) FROND_HASH_LAYOUT_COUNT
+} frond_hash_layout;
+typedef enum frond_response { FROND_RESPONSES(FROND_MECHANICS_ENUM) FROND_RESPONSE_COUNT } frond_response;
 #undef FROND_MECHANICS_ENUM
 /* Which shape the file shows: the plant as it stands under 9.81 m/s^2 along the model's -y, for which Frond finds the
  * shape without gravity, or as it would be without gravity, so that it droops. */
@@ -148,6 +167,8 @@ FROND_API const char* frond_mechanics_name(frond_mechanics mechanics);
 FROND_API const char* frond_integrator_name(frond_integrator integrator);
 FROND_API const char* frond_linear_solver_name(frond_linear_solver solver);
 FROND_API const char* frond_mass_name(frond_mass mass);
+FROND_API const char* frond_hash_layout_name(frond_hash_layout layout);
+FROND_API const char* frond_response_name(frond_response response);
 
 /* ---- world --------------------------------------------------------------------------------------------- */
 
@@ -155,6 +176,17 @@ typedef struct frond_world_def {
     frond_vec3 gravity;    /* [m/s^2], default (0, -9.81, 0) */
     frond_effects effects; /* a mask over every plant's, default FROND_ALL_EFFECTS */
     double max_substep;    /* longest step that the solver takes [s], default 1/60 */
+    /* Plants against plants and themselves. */
+    frond_hash_layout hash_layout; /* default FROND_HASH_GRID */
+    int hash_table_size;   /* n of FROND_HASH_PAPER, 0 .. 1e8; 0 (default) takes twice the number of things in it */
+    double hash_cell_size; /* l [m], 0 .. 1e3; 0 (default) takes one and a half mean edges of the cages that touch, and less
+                            * than an eighth of one is not taken */
+    /* All contacts. */
+    frond_response response;   /* default FROND_RESPONSE_IMPULSE */
+    int response_iterations;   /* rounds over all contacts at most, 1 .. 100000, default 200 */
+    double response_tolerance; /* stop when no impulse changes by more than this share of the largest [-], 0 .. 1,
+                                * default 1e-6 */
+    double penalty_stiffness;  /* of FROND_RESPONSE_PENALTY, a contact [N/m], 1e-6 .. 1e12, default 1000 */
     uint32_t cookie;       /* do not set */
 } frond_world_def;
 
@@ -179,8 +211,11 @@ typedef struct frond_report {
     double residual;                        /* largest relative residual of a linear solve in the last substep [-] */
     double time;                            /* simulated [s] */
     int contact_count;                      /* points at which bodies touched plants in the last substep */
+    int plant_contact_count;                /* and plants touched plants, or themselves */
     /* Wall clock of the last substep [ms]: all of it, then its parts in the order in which they run. */
     double ms_step, ms_collide, ms_effects, ms_assembly, ms_solve, ms_response, ms_capsules, ms_surface;
+    /* Of ms_collide, plants with plants: whose organs may meet, the spatial hash, tests and depths. */
+    double ms_broad, ms_hash, ms_narrow;
 } frond_report;
 
 typedef struct frond_ray_hit {
@@ -403,7 +438,7 @@ typedef struct frond_plant_def {
                                * nothing, 0 most */
     double root_height;       /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
                                * from the shape; negative pins none. A node on an edge is where both its ends are. */
-    frond_effects effects;    /* default FROND_ALL_EFFECTS */
+    frond_effects effects;    /* default FROND_DEFAULT_EFFECTS */
     void* user;
     uint32_t cookie; /* do not set */
 } frond_plant_def;
@@ -428,14 +463,16 @@ typedef struct frond_capsule {
     double radius;         /* [m] */
 } frond_capsule;
 
-/* A point at which a body of the Bullet world touched a plant in the last substep, or was about to. */
+/* A point at which a body of the Bullet world, another plant or the plant itself touched a plant in the last substep, or
+ * was about to. Each of two plants tells of it; what touches itself does once. */
 typedef struct frond_contact {
     frond_vec3 point;   /* on the plant [m] */
     frond_vec3 normal;  /* from the body to the plant, length one */
     frond_vec3 impulse; /* on the plant in that substep [N s]; the body got the opposite */
     double gap;         /* before the substep, below zero they overlapped [m] */
-    int capsule;        /* of the plant */
+    int capsule;        /* of the plant; where plants touch, the one that the touching part of the cage belongs to */
     const void* body;   /* the btCollisionObject; borrowed from the host */
+    frond_plant other;  /* the plant that it is; null: a body */
 } frond_contact;
 
 FROND_API frond_plant_def frond_default_plant_def(void);

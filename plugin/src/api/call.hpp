@@ -61,6 +61,9 @@ int number_of(const Enum& value) {
     std::memcpy(&number, &value, sizeof number);
     return number;
 }
+inline void check_row(int row, int count, const char* name) {
+    if (row < 0 || row >= count) fail(FROND_BAD_ARGUMENT, "%s is %d; use one of its enum's names", name, row);
+}
 template <class Def>
 void check_def(const Def* def, uint32_t cookie, const char* name) {
     check_pointer(def, "def");

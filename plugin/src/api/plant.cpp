@@ -11,10 +11,6 @@ static void check_effects(frond_effects effects) {
     if (effects & ~uint32_t(FROND_ALL_EFFECTS)) fail(FROND_BAD_ARGUMENT, "effects has unknown bits; use FROND_*");
 }
 
-static void check_row(int row, int count, const char* name) {
-    if (row < 0 || row >= count) fail(FROND_BAD_ARGUMENT, "%s is %d; use one of its enum's names", name, row);
-}
-
 static void check_plant_def(const frond_plant_def* def) {
     check_def(def, PLANT_DEF_COOKIE, "plant");
     check_vec(def->position, "def.position [m]");
@@ -55,6 +51,24 @@ static frond_effects effects_of(const PlantBody& body) {
     return body.plant->effects & body.world->effects;
 }
 
+// Of one plant, as it feels them.
+static std::vector<frond_contact> contacts_of(const PlantBody& body) {
+    std::vector<frond_contact> out;
+    for (const Contact& c : body.world->contacts)
+        if (c.plant == &body)
+            out.push_back({from_vec(c.on_plant), from_vec(c.normal), from_vec(c.impulse), c.gap, c.capsule, c.other, {}});
+    for (const PlantContact& c : body.world->plant_contacts) {
+        const size_t side = c.plants[0] == &body ? 0 : 1;
+        if (c.plants[side] != &body) continue;
+        const double sign = side == 0 ? 1 : -1;
+        const Vec3 point = side == 0 ? c.point : Vec3(c.point + c.depth * c.normal);
+        const PlantBody* other = c.plants[1 - side];
+        out.push_back({from_vec(point), from_vec(sign * c.normal), from_vec(sign * c.impulse), -c.depth, c.capsules[side],
+                       other, other->handle});
+    }
+    return out;
+}
+
 extern "C" {
 
 frond_plant_def frond_default_plant_def(void) {
@@ -73,7 +87,7 @@ frond_plant_def frond_default_plant_def(void) {
     def.stiffness_damping = 0.002;
     def.material_damping = 1;
     def.spectral_radius = 0.8;
-    def.effects = FROND_ALL_EFFECTS;
+    def.effects = FROND_DEFAULT_EFFECTS;
     def.cookie = PLANT_DEF_COOKIE;
     return def;
 }
@@ -277,19 +291,15 @@ frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int
 
 int frond_plant_get_contact_count(frond_plant plant) {
     const PlantBody* body = plant_slots().find(plant.id);
-    if (!body) return 0;
-    const std::vector<Contact>& contacts = body->world->contacts;
-    return int(std::count_if(contacts.begin(), contacts.end(), [&](const Contact& c) { return c.plant == body; }));
+    return body ? int(contacts_of(*body).size()) : 0;
 }
 
 frond_result frond_plant_get_contacts(frond_plant plant, frond_contact* out, int contact_count) {
     return call([&] {
-        const PlantBody& body = get(plant);
-        check_count(contact_count, frond_plant_get_contact_count(plant), "contact_count");
+        const std::vector<frond_contact> contacts = contacts_of(get(plant));
+        check_count(contact_count, int(contacts.size()), "contact_count");
         if (contact_count > 0) check_pointer(out, "out");
-        for (const Contact& c : body.world->contacts)
-            if (c.plant == &body)
-                *out++ = {from_vec(c.on_plant), from_vec(c.normal), from_vec(c.impulse), c.gap, c.capsule, c.other};
+        std::copy(contacts.begin(), contacts.end(), out);
     });
 }
 

@@ -11,6 +11,13 @@ static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& de
     check_range(def.max_substep, 1e-6, 1.0, "def.max_substep");
     if (def.effects & ~uint32_t(FROND_ALL_EFFECTS))
         fail(FROND_BAD_ARGUMENT, "def.effects has unknown bits; use FROND_*");
+    check_row(number_of(def.hash_layout), FROND_HASH_LAYOUT_COUNT, "def.hash_layout");
+    check_range(def.hash_table_size, 0, 1e8, "def.hash_table_size");
+    check_range(def.hash_cell_size, 0, 1e3, "def.hash_cell_size [m]");
+    check_row(number_of(def.response), FROND_RESPONSE_COUNT, "def.response");
+    check_range(def.response_iterations, 1, 1e5, "def.response_iterations");
+    check_range(def.response_tolerance, 0, 1, "def.response_tolerance");
+    check_range(def.penalty_stiffness, 1e-6, 1e12, "def.penalty_stiffness [N/m]");
     const uint64_t id = world_slots().insert(make_world(bullet, def));
     if (!id) fail(FROND_OUT_OF_MEMORY, "too many worlds; destroy some");
     return {id};
@@ -45,6 +52,11 @@ frond_world_def frond_default_world_def(void) {
     def.gravity = {0, -9.81, 0};
     def.effects = FROND_ALL_EFFECTS;
     def.max_substep = 1.0 / 60;
+    def.hash_layout = FROND_HASH_GRID;
+    def.response = FROND_RESPONSE_IMPULSE;
+    def.response_iterations = 200;
+    def.response_tolerance = 1e-6;
+    def.penalty_stiffness = 1000;
     def.cookie = WORLD_DEF_COOKIE;
     return def;
 }

@@ -17,6 +17,7 @@ enum ContactKind : uint8_t {
 struct ContactSide {
     int body;   // as in what find_cage_contacts was given
     int organ;  // as in Cage::tet_organ
+    int piece;  // as in Collider::tet_piece
     int node_count;
     std::array<int, 4> nodes;
     std::array<double, 4> weights;  // add up to one
@@ -41,7 +42,10 @@ ContactSearchPtr make_contact_search();
 // its neighbours' edges enter, and deeper nodes get theirs from these (Heidelberger, Teschner, Keiser, Mueller, Gross
 // 2004, "Consistent Penetration Depth Estimation for Deformable Collision Response"). An edge that passes through
 // without a node inside leaves across the boundary edge of the other cage that is beside it, deeper ones as those do.
-void find_cage_contacts(ContactSearch& search, const std::vector<CollisionBody>& bodies, const HashSettings& settings,
-                   std::vector<CageContact>& out);
+struct SearchTimes {
+    double ms_hash = 0, ms_narrow = 0;  // which boxes overlap; exact tests, depths and ways out
+};
+SearchTimes find_cage_contacts(ContactSearch& search, const std::vector<CollisionBody>& bodies,
+                               const HashSettings& settings, std::vector<CageContact>& out);
 
 }  // namespace frond

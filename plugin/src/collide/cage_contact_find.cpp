@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "collide/penetration.hpp"
+#include "core/timer.hpp"
 
 namespace frond {
 
@@ -55,8 +56,9 @@ static void drop_doubles(std::vector<CageContact>& contacts) {
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_double), contacts.end());
 }
 
-void find_cage_contacts(ContactSearch& search, const std::vector<CollisionBody>& bodies, const HashSettings& settings,
-                   std::vector<CageContact>& out) {
+SearchTimes find_cage_contacts(ContactSearch& search, const std::vector<CollisionBody>& bodies,
+                               const HashSettings& settings, std::vector<CageContact>& out) {
+    const Timer timer;
     out.clear();
     find_overlaps(search.overlaps, bodies, settings);
     const OverlapScene& scene = search.overlaps.scene;
@@ -72,6 +74,8 @@ void find_cage_contacts(ContactSearch& search, const std::vector<CollisionBody>&
         for (const int overlap : pair.nodes) place_of(overlap) = -1;
     }
     drop_doubles(out);
+    const double ms_hash = search.overlaps.ms_hash;
+    return {ms_hash, timer.ms() - ms_hash};
 }
 
 }  // namespace frond

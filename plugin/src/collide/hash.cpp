@@ -1,15 +1,15 @@
-// The table of layouts: one row for each HashLayout; the twin that tries every pair is short enough to stand here.
+// The table of layouts: one row for each frond_hash_layout; the twin that tries every pair is short enough to stand here.
 #include "collide/hash.hpp"
 
 namespace frond {
 
-const HashRow& hash_row(HashLayout layout) {
+const HashRow& hash_row(frond_hash_layout layout) {
     static const HashRow TABLE[] = {
         {"grid", cull_by_grid, find_pairs_by_grid},
         {"paper", nullptr, find_pairs_by_table},
         {"brute_force", nullptr, find_pairs_by_trying},
     };
-    static_assert(sizeof TABLE / sizeof TABLE[0] == HASH_LAYOUT_COUNT, "every layout needs its row");
+    static_assert(sizeof TABLE / sizeof TABLE[0] == FROND_HASH_LAYOUT_COUNT, "every layout needs its row");
     return TABLE[layout];
 }
 

@@ -3,19 +3,13 @@
 #pragma once
 
 #include "core/types.hpp"
+#include "frond/frond.h"
 
 namespace frond {
 
-enum HashLayout {
-    HASH_GRID,         // a dense grid of cells whose entries lie side by side
-    HASH_PAPER,        // a table of buckets, as in the paper
-    HASH_BRUTE_FORCE,  // every pair
-    HASH_LAYOUT_COUNT
-};
-
 struct HashSettings {
-    HashLayout layout = HASH_GRID;
-    int table_size = 0;    // n, buckets of HASH_PAPER; 0 chooses
+    frond_hash_layout layout = FROND_HASH_GRID;
+    int table_size = 0;    // n, buckets of FROND_HASH_PAPER; 0 chooses
     double cell_size = 0;  // l [m]; 0 chooses one and a half mean edges. Never below an eighth of the mean edge
 };
 
@@ -43,7 +37,7 @@ struct HashRow {
     void (*find)(const BoxSet& items, const BoxSet& queries, int table_size, double cell_size, HashMemory& memory,
                  std::vector<std::array<int, 2>>& out);
 };
-const HashRow& hash_row(HashLayout layout);
+const HashRow& hash_row(frond_hash_layout layout);
 
 // The rows.
 void cull_by_grid(const BoxSet& boxes, double cell_size, HashMemory& memory, std::vector<uint8_t>& kept);

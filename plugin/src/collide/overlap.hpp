@@ -48,6 +48,7 @@ struct OverlapSearch {
     HashMemory hash;
     std::vector<std::array<int, 2>> pairs;
     std::vector<uint8_t> marks;
+    double ms_hash = 0;  // of that, for boxes and the hash
 };
 
 void find_overlaps(OverlapSearch& search, const std::vector<CollisionBody>& bodies, const HashSettings& settings);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "collide/overlap.hpp"
+#include "core/timer.hpp"
 
 namespace frond {
 
@@ -133,10 +134,12 @@ static void fill_boundary(OverlapSearch& search) {
 }
 
 static void find_pairs(OverlapSearch& search, const HashSettings& settings) {
+    const Timer timer;
     search.pairs.clear();
     hash_row(settings.layout)
         .find(search.items, search.queries, settings.table_size, cell_size_of(search.scene, settings), search.hash,
               search.pairs);
+    search.ms_hash += timer.ms();
 }
 
 // Within one body: whether a node lies in or beside a piece.
@@ -259,7 +262,9 @@ static void find_edges_through_faces(OverlapSearch& search, const Groups& groups
 void find_overlaps(OverlapSearch& search, const std::vector<CollisionBody>& bodies, const HashSettings& settings) {
     search.nodes.clear();
     search.edges.clear();
+    search.ms_hash = 0;
     OverlapScene& s = search.scene;
+    const Timer timer;
     fill_tets(s, bodies);
     if (s.tet.empty()) return;
     const Groups groups(s);
@@ -268,6 +273,7 @@ void find_overlaps(OverlapSearch& search, const std::vector<CollisionBody>& bodi
         [](const Collider& c, int t) { return c.tet_piece[size_t(t)]; });
     cull_tets(search, hash_row(settings.layout), cell_size_of(s, settings));
     fill_boundary(search);
+    search.ms_hash += timer.ms();
     find_nodes_in_tets(search, groups, settings);
     find_edges_through_faces(search, groups, settings);
 }

@@ -16,7 +16,7 @@ Vec3 face_normal(const OverlapScene& scene, int body, int face) {
 
 ContactSide side_of_nodes(const Collider& collider, int body, const int* nodes, const double* weights, int count,
                           int tet) {
-    ContactSide side = {body, collider.tet_organ[size_t(tet)], count, {}, {}};
+    ContactSide side = {body, collider.tet_organ[size_t(tet)], collider.tet_piece[size_t(tet)], count, {}, {}};
     std::copy(nodes, nodes + count, side.nodes.begin());
     std::copy(weights, weights + count, side.weights.begin());
     return side;

@@ -20,27 +20,20 @@ Mat3 turn_derivative(const Grip& grip, int k, const VecX& x) {
     return -cross_matrix<double>(turned_arm(grip, k, x)) * rate_matrix<double>(point(x, grip.node[size_t(k)] + 1));
 }
 
-// The derivative by each node of the mechanics.
-struct Derivative {
-    int count = 0;
-    std::array<int, Grip::MOST> node;
-    std::array<Mat3, Grip::MOST> by;
-    void add(int n, const Mat3& m) {
-        node[size_t(count)] = n;
-        by[size_t(count++)] = m;
-    }
-};
+}  // namespace
 
-Derivative derivative_at(const Grip& grip, const VecX& x) {
-    Derivative out;
+GripDerivative derivative_at(const Grip& grip, const VecX& x) {
+    GripDerivative out;
+    const auto add = [&](int node, const Mat3& by) {
+        out.node[size_t(out.count)] = node;
+        out.by[size_t(out.count++)] = by;
+    };
     for (int k = 0; k < grip.count; ++k) {
-        out.add(grip.node[size_t(k)], grip.weight[size_t(k)] * Mat3::Identity());
-        if (grip.turns) out.add(grip.node[size_t(k)] + 1, turn_derivative(grip, k, x));
+        add(grip.node[size_t(k)], grip.weight[size_t(k)] * Mat3::Identity());
+        if (grip.turns) add(grip.node[size_t(k)] + 1, turn_derivative(grip, k, x));
     }
     return out;
 }
-
-}  // namespace
 
 Grip tet_grip(const TetPlace& place) {
     Grip grip;
@@ -69,19 +62,19 @@ Vec3 grip_place(const Grip& grip, const VecX& x) {
 }
 
 Vec3 grip_velocity(const Grip& grip, const VecX& x, const VecX& v) {
-    const Derivative d = derivative_at(grip, x);
+    const GripDerivative d = derivative_at(grip, x);
     Vec3 velocity = Vec3::Zero();
     for (int k = 0; k < d.count; ++k) velocity += d.by[size_t(k)] * point(v, d.node[size_t(k)]);
     return velocity;
 }
 
 void add_grip_force(const Grip& grip, const VecX& x, const Vec3& force, VecX& f) {
-    const Derivative d = derivative_at(grip, x);
+    const GripDerivative d = derivative_at(grip, x);
     for (int k = 0; k < d.count; ++k) point(f, d.node[size_t(k)]) += d.by[size_t(k)].transpose() * force;
 }
 
 void add_grip_stiffness(const Grip& grip, const VecX& x, double stiffness, BlockMatrix& A) {
-    const Derivative d = derivative_at(grip, x);
+    const GripDerivative d = derivative_at(grip, x);
     for (int r = 0; r < d.count; ++r)
         for (int c = 0; c < d.count; ++c) {
             const int i = d.node[size_t(r)], j = d.node[size_t(c)];

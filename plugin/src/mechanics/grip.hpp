@@ -19,6 +19,13 @@ struct Grip {
 
 Grip tet_grip(const TetPlace& place);
 bool is_sound(const Grip& grip, int node_count);
+// The point's derivative by each node of the mechanics, of places or of rotation vectors.
+struct GripDerivative {
+    int count = 0;
+    std::array<int, Grip::MOST> node;
+    std::array<Mat3, Grip::MOST> by;
+};
+GripDerivative derivative_at(const Grip& grip, const VecX& x);
 Vec3 grip_place(const Grip& grip, const VecX& x);
 Vec3 grip_velocity(const Grip& grip, const VecX& x, const VecX& v);
 // What a force at the point [N] is for the nodes.

@@ -6,7 +6,7 @@
 
 #include "build/build.hpp"
 #include "build/sway_frequency.hpp"
-#include "plant/plant.hpp"
+#include "plant/touch.hpp"
 
 namespace frond {
 
@@ -59,6 +59,10 @@ static std::shared_ptr<const Value> shared_of(const std::shared_ptr<const Model>
     const auto shared = values.find_or_make(
         {model.get(), order}, [&] { return std::make_shared<const OfModel<Value>>(OfModel<Value>{model, make()}); });
     return std::shared_ptr<const Value>(shared, &shared->value);
+}
+
+std::shared_ptr<const Collider> collider_of(const Plant& plant) {
+    return shared_of<Collider>(plant.model, 1, [&] { return make_collider(*plant.model); });
 }
 
 static CageNodes make_nodes(const Cage& cage, int order) {

@@ -48,6 +48,7 @@ struct Plant {
     bool stands_on_roots = false;          // the model's own root holds it
     VecX x_good, v_good;  // before the running step, of the motion
     VecX contact_impulse;  // of the running step's contacts on the nodes of the mechanics [N s]; empty: none
+    VecX contact_shift;    // likewise, of those that move the plant and give it no velocity
     Loads loads;          // of the running step, kept to reuse its memory
     VecX user_force;      // on cage nodes, until the end of the host's step, world frame [N]
     bool has_user_force = false;
@@ -81,7 +82,7 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 // A step in two halves, between which contacts may change what the first one found: effects and solve; then accept, with
 // what becomes lasting, or rewind, and the chain.
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
-// Takes contact_impulse into the step that was solved.
+// Takes contact_impulse and contact_shift into the step that was solved.
 void add_contacts(Plant& plant, double h);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Both.

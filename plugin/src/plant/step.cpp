@@ -105,14 +105,18 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
 }
 
 void add_contacts(Plant& plant, double h) {
-    if (plant.contact_impulse.size() == 0) return;
+    if (plant.contact_impulse.size() == 0 && plant.contact_shift.size() == 0) return;
     VecX dv;
-    const VecX impulse = std::move(plant.contact_impulse);
+    const VecX impulse = std::move(plant.contact_impulse), shift = std::move(plant.contact_shift);
     plant.contact_impulse.resize(0);
-    if (respond(*plant.workspace, plant.settings, impulse, dv)) add_response(*plant.workspace, dv, plant.motion);
+    plant.contact_shift.resize(0);
+    if (impulse.size() > 0 && respond(*plant.workspace, plant.settings, impulse, dv))
+        add_response(*plant.workspace, dv, plant.motion);
+    if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv))
+        add_shift(*plant.workspace, dv, plant.motion);
     if (!is_calm(*plant.system, plant.x_good, plant.motion.x)) {
         // Too much for a linear answer: the same push, along the plant's own curve.
-        plant.loads.force += impulse / h;
+        if (impulse.size() > 0) plant.loads.force += impulse / h;
         solve_carefully(plant, h);
     }
     plant.is_sound = is_sound(plant);

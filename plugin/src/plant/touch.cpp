@@ -1,9 +1,11 @@
 #include "plant/touch.hpp"
 
+#include <algorithm>
+
 namespace frond {
 
 // Both chain nodes' tets together; of quadratic ones, which have too many nodes for that, those of the nearer node.
-static Grip cage_grip(const Plant& plant, int begin, int end, double along) {
+static Grip ends_grip(const Plant& plant, int begin, int end, double along) {
     const Embedding& embedding = plant.model->chain_embedding;
     const auto place = [&](int node) {
         return place_in_tet(*plant.nodes, plant.model->cage.tets, embedding.tet[size_t(node)],
@@ -25,7 +27,7 @@ static Grip cage_grip(const Plant& plant, int begin, int end, double along) {
 
 Grip capsule_grip(const Plant& plant, int capsule, double along) {
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
-    if (!plant.follow) return cage_grip(plant, begin, end, along);
+    if (!plant.follow) return ends_grip(plant, begin, end, along);
     Grip grip;
     grip.count = begin == end ? 1 : 2;
     grip.node = {2 * begin, 2 * end};
@@ -33,32 +35,49 @@ Grip capsule_grip(const Plant& plant, int capsule, double along) {
     return grip;
 }
 
+Grip cage_grip(const Plant& plant, const ContactSide& side) {
+    Grip grip;
+    const auto add = [&](int node, double weight) {
+        int k = 0;
+        while (k < grip.count && grip.node[size_t(k)] != node) k++;
+        grip.node[size_t(k)] = node;
+        grip.weight[size_t(k)] += weight;
+        grip.count = std::max(grip.count, k + 1);
+    };
+    for (size_t i = 0; i < size_t(side.node_count); i++) {
+        if (!plant.follow) {
+            add(side.nodes[i], side.weights[i]);
+            continue;
+        }
+        const Grip& follows = plant.follow->grips[size_t(side.nodes[i])];
+        for (size_t k = 0; k < size_t(follows.count); k++) add(follows.node[k], side.weights[i] * follows.weight[k]);
+    }
+    return grip;
+}
+
 bool make_touch(Plant& plant, const Grip& grip, PlantTouch& touch) {
     if (!plant.is_sound) return false;
     touch.grip = grip;
-    const Mat3 to_model = plant.rotation.conjugate().toRotationMatrix();
-    VecX impulse(plant.motion.v.size());
-    for (int axis = 0; axis < 3; axis++) {
-        impulse.setZero();
-        add_grip_force(grip, plant.x_good, to_model.col(axis), impulse);
-        VecX& answer = touch.answers[size_t(axis)];
-        if (!respond(*plant.workspace, plant.settings, impulse, answer)) return false;
-    }
     touch.velocity = plant.rotation * grip_velocity(grip, plant.x_good, plant.motion.v);
-    return true;
+    const Mat3 to_model = plant.rotation.conjugate().toRotationMatrix();
+    const GripDerivative derivative = derivative_at(grip, plant.x_good);
+    std::vector<NodeBlock> pushes;
+    for (size_t k = 0; k < size_t(derivative.count); k++)
+        pushes.push_back({derivative.node[k], derivative.by[k].transpose() * to_model});
+    return make_answer(*plant.workspace, plant.settings, pushes, touch.answer);
 }
 
-Mat3 answer_at(const Plant& plant, const Grip& grip, const PlantTouch& touch) {
-    const Mat3 to_world = plant.rotation.toRotationMatrix();
-    Mat3 block;
-    for (int axis = 0; axis < 3; axis++)
-        block.col(axis) = to_world * grip_velocity(grip, plant.x_good, touch.answers[size_t(axis)]);
-    return block;
+static void add_impulse(const Plant& plant, const PlantTouch& touch, const Vec3& impulse, VecX& sum) {
+    if (sum.size() == 0) sum = VecX::Zero(plant.motion.v.size());
+    add_grip_force(touch.grip, plant.x_good, plant.rotation.conjugate() * impulse, sum);
 }
 
 void take_impulse(Plant& plant, const PlantTouch& touch, const Vec3& impulse) {
-    if (plant.contact_impulse.size() == 0) plant.contact_impulse = VecX::Zero(plant.motion.v.size());
-    add_grip_force(touch.grip, plant.x_good, plant.rotation.conjugate() * impulse, plant.contact_impulse);
+    add_impulse(plant, touch, impulse, plant.contact_impulse);
+}
+
+void take_shift(Plant& plant, const PlantTouch& touch, const Vec3& impulse) {
+    add_impulse(plant, touch, impulse, plant.contact_shift);
 }
 
 }  // namespace frond

@@ -1,7 +1,9 @@
 // In: a symmetric matrix of 3x3 blocks. Out: its factors L D L^T and solutions, through Eigen's SimplicialLDLT.
 //
 // The order is found on the graph of nodes by approximate minimum degree (Amestoy, Davis, Duff 1996), so that a node's
-// three rows stay together. A plant is nearly a tree, and so is its elimination tree: fill grows linearly.
+// three rows stay together. A plant is nearly a tree, and so is its elimination tree: fill grows linearly, and a right
+// side of few nodes reaches few rows (Gilbert, Peierls 1988, "Sparse partial pivoting in time proportional to arithmetic
+// operations").
 #include "solve/direct.hpp"
 
 #include <Eigen/OrderingMethods>
@@ -34,6 +36,13 @@ struct Ldlt : Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering
         matrixU().solveInPlace(x);
     }
     int64_t fill() const { return m_matrix.nonZeros(); }
+    int parent(int column) const { return m_parent[column]; }
+    double pivot(int column) const { return m_diag[column]; }
+    // Takes what column j of L eliminates off the rows below it.
+    void eliminate(int j, Eigen::Matrix3Xd& x) const {
+        for (int k = m_matrix.outerIndexPtr()[j]; k < m_matrix.outerIndexPtr()[j + 1]; ++k)
+            x.col(m_matrix.innerIndexPtr()[k]) -= m_matrix.valuePtr()[k] * x.col(j);
+    }
 };
 
 std::vector<int> order_nodes(const BlockPattern& pattern) {
@@ -54,7 +63,8 @@ std::vector<int> order_nodes(const BlockPattern& pattern) {
 DirectPlan make_direct_plan(const BlockPattern& pattern) {
     DirectPlan plan;
     plan.order = order_nodes(pattern);
-    std::vector<int> place(plan.order.size());
+    std::vector<int>& place = plan.place;
+    place.resize(plan.order.size());
     for (size_t k = 0; k < plan.order.size(); ++k) place[size_t(plan.order[k])] = int(k);
 
     // Blocks of each ordered column of nodes, from the top to the diagonal.
@@ -91,6 +101,9 @@ struct DirectFactor {
     Sparse ordered;
     Ldlt ldlt;
     VecX solution;  // in elimination order
+    // Of half solves, in elimination order, transposed; between them all zero.
+    Eigen::Matrix3Xd sparse;
+    std::vector<uint8_t> reached;
 };
 
 void DirectFactorDeleter::operator()(DirectFactor* factor) const {
@@ -126,8 +139,43 @@ void solve(DirectFactor& factor, const VecX& b, VecX& x) {
     for (size_t k = 0; k < order.size(); ++k) point(x, order[k]) = point(factor.solution, int(k));
 }
 
+void half_solve(DirectFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer) {
+    const Eigen::Index n = factor.solution.size();
+    if (factor.sparse.cols() != n) {
+        factor.sparse.setZero(3, n);
+        factor.reached.assign(size_t(n), 0);
+    }
+    // Rows that are not zero: on the paths from the given ones to the root of the elimination tree.
+    answer.rows.clear();
+    for (const NodeBlock& given : right_side)
+        for (int r = 0; r < 3; ++r) {
+            const int row = 3 * factor.plan->place[size_t(given.node)] + r;
+            factor.sparse.col(row) += given.block.row(r).transpose();
+            for (int j = row; j >= 0 && !factor.reached[size_t(j)]; j = factor.ldlt.parent(j)) {
+                factor.reached[size_t(j)] = 1;
+                answer.rows.push_back(j);
+            }
+        }
+    std::sort(answer.rows.begin(), answer.rows.end());
+    const Eigen::Index count = Eigen::Index(answer.rows.size());
+    answer.left.resize(3, count);
+    answer.right.resize(3, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const int j = answer.rows[size_t(k)];
+        factor.ldlt.eliminate(j, factor.sparse);
+        answer.left.col(k) = factor.sparse.col(j);
+        answer.right.col(k) = factor.sparse.col(j) / factor.ldlt.pivot(j);
+        factor.sparse.col(j).setZero();
+        factor.reached[size_t(j)] = 0;
+    }
+}
+
 int64_t fill_of(const DirectFactor& factor) {
     return factor.ldlt.fill();
+}
+
+void half_solve_direct(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, Answer& answer) {
+    half_solve(*scratch.factor, right_side, answer);
 }
 
 LinearResult solve_direct(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,

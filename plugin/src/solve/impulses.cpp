@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/union_find.hpp"
+
 namespace frond {
 
 namespace {
@@ -32,6 +34,52 @@ Own own_of(const Touch& touch, const std::vector<Coupling>& couplings, int i) {
     return own;
 }
 
+// Touches that answer to each other, directly or through others, in the order of the first of each.
+std::vector<std::vector<int>> find_islands(const std::vector<std::vector<Coupling>>& coupling) {
+    UnionFind sets(coupling.size());
+    for (size_t i = 0; i < coupling.size(); i++)
+        for (const Coupling& c : coupling[i]) sets.join(int(i), c.other);
+    std::vector<std::vector<int>> islands;
+    std::vector<int> number(coupling.size(), -1);
+    for (size_t i = 0; i < coupling.size(); i++) {
+        int& island = number[size_t(sets.find(int(i)))];
+        if (island < 0) {
+            island = int(islands.size());
+            islands.emplace_back();
+        }
+        islands[size_t(island)].push_back(int(i));
+    }
+    return islands;
+}
+
+struct Change {
+    double largest = 0, most = 0;  // impulse, and change of one [N s]
+};
+
+// One touch anew, with all others as they are.
+void correct(const Touch& touch, const Own& own, const std::vector<Coupling>& couplings, std::vector<Vec3>& impulses,
+             Vec3& impulse, Change& change) {
+    Vec3 velocity = touch.velocity;
+    for (const Coupling& c : couplings) velocity += c.block * impulses[size_t(c.other)];
+    const Vec3 before = impulse;
+
+    // Along the normal: push, never pull.
+    const double push_before = before.dot(touch.normal);
+    const double lacking = touch.least_speed - velocity.dot(touch.normal);
+    const double push = std::max(0.0, push_before + own.along * lacking);
+
+    // Across: against the sliding that the push leaves, no more than friction can.
+    velocity += own.block * ((push - push_before) * touch.normal);
+    const Vec3 sliding = velocity - velocity.dot(touch.normal) * touch.normal;
+    Vec3 hold = before - push_before * touch.normal - own.across * sliding;
+    const double most = touch.friction * push, size = hold.norm();
+    if (size > most) hold *= most / size;
+
+    impulse = push * touch.normal + hold;
+    change.largest = std::max(change.largest, impulse.norm());
+    change.most = std::max(change.most, (impulse - before).norm());
+}
+
 }  // namespace
 
 ImpulseReport find_impulses(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
@@ -42,32 +90,19 @@ ImpulseReport find_impulses(const std::vector<Touch>& touches, const std::vector
     for (size_t i = 0; i < count; i++) own.push_back(own_of(touches[i], coupling[i], int(i)));
 
     ImpulseReport report;
-    while (report.iterations < limits.iterations && !report.converged) {
-        report.iterations++;
-        double largest = 0, change = 0;
-        for (size_t i = 0; i < count; i++) {
-            const Touch& touch = touches[i];
-            Vec3 velocity = touch.velocity;
-            for (const Coupling& c : coupling[i]) velocity += c.block * impulses[size_t(c.other)];
-            const Vec3 before = impulses[i];
-
-            // Along the normal: push, never pull.
-            const double push_before = before.dot(touch.normal);
-            const double lacking = touch.least_speed - velocity.dot(touch.normal);
-            const double push = std::max(0.0, push_before + own[i].along * lacking);
-
-            // Across: against the sliding that the push leaves, no more than friction can.
-            velocity += own[i].block * ((push - push_before) * touch.normal);
-            const Vec3 sliding = velocity - velocity.dot(touch.normal) * touch.normal;
-            Vec3 hold = before - push_before * touch.normal - own[i].across * sliding;
-            const double most = touch.friction * push, size = hold.norm();
-            if (size > most) hold *= most / size;
-
-            impulses[i] = push * touch.normal + hold;
-            largest = std::max(largest, impulses[i].norm());
-            change = std::max(change, (impulses[i] - before).norm());
+    report.converged = true;
+    for (const std::vector<int>& island : find_islands(coupling)) {
+        bool converged = false;
+        int iterations = 0;
+        while (iterations < limits.iterations && !converged) {
+            iterations++;
+            Change change;
+            for (const int i : island)
+                correct(touches[size_t(i)], own[size_t(i)], coupling[size_t(i)], impulses, impulses[size_t(i)], change);
+            converged = change.most <= limits.tolerance * change.largest;
         }
-        report.converged = change <= limits.tolerance * largest;
+        report.iterations = std::max(report.iterations, iterations);
+        report.converged = report.converged && converged;
     }
     return report;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/types.hpp"
+#include "frond/frond.h"
 
 namespace frond {
 
@@ -14,6 +15,10 @@ struct Touch {
     Vec3 velocity;       // without any impulses [m/s]
     double least_speed;  // along the normal: how fast they must part, or, below zero, may still approach [m/s]
     double friction;     // [-]
+    double depth = 0;    // by which they overlap; below zero they are apart [m]
+    // Along the normal, how fast places must part, or may still approach, besides what velocities do [m/s].
+    double least_shift = NO_SHIFT;
+    static constexpr double NO_SHIFT = -1e30;  // velocities see to that
 };
 
 // Blocks of W, the velocity at a touch by an impulse at another one [1/kg]. Symmetric as a whole: both of (i, j) and
@@ -27,6 +32,33 @@ struct ImpulseLimits {
     int iterations = 200;
     double tolerance = 1e-6;  // change of an impulse in a round, over the largest one [-]
 };
+
+// What a response does for each touch: impulses for a, the opposite for b. Shifts move places and give no velocity [N s].
+struct Pushes {
+    std::vector<Vec3> impulses, shifts;
+};
+
+struct ResponseSettings {
+    ImpulseLimits limits;    // of FROND_RESPONSE_IMPULSE
+    double stiffness = 1e3;  // of FROND_RESPONSE_PENALTY [N/m]
+    double h = 0;            // of the step [s]
+};
+
+// A row of the table of responses.
+struct ResponseRow {
+    const char* name;
+    // Null: nothing pushes. Empty shifts: none.
+    void (*find)(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
+                 const ResponseSettings& settings, Pushes& out);
+    // Whether it asks how touches answer to each other. If not, it gets one block a touch: what the touch answers to
+    // itself, times the number of touches at that body, so that all together never answer more than that.
+    bool couples;
+};
+const ResponseRow& response_row(frond_response which);
+void push_by_impulse(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
+                     const ResponseSettings& settings, Pushes& out);
+void push_by_penalty(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
+                     const ResponseSettings& settings, Pushes& out);
 
 struct ImpulseReport {
     int iterations = 0;

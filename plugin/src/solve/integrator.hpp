@@ -35,6 +35,8 @@ inline bool is_calm(const System& system, const VecX& from, const VecX& to) {
 // Adds the rotary inertia of free nodes that turn to the matrix in workspace.A.
 void add_inertia(Workspace& workspace, double scale);
 
+// Whether impulses are answered to by a mass alone, since the step solved no system.
+bool answers_by_mass(const Workspace& workspace, const SolveSettings& settings);
 // x = M^-1 b for a lumped mass; rows of held nodes are left as they are.
 void divide_by_mass(const Workspace& workspace, const VecX& b, VecX& x);
 

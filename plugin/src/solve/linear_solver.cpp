@@ -7,10 +7,10 @@ namespace frond {
 
 const LinearSolver& linear_solver(frond_linear_solver which) {
     static const LinearSolver TABLE[] = {
-        {"direct", solve_direct, solve_direct_again},
-        {"pcg_jacobi", solve_pcg_jacobi, solve_pcg_jacobi},
-        {"pcg_block_jacobi", solve_pcg_block_jacobi, solve_pcg_block_jacobi},
-        {"pcg_incomplete_cholesky", solve_pcg_incomplete_cholesky, solve_pcg_incomplete_cholesky},
+        {"direct", solve_direct, solve_direct_again, half_solve_direct},
+        {"pcg_jacobi", solve_pcg_jacobi, solve_pcg_jacobi, nullptr},
+        {"pcg_block_jacobi", solve_pcg_block_jacobi, solve_pcg_block_jacobi, nullptr},
+        {"pcg_incomplete_cholesky", solve_pcg_incomplete_cholesky, solve_pcg_incomplete_cholesky, nullptr},
     };
     static_assert(sizeof TABLE / sizeof TABLE[0] == FROND_LINEAR_SOLVER_COUNT, "every linear solver needs its row");
     return TABLE[which];

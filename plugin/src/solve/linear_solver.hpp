@@ -34,12 +34,15 @@ struct LinearSolver {
     // The same with the matrix of the last solve, which need not be factorized again.
     LinearResult (*again)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
                           VecX& x);
+    // Half of that for a right side of few nodes, from which an answer is made; null: the solver has no such thing.
+    void (*half)(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, Answer& answer);
 };
 const LinearSolver& linear_solver(frond_linear_solver which);
 
 // The rows.
 LinearResult solve_direct(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_direct_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
+void half_solve_direct(LinearScratch&, const std::vector<NodeBlock>& right_side, Answer& answer);
 LinearResult solve_pcg_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_block_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_incomplete_cholesky(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&,

@@ -3,12 +3,16 @@
 
 namespace frond {
 
+bool answers_by_mass(const Workspace& workspace, const SolveSettings& settings) {
+    return integrator(settings.integrator).is_explicit && workspace.system->masses.lumped;
+}
+
 bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& impulse, VecX& dv) {
     Workspace& w = workspace;
     w.rhs = impulse;
     for (size_t i = 0; i < w.held.size(); ++i)
         if (w.held[i]) point(w.rhs, int(i)).setZero();
-    if (integrator(settings.integrator).is_explicit && w.system->masses.lumped) {
+    if (answers_by_mass(w, settings)) {
         divide_by_mass(w, w.rhs, dv);
         return dv.allFinite();
     }
@@ -20,6 +24,10 @@ bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& im
 
 void add_response(const Workspace& workspace, const VecX& dv, Motion& motion) {
     motion.v += dv;
+    motion.x += workspace.reach * dv;
+}
+
+void add_shift(const Workspace& workspace, const VecX& dv, Motion& motion) {
     motion.x += workspace.reach * dv;
 }
 

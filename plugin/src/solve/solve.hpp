@@ -5,6 +5,7 @@
 
 #include "mechanics/grip.hpp"
 #include "mechanics/mechanics.hpp"
+#include "solve/answer.hpp"
 
 namespace frond {
 
@@ -94,6 +95,12 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
 bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& impulse, VecX& dv);
 // Adds such velocities, and where they lead within the step, to the motion that the step left.
 void add_response(const Workspace& workspace, const VecX& dv, Motion& motion);
+// Adds only where they lead, so that what is moved apart does not fly apart.
+void add_shift(const Workspace& workspace, const VecX& dv, Motion& motion);
+// The same for impulses along three directions at a few nodes, held ones left out, to be coupled with others. The blocks
+// of a node that is given twice add up.
+bool make_answer(Workspace& workspace, const SolveSettings& settings, const std::vector<NodeBlock>& pushes,
+                 Answer& answer);
 
 // Of nodes that turn: rotation vectors grown beyond half a turn become those of the same rotation the other way round,
 // here and in the history, and their rates follow.

@@ -23,8 +23,9 @@ struct Contact {
 // From Bullet's manifolds, and from sweeps of bodies that are so fast that they would be through before Bullet sees them.
 std::vector<Contact> find_contacts(World& world, double h);
 
-// Between the two halves of all plants' steps: impulses for the contacts, given to plants and bodies alike.
-void respond_to_contacts(World& world, std::vector<Contact>& contacts, double h);
+// Between the two halves of all plants' steps: impulses for the world's contacts, of plants with bodies and with each
+// other, given to both sides.
+void respond_to_contacts(World& world, double h);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

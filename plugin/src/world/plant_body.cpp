@@ -1,5 +1,8 @@
 #include "world/plant_body.hpp"
 
+#include <algorithm>
+
+#include "collide/cover.hpp"
 #include "world/convert.hpp"
 #include "world/world.hpp"
 
@@ -55,6 +58,7 @@ PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Pl
     // Kinematic, or islands would merge over the whole box of the plant; seen by queries, not yet an obstacle.
     setCollisionFlags(CF_KINEMATIC_OBJECT | CF_NO_CONTACT_RESPONSE);
     setActivationState(DISABLE_DEACTIVATION);
+    m_checkCollideWith = true;  // ask checkCollideWithOverride
     move_capsules(*this);
 }
 
@@ -71,6 +75,20 @@ void move_capsules(PlantBody& body) {
         body.compound()->updateChildTransform(int(i), frame, false);
     }
     body.compound()->recalculateLocalAabb();
+}
+
+void take_collider(PlantBody& body) {
+    if (body.collider) return;
+    body.collider = collider_of(*body.plant);
+    const Model& model = *body.plant->model;
+    std::vector<Axis> axes;
+    for (const auto& [begin, end] : model.capsules)
+        axes.push_back({model.chain.nodes[size_t(begin)].position, model.chain.nodes[size_t(end)].position});
+    const std::vector<Capsule> covers = cover_pieces(*body.collider, model.cage.nodes.data(), axes);
+    double wider = 0;
+    for (size_t i = 0; i < covers.size(); i++)
+        wider = std::max(wider, covers[i].radius - double(body.capsules[i]->getRadius()));
+    body.compound()->setMargin(btScalar(wider));
 }
 
 }  // namespace FROND_BULLET_PRECISION

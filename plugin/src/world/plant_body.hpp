@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "frond/frond_bullet.hpp"
-#include "plant/plant.hpp"
+#include "plant/touch.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -28,11 +28,17 @@ struct PlantBody : btSoftBody {
     frond_plant handle = {};
     bool is_new = true;  // has not stepped yet
     GrownIn grown_in;
+    int number = 0;  // among the world's plants, in the running substep
+    std::shared_ptr<const Collider> collider;  // null until other plants, or it itself, may touch it
     std::vector<std::unique_ptr<btCapsuleShape>> capsules;  // in the order of Model::capsules
 
     PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> plant);
     ~PlantBody() override;
     btCompoundShape* compound() { return static_cast<btCompoundShape*>(getCollisionShape()); }
+    // Bullet's broad phase pairs plants, but its narrow phase need not look at them.
+    bool checkCollideWithOverride(const btCollisionObject* other) const override {
+        return !of(other) && btSoftBody::checkCollideWithOverride(other);
+    }
     // The body that a collision object is; null if it is none.
     static PlantBody* of(btCollisionObject* object) { return dynamic_cast<PlantBody*>(object); }
     static const PlantBody* of(const btCollisionObject* object) { return dynamic_cast<const PlantBody*>(object); }
@@ -40,6 +46,8 @@ struct PlantBody : btSoftBody {
 
 // Moves the capsules to where the chain is.
 void move_capsules(PlantBody& body);
+// Makes ready for contact of cages. The broad phase then sees the plant as wide as its cage.
+void take_collider(PlantBody& body);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -4,10 +4,8 @@
 // what a stem can bear within the step it bears. Bodies have moved already when plants step, so an impulse changes how
 // they move next; both sides of a contact are advanced from the places at which it was found.
 #include <algorithm>
-#include <map>
 
 #include "plant/touch.hpp"
-#include "solve/impulses.hpp"
 #include "world/pusher.hpp"
 #include "world/world.hpp"
 
@@ -16,74 +14,164 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// How fast two that overlap must part, and how fast two that do not may still approach [m/s].
-double least_speed(double gap, double h) {
-    constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 1;  // [m], of the overlap a step, [m/s]
-    if (gap >= 0) return -gap / h;
-    return std::min(SHARE * std::max(0.0, -gap - SLOP) / h, FASTEST);
+constexpr double SLOP = 0.0005;  // overlap that is let be [m]
+
+// How fast two that overlap must part.
+double parting_speed(double depth, double h, double fastest) {
+    constexpr double SHARE = 0.2;  // of the overlap, a step
+    return std::min(SHARE * std::max(0.0, depth - SLOP) / h, fastest);
 }
 
-// Both sides of the contacts that have an answer.
-struct Sides {
-    std::vector<Contact*> contacts;
-    std::vector<PlantTouch> plants;
-    std::vector<Pusher> pushers;
+// A contact as both sides see it.
+struct Row {
+    std::array<PlantBody*, 2> plants = {};  // the second is null where a body is on the other side
+    std::array<PlantTouch, 2> touches;
+    Pusher pusher;  // then
+    Touch touch;
+    Vec3* impulse;  // where the contact keeps it
 };
 
-Sides make_sides(std::vector<Contact>& contacts, double h) {
-    Sides sides;
-    for (Contact& contact : contacts) {
-        Plant& plant = *contact.plant->plant;
-        PlantTouch touch;
-        if (!make_touch(plant, capsule_grip(plant, contact.capsule, contact.along), touch)) continue;
-        wake(*contact.other, contact.normal, touch.velocity);
-        sides.contacts.push_back(&contact);
-        sides.plants.push_back(std::move(touch));
-        sides.pushers.push_back(make_pusher(*contact.other, contact.on_other, h));
-    }
+bool rubs(const World& world, const PlantBody& body) {
+    return world.effects & body.plant->effects & FROND_FRICTION;
+}
+
+// With bodies, which have moved already, velocities see to it that overlaps go.
+void add_row(const World& world, Contact& contact, double h, std::vector<Row>& rows) {
+    constexpr double FASTEST = 1;  // [m/s]
+    Plant& plant = *contact.plant->plant;
+    Row row;
+    row.plants[0] = contact.plant;
+    if (!make_touch(plant, capsule_grip(plant, contact.capsule, contact.along), row.touches[0])) return;
+    wake(*contact.other, contact.normal, row.touches[0].velocity);
+    row.pusher = make_pusher(*contact.other, contact.on_other, h);
+    row.touch.normal = contact.normal;
+    row.touch.velocity = row.touches[0].velocity - row.pusher.velocity;
+    row.touch.least_speed = contact.gap >= 0 ? -contact.gap / h : parting_speed(-contact.gap, h, FASTEST);
+    row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
+    row.touch.depth = -contact.gap;
+    row.impulse = &contact.impulse;
+    rows.push_back(std::move(row));
+}
+
+// Plants part by being moved: cages may have been in each other by half a leaf when they were made, and would fly.
+void add_row(const World& world, PlantContact& contact, double h, std::vector<Row>& rows) {
+    constexpr double FASTEST = 0.3;  // [m/s]
+    Row row;
+    row.plants = contact.plants;
+    for (size_t k = 0; k < 2; k++)
+        if (!make_touch(*contact.plants[k]->plant, contact.grips[k], row.touches[k])) return;
+    row.touch.normal = contact.normal;
+    row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
+    const double room = std::max(0.0, SLOP - contact.depth) / h;
+    row.touch.least_speed = -room;
+    row.touch.least_shift = room > 0 ? -room : parting_speed(contact.depth, h, FASTEST);
+    row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
+    row.touch.depth = contact.depth;
+    row.impulse = &contact.impulse;
+    rows.push_back(std::move(row));
+}
+
+// A plant's side of a row: of its first plant, or with the opposite sign of its second.
+struct Side {
+    int row;
+    double sign;
+    const Answer* answer;
+};
+
+std::vector<std::vector<Side>> sort_by_plant(const World& world, const std::vector<Row>& rows) {
+    std::vector<std::vector<Side>> sides(world.bodies.size());
+    for (size_t i = 0; i < rows.size(); i++)
+        for (size_t k = 0; k < 2; k++)
+            if (rows[i].plants[k])
+                sides[size_t(rows[i].plants[k]->number)].push_back(
+                    {int(i), k == 0 ? 1.0 : -1.0, &rows[i].touches[k].answer});
     return sides;
 }
 
-std::vector<std::vector<Coupling>> couple(const Sides& sides) {
-    const size_t count = sides.contacts.size();
-    std::vector<std::vector<Coupling>> coupling(count);
-    for (size_t i = 0; i < count; i++)
-        for (size_t j = 0; j < count; j++) {
-            Mat3 block = answer_between(sides.pushers[i], sides.pushers[j]);
-            if (sides.contacts[i]->plant == sides.contacts[j]->plant)
-                block += answer_at(*sides.contacts[i]->plant->plant, sides.plants[i].grip, sides.plants[j]);
+// How every touch answers to every other one.
+std::vector<std::vector<Coupling>> couple(const World& world, const std::vector<Row>& rows) {
+    std::vector<std::vector<Coupling>> coupling(rows.size());
+    for (const std::vector<Side>& sides : sort_by_plant(world, rows)) {
+        std::vector<const Answer*> answers;
+        for (const Side& side : sides) answers.push_back(side.answer);
+        std::vector<Mat3> blocks(sides.size() * sides.size(), Mat3::Zero());
+        add_coupling(answers, blocks);
+        for (size_t i = 0; i < sides.size(); i++)
+            for (size_t j = 0; j < sides.size(); j++) {
+                const Mat3 block = sides[i].sign * sides[j].sign * blocks[i * sides.size() + j];
+                if (i == j || !block.isZero(0)) coupling[size_t(sides[i].row)].push_back({sides[j].row, block});
+            }
+    }
+    for (size_t i = 0; i < rows.size(); i++)
+        for (size_t j = 0; j < rows.size(); j++) {
+            if (rows[i].plants[1] || rows[j].plants[1]) continue;
+            const Mat3 block = answer_between(rows[i].pusher, rows[j].pusher);
             if (!block.isZero(0)) coupling[i].push_back({int(j), block});
         }
     return coupling;
 }
 
-}  // namespace
-
-void respond_to_contacts(World& world, std::vector<Contact>& contacts, double h) {
-    Sides sides = make_sides(contacts, h);
-    std::vector<Touch> touches;
-    for (size_t i = 0; i < sides.contacts.size(); i++) {
-        const Contact& contact = *sides.contacts[i];
-        const bool rubs = world.effects & contact.plant->plant->effects & FROND_FRICTION;
-        touches.push_back({contact.normal, sides.plants[i].velocity - sides.pushers[i].velocity,
-                           least_speed(contact.gap, h), rubs ? contact.friction : 0});
+// How every touch answers to itself, as many times as there are touches at that plant or body.
+std::vector<std::vector<Coupling>> share(const World& world, const std::vector<Row>& rows) {
+    std::vector<std::vector<Coupling>> own;
+    for (size_t i = 0; i < rows.size(); i++) own.push_back({{int(i), Mat3::Zero()}});
+    for (const std::vector<Side>& sides : sort_by_plant(world, rows))
+        for (const Side& side : sides) {
+            std::vector<Mat3> block(1, Mat3::Zero());
+            add_coupling({side.answer}, block);
+            own[size_t(side.row)].front().block += double(sides.size()) * block[0];
+        }
+    for (size_t i = 0; i < rows.size(); i++) {
+        if (rows[i].plants[1]) continue;
+        const auto touched = std::count_if(rows.begin(), rows.end(), [&](const Row& row) {
+            return !row.plants[1] && row.pusher.object == rows[i].pusher.object;
+        });
+        own[i].front().block += double(touched) * answer_between(rows[i].pusher, rows[i].pusher);
     }
-    std::vector<Vec3> impulses;
-    find_impulses(touches, couple(sides), {}, impulses);
-    for (size_t i = 0; i < impulses.size(); i++) {
-        if (impulses[i].isZero(0)) continue;
-        sides.contacts[i]->impulse = impulses[i];
-        take_impulse(*sides.contacts[i]->plant->plant, sides.plants[i], impulses[i]);
+    return own;
+}
+
+// Adds what the rows got to both sides.
+void give(World& world, std::vector<Row>& rows, const Pushes& pushes, double h) {
+    const auto to_plants = [&](const Row& row, const Vec3& impulse, auto take) {
+        if (impulse.isZero(0)) return;
+        take(*row.plants[0]->plant, row.touches[0], impulse);
+        if (row.plants[1]) take(*row.plants[1]->plant, row.touches[1], -impulse);
+    };
+    for (size_t i = 0; i < rows.size(); i++) {
+        *rows[i].impulse = pushes.impulses[i];
+        to_plants(rows[i], pushes.impulses[i],
+                  [](Plant& p, const PlantTouch& touch, const Vec3& impulse) { take_impulse(p, touch, impulse); });
+        if (!pushes.shifts.empty()) to_plants(rows[i], pushes.shifts[i], take_shift);
     }
     for (const std::unique_ptr<PlantBody>& body : world.bodies) add_contacts(*body->plant, h);
     // A plant that cannot bear it is put back, and then pushes nothing.
-    for (size_t i = 0; i < impulses.size(); i++) {
-        const Plant& plant = *sides.contacts[i]->plant->plant;
+    for (size_t i = 0; i < rows.size(); i++) {
+        if (rows[i].plants[1] || pushes.impulses[i].isZero(0)) continue;
+        const Plant& plant = *rows[i].plants[0]->plant;
         const bool pushes_back = world.effects & plant.effects & FROND_TWO_WAY;
-        if (!pushes_back || !plant.is_sound || impulses[i].isZero(0)) continue;
-        take_impulse(sides.pushers[i], -impulses[i]);
-        if (sides.pushers[i].rigid) give_gravity(world.gravity_ahead, *sides.pushers[i].rigid, h);
+        if (!pushes_back || !plant.is_sound) continue;
+        take_impulse(rows[i].pusher, -pushes.impulses[i]);
+        if (rows[i].pusher.rigid) give_gravity(world.gravity_ahead, *rows[i].pusher.rigid, h);
     }
+}
+
+}  // namespace
+
+void respond_to_contacts(World& world, double h) {
+    const ResponseRow& response = response_row(world.response);
+    if (!response.find) return;
+    std::vector<Row> rows;
+    rows.reserve(world.contacts.size() + world.plant_contacts.size());
+    for (Contact& contact : world.contacts) add_row(world, contact, h, rows);
+    for (PlantContact& contact : world.plant_contacts) add_row(world, contact, h, rows);
+    std::vector<Touch> touches;
+    for (const Row& row : rows) touches.push_back(row.touch);
+    ResponseSettings settings = world.response_settings;
+    settings.h = h;
+    Pushes pushes;
+    response.find(touches, response.couples ? couple(world, rows) : share(world, rows), settings, pushes);
+    give(world, rows, pushes, h);
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -32,18 +32,24 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     Surroundings surroundings;
     surroundings.gravity = gravity_of(*this);
     surroundings.effects = effects;
-    const auto wants_contact = [&](const std::unique_ptr<PlantBody>& body) {
-        return body->plant->effects & effects & FROND_RIGID_CONTACT;
+    const auto any_wants = [&](frond_effects effect) {
+        return std::any_of(bodies.begin(), bodies.end(), [&](const std::unique_ptr<PlantBody>& body) {
+            return body->plant->effects & effects & effect;
+        });
     };
     contacts.clear();
+    plant_contacts.clear();
+    for (size_t i = 0; i < bodies.size(); i++) bodies[i]->number = int(i);
     const Timer find_timer;
-    if (std::any_of(bodies.begin(), bodies.end(), wants_contact)) contacts = find_contacts(*this, double(h));
+    if (any_wants(FROND_RIGID_CONTACT)) contacts = find_contacts(*this, double(h));
+    if (any_wants(FROND_PLANT_CONTACT | FROND_SELF_CONTACT)) plant_contacts = find_plant_contacts(*this);
     report.ms_collide = find_timer.ms();
     for (const std::unique_ptr<PlantBody>& body : bodies) solve_plant(*body->plant, surroundings, double(h));
     const Timer response_timer;
-    if (!contacts.empty()) respond_to_contacts(*this, contacts, double(h));
+    if (!contacts.empty() || !plant_contacts.empty()) respond_to_contacts(*this, double(h));
     report.ms_response = response_timer.ms();
     report.contact_count = int(contacts.size());
+    report.plant_contact_count = int(plant_contacts.size());
     for (const std::unique_ptr<PlantBody>& body : bodies) {
         accept_step(*body->plant, surroundings, double(h));
         add_to_report(*body->plant, report);

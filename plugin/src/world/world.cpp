@@ -18,7 +18,10 @@ static std::set<btDynamicsWorld*>& attached_worlds() {
 }
 
 World::World(std::unique_ptr<OwnBullet> given, btDynamicsWorld* bullet, const frond_world_def& def)
-    : own(std::move(given)), bullet(bullet), effects(def.effects), max_substep(def.max_substep) {
+    : own(std::move(given)), bullet(bullet), effects(def.effects), max_substep(def.max_substep),
+      hash({def.hash_layout, def.hash_table_size, def.hash_cell_size}), response(def.response) {
+    response_settings.limits = {def.response_iterations, def.response_tolerance};
+    response_settings.stiffness = def.penalty_stiffness;
     soft_info.m_broadphase = bullet->getBroadphase();
     soft_info.m_dispatcher = bullet->getDispatcher();
     bullet->addAction(this);
@@ -59,6 +62,7 @@ PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant) {
 void remove_plant(World& world, PlantBody* body) {
     world.bullet->removeCollisionObject(body);
     world.contacts.clear();
+    world.plant_contacts.clear();
     const auto is_body = [&](const std::unique_ptr<PlantBody>& other) { return other.get() == body; };
     world.bodies.erase(std::find_if(world.bodies.begin(), world.bodies.end(), is_body));
 }

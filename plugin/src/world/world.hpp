@@ -4,8 +4,10 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "solve/impulses.hpp"
 #include "world/contact.hpp"
 #include "world/gravity_ahead.hpp"
+#include "world/plant_contact.hpp"
 #include "world/rigid.hpp"
 
 namespace frond {
@@ -26,11 +28,16 @@ struct World final : btActionInterface {
     btSoftBodyWorldInfo soft_info;  // what btSoftBody's constructor asks for; not otherwise used
     frond_effects effects;
     double max_substep;  // [s]
+    HashSettings hash;
+    frond_response response;
+    ResponseSettings response_settings;
     std::vector<std::unique_ptr<PlantBody>> bodies;
     std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
-    std::vector<Contact> contacts;  // of the last substep
-    GravityAhead gravity_ahead;     // of the bodies in them
     bool is_stepping = false;       // in updateAction
+    std::vector<Contact> contacts;  // of the last substep, with bodies
+    GravityAhead gravity_ahead;     // of those
+    std::vector<PlantContact> plant_contacts;  // likewise, of plants with each other and themselves
+    std::unique_ptr<PlantSearch> plant_search;  // null until plants may touch
     double time = 0;  // [s]
     frond_report report = {};
 

@@ -1,0 +1,35 @@
+// The table of responses: one row for each name in FROND_RESPONSES; what needs impulses alone stands here.
+#include <algorithm>
+
+#include "solve/impulses.hpp"
+
+namespace frond {
+
+const ResponseRow& response_row(frond_response which) {
+    static const ResponseRow TABLE[] = {
+        {"impulse", push_by_impulse, true},
+        {"penalty", push_by_penalty, false},
+        {"none", nullptr, false},
+    };
+    static_assert(sizeof TABLE / sizeof TABLE[0] == FROND_RESPONSE_COUNT, "every response needs its row");
+    return TABLE[which];
+}
+
+// Velocities first. Then places, as if all were at rest and smooth, so that what parts gets no energy of motion.
+void push_by_impulse(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
+                     const ResponseSettings& settings, Pushes& out) {
+    out.impulses.clear();
+    out.shifts.clear();
+    find_impulses(touches, coupling, settings.limits, out.impulses);
+    const auto overlaps = [](const Touch& touch) { return touch.least_shift > 0; };
+    if (std::none_of(touches.begin(), touches.end(), overlaps)) return;
+    std::vector<Touch> places = touches;
+    for (Touch& touch : places) {
+        touch.velocity.setZero();
+        touch.least_speed = touch.least_shift;
+        touch.friction = 0;
+    }
+    find_impulses(places, coupling, settings.limits, out.shifts);
+}
+
+}  // namespace frond

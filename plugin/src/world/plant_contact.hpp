@@ -1,0 +1,40 @@
+// PlantContact: a place where two plants are in each other by their cages, or where one is in itself.
+#pragma once
+
+#include "collide/cage_contact.hpp"
+#include "collide/cover.hpp"
+#include "world/plant_body.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+struct PlantContact {
+    std::array<PlantBody*, 2> plants;  // the same one twice where it touches itself
+    std::array<int, 2> capsules;       // to which the touching parts of the cages belong
+    std::array<Grip, 2> grips;
+    Vec3 point;       // on the first, world frame [m]
+    Vec3 normal;      // along which the first leaves the second
+    double depth;     // by which it has to [m], > 0
+    double friction;  // of both together [-]
+    Vec3 impulse = Vec3::Zero();  // on the first, once it is known [N s]
+};
+
+// Memory that is kept between searches.
+struct PlantSearch {
+    ContactSearchPtr search = make_contact_search();
+    std::vector<CageContact> found;
+    // One a plant.
+    struct Shape {
+        std::vector<Vec3> places;  // of the cage's nodes, world frame [m]
+        std::vector<Axis> axes;
+        std::vector<Capsule> covers;
+    };
+    std::vector<Shape> shapes;
+};
+
+// Bullet's broad phase says which plants may meet, capsules around pieces of their cages which organs do, a spatial hash
+// which nodes, edges and tets of those (section 3.3 of the paper).
+std::vector<PlantContact> find_plant_contacts(World& world);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

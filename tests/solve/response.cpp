@@ -1,0 +1,107 @@
+// The table of responses: bodies that overlap part, and nothing that touches gets energy out of it.
+#include <gtest/gtest.h>
+
+#include "solve/impulses.hpp"
+#include "support/meshes.hpp"
+
+namespace frond::test {
+namespace {
+
+struct Bodies {
+    Eigen::MatrixXd W;
+    std::vector<Touch> touches;
+    std::vector<std::vector<Coupling>> coupling, own;
+    explicit Bodies(Dice& dice, int count, double depth) {
+        // Fewer ways to move than touches ask for, as where several touch one stem.
+        Eigen::MatrixXd root(3 * count, count);
+        for (int i = 0; i < root.size(); i++) root.data()[i] = dice.uniform(-1, 1);
+        W = root * root.transpose();
+        for (int i = 0; i < count; i++) {
+            Touch touch = {dice.rotation().col(0), dice.vector(3, 2), 0, 0.4};
+            touch.depth = depth;
+            touch.least_shift = depth > 0 ? 0.1 : 0;
+            touches.push_back(touch);
+            coupling.emplace_back();
+            for (int j = 0; j < count; j++) coupling.back().push_back({j, W.block<3, 3>(3 * i, 3 * j)});
+            own.push_back({{i, double(count) * W.block<3, 3>(3 * i, 3 * i)}});
+        }
+        // Velocities that the bodies can have.
+        const Eigen::VectorXd motion = Eigen::VectorXd::NullaryExpr(count, [&] { return dice.uniform(-1, 1); });
+        const Eigen::VectorXd velocities = root * motion;
+        for (int i = 0; i < count; i++) touches[size_t(i)].velocity = velocities.segment<3>(3 * i);
+    }
+    // By which the energy of motion grows: p.(v + W p / 2).
+    double gain(const std::vector<Vec3>& impulses) const {
+        Eigen::VectorXd p(W.rows()), v(W.rows());
+        for (size_t i = 0; i < touches.size(); i++) {
+            p.segment<3>(3 * Eigen::Index(i)) = impulses[i];
+            v.segment<3>(3 * Eigen::Index(i)) = touches[i].velocity;
+        }
+        return p.dot(v + 0.5 * W * p);
+    }
+};
+
+TEST(Response, NoRowGivesEnergyToBodiesThatOnlyTouch) {
+    Dice dice(5);
+    for (int row = 0; row < FROND_RESPONSE_COUNT; row++) {
+        const ResponseRow& response = response_row(frond_response(row));
+        if (!response.find) continue;
+        for (const double stiffness : {1.0, 1e3, 1e9})
+            for (int repeat = 0; repeat < 50; repeat++) {
+                const Bodies bodies(dice, 8, 0);
+                ResponseSettings settings;
+                settings.stiffness = stiffness;
+                settings.h = 1.0 / 60;
+                Pushes pushes;
+                response.find(bodies.touches, response.couples ? bodies.coupling : bodies.own, settings, pushes);
+                ASSERT_EQ(pushes.impulses.size(), bodies.touches.size());
+                EXPECT_LT(bodies.gain(pushes.impulses), 1e-5) << response.name << " " << stiffness;
+                EXPECT_TRUE(pushes.shifts.empty());
+                for (size_t i = 0; i < bodies.touches.size(); i++) {
+                    const double push = pushes.impulses[i].dot(bodies.touches[i].normal);
+                    EXPECT_GE(push, 0);
+                    EXPECT_LE((pushes.impulses[i] - push * bodies.touches[i].normal).norm(), 0.4 * push + 1e-9);
+                }
+            }
+    }
+}
+
+TEST(Response, PartsTwoBodiesThatOverlapAtRest) {
+    Touch touch = {Vec3::UnitY(), Vec3::Zero(), 0, 0.5};
+    touch.depth = 0.01;
+    touch.least_shift = 0.12;
+    const std::vector<std::vector<Coupling>> own = {{{0, 2 * Mat3::Identity()}}};
+    ResponseSettings settings;
+    settings.h = 1.0 / 60;
+    Pushes pushes;
+    // By shifts, that give no velocity.
+    response_row(FROND_RESPONSE_IMPULSE).find({touch}, own, settings, pushes);
+    EXPECT_NEAR(pushes.impulses[0].norm(), 0, 1e-12);
+    EXPECT_NEAR(2 * pushes.shifts[0].y(), 0.12, 1e-9);
+    // By a spring, no faster than 0.3 m/s however stiff it is.
+    settings.stiffness = 1e12;
+    response_row(FROND_RESPONSE_PENALTY).find({touch}, own, settings, pushes);
+    EXPECT_NEAR(2 * pushes.impulses[0].y(), 0.3, 1e-6);
+    EXPECT_EQ(response_row(FROND_RESPONSE_NONE).find, nullptr);
+}
+
+TEST(Impulses, OfBodiesThatHaveNothingToDoWithEachOtherAreFoundApart) {
+    Dice dice(9);
+    const Bodies first(dice, 3, 0), second(dice, 4, 0);
+    std::vector<Touch> touches = first.touches;
+    touches.insert(touches.end(), second.touches.begin(), second.touches.end());
+    std::vector<std::vector<Coupling>> coupling = first.coupling;
+    for (std::vector<Coupling> list : second.coupling) {
+        for (Coupling& c : list) c.other += 3;
+        coupling.push_back(list);
+    }
+    std::vector<Vec3> together, alone, other;
+    find_impulses(touches, coupling, {}, together);
+    find_impulses(first.touches, first.coupling, {}, alone);
+    find_impulses(second.touches, second.coupling, {}, other);
+    alone.insert(alone.end(), other.begin(), other.end());
+    EXPECT_EQ(together, alone);
+}
+
+}  // namespace
+}  // namespace frond::test

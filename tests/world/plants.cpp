@@ -1,0 +1,387 @@
+// Plants and plants: they push each other and themselves, come apart where they were made in each other, keep their
+// momentum, and do so alike whatever finds their contacts. FCL judges how deep they are in each other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "frond/frond.h"
+#include "support/referee.hpp"
+#include "support/sanitized.hpp"
+
+namespace {
+
+using frond::Vec3;
+using frond::test::deepest_overlap;
+using frond::test::TriangleMesh;
+
+constexpr double H = 1.0 / 60;
+
+void must(frond_result result) {
+    ASSERT_EQ(result, FROND_OK) << frond_last_error();
+}
+
+// A world with plants of one model.
+struct Stand {
+    frond_world world = {};
+    frond_model model = {};
+    std::vector<frond_plant> plants;
+
+    explicit Stand(const frond_world_def& def = frond_default_world_def()) { must(frond_world_create(&def, &world)); }
+    ~Stand() {
+        frond_world_destroy(world);
+        frond_model_destroy(model);
+    }
+    void load_corn() {
+        frond_model_def def = frond_default_model_def();
+        must(frond_model_load(FROND_SOURCE_DIR "/models/corn/corn.obj", &def, &model));
+    }
+    void make_stems(const std::vector<frond_stem>& stems, double young = 1e8) {
+        frond_model_def def = frond_default_model_def();
+        frond_organ_material organ = {"stem", {}};
+        must(frond_material_preset("stem", &organ.material));
+        organ.material.young = young;
+        organ.material.damping_ratio = 0;
+        def.organs = &organ;
+        def.organ_count = 1;
+        def.scale = 1;
+        def.up = {0, 1, 0};
+        def.rest = FROND_REST_WITHOUT_GRAVITY;
+        must(frond_model_from_stems(stems.data(), int(stems.size()), &def, &model));
+    }
+    frond_plant_def plant_def() const { return frond_default_plant_def(); }
+    frond_plant add(frond_plant_def def, const frond_vec3& place, double turn = 0) {
+        def.position = place;
+        def.rotation = {0, std::sin(turn / 2), 0, std::cos(turn / 2)};
+        frond_plant plant = {};
+        must(frond_plant_create(world, model, &def, &plant));
+        plants.push_back(plant);
+        return plant;
+    }
+    void steps(int count) {
+        for (int i = 0; i < count; i++) must(frond_world_step(world, H));
+    }
+    frond_report report() const {
+        frond_report report = {};
+        must(frond_world_get_report(world, &report));
+        return report;
+    }
+    uint64_t hash() const {
+        uint64_t hash = 0;
+        must(frond_world_get_state_hash(world, &hash));
+        return hash;
+    }
+    std::vector<double> places(frond_plant plant) const {
+        const int count = frond_plant_get_node_count(plant);
+        std::vector<double> places(3 * size_t(count));
+        must(frond_plant_get_state(plant, places.data(), nullptr, count));
+        return places;
+    }
+    void throw_plant(frond_plant plant, const frond_vec3& velocity) {
+        const int count = frond_plant_get_node_count(plant);
+        std::vector<double> v;
+        for (int i = 0; i < count; i++) v.insert(v.end(), {velocity.x, velocity.y, velocity.z});
+        must(frond_plant_set_state(plant, nullptr, v.data(), count));
+    }
+    // The boundary of the cage as it is now.
+    TriangleMesh cage(frond_plant plant) const {
+        frond_cage_view view = {};
+        must(frond_model_get_cage(model, &view));
+        constexpr int FACES[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+        std::map<std::array<int, 3>, std::pair<frond::Triangle, int>> faces;
+        for (int t = 0; t < view.tet_count; t++)
+            for (const auto& f : FACES) {
+                const frond::Triangle face = {view.tets[4 * t + f[0]], view.tets[4 * t + f[1]], view.tets[4 * t + f[2]]};
+                std::array<int, 3> key = face;
+                std::sort(key.begin(), key.end());
+                auto& [kept, count] = faces[key];
+                kept = face;
+                count++;
+            }
+        TriangleMesh mesh;
+        const std::vector<double> x = places(plant);
+        for (size_t i = 0; i < x.size(); i += 3) mesh.points.emplace_back(x[i], x[i + 1], x[i + 2]);
+        for (const auto& [key, face] : faces)
+            if (face.second == 1) mesh.triangles.push_back(face.first);
+        return mesh;
+    }
+    TriangleMesh surface(frond_plant plant) const {
+        frond_surface_view view = {};
+        must(frond_plant_get_surface(plant, &view));
+        TriangleMesh mesh;
+        for (int i = 0; i < view.vertex_count; i++)
+            mesh.points.emplace_back(view.positions[3 * i], view.positions[3 * i + 1], view.positions[3 * i + 2]);
+        for (int i = 0; i < view.triangle_count; i++)
+            mesh.triangles.push_back({view.indices[3 * i], view.indices[3 * i + 1], view.indices[3 * i + 2]});
+        return mesh;
+    }
+};
+
+// ---- the paper's figure 5 ------------------------------------------------------------------------------------
+
+struct CornPair : Stand {
+    explicit CornPair(frond_response response, frond_mechanics mechanics = FROND_TET_COROTATIONAL) : Stand(def_of(response)) {
+        load_corn();
+        frond_plant_def def = plant_def();
+        def.mechanics = mechanics;
+        add(def, {-0.45, 0, 0}, 0.1);
+        add(def, {0.45, 0, 0.03}, -0.05);
+    }
+    static frond_world_def def_of(frond_response response) {
+        frond_world_def def = frond_default_world_def();
+        def.response = response;
+        return def;
+    }
+    double cage_depth() const { return deepest_overlap(cage(plants[0]), cage(plants[1])).depth; }
+    double surface_depth() const { return deepest_overlap(surface(plants[0]), surface(plants[1])).depth; }
+};
+
+TEST(CornPair, ComesApartWithinTwoSecondsAndStaysInEachOtherWithoutResponse) {
+    for (const frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_ROD}) {
+        CornPair with(FROND_RESPONSE_IMPULSE, mechanics);
+        const double cage_before = with.cage_depth(), surface_before = with.surface_depth();
+        EXPECT_GT(cage_before, 0.01);
+        EXPECT_GT(surface_before, 0.005);
+        for (int i = 0; i < 120; i++) {
+            with.steps(1);
+            EXPECT_EQ(with.report().trouble & FROND_TROUBLE_REWOUND, 0u) << i;
+        }
+        EXPECT_LT(with.cage_depth(), 0.001) << frond_mechanics_name(mechanics);
+        EXPECT_LT(with.surface_depth(), 0.001) << frond_mechanics_name(mechanics);
+        if (SANITIZED) continue;
+        CornPair without(FROND_RESPONSE_NONE, mechanics);
+        without.steps(120);
+        EXPECT_GT(without.report().plant_contact_count, 0);
+        EXPECT_GT(without.cage_depth(), 0.5 * cage_before) << frond_mechanics_name(mechanics);
+        EXPECT_GT(without.surface_depth(), 0.5 * surface_before) << frond_mechanics_name(mechanics);
+    }
+}
+
+TEST(CornPair, ComesApartGently) {
+    CornPair pair(FROND_RESPONSE_IMPULSE);
+    double fastest = 0;
+    for (int i = 0; i < 120; i++) {
+        const std::vector<double> before = pair.places(pair.plants[0]);
+        pair.steps(1);
+        const std::vector<double> after = pair.places(pair.plants[0]);
+        for (size_t k = 0; k < before.size(); k++) fastest = std::max(fastest, std::abs(after[k] - before[k]) / H);
+    }
+    EXPECT_LT(fastest, 3);  // [m/s]
+}
+
+// ---- stems in free fall -----------------------------------------------------------------------------------------
+
+struct Free : testing::TestWithParam<frond_mechanics> {};
+INSTANTIATE_TEST_SUITE_P(Plants, Free,
+                         testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD,
+                                         FROND_SPRING_CHAIN),
+                         [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
+
+// Two crossed stems, one thrown at the other.
+struct ThrownStems : Stand {
+    explicit ThrownStems(frond_mechanics mechanics, frond_world_def def = frond_default_world_def()) : Stand(weightless(def)) {
+        make_stems({{-1, {0, -0.3, 0}, {0, 0.3, 0}, 0.02, 0.02}});
+        frond_plant_def plant = plant_def();
+        plant.mechanics = mechanics;
+        plant.root_height = -1;
+        plant.effects &= ~uint32_t(FROND_DAMPING);
+        add(plant, {0, 0, 0});
+        // Lies across.
+        plant.rotation = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};
+        plant.position = {0.05, 0.04, 0.2};
+        frond_plant other = {};
+        must(frond_plant_create(world, model, &plant, &other));
+        plants.push_back(other);
+        throw_plant(plants[1], {0, 0, -1.5});
+    }
+    static frond_world_def weightless(frond_world_def def) {
+        def.gravity = {0, 0, 0};
+        return def;
+    }
+    Vec3 momentum() const {
+        Vec3 sum = Vec3::Zero();
+        for (const frond_plant plant : plants) {
+            frond_vec3 p = {};
+            must(frond_plant_get_momentum(plant, &p));
+            sum += Vec3(p.x, p.y, p.z);
+        }
+        return sum;
+    }
+    double energy() const {
+        double sum = 0;
+        for (const frond_plant plant : plants) {
+            frond_energy energy = {};
+            must(frond_plant_get_energy(plant, &energy));
+            sum += energy.kinetic + energy.elastic;
+        }
+        return sum;
+    }
+};
+
+TEST_P(Free, StemsThatCollideKeepTheirMomentumAndGainNoEnergy) {
+    for (const frond_response response : {FROND_RESPONSE_IMPULSE, FROND_RESPONSE_PENALTY}) {
+        frond_world_def def = frond_default_world_def();
+        def.response = response;
+        ThrownStems stems(GetParam(), def);
+        const Vec3 before = stems.momentum();
+        const double energy = stems.energy();
+        int touched = 0;
+        for (int i = 0; i < 60; i++) {
+            stems.steps(1);
+            touched += stems.report().plant_contact_count > 0;
+            EXPECT_LT(stems.energy(), 1.001 * energy) << i;
+        }
+        EXPECT_GT(touched, 0);
+        EXPECT_LT((stems.momentum() - before).norm(), 1e-6 * before.norm());
+        // It was felt: the one that was hit moves, and the other did not pass through it.
+        frond_vec3 hit = {};
+        must(frond_plant_get_momentum(stems.plants[0], &hit));
+        EXPECT_LT(hit.z, 0.2 * before.z());
+    }
+}
+
+TEST_P(Free, ContactsAreToldByBothPlantsAndPointAtEachOther) {
+    ThrownStems stems(GetParam());
+    int seen = 0;
+    for (int i = 0; i < 30; i++) {
+        stems.steps(1);
+        const int count = frond_plant_get_contact_count(stems.plants[0]);
+        ASSERT_EQ(frond_plant_get_contact_count(stems.plants[1]), count);
+        std::vector<frond_contact> a(static_cast<size_t>(count)), b(static_cast<size_t>(count));
+        must(frond_plant_get_contacts(stems.plants[0], a.data(), count));
+        must(frond_plant_get_contacts(stems.plants[1], b.data(), count));
+        for (size_t k = 0; k < a.size(); k++) {
+            EXPECT_EQ(a[k].other.id, stems.plants[1].id);
+            EXPECT_EQ(b[k].other.id, stems.plants[0].id);
+            EXPECT_EQ(a[k].impulse.z, -b[k].impulse.z);
+            EXPECT_EQ(a[k].normal.x, -b[k].normal.x);
+            EXPECT_LT(a[k].gap, 0);
+            EXPECT_EQ(a[k].gap, b[k].gap);
+            seen++;
+        }
+    }
+    EXPECT_GT(seen, 0);
+}
+
+TEST(Plants, EveryLayoutOfTheHashGivesTheSameMotion) {
+    std::vector<uint64_t> hashes;
+    const auto run = [&](frond_hash_layout layout, int table_size, double cell_size) {
+        frond_world_def def = frond_default_world_def();
+        def.hash_layout = layout;
+        def.hash_table_size = table_size;
+        def.hash_cell_size = cell_size;
+        ThrownStems stems(FROND_TET_COROTATIONAL, def);
+        int contacts = 0;
+        for (int i = 0; i < 40; i++) {
+            stems.steps(1);
+            contacts += stems.report().plant_contact_count;
+        }
+        EXPECT_GT(contacts, 0);
+        hashes.push_back(stems.hash());
+    };
+    run(FROND_HASH_BRUTE_FORCE, 0, 0);
+    run(FROND_HASH_GRID, 0, 0);
+    run(FROND_HASH_GRID, 0, 0.3);
+    run(FROND_HASH_PAPER, 0, 0);
+    run(FROND_HASH_PAPER, 7, 0.05);
+    for (const uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
+}
+
+TEST(Plants, OffMeansThatTheyPassThroughEachOther) {
+    for (const bool by_world : {false, true}) {
+        ThrownStems stems(FROND_ROD);
+        if (by_world)
+            must(frond_world_set_effects(stems.world, FROND_ALL_EFFECTS & ~uint32_t(FROND_PLANT_CONTACT)));
+        else  // one of the two is enough
+            must(frond_plant_set_effects(stems.plants[0], FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_PLANT_CONTACT)));
+        for (int i = 0; i < 30; i++) {
+            stems.steps(1);
+            EXPECT_EQ(stems.report().plant_contact_count, 0);
+        }
+        frond_vec3 hit = {};
+        must(frond_plant_get_momentum(stems.plants[0], &hit));
+        EXPECT_LT(std::abs(hit.z), 1e-12);
+    }
+}
+
+TEST(Plants, FarFromEachOtherMoveAsIfAlone) {
+    const auto run = [](frond_effects effects) {
+        Stand stand;
+        stand.make_stems({{-1, {0, 0, 0}, {0.1, 0.5, 0}, 0.01, 0.01}}, 1e7);
+        frond_plant_def def = stand.plant_def();
+        def.effects = effects;
+        stand.add(def, {0, 0, 0});
+        stand.add(def, {2, 0, 0}, 1);
+        stand.steps(30);
+        EXPECT_EQ(stand.report().plant_contact_count, 0);
+        return stand.hash();
+    };
+    EXPECT_EQ(run(FROND_DEFAULT_EFFECTS), run(FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_PLANT_CONTACT)));
+}
+
+TEST(Plants, MayComeAndGoWhileTheyTouch) {
+    for (const frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_ROD}) {
+        Stand stand;
+        stand.make_stems({{-1, {0, 0, 0}, {0, 0.4, 0}, 0.02, 0.01}, {0, {0, 0.2, 0}, {0.25, 0.35, 0}, 0.01, 0.006}}, 1e8);
+        frond_plant_def def = stand.plant_def();
+        def.mechanics = mechanics;
+        def.effects = FROND_ALL_EFFECTS;
+        int touched = 0;
+        for (int i = 0; i < 40; i++) {
+            if (i % 3 == 0) stand.add(def, {0.06 * (i % 7), 0, 0.03 * (i % 4)}, i);
+            if (i % 5 == 4) {
+                frond_plant_destroy(stand.plants[size_t(i) % stand.plants.size()]);
+                stand.plants.erase(stand.plants.begin() + long(size_t(i) % stand.plants.size()));
+            }
+            if (i == 20) must(frond_plant_set_mechanics(stand.plants[0], FROND_TET_LINEAR));
+            stand.steps(1);
+            touched += stand.report().plant_contact_count > 0;
+            for (const frond_plant plant : stand.plants)
+                for (const double x : stand.places(plant)) ASSERT_TRUE(std::isfinite(x));
+        }
+        EXPECT_GT(touched, 20);
+    }
+}
+
+// A rod bent by the user until its ends would cross.
+TEST(Plants, DoNotPassThroughThemselves) {
+    const auto closest = [](bool with_contact) {
+        frond_world_def world_def = frond_default_world_def();
+        world_def.gravity = {0, 0, 0};
+        Stand stand(world_def);
+        // Two prongs of a fork, pressed together and past each other.
+        stand.make_stems({{-1, {0, 0, 0}, {0, 0.2, 0}, 0.02, 0.02},
+                          {0, {0, 0.2, 0}, {0.15, 0.6, 0}, 0.012, 0.012},
+                          {0, {0, 0.2, 0}, {-0.15, 0.6, 0}, 0.012, 0.012}},
+                         5e7);
+        frond_plant_def def = stand.plant_def();
+        def.effects = with_contact ? FROND_ALL_EFFECTS : FROND_DEFAULT_EFFECTS;
+        const frond_plant plant = stand.add(def, {0, 0, 0});
+        stand.steps(5);
+        EXPECT_EQ(stand.report().plant_contact_count, 0);  // nothing touches as modelled
+        frond_grab left = {}, right = {};
+        must(frond_grab_create(plant, {-0.15, 0.6, 0}, 30, &left));
+        must(frond_grab_create(plant, {0.15, 0.6, 0}, 30, &right));
+        int touched = 0;
+        for (int i = 0; i < 120; i++) {
+            const double way = 0.3 * std::min(1.0, i / 60.0);
+            must(frond_grab_move(left, {-0.15 + way, 0.6, 0}));
+            must(frond_grab_move(right, {0.15 - way, 0.6, 0}));
+            stand.steps(1);
+            touched += stand.report().plant_contact_count > 0;
+        }
+        EXPECT_EQ(touched > 0, with_contact);
+        frond_vec3 at_left = {}, at_right = {};
+        must(frond_grab_get(left, &at_left, nullptr, nullptr));
+        must(frond_grab_get(right, &at_right, nullptr, nullptr));
+        return at_right.x - at_left.x;
+    };
+    EXPECT_GT(closest(true), 0);
+    EXPECT_LT(closest(false), 0);
+}
+
+}  // namespace
