@@ -240,7 +240,7 @@ TEST_P(Free, StemsThatCollideKeepTheirMomentumAndGainNoEnergy) {
         // It was felt: the one that was hit moves, and the other did not pass through it.
         frond_vec3 hit = {};
         must(frond_plant_get_momentum(stems.plants[0], &hit));
-        EXPECT_LT(hit.z, 0.2 * before.z);
+        EXPECT_LT(hit.z, 0.2 * before.z());
     }
 }
 
