@@ -63,7 +63,7 @@ static std::vector<frond_contact> contacts_of(const PlantBody& body) {
         const double sign = side == 0 ? 1 : -1;
         const Vec3 point = side == 0 ? c.point : Vec3(c.point + c.depth * c.normal);
         const PlantBody* other = c.plants[1 - side];
-        out.push_back({from_vec(point), from_vec(sign * c.normal), from_vec(sign * c.impulse), -c.depth, c.capsules[side],
+        out.push_back({from_vec(point), from_vec(sign * c.normal), from_vec(sign * c.impulse), -c.depth, c.sides[side].piece,
                        other, other->handle});
     }
     return out;

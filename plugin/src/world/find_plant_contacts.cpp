@@ -1,5 +1,7 @@
 // In: where plants are, and which of them Bullet's broad phase saw together. Out: contacts of their cages.
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 #include "core/timer.hpp"
 #include "model/union_find.hpp"
@@ -53,26 +55,68 @@ double friction_of(const PlantBody& body, int organ) {
     return organ >= 0 ? body.plant->model->organs[size_t(organ)].material.friction : 0;
 }
 
+// Takes hold of the points on both sides as they are now.
+void take_grips(PlantContact& contact) {
+    std::array<Vec3, 2> places;
+    for (size_t k = 0; k < 2; k++) {
+        const Plant& plant = *contact.plants[k]->plant;
+        contact.grips[k] = cage_grip(plant, contact.sides[k]);
+        places[k] = plant.to_world(grip_place(contact.grips[k], plant.motion.x));
+    }
+    contact.between = places[0] - places[1];
+}
+
 PlantContact contact_of(const CageContact& found, const std::vector<PlantBody*>& island) {
     PlantContact contact;
+    contact.sides = {found.a, found.b};
     contact.friction = 1;
-    const std::array<const ContactSide*, 2> sides = {&found.a, &found.b};
     for (size_t k = 0; k < 2; k++) {
-        PlantBody* body = contact.plants[k] = island[size_t(sides[k]->body)];
-        contact.capsules[k] = sides[k]->piece;
-        contact.grips[k] = cage_grip(*body->plant, *sides[k]);
-        contact.friction *= friction_of(*body, sides[k]->organ);
+        contact.plants[k] = island[size_t(contact.sides[k].body)];
+        contact.friction *= friction_of(*contact.plants[k], contact.sides[k].organ);
     }
     contact.point = found.point;
     contact.normal = found.normal;
     contact.depth = found.depth;
+    take_grips(contact);
     return contact;
+}
+
+// The point that touches: its plant, the other one, and its nodes.
+std::tuple<int, int, std::array<int, 4>> key_of(const PlantContact& contact) {
+    return {contact.plants[0]->number, contact.plants[1]->number, contact.sides[0].nodes};
+}
+
+bool may_touch(const World& world, const PlantContact& contact) {
+    if (contact.plants[0] == contact.plants[1]) return has(world, *contact.plants[0], FROND_SELF_CONTACT);
+    return has(world, *contact.plants[0], FROND_PLANT_CONTACT) && has(world, *contact.plants[1], FROND_PLANT_CONTACT);
+}
+
+// Contacts of the last substep that were not found again, as long as they push and both sides are beside each other.
+void keep_contacts(const World& world, const std::vector<PlantContact>& last, std::vector<PlantContact>& contacts) {
+    constexpr double APART = 0.01, DRIFTED = 0.02;  // [m]
+    std::set<std::tuple<int, int, std::array<int, 4>>> found;
+    for (const PlantContact& contact : contacts) found.insert(key_of(contact));
+    for (const PlantContact& before : last) {
+        const bool pushed = before.depth > 0 || !before.impulse.isZero(0);
+        if (!pushed || !may_touch(world, before) || found.count(key_of(before))) continue;
+        PlantContact contact = before;
+        take_grips(contact);
+        const Vec3 moved = contact.between - before.between;
+        const double away = moved.dot(contact.normal);
+        // Not in each other any more, whatever the depth was said to be.
+        contact.depth = std::min(contact.depth - away, 0.0);
+        if (contact.depth < -APART || (moved - away * contact.normal).norm() > DRIFTED) continue;
+        contact.impulse.setZero();
+        contacts.push_back(contact);
+    }
 }
 
 }  // namespace
 
 std::vector<PlantContact> find_plant_contacts(World& world) {
     std::vector<PlantContact> contacts;
+    const std::vector<PlantContact> last = std::move(world.plant_contacts);
+    world.plant_contacts.clear();
     Timer timer;
     const auto count = [&](frond_effects effect) {
         return std::count_if(world.bodies.begin(), world.bodies.end(),
@@ -110,6 +154,7 @@ std::vector<PlantContact> find_plant_contacts(World& world) {
         world.report.ms_hash += times.ms_hash;
         world.report.ms_narrow += timer.lap() - times.ms_hash;
     }
+    keep_contacts(world, last, contacts);
     return contacts;
 }
 

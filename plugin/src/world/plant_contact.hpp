@@ -10,11 +10,12 @@ inline namespace FROND_BULLET_PRECISION {
 
 struct PlantContact {
     std::array<PlantBody*, 2> plants;  // the same one twice where it touches itself
-    std::array<int, 2> capsules;       // to which the touching parts of the cages belong
-    std::array<Grip, 2> grips;
+    std::array<ContactSide, 2> sides;  // of their cages
+    std::array<Grip, 2> grips;         // what holds those points
+    Vec3 between;     // of the grips' places, the first's less the second's, world frame [m]
     Vec3 point;       // on the first, world frame [m]
     Vec3 normal;      // along which the first leaves the second
-    double depth;     // by which it has to [m], > 0
+    double depth;     // by which it has to [m]; below zero they are apart
     double friction;  // of both together [-]
     Vec3 impulse = Vec3::Zero();  // on the first, once it is known [N s]
 };
@@ -33,7 +34,8 @@ struct PlantSearch {
 };
 
 // Bullet's broad phase says which plants may meet, capsules around pieces of their cages which organs do, a spatial hash
-// which nodes, edges and tets of those (section 3.3 of the paper).
+// which nodes, edges and tets of those (section 3.3 of the paper). Contacts of the last substep whose points have only just
+// parted are kept, so that what rests on another plant does not sink into it again and again.
 std::vector<PlantContact> find_plant_contacts(World& world);
 
 }  // namespace FROND_BULLET_PRECISION

@@ -16,10 +16,9 @@ namespace {
 
 constexpr double SLOP = 0.0005;  // overlap that is let be [m]
 
-// How fast two that overlap must part.
-double parting_speed(double depth, double h, double fastest) {
-    constexpr double SHARE = 0.2;  // of the overlap, a step
-    return std::min(SHARE * std::max(0.0, depth - SLOP) / h, fastest);
+// How fast two that overlap must part: a share of the overlap a step, no faster than that [m/s].
+double parting_speed(double depth, double h, double share, double fastest) {
+    return std::min(share * std::max(0.0, depth - SLOP) / h, fastest);
 }
 
 // A contact as both sides see it.
@@ -37,7 +36,7 @@ bool rubs(const World& world, const PlantBody& body) {
 
 // With bodies, which have moved already, velocities see to it that overlaps go.
 void add_row(const World& world, Contact& contact, double h, std::vector<Row>& rows) {
-    constexpr double FASTEST = 1;  // [m/s]
+    constexpr double SHARE = 0.2, FASTEST = 1;
     Plant& plant = *contact.plant->plant;
     Row row;
     row.plants[0] = contact.plant;
@@ -46,7 +45,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
     row.pusher = make_pusher(*contact.other, contact.on_other, h);
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.pusher.velocity;
-    row.touch.least_speed = contact.gap >= 0 ? -contact.gap / h : parting_speed(-contact.gap, h, FASTEST);
+    row.touch.least_speed = contact.gap >= 0 ? -contact.gap / h : parting_speed(-contact.gap, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;
     row.impulse = &contact.impulse;
@@ -55,7 +54,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
 
 // Plants part by being moved: cages may have been in each other by half a leaf when they were made, and would fly.
 void add_row(const World& world, PlantContact& contact, double h, std::vector<Row>& rows) {
-    constexpr double FASTEST = 0.3;  // [m/s]
+    constexpr double SHARE = 0.3, FASTEST = 0.3;
     Row row;
     row.plants = contact.plants;
     for (size_t k = 0; k < 2; k++)
@@ -64,7 +63,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
     const double room = std::max(0.0, SLOP - contact.depth) / h;
     row.touch.least_speed = -room;
-    row.touch.least_shift = room > 0 ? -room : parting_speed(contact.depth, h, FASTEST);
+    row.touch.least_shift = room > 0 ? -room : parting_speed(contact.depth, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
     row.touch.depth = contact.depth;
     row.impulse = &contact.impulse;

@@ -38,11 +38,13 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
         });
     };
     contacts.clear();
-    plant_contacts.clear();
     for (size_t i = 0; i < bodies.size(); i++) bodies[i]->number = int(i);
     const Timer find_timer;
     if (any_wants(FROND_RIGID_CONTACT)) contacts = find_contacts(*this, double(h));
-    if (any_wants(FROND_PLANT_CONTACT | FROND_SELF_CONTACT)) plant_contacts = find_plant_contacts(*this);
+    if (any_wants(FROND_PLANT_CONTACT | FROND_SELF_CONTACT))
+        plant_contacts = find_plant_contacts(*this);
+    else
+        plant_contacts.clear();
     report.ms_collide = find_timer.ms();
     for (const std::unique_ptr<PlantBody>& body : bodies) solve_plant(*body->plant, surroundings, double(h));
     const Timer response_timer;
