@@ -222,10 +222,11 @@ TEST(OwnWorld, AnAbsurdForceIsRewoundAndNeverShowsANaN) {
 
 TEST(OwnWorld, PlantsComeAndGoWhileItRuns) {
     SmallWorld small;
-    const frond_plant_def def = frond_default_plant_def();
+    frond_plant_def def = frond_default_plant_def();
     std::vector<frond_plant> plants;
     for (int round = 0; round < 30; round++) {
         frond_plant plant;
+        def.position.x = 0.1 * (round % 5);  // some stand in each other
         ASSERT_EQ(frond_plant_create(small.world, small.model, &def, &plant), FROND_OK);
         plants.push_back(plant);
         if (round % 3 == 2) {

@@ -111,6 +111,24 @@ void keep_contacts(const World& world, const std::vector<PlantContact>& last, st
     }
 }
 
+// Where plants stand in each other with all they have, the deepest contacts say enough: each is coupled with all others
+// of its plants, so that cost grows with the square of their number.
+void keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
+    constexpr int MOST = 100;  // a plant
+    if (contacts.size() <= MOST) return;
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [](const PlantContact& a, const PlantContact& b) { return a.depth > b.depth; });
+    std::vector<int> count(plant_count, 0);
+    const auto is_too_many = [&](const PlantContact& contact) {
+        int &first = count[size_t(contact.plants[0]->number)], &second = count[size_t(contact.plants[1]->number)];
+        if (first >= MOST || second >= MOST) return true;
+        first++;
+        second++;
+        return false;
+    };
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_too_many), contacts.end());
+}
+
 }  // namespace
 
 std::vector<PlantContact> find_plant_contacts(World& world) {
@@ -155,6 +173,7 @@ std::vector<PlantContact> find_plant_contacts(World& world) {
         world.report.ms_narrow += timer.lap() - times.ms_hash;
     }
     keep_contacts(world, last, contacts);
+    keep_deepest(world.bodies.size(), contacts);
     return contacts;
 }
 
