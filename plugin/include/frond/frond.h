@@ -88,6 +88,9 @@ typedef struct frond_grab {
 typedef struct frond_rigid {
     uint64_t id;
 } frond_rigid;
+typedef struct frond_bond {
+    uint64_t id;
+} frond_bond;
 
 /* ---- choices ------------------------------------------------------------------------------------------- */
 
@@ -575,6 +578,20 @@ FROND_API frond_result frond_rigid_get_state(frond_rigid rigid, frond_rigid_stat
 FROND_API frond_result frond_rigid_set_state(frond_rigid rigid, const frond_rigid_state* state);
 /* As frond_contact.body names it. Null for an invalid handle. */
 FROND_API const void* frond_rigid_get_body(frond_rigid rigid);
+
+/* ---- bond: a point of a plant held to a body: a fruit in a gripper, a pot that is carried --------------------- */
+
+/* Holds the surface vertex nearest to `point` [m] to the place of the body where it is now, turning with the body. Plant
+ * and body feel equal and opposite impulses, as contacts do (FROND_TWO_WAY; FROND_RESPONSE_NONE lets go). One bond lets the
+ * plant turn about the point; three hold it in every way: a plant in a pot has root_height -1 and some bonds around its
+ * foot. A body that leaves the world holds nothing any more. Both of one world, or BAD_ARGUMENT. In a Bullet world of your
+ * own, see bond() in frond_bullet.hpp. */
+FROND_API frond_result frond_bond_create(frond_plant plant, frond_vec3 point, frond_rigid rigid, frond_bond* out);
+/* Where on the plant it holds [m], and with what force on the plant in the last substep [N]. Either may be null. */
+FROND_API frond_result frond_bond_get(frond_bond bond, frond_vec3* point, frond_vec3* force);
+/* Null and stale handles are ignored. Its plant's end is its end. */
+FROND_API void frond_bond_destroy(frond_bond bond);
+FROND_API bool frond_bond_is_valid(frond_bond bond);
 
 /* ---- advice: which settings for which accuracy -------------------------------------------------------------- */
 

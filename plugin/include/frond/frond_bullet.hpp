@@ -40,6 +40,9 @@ FROND_API btDynamicsWorld* bullet_world(frond_world world);
 // Borrowed.
 FROND_API btCollisionObject* bullet_object(frond_plant plant);
 
+// As frond_bond_create, to a body of yours that is in the plant's world: rigid, a link's collider, kinematic or static.
+FROND_API frond_result bond(frond_plant plant, const btVector3& point, btCollisionObject* body, frond_bond* out);
+
 // The plant behind a collision object of Bullet's, e.g. from a ray test. Null if it is not a plant's.
 FROND_API frond_plant plant_of(const btCollisionObject* object);
 

@@ -26,6 +26,9 @@ GrabSlots& grab_slots() {
 RigidSlots& rigid_slots() {
     return slots<RigidSlots>();
 }
+BondSlots& bond_slots() {
+    return slots<BondSlots>();
+}
 
 // One text for what is wrong with a handle.
 static void require(bool found, uint64_t id, const char* noun) {
@@ -62,7 +65,15 @@ Rigid& get(frond_rigid rigid) {
     return *found;
 }
 
+Bond& get(frond_bond bond) {
+    Bond* found = bond_slots().find(bond.id);
+    require(found, bond.id, "bond");
+    return *found;
+}
+
 void forget(PlantBody& body) {
+    for (const Bond& bond : body.world->bonds)
+        if (bond.plant == &body) bond_slots().erase(bond.handle);
     for (const Grab& grab : body.plant->grabs) grab_slots().erase(grab.handle);
     plant_slots().erase(body.handle.id);
 }

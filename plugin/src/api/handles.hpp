@@ -17,11 +17,13 @@ using ModelSlots = Slots<std::shared_ptr<const Model>, 2>;
 using PlantSlots = Slots<PlantBody*, 3>;
 using GrabSlots = Slots<GrabEntry, 4>;
 using RigidSlots = Slots<Rigid*, 5>;
+using BondSlots = Slots<Bond*, 6>;
 WorldSlots& world_slots();
 ModelSlots& model_slots();
 PlantSlots& plant_slots();
 GrabSlots& grab_slots();
 RigidSlots& rigid_slots();
+BondSlots& bond_slots();
 
 // What a handle stands for; BAD_HANDLE when it stands for nothing.
 World& get(frond_world world);
@@ -29,8 +31,9 @@ const std::shared_ptr<const Model> get(frond_model model);
 PlantBody& get(frond_plant plant);
 GrabEntry get(frond_grab grab);
 Rigid& get(frond_rigid rigid);
+Bond& get(frond_bond bond);
 
-// Takes the handles of a plant and its grabs back; the plant itself is the world's.
+// Takes the handles of a plant, its grabs and its bonds back; the plant itself is the world's.
 void forget(PlantBody& body);
 
 }  // namespace FROND_BULLET_PRECISION

@@ -17,18 +17,37 @@ namespace {
 struct Own {
     Mat3 block = Mat3::Zero();
     double along = 0, across = 0;  // correction of an impulse by speed, along the normal and across it [kg]
+    Mat3 inverse = Mat3::Zero();   // of a bond, likewise
 };
+
+// What nothing can move needs no impulse.
+constexpr double IMMOVABLE = 1e-12;  // [1/kg]
+
+}  // namespace
+
+Mat3 firm_inverse(const Mat3& block) {
+    const Eigen::SelfAdjointEigenSolver<Mat3> ways(0.5 * (block + block.transpose()));
+    Vec3 inverse = Vec3::Zero();
+    for (int i = 0; i < 3; i++)
+        if (ways.eigenvalues()[i] > std::max(IMMOVABLE, 1e-9 * ways.eigenvalues()[2]))
+            inverse[i] = 1 / ways.eigenvalues()[i];
+    return ways.eigenvectors() * inverse.asDiagonal() * ways.eigenvectors().transpose();
+}
+
+namespace {
 
 Own own_of(const Touch& touch, const std::vector<Coupling>& couplings, int i) {
     Own own;
     for (const Coupling& c : couplings)
         if (c.other == i) own.block += c.block;
+    if (touch.is_bond) {
+        own.inverse = firm_inverse(own.block);
+        return own;
+    }
     const double along = touch.normal.dot(own.block * touch.normal);
     const Mat3 flat = Mat3::Identity() - touch.normal * touch.normal.transpose();
     const Eigen::SelfAdjointEigenSolver<Mat3> sliding(flat * own.block * flat, Eigen::EigenvaluesOnly);
     const double across = sliding.eigenvalues()[2];
-    // What nothing can move needs no impulse.
-    constexpr double IMMOVABLE = 1e-12;  // [1/kg]
     own.along = along > IMMOVABLE ? 1 / along : 0;
     own.across = across > IMMOVABLE ? 1 / across : 0;
     return own;
@@ -62,6 +81,12 @@ void correct(const Touch& touch, const Own& own, const std::vector<Coupling>& co
     Vec3 velocity = touch.velocity;
     for (const Coupling& c : couplings) velocity += c.block * impulses[size_t(c.other)];
     const Vec3 before = impulse;
+    if (touch.is_bond) {
+        impulse += own.inverse * (touch.wanted - velocity);
+        change.largest = std::max(change.largest, impulse.norm());
+        change.most = std::max(change.most, (impulse - before).norm());
+        return;
+    }
 
     // Along the normal: push, never pull.
     const double push_before = before.dot(touch.normal);

@@ -19,6 +19,9 @@ struct Touch {
     // Along the normal, how fast places must part, or may still approach, besides what velocities do [m/s].
     double least_shift = NO_SHIFT;
     static constexpr double NO_SHIFT = -1e30;  // velocities see to that
+    // Of a bond, which holds both ways and across: how fast a shall move against b. What stands above then does not count.
+    bool is_bond = false;
+    Vec3 wanted = Vec3::Zero();  // [m/s]
 };
 
 // Blocks of W, the velocity at a touch by an impulse at another one [1/kg]. Symmetric as a whole: both of (i, j) and
@@ -59,6 +62,9 @@ void push_by_impulse(const std::vector<Touch>& touches, const std::vector<std::v
                      const ResponseSettings& settings, Pushes& out);
 void push_by_penalty(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
                      const ResponseSettings& settings, Pushes& out);
+
+// Of what a touch answers to itself, without the ways in which nothing moves.
+Mat3 firm_inverse(const Mat3& block);
 
 struct ImpulseReport {
     int iterations = 0;

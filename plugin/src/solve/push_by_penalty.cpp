@@ -19,6 +19,10 @@ void push_by_penalty(const std::vector<Touch>& touches, const std::vector<std::v
     for (size_t i = 0; i < touches.size(); i++) {
         const Touch& touch = touches[i];
         const Mat3& own = coupling[i].front().block;
+        if (touch.is_bond) {
+            out.impulses[i] = firm_inverse(own) * (touch.wanted - touch.velocity);
+            continue;
+        }
         const double speed = touch.velocity.dot(touch.normal);
         const double along = touch.normal.dot(own * touch.normal);
         const double push = h * k * (std::min(touch.depth, FASTEST * h) - h * speed) / (1 + h * h * k * along);

@@ -26,6 +26,7 @@ void push_by_impulse(const std::vector<Touch>& touches, const std::vector<std::v
     std::vector<Touch> places = touches;
     for (Touch& touch : places) {
         touch.velocity.setZero();
+        touch.wanted.setZero();
         touch.least_speed = touch.least_shift;
         touch.friction = 0;
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "world/is_in.hpp"
+
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
@@ -14,12 +16,7 @@ void give_gravity(GravityAhead& ahead, btRigidBody& body, double h) {
 
 // Bodies that the host has taken out of its world are not looked at any more.
 static void forget_gone(GravityAhead& ahead, const btCollisionWorld& world) {
-    const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-    const auto is_gone = [&](const GravityAhead::Held& held) {
-        for (int i = 0; i < objects.size(); i++)
-            if (objects[i] == held.body) return false;
-        return true;
-    };
+    const auto is_gone = [&](const GravityAhead::Held& held) { return !is_in(world, held.body); };
     ahead.bodies.erase(std::remove_if(ahead.bodies.begin(), ahead.bodies.end(), is_gone), ahead.bodies.end());
 }
 

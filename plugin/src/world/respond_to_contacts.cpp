@@ -70,6 +70,30 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
     rows.push_back(std::move(row));
 }
 
+// A bond closes half of its gap a step.
+void add_row(Bond& bond, double h, std::vector<Row>& rows) {
+    constexpr double SHARE = 0.5, FASTEST = 10;  // [m/s]
+    bond.impulse.setZero();
+    bond.length = h;
+    if (!bond.body) return;
+    Plant& plant = *bond.plant->plant;
+    Row row;
+    row.plants[0] = bond.plant;
+    const Grip grip = vertex_grip(plant, bond.vertex);
+    if (!make_touch(plant, grip, row.touches[0])) return;
+    if (!bond.body->isStaticOrKinematicObject()) bond.body->activate();
+    const Vec3 place = place_on_body(bond);
+    row.pusher = make_pusher(*bond.body, place, h);
+    row.touch.is_bond = true;
+    row.touch.normal = Vec3::UnitY();
+    row.touch.velocity = row.touches[0].velocity - row.pusher.velocity;
+    row.touch.wanted = SHARE / h * (place - plant.to_world(grip_place(grip, plant.x_good)));
+    if (row.touch.wanted.norm() > FASTEST) row.touch.wanted *= FASTEST / row.touch.wanted.norm();
+    row.touch.least_speed = row.touch.friction = 0;
+    row.impulse = &bond.impulse;
+    rows.push_back(std::move(row));
+}
+
 // A plant's side of a row: of its first plant, or with the opposite sign of its second.
 struct Side {
     int row;
@@ -164,6 +188,7 @@ void respond_to_contacts(World& world, double h) {
     rows.reserve(world.contacts.size() + world.plant_contacts.size());
     for (Contact& contact : world.contacts) add_row(world, contact, h, rows);
     for (PlantContact& contact : world.plant_contacts) add_row(world, contact, h, rows);
+    for (Bond& bond : world.bonds) add_row(bond, h, rows);
     std::vector<Touch> touches;
     for (const Row& row : rows) touches.push_back(row.touch);
     ResponseSettings settings = world.response_settings;

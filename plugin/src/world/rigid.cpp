@@ -66,6 +66,8 @@ Rigid* add_rigid(World& world, const frond_rigid_def& def) {
 void remove_rigid(World& world, Rigid* rigid) {
     world.bullet->removeRigidBody(rigid->body.get());
     world.contacts.clear();
+    for (Bond& bond : world.bonds)
+        if (bond.body == rigid->body.get()) bond.body = nullptr;
     const auto is_it = [&](const std::unique_ptr<Rigid>& other) { return other.get() == rigid; };
     world.rigids.erase(std::find_if(world.rigids.begin(), world.rigids.end(), is_it));
 }

@@ -48,7 +48,8 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     report.ms_collide = find_timer.ms();
     for (const std::unique_ptr<PlantBody>& body : bodies) solve_plant(*body->plant, surroundings, double(h));
     const Timer response_timer;
-    if (!contacts.empty() || !plant_contacts.empty()) respond_to_contacts(*this, double(h));
+    let_go_of_gone(*this);
+    if (!contacts.empty() || !plant_contacts.empty() || !bonds.empty()) respond_to_contacts(*this, double(h));
     report.ms_response = response_timer.ms();
     report.contact_count = int(contacts.size());
     report.plant_contact_count = int(plant_contacts.size());

@@ -63,6 +63,7 @@ void remove_plant(World& world, PlantBody* body) {
     world.bullet->removeCollisionObject(body);
     world.contacts.clear();
     world.plant_contacts.clear();
+    world.bonds.remove_if([&](const Bond& bond) { return bond.plant == body; });
     const auto is_body = [&](const std::unique_ptr<PlantBody>& other) { return other.get() == body; };
     world.bodies.erase(std::find_if(world.bodies.begin(), world.bodies.end(), is_body));
 }

@@ -4,7 +4,10 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <list>
+
 #include "solve/impulses.hpp"
+#include "world/bond.hpp"
 #include "world/contact.hpp"
 #include "world/gravity_ahead.hpp"
 #include "world/plant_contact.hpp"
@@ -33,6 +36,7 @@ struct World final : btActionInterface {
     ResponseSettings response_settings;
     std::vector<std::unique_ptr<PlantBody>> bodies;
     std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
+    std::list<Bond> bonds;
     bool is_stepping = false;       // in updateAction
     std::vector<Contact> contacts;  // of the last substep, with bodies
     GravityAhead gravity_ahead;     // of those

@@ -1,0 +1,77 @@
+// frond_bond_*: points of plants held to bodies.
+#include "api/call.hpp"
+#include "api/handles.hpp"
+#include "world/is_in.hpp"
+
+using namespace frond;
+
+namespace {
+
+void make_bond(PlantBody& plant, const frond_vec3& point, btCollisionObject& body, frond_bond* out) {
+    check_vec(point, "point [m]");
+    World& world = *plant.world;
+    Bond& bond = add_bond(world, plant, to_vec(point), body);
+    bond.handle = bond_slots().insert(&bond);
+    if (!bond.handle) {
+        world.bonds.pop_back();
+        fail(FROND_OUT_OF_MEMORY, "too many bonds; destroy some");
+    }
+    out->id = bond.handle;
+}
+
+}  // namespace
+
+extern "C" {
+
+frond_result frond_bond_create(frond_plant plant, frond_vec3 point, frond_rigid rigid, frond_bond* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        PlantBody& body = get(plant);
+        Rigid& held_by = get(rigid);
+        if (held_by.world != body.world) fail(FROND_BAD_ARGUMENT, "the rigid body is of another world than the plant");
+        make_bond(body, point, *held_by.body, out);
+    });
+}
+
+frond_result frond_bond_get(frond_bond bond, frond_vec3* held_point, frond_vec3* force) {
+    return call([&] {
+        for (frond_vec3* out : {held_point, force})
+            if (out) *out = {};
+        const Bond& found = get(bond);
+        if (held_point) *held_point = from_vec(held_place(found));
+        if (force) *force = from_vec(found.impulse / found.length);
+    });
+}
+
+void frond_bond_destroy(frond_bond bond) {
+    call([&] {
+        Bond* found = bond_slots().erase(bond.id);
+        if (!found) return;
+        found->plant->world->bonds.remove_if([&](const Bond& other) { return &other == found; });
+    });
+}
+
+bool frond_bond_is_valid(frond_bond bond) {
+    return bond_slots().find(bond.id) != nullptr;
+}
+
+}  // extern "C"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+frond_result bond(frond_plant plant, const btVector3& point, btCollisionObject* object, frond_bond* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        PlantBody& body = get(plant);
+        check_pointer(object, "body");
+        if (!is_in(*body.world->bullet, object) || PlantBody::of(object))
+            fail(FROND_BAD_ARGUMENT, "the body is not in the plant's Bullet world, or is a plant; add it first");
+        make_bond(body, {double(point.x()), double(point.y()), double(point.z())}, *object, out);
+    });
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

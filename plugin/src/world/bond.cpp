@@ -1,0 +1,36 @@
+#include "world/bond.hpp"
+
+#include "world/convert.hpp"
+#include "world/is_in.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+Bond& add_bond(World& world, PlantBody& plant, const Vec3& point, btCollisionObject& body) {
+    Bond bond = {};
+    bond.plant = &plant;
+    bond.vertex = nearest_vertex(*plant.plant, point);
+    bond.body = &body;
+    bond.length = 1;
+    const Vec3 place = vertex_position(*plant.plant, bond.vertex);
+    bond.on_body = from_bullet(body.getWorldTransform().invXform(to_bullet(place)));
+    world.bonds.push_back(bond);
+    return world.bonds.back();
+}
+
+Vec3 held_place(const Bond& bond) {
+    return vertex_position(*bond.plant->plant, bond.vertex);
+}
+
+Vec3 place_on_body(const Bond& bond) {
+    return from_bullet(bond.body->getWorldTransform() * to_bullet(bond.on_body));
+}
+
+void let_go_of_gone(World& world) {
+    for (Bond& bond : world.bonds)
+        if (bond.body && !is_in(*world.bullet, bond.body)) bond.body = nullptr;
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

@@ -1,0 +1,167 @@
+// Points of plants held to bodies: they are carried, weigh on each other and keep their momentum.
+#include <cmath>
+#include <vector>
+
+#include "frond/frond_bullet.hpp"
+#include "support/stems.hpp"
+
+namespace {
+
+frond_rigid add_body(frond_world world, double mass, frond_vec3 place, frond_vec3 velocity = {0, 0, 0}) {
+    frond_rigid_def def = frond_default_rigid_def();
+    def.size = {0.03, 0.03, 0.03};
+    def.shape = FROND_BOX;
+    def.mass = mass;
+    def.state.position = place;
+    def.state.velocity = velocity;
+    frond_rigid body = {};
+    EXPECT_EQ(frond_rigid_create(world, &def, &body), FROND_OK) << frond_last_error();
+    return body;
+}
+frond_vec3 place_of(frond_rigid body) {
+    frond_rigid_state state = {};
+    EXPECT_EQ(frond_rigid_get_state(body, &state), FROND_OK);
+    return state.position;
+}
+frond_vec3 held_by(frond_bond bond) {
+    frond_vec3 point = {};
+    EXPECT_EQ(frond_bond_get(bond, &point, nullptr), FROND_OK) << frond_last_error();
+    return point;
+}
+double distance(const frond_vec3& a, const frond_vec3& b) {
+    return std::hypot(a.x - b.x, std::hypot(a.y - b.y, a.z - b.z));
+}
+void step(frond_world world, int count) {
+    for (int i = 0; i < count; i++) ASSERT_EQ(frond_world_step(world, 1.0 / 60), FROND_OK) << frond_last_error();
+}
+
+struct EveryBond : testing::TestWithParam<frond_mechanics> {
+    frond_plant_def def(double root_height = 0) const {
+        frond_plant_def def = frond_default_plant_def();
+        def.mechanics = GetParam();
+        def.root_height = root_height;
+        return def;
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Bond, EveryBond, testing::Values(FROND_TET_COROTATIONAL, FROND_ROD),
+                         [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
+
+// A weight that hangs on a tip: the bond bears it, and does not give.
+TEST_P(EveryBond, BearsAWeight) {
+    constexpr double MASS = 0.05;
+    SmallWorld small(def(), 1e9);
+    const frond_rigid weight = add_body(small.world, MASS, {0.25, 0.4, 0});
+    frond_bond bond = {};
+    ASSERT_EQ(frond_bond_create(small.plant, {0.2, 0.45, 0}, weight, &bond), FROND_OK) << frond_last_error();
+    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
+    const frond_vec3 before = held_by(bond);
+    const double apart = distance(before, place_of(weight));
+    step(small.world, 300);
+    // It swings on: on average it weighs what it weighs.
+    constexpr int STEPS = 600;
+    double mean = 0;
+    for (int i = 0; i < STEPS; i++) {
+        step(small.world, 1);
+        frond_vec3 force = {};
+        ASSERT_EQ(frond_bond_get(bond, nullptr, &force), FROND_OK);
+        mean += force.y / STEPS;
+    }
+    EXPECT_NEAR(mean, -MASS * 9.81, 0.02 * MASS * 9.81);
+    EXPECT_NEAR(distance(held_by(bond), place_of(weight)), apart, 1e-4);
+    EXPECT_LT(held_by(bond).y, before.y - 1e-4);
+    frond_bond_destroy(bond);
+    step(small.world, 30);
+    EXPECT_LT(place_of(weight).y, before.y - 0.3);
+}
+
+// A pot that is carried takes the plant along, which stands on it as before.
+TEST_P(EveryBond, CarriesAPlant) {
+    SmallWorld small(def(-1), 1e9);
+    const frond_rigid pot = add_body(small.world, 0, {0, -0.03, 0});
+    const frond_vec3 feet[] = {{0.02, 0, 0}, {-0.02, 0, 0}, {0, 0, 0.02}, {0, 0, -0.02}};
+    for (const frond_vec3& foot : feet) {
+        frond_bond bond = {};
+        ASSERT_EQ(frond_bond_create(small.plant, foot, pot, &bond), FROND_OK) << frond_last_error();
+    }
+    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
+    step(small.world, 60);
+    frond_vec3 before = {}, after = {};
+    ASSERT_EQ(frond_plant_get_tip(small.plant, &before), FROND_OK);
+    EXPECT_GT(before.y, 0.55);
+    for (int i = 0; i < 120; i++) {
+        frond_rigid_state state;
+        ASSERT_EQ(frond_rigid_get_state(pot, &state), FROND_OK);
+        state.position.x += 0.005;
+        ASSERT_EQ(frond_rigid_set_state(pot, &state), FROND_OK);
+        step(small.world, 1);
+    }
+    step(small.world, 240);
+    ASSERT_EQ(frond_plant_get_tip(small.plant, &after), FROND_OK);
+    EXPECT_NEAR(after.x - before.x, 0.6, 0.02);
+    EXPECT_NEAR(after.y, before.y, 0.02);
+}
+
+// A free plant and a body that is hung on it while it flies.
+TEST_P(EveryBond, KeepsMomentum) {
+    constexpr double MASS = 0.2;
+    SmallWorld small(def(-1), 1e8);
+    ASSERT_EQ(frond_world_set_gravity(small.world, {0, 0, 0}), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT | FROND_DAMPING)),
+              FROND_OK);
+    const frond_rigid body = add_body(small.world, MASS, {0.05, 0.6, 0}, {1, 0, 0.5});
+    frond_bond bond = {};
+    ASSERT_EQ(frond_bond_create(small.plant, {0.01, 0.6, 0}, body, &bond), FROND_OK) << frond_last_error();
+    step(small.world, 60);
+    frond_vec3 momentum = {};
+    frond_rigid_state state = {};
+    ASSERT_EQ(frond_plant_get_momentum(small.plant, &momentum), FROND_OK);
+    ASSERT_EQ(frond_rigid_get_state(body, &state), FROND_OK);
+    EXPECT_GT(momentum.x, 0.01);
+    EXPECT_NEAR(momentum.x + MASS * state.velocity.x, MASS, 1e-6);
+    EXPECT_NEAR(momentum.y + MASS * state.velocity.y, 0, 1e-6);
+    EXPECT_NEAR(momentum.z + MASS * state.velocity.z, 0.5 * MASS, 1e-6);
+}
+
+TEST(Bond, LetsGoWhenEitherSideIsGone) {
+    SmallWorld small;
+    const frond_rigid body = add_body(small.world, 0, {0, 0.63, 0});
+    frond_bond bond = {}, other = {};
+    ASSERT_EQ(frond_bond_create(small.plant, {0, 0.6, 0}, body, &bond), FROND_OK);
+    step(small.world, 5);
+    frond_rigid_destroy(body);
+    step(small.world, 5);
+    frond_vec3 force = {1, 1, 1};
+    EXPECT_EQ(frond_bond_get(bond, nullptr, &force), FROND_OK);
+    EXPECT_EQ(force.x, 0);
+    EXPECT_EQ(force.y, 0);
+    const frond_rigid second = add_body(small.world, 1, {0, 0.63, 0});
+    ASSERT_EQ(frond_bond_create(small.plant, {0, 0.6, 0}, second, &other), FROND_OK);
+    frond_plant_destroy(small.plant);
+    EXPECT_FALSE(frond_bond_is_valid(bond));
+    EXPECT_FALSE(frond_bond_is_valid(other));
+    EXPECT_EQ(frond_bond_get(other, nullptr, nullptr), FROND_BAD_HANDLE);
+    frond_bond_destroy(other);
+    step(small.world, 2);
+}
+
+TEST(Bond, RefusesWhatCannotBe) {
+    SmallWorld small, elsewhere;
+    const frond_rigid body = add_body(small.world, 1, {0, 0.63, 0}), far = add_body(elsewhere.world, 1, {0, 0.63, 0});
+    frond_bond bond = {};
+    EXPECT_EQ(frond_bond_create(small.plant, {0, NAN, 0}, body, &bond), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_bond_create(small.plant, {0, 0, 0}, far, &bond), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_bond_create(small.plant, {0, 0, 0}, body, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_bond_create({}, {0, 0, 0}, body, &bond), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_bond_create(small.plant, {0, 0, 0}, {}, &bond), FROND_BAD_HANDLE);
+    EXPECT_EQ(bond.id, 0u);
+    EXPECT_EQ(frond_bond_get(bond, nullptr, nullptr), FROND_BAD_HANDLE);
+    // In a host's world likewise.
+    EXPECT_EQ(frond::bond(small.plant, btVector3(0, 0, 0), nullptr, &bond), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond::bond(small.plant, btVector3(0, 0, 0), frond::bullet_object(small.plant), &bond),
+              FROND_BAD_ARGUMENT);
+    auto* object = const_cast<btCollisionObject*>(static_cast<const btCollisionObject*>(frond_rigid_get_body(body)));
+    EXPECT_EQ(frond::bond(small.plant, btVector3(0, 0, 0), object, &bond), FROND_OK) << frond_last_error();
+    EXPECT_TRUE(frond_bond_is_valid(bond));
+}
+
+}  // namespace
