@@ -259,7 +259,7 @@ TEST_P(Free, ContactsAreToldByBothPlantsAndPointAtEachOther) {
             EXPECT_EQ(b[k].other.id, stems.plants[0].id);
             EXPECT_EQ(a[k].impulse.z, -b[k].impulse.z);
             EXPECT_EQ(a[k].normal.x, -b[k].normal.x);
-            EXPECT_LT(a[k].gap, 0);
+            EXPECT_LT(a[k].gap, 0.0101);  // those that have only just parted are kept
             EXPECT_EQ(a[k].gap, b[k].gap);
             seen++;
         }
