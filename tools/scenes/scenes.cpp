@@ -176,10 +176,10 @@ void build_flag(Stage& stage) {
     frond_material material;
     must(frond_material_preset("blade", &material));
     material.young = 2e7;
-    const frond_organ_material organs[] = {{"blade", material}, {"stem", material}};
+    const frond_organ_material organ = {"blade", material};
     frond_model_def def = stage.settings.model;
-    def.organs = organs;
-    def.organ_count = 2;
+    def.organs = &organ;
+    def.organ_count = 1;
     frond_model model = {};
     must(frond_model_from_triangles(xyz.data(), int(xyz.size() / 3), indices.data(), int(indices.size() / 3), &def,
                                     &model));

@@ -104,6 +104,17 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.is_sound = is_sound(plant);
 }
 
+// Shifts as far as nothing is bent much; what is left is for the next steps.
+static void move_by(Plant& plant, const VecX& dv) {
+    constexpr double LEAST = 0.05;
+    const VecX x = plant.motion.x;
+    for (double share = 1; share > LEAST; share /= 2) {
+        add_shift(*plant.workspace, share * dv, plant.motion);
+        if (is_calm(*plant.system, plant.x_good, plant.motion.x)) return;
+        plant.motion.x = x;
+    }
+}
+
 void add_contacts(Plant& plant, double h) {
     if (plant.contact_impulse.size() == 0 && plant.contact_shift.size() == 0) return;
     VecX dv;
@@ -112,13 +123,12 @@ void add_contacts(Plant& plant, double h) {
     plant.contact_shift.resize(0);
     if (impulse.size() > 0 && respond(*plant.workspace, plant.settings, impulse, dv))
         add_response(*plant.workspace, dv, plant.motion);
-    if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv))
-        add_shift(*plant.workspace, dv, plant.motion);
     if (!is_calm(*plant.system, plant.x_good, plant.motion.x)) {
         // Too much for a linear answer: the same push, along the plant's own curve.
         if (impulse.size() > 0) plant.loads.force += impulse / h;
         solve_carefully(plant, h);
     }
+    if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv);
     plant.is_sound = is_sound(plant);
 }
 

@@ -79,7 +79,10 @@ struct Change {
 void correct(const Touch& touch, const Own& own, const std::vector<Coupling>& couplings, std::vector<Vec3>& impulses,
              Vec3& impulse, Change& change) {
     Vec3 velocity = touch.velocity;
-    for (const Coupling& c : couplings) velocity += c.block * impulses[size_t(c.other)];
+    for (const Coupling& c : couplings) {
+        const Vec3& other = impulses[size_t(c.other)];
+        if (!other.isZero(0)) velocity += c.block * other;  // most touches only wait
+    }
     const Vec3 before = impulse;
     if (touch.is_bond) {
         impulse += own.inverse * (touch.wanted - velocity);

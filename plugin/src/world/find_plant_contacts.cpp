@@ -49,6 +49,9 @@ void place_shape(const PlantBody& body, PlantSearch::Shape& shape) {
         shape.axes.push_back({plant.to_world(plant.chain_positions[size_t(begin)]),
                               plant.to_world(plant.chain_positions[size_t(end)])});
     shape.covers = cover_pieces(*body.collider, shape.places.data(), shape.axes);
+    shape.capsules.clear();
+    for (size_t i = 0; i < shape.axes.size(); i++)
+        shape.capsules.push_back({shape.axes[i][0], shape.axes[i][1], double(body.capsules[i]->getRadius())});
 }
 
 double friction_of(const PlantBody& body, int organ) {
@@ -60,7 +63,9 @@ void take_grips(PlantContact& contact) {
     std::array<Vec3, 2> places;
     for (size_t k = 0; k < 2; k++) {
         const Plant& plant = *contact.plants[k]->plant;
-        contact.grips[k] = cage_grip(plant, contact.sides[k]);
+        const ContactSide& side = contact.sides[k];
+        contact.grips[k] =
+            side.node_count > 0 ? cage_grip(plant, side) : capsule_grip(plant, side.piece, side.weights[0]);
         places[k] = plant.to_world(grip_place(contact.grips[k], plant.motion.x));
     }
     contact.between = places[0] - places[1];
@@ -81,6 +86,59 @@ PlantContact contact_of(const CageContact& found, const std::vector<PlantBody*>&
     return contact;
 }
 
+// How far along a capsule's axis a point on it is.
+double along_of(const Capsule& capsule, const Vec3& p) {
+    const Vec3 axis = capsule.end - capsule.begin;
+    const double square = axis.squaredNorm();
+    return square > 0 ? std::clamp(axis.dot(p - capsule.begin) / square, 0.0, 1.0) : 0;
+}
+
+// Capsules of two bodies, or of one, that touch or are about to.
+void add_capsule_contacts(const PlantSearch& memory, const std::vector<PlantBody*>& island, size_t a, size_t b,
+                          std::vector<PlantContact>& contacts) {
+    constexpr double NEAR = 0.01;  // [m]
+    const std::vector<Capsule> &first = memory.shapes[a].capsules, &second = memory.shapes[b].capsules;
+    for (size_t i = 0; i < first.size(); i++)
+        for (size_t j = a == b ? i + 1 : 0; j < second.size(); j++) {
+            if (a == b && island[a]->collider->are_near(int(i), int(j))) continue;
+            // Quick: balls around both.
+            const Vec3 apart = first[i].begin + first[i].end - second[j].begin - second[j].end;
+            const double reach = (first[i].end - first[i].begin).norm() + (second[j].end - second[j].begin).norm() +
+                                 2 * (first[i].radius + second[j].radius + NEAR);
+            if (apart.squaredNorm() > reach * reach) continue;
+            const Gap gap = gap_between(first[i], second[j]);
+            if (gap.distance > NEAR) continue;
+            PlantContact contact;
+            contact.plants = {island[a], island[b]};
+            contact.friction = 1;
+            const std::array<size_t, 2> capsules = {i, j};
+            const std::array<const Capsule*, 2> shapes = {&first[i], &second[j]};
+            const std::array<Vec3, 2> on_axis = {gap.on_a, gap.on_b};
+            for (size_t k = 0; k < 2; k++) {
+                const Model& model = *contact.plants[k]->plant->model;
+                const int organ = model.chain.nodes[size_t(model.capsules[capsules[k]][1])].organ;
+                contact.sides[k] = {int(k == 0 ? a : b), organ, int(capsules[k]), 0, {}, {along_of(*shapes[k], on_axis[k])}};
+                contact.friction *= friction_of(*contact.plants[k], organ);
+            }
+            contact.point = gap.on_a - first[i].radius * gap.normal;
+            contact.normal = gap.normal;
+            contact.depth = -gap.distance;
+            take_grips(contact);
+            contacts.push_back(contact);
+        }
+}
+
+// All pairs of an island of which one moves by its chain.
+void add_chain_contacts(const World& world, const PlantSearch& memory, const std::vector<PlantBody*>& island,
+                        std::vector<PlantContact>& contacts) {
+    for (size_t a = 0; a < island.size(); a++)
+        for (size_t b = a; b < island.size(); b++) {
+            if (!island[a]->plant->follow && !island[b]->plant->follow) continue;
+            if (a != b || has(world, *island[a], FROND_SELF_CONTACT))
+                add_capsule_contacts(memory, island, a, b, contacts);
+        }
+}
+
 // The point that touches: its plant, the other one, and its nodes.
 std::tuple<int, int, std::array<int, 4>> key_of(const PlantContact& contact) {
     return {contact.plants[0]->number, contact.plants[1]->number, contact.sides[0].nodes};
@@ -98,7 +156,7 @@ void keep_contacts(const World& world, const std::vector<PlantContact>& last, st
     for (const PlantContact& contact : contacts) found.insert(key_of(contact));
     for (const PlantContact& before : last) {
         const bool pushed = before.depth > 0 || !before.impulse.isZero(0);
-        if (!pushed || !may_touch(world, before) || found.count(key_of(before))) continue;
+        if (!pushed || before.sides[0].node_count == 0 || !may_touch(world, before) || found.count(key_of(before))) continue;
         PlantContact contact = before;
         take_grips(contact);
         const Vec3 moved = contact.between - before.between;
@@ -151,24 +209,29 @@ std::vector<PlantContact> find_plant_contacts(World& world) {
     for (const std::vector<PlantBody*>& island : islands) {
         PlantSearch& memory = *world.plant_search;
         memory.shapes.resize(std::max(memory.shapes.size(), island.size()));
+        for (size_t i = 0; i < island.size(); i++) place_shape(*island[i], memory.shapes[i]);
+        add_chain_contacts(world, memory, island, contacts);
+        // Those whose cages move by themselves.
+        std::vector<PlantBody*> caged;
         std::vector<CoveredBody> covered;
+        std::vector<CollisionBody> bodies;
         for (size_t i = 0; i < island.size(); i++) {
-            place_shape(*island[i], memory.shapes[i]);
-            covered.push_back({island[i]->collider.get(), &memory.shapes[i].covers,
-                               has(world, *island[i], FROND_SELF_CONTACT)});
+            if (island[i]->plant->follow) continue;
+            const bool with_itself = has(world, *island[i], FROND_SELF_CONTACT);
+            caged.push_back(island[i]);
+            covered.push_back({island[i]->collider.get(), &memory.shapes[i].covers, with_itself});
+            bodies.push_back({island[i]->collider.get(), memory.shapes[i].places.data(), {}, with_itself});
         }
         std::vector<std::vector<uint8_t>> pieces = find_meeting_pieces(covered, 0);
-        std::vector<CollisionBody> bodies;
         bool meet = false;
-        for (size_t i = 0; i < island.size(); i++) {
+        for (size_t i = 0; i < caged.size(); i++) {
             meet = meet || !pieces[i].empty();
-            bodies.push_back({covered[i].collider, memory.shapes[i].places.data(), std::move(pieces[i]),
-                              covered[i].with_itself});
+            bodies[i].pieces = std::move(pieces[i]);
         }
         world.report.ms_broad += timer.lap();
         if (!meet) continue;
         const SearchTimes times = find_cage_contacts(*memory.search, bodies, world.hash, memory.found);
-        for (const CageContact& found : memory.found) contacts.push_back(contact_of(found, island));
+        for (const CageContact& found : memory.found) contacts.push_back(contact_of(found, caged));
         world.report.ms_hash += times.ms_hash;
         world.report.ms_narrow += timer.lap() - times.ms_hash;
     }
