@@ -59,16 +59,17 @@ TEST_P(EveryBond, BearsAWeight) {
     step(small.world, 300);
     // It swings on: on average it weighs what it weighs.
     constexpr int STEPS = 600;
-    double mean = 0;
+    double mean = 0, height = 0;
     for (int i = 0; i < STEPS; i++) {
         step(small.world, 1);
         frond_vec3 force = {};
         ASSERT_EQ(frond_bond_get(bond, nullptr, &force), FROND_OK);
         mean += force.y / STEPS;
+        height += held_by(bond).y / STEPS;
+        EXPECT_NEAR(distance(held_by(bond), place_of(weight)), apart, 1e-3);
     }
     EXPECT_NEAR(mean, -MASS * 9.81, 0.02 * MASS * 9.81);
-    EXPECT_NEAR(distance(held_by(bond), place_of(weight)), apart, 1e-4);
-    EXPECT_LT(held_by(bond).y, before.y - 1e-4);
+    EXPECT_LT(height, before.y - 1e-4);
     frond_bond_destroy(bond);
     step(small.world, 30);
     EXPECT_LT(place_of(weight).y, before.y - 0.3);

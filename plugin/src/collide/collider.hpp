@@ -42,7 +42,7 @@ struct Collider {
     NumberLists piece_nodes;
 
     // Pieces that do not collide with each other: the same one, those that share a node, as at a joint, and those that
-    // overlap at rest, because a cage is fatter than the organ in it.
+    // overlap at rest, because a cage is fatter than the organ in it, or whose capsules are beside each other then.
     std::vector<bool> near_pieces;  // piece_count * piece_count
     bool are_near(int a, int b) const { return near_pieces[size_t(a) * size_t(piece_count) + size_t(b)]; }
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "collide/capsule.hpp"
 #include "collide/collider.hpp"
 #include "collide/overlap.hpp"
 #include "model/model.hpp"
@@ -125,6 +126,22 @@ Collider make_collider(const std::vector<Vec3>& nodes, const std::vector<Tet>& t
     return collider;
 }
 
+// Capsules that are beside each other at rest are near too: chains touch by their capsules.
+static void find_near_capsules(const Model& model, Collider& collider) {
+    constexpr double BESIDE = 0.015;  // [m]
+    std::vector<Capsule> capsules;
+    for (const auto& [begin, end] : model.capsules) {
+        const std::vector<ChainNode>& nodes = model.chain.nodes;
+        capsules.push_back({nodes[size_t(begin)].position, nodes[size_t(end)].position, nodes[size_t(end)].radius});
+    }
+    for (size_t a = 0; a < capsules.size(); ++a)
+        for (size_t b = 0; b < a; ++b) {
+            if (gap_between(capsules[a], capsules[b]).distance > BESIDE) continue;
+            collider.near_pieces[a * size_t(collider.piece_count) + b] = true;
+            collider.near_pieces[b * size_t(collider.piece_count) + a] = true;
+        }
+}
+
 Collider make_collider(const Model& model) {
     const Cage& cage = model.cage;
     std::vector<int> tet_piece(cage.tets.size(), 0);
@@ -146,7 +163,10 @@ Collider make_collider(const Model& model) {
             tet_piece[t] = int(c);
         }
     }
-    return make_collider(cage.nodes, cage.tets, tet_piece, cage.tet_organ, std::max(int(model.capsules.size()), 1));
+    Collider collider =
+        make_collider(cage.nodes, cage.tets, tet_piece, cage.tet_organ, std::max(int(model.capsules.size()), 1));
+    find_near_capsules(model, collider);
+    return collider;
 }
 
 }  // namespace frond
