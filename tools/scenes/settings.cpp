@@ -128,6 +128,10 @@ const std::vector<Key>& keys() {
         real("material_damping", "share of the organs' damping ratios", &Settings::plant,
              &frond_plant_def::material_damping),
         real("spectral_radius", "of generalized_alpha, 0..1", &Settings::plant, &frond_plant_def::spectral_radius),
+        count("max_substeps", "of a step, where its error asks for them", &Settings::plant,
+              &frond_plant_def::max_substeps),
+        real("substep_tolerance", "error of a place in a step, share of the size", &Settings::plant,
+             &frond_plant_def::substep_tolerance),
         real("root_height", "pinned above the foot [m], 0: chosen, < 0: none", &Settings::plant,
              &frond_plant_def::root_height),
     };

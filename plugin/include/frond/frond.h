@@ -135,7 +135,8 @@ enum {
     X(PCG_JACOBI, "pcg_jacobi")             /* the paper's conjugate gradients, preconditioned by the diagonal */      \
     X(PCG_BLOCK_JACOBI, "pcg_block_jacobi") /* by the 3x3 blocks of the diagonal */                                    \
     X(PCG_INCOMPLETE_CHOLESKY, "pcg_incomplete_cholesky") /* by factors without fill: fewest iterations */
-/* How the mass of a tet is given to its nodes. */
+/* How mass is given to nodes: each its own, or shared with its neighbours as the elements' shape functions say. Of rods,
+ * "consistent" is the mean of both, whose frequencies are right to 0.5 % with ten pieces (lumped: 2.5 % in the third). */
 #define FROND_MASSES(X) X(LUMPED, "lumped") X(CONSISTENT, "consistent")
 
 /* How it is found out where cages are in each other. All of them find the same. */
@@ -438,6 +439,12 @@ typedef struct frond_plant_def {
     double material_damping;  /* how much of their materials' damping_ratio the organs have, on top of the two above [-],
                                * 0 (none) .. 100, default 1 */
     double spectral_radius;   /* of FROND_GENERALIZED_ALPHA at infinite frequency, 0..1 [-], default 0.8: 1 damps
+    /* A step is taken in 1, 2, 4 .. max_substeps (1 .. 64, default 1: always one, at no cost) equal parts, as few as keep
+     * the error that the step adds to the place of any node below substep_tolerance (1e-9 .. 1, default 1e-4) times the
+     * plant's size [-]. The error is told from how far nodes end from where their velocities and the last change of these
+     * said; a step in which it is too large is taken again. While bodies touch it, a plant takes whole steps. */
+    int max_substeps;
+    double substep_tolerance;
                                * nothing, 0 most */
     double root_height;       /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
                                * from the shape; negative pins none. A node on an edge is where both its ends are. */

@@ -26,6 +26,8 @@ static void check_plant_def(const frond_plant_def* def) {
     check_range(def->max_iterations, 1, 10'000'000, "def.max_iterations");
     check_range(def->tolerance, 1e-15, 1, "def.tolerance");
     check_range(def->mass_damping, 0, 1e6, "def.mass_damping [1/s]");
+    check_range(def->max_substeps, 1, 64, "def.max_substeps");
+    check_range(def->substep_tolerance, 1e-9, 1, "def.substep_tolerance");
     check_range(def->stiffness_damping, 0, 1e3, "def.stiffness_damping [s]");
     check_range(def->material_damping, 0, 100, "def.material_damping");
     check_range(def->spectral_radius, 0, 1, "def.spectral_radius");
@@ -97,6 +99,8 @@ frond_result frond_plant_create(frond_world world, frond_model model, const fron
         check_pointer(out, "out");
         *out = {};
         World& w = get(world);
+    def.max_substeps = 1;
+    def.substep_tolerance = 1e-4;
         const std::shared_ptr<const Model> m = get(model);
         check_plant_def(def);
         if (def->element_order == 2 && m->calibrated)

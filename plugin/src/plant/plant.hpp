@@ -23,6 +23,12 @@ struct CageNodes : TetNodes {
 };
 
 // Nodes that the host sees are the cage's, whatever moves. Where the mechanics move the chain, the cage follows it.
+// How velocities changed in the last substep, for a guess of the next one's end.
+struct Trend {
+    VecX v_end;  // [m/s]
+    VecX rate;   // [m/s^2]
+};
+
 struct Plant {
     std::shared_ptr<const Model> model;
     std::shared_ptr<const CageNodes> nodes;
@@ -34,6 +40,11 @@ struct Plant {
     SolveSettings settings, step_settings;  // the latter without what the running step's effects leave out
     double material_damping;  // share of the organs' damping ratios that counts [-]
     frond_effects effects;
+    int max_substeps;
+    double substep_tolerance;  // local error of a place in a step, over the plant's size [-]
+    int substeps = 1;          // of the next step
+    bool is_touched = false;   // by bodies, which answer to whole steps
+    Trend trend;               // empty with one substep
     Vec3 position;  // of the model's frame in the world [m]
     Quat rotation;
     void* user = nullptr;
@@ -85,6 +96,8 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
 // Takes contact_impulse and contact_shift into the step that was solved.
 void add_contacts(Plant& plant, double h);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
+// The middle of the first half: plant.motion goes on by h under plant.loads.
+SolveReport solve_in_substeps(Plant& plant, double h);
 // Both.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);
 // Forces given by frond_plant_add_force end.

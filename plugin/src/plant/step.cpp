@@ -99,7 +99,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.ms_effects = timer.lap();
 
     // Solve.
-    plant.report = solve_step(*plant.workspace, settings, plant.loads, h, motion);
+    plant.report = solve_in_substeps(plant, h);
     if (!plant.report.ok || !is_plausible(plant)) solve_carefully(plant, h);
     plant.is_sound = is_sound(plant);
 }

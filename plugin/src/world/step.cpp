@@ -46,6 +46,11 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     else
         plant_contacts.clear();
     report.ms_collide = find_timer.ms();
+    for (const std::unique_ptr<PlantBody>& body : bodies) body->plant->is_touched = false;
+    for (const Contact& contact : contacts) contact.plant->plant->is_touched = true;
+    for (const PlantContact& contact : plant_contacts)
+        for (PlantBody* body : contact.plants) body->plant->is_touched = true;
+    for (const Bond& bond : bonds) bond.plant->plant->is_touched = true;
     for (const std::unique_ptr<PlantBody>& body : bodies) solve_plant(*body->plant, surroundings, double(h));
     const Timer response_timer;
     let_go_of_gone(*this);
