@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/rows.hpp"
+#include "mechanics/sections.hpp"
 
 namespace frond {
 
@@ -113,6 +114,7 @@ RodElements make_rod_elements(const Model& model, frond_mechanics which) {
         if (a < 0) continue;
         out.segments.push_back(make_segment(model, i, which));
         out.damping_ratio.push_back(model.organs[organ_of(model, i)].material.damping_ratio);
+        out.section.push_back(b);
     }
     out.pattern = make_block_pattern(out.node_count, pairs);
     for (RodSegment& rod : out.segments) {
@@ -133,6 +135,7 @@ RodElements make_rod_elements(const Model& model, frond_mechanics which) {
 std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics which) {
     auto elements = std::make_unique<RodElements>(make_rod_elements(model, which));
     let_rods_yield(model, *elements);
+    let_break(model, mechanics(which), *elements);
     return elements;
 }
 

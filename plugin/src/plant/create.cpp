@@ -165,7 +165,6 @@ void set_mechanics(Plant& plant, frond_mechanics which) {
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
     const std::vector<double> lasting = keeps ? lasting_of(plant) : std::vector<double>();
     take_mechanics(plant, which);
-    set_lasting(plant, lasting);
     if (plant.follow) {
         fit_chain(*plant.follow, *plant.model, places, plant.motion.x);
         fit_velocities(*plant.follow, plant.motion.x, velocities, plant.motion.v);
@@ -173,6 +172,17 @@ void set_mechanics(Plant& plant, frond_mechanics which) {
         plant.motion.x = places;
         plant.motion.v = velocities;
     }
+    leave_fragments(plant);
+    set_lasting(plant, lasting);
+    apply_pins(plant);
+    moved(plant);
+}
+
+void mend(Plant& plant) {
+    if (plant.fragments.empty()) return;
+    plant.fragments.clear();
+    plant.parting = {};
+    take_mechanics(plant, plant.which);
     apply_pins(plant);
     moved(plant);
 }

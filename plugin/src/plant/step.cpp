@@ -27,7 +27,8 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
         }
     }
     for (const Grab& grab : plant.grabs)
-        loads.springs.push_back({vertex_grip(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
+        if (!fragment_of_vertex(plant, size_t(grab.vertex)))
+            loads.springs.push_back({vertex_grip(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
 }
 
 // Whether all places, not the rotations of a chain, are nearer than that to `from`.
@@ -146,6 +147,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     } else if (effects & FROND_PLASTICITY) {
         keep_sets(plant, h);
     }
+    carry_stumps(plant);
     moved(plant);
 }
 
