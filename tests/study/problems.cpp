@@ -26,7 +26,8 @@ double bound_of(const std::string& name) {
         {"roll_up", 1e-3},        {"torsion", 1e-3},
         {"greenhill", 5e-3},      {"peers", 5e-3},
         {"frequencies", 0.03},    {"damping", 1e-3},
-        {"amplitude", 5e-4},      {"free_fall", 1e-6},
+        {"amplitude", 5e-4},      {"far_amplitude", 0.05},
+        {"free_fall", 1e-6},
         {"sway", 0.11},           {"swing", 0.02},
         {"peers_swing", 0.02},    {"release", 0.02},
         {"corn_drift", 1e-3},     {"cucumber_drift", 1e-3},
@@ -121,6 +122,55 @@ TEST(Setups, AreToldByWhatTheyChange) {
     EXPECT_EQ(difference(other, base), "1/240 s, implicit_euler");
     EXPECT_NE(key_of(other), key_of(base));
     EXPECT_EQ(time_step_text(0.75), "0.75 s");
+}
+
+// What is done when: rods at 1/240 s.
+TEST(Rods, SwayInTheirFirstThreeModesAsTheFormulaSays) {
+    Session session;
+    const Problem& problem = find_problem("frequencies");
+    Choice setup = problem.baseline();
+    EXPECT_EQ(setup.dt, 1.0 / 240);
+    setup.plant.mechanics = FROND_ROD;
+    setup.plant.mass = FROND_CONSISTENT;
+    setup.plant.integrator = FROND_SDIRK2;
+    for (int pieces : {10, 20}) {
+        setup.resolution = pieces;
+        const Outcome outcome = problem.run(setup, session);
+        ASSERT_EQ(outcome.values.size(), 3u);
+        for (const Value& value : outcome.values) EXPECT_NEAR(value.measured / value.known, 1, 0.01) << value.name;
+    }
+}
+
+TEST(Rods, BendAndTwistAndBuckleAsTheFormulasSay) {
+    Session session;
+    const struct {
+        const char* problem;
+        int pieces;
+        double error;
+    } rows[] = {{"cantilever_tip", 10, 0.005}, {"elastica_tip", 20, 0.005}, {"roll_up", 20, 0.005},
+                {"greenhill", 10, 0.02},       {"torsion", 10, 0.005}};
+    for (const auto& row : rows) {
+        const Problem& problem = find_problem(row.problem);
+        Choice setup = problem.baseline();
+        setup.plant.mechanics = FROND_ROD;
+        setup.resolution = row.pieces;
+        EXPECT_LT(problem.run(setup, session).error, row.error) << row.problem;
+    }
+}
+
+// A 1 Hz beam at 1/60 s, let go from a far bend.
+TEST(Amplitude, IsKeptFromAFarBendInEveryMechanics) {
+    Session session;
+    session.effort = Effort::TINY;
+    const Problem& problem = find_problem("far_amplitude");
+    for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
+        Choice setup = problem.baseline();
+        EXPECT_EQ(setup.dt, 1.0 / 60);
+        setup.plant.mechanics = frond_mechanics(m);
+        const Outcome outcome = problem.run(setup, session);
+        EXPECT_LT(outcome.error, 0.05) << frond_mechanics_name(setup.plant.mechanics);
+        EXPECT_EQ(outcome.trouble & (FROND_TROUBLE_REWOUND | FROND_TROUBLE_RETRIED), 0u);
+    }
 }
 
 // Implicit Euler damps as its formula says, and the default keeps 95 % at 1/60 s.

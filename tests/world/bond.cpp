@@ -53,7 +53,7 @@ TEST_P(EveryBond, BearsAWeight) {
     const frond_rigid weight = add_body(small.world, MASS, {0.25, 0.4, 0});
     frond_bond bond = {};
     ASSERT_EQ(frond_bond_create(small.plant, {0.2, 0.45, 0}, weight, &bond), FROND_OK) << frond_last_error();
-    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
     const frond_vec3 before = held_by(bond);
     const double apart = distance(before, place_of(weight));
     step(small.world, 300);
@@ -84,7 +84,7 @@ TEST_P(EveryBond, CarriesAPlant) {
         frond_bond bond = {};
         ASSERT_EQ(frond_bond_create(small.plant, foot, pot, &bond), FROND_OK) << frond_last_error();
     }
-    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
     step(small.world, 60);
     frond_vec3 before = {}, after = {};
     ASSERT_EQ(frond_plant_get_tip(small.plant, &before), FROND_OK);
@@ -107,7 +107,7 @@ TEST_P(EveryBond, KeepsMomentum) {
     constexpr double MASS = 0.2;
     SmallWorld small(def(-1), 1e8);
     ASSERT_EQ(frond_world_set_gravity(small.world, {0, 0, 0}), FROND_OK);
-    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT | FROND_DAMPING)),
+    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT | FROND_DAMPING)),
               FROND_OK);
     const frond_rigid body = add_body(small.world, MASS, {0.05, 0.6, 0}, {1, 0, 0.5});
     frond_bond bond = {};

@@ -136,7 +136,7 @@ TEST_P(EveryBody, AFastBallDoesNotTunnel) {
 TEST_P(EveryBody, AFreeStemAndABallKeepTheirMomentum) {
     Scene scene(0);
     scene.add_stem({0, 0, 0}, {0, 0.5, 0}, 0.02, 1e8, GetParam(), -1);
-    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_DAMPING)), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_DAMPING)), FROND_OK);
     btRigidBody& ball = scene.add(new btSphereShape(btScalar(0.05)), 0.3, btVector3(btScalar(-0.2), btScalar(0.4), 0));
     ball.setLinearVelocity(btVector3(2, 0, 0));
     ball.setDamping(0, 0);
@@ -227,7 +227,7 @@ TEST(ContactEffects, OffMeansThatNothingTouches) {
     scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_ROD);
     btRigidBody& ball = scene.add(new btSphereShape(btScalar(0.05)), 0.2, btVector3(btScalar(-0.15), btScalar(0.9), 0));
     ball.setLinearVelocity(btVector3(2, 0, 0));
-    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
     scene.steps(60);
     EXPECT_NEAR(double(ball.getLinearVelocity().x()), 2, 1e-6);
     EXPECT_LT(scene.tip().x, 0.01);
@@ -238,7 +238,7 @@ TEST(ContactEffects, OneWayPushesThePlantOnly) {
     scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_ROD);
     btRigidBody& ball = scene.add(new btSphereShape(btScalar(0.05)), 0.2, btVector3(btScalar(-0.15), btScalar(0.9), 0));
     ball.setLinearVelocity(btVector3(2, 0, 0));
-    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_ALL_EFFECTS & ~uint32_t(FROND_TWO_WAY)), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_TWO_WAY)), FROND_OK);
     scene.steps(15);
     EXPECT_NEAR(double(ball.getLinearVelocity().x()), 2, 1e-6);
     EXPECT_GT(scene.tip().x, 0.05);

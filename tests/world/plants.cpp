@@ -344,7 +344,7 @@ TEST(Plants, MayComeAndGoWhileTheyTouch) {
         stand.make_stems({{-1, {0, 0, 0}, {0, 0.4, 0}, 0.02, 0.01}, {0, {0, 0.2, 0}, {0.25, 0.35, 0}, 0.01, 0.006}}, 1e8);
         frond_plant_def def = stand.plant_def();
         def.mechanics = mechanics;
-        def.effects = FROND_ALL_EFFECTS;
+        def.effects = FROND_DEFAULT_EFFECTS | FROND_SELF_CONTACT;
         int touched = 0;
         for (int i = 0; i < 40; i++) {
             if (i % 3 == 0) stand.add(def, {0.06 * (i % 7), 0, 0.03 * (i % 4)}, i);
@@ -374,7 +374,7 @@ TEST(Plants, DoNotPassThroughThemselves) {
                           {0, {0, 0.2, 0}, {-0.15, 0.6, 0}, 0.012, 0.012}},
                          5e7);
         frond_plant_def def = stand.plant_def();
-        def.effects = with_contact ? FROND_ALL_EFFECTS : FROND_DEFAULT_EFFECTS;
+        def.effects = FROND_DEFAULT_EFFECTS | (with_contact ? uint32_t(FROND_SELF_CONTACT) : 0u);
         const frond_plant plant = stand.add(def, {0, 0, 0});
         stand.steps(5);
         EXPECT_EQ(stand.report().plant_contact_count, 0);  // nothing touches as modelled

@@ -208,6 +208,31 @@ void build_crate(Stage& stage) {
     stage.rigid(rigid_def(FROND_BOX, {0.1, 0.06, 0.1}, 0.1, {0.14, 1.35, 0.06}));
 }
 
+// ---- a plant of rods --------------------------------------------------------------------------------------------
+
+constexpr int TWIG_PIECES = 60;
+constexpr double TWIG_PIECE = 0.05;  // [m]
+void twig_defaults(Settings& settings) {
+    settings.model.capsule_height = TWIG_PIECE;
+    settings.model.cage_size = 0.3;
+    settings.plant.mechanics = FROND_ROD;
+    settings.grab_stiffness = 10;
+}
+// A stem with five branches, each as long as ten pieces.
+void build_twig(Stage& stage) {
+    constexpr int BRANCHES = 5;
+    const double length = TWIG_PIECES / (BRANCHES + 1) * TWIG_PIECE;
+    std::vector<frond_stem> stems = {{-1, {0, 0, 0}, {0, length, 0}, 0.008, 0.005}};
+    for (int i = 0; i < BRANCHES; i++) {
+        const double y = length * (i + 4) / (BRANCHES + 5), turn = 2.4 * i, out = 0.7 * length;
+        stems.push_back({0, {0, y, 0}, {out * std::cos(turn), y + out, out * std::sin(turn)}, 0.004, 0.002});
+    }
+    frond_model model = {};
+    must(frond_model_from_stems(stems.data(), int(stems.size()), &stage.settings.model, &model));
+    stage.models.push_back(model);
+    stage.plant(model, {0, 0, 0});
+}
+
 }  // namespace
 
 // Of the chain's nodes near that height, the one that carries most others.
@@ -248,6 +273,7 @@ const std::vector<Scene>& scenes() {
         {"corn_field", "17 corn plants touch", 3, corn_defaults, build_corn_field, rest},
         {"flag", "a ribbon of a leaf is folded onto itself", 3, flag_defaults, build_flag, fold},
         {"crate", "a small crate is let fall on a cucumber's leaves", 3, cucumber_defaults, build_crate, rest},
+        {"twig", "a twig of 60 rods is pulled aside and let go", 5, twig_defaults, build_twig, drag},
         {"tug", "a plant file: it stands, is pulled aside and let go", 5, tug_defaults, nullptr, drag},
     };
     return table;

@@ -88,6 +88,11 @@ const std::vector<Key>& keys() {
          [](Settings& s, const std::string& value) { s.plants = int(number(value)); }},
         {"grab_stiffness", "of the user's spring [N/m], 0: as it takes",
          [](Settings& s, const std::string& value) { s.grab_stiffness = number(value); }},
+        {"breaking", "1: what is strained beyond its strength breaks, 0: nothing does",
+         [](Settings& s, const std::string& value) {
+             s.plant.effects &= ~uint32_t(FROND_BREAKING);
+             if (number(value) != 0) s.plant.effects |= FROND_BREAKING;
+         }},
         triple("gravity", "x,y,z [m/s^2]", &Settings::world, &frond_world_def::gravity),
         real("max_substep", "longest solver step [s]", &Settings::world, &frond_world_def::max_substep),
         choice("hash_layout", "where cages meet, row of the table", &frond_world_def::hash_layout,
@@ -123,6 +128,10 @@ const std::vector<Key>& keys() {
         real("newton_tolerance", "share of the first residual", &Settings::plant, &frond_plant_def::newton_tolerance),
         count("max_iterations", "of an iterative solver", &Settings::plant, &frond_plant_def::max_iterations),
         real("tolerance", "of an iterative solver", &Settings::plant, &frond_plant_def::tolerance),
+        count("max_substeps", "of a step, where its error asks for them", &Settings::plant,
+              &frond_plant_def::max_substeps),
+        real("substep_tolerance", "error of a place in a step, share of the size", &Settings::plant,
+             &frond_plant_def::substep_tolerance),
         real("mass_damping", "Rayleigh [1/s]", &Settings::plant, &frond_plant_def::mass_damping),
         real("stiffness_damping", "Rayleigh [s]", &Settings::plant, &frond_plant_def::stiffness_damping),
         real("material_damping", "share of the organs' damping ratios", &Settings::plant,

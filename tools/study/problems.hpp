@@ -24,6 +24,7 @@ Outcome run_free_fall(const Setup& setup, Session& session);
 Outcome run_frequencies(const Setup& setup, Session& session);
 Outcome run_damping(const Setup& setup, Session& session);
 Outcome run_amplitude(const Setup& setup, Session& session);
+Outcome run_far_amplitude(const Setup& setup, Session& session);
 // Two periods after a light push on the end of a beam, against the sum of its modes.
 Outcome sway_of(const Beam& beam, const Setup& setup, Session& session);
 Outcome run_sway(const Setup& setup, Session& session);

@@ -45,6 +45,8 @@ std::string difference(const Setup& setup, const Setup& baseline) {
     if (a.integrator != b.integrator) add(frond_integrator_name(a.integrator));
     if (a.newton_iterations != b.newton_iterations) add("at most " + number(a.newton_iterations) + " solves a stage");
     if (a.newton_tolerance != b.newton_tolerance) add("Newton tolerance " + number(a.newton_tolerance));
+    if (a.max_substeps != b.max_substeps) add("at most " + number(a.max_substeps) + " substeps");
+    if (a.substep_tolerance != b.substep_tolerance) add("substep tolerance " + number(a.substep_tolerance));
     if (a.linear_solver != b.linear_solver) add(frond_linear_solver_name(a.linear_solver));
     if (a.tolerance != b.tolerance) add("linear tolerance " + number(a.tolerance));
     if (a.mass != b.mass) add(std::string(frond_mass_name(a.mass)) + " mass");
@@ -57,7 +59,7 @@ std::string key_of(const Setup& setup) {
     out.precision(17);
     out << int(setup.body) << ' ' << setup.resolution << ' ' << setup.dt << ' ' << p.mechanics << ' ' << p.element_order
         << ' ' << p.integrator << ' ' << p.linear_solver << ' ' << p.mass << ' ' << p.newton_iterations << ' '
-        << p.newton_tolerance << ' ' << p.max_iterations << ' ' << p.tolerance << ' ' << p.mass_damping << ' '
+        << p.newton_tolerance << ' ' << p.max_substeps << ' ' << p.substep_tolerance << ' ' << p.max_iterations << ' ' << p.tolerance << ' ' << p.mass_damping << ' '
         << p.stiffness_damping << ' ' << p.material_damping << ' ' << p.spectral_radius << ' ' << p.root_height << ' '
         << p.effects;
     return out.str();

@@ -68,6 +68,34 @@ void sweep_resolution(const Problem& problem, Effort effort, std::vector<Sweep>&
     }
 }
 
+// Where space and time both count: rods with the mass and the integrator that err least.
+void sweep_exact_rods(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
+    Setup setup = problem.baseline();
+    if (setup.body != Body::STEM) return;
+    setup.plant.mechanics = FROND_ROD;
+    setup.plant.mass = FROND_CONSISTENT;
+    setup.plant.integrator = FROND_SDIRK2;
+    Sweep sweep = {"rod, consistent mass, sdirk2", {}, false};
+    for (int resolution : resolutions(Body::STEM, 1, effort, true)) {
+        setup.resolution = resolution;
+        sweep.setups.push_back(setup);
+    }
+    sweeps.push_back(sweep);
+}
+
+// Long steps that are divided where their error asks for it.
+void sweep_substeps(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
+    Setup setup = problem.baseline();
+    setup.dt = 1.0 / 30;
+    setup.plant.max_substeps = 64;
+    Sweep sweep = {std::string(frond_integrator_name(setup.plant.integrator)) + ", substeps as needed", {}, false};
+    for (double tolerance : by<double>(effort, {1e-4}, {1e-2, 1e-3, 1e-4}, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5})) {
+        setup.plant.substep_tolerance = tolerance;
+        sweep.setups.push_back(setup);
+    }
+    sweeps.push_back(sweep);
+}
+
 void sweep_time_step(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
     const Setup base = problem.baseline();
     const auto over_steps = [&](const std::string& name, Setup setup) {
@@ -182,7 +210,9 @@ void change_shape(const Problem& problem, Effort effort, Changes& changes) {
 std::vector<Sweep> sweeps_of(const Problem& problem, Effort effort) {
     std::vector<Sweep> sweeps;
     if (problem.axes & RESOLUTION) sweep_resolution(problem, effort, sweeps);
+    if (problem.axes & RESOLUTION && problem.axes & TIME_STEP) sweep_exact_rods(problem, effort, sweeps);
     if (problem.axes & TIME_STEP) sweep_time_step(problem, effort, sweeps);
+    if (problem.axes & TIME_STEP) sweep_substeps(problem, effort, sweeps);
     if (problem.axes & NEWTON) sweep_newton(problem, effort, sweeps);
     if (problem.axes & EVERYTHING) sweep_everything(problem, effort, sweeps);
     if (problem.axes & LINEAR) sweep_linear(problem, effort, sweeps);

@@ -75,6 +75,7 @@ void forget(PlantBody& body) {
     for (const Bond& bond : body.world->bonds)
         if (bond.plant == &body) bond_slots().erase(bond.handle);
     for (const Grab& grab : body.plant->grabs) grab_slots().erase(grab.handle);
+    for (const Rigid* fragment : body.fragment_bodies) rigid_slots().erase(fragment->handle.id);
     plant_slots().erase(body.handle.id);
 }
 

@@ -4,6 +4,7 @@
 
 #include "api/call.hpp"
 #include "api/handles.hpp"
+#include "world/fragments.hpp"
 
 using namespace frond;
 
@@ -25,6 +26,8 @@ static void check_plant_def(const frond_plant_def* def) {
     check_range(def->newton_tolerance, 0, 1, "def.newton_tolerance");
     check_range(def->max_iterations, 1, 10'000'000, "def.max_iterations");
     check_range(def->tolerance, 1e-15, 1, "def.tolerance");
+    check_range(def->max_substeps, 1, 64, "def.max_substeps");
+    check_range(def->substep_tolerance, 1e-9, 1, "def.substep_tolerance");
     check_range(def->mass_damping, 0, 1e6, "def.mass_damping [1/s]");
     check_range(def->stiffness_damping, 0, 1e3, "def.stiffness_damping [s]");
     check_range(def->material_damping, 0, 100, "def.material_damping");
@@ -45,6 +48,19 @@ static void check_count(int given, int own, const char* name) {
 static void check_numbers(const double* numbers, int count, const char* name) {
     if (!numbers) return;
     for (int i = 0; i < count; i++) check_range(numbers[i], -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
+}
+
+// After its nodes were put elsewhere.
+static void show(PlantBody& body) {
+    move_capsules(body);
+    body.world->bullet->updateSingleAabb(&body);
+}
+
+// The one that ends at a chain node.
+static int capsule_of(const Plant& plant, int node) {
+    const auto& capsules = plant.model->capsules;
+    const auto ends = [&](const std::array<int, 2>& capsule) { return capsule[1] == node; };
+    return int(std::find_if(capsules.begin(), capsules.end(), ends) - capsules.begin());
 }
 
 static frond_effects effects_of(const PlantBody& body) {
@@ -83,6 +99,8 @@ frond_plant_def frond_default_plant_def(void) {
     def.newton_tolerance = 1e-6;
     def.max_iterations = 10000;
     def.tolerance = 1e-6;
+    def.max_substeps = 1;
+    def.substep_tolerance = 1e-4;
     def.mass_damping = 0.1;
     def.stiffness_damping = 0.002;
     def.material_damping = 1;
@@ -145,8 +163,7 @@ frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics which)
         PlantBody& body = get(plant);
         check_row(number_of(which), FROND_MECHANICS_COUNT, "mechanics");
         set_mechanics(*body.plant, which);
-        move_capsules(body);
-        body.world->bullet->updateSingleAabb(&body);
+        show(body);
     });
 }
 
@@ -164,11 +181,10 @@ frond_result frond_plant_get_state(frond_plant plant, double* positions, double*
     return call([&] {
         const Plant& p = *get(plant).plant;
         check_count(node_count, node_count_of(p), "node_count");
-        const VecX& x = cage_places(p);
         const VecX v = velocities ? cage_velocities(p) : VecX();
         for (int i = 0; i < node_count; i++) {
-            if (positions) Eigen::Map<Vec3>(positions + 3 * i) = p.to_world(point(x, i));
-            if (velocities) Eigen::Map<Vec3>(velocities + 3 * i) = p.rotation * point(v, i);
+            if (positions) Eigen::Map<Vec3>(positions + 3 * i) = node_place(p, i);
+            if (velocities) Eigen::Map<Vec3>(velocities + 3 * i) = node_velocity(p, v, i);
         }
     });
 }
@@ -181,8 +197,7 @@ frond_result frond_plant_set_state(frond_plant plant, const double* positions, c
         check_numbers(positions, 3 * node_count, "positions");
         check_numbers(velocities, 3 * node_count, "velocities");
         set_state(*body.plant, positions, velocities);
-        move_capsules(body);
-        body.world->bullet->updateSingleAabb(&body);
+        show(body);
     });
 }
 
@@ -268,7 +283,7 @@ frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out)
         out->normals = p.surface_normals.data();
         out->uvs = surface.uvs.empty() ? nullptr : surface.uvs.front().data();
         out->colors = surface.colors.empty() ? nullptr : surface.colors.front().data();
-        out->indices = surface.triangles.front().data();
+        out->indices = (p.fragments.empty() ? surface.triangles : p.parting.triangles).front().data();
         out->vertex_count = int(surface.positions.size());
         out->triangle_count = int(surface.triangles.size());
     });
@@ -281,9 +296,9 @@ frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int
         check_count(capsule_count, int(body.capsules.size()), "capsule_count");
         const Plant& p = *body.plant;
         for (size_t i = 0; i < body.capsules.size(); i++) {
-            const auto& [begin, end] = p.model->capsules[i];
-            out[i].begin = from_vec(p.to_world(p.chain_positions[size_t(begin)]));
-            out[i].end = from_vec(p.to_world(p.chain_positions[size_t(end)]));
+            const auto [begin, end] = capsule_ends(p, i);
+            out[i].begin = from_vec(p.to_world(begin));
+            out[i].end = from_vec(p.to_world(end));
             out[i].radius = double(body.capsules[i]->getRadius());
         }
     });
@@ -300,6 +315,50 @@ frond_result frond_plant_get_contacts(frond_plant plant, frond_contact* out, int
         check_count(contact_count, int(contacts.size()), "contact_count");
         if (contact_count > 0) check_pointer(out, "out");
         std::copy(contacts.begin(), contacts.end(), out);
+    });
+}
+
+int frond_plant_get_broken_count(frond_plant plant) {
+    const PlantBody* body = plant_slots().find(plant.id);
+    return body ? int(body->fragment_bodies.size()) : 0;
+}
+
+frond_result frond_plant_get_broken(frond_plant plant, int fragment, frond_broken* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        const PlantBody& body = get(plant);
+        const int count = int(body.fragment_bodies.size());
+        if (fragment < 0 || fragment >= count)
+            fail(FROND_BAD_ARGUMENT, "fragment is %d; %d fragments of this plant have come off", fragment, count);
+        Rigid& rigid = *body.fragment_bodies[size_t(fragment)];
+        if (!rigid.handle.id) rigid.handle.id = rigid_slots().insert(&rigid);
+        if (!rigid.handle.id) fail(FROND_OUT_OF_MEMORY, "too many rigid bodies; destroy some");
+        const Fragment& broken = body.plant->fragments[size_t(fragment)];
+        *out = {rigid.handle, capsule_of(*body.plant, broken.node), broken.mass};
+    });
+}
+
+frond_result frond_plant_break(frond_plant plant, int capsule) {
+    return call([&] {
+        PlantBody& body = get(plant);
+        const Plant& p = *body.plant;
+        check_range(capsule, 0, double(body.capsules.size()) - 1, "capsule");
+        const auto& [begin, end] = p.model->capsules[size_t(capsule)];
+        if (begin == end) fail(FROND_BAD_ARGUMENT, "capsule %d is a root of its own; nothing grows beyond it", capsule);
+        if (fragment_of_chain_node(p, size_t(end)))
+            fail(FROND_BAD_ARGUMENT, "capsule %d has come off already; mend the plant first", capsule);
+        break_off(*body.world, body, end);
+        show(body);
+    });
+}
+
+frond_result frond_plant_mend(frond_plant plant) {
+    return call([&] {
+        PlantBody& body = get(plant);
+        for (const Rigid* fragment : body.fragment_bodies) rigid_slots().erase(fragment->handle.id);
+        mend(*body.world, body);
+        show(body);
     });
 }
 

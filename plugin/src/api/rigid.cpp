@@ -1,6 +1,7 @@
 // frond_rigid_*: bodies that plants touch.
 #include "api/call.hpp"
 #include "api/handles.hpp"
+#include "world/fragments.hpp"
 
 using namespace frond;
 
@@ -66,8 +67,10 @@ frond_result frond_rigid_create(frond_world world, const frond_rigid_def* def, f
 
 void frond_rigid_destroy(frond_rigid rigid) {
     call([&] {
-        Rigid* found = rigid_slots().erase(rigid.id);
-        if (found) remove_rigid(*found->world, found);
+        Rigid* found = rigid_slots().find(rigid.id);
+        if (!found || found->grown_on) return;
+        rigid_slots().erase(rigid.id);
+        remove_rigid(*found->world, found);
     });
 }
 
@@ -90,6 +93,11 @@ frond_result frond_rigid_set_state(frond_rigid rigid, const frond_rigid_state* s
         check_state(*state);
         if (found.is_plane) fail(FROND_BAD_ARGUMENT, "the rigid body is a plane, which does not move; use a box");
         set_state(found, *state);
+        if (!found.grown_on) return;
+        carry_fragments(*found.grown_on);
+        moved(*found.grown_on->plant);
+        move_capsules(*found.grown_on);
+        found.world->bullet->updateSingleAabb(found.grown_on);
     });
 }
 

@@ -23,12 +23,11 @@ static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& de
     return {id};
 }
 
-static int nearest_node(const Plant& plant, const Vec3& world_point) {
-    const Vec3 p = plant.to_model(world_point);
-    const VecX& x = cage_places(plant);
+static int nearest_node(const Plant& plant, const Vec3& point) {
+    const auto distance = [&](int i) { return (node_place(plant, i) - point).squaredNorm(); };
     int nearest = 0;
     for (int i = 1; i < node_count_of(plant); i++)
-        if ((point(x, i) - p).squaredNorm() < (point(x, nearest) - p).squaredNorm()) nearest = i;
+        if (distance(i) < distance(nearest)) nearest = i;
     return nearest;
 }
 

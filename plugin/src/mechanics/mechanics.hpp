@@ -21,6 +21,8 @@ struct Elements {
     BlockPattern pattern;
     std::vector<double> damping_ratio;  // of the organ that each element belongs to [-]
     std::vector<Yield> yields;          // one an element; none where nothing can yield
+    std::vector<int> section;           // the capsule that each element belongs to, by the chain node at its end
+    std::vector<double> breaking;       // strain at which each capsule breaks [-], 0: never; none where nothing can
     virtual ~Elements() = default;
 
 protected:
@@ -48,6 +50,8 @@ struct TetElements : Elements {
     std::vector<double> lambda, mu;  // Lame's constants [Pa]
     std::vector<double> density;     // [kg/m^3]
     std::vector<TetLasting> lasting;  // by tets and their points; of a plant that has yielded, else none
+    // E I length / reach^2 of each capsule's section, reach being that of its outermost fibre [J].
+    std::vector<double> resistance;
     // Blocks of an element's nodes a >= b, in the order of nodes.of_tet, at [a(a+1)/2 + b] in a BlockMatrix of this
     // pattern: ten with order 1, else 55.
     std::vector<std::array<int, 10>> slots;
@@ -105,6 +109,10 @@ struct Mechanics {
     // All that is lasting, in numbers; set throws BAD_ARGUMENT, with nothing changed, for what get cannot have given.
     std::vector<double> (*get_lasting)(const Elements& own);
     void (*set_lasting)(Elements& own, const std::vector<double>& values);
+    // Breaking. The strain of each capsule's outermost fibre at x, one a chain node [-].
+    void (*section_strains)(const Elements& elements, const VecX& x, std::vector<double>& out);
+    // A copy without the elements of the capsules that are gone, one flag a chain node; the pattern stays.
+    std::unique_ptr<Elements> (*without)(const Elements& elements, const std::vector<uint8_t>& gone);
     // One solve alone may blow up where tets are inside out: go on from there with a line search.
     bool needs_search;
     // Nodes are pairs of a chain node's place and its rotation; the cage follows. Else nodes are the cage's.

@@ -88,37 +88,51 @@ double energy_of(const RodSegment& rod, const RodNode<double>& a, const RodNode<
            (rod.stretch.dot(bent.strain.cwiseAbs2()) + rod.bend.dot(bent.curvature.cwiseAbs2()));
 }
 
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
+// Lower blocks (r, c), c <= r, of the stiffness between the four nodes of the mechanics, at [r (r + 1) / 2 + c].
+using Blocks = std::array<Mat3, 10>;
 
-// The part of the stiffness that is never negative: how strains change with the nodes, weighted with resistance.
-Matrix12 positive_stiffness(const RodSegment& rod, const RodNode<double>& a, const RodNode<double>& b,
-                            const Bent<double>& bent) {
+// The part of the stiffness that is never negative: how strains change with the nodes, weighted with resistance. The
+// strain changes by T^T (move of b - move of a) + A (turn of a) + B (turn of b), T the frame half way.
+Blocks positive_stiffness(const RodSegment& rod, const RodNode<double>& a, const RodNode<double>& b,
+                          const Bent<double>& bent) {
     const Mat3 share = middle_share(a, bent.turn), chord = cross_matrix<double>(bent.chord);
-    Eigen::Matrix<double, 3, 12> strain;
-    strain << -Mat3::Identity(), chord * (Mat3::Identity() - share) * a.rate, Mat3::Identity(), chord * share * b.rate;
-    strain = bent.middle.transpose() * strain;
+    const Mat3 seen = bent.middle.transpose() * chord, by_share = seen * share;
+    const Mat3 A = (seen - by_share) * a.rate, B = by_share * b.rate;
     const Mat3 turning = rod.frame.transpose() * inverse_rate_matrix<double>(bent.turn) * a.rotation.transpose();
-    const Mat3 turn_a = -turning * a.rate, turn_b = turning * b.rate;
-    Matrix12 K = strain.transpose() * (rod.stretch / rod.length).asDiagonal() * strain;
-    const Mat3 weighted_a = (rod.bend / rod.length).asDiagonal() * turn_a;
-    const Mat3 weighted_b = (rod.bend / rod.length).asDiagonal() * turn_b;
-    K.block<3, 3>(3, 3) += turn_a.transpose() * weighted_a;
-    K.block<3, 3>(9, 3) += turn_b.transpose() * weighted_a;
-    K.block<3, 3>(9, 9) += turn_b.transpose() * weighted_b;
-    return K;  // upper half of the coupling left out: only the lower one is scattered
+    const Mat3 turn_a = turning * a.rate, turn_b = turning * b.rate;
+    const Vec3 stretch = rod.stretch / rod.length, bend = rod.bend / rod.length;
+    const Mat3 pulled = stretch.asDiagonal() * bent.middle.transpose();
+    const Mat3 weighted_A = stretch.asDiagonal() * A, weighted_B = stretch.asDiagonal() * B;
+    const Mat3 bent_a = bend.asDiagonal() * turn_a, bent_b = bend.asDiagonal() * turn_b;
+    Blocks K;
+    K[0] = bent.middle * pulled;
+    K[1] = -A.transpose() * pulled;
+    K[2] = A.transpose() * weighted_A + turn_a.transpose() * bent_a;
+    K[3] = -K[0];
+    K[4] = -K[1].transpose();
+    K[5] = K[0];
+    K[6] = -B.transpose() * pulled;
+    K[7] = B.transpose() * weighted_A - turn_b.transpose() * bent_a;
+    K[8] = -K[6];
+    K[9] = B.transpose() * weighted_B + turn_b.transpose() * bent_b;
+    return K;
 }
 
 // The derivative of the gradient, by forward differentiation of its own code.
-Matrix12 exact_stiffness(const RodSegment& rod, const VecX& x) {
+Blocks exact_stiffness(const RodSegment& rod, const VecX& x) {
     Vec3of<Dual> v[4];
     for (int n = 0; n < 4; ++n)
         for (int c = 0; c < 3; ++c)
             v[n][c] = Dual::variable(x[3 * (2 * (n < 2 ? rod.a : rod.b) + n % 2) + c], 3 * n + c);
     const RodNode<Dual> a = node_at<Dual>(v[0], v[1]), b = node_at<Dual>(v[2], v[3]);
     const Eigen::Matrix<Dual, 12, 1> g = gradient<Dual>(rod, a, b, bend_between(rod, a, b));
-    Matrix12 K;
-    for (int r = 0; r < 12; ++r) K.row(r) = g[r].slope.matrix().transpose();
-    return 0.5 * (K + K.transpose());
+    const auto slope = [&](int r, int c) { return 0.5 * (g[r].slope[c] + g[c].slope[r]); };
+    Blocks K;
+    for (int r = 0, k = 0; r < 4; ++r)
+        for (int c = 0; c <= r; ++c, ++k)
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) K[size_t(k)](i, j) = slope(3 * r + i, 3 * c + j);
+    return K;
 }
 
 std::vector<RodNode<double>> nodes_at(const VecX& x) {
@@ -133,15 +147,19 @@ void scatter_force(const RodSegment& rod, const Twelve& g, VecX& f) {
     f.segment<6>(6 * Eigen::Index(rod.b)) -= g.tail<6>();
 }
 
-void scatter_stiffness(const RodSegment& rod, const Matrix12& stiffness, BlockMatrix& K) {
-    for (int r = 0; r < 4; ++r)
-        for (int c = 0; c <= r; ++c) K.block(rod.slots[size_t(4 * r + c)]) += stiffness.block<3, 3>(3 * r, 3 * c);
+void scatter_stiffness(const RodSegment& rod, const Blocks& stiffness, double scale, BlockMatrix& K) {
+    for (size_t r = 0, k = 0; r < 4; ++r)
+        for (size_t c = 0; c <= r; ++c, ++k) K.block(rod.slots[4 * r + c]) += scale * stiffness[k];
 }
 
 }  // namespace
 
 std::vector<RodStrain> rod_strains(const RodElements& elements, const VecX& x) {
-    const std::vector<RodNode<double>> nodes = nodes_at(x);
+    // Strains alone need no rates.
+    std::vector<RodNode<double>> nodes;
+    nodes.reserve(size_t(x.size()) / 6);
+    for (int i = 0; i < x.size() / 3; i += 2)
+        nodes.push_back({point(x, i), rotation_of<double>(point(x, i + 1)), Mat3::Zero()});
     std::vector<RodStrain> strains;
     strains.reserve(elements.segments.size());
     for (const RodSegment& rod : elements.segments) {
@@ -172,9 +190,9 @@ void rod_add_stiffness(const Elements& body, const VecX& x, Tangent tangent, dou
     const std::vector<RodNode<double>> nodes = nodes_at(x);
     for (const RodSegment& rod : as_rods(body).segments) {
         const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
-        const Matrix12 stiffness = tangent == Tangent::exact ? exact_stiffness(rod, x)
-                                                             : positive_stiffness(rod, a, b, bend_between(rod, a, b));
-        scatter_stiffness(rod, scale * stiffness, K);
+        const Blocks stiffness = tangent == Tangent::exact ? exact_stiffness(rod, x)
+                                                           : positive_stiffness(rod, a, b, bend_between(rod, a, b));
+        scatter_stiffness(rod, stiffness, scale, K);
     }
 }
 
@@ -185,7 +203,7 @@ int rod_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, 
         const Bent<double> bent = bend_between(rod, a, b);
         scatter_force(rod, gradient(rod, a, b, bent), f);
         scatter_stiffness(
-            rod, tangent == Tangent::exact ? exact_stiffness(rod, x) : positive_stiffness(rod, a, b, bent), K);
+            rod, tangent == Tangent::exact ? exact_stiffness(rod, x) : positive_stiffness(rod, a, b, bent), 1, K);
     }
     return 0;
 }
@@ -199,9 +217,9 @@ int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double
         const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
         const Bent<double> bent = bend_between(rod, a, b);
         scatter_force(rod, gradient(rod, a, b, bent), f);
-        const Matrix12 stiffness = positive_stiffness(rod, a, b, bent);
-        scatter_stiffness(rod, stiffness, K);
-        scatter_stiffness(rod, damping[s] * stiffness, D);
+        const Blocks stiffness = positive_stiffness(rod, a, b, bent);
+        scatter_stiffness(rod, stiffness, 1, K);
+        scatter_stiffness(rod, stiffness, damping[s], D);
     }
     return 0;
 }
@@ -210,8 +228,8 @@ void rod_inertia(const Elements& body, const VecX& x, std::vector<Mat3>& out) {
     const RodElements& elements = as_rods(body);
     out.resize(elements.inertia.size());
     for (size_t i = 0; i < out.size(); ++i) {
-        const Vec3 turn = point(x, int(2 * i + 1));
-        const Mat3 rate = rotation_of<double>(turn).transpose() * rate_matrix<double>(turn);
+        // To the rate in the node's own frame: R(v)^T T(v) = T(-v).
+        const Mat3 rate = rate_matrix<double>(-point(x, int(2 * i + 1)));
         out[i] = rate.transpose() * elements.inertia[i] * rate;
     }
 }

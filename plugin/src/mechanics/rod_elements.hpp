@@ -43,6 +43,12 @@ struct RodStrain {
     Vec3 strain, curvature;
 };
 std::vector<RodStrain> rod_strains(const RodElements& elements, const VecX& x);
+// Of a piece's outermost fibre [-].
+struct FibreStrain {
+    double pull, bend;
+    double sum() const { return pull + bend; }
+};
+FibreStrain fibre_strain(const RodSegment& rod, const RodStrain& strain);
 // Sets `yields` of elements that are complete otherwise.
 void let_rods_yield(const Model& model, RodElements& elements);
 

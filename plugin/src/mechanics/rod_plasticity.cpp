@@ -12,15 +12,6 @@ namespace frond {
 
 namespace {
 
-// Of a piece's outermost fibre.
-struct FibreStrain {
-    double pull, bend;
-    double sum() const { return pull + bend; }
-};
-FibreStrain fibre_strain(const RodSegment& rod, const RodStrain& s) {
-    return {std::abs(s.strain[0]), std::hypot(rod.reach_wide * s.curvature[1], rod.reach_thin * s.curvature[2])};
-}
-
 void apply(const RodLasting& lasting, RodSegment& rod) {
     rod.rest_strain = lasting.rest_strain + Vec3(lasting.stretch, 0, 0);
     rod.rest_curvature = lasting.rest_curvature + Vec3(0, lasting.bend_wide, lasting.bend_thin);
@@ -29,6 +20,10 @@ void apply(const RodLasting& lasting, RodSegment& rod) {
 constexpr size_t NUMBERS = 4;  // of a piece: stretch, the two curvatures, hardening
 
 }  // namespace
+
+FibreStrain fibre_strain(const RodSegment& rod, const RodStrain& s) {
+    return {std::abs(s.strain[0]), std::hypot(rod.reach_wide * s.curvature[1], rod.reach_thin * s.curvature[2])};
+}
 
 void let_rods_yield(const Model& model, RodElements& elements) {
     std::vector<Yield> yields;

@@ -14,6 +14,8 @@ Mechanics tet_neohookean(int order);
 template <int ORDER>
 std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which);
 Masses tet_masses(const Elements&, frond_mass mass);
+void tet_section_strains(const Elements&, const VecX& x, std::vector<double>& out);
+std::unique_ptr<Elements> without_tets(const Elements&, const std::vector<uint8_t>& gone);
 template <class Element>
 bool tets_are_calm(const Elements&, const VecX& from, const VecX& to);
 
@@ -32,6 +34,8 @@ std::unique_ptr<Elements> copy_rods(const Elements&);
 void rods_flow(Elements& own, const VecX& x, double h);
 std::vector<double> lasting_of_rods(const Elements& own);
 void set_lasting_of_rods(Elements& own, const std::vector<double>& values);
+void rod_section_strains(const Elements&, const VecX& x, std::vector<double>& out);
+std::unique_ptr<Elements> without_rods(const Elements&, const std::vector<uint8_t>& gone);
 bool rods_are_calm(const Elements&, const VecX& from, const VecX& to);
 
 }  // namespace frond

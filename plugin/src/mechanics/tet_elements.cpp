@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/rows.hpp"
+#include "mechanics/sections.hpp"
 #include "mechanics/tet_plasticity.hpp"
 #include "model/tet_geometry.hpp"
 
@@ -95,13 +96,29 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions, in
     return out;
 }
 
+// E I length / reach^2 of each capsule's section against bending to its thin side, as stiff as the organ was made.
+static std::vector<double> bending_resistance(const Model& model) {
+    std::vector<double> resistance(model.chain.nodes.size(), 0);
+    for (size_t i = 0; i < resistance.size(); ++i) {
+        if (model.chain.nodes[i].parent < 0 || model.sections.size() != resistance.size()) continue;
+        const Section& section = model.sections[i];
+        const double reach = 0.5 * section.thickness;
+        resistance[i] = model.organ_stiffer[size_t(std::max(model.chain.nodes[i].organ, 0))] * section.bending_thin() *
+                        section.length / (reach * reach);
+    }
+    return resistance;
+}
+
 template <int ORDER>
 std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which) {
     const VecX& rest = model.rest_shapes->positions[size_t(which)];
     auto elements = std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr, ORDER));
     for (int organ : model.cage.tet_organ)
         elements->damping_ratio.push_back(model.organs[size_t(organ)].material.damping_ratio);
+    elements->section = capsules_of_tets(model);
+    elements->resistance = bending_resistance(model);
     let_tets_yield(model, *elements);
+    let_break(model, mechanics(which, ORDER), *elements);
     return elements;
 }
 template std::unique_ptr<const Elements> make_tets<1>(const Model&, frond_mechanics);

@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "mechanics/polar.hpp"
+#include "mechanics/sections.hpp"
 #include "model/tet_geometry.hpp"
 
 namespace frond {
@@ -29,38 +30,6 @@ double as_pulled(const TetShare& share, double deviator_norm) {
     return std::sqrt(1.5) * deviator_norm / (1 + poisson);
 }
 
-double distance_to_capsule(const Model& model, size_t node, const Vec3& p) {
-    const Vec3& b = model.chain.nodes[node].position;
-    const Vec3 along = model.chain.nodes[size_t(model.chain.nodes[node].parent)].position - b;
-    const double share = std::clamp((p - b).dot(along) / std::max(along.squaredNorm(), 1e-30), 0.0, 1.0);
-    return (p - b - share * along).squaredNorm();
-}
-
-// The capsule that each tet belongs to, by the chain node at its end: the nearest one of its organ, else of all; 0 if
-// there is none.
-std::vector<size_t> capsules_of_tets(const Model& model) {
-    const std::vector<ChainNode>& nodes = model.chain.nodes;
-    std::vector<size_t> capsule;
-    for (size_t e = 0; e < model.cage.tets.size(); ++e) {
-        Vec3 middle = Vec3::Zero();
-        for (int corner : model.cage.tets[e]) middle += 0.25 * model.cage.nodes[size_t(corner)];
-        double least = INFINITY;
-        size_t nearest = 0;
-        bool own = false;
-        for (size_t i = 0; i < nodes.size(); ++i) {
-            if (nodes[i].parent < 0) continue;
-            const bool is_own = nodes[i].organ == model.cage.tet_organ[e];
-            const double distance = distance_to_capsule(model, i, middle);
-            if (is_own < own || (is_own == own && distance >= least)) continue;
-            own = is_own;
-            least = distance;
-            nearest = i;
-        }
-        capsule.push_back(nearest);
-    }
-    return capsule;
-}
-
 // Tets are strained unevenly: at the mean square the first ones would yield long before the rod's rim. At so many times
 // its root they keep their shape at half of the rod's load, and at one and a half times it within half of the rod's set
 // (tests/plant/plasticity.cpp).
@@ -68,17 +37,17 @@ constexpr double RIM = 1.4;
 
 // The strain at which a calibrated cage's tets yield over that of its organ's outermost fibre, one a tet [-]. Within a
 // capsule tets of other moduli bear the same energy a volume.
-std::vector<double> strain_in_cage(const Model& model, const std::vector<size_t>& capsule) {
+std::vector<double> strain_in_cage(const Model& model, const std::vector<int>& capsule) {
     std::vector<double> resistance(model.chain.nodes.size(), 0);  // sum of E V [J]
     std::vector<double> volume(resistance.size(), 0);
     for (size_t e = 0; e < capsule.size(); ++e) {
         const double own = std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
-        resistance[capsule[e]] += model.tet_young[e] * own;
-        volume[capsule[e]] += own;
+        resistance[size_t(capsule[e])] += model.tet_young[e] * own;
+        volume[size_t(capsule[e])] += own;
     }
     std::vector<double> share(capsule.size(), 1);
     for (size_t e = 0; e < share.size(); ++e) {
-        const size_t i = capsule[e];
+        const size_t i = size_t(capsule[e]);
         const Section& section = model.sections[i];
         const double stiffer = model.organ_stiffer[size_t(std::max(model.chain.nodes[i].organ, 0))];
         if (model.chain.nodes[i].parent < 0 || resistance[i] == 0) continue;
@@ -101,13 +70,17 @@ Strained strained_at(const TetShare& share, const Mat3& F) {
     return out;
 }
 
+double green_strain(const TetShare& share, const Mat3& F) {
+    Mat3 E = 0.5 * (F.transpose() * F);
+    E.diagonal().array() -= E.trace() / 3;
+    return as_pulled(share, E.norm());
+}
+
 bool exceeds(const TetShare& share, const Mat3& F, double most, Strained& out) {
     if (most == 0) return false;
     // Green's strain needs no rotation; down to a stretch of 0.4 the logarithmic one is no larger than this times it.
     constexpr double LOG_OVER_GREEN = 2.2;
-    Mat3 E = 0.5 * (F.transpose() * F);
-    E.diagonal().array() -= E.trace() / 3;
-    if (!(LOG_OVER_GREEN * as_pulled(share, E.norm()) > most)) return false;
+    if (!(LOG_OVER_GREEN * green_strain(share, F) > most)) return false;
     out = strained_at(share, F);
     return out.strain > most;
 }
@@ -136,8 +109,7 @@ void let_tets_yield(const Model& model, TetElements& elements) {
     for (int organ : model.cage.tet_organ) yields.push_back(yield_of(model, organ));
     if (std::all_of(yields.begin(), yields.end(), [](const Yield& y) { return y.strain == 0; })) return;
     if (model.calibrated) {
-        const std::vector<size_t> capsule = capsules_of_tets(model);
-        const std::vector<double> share = strain_in_cage(model, capsule);
+        const std::vector<double> share = strain_in_cage(model, elements.section);
         for (size_t e = 0; e < yields.size(); ++e) yields[e].strain *= share[e];
     }
     for (size_t e = 0; e < yields.size(); ++e) {
@@ -188,7 +160,7 @@ void set_lasting_of_tets(Elements& body, const std::vector<double>& values) {
     if (values.size() != NUMBERS * lasting.size())
         fail(FROND_BAD_ARGUMENT, "%zu numbers of what is lasting were given, but a plant of these tets has %zu",
              values.size(), NUMBERS * lasting.size());
-    const size_t points = lasting.size() / elements.tets.size();
+    const size_t points = elements.nodes.order == 1 ? LinearTet::POINTS : QuadraticTetElement::POINTS;
     for (size_t p = 0; p < lasting.size(); ++p) {
         TetLasting& l = lasting[p];
         l.inverse = Eigen::Map<const Mat3>(values.data() + NUMBERS * p);

@@ -11,6 +11,8 @@ struct Strained {
     Mat3 S;
     double strain;
 };
+// Nearly the same by Green's strain, for strains that are small; without a rotation, and of any F.
+double green_strain(const TetShare& share, const Mat3& F);
 Strained strained_at(const TetShare& share, const Mat3& F);
 // Whether that strain is beyond `most`, which is never where `most` is zero. Most tets are told without a rotation.
 bool exceeds(const TetShare& share, const Mat3& F, double most, Strained& out);

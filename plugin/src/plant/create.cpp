@@ -89,6 +89,7 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.motion.v = plant.loads.force = VecX::Zero(start.size());
     plant.motion.pinned.assign(size_t(start.size() / 3), 0);
     plant.pins_changed = plant.cage_stale = true;
+    plant.substeps = 1;
 }
 
 // The chain nodes that hold pinned cage nodes: of those that the ground holds, the nearest one at the foot.
@@ -137,6 +138,8 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     plant->settings.stiffness_damping = def.stiffness_damping;
     plant->material_damping = def.material_damping;
     plant->settings.spectral_radius = def.spectral_radius;
+    plant->max_substeps = def.max_substeps;
+    plant->substep_tolerance = def.substep_tolerance;
     plant->effects = def.effects;
     plant->position = Vec3(def.position.x, def.position.y, def.position.z);
     plant->rotation = Quat(def.rotation.w, def.rotation.x, def.rotation.y, def.rotation.z).normalized();
@@ -162,7 +165,6 @@ void set_mechanics(Plant& plant, frond_mechanics which) {
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
     const std::vector<double> lasting = keeps ? lasting_of(plant) : std::vector<double>();
     take_mechanics(plant, which);
-    set_lasting(plant, lasting);
     if (plant.follow) {
         fit_chain(*plant.follow, *plant.model, places, plant.motion.x);
         fit_velocities(*plant.follow, plant.motion.x, velocities, plant.motion.v);
@@ -170,6 +172,17 @@ void set_mechanics(Plant& plant, frond_mechanics which) {
         plant.motion.x = places;
         plant.motion.v = velocities;
     }
+    leave_fragments(plant);
+    set_lasting(plant, lasting);
+    apply_pins(plant);
+    moved(plant);
+}
+
+void mend(Plant& plant) {
+    if (plant.fragments.empty()) return;
+    plant.fragments.clear();
+    plant.parting = {};
+    take_mechanics(plant, plant.which);
     apply_pins(plant);
     moved(plant);
 }

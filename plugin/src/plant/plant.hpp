@@ -5,6 +5,7 @@
 #include <list>
 
 #include "plant/follow.hpp"
+#include "plant/fragment.hpp"
 #include "solve/solve.hpp"
 
 namespace frond {
@@ -22,6 +23,12 @@ struct CageNodes : TetNodes {
     VecX modelled;  // where they are in the modelled shape [m]
 };
 
+// How velocities changed in the last substep, for a guess of the next one's end.
+struct Trend {
+    VecX v_end;  // [m/s]
+    VecX rate;   // [m/s^2]
+};
+
 // Nodes that the host sees are the cage's, whatever moves. Where the mechanics move the chain, the cage follows it.
 struct Plant {
     std::shared_ptr<const Model> model;
@@ -33,6 +40,11 @@ struct Plant {
     WorkspacePtr workspace;  // refers to them
     SolveSettings settings, step_settings;  // the latter without what the running step's effects leave out
     double material_damping;  // share of the organs' damping ratios that counts [-]
+    int max_substeps;
+    double substep_tolerance;  // local error of a place in a step, over the plant's size [-]
+    int substeps = 1;          // of the next step
+    bool is_touched = false;   // by bodies, which answer to whole steps
+    Trend trend;               // empty with one substep
     frond_effects effects;
     Vec3 position;  // of the model's frame in the world [m]
     Quat rotation;
@@ -53,6 +65,9 @@ struct Plant {
     VecX user_force;      // on cage nodes, until the end of the host's step, world frame [N]
     bool has_user_force = false;
     std::list<Grab> grabs;
+
+    std::vector<Fragment> fragments;  // that came off
+    Parting parting;
 
     // What follows the cage.
     std::vector<Vec3> chain_positions;                      // model frame [m]
@@ -82,6 +97,8 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 // A step in two halves, between which contacts may change what the first one found: effects and solve; then accept, with
 // what becomes lasting, or rewind, and the chain.
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
+// The middle of the first half: plant.motion goes on by h under plant.loads.
+SolveReport solve_in_substeps(Plant& plant, double h);
 // Takes contact_impulse and contact_shift into the step that was solved.
 void add_contacts(Plant& plant, double h);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
@@ -102,10 +119,16 @@ void set_state(Plant& plant, const double* positions, const double* velocities);
 std::vector<double> lasting_of(const Plant& plant);
 void set_lasting(Plant& plant, const std::vector<double>& values);
 void update_chain(Plant& plant);
+// Of a capsule of Model::capsules, model frame [m].
+std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule);
 // After the motion was changed: the chain now, cage and surface when somebody looks.
 void moved(Plant& plant);
 
 int node_count_of(const Plant& plant);
+// Of cage nodes, world frame [m], wherever their fragments are.
+Vec3 node_place(const Plant& plant, int node);
+// `v` being cage_velocities() [m/s].
+Vec3 node_velocity(const Plant& plant, const VecX& v, int node);
 // Of the cage nodes, model frame [m]. Borrowed until the plant moves.
 const VecX& cage_places(const Plant& plant);
 VecX cage_velocities(const Plant& plant);  // [m/s]

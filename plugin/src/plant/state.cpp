@@ -22,9 +22,10 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
     const Quat to_model = plant.rotation.conjugate();
     Motion& motion = plant.motion;
     VecX x, v;
-    if (positions) x.resize(3 * node_count_of(plant));
-    if (velocities) v.resize(3 * node_count_of(plant));
+    if (positions) x = cage_places(plant);
+    if (velocities) v.setZero(3 * node_count_of(plant));
     for (int i = 0; i < node_count_of(plant); i++) {
+        if (fragment_of_node(plant, size_t(i))) continue;  // where its fragment is
         if (positions) point(x, i) = plant.to_model(Vec3(positions + 3 * i));
         if (velocities) point(v, i) = to_model * Vec3(velocities + 3 * i);
     }
@@ -32,6 +33,7 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
     if (plant.follow) {
         if (positions) fit_chain(*plant.follow, *plant.model, x, motion.x);
         if (velocities) fit_velocities(*plant.follow, motion.x, v, motion.v);
+        carry_stumps(plant);
     } else {
         if (positions) motion.x = x;
         if (velocities) motion.v = v;
@@ -67,6 +69,16 @@ const VecX& cage_places(const Plant& plant) {
     if (plant.cage_stale) follow_places(*plant.follow, plant.motion.x, plant.cage_x);
     plant.cage_stale = false;
     return plant.cage_x;
+}
+
+Vec3 node_place(const Plant& plant, int node) {
+    const Fragment* fragment = fragment_of_node(plant, size_t(node));
+    return fragment ? fragment->place(point(fragment->cage_x, node)) : plant.to_world(point(cage_places(plant), node));
+}
+
+Vec3 node_velocity(const Plant& plant, const VecX& v, int node) {
+    const Fragment* fragment = fragment_of_node(plant, size_t(node));
+    return fragment ? fragment->velocity_at(node_place(plant, node)) : Vec3(plant.rotation * point(v, node));
 }
 
 VecX cage_velocities(const Plant& plant) {

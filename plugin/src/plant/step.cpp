@@ -27,7 +27,8 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
         }
     }
     for (const Grab& grab : plant.grabs)
-        loads.springs.push_back({vertex_grip(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
+        if (!fragment_of_vertex(plant, size_t(grab.vertex)))
+            loads.springs.push_back({vertex_grip(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
 }
 
 // Whether all places, not the rotations of a chain, are nearer than that to `from`.
@@ -99,7 +100,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.ms_effects = timer.lap();
 
     // Solve.
-    plant.report = solve_step(*plant.workspace, settings, plant.loads, h, motion);
+    plant.report = solve_in_substeps(plant, h);
     if (!plant.report.ok || !is_plausible(plant)) solve_carefully(plant, h);
     plant.is_sound = is_sound(plant);
 }
@@ -146,6 +147,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     } else if (effects & FROND_PLASTICITY) {
         keep_sets(plant, h);
     }
+    carry_stumps(plant);
     moved(plant);
 }
 

@@ -44,42 +44,57 @@ static Mat3 weighted_cofactor(const Mat3& E, const Mat3& M) {
     return (M.determinant() < 0 ? -1 : 1) * C * M.transpose();
 }
 
+// What is drawn as one: the plant, or a fragment that came off it.
+struct Drawn {
+    int fragment;  // -1: the plant itself
+    const VecX& x;
+    Mat3 turn;
+    Vec3 shift;
+};
+static bool belongs(const std::vector<int>& of, size_t i, const Drawn& drawn) {
+    return (of.empty() ? -1 : of[i]) == drawn.fragment;
+}
+
 // Normals turn with the cofactor of the deformation gradient F = E M^-1 from the modelled shape, M its edges and E
 // those of now. One matrix a node, the volume-weighted mean over its tets, is interpolated like the positions, so that
 // shading stays smooth across tets and hard edges stay hard. Times the volume det(M) / 6 the cofactor is cof(E) M^T
 // / 6; of quadratic tets that at the node.
-static void update_normals(Plant& plant) {
+static void update_normals(Plant& plant, const Drawn& drawn) {
     const Model& model = *plant.model;
     const std::vector<Vec3>& modelled = model.cage.nodes;
-    const VecX& x = cage_places(plant);
+    const VecX& x = drawn.x;
     std::vector<Mat3> cofactor(modelled.size(), Mat3::Zero());
     const auto modelled_edges = [&](const auto& tet) {
         return edges_of(modelled[size_t(tet[0])], modelled[size_t(tet[1])], modelled[size_t(tet[2])],
                         modelled[size_t(tet[3])]);
     };
     if (plant.nodes->order == 1) {
-        for (const Tet& tet : model.cage.tets) {
+        for (size_t e = 0; e < model.cage.tets.size(); e++) {
+            if (!belongs(plant.parting.of_tet, e, drawn)) continue;
+            const Tet& tet = model.cage.tets[e];
             const Mat3 E = edges_of(point(x, tet[0]), point(x, tet[1]), point(x, tet[2]), point(x, tet[3]));
             const Mat3 weighted = weighted_cofactor(E, modelled_edges(tet));
             for (int corner : tet) cofactor[size_t(corner)] += weighted;
         }
     } else {
-        for (const QuadraticTet& tet : plant.nodes->of_tet) {
+        for (size_t e = 0; e < model.cage.tets.size(); e++) {
+            if (!belongs(plant.parting.of_tet, e, drawn)) continue;
+            const QuadraticTet& tet = plant.nodes->of_tet[e];
             const Mat3 M = modelled_edges(tet);
             for (size_t c = 0; c < 4; c++) cofactor[size_t(tet[c])] += weighted_cofactor(edges_at_corner(tet, c, x), M);
         }
     }
-    const Mat3 turn = plant.rotation.toRotationMatrix();
-    for (Mat3& C : cofactor) C = turn * C;
+    for (Mat3& C : cofactor) C = drawn.turn * C;
 
     for (size_t v = 0; v < model.surface.normals.size(); v++) {
+        if (!belongs(plant.parting.of_vertex, v, drawn)) continue;
         const Tet& tet = model.cage.tets[size_t(model.embedding.tet[v])];
         const std::array<double, 4>& w = model.embedding.weights[v];
         const Vec3 rest = model.surface.normals[v].cast<double>();
         Vec3 normal = Vec3::Zero();
         for (size_t k = 0; k < 4; k++) normal += w[k] * (cofactor[size_t(tet[k])] * rest);
         const double length = normal.norm();
-        normal = length > 0 ? Vec3(normal / length) : Vec3(turn * rest);
+        normal = length > 0 ? Vec3(normal / length) : Vec3(drawn.turn * rest);
         for (int axis = 0; axis < 3; axis++) plant.surface_normals[3 * v + size_t(axis)] = float(normal[axis]);
     }
 }
@@ -88,30 +103,33 @@ void update_surface(Plant& plant, frond_effects effects) {
     const Model& model = *plant.model;
     const size_t vertex_count = model.surface.positions.size();
     Timer timer;
-    const VecX& x = cage_places(plant);
     plant.surface_positions.resize(3 * vertex_count);
     plant.surface_normals.resize(3 * vertex_count);
-    const Mat3 turn = plant.rotation.toRotationMatrix();
-    for (size_t v = 0; v < vertex_count; v++) {
-        const Vec3 p = turn * bound_point(plant, model.embedding, v, x) + plant.position;
-        for (int axis = 0; axis < 3; axis++) plant.surface_positions[3 * v + size_t(axis)] = float(p[axis]);
+    std::vector<Drawn> list = {{-1, cage_places(plant), plant.rotation.toRotationMatrix(), plant.position}};
+    for (const Fragment& fragment : plant.fragments) list.push_back({int(list.size()) - 1, fragment.cage_x, fragment.turn, fragment.shift});
+    for (const Drawn& drawn : list) {
+        for (size_t v = 0; v < vertex_count; v++) {
+            if (!belongs(plant.parting.of_vertex, v, drawn)) continue;
+            const Vec3 p = drawn.turn * bound_point(plant, model.embedding, v, drawn.x) + drawn.shift;
+            for (int axis = 0; axis < 3; axis++) plant.surface_positions[3 * v + size_t(axis)] = float(p[axis]);
+        }
+        if (effects & FROND_NORMALS) update_normals(plant, drawn);
     }
-    if (effects & FROND_NORMALS) update_normals(plant);
     plant.surface_stale = false;
     plant.ms_surface = timer.ms();
 }
 
 Vec3 vertex_position(const Plant& plant, int vertex) {
-    return plant.to_world(bound_point(plant, plant.model->embedding, size_t(vertex), cage_places(plant)));
+    const Fragment* fragment = fragment_of_vertex(plant, size_t(vertex));
+    const auto bound = [&](const VecX& x) { return bound_point(plant, plant.model->embedding, size_t(vertex), x); };
+    return fragment ? fragment->place(bound(fragment->cage_x)) : plant.to_world(bound(cage_places(plant)));
 }
 
-int nearest_vertex(const Plant& plant, const Vec3& world_point) {
-    const Vec3 p = plant.to_model(world_point);
+int nearest_vertex(const Plant& plant, const Vec3& point) {
     int nearest = 0;
     double best = INFINITY;
     for (size_t v = 0; v < plant.model->surface.positions.size(); v++) {
-        const double distance =
-            (bound_point(plant, plant.model->embedding, v, cage_places(plant)) - p).squaredNorm();
+        const double distance = (vertex_position(plant, int(v)) - point).squaredNorm();
         if (distance < best) {
             best = distance;
             nearest = int(v);
@@ -120,14 +138,36 @@ int nearest_vertex(const Plant& plant, const Vec3& world_point) {
     return nearest;
 }
 
+// Of a cage. A node whose tet is gone goes with its parent.
+static Vec3 chain_point(const Plant& plant, size_t i) {
+    const Embedding& embedding = plant.model->chain_embedding;
+    const int parent = plant.model->chain.nodes[i].parent;
+    const std::vector<int>& of_tet = plant.parting.of_tet;
+    const int fragment = of_tet.empty() ? -1 : of_tet[size_t(embedding.tet[i])];
+    if (fragment < 0 || parent < 0) return bound_point(plant, embedding, i, plant.motion.x);
+    const std::vector<Vec3>& then = plant.fragments[size_t(fragment)].chain_x;
+    return plant.chain_positions[size_t(parent)] + then[i] - then[size_t(parent)];
+}
+
 void update_chain(Plant& plant) {
     const size_t count = plant.model->chain.nodes.size();
     plant.chain_positions.resize(count);
     const VecX& x = plant.motion.x;
-    for (size_t i = 0; i < count; i++)
-        plant.chain_positions[i] = plant.follow
-                                       ? Vec3(point(x, int(2 * i)))
-                                       : bound_point(plant, plant.model->chain_embedding, i, x);
+    for (size_t i = 0; i < count; i++) {
+        const Fragment* fragment = fragment_of_chain_node(plant, i);
+        plant.chain_positions[i] = fragment          ? plant.to_model(fragment->place(fragment->chain_x[i]))
+                                   : plant.follow ? Vec3(point(x, int(2 * i)))
+                                                  : chain_point(plant, i);
+    }
+}
+
+// One that came off begins where it broke.
+std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule) {
+    const auto& [begin, end] = plant.model->capsules[capsule];
+    const Fragment* fragment = fragment_of_chain_node(plant, size_t(end));
+    return {fragment ? plant.to_model(fragment->place(fragment->chain_x[size_t(begin)]))
+                     : plant.chain_positions[size_t(begin)],
+            plant.chain_positions[size_t(end)]};
 }
 
 // Of a chain: the corner of the vertex's tet that it is nearest to stands for it, and a rigid arm reaches the rest.

@@ -8,6 +8,26 @@
 
 namespace frond {
 
+// What follows from the elements.
+static void finish(System& system, frond_mass mass) {
+    system.masses = system.row->masses(*system.elements, mass);
+    const std::vector<double>& ratio = system.elements->damping_ratio;
+    system.damps_alike = std::adjacent_find(ratio.begin(), ratio.end(), std::not_equal_to<>()) == ratio.end();
+
+    // A node without elements would make the matrix singular. Rotations have no mass but inertia, and go with places.
+    const BlockPattern& pattern = system.elements->pattern;
+    const int step = system.row->moves_chain ? 2 : 1;
+    system.loose.assign(size_t(system.elements->node_count), 0);
+    Vec3 lower = Vec3::Constant(INFINITY), upper = -lower;
+    for (int i = 0; i < system.elements->node_count; i += step) {
+        const bool is_loose = !(system.masses.slot[size_t(pattern.start[size_t(i)])] > 0);
+        for (int k = 0; k < step; ++k) system.loose[size_t(i + k)] = is_loose;
+        lower = lower.cwiseMin(point(system.elements->rest_positions, i));
+        upper = upper.cwiseMax(point(system.elements->rest_positions, i));
+    }
+    system.size = (upper - lower).maxCoeff();
+}
+
 std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass,
                                           int order) {
     if (!model) fail(FROND_INTERNAL, "a system was asked for without a model");
@@ -18,23 +38,18 @@ std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, fr
     system->model = std::move(model);
     const Mechanics& row = *(system->row = &mechanics(which, order));
     system->elements = row.make(*system->model, which);
-    system->masses = row.masses(*system->elements, mass);
-    const std::vector<double>& ratio = system->elements->damping_ratio;
-    system->damps_alike = std::adjacent_find(ratio.begin(), ratio.end(), std::not_equal_to<>()) == ratio.end();
+    finish(*system, mass);
     system->plan = make_direct_plan(system->elements->pattern);
+    return system;
+}
 
-    const BlockPattern& pattern = system->elements->pattern;
-
-    // A node without elements would make the matrix singular.
-    const int step = row.moves_chain ? 2 : 1;  // over rotations, which have no mass but inertia
-    system->loose.assign(size_t(system->elements->node_count), 0);
-    Vec3 lower = Vec3::Constant(INFINITY), upper = -lower;
-    for (int i = 0; i < system->elements->node_count; i += step) {
-        system->loose[size_t(i)] = !(system->masses.slot[size_t(pattern.start[size_t(i)])] > 0);
-        lower = lower.cwiseMin(point(system->elements->rest_positions, i));
-        upper = upper.cwiseMax(point(system->elements->rest_positions, i));
-    }
-    system->size = (upper - lower).maxCoeff();
+std::shared_ptr<const System> system_without(const System& whole, const std::vector<uint8_t>& gone) {
+    auto system = std::make_shared<System>();
+    system->model = whole.model;
+    system->row = whole.row;
+    system->elements = whole.row->without(*whole.elements, gone);
+    system->plan = whole.plan;
+    finish(*system, whole.masses.lumped ? FROND_LUMPED : FROND_CONSISTENT);
     return system;
 }
 

@@ -14,6 +14,9 @@ struct System;
 // One a mechanics, since each has a rest shape of its own, and one an order of its elements.
 std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass,
                                           int order = 1);
+// Without the elements of the capsules that are gone, one flag a chain node. Nodes stay; those that no element holds any
+// more are left where they are.
+std::shared_ptr<const System> system_without(const System& whole, const std::vector<uint8_t>& gone);
 const Model& model_of(const System& system);
 const Elements& elements_of(const System& system);
 const VecX& node_mass_of(const System& system);  // sums of the mass matrix's rows, one a node [kg]

@@ -66,10 +66,11 @@ void prepare_damping(Workspace& workspace, const SolveSettings& settings) {
 
 // A method that looks back may do so only from the state that it left itself, and not over a jump of the time step.
 bool history_holds(const StepInput& input) {
-    constexpr double LARGEST_RATIO = 2;  // bdf2 is stable up to 1 + sqrt 2
+    // Bdf2 is stable while steps grow by less than 1 + sqrt 2 and however they shrink.
+    constexpr double LARGEST_GROWTH = 2, LARGEST_FALL = 8;
     const History& history = input.motion.history;
-    return history.valid && history.integrator == input.settings.integrator && input.h <= LARGEST_RATIO * history.h &&
-           history.h <= LARGEST_RATIO * input.h && history.x_end.size() == input.motion.x.size() &&
+    return history.valid && history.integrator == input.settings.integrator && input.h <= LARGEST_GROWTH * history.h &&
+           history.h <= LARGEST_FALL * input.h && history.x_end.size() == input.motion.x.size() &&
            history.pinned == input.motion.pinned && history.x_end == input.motion.x && history.v_end == input.motion.v;
 }
 

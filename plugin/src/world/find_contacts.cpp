@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "world/convert.hpp"
+#include "world/fragments.hpp"
 #include "world/pusher.hpp"
 #include "world/world.hpp"
 
@@ -94,7 +95,7 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
         const btVector3 on_other = other->getWorldTransform() * (plant_first ? p.m_localPointB : p.m_localPointA);
         int capsule = plant_first ? p.m_index0 : p.m_index1;
         if (capsule < 0) capsule = nearest_capsule(*body, from_bullet(on_other));
-        if (capsule < 0 || size_t(capsule) >= body->capsules.size()) continue;
+        if (capsule < 0 || size_t(capsule) >= body->capsules.size() || is_apart(*body, capsule, *other)) continue;
         const Vec3 towards = (plant_first ? 1.0 : -1.0) * from_bullet(p.m_normalWorldOnB);
         Contact contact = contact_at(*body, capsule, *other, from_bullet(on_other), towards);
         constexpr double FAR = 0.05;  // [m]
@@ -122,6 +123,7 @@ struct Sweep : btCollisionWorld::ConvexResultCallback {
             return c.plant == body && c.capsule == capsule && c.other == &other;
         });
         if (known || capsule < 0 || size_t(capsule) >= body->capsules.size()) return 1;
+        if (is_apart(*body, capsule, other)) return 1;
         btVector3 normal = hit.m_hitNormalLocal;
         if (!normal_in_world) normal = body->getWorldTransform().getBasis() * normal;
         const Vec3 passed = double(hit.m_hitFraction) * way, on_plant = from_bullet(hit.m_hitPointLocal);

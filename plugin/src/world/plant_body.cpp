@@ -9,8 +9,7 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// The frame of a capsule, whose axis is y, between two points.
-static btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
+btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
     const Vec3 axis = end - begin;
     const Quat turn = axis.squaredNorm() > 0 ? Quat::FromTwoVectors(Vec3::UnitY(), axis) : Quat::Identity();
     const btQuaternion rotation(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), btScalar(turn.w()));
@@ -69,9 +68,8 @@ PlantBody::~PlantBody() {
 void move_capsules(PlantBody& body) {
     const Plant& plant = *body.plant;
     for (size_t i = 0; i < body.capsules.size(); i++) {
-        const auto& [begin, end] = plant.model->capsules[i];
-        const btTransform frame =
-            capsule_frame(plant.chain_positions[size_t(begin)], plant.chain_positions[size_t(end)]);
+        const auto [begin, end] = capsule_ends(plant, i);
+        const btTransform frame = capsule_frame(begin, end);
         body.compound()->updateChildTransform(int(i), frame, false);
     }
     body.compound()->recalculateLocalAabb();

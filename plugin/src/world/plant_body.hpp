@@ -15,6 +15,7 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 struct World;
+struct Rigid;
 
 // What a plant stood in when it came into the world, ground and pots, does not push it out: how deep, by capsule, body
 // and the body's number in the broad phase, which tells it from a later one in the same memory [m].
@@ -30,6 +31,7 @@ struct PlantBody : btSoftBody {
     GrownIn grown_in;
     int number = 0;  // among the world's plants, in the running substep
     std::shared_ptr<const Collider> collider;  // null until other plants, or it itself, may touch it
+    std::vector<Rigid*> fragment_bodies;  // the world's, one for each of plant->fragments
     std::vector<std::unique_ptr<btCapsuleShape>> capsules;  // in the order of Model::capsules
 
     PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> plant);
@@ -48,6 +50,8 @@ struct PlantBody : btSoftBody {
 void move_capsules(PlantBody& body);
 // Makes ready for contact of cages. The broad phase then sees the plant as wide as its cage.
 void take_collider(PlantBody& body);
+// The frame of a capsule, whose axis is y, between two points.
+btTransform capsule_frame(const Vec3& begin, const Vec3& end);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -4,6 +4,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
+#include <vector>
 
 #include "core/types.hpp"
 #include "frond/frond_bullet.hpp"
@@ -12,13 +13,19 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 struct World;
+struct PlantBody;
 
 struct Rigid {
     World* world;
     frond_rigid handle = {};
     bool is_plane;
+    std::vector<std::unique_ptr<btCollisionShape>> children;  // of a compound
     std::unique_ptr<btCollisionShape> shape;
     std::unique_ptr<btRigidBody> body;
+    // A fragment that came off a plant: where the body's frame was in the model's one then.
+    PlantBody* grown_on = nullptr;
+    Mat3 grown_turn = Mat3::Identity();
+    Vec3 grown_shift = Vec3::Zero();
 };
 
 // `def` has been checked by the caller.

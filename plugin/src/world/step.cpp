@@ -4,6 +4,7 @@
 
 #include "core/timer.hpp"
 #include "world/convert.hpp"
+#include "world/fragments.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -37,6 +38,11 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
             return body->plant->effects & effects & effect;
         });
     };
+    for (const std::unique_ptr<PlantBody>& body : bodies) {
+        if (body->fragment_bodies.empty()) continue;
+        carry_fragments(*body);
+        if (body->plant->effects & effects & FROND_USER_FORCE) pull_fragments(*body, double(h));
+    }
     contacts.clear();
     for (size_t i = 0; i < bodies.size(); i++) bodies[i]->number = int(i);
     const Timer find_timer;
@@ -46,6 +52,11 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     else
         plant_contacts.clear();
     report.ms_collide = find_timer.ms();
+    for (const std::unique_ptr<PlantBody>& body : bodies) body->plant->is_touched = false;
+    for (const Contact& contact : contacts) contact.plant->plant->is_touched = true;
+    for (const PlantContact& contact : plant_contacts)
+        for (PlantBody* body : contact.plants) body->plant->is_touched = true;
+    for (const Bond& bond : bonds) bond.plant->plant->is_touched = true;
     for (const std::unique_ptr<PlantBody>& body : bodies) solve_plant(*body->plant, surroundings, double(h));
     const Timer response_timer;
     let_go_of_gone(*this);
@@ -56,6 +67,7 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     for (const std::unique_ptr<PlantBody>& body : bodies) {
         accept_step(*body->plant, surroundings, double(h));
         add_to_report(*body->plant, report);
+        if (body->plant->effects & effects & FROND_BREAKING) report.broken_count += break_overloaded(*this, *body);
 
         const Timer capsule_timer;
         move_capsules(*body);
@@ -76,7 +88,7 @@ void advance(World& world, double dt) {
     for (const std::unique_ptr<PlantBody>& body : world.bodies) clear_user_force(*body->plant);
 }
 
-// FNV-1a over the bits of all nodes and of what is lasting.
+// FNV-1a over the bits of all nodes, of what is lasting and of what came off.
 uint64_t state_hash(const World& world) {
     uint64_t hash = 0xcbf29ce484222325u;
     const auto add = [&](const auto& values) {
@@ -87,6 +99,14 @@ uint64_t state_hash(const World& world) {
         add(body->plant->motion.x);
         add(body->plant->motion.v);
         add(lasting_of(*body->plant));
+        for (size_t k = 0; k < body->fragment_bodies.size(); k++) {
+            const Fragment& fragment = body->plant->fragments[k];
+            const btRigidBody& rigid = *body->fragment_bodies[k]->body;
+            add(fragment.turn);
+            add(fragment.shift);
+            add(from_bullet(rigid.getLinearVelocity()));
+            add(from_bullet(rigid.getAngularVelocity()));
+        }
     }
     return hash;
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "world/fragments.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -60,6 +61,7 @@ PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant) {
 }
 
 void remove_plant(World& world, PlantBody* body) {
+    remove_fragments(world, *body);
     world.bullet->removeCollisionObject(body);
     world.contacts.clear();
     world.plant_contacts.clear();

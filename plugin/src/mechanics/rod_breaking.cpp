@@ -1,0 +1,34 @@
+// In: rods and where their nodes are. Out: the strain of each capsule's outermost fibre, and rods without those of a part
+// that came off. What a piece bears by being pulled and by being bent adds up at the fibre; twist does not count.
+#include "mechanics/rod_elements.hpp"
+#include "mechanics/rows.hpp"
+#include "mechanics/sections.hpp"
+
+namespace frond {
+
+void rod_section_strains(const Elements& body, const VecX& x, std::vector<double>& out) {
+    const RodElements& elements = as_rods(body);
+    const std::vector<RodStrain> strains = rod_strains(elements, x);
+    out.assign(elements.mass.size(), 0);
+    for (size_t s = 0; s < strains.size(); ++s)
+        out[size_t(elements.section[s])] = fibre_strain(elements.segments[s], strains[s]).sum();
+}
+
+// What hangs on a piece's second node goes with it, so that its first node keeps its own mass.
+std::unique_ptr<Elements> without_rods(const Elements& body, const std::vector<uint8_t>& gone) {
+    auto own = std::make_unique<RodElements>(as_rods(body));
+    const auto is_gone = [&](size_t s) { return gone[size_t(as_rods(body).section[s])] != 0; };
+    for (const int node : own->section) {
+        if (!gone[size_t(node)]) continue;
+        own->mass[size_t(node)] = 0;
+        own->inertia[size_t(node)].setZero();
+    }
+    keep_others(own->damping_ratio, is_gone);
+    keep_others(own->yields, is_gone);
+    keep_others(own->segments, is_gone);
+    keep_others(own->lasting, is_gone);
+    keep_others(own->section, is_gone);
+    return own;
+}
+
+}  // namespace frond

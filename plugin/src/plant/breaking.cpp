@@ -1,0 +1,224 @@
+// In: a plant and a capsule of its chain. Out: the plant without what is beyond, and that as a rigid body.
+//
+// Elements of the capsules that are gone leave the plant's system, and their mass with them; nodes stay in their places
+// in all arrays, so that a plant's state keeps its shape, and are held. Cage nodes and vertices go by the tets they are
+// in, tets by the capsule that they belong to.
+#include "plant/fragment.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "mechanics/rotation.hpp"
+#include "mechanics/sections.hpp"
+#include "plant/plant.hpp"
+
+namespace frond {
+
+namespace {
+
+const Elements& elements_now(const Plant& plant) {
+    return plant.own_elements ? *plant.own_elements : elements_of(*plant.system);
+}
+
+// What is on a broken capsule's far side and not in another fragment already.
+void mark_chain(const Plant& plant, int node, int fragment, std::vector<int>& of_chain) {
+    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
+    of_chain.resize(nodes.size(), -1);
+    for (size_t i = size_t(node); i < nodes.size(); i++) {
+        const int parent = nodes[i].parent;
+        const bool beyond = int(i) == node || (parent >= node && of_chain[size_t(parent)] == fragment);
+        if (beyond && of_chain[i] < 0) of_chain[i] = fragment;
+    }
+}
+
+void mark_cage(const Plant& plant, Parting& parting) {
+    const Model& model = *plant.model;
+    const std::vector<int> capsule = capsules_of_tets(model);
+    parting.of_tet.clear();
+    for (int c : capsule) parting.of_tet.push_back(parting.of_chain[size_t(c)]);
+    constexpr int NONE = -2;
+    parting.of_node.assign(plant.pinned.size(), NONE);
+    const auto mark = [&](int node, int fragment) {
+        int& of = parting.of_node[size_t(node)];
+        of = of == NONE ? fragment : std::min(of, fragment);
+    };
+    for (size_t e = 0; e < capsule.size(); e++) {
+        for (int corner : model.cage.tets[e]) mark(corner, parting.of_tet[e]);
+        if (plant.nodes->order == 2)
+            for (int node : plant.nodes->of_tet[e]) mark(node, parting.of_tet[e]);
+    }
+    for (int& of : parting.of_node) of = std::max(of, -1);
+}
+
+void mark_surface(const Plant& plant, Parting& parting) {
+    const Model& model = *plant.model;
+    parting.of_vertex.clear();
+    for (int tet : model.embedding.tet) parting.of_vertex.push_back(parting.of_tet[size_t(tet)]);
+    parting.triangles = model.surface.triangles;
+    for (Triangle& t : parting.triangles) {
+        const int of = parting.of_vertex[size_t(t[0])];
+        if (parting.of_vertex[size_t(t[1])] != of || parting.of_vertex[size_t(t[2])] != of) t[1] = t[2] = t[0];
+    }
+}
+
+// How the fragment's cage nodes are turned against the modelled shape.
+Mat3 turn_of(const Plant& plant, int number) {
+    std::vector<Vec3> from, to;
+    for (size_t i = 0; i < plant.parting.of_node.size(); i++) {
+        if (plant.parting.of_node[i] != number) continue;
+        from.push_back(point(plant.nodes->modelled, int(i)));
+        to.push_back(point(plant.fragments[size_t(number)].cage_x, int(i)));
+    }
+    Mat3 turn;
+    Vec3 image;
+    return fit_rigid(from, to, Vec3::Zero(), turn, image) ? turn : Mat3(Mat3::Identity());
+}
+
+// Principal axes and moments of inertia of the modelled shape, so that they are the same for every plant of a model,
+// turned as the fragment is. A node is as round as the stem at the break.
+void set_inertia(const Plant& plant, const VecX& mass, Fragment& fragment) {
+    const VecX& modelled = elements_of(*plant.system).modelled;
+    const int step = plant.follow ? 2 : 1;
+    const double radius = plant.model->chain.nodes[size_t(fragment.node)].radius;
+    Vec3 centre = Vec3::Zero();
+    for (int i = 0; i < mass.size(); i += step) centre += mass[i] / fragment.mass * point(modelled, i);
+    Mat3 inertia = 0.4 * fragment.mass * radius * radius * Mat3::Identity();
+    for (int i = 0; i < mass.size(); i += step) {
+        const Vec3 arm = point(modelled, i) - centre;
+        inertia += mass[i] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+    }
+    const Eigen::SelfAdjointEigenSolver<Mat3> own(inertia);
+    Mat3 axes = own.eigenvectors();
+    if (axes.determinant() < 0) axes.col(2) *= -1;
+    fragment.axes = plant.rotation.toRotationMatrix() * turn_of(plant, int(plant.fragments.size()) - 1) * axes;
+    fragment.moments = own.eigenvalues();
+}
+
+// Of the mass that left the nodes.
+void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
+    const int step = plant.follow ? 2 : 1;
+    const auto place = [&](int i) { return plant.to_world(point(plant.motion.x, i)); };
+    const auto velocity = [&](int i) { return Vec3(plant.rotation * point(plant.motion.v, i)); };
+    Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
+    fragment.mass = 0;
+    for (int i = 0; i < mass.size(); i += step) {
+        fragment.mass += mass[i];
+        moment += mass[i] * place(i);
+        momentum += mass[i] * velocity(i);
+    }
+    if (!(fragment.mass > 0)) {
+        // Too small for the cage to know of it.
+        constexpr double LEAST = 1e-6;  // [kg]
+        fragment.mass = LEAST;
+        moment = LEAST * plant.to_world(plant.chain_positions[size_t(fragment.node)]);
+    }
+    fragment.centre = moment / fragment.mass;
+    fragment.velocity = momentum / fragment.mass;
+    Vec3 angular = Vec3::Zero();
+    for (int i = 0; i < mass.size(); i += step)
+        angular += mass[i] * (place(i) - fragment.centre).cross(velocity(i) - fragment.velocity);
+    set_inertia(plant, mass, fragment);
+    fragment.spin = fragment.axes * (fragment.axes.transpose() * angular).cwiseQuotient(fragment.moments);
+}
+
+// Nodes that nothing holds any more rest where they are.
+void let_rest(Plant& plant) {
+    Motion& motion = plant.motion;
+    for (size_t i = 0; i < plant.parting.of_node.size(); i++)
+        if (plant.parting.of_node[i] >= 0) plant.pinned[i] = 0;
+    const VecX& mass = node_mass_of(*plant.system);
+    const int step = plant.follow ? 2 : 1;
+    for (int i = 0; i < mass.size(); i += step)
+        for (int k = 0; k < step && !(mass[i] > 0); k++) point(motion.v, i + k).setZero();
+    motion.history.valid = false;
+    plant.pins_changed = true;
+}
+
+const Fragment* fragment_at(const Plant& plant, const std::vector<int>& list, size_t i) {
+    return list.empty() || list[i] < 0 ? nullptr : &plant.fragments[size_t(list[i])];
+}
+
+}  // namespace
+
+int find_break(const Plant& plant) {
+    return find_overload(mechanics(plant.which, plant.nodes->order), elements_now(plant), plant.motion.x);
+}
+
+// The elements of what is gone leave the plant's system.
+static void take_away(Plant& plant) {
+    std::vector<uint8_t> gone;
+    for (int fragment : plant.parting.of_chain) gone.push_back(fragment >= 0);
+    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
+    std::unique_ptr<Elements> own = plant.own_elements ? row.without(*plant.own_elements, gone) : nullptr;
+    plant.system = system_without(*plant.system, gone);
+    plant.workspace = make_workspace(plant.system);
+    use_elements(*plant.workspace, own.get());
+    plant.own_elements = std::move(own);
+    plant.parting.start = plant.motion.x;
+}
+
+void leave_fragments(Plant& plant) {
+    if (plant.fragments.empty()) return;
+    take_away(plant);
+    let_rest(plant);
+}
+
+const Fragment& break_off(Plant& plant, int node) {
+    Fragment fragment;
+    fragment.node = node;
+    fragment.cage_x = cage_places(plant);
+    fragment.chain_x = plant.chain_positions;
+    fragment.turn = plant.rotation.toRotationMatrix();
+    fragment.shift = plant.position;
+    const VecX mass = node_mass_of(*plant.system);
+    mark_chain(plant, node, int(plant.fragments.size()), plant.parting.of_chain);
+    mark_cage(plant, plant.parting);
+    mark_surface(plant, plant.parting);
+    plant.fragments.push_back(std::move(fragment));
+    take_away(plant);
+    measure(plant, mass - node_mass_of(*plant.system), plant.fragments.back());
+    let_rest(plant);
+    moved(plant);
+    return plant.fragments.back();
+}
+
+// Rigidly with the last node before them that is not gone.
+void carry_stumps(Plant& plant) {
+    if (!plant.follow || plant.fragments.empty()) return;
+    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
+    const VecX& start = plant.parting.start;
+    Motion& motion = plant.motion;
+    // A method that looks back is not to take this for a push.
+    History& history = motion.history;
+    const bool follows = history.valid && history.x_end.size() == motion.x.size();
+    std::vector<int> stump(nodes.size(), -1);
+    for (size_t i = 0; i < nodes.size(); i++) {
+        if (plant.parting.of_chain[i] < 0) continue;
+        const int parent = nodes[i].parent, node = int(2 * i);
+        stump[i] = plant.parting.of_chain[size_t(parent)] < 0 ? parent : stump[size_t(parent)];
+        const int at = 2 * stump[i];
+        const Mat3 turn = rotation_of<double>(point(motion.x, at + 1)) *
+                          rotation_of<double>(point(start, at + 1)).transpose();
+        point(motion.x, node) = point(motion.x, at) + turn * (point(start, node) - point(start, at));
+        point(motion.x, node + 1) =
+            rotation_vector<double>(Mat3(turn * rotation_of<double>(point(start, node + 1))));
+        for (int k = node; k < node + 2; k++) {
+            point(motion.v, k).setZero();
+            if (!follows) continue;
+            point(history.x_end, k) = point(motion.x, k);
+            point(history.v_end, k).setZero();
+        }
+    }
+}
+
+const Fragment* fragment_of_vertex(const Plant& plant, size_t vertex) {
+    return fragment_at(plant, plant.parting.of_vertex, vertex);
+}
+const Fragment* fragment_of_chain_node(const Plant& plant, size_t node) {
+    return fragment_at(plant, plant.parting.of_chain, node);
+}
+const Fragment* fragment_of_node(const Plant& plant, size_t node) {
+    return fragment_at(plant, plant.parting.of_node, node);
+}
+
+}  // namespace frond

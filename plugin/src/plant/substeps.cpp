@@ -1,0 +1,83 @@
+// In: a plant, its loads and a time h. Out: its motion h later, in as few equal substeps as keep its local error small.
+//
+// Where each node ends is compared with where its velocity and the last change of that said it would (Milne's device:
+// predictor against corrector). The difference, 5/12 h^3 d3x/dt3, is about twice the local error of bdf2; of more exact
+// integrators it is an upper bound. Counts are powers of two, so that bdf2, which looks back over steps of other
+// lengths, never meets one that grows by more than that (Hairer, Norsett, Wanner 1993, III.5).
+#include <algorithm>
+#include <cmath>
+
+#include "plant/plant.hpp"
+
+namespace frond {
+
+namespace {
+
+// Half of the farthest miss of a free place [m]; keeps the trend for the next substep.
+double local_error(Plant& plant, const VecX& x, const VecX& v, double h) {
+    const Motion& motion = plant.motion;
+    const bool known = plant.trend.v_end.size() == v.size() && plant.trend.v_end == v;
+    const int next = plant.follow ? 2 : 1;
+    double most = 0;
+    for (int i = 0; i < x.size() / 3; i += next) {
+        if (motion.pinned[size_t(i)]) continue;
+        Vec3 miss = point(motion.x, i) - point(x, i) - h * point(v, i);
+        if (known) miss -= 0.5 * h * h * point(plant.trend.rate, i);
+        most = std::max(most, miss.squaredNorm());
+    }
+    plant.trend.rate = (motion.v - v) / h;
+    plant.trend.v_end = motion.v;
+    return 0.5 * std::sqrt(most);
+}
+
+// All substeps, pinned nodes moving evenly; `error` is the sum of theirs.
+SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
+    Motion& motion = plant.motion;
+    const VecX from = motion.x, target = motion.pin_target;
+    SolveReport sum;
+    sum.ok = true;
+    error = 0;
+    for (int i = 1; i <= count && sum.ok; i++) {
+        motion.pin_target = i < count ? VecX(from + (target - from) * (double(i) / count)) : target;
+        const VecX x = motion.x, v = motion.v;
+        const SolveReport one = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / count, motion);
+        error += local_error(plant, x, v, h / count);
+        sum.ok = one.ok;
+        sum.converged &= one.converged;
+        sum.iterations += one.iterations;
+        sum.inverted = one.inverted;
+        sum.residual = std::max(sum.residual, one.residual);
+        sum.ms_assembly += one.ms_assembly;
+        sum.ms_solve += one.ms_solve;
+    }
+    motion.pin_target = target;
+    return sum;
+}
+
+}  // namespace
+
+SolveReport solve_in_substeps(Plant& plant, double h) {
+    if (plant.max_substeps <= 1 || plant.is_touched)
+        return solve_step(*plant.workspace, plant.step_settings, plant.loads, h, plant.motion);
+    constexpr double TOO_FINE = 1.0 / 8;  // half as many substeps make four times the error
+    const double allowed = plant.substep_tolerance * plant.model->surface.size();
+    const Motion start = plant.motion;
+    const Trend trend = plant.trend;
+    SolveReport spent;
+    for (int count = plant.substeps;; count *= 2) {
+        double error = 0;
+        SolveReport report = solve_evenly(plant, count, h, error);
+        report.iterations += spent.iterations;
+        report.ms_assembly += spent.ms_assembly;
+        report.ms_solve += spent.ms_solve;
+        if ((report.ok && error <= allowed) || 2 * count > plant.max_substeps) {
+            plant.substeps = error < TOO_FINE * allowed ? std::max(1, count / 2) : count;
+            return report;
+        }
+        spent = report;
+        plant.motion = start;
+        plant.trend = trend;
+    }
+}
+
+}  // namespace frond
