@@ -303,6 +303,14 @@ frond_result frond_plant_get_contacts(frond_plant plant, frond_contact* out, int
     });
 }
 
+frond_result frond_plant_get_air_force(frond_plant plant, frond_vec3* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        *out = from_vec(air_force(*get(plant).plant));
+    });
+}
+
 frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out) {
     return call([&] {
         check_pointer(out, "out");
