@@ -39,7 +39,8 @@ const Field FIELDS[] = {{"density", &Material::density, 1, 2e4, false},
                         {"friction", &Material::friction, 0, 100, true},
                         {"yield_strain", &Material::yield_strain, 1e-6, 10, true},
                         {"creep_rate", &Material::creep_rate, 0, 1e6, true},
-                        {"strength", &Material::strength, 1, 1e12, true}};
+                        {"strength", &Material::strength, 1, 1e12, true},
+                        {"drag", &Material::drag, 0.01, 10, true}};
 
 TEST(Materials, ArePresetForEveryKindAndInRange) {
     for (const char* kind : KINDS) {

@@ -30,6 +30,7 @@ double bound_of(const std::string& name) {
         {"free_fall", 1e-6},
         {"sway", 0.11},           {"swing", 0.02},
         {"peers_swing", 0.02},    {"release", 0.02},
+        {"reconfiguration", 0.03},
         {"corn_drift", 1e-3},     {"cucumber_drift", 1e-3},
     };
     const auto bound = bounds.find(name);

@@ -87,6 +87,30 @@ TEST_P(EveryScene, RunsWithoutTrouble) {
         EXPECT_LT(farthest, 0.005 * height);
 }
 
+TEST(WindScene, BendsItsPlantsDownTheWindAndEndsWithoutIt) {
+    Play play = play_of("wind", {"mechanics=rod"});
+    frond_vec3 start = {}, tip = {}, force = {};
+    ASSERT_EQ(frond_plant_get_tip(play.stage.plants[0], &start), FROND_OK);
+    double mean = 0, farthest = 0;
+    for (int i = 0; i < 180; i++) {
+        play.step();
+        frond_report report;
+        ASSERT_EQ(frond_world_get_report(play.stage.world, &report), FROND_OK);
+        ASSERT_EQ(report.trouble, 0u) << "step " << i;
+        ASSERT_EQ(frond_plant_get_air_force(play.stage.plants[0], &force), FROND_OK);
+        ASSERT_EQ(frond_plant_get_tip(play.stage.plants[0], &tip), FROND_OK);
+        mean += force.x / 180;
+        farthest = std::max(farthest, tip.x - start.x);
+    }
+    EXPECT_GT(mean, 0.5);
+    EXPECT_GT(farthest, 0.02);
+    Play calm = play_of("wind", {"wind=0,0,0"});
+    calm.step();
+    ASSERT_EQ(frond_plant_get_air_force(calm.stage.plants[0], &force), FROND_OK);
+    EXPECT_EQ(force.x, 0);
+    EXPECT_THROW(play_of("wind", {"turbulence=7"}), SceneError);
+}
+
 // The plant half a second after it was let go, or at rest: a picture that shows both shape and motion.
 TEST_P(EveryScene, LooksAsItDid) {
     Play play = play_of(GetParam());

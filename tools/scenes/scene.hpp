@@ -22,6 +22,7 @@ struct Settings {
     frond_world_def world = frond_default_world_def();
     frond_model_def model = frond_default_model_def();
     frond_plant_def plant = frond_default_plant_def();
+    frond_wind_def wind = frond_default_wind_def();  // the world has air only if its velocity is not zero
     double dt = 1.0 / 60;        // [s]
     double pull = 0.2;           // how far the user drags, as a share of the plant's height [-]
     int plants = 0;              // of a field; 0: as many as it has

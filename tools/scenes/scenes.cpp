@@ -233,6 +233,21 @@ void build_twig(Stage& stage) {
     stage.plant(model, {0, 0, 0});
 }
 
+// ---- wind -----------------------------------------------------------------------------------------------------
+
+// A fresh breeze: 12 m/s where weather stations measure, some 8 among the leaves.
+void wind_defaults(Settings& settings) {
+    corn_defaults(settings);
+    settings.wind.velocity = {12, 0, 0};
+    settings.wind.turbulence = 0.3;
+}
+// A stand of six in two rows.
+void build_wind(Stage& stage) {
+    constexpr double ALONG = 0.9, APART = 0.7;  // [m]
+    const frond_model model = stage.load(model_path("corn/corn.obj"));
+    for (int i = 0; i < 6; i++) stage.plant(model, {ALONG * (i % 3) + (i / 3) * 0.4, 0, APART * (i / 3)});
+}
+
 }  // namespace
 
 // Of the chain's nodes near that height, the one that carries most others.
@@ -274,6 +289,7 @@ const std::vector<Scene>& scenes() {
         {"flag", "a ribbon of a leaf is folded onto itself", 3, flag_defaults, build_flag, fold},
         {"crate", "a small crate is let fall on a cucumber's leaves", 3, cucumber_defaults, build_crate, rest},
         {"twig", "a twig of 60 rods is pulled aside and let go", 5, twig_defaults, build_twig, drag},
+        {"wind", "a stand of corn in a gusty wind", 8, wind_defaults, build_wind, rest},
         {"tug", "a plant file: it stands, is pulled aside and let go", 5, tug_defaults, nullptr, drag},
     };
     return table;

@@ -11,6 +11,11 @@ namespace frond::tools {
 
 Stage::Stage(const Settings& given) : settings(given) {
     must(frond_world_create(&settings.world, &world));
+    const frond_vec3& wind = settings.wind.velocity;
+    if (wind.x == 0 && wind.y == 0 && wind.z == 0) return;
+    const frond_result blown = frond_world_set_wind(world, &settings.wind);
+    if (blown != FROND_OK) frond_world_destroy(world);
+    must(blown);
 }
 
 Stage::~Stage() {

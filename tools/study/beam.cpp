@@ -63,6 +63,7 @@ ModelPtr make_beam(const Beam& beam, const Setup& setup) {
     organ.material.young = beam.young;
     organ.material.poisson = beam.poisson;
     organ.material.thickness = beam.width / 100;
+    organ.material.drag = Beam::DRAG;
     frond_model_def def = frond_default_model_def();
     def.scale = 1;
     def.up = {0, 1, 0};

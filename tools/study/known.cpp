@@ -1,6 +1,7 @@
 #include "study/known.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -120,6 +121,32 @@ double greenhill_number(double end_weight) {
     return bisect(0.1, 8, [=](double w) {
         return march(1, [=](double s, double angle) { return -w * (1 - s + end_weight) * angle; }).rate;
     });
+}
+
+double reconfiguration_of(double C) {
+    // From the free end down: angle from upright, its rate, and the force of all above, along the wind and upwards.
+    using State = std::array<double, 4>;
+    const auto slope = [=](const State& y) -> State {
+        const double across = std::cos(y[0]), along = std::sin(y[0]), load = C * across * std::abs(across);
+        return {-y[1], y[2] * across - y[3] * along, load * across, -load * along};
+    };
+    const auto to_foot = [&](double angle) {
+        const double h = 1.0 / STEPS;
+        const auto at = [](const State& y, double s, const State& k) {
+            State out;
+            for (size_t i = 0; i < 4; i++) out[i] = y[i] + s * k[i];
+            return out;
+        };
+        State y = {angle, 0, 0, 0};
+        for (int i = 0; i < STEPS; i++) {
+            const State k1 = slope(y), k2 = slope(at(y, h / 2, k1)), k3 = slope(at(y, h / 2, k2)),
+                        k4 = slope(at(y, h, k3));
+            for (size_t n = 0; n < 4; n++) y[n] += h / 6 * (k1[n] + 2 * k2[n] + 2 * k3[n] + k4[n]);
+        }
+        return y;
+    };
+    const double angle = bisect(0, M_PI / 2, [&](double end) { return to_foot(end)[0]; });
+    return to_foot(angle)[2] / C;
 }
 
 double implicit_euler_damping(double z) {

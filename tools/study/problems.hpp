@@ -9,6 +9,7 @@ Setup static_baseline();    // a stem of 10 pieces, material damping off
 Setup motion_baseline();    // the same at 1/240 s
 Setup free_baseline();      // held nowhere
 Setup peers_baseline();     // the beam of 1170 tets that other programs were tried on
+Setup wind_baseline();      // with the damping that lets it come to rest
 Setup standing_baseline();  // a plant from a file, as it is by default
 
 Outcome run_cantilever_tip(const Setup& setup, Session& session);
@@ -31,6 +32,8 @@ Outcome run_sway(const Setup& setup, Session& session);
 Outcome run_swing(const Setup& setup, Session& session);
 Outcome run_peers_swing(const Setup& setup, Session& session);
 Outcome run_release(const Setup& setup, Session& session);
+
+Outcome run_reconfiguration(const Setup& setup, Session& session);
 
 Outcome run_corn_stand(const Setup& setup, Session& session);
 Outcome run_cucumber_stand(const Setup& setup, Session& session);

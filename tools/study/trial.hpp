@@ -19,6 +19,7 @@ struct Beam {
         int across, along;
     } cells[2] = {};
     static constexpr double LENGTH = 1;  // [m]
+    static constexpr double DRAG = 1.2;  // coefficient in air [-]
 };
 // What other programs were tried on: 0.1 m wide, 10 MPa, 800 kg/m^3, in 1170 or 20090 tets.
 Beam peers_beam();

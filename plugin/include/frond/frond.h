@@ -112,7 +112,9 @@ enum {
     /* What is bent or pulled beyond its material's strength breaks there: all beyond comes off as a rigid body of the
      * Bullet world, and goes on being drawn with the plant. */
     FROND_BREAKING = 1 << 11,
-    FROND_ALL_EFFECTS = (1 << 12) - 1,
+    FROND_WIND = 1 << 12,     /* the air's own motion pushes the plant, where the world has air: frond_world_set_wind */
+    FROND_AIR_DRAG = 1 << 13, /* and the plant's own motion through the air is resisted */
+    FROND_ALL_EFFECTS = (1 << 14) - 1,
     /* of a plant; a world allows all */
     FROND_DEFAULT_EFFECTS = FROND_ALL_EFFECTS & ~(FROND_SELF_CONTACT | FROND_BREAKING)
 };
@@ -210,7 +212,10 @@ enum {
     FROND_TROUBLE_INVERTED = 1 << 2,
     /* A step ran away and was solved again by implicit Euler with a line search, which costs several times as much and
      * damps. Remedy: a shorter time step, or gentler pushes. */
-    FROND_TROUBLE_RETRIED = 1 << 3
+    FROND_TROUBLE_RETRIED = 1 << 3,
+    /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
+     * there for the step. Remedy: have the function of frond_world_set_wind_field write every velocity. */
+    FROND_TROUBLE_BAD_WIND = 1 << 7
 };
 typedef struct frond_report {
     uint32_t trouble;
@@ -254,6 +259,53 @@ FROND_API frond_result frond_world_get_state_hash(frond_world world, uint64_t* o
 FROND_API frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin, frond_vec3 direction,
                                             double max_distance, frond_ray_hit* out);
 
+/* ---- wind: the air of a world --------------------------------------------------------------------------------- */
+
+/* A world has no air, which costs nothing, until it is given some here. Each piece of the chain then feels the air that passes
+ * it: stems across their axes, blades along their normals as they are turned now, both by skin friction as well. Forces
+ * follow the plant's velocity implicitly, so that a light leaf in a gale is stable at any time step. Plants do not
+ * shelter each other, and there is no lift but that of a slanted blade. */
+
+/* How the mean wind and its gusts grow with height: see frond_wind_def. */
+typedef enum frond_wind_profile {
+    FROND_WIND_UNIFORM,
+    FROND_WIND_LOG,   /* ln(z / roughness) / ln(reference_height / roughness), 0 below the roughness */
+    FROND_WIND_POWER, /* (z / reference_height)^exponent */
+    FROND_WIND_PROFILE_COUNT
+} frond_wind_profile;
+
+/* A mean wind, and gusts on it: velocities with Kaimal's spectra, f S(f) / sigma^2 = 4 n / (1 + 6 n)^(5/3) with
+ * n = f L / U, and the coherence in space of IEC 61400-1, carried along by the mean wind (Taylor's hypothesis). They are
+ * a function of place, time and seed and nothing else; a wind that is set anew while they blow takes them along. Across the wind and upwards they have 0.8 and 0.5 times the standard
+ * deviation and a third and a twelfth of the length scale that they have along it, as there. Height z [m] is against gravity,
+ * above the level of ground_height; gusts grow with it as the mean does. */
+typedef struct frond_wind_def {
+    frond_vec3 velocity;        /* mean, at reference_height [m/s], up to 200; default 0: still air */
+    double turbulence;          /* standard deviation of gusts along the wind over the mean speed [-], 0..1, default 0.2 */
+    double length_scale;        /* of gusts along the wind, L above [m], 0.1 .. 1e4, default 20 */
+    uint64_t seed;              /* of the gusts; default 1 */
+    frond_wind_profile profile; /* default FROND_WIND_LOG */
+    double reference_height;    /* [m], 0.01 .. 1e4, default 10 as weather stations have it */
+    double roughness;           /* of the ground [m], 1e-6 .. half the reference height, default 0.03: open grassland */
+    double exponent;            /* of FROND_WIND_POWER [-], 0..1, default 1/7 */
+    double ground_height;       /* of the ground against gravity [m], default 0 */
+    double density;             /* of the air [kg/m^3], 0.01 .. 10, default 1.2 */
+    uint32_t cookie;            /* do not set */
+} frond_wind_def;
+
+/* The game's own wind, asked once a plant and substep. points: count of them, world frame [m]; time: of the substep's end
+ * [s]. velocities [m/s]: what the world's frond_wind_def gives there, to be added to or replaced. */
+typedef void frond_wind_field_fn(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user);
+
+FROND_API frond_wind_def frond_default_wind_def(void);
+/* Gives the world air, with a wind in it or still; a null def takes air and field away. Costs nothing where neither
+ * FROND_WIND nor FROND_AIR_DRAG is on. */
+FROND_API frond_result frond_world_set_wind(frond_world world, const frond_wind_def* def);
+/* In a world without air it makes still air first. A null field leaves the air to the frond_wind_def again. */
+FROND_API frond_result frond_world_set_wind_field(frond_world world, frond_wind_field_fn* field, void* user);
+/* Velocity of the air at a point and the world's time [m/s], the game's field included; 0 in a world without air. */
+FROND_API frond_result frond_world_get_wind_at(frond_world world, frond_vec3 point, frond_vec3* out);
+
 /* ---- model: shape at rest, built once, read-only, shared by many plants ------------------------------------ */
 
 /* One set of physical constants for every mechanics, so that they can be compared. A field from `hollow` on that is
@@ -286,6 +338,10 @@ typedef struct frond_material {
     /* Tension in the outermost fibre at which the organ breaks, in bending or in pulling [Pa], 0 (never),
      * else 1 .. 1e12. */
     double strength;
+    /* Drag coefficient in air of the area that the organ turns to the flow [-]; 0: by its kind, 0.01 .. 10. Blades and
+     * flowers are then flat plates of the organ's aspect, fruits spheres, crowns 0.4 and everything else a long cylinder, both
+     * by Reynolds number (sources: plugin/src/plant/air_pieces.cpp). The skin's friction comes on top. */
+    double drag;
 } frond_material;
 /* A material for the organs of one kind or name: see frond_model_def.organs. */
 typedef struct frond_organ_material {
@@ -533,6 +589,8 @@ FROND_API frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule
 FROND_API int frond_plant_get_contact_count(frond_plant plant);
 /* contact_count must be the plant's; out: contact_count. */
 FROND_API frond_result frond_plant_get_contacts(frond_plant plant, frond_contact* out, int contact_count);
+/* Of the air on the whole plant, pinned nodes included, at the end of the last substep, in the world's frame [N]. */
+FROND_API frond_result frond_plant_get_air_force(frond_plant plant, frond_vec3* out);
 /* Of all nodes together, in the world's frame [kg m/s]. */
 FROND_API frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out);
 /* The highest point of the surface against gravity [m]. */

@@ -362,6 +362,14 @@ frond_result frond_plant_mend(frond_plant plant) {
     });
 }
 
+frond_result frond_plant_get_air_force(frond_plant plant, frond_vec3* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        *out = from_vec(air_force(*get(plant).plant));
+    });
+}
+
 frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out) {
     return call([&] {
         check_pointer(out, "out");

@@ -62,25 +62,46 @@ Vec3 grip_place(const Grip& grip, const VecX& x) {
 }
 
 Vec3 grip_velocity(const Grip& grip, const VecX& x, const VecX& v) {
-    const GripDerivative d = derivative_at(grip, x);
     Vec3 velocity = Vec3::Zero();
+    if (!grip.turns) {
+        for (int k = 0; k < grip.count; ++k) velocity += grip.weight[size_t(k)] * point(v, grip.node[size_t(k)]);
+        return velocity;
+    }
+    const GripDerivative d = derivative_at(grip, x);
     for (int k = 0; k < d.count; ++k) velocity += d.by[size_t(k)] * point(v, d.node[size_t(k)]);
     return velocity;
 }
 
 void add_grip_force(const Grip& grip, const VecX& x, const Vec3& force, VecX& f) {
+    if (!grip.turns) {
+        for (int k = 0; k < grip.count; ++k) point(f, grip.node[size_t(k)]) += grip.weight[size_t(k)] * force;
+        return;
+    }
     const GripDerivative d = derivative_at(grip, x);
     for (int k = 0; k < d.count; ++k) point(f, d.node[size_t(k)]) += d.by[size_t(k)].transpose() * force;
 }
 
-void add_grip_stiffness(const Grip& grip, const VecX& x, double stiffness, BlockMatrix& A) {
+void add_grip_block(const Grip& grip, const VecX& x, const Mat3& block, BlockMatrix& A) {
+    // The lower triangle is all there is.
+    if (!grip.turns) {
+        for (int r = 0; r < grip.count; ++r)
+            for (int c = 0; c < grip.count; ++c) {
+                const int i = grip.node[size_t(r)], j = grip.node[size_t(c)];
+                if (i >= j) A.block(A.pattern->slot(i, j)) += grip.weight[size_t(r)] * grip.weight[size_t(c)] * block;
+            }
+        return;
+    }
     const GripDerivative d = derivative_at(grip, x);
     for (int r = 0; r < d.count; ++r)
         for (int c = 0; c < d.count; ++c) {
             const int i = d.node[size_t(r)], j = d.node[size_t(c)];
-            if (i < j) continue;  // the lower triangle is all there is
-            A.block(A.pattern->slot(i, j)) += stiffness * d.by[size_t(r)].transpose() * d.by[size_t(c)];
+            if (i < j) continue;
+            A.block(A.pattern->slot(i, j)) += d.by[size_t(r)].transpose() * block * d.by[size_t(c)];
         }
+}
+
+void add_grip_stiffness(const Grip& grip, const VecX& x, double stiffness, BlockMatrix& A) {
+    add_grip_block(grip, x, stiffness * Mat3::Identity(), A);
 }
 
 }  // namespace frond

@@ -30,7 +30,9 @@ Vec3 grip_place(const Grip& grip, const VecX& x);
 Vec3 grip_velocity(const Grip& grip, const VecX& x, const VecX& v);
 // What a force at the point [N] is for the nodes.
 void add_grip_force(const Grip& grip, const VecX& x, const Vec3& force, VecX& f);
-// Adds stiffness [N/m] times J^T J, J the derivative of the point by the nodes at x: never negative.
+// Adds J^T B J, J the derivative of the point by the nodes at x, B symmetric [N/m] or [N s/m].
+void add_grip_block(const Grip& grip, const VecX& x, const Mat3& block, BlockMatrix& A);
+// Adds stiffness [N/m] times J^T J: never negative.
 void add_grip_stiffness(const Grip& grip, const VecX& x, double stiffness, BlockMatrix& A);
 
 }  // namespace frond

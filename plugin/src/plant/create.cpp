@@ -65,6 +65,10 @@ std::shared_ptr<const Collider> collider_of(const Plant& plant) {
     return shared_of<Collider>(plant.model, 1, [&] { return make_collider(*plant.model); });
 }
 
+std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant) {
+    return shared_of<AirPieces>(plant.model, plant.nodes->order, [&] { return make_air_pieces(*plant.model); });
+}
+
 static CageNodes make_nodes(const Cage& cage, int order) {
     CageNodes nodes = {make_tet_nodes(int(cage.nodes.size()), cage.tets, order), {}};
     nodes.modelled = node_places(nodes, [&](int i) { return cage.nodes[size_t(i)]; });

@@ -4,6 +4,7 @@
 
 #include <list>
 
+#include "plant/air.hpp"
 #include "plant/follow.hpp"
 #include "plant/fragment.hpp"
 #include "solve/solve.hpp"
@@ -62,6 +63,7 @@ struct Plant {
     VecX contact_impulse;  // of the running step's contacts on the nodes of the mechanics [N s]; empty: none
     VecX contact_shift;    // likewise, of those that move the plant and give it no velocity
     Loads loads;          // of the running step, kept to reuse its memory
+    std::unique_ptr<AirState> air;  // null until the plant is in air
     VecX user_force;      // on cage nodes, until the end of the host's step, world frame [N]
     bool has_user_force = false;
     std::list<Grab> grabs;
@@ -90,6 +92,8 @@ struct Plant {
 struct Surroundings {
     Vec3 gravity = Vec3::Zero();                // world frame [m/s^2]
     frond_effects effects = FROND_ALL_EFFECTS;  // mask
+    const Wind* wind = nullptr;                 // null: there is no air
+    double time = 0;                            // at the end of the step [s]
 };
 
 // `def` has been checked by the caller.
@@ -104,6 +108,10 @@ void add_contacts(Plant& plant, double h);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Both.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);
+// Sets the drags of the running step's loads.
+void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h);
+std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant);
+Vec3 air_force(const Plant& plant);  // of the last step, world frame [N]
 // Forces given by frond_plant_add_force end.
 void clear_user_force(Plant& plant);
 // Writes surface_positions and surface_normals as far as the effects ask for them.

@@ -84,6 +84,42 @@ static void solve_carefully(Plant& plant, double h) {
     plant.report.ms_solve += first.ms_solve;
 }
 
+// Whether the air has turned something by more than twice what one solve can tell well.
+static bool is_blown_about(const Plant& plant) {
+    if (plant.loads.drags.empty()) return false;
+    return !is_calm(*plant.system, plant.x_good, 0.5 * (plant.x_good + plant.motion.x));
+}
+
+// Again from the start in shorter steps, each in the air as it is then: a gale turns a leaf by more in a step than one
+// solve can tell.
+static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
+    constexpr int PARTS = 8;
+    const VecX x_start = plant.x_good, v_start = plant.v_good;
+    plant.trouble |= FROND_TROUBLE_RETRIED;
+    SolveReport sum = plant.report;
+    plant.motion.x = x_start;
+    plant.motion.v = v_start;
+    plant.motion.history.valid = false;
+    for (int part = 0; part < PARTS && sum.ok; part++) {
+        plant.x_good = plant.motion.x;
+        plant.v_good = plant.motion.v;
+        update_chain(plant);
+        gather_air(plant, surroundings, effects, h / PARTS);
+        plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / PARTS, plant.motion);
+        if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x)) solve_carefully(plant, h / PARTS);
+        sum.ok = plant.report.ok;
+        sum.converged = plant.report.converged;
+        sum.inverted = plant.report.inverted;
+        sum.residual = plant.report.residual;
+        sum.iterations += plant.report.iterations;
+        sum.ms_assembly += plant.report.ms_assembly;
+        sum.ms_solve += plant.report.ms_solve;
+    }
+    plant.report = sum;
+    plant.x_good = x_start;
+    plant.v_good = v_start;
+}
+
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     const frond_effects effects = plant.effects & surroundings.effects;
     Motion& motion = plant.motion;
@@ -95,12 +131,14 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     Timer timer;
     apply_pins(plant);
     gather_loads(plant, surroundings, effects);
+    gather_air(plant, surroundings, effects, h);
     SolveSettings& settings = plant.step_settings = plant.settings;
     if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     plant.ms_effects = timer.lap();
 
     // Solve.
     plant.report = solve_in_substeps(plant, h);
+    if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
     if (!plant.report.ok || !is_plausible(plant)) solve_carefully(plant, h);
     plant.is_sound = is_sound(plant);
 }

@@ -1,5 +1,6 @@
 // In: a plant's motion at the start of a step and what acts on it. Out: all forces on it, damping included.
 #include "core/timer.hpp"
+#include "solve/drags.hpp"
 #include "solve/integrator.hpp"
 #include "solve/springs.hpp"
 
@@ -13,6 +14,7 @@ void force_at_start(Workspace& w, const StepInput& input, SolveReport& report) {
     const double b = w.damping_scale;
     w.force = w.external;
     add_spring_force(input.loads.springs, x, w.force);
+    add_drag_force(input.loads.drags, x, w.v_start, w.force);
 
     // D = a M + b K, or elements' own parts of it, the positive K as in a stage.
     if (!w.element_damping.empty()) {

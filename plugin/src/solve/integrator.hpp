@@ -37,7 +37,7 @@ void add_inertia(Workspace& workspace, double scale);
 
 // Whether impulses are answered to by a mass alone, since the step solved no system.
 bool answers_by_mass(const Workspace& workspace, const SolveSettings& settings);
-// x = M^-1 b for a lumped mass; rows of held nodes are left as they are.
+// x = M^-1 b for a lumped mass, with workspace.drag beside it; rows of held nodes are left as they are.
 void divide_by_mass(const Workspace& workspace, const VecX& b, VecX& x);
 
 // Forces and damping at the start of the step [N], into workspace.force.

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "core/timer.hpp"
+#include "solve/drags.hpp"
 #include "solve/integrator.hpp"
 #include "solve/springs.hpp"
 
@@ -42,6 +43,7 @@ void start_residual(const Newton& n, const VecX& v, VecX& rhs) {
     const double step = n.stage.step;
     rhs = n.w.external + n.w.elastic;
     add_spring_force(n.input.loads.springs, n.w.x, rhs);
+    add_drag_force(n.input.loads.drags, n.w.x, v, rhs);
     rhs *= step;
     if (n.stage.impulse) rhs += *n.stage.impulse;
     n.w.dv = n.stage.v_base - (1 + step * n.input.settings.mass_damping) * v;
@@ -113,6 +115,7 @@ double potential_at(const Newton& n, const VecX& v) {
     potential += 0.5 * w.dv.dot(w.momentum);
     multiply_mass(n.system, w.inertia, v, w.momentum);
     potential += 0.5 * step * a * v.dot(w.momentum);
+    potential += step * drag_potential(n.input.loads.drags, w.x, v);
     if (n.stage.impulse) potential -= n.stage.impulse->dot(v);
     if (n.keep_damping) {
         w.damping.multiply(v, w.product);
@@ -121,7 +124,7 @@ double potential_at(const Newton& n, const VecX& v) {
     return potential;
 }
 
-// A = (1 + step a) M + step^2 K + step b K_damping + springs. `first`: K is the one at the start of the step, of which
+// A = (1 + step a) M + step^2 K + step b K_damping + springs + drags. `first`: K is the one at the start of the step, of which
 // the damping is a multiple unless elements damp each in its own way.
 void form_matrix(Newton& n, bool first) {
     BlockMatrix& A = n.w.A;
@@ -137,6 +140,7 @@ void form_matrix(Newton& n, bool first) {
     }
     add_inertia(n.w, mass);
     add_spring_stiffness(n.input.loads.springs, n.w.x, step * step, A);
+    add_drag_damping(n.input.loads.drags, n.w.x, step, A);
 }
 
 // Rows and columns of held nodes become the identity, so that the pattern stays: their velocities are known already.

@@ -28,6 +28,13 @@ struct Spring {
     double stiffness;  // [N/m]
 };
 
+// What resists the motion of a point of the plant: force - damping times the point's velocity. Of grips that do not turn.
+struct Drag {
+    Grip grip;
+    Vec3 force;    // on the point if it stood still [N]
+    Mat3 damping;  // symmetric, never negative [N s/m]
+};
+
 // The mechanics are the system's.
 struct SolveSettings {
     frond_integrator integrator;
@@ -66,6 +73,7 @@ struct Loads {
     VecX force;                   // node_count*3 [N]
     Vec3 gravity = Vec3::Zero();  // [m/s^2]; applied through the mass matrix
     std::vector<Spring> springs;
+    std::vector<Drag> drags;
 };
 
 struct SolveReport {

@@ -1,6 +1,7 @@
 // In: a plant's motion, what acts on it and a time h. Out: its motion h later, or the same motion and ok = false.
 #include <cmath>
 
+#include "solve/drags.hpp"
 #include "solve/integrator.hpp"
 #include "solve/springs.hpp"
 
@@ -25,7 +26,8 @@ bool input_is_sound(const System& system, const StepInput& input) {
         return false;
     if (!(s.spectral_radius >= 0 && s.spectral_radius <= 1)) return false;
     return motion.x.allFinite() && motion.v.allFinite() && input.loads.force.allFinite() &&
-           input.loads.gravity.allFinite() && springs_are_sound(system, input.loads.springs);
+           input.loads.gravity.allFinite() && springs_are_sound(system, input.loads.springs) &&
+           drags_are_sound(system, input.loads.drags);
 }
 
 // What does not change during a step: which nodes are held and how they move, and the forces that do not depend on the

@@ -1,7 +1,10 @@
 // Symplectic Euler, explicit: M (v' - v) = h (f - D v), x' = x + h v'. Keeps the energy of slow motion well and costs
 // no factor, but is stable only below h = 2 / (highest frequency), which for a plant is some microseconds: it is here
-// to show that.
+// to show that. Drags, which may be stiffer still, are taken implicitly: M + h D in place of M, D lumped as the mass is.
+#include <Eigen/Cholesky>
+
 #include "core/timer.hpp"
+#include "solve/drags.hpp"
 #include "solve/integrator.hpp"
 
 namespace frond {
@@ -12,11 +15,14 @@ namespace {
 bool solve_mass(Workspace& w, const StepInput& input, SolveReport& report) {
     const BlockPattern& pattern = w.system->elements->pattern;
     w.A.set_zero();
+    add_drag_damping(input.loads.drags, input.motion.x, input.h, w.A);
     for (int j = 0; j < pattern.node_count; ++j)
         for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
             const int i = pattern.row[size_t(k)];
             const bool held = w.held[size_t(i)] || w.held[size_t(j)];
-            w.A.block(k).diagonal().setConstant(!held ? w.system->masses.slot[size_t(k)] : i == j ? 1.0 : 0.0);
+            auto block = w.A.block(k);
+            if (held) block.setZero();
+            block.diagonal().array() += !held ? w.system->masses.slot[size_t(k)] : i == j ? 1.0 : 0.0;
         }
     add_inertia(w, 1);
     const SolveSettings& s = input.settings;
@@ -35,16 +41,21 @@ void divide_by_mass(const Workspace& w, const VecX& b, VecX& x) {
     const auto turns = [&](size_t i) { return !w.inertia.empty() && i % 2 == 1; };
     for (size_t i = 0; i < w.held.size(); ++i) {
         if (w.held[i]) continue;
+        const double mass = w.system->masses.node[Eigen::Index(i)];
         if (turns(i))
             point(x, int(i)) = w.inertia[i / 2].ldlt().solve(point(b, int(i)));
+        else if (!w.drag.empty())
+            point(x, int(i)) = Mat3(w.drag[i] + mass * Mat3::Identity()).llt().solve(point(b, int(i)));
         else
-            point(x, int(i)) /= w.system->masses.node[Eigen::Index(i)];
+            point(x, int(i)) /= mass;
     }
 }
 
 bool step_symplectic_euler(Workspace& workspace, const StepInput& input, SolveReport& report) {
     Workspace& w = workspace;
     force_at_start(w, input, report);
+    w.drag.clear();
+    if (!input.loads.drags.empty()) lump_drags(input.loads.drags, w.held.size(), input.h, w.drag);
     for (size_t i = 0; i < w.held.size(); ++i)
         if (w.held[i]) point(w.force, int(i)).setZero();
 

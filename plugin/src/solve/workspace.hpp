@@ -18,6 +18,7 @@ struct Workspace {
     LinearScratch linear;
 
     std::vector<Mat3> inertia;           // rotary, at the start of the step, of nodes that turn [kg m^2]
+    std::vector<Mat3> drag;              // of an explicit step: its length times lumped damping, one a node; empty: none [kg]
     std::vector<uint8_t> held;           // one a node: its velocity is given, not solved for
     VecX external;                       // forces that do not depend on the motion [N]
     VecX elastic;                        // force of the mechanics [N]

@@ -33,6 +33,9 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     Surroundings surroundings;
     surroundings.gravity = gravity_of(*this);
     surroundings.effects = effects;
+    if (wind) pass_time(*wind, double(h));
+    surroundings.wind = wind.get();
+    surroundings.time = time + double(h);
     const auto any_wants = [&](frond_effects effect) {
         return std::any_of(bodies.begin(), bodies.end(), [&](const std::unique_ptr<PlantBody>& body) {
             return body->plant->effects & effects & effect;

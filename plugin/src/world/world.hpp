@@ -34,6 +34,7 @@ struct World final : btActionInterface {
     HashSettings hash;
     frond_response response;
     ResponseSettings response_settings;
+    std::unique_ptr<Wind> wind;  // null: there is no air
     std::vector<std::unique_ptr<PlantBody>> bodies;
     std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
     std::list<Bond> bonds;

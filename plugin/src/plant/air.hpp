@@ -1,0 +1,46 @@
+// Air: what the air around a plant does to it. Each capsule of the chain is a piece of its organ that resists the air
+// which passes it.
+#pragma once
+
+#include "plant/wind.hpp"
+#include "solve/solve.hpp"
+
+namespace frond {
+
+enum class AirShape {
+    SHEET,   // pressed along its normal
+    ROUND,   // pushed across its axis
+    COMPACT  // pushed the way the air goes
+};
+
+// Of the capsule between a chain node and its parent.
+struct AirPiece {
+    int node;
+    AirShape shape;
+    double coefficient;  // of drag [-]; 0: by Reynolds number
+    Vec3 area;           // that is seen along axis, thin and wide [m^2]
+    double size;         // of Reynolds number: the piece's width [m]
+    double skin;         // its surface [m^2]
+    double chord_along;  // how far air goes along the skin, along the axis and across it [m]
+    double chord_across;
+    Vec3 wide;                                    // in the modelled shape, length one
+    std::array<std::array<double, 4>, 2> spread;  // of `wide` by the corners of the tets that hold parent and node [1/m]
+};
+using AirPieces = std::vector<AirPiece>;
+
+// Shared by all plants of a model.
+AirPieces make_air_pieces(const Model& model);
+
+// The force of air that passes the piece with `velocity` is this times the velocity [N s/m]; symmetric, never negative.
+// `frame` has the columns axis, thin, wide. It holds for the speed given.
+Mat3 air_resistance(const AirPiece& piece, const Mat3& frame, const Vec3& velocity, double density);
+
+// What a plant in air needs; plants without have none.
+struct AirState {
+    std::shared_ptr<const AirPieces> pieces;
+    std::vector<frond_vec3> points, wind;  // one a chain node, world frame [m], [m/s]
+    std::vector<Vec3> velocities, passing;  // of chain nodes, and of the air past them, model frame [m/s]
+    std::vector<Mat3> resistance, lag;      // one a chain node [N s/m]
+};
+
+}  // namespace frond

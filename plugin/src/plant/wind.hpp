@@ -1,0 +1,37 @@
+// Wind: how the air of a world moves, as a function of place, time and a seed.
+#pragma once
+
+#include <memory>
+
+#include "core/types.hpp"
+#include "frond/frond.h"
+
+namespace frond {
+
+// A wave of one component of the gusts, carried along by the mean wind: size cos 2 pi (waves . (travelled - place) + phase).
+struct Gust {
+    double size;   // at the reference height [m/s]
+    Vec3 waves;    // along, across and above the mean wind [1/m]
+    double phase;  // [-]
+};
+
+struct Wind {
+    frond_wind_def def;
+    std::array<std::vector<Gust>, 3> gusts;  // of the velocity along, across and above the mean wind
+    double travelled = 0;                    // way of the mean wind so far, along itself [m]
+    frond_wind_field_fn* field = nullptr;    // the host's own
+    void* user = nullptr;
+};
+
+// `def` has been checked by the caller.
+std::unique_ptr<Wind> make_wind(const frond_wind_def& def);
+// The mean wind goes on for h [s].
+void pass_time(Wind& wind, double h);
+// Velocities at points [m/s], world frame; `up` is against gravity, length one. False if the host's field gave some that
+// cannot be; they are zero then.
+bool wind_velocities(const Wind& wind, const Vec3& up, double time, const std::vector<frond_vec3>& points,
+                     std::vector<frond_vec3>& out);
+// Against gravity; y where there is none.
+Vec3 up_of(const Vec3& gravity);
+
+}  // namespace frond
