@@ -602,7 +602,8 @@ FROND_API frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out);
  * apart; in a cage a capsule that is pulled breaks at half its strength or more. The capsule and all that grows beyond
  * it become a rigid body with their mass and momentum. It is drawn in the plant's surface, its nodes, capsules and
  * vertices are reported where it is, grabs on it pull it, forces and pins on its nodes end; other bodies and plants feel
- * it, its own plant does not. Triangles across the break keep their place in the list, without area. */
+ * it, its own plant does not, which takes no part in FROND_PLANT_CONTACT and FROND_SELF_CONTACT any more. Bonds on it let go.
+ * Triangles across the break keep their place in the list, without area. */
 typedef struct frond_broken {
     frond_rigid rigid; /* the plant's: it ends with it, and frond_rigid_destroy leaves it alone */
     int capsule;       /* at which it came off */

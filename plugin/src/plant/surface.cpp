@@ -106,7 +106,8 @@ void update_surface(Plant& plant, frond_effects effects) {
     plant.surface_positions.resize(3 * vertex_count);
     plant.surface_normals.resize(3 * vertex_count);
     std::vector<Drawn> list = {{-1, cage_places(plant), plant.rotation.toRotationMatrix(), plant.position}};
-    for (const Fragment& fragment : plant.fragments) list.push_back({int(list.size()) - 1, fragment.cage_x, fragment.turn, fragment.shift});
+    for (const Fragment& fragment : plant.fragments)
+        list.push_back({int(list.size()) - 1, fragment.cage_x, fragment.turn, fragment.shift});
     for (const Drawn& drawn : list) {
         for (size_t v = 0; v < vertex_count; v++) {
             if (!belongs(plant.parting.of_vertex, v, drawn)) continue;
