@@ -81,10 +81,10 @@ int main(int argc, char** argv) {
     without = play(model, FROND_RESPONSE_NONE, picture, &scene, path);
     snprintf(path, sizeof path, "%s/pair_b.png", folder);
     with = play(model, FROND_RESPONSE_IMPULSE, picture, &scene, path);
-    printf("after 2 s the cages are %.1f mm deep in each other without response, %.1f mm with it; pictures are in %s/\n",
+    printf("after 2 s the cages are %.1f mm deep in each other without response, %.2f mm with it; pictures are in %s/\n",
            1000 * without, 1000 * with, folder);
 
     frond_picture_destroy(picture);
     frond_model_destroy(model);
-    return without < 0.01 || with > 0.001; /* they were in each other, and came apart */
+    return without < 0.01 || with > 0.002; /* they were in each other, and came apart */
 }

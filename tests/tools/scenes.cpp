@@ -147,7 +147,9 @@ TEST(Twig, OfSixtyRodsIsQuick) {
         EXPECT_EQ(report.trouble, 0u) << i;
         least = std::min(least, report.ms_step);
     }
-    if (!SANITIZED) EXPECT_LT(least, 0.2);
+    if (!SANITIZED) {
+        EXPECT_LT(least, 0.2);
+    }
 }
 
 TEST(Settings, NameTheirKeysWhenOneIsWrong) {

@@ -143,13 +143,18 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.is_sound = is_sound(plant);
 }
 
-// Shifts as far as nothing is bent much; what is left is for the next steps.
-static void move_by(Plant& plant, const VecX& dv) {
-    constexpr double LEAST = 0.05;
+// Shifts as far as nothing is bent much, and as the work that it does on the plant stays small: contacts that want it in
+// different places at once would press it like a spring. What is left is for the next steps.
+static void move_by(Plant& plant, const VecX& dv, double h) {
+    constexpr double LEAST = 0.05, LIFT = 0.5;  // the work is that of lifting the plant so fast, by its weight [m/s]
+    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
+    const Elements& elements = plant.own_elements ? *plant.own_elements : elements_of(*plant.system);
     const VecX x = plant.motion.x;
+    const double allowed = row.energy(elements, x) + node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
     for (double share = 1; share > LEAST; share /= 2) {
         add_shift(*plant.workspace, share * dv, plant.motion);
-        if (is_calm(*plant.system, plant.x_good, plant.motion.x)) return;
+        if (is_calm(*plant.system, plant.x_good, plant.motion.x) && row.energy(elements, plant.motion.x) <= allowed)
+            return;
         plant.motion.x = x;
     }
 }
@@ -167,7 +172,7 @@ void add_contacts(Plant& plant, double h) {
         if (impulse.size() > 0) plant.loads.force += impulse / h;
         solve_carefully(plant, h);
     }
-    if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv);
+    if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
     plant.is_sound = is_sound(plant);
 }
 

@@ -52,8 +52,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
     rows.push_back(std::move(row));
 }
 
-// Plants part by being moved: cages may have been in each other by half a leaf when they were made, and would fly. What
-// has just collided stops first.
+// Plants part by being moved: cages may have been in each other by half a leaf when they were made, and would fly.
 void add_row(const World& world, PlantContact& contact, double h, std::vector<Row>& rows) {
     constexpr double SHARE = 0.3, FASTEST = 0.2;
     Row row;
@@ -64,8 +63,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
     const double room = std::max(0.0, SLOP - contact.depth) / h;
     row.touch.least_speed = -room;
-    const bool collides = row.touch.velocity.dot(contact.normal) < -FASTEST;
-    row.touch.least_shift = room > 0 || collides ? -room : parting_speed(contact.depth, h, SHARE, FASTEST);
+    row.touch.least_shift = room > 0 ? -room : parting_speed(contact.depth, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
     row.touch.depth = contact.depth;
     row.impulse = &contact.impulse;
