@@ -19,7 +19,7 @@ static void check_picture(bool ok) {
     exit(1);
 }
 
-enum { STEPS = 360, GALE = 180, STEPS_A_FRAME = 5, PLANTS = 3 };
+enum { STEPS = 240, GALE = 120, STEPS_A_FRAME = 5, PLANTS = 3 };
 
 int main(int argc, char** argv) {
     const char* folder = argc > 2 ? argv[2] : "wind_frames";

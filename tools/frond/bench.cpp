@@ -14,6 +14,7 @@ namespace {
 struct BenchOptions {
     std::string what = "drag";
     int rounds = 20;
+    int most = 17;  // plants that touch
     bool csv = false;
     std::vector<std::string> assignments;
 };
@@ -135,7 +136,8 @@ ContactFigures measure_field(int plants, const BenchOptions& options) {
 void bench_contact(const BenchOptions& options) {
     constexpr int COUNTS[] = {1, 2, 4, 8, 17};
     std::vector<ContactFigures> all;
-    for (const int plants : COUNTS) all.push_back(measure_field(plants, options));
+    for (const int plants : COUNTS)
+        if (plants <= options.most) all.push_back(measure_field(plants, options));
     if (options.csv) {
         std::printf("plants,tets,contacts,stage,median_ms,processor,compiler,version,commit\n");
         for (const ContactFigures& f : all)
@@ -177,6 +179,7 @@ void add_bench(CLI::App& app) {
     auto contact_options = std::make_shared<BenchOptions>();
     CLI::App* contact = bench->add_subcommand("contact", "time of plants that touch, by stage and number of plants");
     contact->add_option("--rounds", contact_options->rounds, "steps, default 20")->check(CLI::Range(1, 100000));
+    contact->add_option("--most", contact_options->most, "plants, default 17")->check(CLI::Range(4, 17));
     contact->add_flag("--csv", contact_options->csv, "print CSV");
     contact->add_option("--set", contact_options->assignments, "key=value, may be repeated; see frond run --help");
     contact->callback([contact_options] { bench_contact(*contact_options); });

@@ -145,7 +145,14 @@ double reconfiguration_of(double C) {
         }
         return y;
     };
-    const double angle = bisect(0, M_PI / 2, [&](double end) { return to_foot(end)[0]; });
+    // Strong flow bends in other, curled ways too; the one that is seen ends nearest to the flow's own direction.
+    const auto at_foot = [&](double end) { return to_foot(end)[0]; };
+    double off = 1e-9, before = 0;
+    while (off < M_PI / 2 && at_foot(M_PI / 2 - off) > 0) {
+        before = off;
+        off *= 1.2;
+    }
+    const double angle = bisect(M_PI / 2 - std::min(off, M_PI / 2), M_PI / 2 - before, at_foot);
     return to_foot(angle)[2] / C;
 }
 
