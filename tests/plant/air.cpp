@@ -29,31 +29,30 @@ frond_wind_def wind_def(double speed, double turbulence = 0) {
     return def;
 }
 
-// Upright, its normal along x; its chain has some twenty capsules.
+// Some twenty capsules along L, of one material; without gravity.
+frond_model_def long_def(double L, const frond_organ_material& organ) {
+    frond_model_def def = model_def();
+    def.capsule_height = L / 20;
+    def.cage_size = L / 10;
+    def.rest = FROND_REST_WITHOUT_GRAVITY;
+    def.organs = &organ;
+    def.organ_count = 1;
+    return def;
+}
+
+// Upright, its normal along x.
 std::shared_ptr<const Model> sheet_model(const char* name, double L, double W, const Material& material) {
     Surface surface;
     add_sheet(surface, 2, 40, [&](double s, double t) { return Vec3(0, t * L, (s - 0.5) * W); });
     surface.parts[0].name = name;
     const frond_organ_material organ = {"blade", material};
-    frond_model_def def = model_def();
-    def.capsule_height = L / 20;
-    def.cage_size = L / 10;
-    def.rest = FROND_REST_WITHOUT_GRAVITY;
-    def.organs = &organ;
-    def.organ_count = 1;
-    return build_from_surface(std::move(surface), def);
+    return build_from_surface(std::move(surface), long_def(L, organ));
 }
 
 std::shared_ptr<const Model> stem_model(double L, double r, const Material& material) {
     const frond_stem stem = {-1, {0, 0, 0}, {0, L, 0}, r, r};
     const frond_organ_material organ = {"stem", material};
-    frond_model_def def = model_def();
-    def.capsule_height = L / 20;
-    def.cage_size = L / 10;
-    def.rest = FROND_REST_WITHOUT_GRAVITY;
-    def.organs = &organ;
-    def.organ_count = 1;
-    return build_from_stems(&stem, 1, def);
+    return build_from_stems(&stem, 1, long_def(L, organ));
 }
 
 struct Blown {
@@ -63,16 +62,8 @@ struct Blown {
 
     Blown(const std::shared_ptr<const Model>& model, frond_mechanics which, const frond_wind_def& air,
           frond_integrator integrator = FROND_BDF2, double root_height = 0) {
-        frond_plant_def def = {};
-        def.rotation = {0, 0, 0, 1};
-        def.mechanics = which;
-        def.element_order = 1;
+        frond_plant_def def = plant_def(which);
         def.integrator = integrator;
-        def.newton_iterations = 1;
-        def.newton_tolerance = 1e-8;
-        def.max_iterations = 100;
-        def.tolerance = 1e-6;
-        def.spectral_radius = 0.8;
         def.root_height = root_height;
         def.effects = FROND_ALL_EFFECTS & ~uint32_t(FROND_PLASTICITY);
         plant = create_plant(model, def);
@@ -281,8 +272,7 @@ TEST_P(EveryAir, StillAirOnlyTakesEnergyFromASway) {
     EXPECT_LT(with.energy(), 0.5 * without.energy());
 }
 
-// A leaf of grass in gusts about 60 m/s, at half of the frames of a film. A cage that is fitted to its bending lets it be
-// stretched; rods do not.
+// A leaf of grass in gusts about 60 m/s, at half of the frames of a film, is not drawn out.
 TEST_P(EveryAir, LightLeafInAGaleIsStableAtLongSteps) {
     const Material leaf = *material_preset("grass_blade");
     const auto model = sheet_model("leaf", 0.8, 0.06, leaf);
@@ -296,11 +286,11 @@ TEST_P(EveryAir, LightLeafInAGaleIsStableAtLongSteps) {
             blade.step(1.0 / 30);
             EXPECT_EQ(blade.plant->trouble & FROND_TROUBLE_REWOUND, 0u) << integrator(method).name << " step " << n;
             // The wind is there at once, so that the first steps are wild.
-            const double reach = (n < 10 || which != FROND_ROD ? 8 : 1.5) * 0.8;
+            const double reach = (n < 10 ? 2 : 1.3) * 0.8;
             for (const Vec3& p : blade.plant->chain_positions) ASSERT_LT(p.norm(), reach) << "step " << n;
             mean += blade.plant->chain_positions.back().x() / 60;
         }
-        EXPECT_GT(mean, 0.4) << integrator(method).name;
+        EXPECT_GT(mean, 0.25) << integrator(method).name;
     }
 }
 

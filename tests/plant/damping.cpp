@@ -8,6 +8,7 @@
 #include "plant/plant.hpp"
 #include "solve/integrator.hpp"
 #include "support/materials.hpp"
+#include "support/model_def.hpp"
 #include "support/sanitized.hpp"
 
 namespace frond::test {
@@ -40,17 +41,10 @@ struct Swaying {
     double still;  // energy before the push [J]
 
     Swaying(const std::shared_ptr<const Model>& model, frond_mechanics which, double scale, bool heavy) {
-        frond_plant_def def = {};
-        def.rotation = {0, 0, 0, 1};
-        def.mechanics = which;
-        def.element_order = 1;
+        frond_plant_def def = plant_def(which);
         def.integrator = FROND_TR_BDF2;
         def.newton_iterations = 2;
-        def.newton_tolerance = 1e-8;
-        def.max_iterations = 100;
-        def.tolerance = 1e-6;
         def.material_damping = scale;
-        def.effects = FROND_ALL_EFFECTS;
         plant = create_plant(model, def);
         if (heavy) surroundings.gravity = {0, -GRAVITY, 0};
         still = 0;

@@ -16,16 +16,7 @@ static std::shared_ptr<const Model> forked_model() {
 }
 
 static std::unique_ptr<Plant> make_plant(frond_mechanics which) {
-    frond_plant_def def = {};
-    def.rotation = {0, 0, 0, 1};
-    def.mechanics = which;
-    def.element_order = 1;
-    def.integrator = FROND_BDF2;
-    def.newton_iterations = 1;
-    def.max_iterations = 1000;
-    def.tolerance = 1e-6;
-    def.effects = FROND_ALL_EFFECTS;
-    return create_plant(forked_model(), def);
+    return create_plant(forked_model(), test::plant_def(which));
 }
 
 static void swing(Plant& plant, int steps) {

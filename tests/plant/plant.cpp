@@ -6,27 +6,18 @@
 #include <set>
 
 #include "build/build.hpp"
+#include "support/model_def.hpp"
 
 using namespace frond;
 
 static std::shared_ptr<const Model> small_model() {
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.5, 0}, 0.02, 0.015},
                                 {0, {0, 0.5, 0}, {0.2, 0.8, 0}, 0.015, 0.01}};
-    frond_model_def def = {};
-    def.scale = 1;
-    def.cage_smoothness = 0.5;
-    return build_from_surface(surface_from_stems(stems, 2), def);
+    return build_from_surface(surface_from_stems(stems, 2), test::model_def());
 }
 
 static frond_plant_def plant_def(int order = 1) {
-    frond_plant_def def = {};
-    def.rotation = {0, 0, 0, 1};
-    def.element_order = order;
-    def.newton_iterations = 1;
-    def.max_iterations = 100;
-    def.tolerance = 1e-6;
-    def.effects = FROND_ALL_EFFECTS;
-    return def;
+    return test::plant_def(FROND_TET_COROTATIONAL, order);
 }
 
 // Moves all nodes of a plant by x -> A x + b in its own frame.

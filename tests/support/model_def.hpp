@@ -1,4 +1,5 @@
-// What the build is given where no C API checks it first: metres, y up, cages as they are by default.
+// What the build and plants are given where no C API checks it first: metres, y up, cages as they are by default; one
+// solve a step, no damping but the materials', which must be asked for.
 #pragma once
 
 #include "build/build.hpp"
@@ -10,6 +11,21 @@ inline frond_model_def model_def() {
     def.cage_smoothness = CageOptions().smoothness;
     def.scale = 1;
     def.up = {0, 1, 0};
+    return def;
+}
+
+inline frond_plant_def plant_def(frond_mechanics which, int order = 1) {
+    frond_plant_def def = {};
+    def.rotation = {0, 0, 0, 1};
+    def.mechanics = which;
+    def.element_order = order;
+    def.integrator = FROND_BDF2;
+    def.newton_iterations = 1;
+    def.newton_tolerance = 1e-8;
+    def.max_iterations = 1000;
+    def.tolerance = 1e-6;
+    def.spectral_radius = 0.8;
+    def.effects = FROND_ALL_EFFECTS;
     return def;
 }
 

@@ -114,7 +114,10 @@ enum {
     FROND_BREAKING = 1 << 11,
     FROND_WIND = 1 << 12,     /* the air's own motion pushes the plant, where the world has air: frond_world_set_wind */
     FROND_AIR_DRAG = 1 << 13, /* and the plant's own motion through the air is resisted */
-    FROND_ALL_EFFECTS = (1 << 14) - 1,
+    /* Organs in a cage that is fatter than they are are not drawn out by more than 3 % and what their tissue gives; their
+     * cage alone gives as rubber does. Costs nothing while nothing is drawn out. Chains need none. */
+    FROND_FIBRES = 1 << 14,
+    FROND_ALL_EFFECTS = (1 << 15) - 1,
     /* of a plant; a world allows all */
     FROND_DEFAULT_EFFECTS = FROND_ALL_EFFECTS & ~(FROND_SELF_CONTACT | FROND_BREAKING)
 };

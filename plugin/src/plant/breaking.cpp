@@ -16,10 +16,6 @@ namespace frond {
 
 namespace {
 
-const Elements& elements_now(const Plant& plant) {
-    return plant.own_elements ? *plant.own_elements : elements_of(*plant.system);
-}
-
 // What is on a broken capsule's far side and not in another fragment already.
 void mark_chain(const Plant& plant, int node, int fragment, std::vector<int>& of_chain) {
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
@@ -141,7 +137,7 @@ const Fragment* fragment_at(const Plant& plant, const std::vector<int>& list, si
 }  // namespace
 
 int find_break(const Plant& plant) {
-    return find_overload(mechanics(plant.which, plant.nodes->order), elements_now(plant), plant.motion.x);
+    return find_overload(mechanics(plant.which, plant.nodes->order), elements_of(plant), plant.motion.x);
 }
 
 // The elements of what is gone leave the plant's system.

@@ -69,6 +69,12 @@ std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant) {
     return shared_of<AirPieces>(plant.model, plant.nodes->order, [&] { return make_air_pieces(*plant.model); });
 }
 
+// None of those whose cage needs none.
+static std::shared_ptr<const Fibres> fibres_of(const Plant& plant) {
+    const auto fibres = shared_of<Fibres>(plant.model, 1, [&] { return make_fibres(*plant.model); });
+    return fibres->list.empty() ? nullptr : fibres;
+}
+
 static CageNodes make_nodes(const Cage& cage, int order) {
     CageNodes nodes = {make_tet_nodes(int(cage.nodes.size()), cage.tets, order), {}};
     nodes.modelled = node_places(nodes, [&](int i) { return cage.nodes[size_t(i)]; });
@@ -84,6 +90,8 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.workspace = make_workspace(plant.system);
     plant.own_elements = nullptr;
     plant.follow = nullptr;
+    plant.fibres = nullptr;
+    if (!mechanics(which).moves_chain) plant.fibres = fibres_of(plant);
     if (mechanics(which).moves_chain)
         plant.follow = shared_of<Follow>(plant.model, nodes.order,
                                          [&] { return make_follow(*plant.model, nodes, nodes.modelled); });

@@ -5,6 +5,7 @@
 #include <list>
 
 #include "plant/air.hpp"
+#include "plant/fibres.hpp"
 #include "plant/follow.hpp"
 #include "plant/fragment.hpp"
 #include "solve/solve.hpp"
@@ -53,6 +54,7 @@ struct Plant {
 
     Motion motion;        // of what the mechanics move, model frame
     std::shared_ptr<const Follow> follow;  // null where the cage itself moves
+    std::shared_ptr<const Fibres> fibres;  // null where none pulls
     std::vector<uint8_t> pinned;           // one a cage node
     VecX pin_target;                       // where pinned cage nodes shall be, model frame [m]
     std::vector<int> anchor;               // the chain node that holds each cage node where it is pinned
@@ -133,6 +135,8 @@ std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule);
 void moved(Plant& plant);
 
 int node_count_of(const Plant& plant);
+// Its own, if it has yielded.
+const Elements& elements_of(const Plant& plant);
 // Of cage nodes, world frame [m], wherever their fragments are.
 Vec3 node_place(const Plant& plant, int node);
 // `v` being cage_velocities() [m/s].
@@ -142,6 +146,8 @@ const VecX& cage_places(const Plant& plant);
 VecX cage_velocities(const Plant& plant);  // [m/s]
 // A point of the plant for forces on it.
 Grip vertex_grip(const Plant& plant, int vertex);
+// A node of the chain, where tets move.
+Grip chain_grip(const Plant& plant, int node);
 
 // Holds a cage node where it is, lets it go, or moves where it is held to (model frame).
 void pin_node(Plant& plant, int node);

@@ -7,8 +7,7 @@ frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
     const VecX& mass = node_mass_of(*plant.system);
     frond_energy energy = {};
     energy.kinetic = kinetic_energy(*plant.system, plant.motion.x, plant.motion.v);
-    energy.elastic = mechanics(plant.which, plant.nodes->order).energy(
-        plant.own_elements ? *plant.own_elements : elements_of(*plant.system), plant.motion.x);
+    energy.elastic = mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), plant.motion.x);
     for (int i = 0; i < mass.size(); i++)
         energy.gravity -= mass[i] * gravity.dot(plant.to_world(point(plant.motion.x, i)));
     return energy;
@@ -58,6 +57,10 @@ void set_lasting(Plant& plant, const std::vector<double>& values) {
     }
     use_elements(*plant.workspace, own.get());
     plant.own_elements = std::move(own);
+}
+
+const Elements& elements_of(const Plant& plant) {
+    return plant.own_elements ? *plant.own_elements : elements_of(*plant.system);
 }
 
 int node_count_of(const Plant& plant) {

@@ -80,8 +80,7 @@ static void solve_carefully(Plant& plant, double h) {
     const SolveReport first = plant.report;
     plant.trouble |= FROND_TROUBLE_RETRIED;
     plant.report = solve_step(*plant.workspace, settings, plant.loads, h, plant.motion);
-    plant.report.ms_assembly += first.ms_assembly;
-    plant.report.ms_solve += first.ms_solve;
+    plant.report.add_cost(first);
 }
 
 // Whether the air has turned something by more than twice what one solve can tell well.
@@ -96,26 +95,21 @@ static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond
     constexpr int PARTS = 8;
     const VecX x_start = plant.x_good, v_start = plant.v_good;
     plant.trouble |= FROND_TROUBLE_RETRIED;
-    SolveReport sum = plant.report;
+    SolveReport spent = plant.report;
     plant.motion.x = x_start;
     plant.motion.v = v_start;
     plant.motion.history.valid = false;
-    for (int part = 0; part < PARTS && sum.ok; part++) {
+    for (int part = 0; part < PARTS && plant.report.ok; part++) {
         plant.x_good = plant.motion.x;
         plant.v_good = plant.motion.v;
         update_chain(plant);
         gather_air(plant, surroundings, effects, h / PARTS);
         plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / PARTS, plant.motion);
         if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x)) solve_carefully(plant, h / PARTS);
-        sum.ok = plant.report.ok;
-        sum.converged = plant.report.converged;
-        sum.inverted = plant.report.inverted;
-        sum.residual = plant.report.residual;
-        sum.iterations += plant.report.iterations;
-        sum.ms_assembly += plant.report.ms_assembly;
-        sum.ms_solve += plant.report.ms_solve;
+        if (effects & FROND_FIBRES) hold_lengths(plant);
+        plant.report.add_cost(spent);
+        spent = plant.report;
     }
-    plant.report = sum;
     plant.x_good = x_start;
     plant.v_good = v_start;
 }
@@ -140,6 +134,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
     if (!plant.report.ok || !is_plausible(plant)) solve_carefully(plant, h);
+    if (effects & FROND_FIBRES) hold_lengths(plant);
     plant.is_sound = is_sound(plant);
 }
 
@@ -148,7 +143,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
 static void move_by(Plant& plant, const VecX& dv, double h) {
     constexpr double LEAST = 0.05, LIFT = 0.5;  // the work is that of lifting the plant so fast, by its weight [m/s]
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
-    const Elements& elements = plant.own_elements ? *plant.own_elements : elements_of(*plant.system);
+    const Elements& elements = elements_of(plant);
     const VecX x = plant.motion.x;
     const double allowed = row.energy(elements, x) + node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
     for (double share = 1; share > LEAST; share /= 2) {

@@ -44,11 +44,9 @@ SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
         error += local_error(plant, x, v, h / count);
         sum.ok = one.ok;
         sum.converged &= one.converged;
-        sum.iterations += one.iterations;
         sum.inverted = one.inverted;
         sum.residual = std::max(sum.residual, one.residual);
-        sum.ms_assembly += one.ms_assembly;
-        sum.ms_solve += one.ms_solve;
+        sum.add_cost(one);
     }
     motion.pin_target = target;
     return sum;
@@ -67,9 +65,7 @@ SolveReport solve_in_substeps(Plant& plant, double h) {
     for (int count = plant.substeps;; count *= 2) {
         double error = 0;
         SolveReport report = solve_evenly(plant, count, h, error);
-        report.iterations += spent.iterations;
-        report.ms_assembly += spent.ms_assembly;
-        report.ms_solve += spent.ms_solve;
+        report.add_cost(spent);
         if ((report.ok && error <= allowed) || 2 * count > plant.max_substeps) {
             plant.substeps = error < TOO_FINE * allowed ? std::max(1, count / 2) : count;
             return report;

@@ -171,6 +171,10 @@ std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule) {
             plant.chain_positions[size_t(end)]};
 }
 
+Grip chain_grip(const Plant& plant, int node) {
+    return tet_grip(bound_place(plant, plant.model->chain_embedding, size_t(node)));
+}
+
 // Of a chain: the corner of the vertex's tet that it is nearest to stands for it, and a rigid arm reaches the rest.
 Grip vertex_grip(const Plant& plant, int vertex) {
     const Embedding& embedding = plant.model->embedding;

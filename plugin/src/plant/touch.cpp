@@ -6,13 +6,8 @@ namespace frond {
 
 // Both chain nodes' tets together; of quadratic ones, which have too many nodes for that, those of the nearer node.
 static Grip ends_grip(const Plant& plant, int begin, int end, double along) {
-    const Embedding& embedding = plant.model->chain_embedding;
-    const auto place = [&](int node) {
-        return place_in_tet(*plant.nodes, plant.model->cage.tets, embedding.tet[size_t(node)],
-                            embedding.weights[size_t(node)]);
-    };
-    if (plant.nodes->order == 2) return tet_grip(place(along < 0.5 ? begin : end));
-    const Grip first = tet_grip(place(begin)), second = tet_grip(place(end));
+    if (plant.nodes->order == 2) return chain_grip(plant, along < 0.5 ? begin : end);
+    const Grip first = chain_grip(plant, begin), second = chain_grip(plant, end);
     Grip grip;
     const auto add = [&](const Grip& one, double share) {
         for (size_t k = 0; k < size_t(one.count); k++) {

@@ -22,9 +22,13 @@ bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& im
     return result.ok && dv.allFinite();
 }
 
+double reach_of(const Workspace& workspace) {
+    return workspace.reach;
+}
+
 void add_response(const Workspace& workspace, const VecX& dv, Motion& motion) {
     motion.v += dv;
-    motion.x += workspace.reach * dv;
+    add_shift(workspace, dv, motion);
 }
 
 void add_shift(const Workspace& workspace, const VecX& dv, Motion& motion) {

@@ -83,6 +83,13 @@ struct SolveReport {
     int inverted = 0;     // tets
     double residual = 0;  // relative, of the last linear solve
     double ms_assembly = 0, ms_solve = 0;
+
+    // What another solve took is in this report too.
+    void add_cost(const SolveReport& other) {
+        iterations += other.iterations;
+        ms_assembly += other.ms_assembly;
+        ms_solve += other.ms_solve;
+    }
 };
 
 // Scratch space of one plant: matrix values, factor, vectors. Kept from step to step.
@@ -104,6 +111,8 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
 // matrix of that step's last solve, so that elastic forces answer within the step; held nodes get none. False if it has
 // no solution.
 bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& impulse, VecX& dv);
+// How far places at the end of the last step go with velocities there [s].
+double reach_of(const Workspace& workspace);
 // Adds such velocities, and where they lead within the step, to the motion that the step left.
 void add_response(const Workspace& workspace, const VecX& dv, Motion& motion);
 // Adds only where they lead, so that what is moved apart does not fly apart.

@@ -1,0 +1,201 @@
+// In: a plant of tets that is solved but not yet accepted. Out: the same, with no capsule of a caged organ drawn out by
+// more than its tissue is.
+//
+// A fibre is slack up to a small stretch and then as stiff as what the cage lacks, so small motions, the rest shape and
+// the fit of the cage do not know of it. It only pulls. Taut ones are rows of impulses against the plant's own factor, as
+// contacts are, with their softness on the diagonal: for a step whose places follow velocities by `reach`, an impulse p
+// is a force p / reach, which draws the fibre out by p / (reach k). What is held pulls at its capsule likewise.
+#include "plant/fibres.hpp"
+
+#include <algorithm>
+
+#include "model/tet_geometry.hpp"
+#include "plant/plant.hpp"
+#include "solve/answer.hpp"
+#include "solve/one_sided.hpp"
+
+namespace frond {
+
+namespace {
+
+constexpr double SLACK = 0.03;  // stretch that is let be [-]
+constexpr int ROUNDS = 3;
+
+// Share of each organ's stiffness against pull that its cage has not [-].
+std::vector<double> lack_of_organs(const Model& model) {
+    std::vector<double> tissue(model.organs.size(), 0.0), cage(model.organs.size(), 0.0);
+    for (size_t i = 0; i < model.chain.nodes.size(); i++) {
+        const ChainNode& node = model.chain.nodes[i];
+        if (node.parent >= 0 && node.organ >= 0)
+            tissue[size_t(node.organ)] += model.sections[i].stretching() * model.sections[i].length;
+    }
+    for (size_t e = 0; e < model.cage.tets.size(); e++)
+        cage[size_t(model.cage.tet_organ[e])] +=
+            model.tet_young[e] * std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
+    for (size_t i = 0; i < tissue.size(); i++) tissue[i] = tissue[i] > 0 ? 1 - cage[i] / tissue[i] : 0;
+    return tissue;
+}
+
+// A fibre that is drawn out, or may come to be by others that pull.
+struct Row {
+    Grip begin, end;
+    double length;     // from which it pulls [m]
+    double stiffness;  // [N/m]
+};
+
+// What is held pulls at both ends of its capsule.
+void add_rows_of_grabs(const Plant& plant, std::vector<Row>& rows) {
+    const Model& model = *plant.model;
+    const Fibres& fibres = *plant.fibres;
+    for (const Grab& grab : plant.grabs) {
+        const int node = model.chain.vertex_node[size_t(grab.vertex)], fibre = fibres.of_node[size_t(node)];
+        if (fibre < 0 || fragment_of_vertex(plant, size_t(grab.vertex))) continue;
+        for (const int end : {node, model.chain.nodes[size_t(node)].parent}) {
+            const Vec3& place = model.chain.nodes[size_t(end)].position;
+            const double length = (model.surface.positions[size_t(grab.vertex)] - place).norm();
+            rows.push_back({chain_grip(plant, end), vertex_grip(plant, grab.vertex), (1 + SLACK) * length,
+                            fibres.list[size_t(fibre)].stiffness});
+        }
+    }
+}
+
+// Organs of which something is drawn out; empty: none.
+std::vector<uint8_t> find_drawn(Plant& plant) {
+    std::vector<uint8_t> drawn;
+    update_chain(plant);
+    for (const Fibre& fibre : plant.fibres->list) {
+        const ChainNode& node = plant.model->chain.nodes[size_t(fibre.node)];
+        const std::vector<Vec3>& places = plant.chain_positions;
+        if (!((places[size_t(fibre.node)] - places[size_t(node.parent)]).norm() > fibre.length)) continue;
+        drawn.resize(plant.model->organs.size(), 0);
+        drawn[size_t(node.organ)] = 1;
+    }
+    return drawn;
+}
+
+std::vector<Row> find_rows(Plant& plant) {
+    std::vector<Row> rows;
+    const std::vector<uint8_t> drawn = find_drawn(plant);
+    if (drawn.empty()) return rows;
+    for (const Fibre& fibre : plant.fibres->list) {
+        const ChainNode& node = plant.model->chain.nodes[size_t(fibre.node)];
+        if (!drawn[size_t(node.organ)] || fragment_of_chain_node(plant, size_t(fibre.node))) continue;
+        rows.push_back({chain_grip(plant, node.parent), chain_grip(plant, fibre.node), fibre.length, fibre.stiffness});
+    }
+    add_rows_of_grabs(plant, rows);
+    return rows;
+}
+
+// A row as it is now: how its length goes with the nodes, and how much too long it is [m].
+struct Stretch {
+    std::vector<NodeBlock> pull;  // on the nodes, by a pull of one: column 0
+    double over;
+};
+
+Stretch stretch_of(const Row& row, const VecX& x) {
+    const Vec3 way = grip_place(row.end, x) - grip_place(row.begin, x);
+    const Vec3 along = way.normalized();
+    Stretch stretch = {{}, way.norm() - row.length};
+    const auto add = [&](const GripDerivative& at, const Vec3& pull) {
+        for (size_t k = 0; k < size_t(at.count); k++) {
+            stretch.pull.push_back({at.node[k], Mat3::Zero()});
+            stretch.pull.back().block.col(0) = at.by[k].transpose() * pull;
+        }
+    };
+    add(derivative_at(row.end, x), -along);
+    add(derivative_at(row.begin, x), along);
+    return stretch;
+}
+
+// How fast each row closes by pulls on every one [1/kg]; empty if the plant does not answer.
+Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
+    const size_t count = stretches.size();
+    std::vector<Answer> answers(count);
+    std::vector<const Answer*> all;
+    for (size_t i = 0; i < count; i++) {
+        if (!make_answer(*plant.workspace, plant.settings, stretches[i].pull, answers[i])) return {};
+        all.push_back(&answers[i]);
+    }
+    std::vector<Mat3> blocks(count * count, Mat3::Zero());
+    add_coupling(all, blocks);
+    Eigen::MatrixXd W(count, count);
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < count; j++) W(Eigen::Index(i), Eigen::Index(j)) = blocks[i * count + j](0, 0);
+    return W;
+}
+
+// What pulls change in the plant's velocities. False if it does not answer.
+bool answer_to(Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls, VecX& dv) {
+    VecX impulse = VecX::Zero(plant.motion.v.size());
+    for (size_t i = 0; i < stretches.size(); i++)
+        for (const NodeBlock& pull : stretches[i].pull)
+            point(impulse, pull.node) += pulls[Eigen::Index(i)] * pull.block.col(0);
+    return respond(*plant.workspace, plant.settings, impulse, dv);
+}
+
+// Rows that pull do not lengthen any more.
+void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const Eigen::MatrixXd& W, VecX pulls) {
+    std::vector<Eigen::Index> taut;
+    VecX lengthening = VecX::Zero(pulls.size()), stops, dv;
+    for (Eigen::Index i = 0; i < pulls.size(); i++) {
+        if (pulls[i] > 0) taut.push_back(i);
+        for (const NodeBlock& pull : stretches[size_t(i)].pull)
+            lengthening[i] -= pull.block.col(0).dot(point(plant.motion.v, pull.node));
+    }
+    const Eigen::MatrixXd among_taut = W(taut, taut);
+    const VecX of_taut = lengthening(taut);
+    if (!solve_one_sided(among_taut, of_taut, stops)) return;
+    pulls.setZero();
+    for (size_t k = 0; k < taut.size(); k++) pulls[taut[k]] = stops[Eigen::Index(k)];
+    if (answer_to(plant, stretches, pulls, dv)) plant.motion.v += dv;
+}
+
+}  // namespace
+
+Fibres make_fibres(const Model& model) {
+    constexpr double LEAST = 0.5;  // of an organ's stiffness against pull that a cage has to lack [-]
+    Fibres fibres;
+    fibres.of_node.assign(model.chain.nodes.size(), -1);
+    if (!model.calibrated) return fibres;
+    const std::vector<double> lack = lack_of_organs(model);
+    for (size_t i = 0; i < model.chain.nodes.size(); i++) {
+        const ChainNode& node = model.chain.nodes[i];
+        if (node.parent < 0 || node.organ < 0 || lack[size_t(node.organ)] < LEAST) continue;
+        const double length = (node.position - model.chain.nodes[size_t(node.parent)].position).norm();
+        if (!(length > 0)) continue;
+        fibres.of_node[i] = int(fibres.list.size());
+        fibres.list.push_back(
+            {int(i), (1 + SLACK) * length, lack[size_t(node.organ)] * model.sections[i].stretching() / length});
+    }
+    return fibres;
+}
+
+// Places first, in rounds, since pulls turn what they pull, which is of second order in the way. Then velocities, by
+// themselves: what brings places back in a part of a step would be too fast after it.
+void hold_lengths(Plant& plant) {
+    if (!plant.fibres || !plant.report.ok) return;
+    const std::vector<Row> rows = find_rows(plant);
+    if (rows.empty()) return;
+    const Eigen::Index count = Eigen::Index(rows.size());
+    const double reach = reach_of(*plant.workspace);
+    std::vector<Stretch> stretches(rows.size());
+    VecX pulls = VecX::Zero(count), dv;  // impulses [N s]
+    Eigen::MatrixXd W;
+    for (int round = 0; round < ROUNDS; round++) {
+        for (size_t i = 0; i < rows.size(); i++) stretches[i] = stretch_of(rows[i], plant.motion.x);
+        W = couple(plant, stretches);
+        if (W.size() == 0) return;
+        Eigen::MatrixXd soft = W;
+        const VecX known = pulls;
+        VecX wanted = W * known;
+        for (Eigen::Index i = 0; i < count; i++) {
+            wanted[i] += stretches[size_t(i)].over / reach;
+            soft(i, i) += 1 / (reach * reach * rows[size_t(i)].stiffness);
+        }
+        if (!solve_one_sided(soft, wanted, pulls) || !answer_to(plant, stretches, pulls - known, dv)) return;
+        add_shift(*plant.workspace, dv, plant.motion);
+    }
+    stop_lengthening(plant, stretches, W, pulls);
+}
+
+}  // namespace frond

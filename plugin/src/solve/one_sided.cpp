@@ -1,0 +1,66 @@
+// In: W and b of one-sided rows. Out: p, the least of p'Wp/2 - b'p that pulls nowhere the wrong way, by active sets (Lawson,
+// Hanson 1974, "Solving least squares problems", chapter 23): rows that pull are solved as equations; on the way to that,
+// those that would push leave, then violated ones join. A few times all of them at once, which is quick and mostly
+// enough; then one by one, where each round makes it less, so that it ends.
+#include "solve/one_sided.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <vector>
+
+namespace frond {
+
+namespace {
+
+// Goes from p towards the solution on the rows that pull, as far as none pushes; these leave. False if there is none.
+bool solve_on(const Eigen::MatrixXd& W, const VecX& b, std::vector<Eigen::Index>& pulling, VecX& p) {
+    while (true) {
+        const Eigen::LLT<Eigen::MatrixXd> factor(W(pulling, pulling));
+        if (factor.info() != Eigen::Success) return false;
+        const VecX found = factor.solve(VecX(b(pulling))), now = p(pulling);
+        double share = 1;
+        for (Eigen::Index k = 0; k < found.size(); k++)
+            if (!(found[k] > 0)) share = std::min(share, now[k] / (now[k] - found[k]));
+        if (!(share >= 0)) share = 0;  // both are zero
+        p(pulling) = VecX(now + share * (found - now));
+        if (share == 1) return p.allFinite();
+        std::vector<Eigen::Index> left;
+        for (Eigen::Index k = 0; k < found.size(); k++) {
+            const Eigen::Index row = pulling[size_t(k)];
+            if (found[k] > 0 || p[row] > 1e-12 * now[k])
+                left.push_back(row);
+            else
+                p[row] = 0;
+        }
+        if (left.size() == pulling.size()) return false;
+        pulling = left;
+    }
+}
+
+}  // namespace
+
+bool solve_one_sided(const Eigen::MatrixXd& W, const VecX& b, VecX& p) {
+    constexpr int EAGER = 6;  // rounds in which all that are violated join
+    const Eigen::Index count = b.size();
+    const double rounding = 1e-9 * (count > 0 ? b.cwiseAbs().maxCoeff() : 0);
+    std::vector<Eigen::Index> pulling;
+    p.setZero(count);
+    for (int round = 0; round < EAGER + 3 * int(count); round++) {
+        const VecX lacking = b - W * p;
+        std::vector<Eigen::Index> violated;
+        for (Eigen::Index i = 0; i < count; i++)
+            if (!(lacking[i] <= rounding) && std::find(pulling.begin(), pulling.end(), i) == pulling.end())
+                violated.push_back(i);
+        if (violated.empty()) return true;
+        if (round >= EAGER) {
+            const auto is_less = [&](Eigen::Index i, Eigen::Index k) { return lacking[i] < lacking[k]; };
+            violated = {*std::max_element(violated.begin(), violated.end(), is_less)};
+        }
+        pulling.insert(pulling.end(), violated.begin(), violated.end());
+        if (!solve_on(W, b, pulling, p)) break;
+    }
+    p.setZero(count);
+    return false;
+}
+
+}  // namespace frond

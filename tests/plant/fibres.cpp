@@ -1,0 +1,141 @@
+// Fibres: a blade in a cage is not drawn out, neither by a hand nor by what hangs on it; what is soft by its material
+// gives as it should; a cage that lacks nothing has none; slack ones change no bit.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "build/build.hpp"
+#include "plant/plant.hpp"
+#include "support/materials.hpp"
+#include "support/model_def.hpp"
+#include "support/soups.hpp"
+
+namespace frond::test {
+namespace {
+
+constexpr double LENGTH = 0.5, WIDTH = 0.05, H = 1.0 / 60;
+
+// Upright, its normal along x.
+std::shared_ptr<const Model> blade(double young, double thickness) {
+    Surface surface;
+    add_sheet(surface, 2, 30, [](double s, double t) { return Vec3(0, t * LENGTH, (s - 0.5) * WIDTH); });
+    surface.parts[0].name = "blade";
+    const frond_organ_material organ = {"blade", plain_material(900, young, 0.3, thickness)};
+    frond_model_def def = model_def();
+    def.cage_size = WIDTH / 2;
+    def.rest = FROND_REST_WITHOUT_GRAVITY;
+    def.organs = &organ;
+    def.organ_count = 1;
+    return build_from_surface(std::move(surface), def);
+}
+
+std::unique_ptr<Plant> plant_of(const std::shared_ptr<const Model>& model, frond_mechanics which,
+                                frond_effects effects = FROND_ALL_EFFECTS & ~uint32_t(FROND_PLASTICITY)) {
+    frond_plant_def def = plant_def(which);
+    def.mass_damping = 2;
+    def.stiffness_damping = 0.002;
+    def.effects = effects;
+    return create_plant(model, def);
+}
+
+double chain_length(const Plant& plant) {
+    double sum = 0;
+    for (size_t i = 0; i < plant.chain_positions.size(); i++) {
+        const int parent = plant.model->chain.nodes[i].parent;
+        if (parent >= 0) sum += (plant.chain_positions[i] - plant.chain_positions[size_t(parent)]).norm();
+    }
+    return sum;
+}
+
+// A hand takes the end of the blade's rim and pulls that far beyond, softly enough for the force asked for. Returns
+// the chain's length then, over that before [-].
+double drawn(Plant& plant, const Vec3& way, double force, double& held) {
+    const double before = chain_length(plant);
+    const int vertex = nearest_vertex(plant, plant.position + Vec3(0, LENGTH, WIDTH / 2));
+    const Vec3 start = vertex_position(plant, vertex);
+    Surroundings surroundings;
+    plant.grabs.push_back({vertex, start, force / way.norm(), 1});
+    for (int i = 1; i <= 180; i++) {
+        plant.grabs.back().target = start + std::min(1.0, i / 60.0) * way;
+        step_plant(plant, surroundings, H);
+        EXPECT_EQ(plant.trouble & FROND_TROUBLE_REWOUND, 0u) << i;
+    }
+    held = grab_force(plant, plant.grabs.back()).norm();
+    return chain_length(plant) / before;
+}
+
+class Pulled : public testing::TestWithParam<frond_mechanics> {};
+INSTANTIATE_TEST_SUITE_P(Tets, Pulled,
+                         testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN));
+
+TEST_P(Pulled, BladeIsNotDrawnOut) {
+    const auto model = blade(5e8, 3e-4);
+    double force;
+    const auto plant = plant_of(model, GetParam());
+    EXPECT_LT(drawn(*plant, {0, 0.2, 0}, 5, force), 1.04);
+    EXPECT_GT(force, 4);
+    // The rim that the hand holds stays at the blade.
+    const Vec3 tip = plant->to_world(plant->chain_positions.back());
+    EXPECT_LT((vertex_position(*plant, plant->grabs.back().vertex) - tip).norm(), 1.3 * WIDTH);
+
+    const auto rubber = plant_of(model, GetParam(), FROND_ALL_EFFECTS & ~uint32_t(FROND_FIBRES | FROND_PLASTICITY));
+    EXPECT_GT(drawn(*rubber, {0, 0.2, 0}, 5, force), 1.12);
+}
+
+TEST_P(Pulled, BladeComesBackAndStandsStill) {
+    const auto plant = plant_of(blade(5e8, 3e-4), GetParam());
+    double force;
+    drawn(*plant, {0.3, 0.1, 0.1}, 3, force);
+    plant->grabs.clear();
+    Surroundings surroundings;
+    for (int i = 0; i < 600; i++) step_plant(*plant, surroundings, H);
+    EXPECT_EQ(plant->trouble, 0u);
+    for (int i = 0; i < node_count_of(*plant); i++)
+        EXPECT_LT((point(plant->motion.x, i) - point(plant->nodes->modelled, i)).norm(), 0.01 * LENGTH) << i;
+}
+
+// By Hooke's law, but for the slack: the cage carries a share of the pull from the start, the fibres theirs beyond that.
+TEST_P(Pulled, SoftTissueGivesAsItShould) {
+    constexpr double YOUNG = 2e5, RADIUS = 0.006;
+    const frond_stem stem = {-1, {0, 0, 0}, {0, LENGTH, 0}, RADIUS, RADIUS};
+    const frond_organ_material organ = {"stem", plain_material(900, YOUNG, 0.3, 1e-3)};
+    frond_model_def def = model_def();
+    def.cage_size = 4 * RADIUS;
+    def.rest = FROND_REST_WITHOUT_GRAVITY;
+    def.organs = &organ;
+    def.organ_count = 1;
+    const auto model = build_from_stems(&stem, 1, def);
+    ASSERT_FALSE(make_fibres(*model).list.empty());
+    double force;
+    const double stretched = drawn(*plant_of(model, GetParam()), {0, 0.3, 0}, 4, force) - 1;
+    const double expected = force / (YOUNG * M_PI * RADIUS * RADIUS);
+    EXPECT_GT(expected, 0.08);
+    EXPECT_GT(stretched, 0.95 * expected);
+    EXPECT_LT(stretched, 1.15 * expected + 0.03);
+}
+
+TEST_P(Pulled, SlackFibresChangeNoBit) {
+    const auto model = blade(5e8, 3e-4);
+    const auto with = plant_of(model, GetParam());
+    const auto without = plant_of(model, GetParam(), FROND_ALL_EFFECTS & ~uint32_t(FROND_FIBRES | FROND_PLASTICITY));
+    Surroundings surroundings;
+    surroundings.gravity = {0.2, 0, 0};
+    for (int i = 0; i < 60; i++) {
+        step_plant(*with, surroundings, H);
+        step_plant(*without, surroundings, H);
+    }
+    EXPECT_EQ(with->motion.x, without->motion.x);
+    EXPECT_GT((with->motion.x - with->nodes->modelled).norm(), 0.001);
+}
+
+TEST(Fibres, AreForCagesThatLackThem) {
+    EXPECT_GT(make_fibres(*blade(5e8, 3e-4)).list.size(), 4u);
+    EXPECT_TRUE(plant_of(blade(5e8, 3e-4), FROND_TET_LINEAR)->fibres);
+    EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_ROD)->fibres);
+    Model tet;
+    tet.calibrated = false;
+    EXPECT_TRUE(make_fibres(tet).list.empty());
+}
+
+}  // namespace
+}  // namespace frond::test
