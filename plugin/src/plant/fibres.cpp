@@ -59,28 +59,22 @@ void add_rows_of_grabs(const Plant& plant, std::vector<Row>& rows) {
     }
 }
 
-// Organs of which something is drawn out; empty: none.
-std::vector<uint8_t> find_drawn(Plant& plant) {
-    std::vector<uint8_t> drawn;
-    update_chain(plant);
-    for (const Fibre& fibre : plant.fibres->list) {
-        const ChainNode& node = plant.model->chain.nodes[size_t(fibre.node)];
-        const std::vector<Vec3>& places = plant.chain_positions;
-        if (!((places[size_t(fibre.node)] - places[size_t(node.parent)]).norm() > fibre.length)) continue;
-        drawn.resize(plant.model->organs.size(), 0);
-        drawn[size_t(node.organ)] = 1;
-    }
-    return drawn;
-}
-
+// Those that are taut and, if there are any, those that nearly are, which others may draw out.
 std::vector<Row> find_rows(Plant& plant) {
+    constexpr double NEARLY = 0.985;  // as long as what is taut [-]
+    update_chain(plant);
+    const auto is_as_long = [&](const Fibre& fibre, double share) {
+        const std::vector<Vec3>& places = plant.chain_positions;
+        const size_t node = size_t(fibre.node), parent = size_t(plant.model->chain.nodes[node].parent);
+        return (places[node] - places[parent]).norm() > share * fibre.length;
+    };
     std::vector<Row> rows;
-    const std::vector<uint8_t> drawn = find_drawn(plant);
-    if (drawn.empty()) return rows;
-    for (const Fibre& fibre : plant.fibres->list) {
-        const ChainNode& node = plant.model->chain.nodes[size_t(fibre.node)];
-        if (!drawn[size_t(node.organ)] || fragment_of_chain_node(plant, size_t(fibre.node))) continue;
-        rows.push_back({chain_grip(plant, node.parent), chain_grip(plant, fibre.node), fibre.length, fibre.stiffness});
+    const std::vector<Fibre>& list = plant.fibres->list;
+    if (std::none_of(list.begin(), list.end(), [&](const Fibre& fibre) { return is_as_long(fibre, 1); })) return rows;
+    for (const Fibre& fibre : list) {
+        if (!is_as_long(fibre, NEARLY) || fragment_of_chain_node(plant, size_t(fibre.node))) continue;
+        const int parent = plant.model->chain.nodes[size_t(fibre.node)].parent;
+        rows.push_back({chain_grip(plant, parent), chain_grip(plant, fibre.node), fibre.length, fibre.stiffness});
     }
     add_rows_of_grabs(plant, rows);
     return rows;
