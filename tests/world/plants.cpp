@@ -383,7 +383,7 @@ TEST(Plants, DoNotPassThroughThemselves) {
         must(frond_grab_create(plant, {0.15, 0.6, 0}, 30, &right));
         int touched = 0;
         for (int i = 0; i < 120; i++) {
-            const double way = 0.3 * std::min(1.0, i / 60.0);
+            const double way = 0.45 * std::min(1.0, i / 60.0);
             must(frond_grab_move(left, {-0.15 + way, 0.6, 0}));
             must(frond_grab_move(right, {0.15 - way, 0.6, 0}));
             stand.steps(1);

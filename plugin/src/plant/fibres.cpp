@@ -20,6 +20,7 @@ namespace {
 
 constexpr double SLACK = 0.03;  // stretch that is let be [-]
 constexpr int ROUNDS = 3;
+constexpr double CLOSE = 0.001;  // stretch beyond what pulls give that needs no further round [-]
 
 // Share of each organ's stiffness against pull that its cage has not [-].
 std::vector<double> lack_of_organs(const Model& model) {
@@ -81,8 +82,12 @@ std::vector<Row> find_rows(Plant& plant) {
 }
 
 // A row as it is now: how its length goes with the nodes, and how much too long it is [m].
+struct NodePull {
+    int node;
+    Vec3 along;  // on the node, by a pull of one [-]
+};
 struct Stretch {
-    std::vector<NodeBlock> pull;  // on the nodes, by a pull of one: column 0
+    std::vector<NodePull> pull;
     double over;
 };
 
@@ -91,30 +96,42 @@ Stretch stretch_of(const Row& row, const VecX& x) {
     const Vec3 along = way.normalized();
     Stretch stretch = {{}, way.norm() - row.length};
     const auto add = [&](const GripDerivative& at, const Vec3& pull) {
-        for (size_t k = 0; k < size_t(at.count); k++) {
-            stretch.pull.push_back({at.node[k], Mat3::Zero()});
-            stretch.pull.back().block.col(0) = at.by[k].transpose() * pull;
-        }
+        for (size_t k = 0; k < size_t(at.count); k++)
+            stretch.pull.push_back({at.node[k], at.by[k].transpose() * pull});
     };
     add(derivative_at(row.end, x), -along);
     add(derivative_at(row.begin, x), along);
     return stretch;
 }
 
-// How fast each row closes by pulls on every one [1/kg]; empty if the plant does not answer.
+std::vector<Stretch> stretches_of(const std::vector<Row>& rows, const VecX& x) {
+    std::vector<Stretch> stretches;
+    for (const Row& row : rows) stretches.push_back(stretch_of(row, x));
+    return stretches;
+}
+
+// How fast each row closes by pulls on every one [1/kg]; empty if the plant does not answer. An answer has room for three
+// directions of one push, so three rows go into one.
 Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
-    const size_t count = stretches.size();
-    std::vector<Answer> answers(count);
+    const size_t count = stretches.size(), triples = (count + 2) / 3;
+    std::vector<Answer> answers(triples);
     std::vector<const Answer*> all;
-    for (size_t i = 0; i < count; i++) {
-        if (!make_answer(*plant.workspace, plant.settings, stretches[i].pull, answers[i])) return {};
-        all.push_back(&answers[i]);
+    for (size_t t = 0; t < triples; t++) {
+        std::vector<NodeBlock> pulls;
+        for (size_t i = 3 * t; i < std::min(count, 3 * t + 3); i++)
+            for (const NodePull& pull : stretches[i].pull) {
+                pulls.push_back({pull.node, Mat3::Zero()});
+                pulls.back().block.col(Eigen::Index(i % 3)) = pull.along;
+            }
+        if (!make_answer(*plant.workspace, plant.settings, pulls, answers[t])) return {};
+        all.push_back(&answers[t]);
     }
-    std::vector<Mat3> blocks(count * count, Mat3::Zero());
+    std::vector<Mat3> blocks(triples * triples, Mat3::Zero());
     add_coupling(all, blocks);
     Eigen::MatrixXd W(count, count);
-    for (size_t i = 0; i < count; i++)
-        for (size_t j = 0; j < count; j++) W(Eigen::Index(i), Eigen::Index(j)) = blocks[i * count + j](0, 0);
+    for (Eigen::Index i = 0; i < W.rows(); i++)
+        for (Eigen::Index j = 0; j < W.cols(); j++)
+            W(i, j) = blocks[size_t(i / 3) * triples + size_t(j / 3)](i % 3, j % 3);
     return W;
 }
 
@@ -122,8 +139,8 @@ Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
 bool answer_to(Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls, VecX& dv) {
     VecX impulse = VecX::Zero(plant.motion.v.size());
     for (size_t i = 0; i < stretches.size(); i++)
-        for (const NodeBlock& pull : stretches[i].pull)
-            point(impulse, pull.node) += pulls[Eigen::Index(i)] * pull.block.col(0);
+        for (const NodePull& pull : stretches[i].pull)
+            point(impulse, pull.node) += pulls[Eigen::Index(i)] * pull.along;
     return respond(*plant.workspace, plant.settings, impulse, dv);
 }
 
@@ -133,8 +150,8 @@ void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const
     VecX lengthening = VecX::Zero(pulls.size()), stops, dv;
     for (Eigen::Index i = 0; i < pulls.size(); i++) {
         if (pulls[i] > 0) taut.push_back(i);
-        for (const NodeBlock& pull : stretches[size_t(i)].pull)
-            lengthening[i] -= pull.block.col(0).dot(point(plant.motion.v, pull.node));
+        for (const NodePull& pull : stretches[size_t(i)].pull)
+            lengthening[i] -= pull.along.dot(point(plant.motion.v, pull.node));
     }
     const Eigen::MatrixXd among_taut = W(taut, taut);
     const VecX of_taut = lengthening(taut);
@@ -167,27 +184,32 @@ Fibres make_fibres(const Model& model) {
 // Places first, in rounds, since pulls turn what they pull, which is of second order in the way. Then velocities, by
 // themselves: what brings places back in a part of a step would be too fast after it.
 void hold_lengths(Plant& plant) {
-    if (!plant.fibres || !plant.report.ok) return;
+    if (!plant.fibres || !plant.report.ok || plant.is_entangled) return;
     const std::vector<Row> rows = find_rows(plant);
     if (rows.empty()) return;
     const Eigen::Index count = Eigen::Index(rows.size());
     const double reach = reach_of(*plant.workspace);
-    std::vector<Stretch> stretches(rows.size());
-    VecX pulls = VecX::Zero(count), dv;  // impulses [N s]
+    VecX pulls = VecX::Zero(count), softness(count), dv;  // impulses [N s]; how far each draws its row out [m/(N s)]
+    for (Eigen::Index i = 0; i < count; i++) softness[i] = 1 / (reach * rows[size_t(i)].stiffness);
+    std::vector<Stretch> stretches = stretches_of(rows, plant.motion.x);
     Eigen::MatrixXd W;
     for (int round = 0; round < ROUNDS; round++) {
-        for (size_t i = 0; i < rows.size(); i++) stretches[i] = stretch_of(rows[i], plant.motion.x);
         W = couple(plant, stretches);
         if (W.size() == 0) return;
-        Eigen::MatrixXd soft = W;
         const VecX known = pulls;
         VecX wanted = W * known;
-        for (Eigen::Index i = 0; i < count; i++) {
-            wanted[i] += stretches[size_t(i)].over / reach;
-            soft(i, i) += 1 / (reach * reach * rows[size_t(i)].stiffness);
-        }
+        for (Eigen::Index i = 0; i < count; i++) wanted[i] += stretches[size_t(i)].over / reach;
+        Eigen::MatrixXd soft = W;
+        soft.diagonal() += softness / reach;
         if (!solve_one_sided(soft, wanted, pulls) || !answer_to(plant, stretches, pulls - known, dv)) return;
         add_shift(*plant.workspace, dv, plant.motion);
+        stretches = stretches_of(rows, plant.motion.x);
+        double wrong = 0;
+        for (size_t i = 0; i < rows.size(); i++) {
+            const double drawn = softness[Eigen::Index(i)] * pulls[Eigen::Index(i)];
+            wrong = std::max(wrong, (stretches[i].over - drawn) / rows[i].length);
+        }
+        if (wrong < CLOSE) break;
     }
     stop_lengthening(plant, stretches, W, pulls);
 }

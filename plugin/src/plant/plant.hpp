@@ -46,6 +46,7 @@ struct Plant {
     double substep_tolerance;  // local error of a place in a step, over the plant's size [-]
     int substeps = 1;          // of the next step
     bool is_touched = false;   // by bodies, which answer to whole steps
+    bool is_entangled = false;  // deep in itself or another plant: leaves that cross come apart only by being drawn out
     Trend trend;               // empty with one substep
     frond_effects effects;
     Vec3 position;  // of the model's frame in the world [m]

@@ -10,6 +10,8 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
+constexpr double ENTANGLED = 0.001;  // depth of plants in each other that touching alone does not make [m]
+
 Vec3 gravity_of(const World& world) {
     return from_bullet(world.bullet->getGravity());
 }
@@ -55,10 +57,13 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     else
         plant_contacts.clear();
     report.ms_collide = find_timer.ms();
-    for (const std::unique_ptr<PlantBody>& body : bodies) body->plant->is_touched = false;
+    for (const std::unique_ptr<PlantBody>& body : bodies) body->plant->is_touched = body->plant->is_entangled = false;
     for (const Contact& contact : contacts) contact.plant->plant->is_touched = true;
     for (const PlantContact& contact : plant_contacts)
-        for (PlantBody* body : contact.plants) body->plant->is_touched = true;
+        for (PlantBody* body : contact.plants) {
+            body->plant->is_touched = true;
+            body->plant->is_entangled |= contact.depth > ENTANGLED;
+        }
     for (const Bond& bond : bonds) bond.plant->plant->is_touched = true;
     for (const std::unique_ptr<PlantBody>& body : bodies) solve_plant(*body->plant, surroundings, double(h));
     const Timer response_timer;
