@@ -66,13 +66,13 @@ double drawn(Plant& plant, const Vec3& way, double force, double& held) {
 
 class Pulled : public testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(Tets, Pulled,
-                         testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN));
+                         testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN));
 
 TEST_P(Pulled, BladeIsNotDrawnOut) {
     const auto model = blade(5e8, 3e-4);
     double force;
     const auto plant = plant_of(model, GetParam());
-    EXPECT_LT(drawn(*plant, {0, 0.2, 0}, 5, force), 1.05);
+    EXPECT_LT(drawn(*plant, {0, 0.2, 0}, 5, force), 1.04);
     EXPECT_GT(force, 4);
     // The rim that the hand holds stays at the blade.
     const Vec3 tip = plant->to_world(plant->chain_positions.back());
@@ -130,7 +130,8 @@ TEST_P(Pulled, SlackFibresChangeNoBit) {
 
 TEST(Fibres, AreForCagesThatLackThem) {
     EXPECT_GT(make_fibres(*blade(5e8, 3e-4)).list.size(), 4u);
-    EXPECT_TRUE(plant_of(blade(5e8, 3e-4), FROND_TET_LINEAR)->fibres);
+    EXPECT_TRUE(plant_of(blade(5e8, 3e-4), FROND_TET_COROTATIONAL)->fibres);
+    EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_TET_LINEAR)->fibres);  // grows when it turns
     EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_ROD)->fibres);
     Model tet;
     tet.calibrated = false;

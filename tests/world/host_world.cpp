@@ -168,6 +168,35 @@ TEST_P(HostWorld, PlantsComeAndGoAmongBodiesThatTouchThem) {
     frond_model_destroy(model);
 }
 
+TEST_P(HostWorld, APlantSleepsUntilABallHitsIt) {
+    Host host(GetParam());
+    frond_world plants;
+    ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK);
+    const frond_model model = make_small_model();
+    frond_plant_def def = frond_default_plant_def();
+    def.mechanics = FROND_ROD;
+    frond_plant plant;
+    ASSERT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK);
+    for (int i = 0; i < 300; i++) host.world->stepSimulation(btScalar(1.0 / 60));
+    EXPECT_FALSE(frond_plant_is_awake(plant));
+    EXPECT_FALSE(frond::bullet_object(plant)->isActive());
+
+    btTransform place = btTransform::getIdentity();
+    place.setOrigin(btVector3(btScalar(0.4), btScalar(0.15), 0));
+    host.ball.setWorldTransform(place);
+    host.ball.setLinearVelocity(btVector3(-5, 0, 0));
+    host.ball.activate(true);
+    bool woke = false;
+    for (int i = 0; i < 20; i++) {
+        host.world->stepSimulation(btScalar(1.0 / 60));
+        woke = woke || frond_plant_is_awake(plant);
+    }
+    EXPECT_TRUE(woke);
+    EXPECT_GT(double(host.ball.getLinearVelocity().x()), -4.9);  // the plant pushed back
+    frond_world_destroy(plants);
+    frond_model_destroy(model);
+}
+
 TEST(Attach, IsRefusedTwiceAndAllowedAgainAfterDestroy) {
     Host host(0);
     frond_world first, second;

@@ -115,7 +115,8 @@ enum {
     FROND_WIND = 1 << 12,     /* the air's own motion pushes the plant, where the world has air: frond_world_set_wind */
     FROND_AIR_DRAG = 1 << 13, /* and the plant's own motion through the air is resisted */
     /* Organs in a cage that is fatter than they are are not drawn out by more than 3 % and what their tissue gives; their
-     * cage alone gives as rubber does. Costs nothing while nothing is drawn out. Chains need none. */
+     * cage alone gives as rubber does. Costs nothing while nothing is drawn out. Chains need none, FROND_TET_LINEAR has
+     * none. */
     FROND_FIBRES = 1 << 14,
     FROND_ALL_EFFECTS = (1 << 15) - 1,
     /* of a plant; a world allows all */
@@ -200,6 +201,10 @@ typedef struct frond_world_def {
     double response_tolerance; /* stop when no impulse changes by more than this share of the largest [-], 0 .. 1,
                                 * default 1e-6 */
     double penalty_stiffness;  /* of FROND_RESPONSE_PENALTY, a contact [N/m], 1e-6 .. 1e12, default 1000 */
+    /* A plant falls asleep when nothing of it has gone farther than this for half a period of its slowest sway, 0.5 to 3 s, and
+     * nothing that moves touches it [m], 0 .. 0.01, default 5e-5; 0: none sleeps. It then stands still and costs nothing,
+     * until it is touched, pulled, bent or blown at, a pin or bond moves, or something beside it leaves. */
+    double sleep_distance;
     uint32_t cookie;       /* do not set */
 } frond_world_def;
 
@@ -226,6 +231,7 @@ typedef struct frond_report {
     int solver_iterations;                  /* of all plants in the last substep; a direct solve counts as one */
     double residual;                        /* largest relative residual of a linear solve in the last substep [-] */
     double time;                            /* simulated [s] */
+    int awake_count;                        /* plants that the last substep moved; the others slept */
     int broken_count;                       /* fragments that came off in the last substep */
     int contact_count;                      /* points at which bodies touched plants in the last substep */
     int plant_contact_count;                /* and plants touched plants, or themselves */
@@ -555,6 +561,10 @@ FROND_API frond_result frond_plant_create(frond_world world, frond_model model, 
 /* Destroys its grabs too. Null and stale handles are ignored. */
 FROND_API void frond_plant_destroy(frond_plant plant);
 FROND_API bool frond_plant_is_valid(frond_plant plant);
+/* False for stale handles, and for plants that sleep: see frond_world_def.sleep_distance. */
+FROND_API bool frond_plant_is_awake(frond_plant plant);
+/* For what Frond cannot see, such as a static body that was put elsewhere. */
+FROND_API frond_result frond_plant_wake(frond_plant plant);
 /* Null for an invalid handle. */
 FROND_API void* frond_plant_get_user(frond_plant plant);
 FROND_API frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects);

@@ -11,6 +11,7 @@ void make_bond(PlantBody& plant, const frond_vec3& point, btCollisionObject& bod
     check_vec(point, "point [m]");
     World& world = *plant.world;
     Bond& bond = add_bond(world, plant, to_vec(point), body);
+    wake(plant);
     bond.handle = bond_slots().insert(&bond);
     if (!bond.handle) {
         world.bonds.pop_back();
@@ -48,6 +49,7 @@ void frond_bond_destroy(frond_bond bond) {
     call([&] {
         Bond* found = bond_slots().erase(bond.id);
         if (!found) return;
+        wake(*found->plant);
         found->plant->world->bonds.remove_if([&](const Bond& other) { return &other == found; });
     });
 }

@@ -10,7 +10,7 @@ frond_result frond_grab_create(frond_plant plant, frond_vec3 near_point, double 
     return call([&] {
         check_pointer(out, "out");
         *out = {};
-        PlantBody& body = get(plant);
+        PlantBody& body = get_awake(plant);
         check_vec(near_point, "point [m]");
         check_range(stiffness, 1e-9, 1e12, "stiffness [N/m]");
         Plant& p = *body.plant;
@@ -29,7 +29,9 @@ frond_result frond_grab_move(frond_grab grab, frond_vec3 target) {
     return call([&] {
         const GrabEntry entry = get(grab);
         check_vec(target, "target [m]");
+        if (to_vec(target) == entry.grab->target) return;
         entry.grab->target = to_vec(target);
+        wake(*entry.body);
     });
 }
 
@@ -48,6 +50,7 @@ void frond_grab_destroy(frond_grab grab) {
     call([&] {
         const GrabEntry entry = grab_slots().erase(grab.id);
         if (!entry.body) return;
+        wake(*entry.body);
         entry.body->plant->grabs.remove_if([&](const Grab& other) { return &other == entry.grab; });
     });
 }

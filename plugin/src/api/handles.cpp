@@ -53,6 +53,11 @@ PlantBody& get(frond_plant plant) {
     require(found, plant.id, "plant");
     return *found;
 }
+PlantBody& get_awake(frond_plant plant) {
+    PlantBody& body = get(plant);
+    wake(body);
+    return body;
+}
 GrabEntry get(frond_grab grab) {
     const GrabEntry found = grab_slots().find(grab.id);
     require(found.grab, grab.id, "grab");

@@ -29,6 +29,8 @@ BondSlots& bond_slots();
 World& get(frond_world world);
 const std::shared_ptr<const Model> get(frond_model model);
 PlantBody& get(frond_plant plant);
+// Likewise, of what is about to be changed: it wakes.
+PlantBody& get_awake(frond_plant plant);
 GrabEntry get(frond_grab grab);
 Rigid& get(frond_rigid rigid);
 Bond& get(frond_bond bond);

@@ -144,6 +144,15 @@ bool frond_plant_is_valid(frond_plant plant) {
     return plant_slots().find(plant.id) != nullptr;
 }
 
+bool frond_plant_is_awake(frond_plant plant) {
+    const PlantBody* body = plant_slots().find(plant.id);
+    return body && !body->rest.asleep;
+}
+
+frond_result frond_plant_wake(frond_plant plant) {
+    return call([&] { get_awake(plant); });
+}
+
 void* frond_plant_get_user(frond_plant plant) {
     const PlantBody* body = plant_slots().find(plant.id);
     return body ? body->plant->user : nullptr;
@@ -151,7 +160,7 @@ void* frond_plant_get_user(frond_plant plant) {
 
 frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects) {
     return call([&] {
-        PlantBody& body = get(plant);
+        PlantBody& body = get_awake(plant);
         check_effects(effects);
         body.plant->effects = effects;
         body.plant->surface_stale = true;
@@ -160,7 +169,7 @@ frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects) {
 
 frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics which) {
     return call([&] {
-        PlantBody& body = get(plant);
+        PlantBody& body = get_awake(plant);
         check_row(number_of(which), FROND_MECHANICS_COUNT, "mechanics");
         set_mechanics(*body.plant, which);
         show(body);
@@ -192,7 +201,7 @@ frond_result frond_plant_get_state(frond_plant plant, double* positions, double*
 frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
                                    int node_count) {
     return call([&] {
-        PlantBody& body = get(plant);
+        PlantBody& body = get_awake(plant);
         check_count(node_count, node_count_of(*body.plant), "node_count");
         check_numbers(positions, 3 * node_count, "positions");
         check_numbers(velocities, 3 * node_count, "velocities");
@@ -217,7 +226,7 @@ frond_result frond_plant_get_lasting(frond_plant plant, double* values, int coun
 
 frond_result frond_plant_set_lasting(frond_plant plant, const double* values, int count) {
     return call([&] {
-        Plant& p = *get(plant).plant;
+        Plant& p = *get_awake(plant).plant;
         check_range(count, 0, INT_MAX, "count");
         if (count > 0) check_pointer(values, "values");
         check_numbers(values, count, "values");
@@ -227,7 +236,7 @@ frond_result frond_plant_set_lasting(frond_plant plant, const double* values, in
 
 frond_result frond_plant_pin(frond_plant plant, int node) {
     return call([&] {
-        Plant& p = *get(plant).plant;
+        Plant& p = *get_awake(plant).plant;
         check_node(p, node);
         pin_node(p, node);
     });
@@ -235,7 +244,7 @@ frond_result frond_plant_pin(frond_plant plant, int node) {
 
 frond_result frond_plant_unpin(frond_plant plant, int node) {
     return call([&] {
-        Plant& p = *get(plant).plant;
+        Plant& p = *get_awake(plant).plant;
         check_node(p, node);
         unpin_node(p, node);
     });
@@ -243,7 +252,7 @@ frond_result frond_plant_unpin(frond_plant plant, int node) {
 
 frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 position) {
     return call([&] {
-        Plant& p = *get(plant).plant;
+        Plant& p = *get_awake(plant).plant;
         check_node(p, node);
         check_vec(position, "position [m]");
         if (!p.pinned[size_t(node)])
@@ -254,7 +263,7 @@ frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 positi
 
 frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force) {
     return call([&] {
-        Plant& p = *get(plant).plant;
+        Plant& p = *get_awake(plant).plant;
         check_node(p, node);
         check_vec(force, "force [N]");
         point(p.user_force, node) += to_vec(force);
@@ -341,7 +350,7 @@ frond_result frond_plant_get_broken(frond_plant plant, int fragment, frond_broke
 
 frond_result frond_plant_break(frond_plant plant, int capsule) {
     return call([&] {
-        PlantBody& body = get(plant);
+        PlantBody& body = get_awake(plant);
         const Plant& p = *body.plant;
         check_range(capsule, 0, double(body.capsules.size()) - 1, "capsule");
         const auto& [begin, end] = p.model->capsules[size_t(capsule)];
@@ -355,7 +364,7 @@ frond_result frond_plant_break(frond_plant plant, int capsule) {
 
 frond_result frond_plant_mend(frond_plant plant) {
     return call([&] {
-        PlantBody& body = get(plant);
+        PlantBody& body = get_awake(plant);
         for (const Rigid* fragment : body.fragment_bodies) rigid_slots().erase(fragment->handle.id);
         mend(*body.world, body);
         show(body);

@@ -18,6 +18,7 @@ static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& de
     check_range(def.response_iterations, 1, 1e5, "def.response_iterations");
     check_range(def.response_tolerance, 0, 1, "def.response_tolerance");
     check_range(def.penalty_stiffness, 1e-6, 1e12, "def.penalty_stiffness [N/m]");
+    check_range(def.sleep_distance, 0, 0.01, "def.sleep_distance [m]");
     const uint64_t id = world_slots().insert(make_world(bullet, def));
     if (!id) fail(FROND_OUT_OF_MEMORY, "too many worlds; destroy some");
     return {id};
@@ -56,6 +57,7 @@ frond_world_def frond_default_world_def(void) {
     def.response_iterations = 200;
     def.response_tolerance = 1e-6;
     def.penalty_stiffness = 1000;
+    def.sleep_distance = 5e-5;
     def.cookie = WORLD_DEF_COOKIE;
     return def;
 }

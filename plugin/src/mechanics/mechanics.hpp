@@ -117,6 +117,8 @@ struct Mechanics {
     bool needs_search;
     // Nodes are pairs of a chain node's place and its rotation; the cage follows. Else nodes are the cage's.
     bool moves_chain;
+    // Turning strains nothing. What is linear grows when it turns far.
+    bool turns = true;
 };
 // With elements of order 1 or 2; what moves the chain is the same in both.
 constexpr int HIGHEST_ORDER = 2;

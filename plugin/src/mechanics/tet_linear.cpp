@@ -38,7 +38,9 @@ struct Linear {
 }  // namespace
 
 Mechanics tet_linear(int order) {
-    return tet_row<Linear>("tet_linear", order, false);
+    Mechanics row = tet_row<Linear>("tet_linear", order, false);
+    row.turns = false;
+    return row;
 }
 
 }  // namespace frond

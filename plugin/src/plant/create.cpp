@@ -31,14 +31,22 @@ struct Shared {
 struct SharedSystem {
     std::shared_ptr<const System> system;
     double full_damping;  // of full_damping(); 0 where no organ has a damping ratio [s]
+    double rest_time;     // half a period of the slowest sway [s]
 };
+
+// Half a period of the slowest sway, within what a game notices.
+static double rest_time_of(const std::shared_ptr<const Model>& model) {
+    constexpr double LEAST = 0.5, MOST = 3;  // [s]
+    const double frequency = sway_frequency(model);
+    return frequency > 0 ? std::clamp(0.5 / frequency, LEAST, MOST) : MOST;
+}
 
 static std::shared_ptr<const SharedSystem> shared_system(const std::shared_ptr<const Model>& model, frond_mechanics which,
                                                    frond_mass mass, int order) {
     static Shared<std::tuple<const Model*, frond_mechanics, frond_mass, int>, SharedSystem> systems;
     return systems.find_or_make({model.get(), which, mass, order}, [&] {
         ensure_rest_shape(*model, which);
-        SharedSystem shared = {make_system(model, which, mass, order), 0};
+        SharedSystem shared = {make_system(model, which, mass, order), 0, rest_time_of(model)};
         const std::vector<Organ>& organs = model->organs;
         if (std::any_of(organs.begin(), organs.end(), [](const Organ& o) { return o.material.damping_ratio > 0; }))
             shared.full_damping = full_damping(*shared.system, which, order);
@@ -87,11 +95,12 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     const std::shared_ptr<const SharedSystem> shared = shared_system(plant.model, which, plant.mass, nodes.order);
     plant.system = std::shared_ptr<const System>(shared, shared->system.get());
     plant.settings.full_damping = plant.material_damping * shared->full_damping;
+    plant.rest_time = shared->rest_time;
     plant.workspace = make_workspace(plant.system);
     plant.own_elements = nullptr;
     plant.follow = nullptr;
     plant.fibres = nullptr;
-    if (!mechanics(which).moves_chain) plant.fibres = fibres_of(plant);
+    if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = fibres_of(plant);
     if (mechanics(which).moves_chain)
         plant.follow = shared_of<Follow>(plant.model, nodes.order,
                                          [&] { return make_follow(*plant.model, nodes, nodes.modelled); });

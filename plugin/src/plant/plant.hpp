@@ -48,6 +48,7 @@ struct Plant {
     bool is_touched = false;   // by bodies, which answer to whole steps
     bool is_entangled = false;  // deep in itself or another plant: leaves that cross come apart only by being drawn out
     Trend trend;               // empty with one substep
+    double rest_time;          // for which a plant that rests has been still [s]
     frond_effects effects;
     Vec3 position;  // of the model's frame in the world [m]
     Quat rotation;

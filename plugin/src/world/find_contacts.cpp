@@ -90,6 +90,7 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
     if (!body) body = PlantBody::of(second);
     btCollisionObject* other = plant_first ? second : first;
     if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other)) return;
+    if (body->rest.asleep && !is_moving(*other)) return;
     for (int i = 0; i < manifold.getNumContacts(); i++) {
         const btManifoldPoint& p = manifold.getContactPoint(i);
         const btVector3 on_other = other->getWorldTransform() * (plant_first ? p.m_localPointB : p.m_localPointA);

@@ -22,12 +22,14 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
     UnionFind sets(world.bodies.size());
     btBroadphasePairArray& pairs = world.bullet->getPairCache()->getOverlappingPairArray();
     std::vector<uint8_t> takes_part(world.bodies.size(), 0);
-    for (const auto& body : world.bodies) takes_part[size_t(body->number)] = has(world, *body, FROND_SELF_CONTACT);
+    for (const auto& body : world.bodies) 
+        takes_part[size_t(body->number)] = !body->rest.asleep && has(world, *body, FROND_SELF_CONTACT);
     for (int i = 0; i < pairs.size(); i++) {
         const PlantBody* first = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject));
         if (!first || first->world != &world || !has(world, *first, FROND_PLANT_CONTACT)) continue;
         const PlantBody* second = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject));
         if (!second || second->world != &world || !has(world, *second, FROND_PLANT_CONTACT)) continue;
+        if (first->rest.asleep && second->rest.asleep) continue;
         sets.join(first->number, second->number);
         takes_part[size_t(first->number)] = takes_part[size_t(second->number)] = 1;
     }
@@ -37,6 +39,13 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
     for (std::vector<PlantBody*>& island : all)
         if (!island.empty()) islands.push_back(std::move(island));
     return islands;
+}
+
+constexpr double NEAR = 0.01;  // capsules that are about to touch [m]
+
+Eigen::AlignedBox3d box_of(const Capsule& capsule) {
+    const Vec3 reach = Vec3::Constant(capsule.radius + 0.5 * NEAR);
+    return {capsule.begin.cwiseMin(capsule.end) - reach, capsule.begin.cwiseMax(capsule.end) + reach};
 }
 
 void place_shape(const PlantBody& body, PlantSearch::Shape& shape) {
@@ -51,8 +60,11 @@ void place_shape(const PlantBody& body, PlantSearch::Shape& shape) {
                               plant.to_world(plant.chain_positions[size_t(end)])});
     shape.covers = cover_pieces(*body.collider, shape.places.data(), shape.axes);
     shape.capsules.clear();
-    for (size_t i = 0; i < shape.axes.size(); i++)
+    shape.box.setEmpty();
+    for (size_t i = 0; i < shape.axes.size(); i++) {
         shape.capsules.push_back({shape.axes[i][0], shape.axes[i][1], double(body.capsules[i]->getRadius())});
+        shape.box.extend(box_of(shape.capsules[i]));
+    }
 }
 
 double friction_of(const PlantBody& body, int organ) {
@@ -94,13 +106,22 @@ double along_of(const Capsule& capsule, const Vec3& p) {
     return square > 0 ? std::clamp(axis.dot(p - capsule.begin) / square, 0.0, 1.0) : 0;
 }
 
+std::vector<size_t> capsules_in(const std::vector<Capsule>& capsules, const Eigen::AlignedBox3d& box) {
+    std::vector<size_t> found;
+    for (size_t i = 0; i < capsules.size(); i++)
+        if (box.intersects(box_of(capsules[i]))) found.push_back(i);
+    return found;
+}
+
 // Capsules of two bodies, or of one, that touch or are about to.
 void add_capsule_contacts(const PlantSearch& memory, const std::vector<PlantBody*>& island, size_t a, size_t b,
                           std::vector<PlantContact>& contacts) {
-    constexpr double NEAR = 0.01;  // [m]
     const std::vector<Capsule> &first = memory.shapes[a].capsules, &second = memory.shapes[b].capsules;
-    for (size_t i = 0; i < first.size(); i++)
-        for (size_t j = a == b ? i + 1 : 0; j < second.size(); j++) {
+    const std::vector<size_t> near_a = capsules_in(first, memory.shapes[b].box);
+    const std::vector<size_t> near_b = capsules_in(second, memory.shapes[a].box);
+    for (const size_t i : near_a)
+        for (const size_t j : near_b) {
+            if (a == b && j <= i) continue;
             if (a == b && island[a]->collider->are_near(int(i), int(j))) continue;
             // Quick: balls around both.
             const Vec3 apart = first[i].begin + first[i].end - second[j].begin - second[j].end;
@@ -135,6 +156,7 @@ void add_chain_contacts(const World& world, const PlantSearch& memory, const std
     for (size_t a = 0; a < island.size(); a++)
         for (size_t b = a; b < island.size(); b++) {
             if (!island[a]->plant->follow && !island[b]->plant->follow) continue;
+            if (!memory.shapes[a].box.intersects(memory.shapes[b].box)) continue;
             if (a != b || has(world, *island[a], FROND_SELF_CONTACT))
                 add_capsule_contacts(memory, island, a, b, contacts);
         }

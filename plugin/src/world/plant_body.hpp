@@ -10,6 +10,7 @@
 
 #include "frond/frond_bullet.hpp"
 #include "plant/touch.hpp"
+#include "world/sleep.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -28,6 +29,7 @@ struct PlantBody : btSoftBody {
     World* world;
     frond_plant handle = {};
     bool is_new = true;  // has not stepped yet
+    Rest rest;
     GrownIn grown_in;
     int number = 0;  // among the world's plants, in the running substep
     std::shared_ptr<const Collider> collider;  // null until other plants, or it itself, may touch it

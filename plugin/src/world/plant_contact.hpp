@@ -31,6 +31,7 @@ struct PlantSearch {
         std::vector<Vec3> places;  // of the cage's nodes, world frame [m]
         std::vector<Axis> axes;
         std::vector<Capsule> covers, capsules;
+        Eigen::AlignedBox3d box;  // of the capsules, and what they are about to touch
     };
     std::vector<Shape> shapes;
 };

@@ -64,6 +64,7 @@ Rigid* add_rigid(World& world, const frond_rigid_def& def) {
 }
 
 void remove_rigid(World& world, Rigid* rigid) {
+    wake_neighbours(world, *rigid->body);
     world.bullet->removeRigidBody(rigid->body.get());
     world.contacts.clear();
     for (Bond& bond : world.bonds)

@@ -38,9 +38,9 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     if (wind) pass_time(*wind, double(h));
     surroundings.wind = wind.get();
     surroundings.time = time + double(h);
-    const auto any_wants = [&](frond_effects effect) {
+    const auto any_wants = [&](frond_effects effect, bool awake) {
         return std::any_of(bodies.begin(), bodies.end(), [&](const std::unique_ptr<PlantBody>& body) {
-            return body->plant->effects & effects & effect;
+            return body->plant->effects & effects & effect && !(awake && body->rest.asleep);
         });
     };
     for (const std::unique_ptr<PlantBody>& body : bodies) {
@@ -51,13 +51,18 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     contacts.clear();
     for (size_t i = 0; i < bodies.size(); i++) bodies[i]->number = int(i);
     const Timer find_timer;
-    if (any_wants(FROND_RIGID_CONTACT)) contacts = find_contacts(*this, double(h));
-    if (any_wants(FROND_PLANT_CONTACT | FROND_SELF_CONTACT))
+    wake_by_world(*this);
+    if (any_wants(FROND_RIGID_CONTACT, false)) contacts = find_contacts(*this, double(h));
+    if (any_wants(FROND_PLANT_CONTACT | FROND_SELF_CONTACT, true))
         plant_contacts = find_plant_contacts(*this);
     else
         plant_contacts.clear();
+    wake_touched(*this, double(h));
+    std::vector<PlantBody*> awake;
+    for (const std::unique_ptr<PlantBody>& body : bodies)
+        if (!body->rest.asleep) awake.push_back(body.get());
     report.ms_collide = find_timer.ms();
-    for (const std::unique_ptr<PlantBody>& body : bodies) body->plant->is_touched = body->plant->is_entangled = false;
+    for (PlantBody* body : awake) body->plant->is_touched = body->plant->is_entangled = false;
     for (const Contact& contact : contacts) contact.plant->plant->is_touched = true;
     for (const PlantContact& contact : plant_contacts)
         for (PlantBody* body : contact.plants) {
@@ -65,24 +70,27 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
             body->plant->is_entangled |= contact.depth > ENTANGLED;
         }
     for (const Bond& bond : bonds) bond.plant->plant->is_touched = true;
-    for (const std::unique_ptr<PlantBody>& body : bodies) solve_plant(*body->plant, surroundings, double(h));
+    for (PlantBody* body : awake) solve_plant(*body->plant, surroundings, double(h));
     const Timer response_timer;
     let_go_of_gone(*this);
     if (!contacts.empty() || !plant_contacts.empty() || !bonds.empty()) respond_to_contacts(*this, double(h));
     report.ms_response = response_timer.ms();
     report.contact_count = int(contacts.size());
     report.plant_contact_count = int(plant_contacts.size());
-    for (const std::unique_ptr<PlantBody>& body : bodies) {
+    report.awake_count = int(awake.size());
+    for (PlantBody* body : awake) {
         accept_step(*body->plant, surroundings, double(h));
         add_to_report(*body->plant, report);
         if (body->plant->effects & effects & FROND_BREAKING) report.broken_count += break_overloaded(*this, *body);
 
         const Timer capsule_timer;
         move_capsules(*body);
-        collision_world->updateSingleAabb(body.get());
+        collision_world->updateSingleAabb(body);
         report.ms_capsules += capsule_timer.ms();
+        if (sleep_distance > 0) watch(*this, *body, double(h));
         if (!own) clear_user_force(*body->plant);
     }
+    if (sleep_distance > 0) put_to_sleep(*this);
     time += double(h);
     report.ms_step = step_timer.ms();
     is_stepping = false;

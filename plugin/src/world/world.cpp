@@ -20,7 +20,8 @@ static std::set<btDynamicsWorld*>& attached_worlds() {
 
 World::World(std::unique_ptr<OwnBullet> given, btDynamicsWorld* bullet, const frond_world_def& def)
     : own(std::move(given)), bullet(bullet), effects(def.effects), max_substep(def.max_substep),
-      hash({def.hash_layout, def.hash_table_size, def.hash_cell_size}), response(def.response) {
+      hash({def.hash_layout, def.hash_table_size, def.hash_cell_size}), response(def.response),
+      sleep_distance(def.sleep_distance) {
     response_settings.limits = {def.response_iterations, def.response_tolerance};
     response_settings.stiffness = def.penalty_stiffness;
     soft_info.m_broadphase = bullet->getBroadphase();
@@ -62,6 +63,7 @@ PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant) {
 
 void remove_plant(World& world, PlantBody* body) {
     remove_fragments(world, *body);
+    wake_neighbours(world, *body);
     world.bullet->removeCollisionObject(body);
     world.contacts.clear();
     world.plant_contacts.clear();

@@ -38,6 +38,10 @@ struct World final : btActionInterface {
     std::vector<std::unique_ptr<PlantBody>> bodies;
     std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
     std::list<Bond> bonds;
+    double sleep_distance;          // 0: no plant sleeps [m]
+    int turn = 0;                   // of asking sleeping plants about the air
+    Vec3 gravity_before = Vec3::Zero();  // in the last substep [m/s^2]
+    frond_effects effects_before = 0;    // likewise
     bool is_stepping = false;       // in updateAction
     std::vector<Contact> contacts;  // of the last substep, with bodies
     GravityAhead gravity_ahead;     // of those

@@ -1,0 +1,155 @@
+// In: plants of a world after each substep, and what touches them. Out: which of them sleep.
+//
+// Speeds would not tell rest from the turning point of a slow sway, so places do: a plant is still when nothing of it has
+// gone farther than a set way for half a period of its slowest sway. What it still swings is then within that way, and so
+// is the difference that sleeping makes. As in Bullet's islands, plants sleep with those that they touch.
+#include "world/sleep.hpp"
+
+#include <algorithm>
+
+#include "model/union_find.hpp"
+#include "world/convert.hpp"
+#include "world/pusher.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+// Air at the middle of sleeping plants, for a share of them in each substep.
+void wake_blown(World& world) {
+    constexpr int TURNS = 8;       // substeps in which each plant is asked about once
+    constexpr double GUST = 0.05;  // change of the air that wakes [m/s]
+    std::vector<PlantBody*> asked;
+    std::vector<frond_vec3> points, air;
+    world.turn = (world.turn + 1) % TURNS;
+    for (const auto& body : world.bodies) {
+        const frond_effects effects = world.effects & body->plant->effects;
+        if (!body->rest.asleep || !(effects & FROND_WIND) || body->number % TURNS != world.turn) continue;
+        asked.push_back(body.get());
+        points.push_back(middle_of(*body));
+    }
+    if (asked.empty()) return;
+    wind_velocities(*world.wind, up_of(gravity_of(world)), world.time, points, air);
+    for (size_t i = 0; i < asked.size(); i++)
+        if ((Vec3(air[i].x, air[i].y, air[i].z) - asked[i]->rest.air).norm() > GUST) wake(*asked[i]);
+}
+
+// Of the contacts of a plant and a body within a step.
+bool meets(const Contact& contact, double h) {
+    constexpr double NEAR = 0.001;  // [m]
+    const Vec3 velocity = make_pusher(*contact.other, contact.on_other, h).velocity;
+    return contact.gap < NEAR + 2 * h * velocity.norm();
+}
+
+void fall_asleep(const World& world, PlantBody& body) {
+    Plant& plant = *body.plant;
+    body.rest.asleep = true;
+    plant.motion.v.setZero();
+    plant.motion.history.valid = false;
+    body.forceActivationState(ISLAND_SLEEPING);
+    body.rest.air.setZero();
+    if (!world.wind) return;
+    std::vector<frond_vec3> air;
+    wind_velocities(*world.wind, up_of(gravity_of(world)), world.time, {middle_of(body)}, air);
+    body.rest.air = Vec3(air[0].x, air[0].y, air[0].z);
+}
+
+}  // namespace
+
+frond_vec3 middle_of(const PlantBody& body) {
+    btVector3 lower, upper;
+    static_cast<const btCompoundShape*>(body.getCollisionShape())->btCompoundShape::getAabb(body.getWorldTransform(), lower, upper);
+    const Vec3 middle = 0.5 * (from_bullet(lower) + from_bullet(upper));
+    return {middle.x(), middle.y(), middle.z()};
+}
+
+void wake(PlantBody& body) {
+    body.rest.still = 0;
+    if (!body.rest.asleep) return;
+    body.rest.asleep = false;
+    body.forceActivationState(DISABLE_DEACTIVATION);
+}
+
+void wake_neighbours(World& world, const btCollisionObject& leaving) {
+    const btBroadphaseProxy* proxy = leaving.getBroadphaseHandle();
+    const btBroadphasePairArray& pairs = world.bullet->getPairCache()->getOverlappingPairArray();
+    for (int i = 0; proxy && i < pairs.size(); i++) {
+        const btBroadphaseProxy *first = pairs[i].m_pProxy0, *second = pairs[i].m_pProxy1;
+        if (first != proxy && second != proxy) continue;
+        const btBroadphaseProxy* other = first == proxy ? second : first;
+        PlantBody* body = PlantBody::of(static_cast<btCollisionObject*>(other->m_clientObject));
+        if (body && body->world == &world) wake(*body);
+    }
+}
+
+bool is_moving(btCollisionObject& object) {
+    if (object.isStaticObject() || !object.isActive()) return false;
+    if (!object.isKinematicObject()) return true;
+    const btRigidBody* rigid = btRigidBody::upcast(&object);
+    return !rigid || !rigid->getLinearVelocity().isZero() || !rigid->getAngularVelocity().isZero();
+}
+
+void wake_by_world(World& world) {
+    const Vec3 gravity = gravity_of(world);
+    if (gravity != world.gravity_before || world.effects != world.effects_before)
+        for (const auto& body : world.bodies) wake(*body);
+    world.gravity_before = gravity;
+    world.effects_before = world.effects;
+    for (const Bond& bond : world.bonds)
+        if (bond.plant->rest.asleep && (!bond.body || is_moving(*bond.body))) wake(*bond.plant);
+    if (world.wind) wake_blown(world);
+}
+
+void wake_touched(World& world, double h) {
+    for (const Contact& contact : world.contacts)
+        if (contact.plant->rest.asleep && is_moving(*contact.other) && meets(contact, h)) wake(*contact.plant);
+    for (const PlantContact& contact : world.plant_contacts)
+        for (PlantBody* body : contact.plants)
+            if (body->rest.asleep && contact.depth > 0) wake(*body);
+    const auto sleeps = [](const PlantBody* body) { return body->rest.asleep; };
+    const auto of_sleeper = [&](const Contact& contact) { return sleeps(contact.plant); };
+    world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(), of_sleeper), world.contacts.end());
+    const auto with_sleeper = [&](const PlantContact& contact) {
+        return std::any_of(contact.plants.begin(), contact.plants.end(), sleeps);
+    };
+    world.plant_contacts.erase(
+        std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(), with_sleeper),
+        world.plant_contacts.end());
+}
+
+void watch(const World& world, PlantBody& body, double h) {
+    const Plant& plant = *body.plant;
+    Rest& rest = body.rest;
+    const VecX& x = plant.motion.x;
+    const bool stirs = plant.has_user_force || plant.trouble & FROND_TROUBLE_REWOUND || !plant.fragments.empty();
+    if (!stirs && rest.places.size() == x.size() &&
+        (x - rest.places).lpNorm<Eigen::Infinity>() <= world.sleep_distance) {
+        rest.still += h;
+        return;
+    }
+    rest.places = x;
+    rest.still = 0;
+}
+
+void put_to_sleep(World& world) {
+    UnionFind touching(world.bodies.size());
+    std::vector<uint8_t> stirs(world.bodies.size(), 0);
+    for (const auto& body : world.bodies)
+        stirs[size_t(body->number)] = !body->rest.asleep && body->rest.still < body->plant->rest_time;
+    for (const Contact& contact : world.contacts)
+        if (is_moving(*contact.other)) stirs[size_t(contact.plant->number)] = 1;
+    for (const Bond& bond : world.bonds)
+        if (bond.body && is_moving(*bond.body)) stirs[size_t(bond.plant->number)] = 1;
+    for (const PlantContact& contact : world.plant_contacts)
+        touching.join(contact.plants[0]->number, contact.plants[1]->number);
+    std::vector<uint8_t> island_stirs(world.bodies.size(), 0);
+    for (const auto& body : world.bodies)
+        if (stirs[size_t(body->number)]) island_stirs[size_t(touching.find(body->number))] = 1;
+    for (const auto& body : world.bodies)
+        if (!body->rest.asleep && !island_stirs[size_t(touching.find(body->number))]) fall_asleep(world, *body);
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

@@ -1,0 +1,281 @@
+// Sleep: what rests falls asleep where it stands, costs nothing, and is woken by all that could move it and by nothing
+// else.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "frond/frond.h"
+
+namespace {
+
+constexpr double H = 1.0 / 60;
+
+void must(frond_result result) {
+    ASSERT_EQ(result, FROND_OK) << frond_last_error();
+}
+
+
+// Forked stems of half a metre, some beside each other.
+struct Stand {
+    frond_world world = {};
+    frond_model model = {};
+    std::vector<frond_plant> plants;
+
+    explicit Stand(double sleep_distance = frond_default_world_def().sleep_distance) {
+        frond_world_def def = frond_default_world_def();
+        def.sleep_distance = sleep_distance;
+        must(frond_world_create(&def, &world));
+        const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.3, 0}, 0.012, 0.01},
+                                    {0, {0, 0.3, 0}, {0.15, 0.5, 0}, 0.01, 0.008},
+                                    {0, {0, 0.3, 0}, {-0.15, 0.5, 0}, 0.01, 0.008}};
+        frond_organ_material organ = {"stem", {}};
+        must(frond_material_preset("stem", &organ.material));
+        organ.material.young = 2e8;
+        organ.material.damping_ratio = 0.2;
+        frond_model_def model_def = frond_default_model_def();
+        model_def.organs = &organ;
+        model_def.organ_count = 1;
+        must(frond_model_from_stems(stems, 3, &model_def, &model));
+    }
+    ~Stand() {
+        frond_world_destroy(world);
+        frond_model_destroy(model);
+    }
+    frond_plant add(double x, frond_mechanics mechanics = FROND_ROD, double z = 0) {
+        frond_plant_def def = frond_default_plant_def();
+        def.position = {x, 0, z};
+        def.mechanics = mechanics;
+        frond_plant plant = {};
+        must(frond_plant_create(world, model, &def, &plant));
+        plants.push_back(plant);
+        return plant;
+    }
+    void steps(int count) {
+        for (int i = 0; i < count; i++) must(frond_world_step(world, H));
+    }
+    frond_report report() const {
+        frond_report report = {};
+        must(frond_world_get_report(world, &report));
+        return report;
+    }
+    std::vector<double> places(frond_plant plant) const {
+        std::vector<double> out(3 * size_t(frond_plant_get_node_count(plant)));
+        must(frond_plant_get_state(plant, out.data(), nullptr, int(out.size() / 3)));
+        return out;
+    }
+    void pull(frond_plant plant, int count) {
+        for (int i = 0; i < count; i++) {
+            must(frond_plant_add_force(plant, frond_plant_get_node_count(plant) - 1, {2, 0, 1}));
+            steps(1);
+        }
+    }
+    // Steps until all sleep, at most so long [s].
+    bool rests_within(double time) {
+        for (int i = 0; i < int(time / H); i++) {
+            steps(1);
+            if (report().awake_count == 0) return true;
+        }
+        return false;
+    }
+};
+
+class Sleep : public testing::TestWithParam<frond_mechanics> {};
+INSTANTIATE_TEST_SUITE_P(Mechanics, Sleep,
+                         testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD,
+                                         FROND_SPRING_CHAIN));
+
+TEST_P(Sleep, ChangesNothingByMoreThanATenthOfAMillimetre) {
+    Stand sleeps, stays_awake(0);
+    for (Stand* stand : {&sleeps, &stays_awake}) {
+        stand->add(0, GetParam());
+        stand->pull(stand->plants[0], 30);
+    }
+    EXPECT_EQ(sleeps.places(sleeps.plants[0]), stays_awake.places(stays_awake.plants[0]));
+    ASSERT_TRUE(sleeps.rests_within(20));
+    EXPECT_FALSE(frond_plant_is_awake(sleeps.plants[0]));
+    stays_awake.steps(60 * 30);
+    EXPECT_EQ(stays_awake.report().awake_count, 1);
+    const std::vector<double> asleep = sleeps.places(sleeps.plants[0]), awake = stays_awake.places(stays_awake.plants[0]);
+    for (size_t i = 0; i < asleep.size(); i++) ASSERT_NEAR(asleep[i], awake[i], 1e-4) << i;
+
+    // And not a bit from then on.
+    sleeps.steps(60);
+    EXPECT_EQ(sleeps.places(sleeps.plants[0]), asleep);
+    EXPECT_EQ(sleeps.report().solver_iterations, 0);
+    EXPECT_EQ(sleeps.report().ms_solve, 0);
+}
+
+TEST_P(Sleep, ComesNotWhileAPlantSways) {
+    Stand stand;
+    const frond_plant plant = stand.add(0, GetParam());
+    stand.pull(plant, 30);
+    std::vector<double> before = stand.places(plant);
+    for (int i = 0; i < 1200 && stand.report().awake_count > 0; i++) {
+        before = stand.places(plant);
+        stand.steps(1);
+    }
+    // What it did in its last step awake is next to nothing.
+    const std::vector<double> after = stand.places(plant);
+    for (size_t i = 0; i < after.size(); i++) ASSERT_NEAR(before[i], after[i], 5e-5);
+}
+
+// Each wakes a plant that sleeps, and that one alone.
+TEST(Wake, ComesFromAllThatMovesAPlant) {
+    Stand stand;
+    const frond_plant plant = stand.add(0), other = stand.add(2);
+    const std::vector<double> modelled = stand.places(plant);
+    frond_grab grab = {};
+    frond_bond bond = {};
+    frond_rigid ball = {}, holder = {};
+    frond_rigid_def ball_def = frond_default_rigid_def();
+    ball_def.size = {0.05, 0, 0};
+    ball_def.mass = 0.2;
+    frond_rigid_def holder_def = ball_def;
+    holder_def.mass = 0;
+    holder_def.state.position = {0.15, 0.6, 0};
+    const std::vector<std::pair<const char*, std::function<void()>>> causes = {
+        {"a force", [&] { must(frond_plant_add_force(plant, frond_plant_get_node_count(plant) - 1, {0.1, 0, 0})); }},
+        {"a grab", [&] { must(frond_grab_create(plant, {0.15, 0.5, 0}, 10, &grab)); }},
+        {"a grab that moves", [&] { must(frond_grab_move(grab, {0.2, 0.5, 0})); }},
+        {"a grab that ends", [&] { frond_grab_destroy(grab); }},
+        {"a pin", [&] { must(frond_plant_pin(plant, frond_plant_get_node_count(plant) - 1)); }},
+        {"no pin", [&] { must(frond_plant_unpin(plant, frond_plant_get_node_count(plant) - 1)); }},
+        {"a state",
+         [&] { must(frond_plant_set_state(plant, modelled.data(), nullptr, int(modelled.size() / 3))); }},
+        {"effects", [&] { must(frond_plant_set_effects(plant, FROND_DEFAULT_EFFECTS)); }},
+        {"mechanics", [&] { must(frond_plant_set_mechanics(plant, FROND_TET_COROTATIONAL)); }},
+        {"a word", [&] { must(frond_plant_wake(plant)); }},
+        {"a bond",
+         [&] {
+             must(frond_rigid_create(stand.world, &holder_def, &holder));
+             must(frond_bond_create(plant, {0.15, 0.5, 0}, holder, &bond));
+         }},
+        {"a bond that moves",
+         [&] {
+             frond_rigid_state state = holder_def.state;
+             state.position.y += 0.02;
+             must(frond_rigid_set_state(holder, &state));
+         }},
+        {"no bond", [&] { frond_bond_destroy(bond); }},
+        {"a ball",
+         [&] {
+             ball_def.state.position = {-0.1, 0.25, 0};
+             ball_def.state.velocity = {3, 0, 0};
+             must(frond_rigid_create(stand.world, &ball_def, &ball));
+         }},
+    };
+    ASSERT_TRUE(stand.rests_within(10));
+    for (const auto& [name, cause] : causes) {
+        cause();
+        int longest = 0;
+        for (int i = 0; i < 6; i++) {
+            stand.steps(1);
+            longest = std::max(longest, stand.report().awake_count);
+            EXPECT_FALSE(frond_plant_is_awake(other)) << name;
+        }
+        EXPECT_EQ(longest, 1) << name;
+        if (ball.id) frond_rigid_destroy(ball);
+        EXPECT_TRUE(stand.rests_within(30)) << name;
+    }
+}
+
+TEST(Wake, ComesToAllFromWhatIsOfTheWorld) {
+    Stand stand;
+    stand.add(0);
+    stand.add(2);
+    frond_wind_def wind = frond_default_wind_def();
+    wind.velocity = {4, 0, 0};
+    wind.turbulence = 0;
+    const std::vector<std::pair<const char*, std::function<void()>>> causes = {
+        {"gravity", [&] { must(frond_world_set_gravity(stand.world, {0.5, -9.81, 0})); }},
+        {"effects", [&] { must(frond_world_set_effects(stand.world, FROND_ALL_EFFECTS & ~uint32_t(FROND_GRAVITY))); }},
+        {"wind", [&] { must(frond_world_set_wind(stand.world, &wind)); }},
+        {"more wind",
+         [&] {
+             wind.velocity.x = 6;
+             must(frond_world_set_wind(stand.world, &wind));
+         }},
+        {"no wind", [&] { must(frond_world_set_wind(stand.world, nullptr)); }},
+    };
+    ASSERT_TRUE(stand.rests_within(10));
+    for (const auto& [name, cause] : causes) {
+        const std::vector<double> before = stand.places(stand.plants[0]);
+        cause();
+        int most = 0;
+        for (int i = 0; i < 10; i++) {
+            stand.steps(1);
+            most = std::max(most, stand.report().awake_count);
+        }
+        EXPECT_EQ(most, 2) << name;
+        EXPECT_TRUE(stand.rests_within(30)) << name;
+        EXPECT_NE(stand.places(stand.plants[0]), before) << name;
+    }
+}
+
+// A row of plants leaning on each other sleeps as one, and the one that is pulled wakes those that it reaches.
+TEST(Wake, GoesOnFromPlantToPlant) {
+    Stand stand;
+    for (int i = 0; i < 4; i++) stand.add(0.29 * i, FROND_TET_COROTATIONAL);
+    stand.add(3, FROND_TET_COROTATIONAL);
+    ASSERT_TRUE(stand.rests_within(40));
+    frond_grab grab = {};
+    must(frond_grab_create(stand.plants[0], {0.15, 0.5, 0}, 200, &grab));
+    must(frond_grab_move(grab, {0.35, 0.5, 0}));
+    int most = 0;
+    for (int i = 0; i < 60; i++) {
+        stand.steps(1);
+        most = std::max(most, stand.report().awake_count);
+        EXPECT_FALSE(frond_plant_is_awake(stand.plants[4]));
+    }
+    EXPECT_GE(most, 2);
+    EXPECT_TRUE(stand.rests_within(40));  // while it is held
+}
+
+// A board on the tips of two plants keeps them awake until it rests too; when it is taken away, they come back.
+TEST(Wake, ComesWhenWhatLayOnAPlantIsTakenAway) {
+    Stand stand;
+    for (const double z : {-0.1, 0.1}) stand.add(0, FROND_ROD, z);
+    const std::vector<double> alone = stand.places(stand.plants[0]);
+    frond_rigid_def def = frond_default_rigid_def();
+    def.shape = FROND_BOX;
+    def.size = {0.25, 0.01, 0.2};
+    def.mass = 4;
+    def.friction = 2;
+    def.state.position = {0, 0.53, 0};
+    frond_rigid board = {};
+    must(frond_rigid_create(stand.world, &def, &board));
+    ASSERT_TRUE(stand.rests_within(60));
+    frond_rigid_state state = {};
+    must(frond_rigid_get_state(board, &state));
+    ASSERT_GT(state.position.y, 0.4) << "it should lie on the tips";
+    const std::vector<double> loaded = stand.places(stand.plants[0]);
+    stand.steps(30);
+    EXPECT_EQ(stand.places(stand.plants[0]), loaded);
+    frond_rigid_destroy(board);
+    stand.steps(1);
+    EXPECT_EQ(stand.report().awake_count, 2);
+    ASSERT_TRUE(stand.rests_within(30));
+    const std::vector<double> after = stand.places(stand.plants[0]);
+    double sprung = 0;
+    for (size_t i = 0; i < after.size(); i++) {
+        EXPECT_NEAR(after[i], alone[i], 1e-4);
+        sprung = std::max(sprung, std::abs(after[i] - loaded[i]));
+    }
+    EXPECT_GT(sprung, 2e-4);
+}
+
+TEST(Wake, TakesNoStaleHandleAndNoAbsurdDistance) {
+    EXPECT_FALSE(frond_plant_is_awake({}));
+    EXPECT_EQ(frond_plant_wake({}), FROND_BAD_HANDLE);
+    for (const double bad : {-1.0, 1.0, double(NAN), double(INFINITY)}) {
+        frond_world_def def = frond_default_world_def();
+        def.sleep_distance = bad;
+        frond_world world = {};
+        EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT);
+        EXPECT_EQ(world.id, 0u);
+    }
+}
+
+}  // namespace
