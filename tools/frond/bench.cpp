@@ -1,23 +1,17 @@
-// frond bench step: time of a step by stage. frond bench contact: of contact, by the number of plants that touch.
+// frond bench step: time of a step by stage. frond bench contact: of contact, by the number of plants that touch. Nothing
+// sleeps meanwhile.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
+#include "bench.hpp"
 #include "commands.hpp"
 #include "studio.hpp"
 #include "study/report.hpp"
 
 namespace frond::tools {
 namespace {
-
-struct BenchOptions {
-    std::string what = "drag";
-    int rounds = 20;
-    int most = 17;  // plants that touch
-    bool csv = false;
-    std::vector<std::string> assignments;
-};
 
 struct Stages {
     static constexpr const char* NAMES[] = {"effects", "assembly", "solve", "contact", "capsules", "surface", "all"};
@@ -109,7 +103,7 @@ struct ContactFigures {
 ContactFigures measure_field(int plants, const BenchOptions& options) {
     constexpr int WARM_UP = 90;
     std::vector<std::string> assignments = options.assignments;
-    assignments.push_back("plants=" + std::to_string(plants));
+    assignments.insert(assignments.end(), {"plants=" + std::to_string(plants), "sleep_distance=0"});
     const Casting casting = cast("corn_field");
     Play play(casting, settings_of(casting, assignments));
     for (int i = 0; i < WARM_UP; i++) play.step();
@@ -182,6 +176,14 @@ void add_bench(CLI::App& app) {
     contact->add_option("--most", contact_options->most, "plants, default 17")->check(CLI::Range(4, 17));
     contact->add_flag("--csv", contact_options->csv, "print CSV");
     contact->add_option("--set", contact_options->assignments, "key=value, may be repeated; see frond run --help");
+    auto field_options = std::make_shared<BenchOptions>();
+    field_options->what = "corn";
+    field_options->most = 1000;
+    CLI::App* field = bench->add_subcommand("field", "plants that are many: to make, to keep, awake and asleep");
+    field->add_option("what", field_options->what, "a scene of one plant or a mesh file, default corn");
+    field->add_option("--most", field_options->most, "plants, default 1000")->check(CLI::Range(100, 100000));
+    field->add_option("--set", field_options->assignments, "key=value, may be repeated; see frond run --help");
+    field->callback([field_options] { bench_field(*field_options); });
     contact->callback([contact_options] { bench_contact(*contact_options); });
 }
 

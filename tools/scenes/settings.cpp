@@ -88,11 +88,6 @@ const std::vector<Key>& keys() {
          [](Settings& s, const std::string& value) { s.plants = int(number(value)); }},
         {"grab_stiffness", "of the user's spring [N/m], 0: as it takes",
          [](Settings& s, const std::string& value) { s.grab_stiffness = number(value); }},
-        {"breaking", "1: what is strained beyond its strength breaks, 0: nothing does",
-         [](Settings& s, const std::string& value) {
-             s.plant.effects &= ~uint32_t(FROND_BREAKING);
-             if (number(value) != 0) s.plant.effects |= FROND_BREAKING;
-         }},
         triple("gravity", "x,y,z [m/s^2]", &Settings::world, &frond_world_def::gravity),
         real("max_substep", "longest solver step [s]", &Settings::world, &frond_world_def::max_substep),
         choice("hash_layout", "where cages meet, row of the table", &frond_world_def::hash_layout,
@@ -106,6 +101,12 @@ const std::vector<Key>& keys() {
         real("response_tolerance", "share of the largest impulse", &Settings::world,
              &frond_world_def::response_tolerance),
         real("penalty_stiffness", "of response=penalty [N/m]", &Settings::world, &frond_world_def::penalty_stiffness),
+        real("sleep_distance", "of what rests [m], 0: nothing sleeps", &Settings::world, &frond_world_def::sleep_distance),
+        effect("breaking", "on or off: what is strained beyond its strength", FROND_BREAKING),
+        effect("fibres", "on or off: cages held to their organs' lengths", FROND_FIBRES),
+        effect("plasticity", "on or off", FROND_PLASTICITY),
+        effect("rigid_contact", "on or off", FROND_RIGID_CONTACT),
+        effect("two_way", "on or off", FROND_TWO_WAY),
         effect("plant_contact", "on or off", FROND_PLANT_CONTACT),
         effect("self_contact", "on or off", FROND_SELF_CONTACT),
         effect("friction", "on or off", FROND_FRICTION),

@@ -40,6 +40,7 @@ Trial::Trial(ModelPtr given, const Setup& given_setup) : model(std::move(given))
     frond_world_def def = frond_default_world_def();
     def.gravity = {0, 0, 0};
     def.max_substep = 1;
+    def.sleep_distance = 0;
     must(frond_world_create(&def, &world));
     const frond_result made = frond_plant_create(world, model->handle, &setup.plant, &plant);
     if (made != FROND_OK) frond_world_destroy(world);

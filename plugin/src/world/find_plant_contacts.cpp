@@ -156,6 +156,7 @@ void add_chain_contacts(const World& world, const PlantSearch& memory, const std
     for (size_t a = 0; a < island.size(); a++)
         for (size_t b = a; b < island.size(); b++) {
             if (!island[a]->plant->follow && !island[b]->plant->follow) continue;
+            if (island[a]->rest.asleep && island[b]->rest.asleep) continue;
             if (!memory.shapes[a].box.intersects(memory.shapes[b].box)) continue;
             if (a != b || has(world, *island[a], FROND_SELF_CONTACT))
                 add_capsule_contacts(memory, island, a, b, contacts);

@@ -105,9 +105,10 @@ void wake_by_world(World& world) {
 void wake_touched(World& world, double h) {
     for (const Contact& contact : world.contacts)
         if (contact.plant->rest.asleep && is_moving(*contact.other) && meets(contact, h)) wake(*contact.plant);
-    for (const PlantContact& contact : world.plant_contacts)
-        for (PlantBody* body : contact.plants)
-            if (body->rest.asleep && contact.depth > 0) wake(*body);
+    for (const PlantContact& contact : world.plant_contacts) {
+        const auto& [first, second] = contact.plants;
+        if (contact.depth > 0 && first->rest.asleep != second->rest.asleep) wake(first->rest.asleep ? *first : *second);
+    }
     const auto sleeps = [](const PlantBody* body) { return body->rest.asleep; };
     const auto of_sleeper = [&](const Contact& contact) { return sleeps(contact.plant); };
     world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(), of_sleeper), world.contacts.end());
