@@ -53,7 +53,7 @@ TEST(Response, NoRowGivesEnergyToBodiesThatOnlyTouch) {
                 settings.stiffness = stiffness;
                 settings.h = 1.0 / 60;
                 Pushes pushes;
-                response.find(bodies.touches, response.couples ? bodies.coupling : bodies.own, settings, pushes);
+                response.find(bodies.touches, coupling_table(response.couples ? bodies.coupling : bodies.own), settings, pushes);
                 ASSERT_EQ(pushes.impulses.size(), bodies.touches.size());
                 EXPECT_LT(bodies.gain(pushes.impulses), 1e-5) << response.name << " " << stiffness;
                 EXPECT_TRUE(pushes.shifts.empty());
@@ -75,12 +75,12 @@ TEST(Response, PartsTwoBodiesThatOverlapAtRest) {
     settings.h = 1.0 / 60;
     Pushes pushes;
     // By shifts, that give no velocity.
-    response_row(FROND_RESPONSE_IMPULSE).find({touch}, own, settings, pushes);
+    response_row(FROND_RESPONSE_IMPULSE).find({touch}, coupling_table(own), settings, pushes);
     EXPECT_NEAR(pushes.impulses[0].norm(), 0, 1e-12);
     EXPECT_NEAR(2 * pushes.shifts[0].y(), 0.12, 1e-9);
     // By a spring, no faster than 0.3 m/s however stiff it is.
     settings.stiffness = 1e12;
-    response_row(FROND_RESPONSE_PENALTY).find({touch}, own, settings, pushes);
+    response_row(FROND_RESPONSE_PENALTY).find({touch}, coupling_table(own), settings, pushes);
     EXPECT_NEAR(2 * pushes.impulses[0].y(), 0.3, 1e-6);
     EXPECT_EQ(response_row(FROND_RESPONSE_NONE).find, nullptr);
 }
@@ -96,9 +96,9 @@ TEST(Impulses, OfBodiesThatHaveNothingToDoWithEachOtherAreFoundApart) {
         coupling.push_back(list);
     }
     std::vector<Vec3> together, alone, other;
-    find_impulses(touches, coupling, {}, together);
-    find_impulses(first.touches, first.coupling, {}, alone);
-    find_impulses(second.touches, second.coupling, {}, other);
+    find_impulses(touches, coupling_table(coupling), {}, together);
+    find_impulses(first.touches, coupling_table(first.coupling), {}, alone);
+    find_impulses(second.touches, coupling_table(second.coupling), {}, other);
     alone.insert(alone.end(), other.begin(), other.end());
     EXPECT_EQ(together, alone);
 }

@@ -135,6 +135,36 @@ TEST_P(EveryScene, LooksAsItDid) {
                                  << difference.worst_y << "; see " << std::filesystem::absolute(kept);
 }
 
+TEST(Box, ComesToRestOnLeavesAndStays) {
+    Play play = play_of("box");
+    frond_rigid_state before, now;
+    for (int i = 0; i < 240; i++) play.step();
+    must(frond_rigid_get_state(play.stage.rigids.back(), &before));
+    EXPECT_GT(before.position.y, 0.2);  // not on the ground
+    EXPECT_GT(frond_plant_get_contact_count(play.stage.plants[0]), 2);
+    for (int i = 0; i < 60; i++) {
+        play.step();
+        must(frond_rigid_get_state(play.stage.rigids.back(), &now));
+        const frond_vec3 &v = now.velocity, &p = now.position, &q = before.position;
+        EXPECT_LT(std::hypot(v.x, v.y, v.z), 0.001) << i;  // no jitter above 1 mm/s
+        EXPECT_LT(std::hypot(p.x - q.x, p.y - q.y, p.z - q.z), 0.002) << i;
+    }
+}
+
+TEST(Trellis, HoldsAPlantThatLeansOnIt) {
+    Play play = play_of("trellis");
+    Play free = play_of("trellis", {"response=none"});
+    for (int i = 0; i < 180; i++) {
+        play.step();
+        free.step();
+    }
+    EXPECT_GT(frond_plant_get_contact_count(play.stage.plants[0]), 0);
+    frond_vec3 held = {}, fallen = {};
+    must(frond_plant_get_tip(play.stage.plants[0], &held));
+    must(frond_plant_get_tip(free.stage.plants[0], &fallen));
+    EXPECT_LT(held.x, fallen.x - 0.001);
+}
+
 // The aim is 0.1 ms. The least of many, twice as long for a processor that others use too.
 TEST(Twig, OfSixtyRodsIsQuick) {
     Play play = play_of("twig");

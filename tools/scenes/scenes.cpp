@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "scenes/scene.hpp"
+#include "scenes/rosette.hpp"
 
 namespace frond::tools {
 namespace {
@@ -208,6 +208,28 @@ void build_crate(Stage& stage) {
     stage.rigid(rigid_def(FROND_BOX, {0.1, 0.06, 0.1}, 0.1, {0.14, 1.35, 0.06}));
 }
 
+// A small box of cardboard that is set down on a rosette's leaves.
+void build_box(Stage& stage) {
+    stage.plant(make_rosette(stage), {0, 0, 0});
+    add_ground(stage);
+    frond_rigid_def box = rigid_def(FROND_BOX, {0.12, 0.06, 0.12}, 0.08, {0, 0.39, 0});
+    box.state.rotation = {0, std::sin(0.2), 0, std::cos(0.2)};
+    stage.rigid(box);
+}
+
+// A cucumber with its stake, set so far aslant that it comes to lean on a trellis of four slats on two posts.
+constexpr double LEAN = 0.16;  // [rad]
+void build_trellis(Stage& stage) {
+    stage.settings.plant.rotation = {0, 0, -std::sin(0.5 * LEAN), std::cos(0.5 * LEAN)};
+    build_cucumber(stage);
+    add_ground(stage);
+    constexpr double AWAY = 0.36, WIDE = 0.5;  // [m]
+    for (const double side : {-WIDE, WIDE})
+        stage.rigid(rigid_def(FROND_BOX, {0.02, 1.1, 0.02}, 0, {AWAY + 0.03, 1.1, side}));
+    for (const double height : {0.5, 1.0, 1.5, 2.0})
+        stage.rigid(rigid_def(FROND_BOX, {0.01, 0.02, WIDE + 0.05}, 0, {AWAY, height, 0}));
+}
+
 // ---- a plant of rods --------------------------------------------------------------------------------------------
 
 constexpr int TWIG_PIECES = 60;
@@ -288,6 +310,8 @@ const std::vector<Scene>& scenes() {
         {"corn_field", "17 corn plants touch", 3, corn_defaults, build_corn_field, rest},
         {"flag", "a ribbon of a leaf is folded onto itself", 3, flag_defaults, build_flag, fold},
         {"crate", "a small crate is let fall on a cucumber's leaves", 3, cucumber_defaults, build_crate, rest},
+        {"box", "a cardboard box of 80 g is set down on a rosette's leaves and rests there", 4, nullptr, build_box, rest},
+        {"trellis", "a cucumber leans on a trellis of static boxes", 4, cucumber_defaults, build_trellis, rest},
         {"twig", "a twig of 60 rods is pulled aside and let go", 5, twig_defaults, build_twig, drag},
         {"wind", "a stand of corn in a gusty wind", 8, wind_defaults, build_wind, rest},
         {"tug", "a plant file: it stands, is pulled aside and let go", 5, tug_defaults, nullptr, drag},

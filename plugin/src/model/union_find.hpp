@@ -25,6 +25,20 @@ struct UnionFind {
         parent[size_t(b)] = a;
         return true;
     }
+    // All sets in the order of their first members.
+    std::vector<std::vector<int>> sets() {
+        std::vector<std::vector<int>> all;
+        std::vector<int> number(parent.size(), -1);
+        for (size_t i = 0; i < parent.size(); i++) {
+            int& set = number[size_t(find(int(i)))];
+            if (set < 0) {
+                set = int(all.size());
+                all.emplace_back();
+            }
+            all[size_t(set)].push_back(int(i));
+        }
+        return all;
+    }
 };
 
 }  // namespace frond

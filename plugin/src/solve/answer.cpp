@@ -39,31 +39,31 @@ bool make_answer(Workspace& workspace, const SolveSettings& settings, const std:
     return true;
 }
 
-void add_coupling(const std::vector<const Answer*>& answers, std::vector<Mat3>& blocks) {
-    const size_t count = answers.size();
+void add_answers(const std::vector<const Answer*>& at, const Answer& by, Eigen::Matrix3Xd& spread,
+                 std::vector<Mat3>& blocks) {
     int most = 0;
-    for (const Answer* answer : answers)
+    for (const Answer* answer : at)
         if (!answer->rows.empty()) most = std::max(most, answer->rows.back() + 1);
-    Eigen::Matrix3Xd spread = Eigen::Matrix3Xd::Zero(3, most);
-    for (size_t j = 0; j < count; ++j) {
-        const Answer& by = *answers[j];
-        const bool whole = by.right.cols() != Eigen::Index(by.rows.size());
-        if (whole)
-            spread = by.right.leftCols(most);
-        else
-            for (size_t k = 0; k < by.rows.size(); ++k) spread.col(by.rows[k]) = by.right.col(Eigen::Index(k));
-        // Symmetric: the other half is this one's mirror image.
-        for (size_t i = 0; i <= j; ++i) {
-            const Answer& at = *answers[i];
-            Mat3 block = Mat3::Zero();
-            for (size_t k = 0; k < at.rows.size(); ++k)
-                block += at.left.col(Eigen::Index(k)) * spread.col(at.rows[k]).transpose();
-            blocks[i * count + j] += block;
-            if (i != j) blocks[j * count + i] += block.transpose();
-        }
-        if (!whole)
-            for (const int row : by.rows) spread.col(row).setZero();
+    const bool whole = by.right.cols() != Eigen::Index(by.rows.size());
+    if (!whole) {
+        if (!by.rows.empty()) most = std::max(most, by.rows.back() + 1);
+        if (spread.cols() < most) spread.setZero(3, most);
+        for (size_t k = 0; k < by.rows.size(); ++k) spread.col(by.rows[k]) = by.right.col(Eigen::Index(k));
     }
+    const Eigen::Matrix3Xd& right = whole ? by.right : spread;
+    for (size_t i = 0; i < at.size(); ++i) {
+        double sum[9] = {};  // kept in registers, which a matrix is not
+        const double* left = at[i]->left.data();
+        for (const int row : at[i]->rows) {
+            const double* other = right.data() + 3 * row;
+            for (int c = 0; c < 3; ++c)
+                for (int r = 0; r < 3; ++r) sum[r + 3 * c] += left[r] * other[c];
+            left += 3;
+        }
+        blocks[i] += Eigen::Map<const Mat3>(sum);
+    }
+    if (!whole)
+        for (const int row : by.rows) spread.col(row).setZero();
 }
 
 }  // namespace frond

@@ -1,11 +1,14 @@
 // In: touches and how they are coupled. Out: impulses, by projected Gauss-Seidel: touch by touch the normal impulse and
 // then the one across are corrected by what is wrong with the velocity, and projected onto what can be (Moreau 1988,
-// Jean 1999, "The non-smooth contact dynamics method").
+// Jean 1999, "The non-smooth contact dynamics method"). Between rounds all go on along the way they came, as far as the
+// gradients' ratio says (Silcowitz-Hansen, Niebe, Erleben 2010, "A nonsmooth nonlinear conjugate gradient method for
+// interactive contact force problems").
 #include "solve/impulses.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "model/union_find.hpp"
 
@@ -13,7 +16,7 @@ namespace frond {
 
 namespace {
 
-// How one touch answers to its own impulse, worked out once.
+// How one touch answers to its own impulse, worked out when that first pushes.
 struct Own {
     Mat3 block = Mat3::Zero();
     double along = 0, across = 0;  // correction of an impulse by speed, along the normal and across it [kg]
@@ -36,60 +39,50 @@ Mat3 firm_inverse(const Mat3& block) {
 
 namespace {
 
-Own own_of(const Touch& touch, const std::vector<Coupling>& couplings, int i) {
-    Own own;
-    for (const Coupling& c : couplings)
-        if (c.other == i) own.block += c.block;
-    if (touch.is_bond) {
-        own.inverse = firm_inverse(own.block);
-        return own;
-    }
-    const double along = touch.normal.dot(own.block * touch.normal);
-    const Mat3 flat = Mat3::Identity() - touch.normal * touch.normal.transpose();
-    const Eigen::SelfAdjointEigenSolver<Mat3> sliding(flat * own.block * flat, Eigen::EigenvaluesOnly);
-    const double across = sliding.eigenvalues()[2];
-    own.along = along > IMMOVABLE ? 1 / along : 0;
-    own.across = across > IMMOVABLE ? 1 / across : 0;
-    return own;
-}
-
-// Touches that answer to each other, directly or through others, in the order of the first of each.
-std::vector<std::vector<int>> find_islands(const std::vector<std::vector<Coupling>>& coupling) {
-    UnionFind sets(coupling.size());
-    for (size_t i = 0; i < coupling.size(); i++)
-        for (const Coupling& c : coupling[i]) sets.join(int(i), c.other);
-    std::vector<std::vector<int>> islands;
-    std::vector<int> number(coupling.size(), -1);
-    for (size_t i = 0; i < coupling.size(); i++) {
-        int& island = number[size_t(sets.find(int(i)))];
-        if (island < 0) {
-            island = int(islands.size());
-            islands.emplace_back();
-        }
-        islands[size_t(island)].push_back(int(i));
-    }
-    return islands;
-}
-
 struct Change {
     double largest = 0, most = 0;  // impulse, and change of one [N s]
+    double speed = 0;              // most change of a touch's speed by its own impulse [m/s]
 };
 
-// One touch anew, with all others as they are.
-void correct(const Touch& touch, const Own& own, const std::vector<Coupling>& couplings, std::vector<Vec3>& impulses,
-             Vec3& impulse, Change& change) {
-    Vec3 velocity = touch.velocity;
-    for (const Coupling& c : couplings) {
-        const Vec3& other = impulses[size_t(c.other)];
-        if (!other.isZero(0)) velocity += c.block * other;  // most touches only wait
-    }
-    const Vec3 before = impulse;
+// One island: its touches in a row.
+struct Search {
+    const std::vector<Touch>& touches;
+    const CouplingTable& coupling;
+    const std::vector<int>& island;
+    std::vector<int>& place;  // of a touch in its island
+    VecX impulses, velocities;
+    std::vector<std::unique_ptr<Own>> own;  // of those that push or did
+};
+
+const Own& own_of(Search& search, int k) {
+    std::unique_ptr<Own>& own = search.own[size_t(k)];
+    if (own) return *own;
+    own = std::make_unique<Own>();
+    for (const Coupling& c : search.coupling.row(search.island[size_t(k)]))
+        if (c.other == search.island[size_t(k)]) own->block += c.block;
+    const Touch& touch = search.touches[size_t(search.island[size_t(k)])];
     if (touch.is_bond) {
-        impulse += own.inverse * (touch.wanted - velocity);
-        change.largest = std::max(change.largest, impulse.norm());
-        change.most = std::max(change.most, (impulse - before).norm());
-        return;
+        own->inverse = firm_inverse(own->block);
+        return *own;
     }
+    const double along = touch.normal.dot(own->block * touch.normal);
+    const Mat3 flat = Mat3::Identity() - touch.normal * touch.normal.transpose();
+    const Eigen::SelfAdjointEigenSolver<Mat3> sliding(flat * own->block * flat, Eigen::EigenvaluesOnly);
+    const double across = sliding.eigenvalues()[2];
+    own->along = along > IMMOVABLE ? 1 / along : 0;
+    own->across = across > IMMOVABLE ? 1 / across : 0;
+    return *own;
+}
+
+void add_impulse(Search& search, int k, const Vec3& change) {
+    search.impulses.segment<3>(3 * k) += change;
+    for (const Coupling& c : search.coupling.row(search.island[size_t(k)]))
+        search.velocities.segment<3>(3 * search.place[size_t(c.other)]) += c.block.transpose() * change;
+}
+
+// What one touch should have in place of `before`, with all others as they are.
+Vec3 corrected(const Touch& touch, const Own& own, Vec3 velocity, const Vec3& before) {
+    if (touch.is_bond) return before + own.inverse * (touch.wanted - velocity);
 
     // Along the normal: push, never pull.
     const double push_before = before.dot(touch.normal);
@@ -102,35 +95,86 @@ void correct(const Touch& touch, const Own& own, const std::vector<Coupling>& co
     Vec3 hold = before - push_before * touch.normal - own.across * sliding;
     const double most = touch.friction * push, size = hold.norm();
     if (size > most) hold *= most / size;
+    return push * touch.normal + hold;
+}
 
-    impulse = push * touch.normal + hold;
-    change.largest = std::max(change.largest, impulse.norm());
-    change.most = std::max(change.most, (impulse - before).norm());
+// A round over the touches.
+Change sweep(Search& search) {
+    Change change;
+    for (int k = 0; k < int(search.island.size()); k++) {
+        const Touch& touch = search.touches[size_t(search.island[size_t(k)])];
+        const Vec3 before = search.impulses.segment<3>(3 * k), velocity = search.velocities.segment<3>(3 * k);
+        const bool waits = !touch.is_bond && before.isZero(0) && velocity.dot(touch.normal) >= touch.least_speed;
+        if (waits) continue;
+        const Own& own = own_of(search, k);
+        const Vec3 by = corrected(touch, own, velocity, before) - before;
+        if (!by.isZero(0)) add_impulse(search, k, by);
+        change.largest = std::max(change.largest, (before + by).norm());
+        change.most = std::max(change.most, by.norm());
+        change.speed = std::max(change.speed, (own.block * by).norm());
+    }
+    return change;
+}
+
+// Rounds until they change nothing.
+int solve_island(Search& search, const ImpulseLimits& limits, double unfelt, bool onward, bool& converged) {
+    VecX way = VecX::Zero(search.impulses.size()), way_faster = way, from, from_velocities;
+    double last = 0;  // square of the last round's change
+    for (int iteration = 1;; iteration++) {
+        from = search.impulses;
+        from_velocities = search.velocities;
+        const Change change = sweep(search);
+        converged = change.most <= limits.tolerance * change.largest || change.speed <= unfelt;
+        if (converged || iteration >= limits.iterations) return iteration;
+        if (!onward) continue;
+        from = search.impulses - from;
+        from_velocities = search.velocities - from_velocities;
+        // On along the way so far by its share, unless rounds grow.
+        const double square = from.squaredNorm(), share = last > 0 && square <= last ? square / last : 0;
+        last = square;
+        way *= share;
+        way_faster *= share;
+        search.impulses += way;
+        search.velocities += way_faster;
+        way += from;
+        way_faster += from_velocities;
+    }
 }
 
 }  // namespace
 
-ImpulseReport find_impulses(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
-                            const ImpulseLimits& limits, std::vector<Vec3>& impulses) {
-    const size_t count = touches.size();
-    impulses.resize(count, Vec3::Zero());
-    std::vector<Own> own;
-    for (size_t i = 0; i < count; i++) own.push_back(own_of(touches[i], coupling[i], int(i)));
+CouplingTable coupling_table(const std::vector<std::vector<Coupling>>& rows) {
+    CouplingTable table;
+    table.row = [&rows](int i) -> const std::vector<Coupling>& { return rows[size_t(i)]; };
+    UnionFind sets(rows.size());
+    for (size_t i = 0; i < rows.size(); i++)
+        for (const Coupling& c : rows[i]) sets.join(int(i), c.other);
+    table.islands = sets.sets();
+    return table;
+}
 
+ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTable& coupling,
+                            const ImpulseLimits& limits, std::vector<Vec3>& impulses, double unfelt,
+                            bool onward) {
+    impulses.resize(touches.size(), Vec3::Zero());
+    std::vector<int> place(touches.size(), 0);
     ImpulseReport report;
     report.converged = true;
-    for (const std::vector<int>& island : find_islands(coupling)) {
-        bool converged = false;
-        int iterations = 0;
-        while (iterations < limits.iterations && !converged) {
-            iterations++;
-            Change change;
-            for (const int i : island)
-                correct(touches[size_t(i)], own[size_t(i)], coupling[size_t(i)], impulses, impulses[size_t(i)], change);
-            converged = change.most <= limits.tolerance * change.largest;
+    for (const std::vector<int>& island : coupling.islands) {
+        const Eigen::Index size = 3 * Eigen::Index(island.size());
+        Search search = {touches, coupling, island, place, VecX::Zero(size), VecX(size), {}};
+        search.own.resize(island.size());
+        for (size_t k = 0; k < island.size(); k++) {
+            place[size_t(island[k])] = int(k);
+            search.velocities.segment<3>(3 * Eigen::Index(k)) = touches[size_t(island[k])].velocity;
         }
-        report.iterations = std::max(report.iterations, iterations);
+        for (size_t k = 0; k < island.size(); k++)
+            if (!impulses[size_t(island[k])].isZero(0)) add_impulse(search, int(k), impulses[size_t(island[k])]);
+        bool converged = false;
+        report.iterations = std::max(report.iterations, solve_island(search, limits, unfelt, onward, converged));
         report.converged = report.converged && converged;
+        for (size_t k = 0; k < island.size(); k++)
+            impulses[size_t(island[k])] = search.impulses.segment<3>(3 * Eigen::Index(k));
     }
     return report;
 }

@@ -2,6 +2,7 @@
 // the bodies are: they are seen through how velocities at the touching points answer to impulses there.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/types.hpp"
@@ -24,19 +25,28 @@ struct Touch {
     Vec3 wanted = Vec3::Zero();  // [m/s]
 };
 
-// Blocks of W, the velocity at a touch by an impulse at another one [1/kg]. Symmetric as a whole: both of (i, j) and
-// (j, i) are given, and every (i, i).
+// A block of W, the velocity at a touch by an impulse at another one [1/kg].
 struct Coupling {
     int other;
     Mat3 block;
 };
+
+// W, row by row as they are asked for, since most touches only wait and then nobody has to know theirs. Symmetric as a
+// whole: both of (i, j) and (j, i) are given, and every (i, i) of what can move.
+struct CouplingTable {
+    std::function<const std::vector<Coupling>&(int touch)> row;  // what is returned lives as long as the table
+    std::vector<std::vector<int>> islands;  // each touch is in one of them, and answers to none of another
+};
+// Of rows that are known already and live longer.
+CouplingTable coupling_table(const std::vector<std::vector<Coupling>>& rows);
 
 struct ImpulseLimits {
     int iterations = 200;
     double tolerance = 1e-6;  // change of an impulse in a round, over the largest one [-]
 };
 
-// What a response does for each touch: impulses for a, the opposite for b. Shifts move places and give no velocity [N s].
+// What a response does for each touch: impulses for a, the opposite for b; those that come in are where the search
+// begins. Shifts move places and give no velocity [N s].
 struct Pushes {
     std::vector<Vec3> impulses, shifts;
 };
@@ -51,17 +61,17 @@ struct ResponseSettings {
 struct ResponseRow {
     const char* name;
     // Null: nothing pushes. Empty shifts: none.
-    void (*find)(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
-                 const ResponseSettings& settings, Pushes& out);
+    void (*find)(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
+                 Pushes& out);
     // Whether it asks how touches answer to each other. If not, it gets one block a touch: what the touch answers to
     // itself, times the number of touches at that body, so that all together never answer more than that.
     bool couples;
 };
 const ResponseRow& response_row(frond_response which);
-void push_by_impulse(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
-                     const ResponseSettings& settings, Pushes& out);
-void push_by_penalty(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
-                     const ResponseSettings& settings, Pushes& out);
+void push_by_impulse(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
+                     Pushes& out);
+void push_by_penalty(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
+                     Pushes& out);
 
 // Of what a touch answers to itself, without the ways in which nothing moves.
 Mat3 firm_inverse(const Mat3& block);
@@ -72,8 +82,12 @@ struct ImpulseReport {
 };
 
 // The impulses [N s] for which, at every touch, either nothing pushes and the bodies part, or they push and move as fast
-// as they must along the normal, and across it friction stops the sliding or is at its limit against it.
-ImpulseReport find_impulses(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
-                            const ImpulseLimits& limits, std::vector<Vec3>& impulses);
+// as they must along the normal, and across it friction stops the sliding or is at its limit against it. The search
+// begins with those that come in, if there are any, and ends where a round changes no touch's speed by more than
+// `unfelt` [m/s], or its limits are reached. Not `onward`: rounds do not go on along their way,
+// so that each one only comes nearer and none too far where the search ends early.
+ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTable& coupling,
+                            const ImpulseLimits& limits, std::vector<Vec3>& impulses, double unfelt = 0,
+                            bool onward = true);
 
 }  // namespace frond

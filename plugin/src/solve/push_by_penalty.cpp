@@ -10,15 +10,15 @@
 
 namespace frond {
 
-void push_by_penalty(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
-                     const ResponseSettings& settings, Pushes& out) {
+void push_by_penalty(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
+                     Pushes& out) {
     constexpr double FASTEST = 0.3;  // that a spring lets overlapping bodies part [m/s]
     const double h = settings.h, k = settings.stiffness;
     out.impulses.assign(touches.size(), Vec3::Zero());
     out.shifts.clear();
     for (size_t i = 0; i < touches.size(); i++) {
         const Touch& touch = touches[i];
-        const Mat3& own = coupling[i].front().block;
+        const Mat3& own = coupling.row(int(i)).front().block;
         if (touch.is_bond) {
             out.impulses[i] = firm_inverse(own) * (touch.wanted - touch.velocity);
             continue;

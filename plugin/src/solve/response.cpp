@@ -16,11 +16,11 @@ const ResponseRow& response_row(frond_response which) {
 }
 
 // Velocities first. Then places, as if all were at rest and smooth, so that what parts gets no energy of motion.
-void push_by_impulse(const std::vector<Touch>& touches, const std::vector<std::vector<Coupling>>& coupling,
-                     const ResponseSettings& settings, Pushes& out) {
-    out.impulses.clear();
+void push_by_impulse(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
+                     Pushes& out) {
     out.shifts.clear();
-    find_impulses(touches, coupling, settings.limits, out.impulses);
+    constexpr double MOVES = 1e-5, SHIFTS = 1e-3;  // what is not felt, nor seen [m/s]
+    find_impulses(touches, coupling, settings.limits, out.impulses, MOVES);
     const auto overlaps = [](const Touch& touch) { return touch.least_shift > 0; };
     if (std::none_of(touches.begin(), touches.end(), overlaps)) return;
     std::vector<Touch> places = touches;
@@ -30,7 +30,9 @@ void push_by_impulse(const std::vector<Touch>& touches, const std::vector<std::v
         touch.least_speed = touch.least_shift;
         touch.friction = 0;
     }
-    find_impulses(places, coupling, settings.limits, out.shifts);
+    // Leaves that are pressed from two sides may have no answer at all; what is left is for the next steps.
+    const ImpulseLimits limits = {std::min(settings.limits.iterations, 40), settings.limits.tolerance};
+    find_impulses(places, coupling, limits, out.shifts, SHIFTS, false);
 }
 
 }  // namespace frond

@@ -1,6 +1,6 @@
 // In: where plants are, and which of them Bullet's broad phase saw together. Out: contacts of their cages.
 #include <algorithm>
-#include <set>
+#include <map>
 #include <tuple>
 
 #include "core/timer.hpp"
@@ -173,14 +173,20 @@ bool may_touch(const World& world, const PlantContact& contact) {
     return has(world, *contact.plants[0], FROND_PLANT_CONTACT) && has(world, *contact.plants[1], FROND_PLANT_CONTACT);
 }
 
-// Contacts of the last substep that were not found again, as long as they push and both sides are beside each other.
+// Contacts of the last substep that were not found again are kept as long as they push and both sides are beside each
+// other. Those that were begin with what they had to push.
 void keep_contacts(const World& world, const std::vector<PlantContact>& last, std::vector<PlantContact>& contacts) {
     constexpr double APART = 0.01, DRIFTED = 0.02;  // [m]
-    std::set<std::tuple<int, int, std::array<int, 4>>> found;
-    for (const PlantContact& contact : contacts) found.insert(key_of(contact));
+    std::map<std::tuple<int, int, std::array<int, 4>>, size_t> found;
+    for (size_t i = 0; i < contacts.size(); i++) found.emplace(key_of(contacts[i]), i);
     for (const PlantContact& before : last) {
         const bool pushed = before.depth > 0 || !before.impulse.isZero(0);
-        if (!pushed || before.sides[0].node_count == 0 || !may_touch(world, before) || found.count(key_of(before))) continue;
+        if (!pushed || before.sides[0].node_count == 0 || !may_touch(world, before)) continue;
+        const auto again = found.find(key_of(before));
+        if (again != found.end()) {
+            contacts[again->second].impulse = before.impulse;
+            continue;
+        }
         PlantContact contact = before;
         take_grips(contact);
         const Vec3 moved = contact.between - before.between;
@@ -188,7 +194,6 @@ void keep_contacts(const World& world, const std::vector<PlantContact>& last, st
         // Not in each other any more, whatever the depth was said to be.
         contact.depth = std::min(contact.depth - away, 0.0);
         if (contact.depth < -APART || (moved - away * contact.normal).norm() > DRIFTED) continue;
-        contact.impulse.setZero();
         contacts.push_back(contact);
     }
 }

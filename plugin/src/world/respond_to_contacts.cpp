@@ -5,6 +5,7 @@
 // they move next; both sides of a contact are advanced from the places at which it was found.
 #include <algorithm>
 
+#include "model/union_find.hpp"
 #include "plant/touch.hpp"
 #include "world/pusher.hpp"
 #include "world/world.hpp"
@@ -94,64 +95,96 @@ void add_row(Bond& bond, double h, std::vector<Row>& rows) {
     rows.push_back(std::move(row));
 }
 
-// A plant's side of a row: of its first plant, or with the opposite sign of its second.
-struct Side {
-    int row;
-    double sign;
-    const Answer* answer;
+// A plant's sides of rows: of a row's first plant, or with the opposite sign of its second.
+struct Sides {
+    std::vector<int> rows;
+    std::vector<double> signs;
+    std::vector<const Answer*> answers;
 };
 
-std::vector<std::vector<Side>> sort_by_plant(const World& world, const std::vector<Row>& rows) {
-    std::vector<std::vector<Side>> sides(world.bodies.size());
+std::vector<Sides> sort_by_plant(const World& world, const std::vector<Row>& rows) {
+    std::vector<Sides> sides(world.bodies.size());
     for (size_t i = 0; i < rows.size(); i++)
-        for (size_t k = 0; k < 2; k++)
-            if (rows[i].plants[k])
-                sides[size_t(rows[i].plants[k]->number)].push_back(
-                    {int(i), k == 0 ? 1.0 : -1.0, &rows[i].touches[k].answer});
+        for (size_t k = 0; k < 2; k++) {
+            if (!rows[i].plants[k]) continue;
+            Sides& of = sides[size_t(rows[i].plants[k]->number)];
+            of.rows.push_back(int(i));
+            of.signs.push_back(k == 0 ? 1 : -1);
+            of.answers.push_back(&rows[i].touches[k].answer);
+        }
     return sides;
 }
 
-// How every touch answers to every other one.
-std::vector<std::vector<Coupling>> couple(const World& world, const std::vector<Row>& rows) {
-    std::vector<std::vector<Coupling>> coupling(rows.size());
-    for (const std::vector<Side>& sides : sort_by_plant(world, rows)) {
-        std::vector<const Answer*> answers;
-        for (const Side& side : sides) answers.push_back(side.answer);
-        std::vector<Mat3> blocks(sides.size() * sides.size(), Mat3::Zero());
-        add_coupling(answers, blocks);
-        for (size_t i = 0; i < sides.size(); i++)
-            for (size_t j = 0; j < sides.size(); j++) {
-                const Mat3 block = sides[i].sign * sides[j].sign * blocks[i * sides.size() + j];
-                if (i == j || !block.isZero(0)) coupling[size_t(sides[i].row)].push_back({sides[j].row, block});
-            }
-    }
-    for (size_t i = 0; i < rows.size(); i++)
-        for (size_t j = 0; j < rows.size(); j++) {
-            if (rows[i].plants[1] || rows[j].plants[1]) continue;
-            const Mat3 block = answer_between(rows[i].pusher, rows[j].pusher);
-            if (!block.isZero(0)) coupling[i].push_back({int(j), block});
-        }
-    return coupling;
+bool are_one_body(const Row& a, const Row& b) {
+    if (a.plants[1] || b.plants[1]) return false;
+    if (a.pusher.link && b.pusher.link) return a.pusher.link->m_multiBody == b.pusher.link->m_multiBody;
+    return a.pusher.rigid && a.pusher.rigid == b.pusher.rigid;
 }
 
-// How every touch answers to itself, as many times as there are touches at that plant or body.
-std::vector<std::vector<Coupling>> share(const World& world, const std::vector<Row>& rows) {
-    std::vector<std::vector<Coupling>> own;
-    for (size_t i = 0; i < rows.size(); i++) own.push_back({{int(i), Mat3::Zero()}});
-    for (const std::vector<Side>& sides : sort_by_plant(world, rows))
-        for (const Side& side : sides) {
-            std::vector<Mat3> block(1, Mat3::Zero());
-            add_coupling({side.answer}, block);
-            own[size_t(side.row)].front().block += double(sides.size()) * block[0];
-        }
-    for (size_t i = 0; i < rows.size(); i++) {
-        if (rows[i].plants[1]) continue;
-        const auto touched = std::count_if(rows.begin(), rows.end(), [&](const Row& row) {
-            return !row.plants[1] && row.pusher.object == rows[i].pusher.object;
-        });
-        own[i].front().block += double(touched) * answer_between(rows[i].pusher, rows[i].pusher);
+// How touches answer to each other, worked out for those that somebody asks for.
+struct Coupler {
+    const std::vector<Row>& rows;
+    std::vector<Sides> plants;
+    std::vector<std::vector<Coupling>> known;
+    Eigen::Matrix3Xd spread;
+    std::vector<Mat3> blocks;
+};
+
+// What the plants of a row pass on to their other rows.
+void couple_by_plants(Coupler& coupler, int by, std::vector<Coupling>& row) {
+    for (size_t k = 0; k < 2; k++) {
+        const PlantBody* plant = coupler.rows[size_t(by)].plants[k];
+        if (!plant) continue;
+        const Sides& sides = coupler.plants[size_t(plant->number)];
+        coupler.blocks.assign(sides.rows.size(), Mat3::Zero());
+        add_answers(sides.answers, coupler.rows[size_t(by)].touches[k].answer, coupler.spread, coupler.blocks);
+        const double sign = k == 0 ? 1 : -1;
+        for (size_t i = 0; i < sides.rows.size(); i++)
+            if (!coupler.blocks[i].isZero(0))
+                row.push_back({sides.rows[i], sign * sides.signs[i] * coupler.blocks[i].transpose()});
     }
-    return own;
+}
+
+const std::vector<Coupling>& couple(Coupler& coupler, int by) {
+    std::vector<Coupling>& row = coupler.known[size_t(by)];
+    if (!row.empty()) return row;
+    couple_by_plants(coupler, by, row);
+    const Row& at = coupler.rows[size_t(by)];
+    for (size_t i = 0; i < coupler.rows.size(); i++)
+        if (are_one_body(at, coupler.rows[i]))
+            row.push_back({int(i), answer_between(at.pusher, coupler.rows[i].pusher)});
+    if (row.empty()) row.push_back({by, Mat3::Zero()});
+    return row;
+}
+
+// Rows of one plant or body belong together.
+std::vector<std::vector<int>> find_islands(const Coupler& coupler) {
+    UnionFind sets(coupler.rows.size());
+    for (const Sides& sides : coupler.plants)
+        for (const int row : sides.rows) sets.join(sides.rows[0], row);
+    for (size_t i = 0; i < coupler.rows.size(); i++)
+        for (size_t j = 0; j < i; j++)
+            if (are_one_body(coupler.rows[i], coupler.rows[j])) sets.join(int(i), int(j));
+    return sets.sets();
+}
+
+// How a touch answers to itself, as many times as there are touches at that plant or body.
+const std::vector<Coupling>& share(Coupler& coupler, int by) {
+    std::vector<Coupling>& row = coupler.known[size_t(by)];
+    if (!row.empty()) return row;
+    const Row& at = coupler.rows[size_t(by)];
+    row.push_back({by, Mat3::Zero()});
+    for (size_t k = 0; k < 2; k++) {
+        if (!at.plants[k]) continue;
+        const Answer& answer = at.touches[k].answer;
+        coupler.blocks.assign(1, Mat3::Zero());
+        add_answers({&answer}, answer, coupler.spread, coupler.blocks);
+        row[0].block += double(coupler.plants[size_t(at.plants[k]->number)].rows.size()) * coupler.blocks[0];
+    }
+    const auto touched = std::count_if(coupler.rows.begin(), coupler.rows.end(),
+                                       [&](const Row& other) { return are_one_body(at, other); });
+    if (touched > 0) row[0].block += double(touched) * answer_between(at.pusher, at.pusher);
+    return row;
 }
 
 // Adds what the rows got to both sides.
@@ -194,7 +227,14 @@ void respond_to_contacts(World& world, double h) {
     ResponseSettings settings = world.response_settings;
     settings.h = h;
     Pushes pushes;
-    response.find(touches, response.couples ? couple(world, rows) : share(world, rows), settings, pushes);
+    for (const Row& row : rows) pushes.impulses.push_back(*row.impulse);
+    Coupler coupler = {rows, sort_by_plant(world, rows), std::vector<std::vector<Coupling>>(rows.size()), {}, {}};
+    CouplingTable table;
+    table.row = [&](int row) -> const std::vector<Coupling>& {
+        return response.couples ? couple(coupler, row) : share(coupler, row);
+    };
+    table.islands = find_islands(coupler);
+    response.find(touches, table, settings, pushes);
     give(world, rows, pushes, h);
 }
 
