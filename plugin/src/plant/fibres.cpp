@@ -126,12 +126,15 @@ Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
         if (!make_answer(*plant.workspace, plant.settings, pulls, answers[t])) return {};
         all.push_back(&answers[t]);
     }
-    std::vector<Mat3> blocks(triples * triples, Mat3::Zero());
-    add_coupling(all, blocks);
-    Eigen::MatrixXd W(count, count);
-    for (Eigen::Index i = 0; i < W.rows(); i++)
-        for (Eigen::Index j = 0; j < W.cols(); j++)
-            W(i, j) = blocks[size_t(i / 3) * triples + size_t(j / 3)](i % 3, j % 3);
+    Eigen::MatrixXd W(3 * triples, 3 * triples);
+    Eigen::Matrix3Xd spread;
+    std::vector<Mat3> blocks;
+    for (size_t by = 0; by < triples; by++) {
+        blocks.assign(triples, Mat3::Zero());
+        add_answers(all, answers[by], spread, blocks);
+        for (size_t t = 0; t < triples; t++) W.block<3, 3>(Eigen::Index(3 * t), Eigen::Index(3 * by)) = blocks[t];
+    }
+    W.conservativeResize(Eigen::Index(count), Eigen::Index(count));
     return W;
 }
 
