@@ -283,7 +283,8 @@ static std::vector<frond_stem> boughs() {
 }
 
 static double largest_unbalance(const Model& model, frond_mechanics which) {
-    const TetElements elements = make_tet_elements(model, &model.rest_shapes->positions[size_t(which)]);
+    const auto own = mechanics(which).make(model, which);
+    const TetElements& elements = static_cast<const TetElements&>(*own);
     VecX x(elements.rest_positions.size()), f = VecX::Zero(x.size());
     for (size_t i = 0; i < model.cage.nodes.size(); i++) point(x, int(i)) = model.cage.nodes[i];
     double weight = 0;

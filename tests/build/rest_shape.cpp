@@ -33,7 +33,8 @@ TEST_P(EveryTets, WeightBendsItToTheShapeThatWasModelled) {
     ensure_rest_shape(*model, GetParam());
     const VecX& rest = model->rest_shapes->positions[size_t(GetParam())];
     ASSERT_GT(rest.size(), 0);
-    const TetElements elements = make_tet_elements(*model, &rest);
+    const auto own = mechanics(GetParam()).make(*model, GetParam());
+    const TetElements& elements = static_cast<const TetElements&>(*own);
     const std::vector<uint8_t> held(model->root.begin(), model->root.end());
     const VecX force = unbalanced_force(elements, held, GetParam(), elements.modelled, GRAVITY);
     double weight = 0;

@@ -71,7 +71,7 @@ Model stem_model(double yield_strain, double creep = 0) {
     model.organs = {organ};
     model.organ_stiffer = {1};
     for (int i = 0; i <= 20; ++i) {
-        model.chain.nodes.push_back({Vec3(0, 0.05 * i, 0), 0.01, i - 1, 0, 0.05 * i});
+        model.chain.nodes.push_back({Vec3(0, 0.05 * i, 0), 0.01, i - 1, 0, 0.05 * i, 0.01});
         Section section = {};
         section.length = 0.05;
         section.axis = Vec3::UnitY();

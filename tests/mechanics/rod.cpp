@@ -26,7 +26,7 @@ Model chain_model(bool stands = false) {
     const std::vector<Vec3> places = {{0, 0, 0}, {0.02, 0.3, 0}, {0.1, 0.55, 0.05}, {-0.2, 0.5, 0.1}, {-0.3, 0.4, 0.3}};
     const std::vector<int> parents = {-1, 0, 1, 1, 3};
     for (size_t i = 0; i < places.size(); ++i) {
-        model.chain.nodes.push_back({places[i], 0.01, parents[i], 0, 0});
+        model.chain.nodes.push_back({places[i], 0.01, parents[i], 0, 0, 0.01});
         Section section = {};
         const Vec3 from = parents[i] < 0 ? Vec3(places[i] - 0.1 * Vec3::UnitY()) : places[size_t(parents[i])];
         section.length = (places[i] - from).norm();

@@ -73,6 +73,10 @@ const std::vector<Problem>& problems() {
         {"cucumber_release", "the cucumber is let go after that and sways for 4 s (--quick: 1 s)",
          "its own path with steps refined until it stays", "rms error of the tip / peak [-]",
          MECHANICS | TIME_STEP | NEWTON, standing_baseline, run_cucumber_release},
+        {"agree",
+         "where corn and cucumber stand and how fast they sway first, let go from where 1 % of their weight draws them",
+         "rods of the same model", "largest difference of a tip / height or of a frequency [-]", MECHANICS,
+         agree_baseline, run_agree},
     };
     return table;
 }

@@ -11,6 +11,7 @@ Setup free_baseline();      // held nowhere
 Setup peers_baseline();     // the beam of 1170 tets that other programs were tried on
 Setup wind_baseline();      // with the damping that lets it come to rest
 Setup standing_baseline();  // a plant from a file, as it is by default
+Setup agree_baseline();     // the same at 1/120 s
 
 Outcome run_cantilever_tip(const Setup& setup, Session& session);
 Outcome run_cantilever_weight(const Setup& setup, Session& session);
@@ -34,6 +35,8 @@ Outcome run_peers_swing(const Setup& setup, Session& session);
 Outcome run_release(const Setup& setup, Session& session);
 
 Outcome run_reconfiguration(const Setup& setup, Session& session);
+
+Outcome run_agree(const Setup& setup, Session& session);
 
 Outcome run_corn_stand(const Setup& setup, Session& session);
 Outcome run_cucumber_stand(const Setup& setup, Session& session);

@@ -130,7 +130,8 @@ enum {
     X(TET_COROTATIONAL, "tet_corotational") /* linear in each tet's own rotated frame: bends far */              \
     X(TET_NEOHOOKEAN, "tet_neohookean")     /* a rubber-like solid: right for large strains too */               \
     X(ROD, "rod")                           /* beams with the organs' true sections: quickest, right for stems */ \
-    X(SPRING_CHAIN, "spring_chain")         /* the paper's capsules joined by springs, driven by r and h */
+    X(SPRING_CHAIN, "spring_chain")         /* the paper's capsules joined by springs, driven by r and h; with the \
+                                             * radii of the shape a plant sways as with rods, with others by r^4 */
 /* How a step in time is taken. */
 #define FROND_INTEGRATORS(X)                                                                                  \
     X(IMPLICIT_EULER, "implicit_euler")       /* the paper's: one solve, damps sway away within seconds */    \

@@ -7,33 +7,25 @@
 #include "build/calibrate_together.hpp"
 #include "build/static_stiffness.hpp"
 #include "mechanics/tet_element.hpp"
+#include "model/chain_loads.hpp"
 
 namespace frond {
 namespace {
 
-// Elastic energy of organs' rods under weight along an axis [J]; forces and moments are summed from the tips down.
+// Elastic energy of organs' rods under weight along an axis [J].
 double rod_energy(const Model& model, int axis, const std::vector<char>& left_out) {
-    const std::vector<ChainNode>& nodes = model.chain.nodes;
-    std::vector<Vec3> force(nodes.size()), moment(nodes.size());
-    for (size_t i = 0; i < nodes.size(); i++) {
-        force[i] = GRAVITY * model.chain_mass[i] * Vec3::Unit(axis);
-        moment[i] = nodes[i].position.cross(force[i]);
-    }
+    const ChainLoads loads = weigh_chain(model, axis);
     double sum = 0;
-    for (size_t i = nodes.size(); i-- > 0;) {
-        if (nodes[i].parent < 0) continue;
-        const size_t parent = size_t(nodes[i].parent), organ = size_t(nodes[i].organ);
+    for (size_t i = 0; i < model.chain.nodes.size(); i++) {
+        const size_t organ = size_t(model.chain.nodes[i].organ);
+        if (model.chain.nodes[i].parent < 0 || left_out[organ]) continue;
         const Section& section = model.sections[i];
-        const Vec3 M = moment[i] - (0.5 * (nodes[i].position + nodes[parent].position)).cross(force[i]);
+        const Vec3& M = loads.moment[i];
         const auto share = [&](double load, double stiffness) { return load * load / stiffness; };
-        if (!left_out[organ])
-            sum += section.length / (2 * model.organ_stiffer[organ]) *
-                   (share(M.dot(section.wide()), section.bending_thin()) +
-                    share(M.dot(section.thin), section.bending_wide()) +
-                    share(M.dot(section.axis), section.twisting()) +
-                    share(force[i].dot(section.axis), section.stretching()));
-        force[parent] += force[i];
-        moment[parent] += moment[i];
+        sum += section.length / (2 * model.organ_stiffer[organ]) *
+               (share(M.dot(section.wide()), section.bending_thin()) +
+                share(M.dot(section.thin), section.bending_wide()) + share(M.dot(section.axis), section.twisting()) +
+                share(loads.force[i].dot(section.axis), section.stretching()));
     }
     return sum;
 }

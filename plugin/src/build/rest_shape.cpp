@@ -1,15 +1,18 @@
 // Rest shape: an artist's mesh shows a plant as it stands, bent by its own weight. Inverse statics finds the shape X
 // without gravity from which weight bends it to the shape x that was modelled: elastic forces f(x; X) + weight = 0, by
-// Newton's method with the exact derivative by X, which takes some six rounds. The exact tangent at x then tells whether
-// the plant stands there stably or would topple (Greenhill 1881).
+// Newton's method with the exact derivative by X, which takes some six rounds. The exact tangent at x then tells
+// whether the plant stands there stably or would topple (Greenhill 1881).
 #include <algorithm>
 #include <cmath>
 
 #include "build/build.hpp"
 #include "build/firm_tets.hpp"
+#include "build/fit_springs.hpp"
+#include "build/fit_sway.hpp"
 #include "build/rest_system.hpp"
 #include "build/static_stiffness.hpp"
 #include "build/toppling.hpp"
+#include "mechanics/rod_elements.hpp"
 #include "mechanics/tet_element.hpp"
 #include "model/tet_geometry.hpp"
 
@@ -70,6 +73,14 @@ struct Search {
     void move_to(const VecX& moved) {
         rest = moved;
         set_rest_positions(elements, rest);
+    }
+    // Logarithms, one a tet.
+    void stiffen(const VecX& change) {
+        for (size_t e = 0; e < elements.tets.size(); e++) {
+            const double factor = std::exp(change[Eigen::Index(e)]);
+            elements.mu[e] *= factor;
+            elements.lambda[e] *= factor;
+        }
     }
 };
 
@@ -160,9 +171,8 @@ Outcome find_outcome(Search& search) {
 
 // The rest shape of one mechanics, of a plant that could bear `margin` times its weight. Gravity is let in little by
 // little, the steps as large as the search bears.
-Outcome search_rest_shape(const Model& model, frond_mechanics which, double margin = 1) {
+Outcome search_rest_shape(Search& search, double margin = 1) {
     constexpr double SMALLEST_STEP = 1.0 / 8;
-    Search search(model, which);
     double step = 1;
     for (double done = 0; done < 1;) {
         const double next = std::min(1.0, done + step);
@@ -174,12 +184,45 @@ Outcome search_rest_shape(const Model& model, frond_mechanics which, double marg
             if (step < SMALLEST_STEP) return {VecX(), {}, 1, search.torn};
         }
     }
-    const bool stands = search.stiffness.set(search.elements, search.held, which, Tangent::exact, search.x);
+    const bool stands = search.stiffness.set(search.elements, search.held, search.which, Tangent::exact, search.x);
     if (stands && margin == 1) return {search.rest, {}, 1, -1};
     Outcome outcome = find_outcome(search);
     outcome.overload *= margin;
     if (stands && !(outcome.overload > 1)) outcome = {search.rest, {}, 1, -1};
     return outcome;
+}
+
+// Makes a search that found its rest shape sway as the rods do, in changes that are halved where weight cannot be borne
+// so or the sways come no nearer. Returns by how much stiffer than the model's its tets then are, in logarithms.
+VecX fit_sway(Search& search, const RodSways& rods) {
+    constexpr int ROUNDS = 8;
+    constexpr double CLOSE = 0.02;       // of a frequency's square, which is no error [-]
+    constexpr double LEAST_SHARE = 0.1;  // of a change [-]
+    VecX done = VecX::Zero(Eigen::Index(search.elements.tets.size()));
+    const auto find = [&] {
+        if (!search.stiffness.set(search.elements, search.held, search.which, Tangent::exact, search.x))
+            return SwayGap{INFINITY, {}};
+        return find_gap(search.model, search.elements, search.which, search.x, *search.stiffness.factor, search.held, rods,
+                        done);
+    };
+    SwayGap gap = find();
+    double share = 1;
+    for (int round = 0; round < ROUNDS && share > LEAST_SHARE && gap.error > CLOSE && gap.change.size() > 0; round++) {
+        const VecX change = share * gap.change, rest = search.rest;
+        search.stiffen(change);
+        done += change;
+        SwayGap next = {INFINITY, {}};
+        if (balance(search, GRAVITY)) next = find();
+        if (next.error < gap.error) {
+            gap = next;
+            continue;
+        }
+        search.stiffen(-change);
+        search.move_to(rest);
+        done -= change;
+        share *= 0.5;
+    }
+    return done;
 }
 
 // The largest strain in each organ's tets under the plant's weight, linearly [-]; empty if the root does not hold it.
@@ -243,7 +286,8 @@ WeakOrgan find_rest_shape(Model& model) {
                                    [](const Organ& organ) { return organ.material_given; });
     const double margin = given ? 1 : MARGIN;
     stiffen_torn_organs(model);
-    Outcome outcome = search_rest_shape(model, FROND_TET_COROTATIONAL, margin);
+    auto search = std::make_unique<Search>(model, FROND_TET_COROTATIONAL);
+    Outcome outcome = search_rest_shape(*search, margin);
     for (int i = 0; i < MOST_TRIES && outcome.rest.size() == 0; i++) {
         if (!outcome.shares.empty())
             stiffen_toppling_organs(model, outcome, factor);
@@ -251,21 +295,32 @@ WeakOrgan find_rest_shape(Model& model) {
             stiffen(model, size_t(outcome.torn), STIFFER, factor);
         else
             for (size_t o = 0; o < factor.size(); o++) stiffen(model, o, STIFFER, factor);
-        outcome = search_rest_shape(model, FROND_TET_COROTATIONAL, margin);
+        search = std::make_unique<Search>(model, FROND_TET_COROTATIONAL);
+        outcome = search_rest_shape(*search, margin);
     }
-    model.rest_shapes->positions[FROND_TET_COROTATIONAL] = outcome.rest;
+    if (outcome.rest.size() > 0) {
+        const VecX change = fit_sway(*search, find_sways(model, make_rod_elements(model, FROND_ROD), FROND_ROD));
+        for (size_t e = 0; e < model.tet_young.size(); e++) model.tet_young[e] *= std::exp(change[Eigen::Index(e)]);
+        model.rest_shapes->positions[FROND_TET_COROTATIONAL] = search->rest;
+    }
     model.rest_shapes->known[FROND_TET_COROTATIONAL] = true;
     const size_t weakest = size_t(std::max_element(factor.begin(), factor.end()) - factor.begin());
     return {model.organs[weakest].name, factor[weakest]};
 }
 
 void ensure_rest_shape(const Model& model, frond_mechanics which) {
-    if (!model.stands_as_modelled || mechanics(which).moves_chain) return;
     RestShapes& shapes = *model.rest_shapes;
     std::lock_guard<std::mutex> lock(shapes.mutex);
     if (shapes.known[size_t(which)]) return;
-    shapes.positions[size_t(which)] = search_rest_shape(model, which).rest;
     shapes.known[size_t(which)] = true;
+    if (which == FROND_SPRING_CHAIN) shapes.springs = fit_springs(model);
+    if (!model.stands_as_modelled || mechanics(which).moves_chain) return;
+    Search search(model, which);
+    if (search_rest_shape(search).rest.size() == 0) return;
+    const VecX change = fit_sway(search, find_sways(model, make_rod_elements(model, FROND_ROD), FROND_ROD));
+    std::vector<double>& stiffer = shapes.stiffer[size_t(which)];
+    for (size_t e = 0; e < model.tet_young.size(); e++) stiffer.push_back(std::exp(change[Eigen::Index(e)]));
+    shapes.positions[size_t(which)] = search.rest;
 }
 
 }  // namespace frond

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "build/build.hpp"
+#include "build/strengthen.hpp"
+#include "build/sway.hpp"
 #include "build/toppling.hpp"
 #include "build/weigh.hpp"
 #include "mechanics/rod_elements.hpp"
@@ -55,8 +57,8 @@ std::vector<double> organ_turns(const Model& model) {
     return turns;
 }
 
-// The rods of a plant that stands, with the stiffness that resists, where each organ is weaker by its safety factor, and
-// what weight takes from it.
+// Rods of a plant that stands, with the stiffness that resists, where each organ is weaker by its safety factor, and what
+// weight takes from it.
 struct Standing {
     RodElements elements, weaker;
     std::vector<uint8_t> held;
@@ -64,19 +66,17 @@ struct Standing {
     BlockMatrix taken;  // G
     bool is_sound = false;
 
-    Standing(const Model& model, const std::vector<double>& safety)
-        : elements(make_rod_elements(model, FROND_ROD)), weaker(elements), resisting(elements.pattern) {
-        held.assign(size_t(elements.node_count), 0);
-        for (size_t i = 0; i < model.chain.nodes.size(); i++)
-            if (model.chain.nodes[i].parent < 0) held[2 * i] = held[2 * i + 1] = 1;
+    Standing(const Model& model, RodElements rods, frond_mechanics which, const std::vector<double>& safety)
+        : elements(std::move(rods)), weaker(elements), resisting(elements.pattern) {
+        held = still_nodes(model, elements, true);
         taken.set_pattern(elements.pattern);
-        take_by_weight(elements, FROND_ROD, elements.modelled, taken);
+        take_by_weight(elements, which, elements.modelled, taken);
         for (RodSegment& segment : weaker.segments) {
             const double s = safety[size_t(model.chain.nodes[size_t(segment.b)].organ)];
             segment.stretch /= s;
             segment.bend /= s;
         }
-        is_sound = resisting.set(weaker, held, FROND_ROD, Tangent::positive, elements.modelled);
+        is_sound = resisting.set(weaker, held, which, Tangent::positive, elements.modelled);
     }
 };
 
@@ -98,8 +98,26 @@ std::vector<double> organ_masses(const Model& model) {
 
 }  // namespace
 
-WeakOrgan strengthen(Model& model) {
+void strengthen_rods(const Model& model, frond_mechanics which, const std::function<RodElements()>& make,
+                     const std::vector<double>& safety, std::vector<double>& stiffer) {
     constexpr int MOST_ROUNDS = 300;
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        Standing standing(model, make(), which, safety);
+        if (!standing.is_sound) break;
+        const Toppling toppling = find_toppling(standing.resisting, standing.taken, standing.held);
+        if (!(toppling.overload > 1)) break;
+        const std::vector<double> shares = find_shares(
+            toppling, standing.resisting, standing.taken, standing.held, stiffer.size(),
+            [&](size_t organ, BlockMatrix& K) {
+                const RodElements one = take_organ(model, standing.weaker, organ);
+                mechanics(which).add_stiffness(one, one.modelled, Tangent::positive, 1, K);
+            });
+        const std::vector<double> factors = stiffer_by(shares, toppling.overload);
+        for (size_t o = 0; o < stiffer.size(); o++) stiffer[o] *= factors[o];
+    }
+}
+
+WeakOrgan strengthen(Model& model) {
     std::vector<double>& stiffer = model.organ_stiffer;
     const std::vector<double> turns = organ_turns(model);
     std::vector<double> safety;
@@ -108,20 +126,7 @@ WeakOrgan strengthen(Model& model) {
         stiffer[o] = given ? 1 : std::max(1.0, turns[o] / LARGEST_TURN);
         safety.push_back(given ? SAFETY_OF_GIVEN : SAFETY);
     }
-    for (int round = 0; round < MOST_ROUNDS; round++) {
-        Standing standing(model, safety);
-        if (!standing.is_sound) break;
-        const Toppling toppling = find_toppling(standing.resisting, standing.taken, standing.held);
-        if (!(toppling.overload > 1)) break;
-        const std::vector<double> shares = find_shares(
-            toppling, standing.resisting, standing.taken, standing.held, stiffer.size(),
-            [&](size_t organ, BlockMatrix& K) {
-                const RodElements one = take_organ(model, standing.weaker, organ);
-                mechanics(FROND_ROD).add_stiffness(one, one.modelled, Tangent::positive, 1, K);
-            });
-        const std::vector<double> factors = stiffer_by(shares, toppling.overload);
-        for (size_t o = 0; o < stiffer.size(); o++) stiffer[o] *= factors[o];
-    }
+    strengthen_rods(model, FROND_ROD, [&] { return make_rod_elements(model, FROND_ROD); }, safety, stiffer);
 
     // Organs of no weight to speak of, silk and hairs, are not worth a word.
     constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]

@@ -13,30 +13,41 @@ static Vec3 tet_centre(const Cage& cage, const Tet& tet) {
     return sum / 4;
 }
 
+// Of an organ's chain nodes the nearest to a place; of all nodes where it has none.
+static int nearest_node(const Chain& chain, int organ, const Vec3& place) {
+    int nearest = 0;
+    double least = INFINITY;
+    bool own = false;
+    for (size_t i = 0; i < chain.nodes.size(); i++) {
+        const ChainNode& node = chain.nodes[i];
+        const double distance = (node.position - place).squaredNorm();
+        const bool is_own = node.organ == organ;
+        if (is_own < own || (is_own == own && distance >= least)) continue;
+        own = is_own;
+        least = distance;
+        nearest = int(i);
+    }
+    return nearest;
+}
+
 std::vector<int> hang_tets(const Model& model) {
     const size_t tet_count = model.cage.tets.size();
     std::vector<std::vector<int>> votes(tet_count);
-    for (size_t v = 0; v < model.embedding.tet.size(); v++)
-        votes[size_t(model.embedding.tet[v])].push_back(model.chain.vertex_node[v]);
+    // Where organs meet, a tet of one may hold vertices of another, which bears none of it.
+    for (size_t v = 0; v < model.embedding.tet.size(); v++) {
+        const size_t tet = size_t(model.embedding.tet[v]);
+        const int node = model.chain.vertex_node[v];
+        if (model.chain.nodes[size_t(node)].organ == model.cage.tet_organ[tet]) votes[tet].push_back(node);
+    }
     std::vector<int> hangs(tet_count);
     for (size_t e = 0; e < tet_count; e++) {
         std::vector<int>& nodes = votes[e];
-        if (!nodes.empty()) {
-            std::nth_element(nodes.begin(), nodes.begin() + long(nodes.size() / 2), nodes.end());
-            hangs[e] = nodes[nodes.size() / 2];
+        if (nodes.empty()) {
+            hangs[e] = nearest_node(model.chain, model.cage.tet_organ[e], tet_centre(model.cage, model.cage.tets[e]));
             continue;
         }
-        const Vec3 centre = tet_centre(model.cage, model.cage.tets[e]);
-        double nearest = INFINITY;
-        for (size_t i = 0; i < model.chain.nodes.size(); i++) {
-            const ChainNode& node = model.chain.nodes[i];
-            const double penalty = node.organ == model.cage.tet_organ[e] ? 0 : 1;
-            const double distance = (node.position - centre).norm() + penalty;
-            if (distance < nearest) {
-                nearest = distance;
-                hangs[e] = int(i);
-            }
-        }
+        std::nth_element(nodes.begin(), nodes.begin() + long(nodes.size() / 2), nodes.end());
+        hangs[e] = nodes[nodes.size() / 2];
     }
     return hangs;
 }

@@ -19,28 +19,28 @@ size_t organ_of(const Model& model, size_t node) {
     return size_t(std::max(model.chain.nodes[node].organ, 0));
 }
 
-// Resistance of a piece's section: along, thin, wide.
-void set_resistance(const Model& model, size_t node, frond_mechanics which, RodSegment& rod) {
+// Resistance of a piece's section, along, thin, wide, and how far its fibres reach: of its tissue, or of a full cylinder.
+void take_section(const Model& model, size_t node, RodSegment& rod) {
     const Section& section = model.sections[node];
-    const size_t organ = organ_of(model, node);
-    const Material& material = model.organs[organ].material;
-    const double stiffer = model.organ_stiffer[organ], E = material.young * stiffer;
-    const double over = 12 / (rod.length * rod.length);
-    double area = section.area, thin = section.inertia_thin, wide = section.inertia_wide;
-    double twisting = stiffer * section.twisting();
+    const double stiffer = model.organ_stiffer[organ_of(model, node)], over = 12 / (rod.length * rod.length);
+    const double thin = stiffer * section.bending_thin(), wide = stiffer * section.bending_wide();
     rod.reach_thin = 0.5 * section.thickness;
     rod.reach_wide = 0.5 * section.width;
-    if (which == FROND_SPRING_CHAIN) {
-        const double r = rod.reach_thin = rod.reach_wide = model.chain.nodes[node].radius;
-        area = M_PI * r * r;
-        thin = wide = area * r * r / 4;
-        twisting = E * (thin + wide) / (2 * (1 + material.poisson));
-    }
-    rod.stretch = E * Vec3(area, over * thin, over * wide);
-    rod.bend = Vec3(twisting, E * wide, E * thin);
+    rod.stretch = Vec3(stiffer * section.stretching(), over * thin, over * wide);
+    rod.bend = Vec3(stiffer * section.twisting(), wide, thin);
+}
+void take_cylinder(const Model& model, size_t node, double radius, double stiffer, RodSegment& rod) {
+    const size_t organ = organ_of(model, node);
+    const Material& material = model.organs[organ].material;
+    const double E = material.young * model.organ_stiffer[organ] * stiffer, over = 12 / (rod.length * rod.length);
+    const double area = M_PI * radius * radius, inertia = area * radius * radius / 4;
+    rod.reach_thin = rod.reach_wide = radius;
+    rod.stretch = E * Vec3(area, over * inertia, over * inertia);
+    rod.bend = E * Vec3(inertia / (1 + material.poisson), inertia, inertia);
 }
 
-RodSegment make_segment(const Model& model, size_t node, frond_mechanics which) {
+// Without its resistance.
+RodSegment make_segment(const Model& model, size_t node) {
     const Section& section = model.sections[node];
     RodSegment rod = {};
     rod.a = model.chain.nodes[node].parent;
@@ -52,11 +52,13 @@ RodSegment make_segment(const Model& model, size_t node, frond_mechanics which) 
     const Vec3 chord = model.chain.nodes[node].position - model.chain.nodes[size_t(rod.a)].position;
     rod.rest_strain = rod.frame.transpose() * chord / rod.length;
     rod.rest_curvature.setZero();
-    set_resistance(model, node, which, rod);
+    return rod;
+}
+
+void check_segment(const RodSegment& rod) {
     if (!rod.frame.allFinite() || !(rod.stretch.minCoeff() > 0) || !(rod.bend.minCoeff() > 0) ||
         !rod.stretch.allFinite() || !rod.bend.allFinite())
-        fail(FROND_BAD_GEOMETRY, "capsule %zu of the chain has no section; give the model a capsule_height", node);
-    return rod;
+        fail(FROND_BAD_GEOMETRY, "capsule %d of the chain has no section; give the model a capsule_height", rod.b);
 }
 
 // The weight of what hangs on each piece sets its strain and curvature at rest. Segments are in the order of their
@@ -93,9 +95,9 @@ void set_inertia(const Model& model, RodElements& elements) {
     }
 }
 
-}  // namespace
-
-RodElements make_rod_elements(const Model& model, frond_mechanics which) {
+// From a model with chain, sections and organs; `take` gives each piece its resistance.
+template <class Take>
+RodElements make_elements(const Model& model, Take&& take) {
     const std::vector<ChainNode>& nodes = model.chain.nodes;
     if (nodes.empty()) fail(FROND_BAD_GEOMETRY, "the model has no chain");
     if (model.sections.size() != nodes.size() || model.chain_mass.size() != nodes.size() ||
@@ -112,7 +114,9 @@ RodElements make_rod_elements(const Model& model, frond_mechanics which) {
         const int a = nodes[i].parent, b = int(i);
         pairs.push_back(a < 0 ? Tet{2 * b, 2 * b + 1, 2 * b, 2 * b + 1} : Tet{2 * a, 2 * a + 1, 2 * b, 2 * b + 1});
         if (a < 0) continue;
-        out.segments.push_back(make_segment(model, i, which));
+        out.segments.push_back(make_segment(model, i));
+        take(i, out.segments.back());
+        check_segment(out.segments.back());
         out.damping_ratio.push_back(model.organs[organ_of(model, i)].material.damping_ratio);
         out.section.push_back(b);
     }
@@ -128,8 +132,25 @@ RodElements make_rod_elements(const Model& model, frond_mechanics which) {
     for (double m : model.chain_mass) total += m;
     for (double m : model.chain_mass) out.mass.push_back(std::max(m, 1e-6 * total / double(nodes.size())));
     set_inertia(model, out);
-    if (which == FROND_ROD && model.stands_as_modelled) let_stand(out);
+    if (model.stands_as_modelled) let_stand(out);
     return out;
+}
+
+}  // namespace
+
+RodElements make_spring_elements(const Model& model, const std::vector<double>& radii,
+                                 const std::vector<double>& stiffer) {
+    return make_elements(model, [&](size_t node, RodSegment& rod) {
+        take_cylinder(model, node, radii[node], stiffer.empty() ? 1 : stiffer[organ_of(model, node)], rod);
+    });
+}
+
+RodElements make_rod_elements(const Model& model, frond_mechanics which) {
+    if (which == FROND_ROD)
+        return make_elements(model, [&](size_t node, RodSegment& rod) { take_section(model, node, rod); });
+    std::vector<double> radii;
+    for (const ChainNode& node : model.chain.nodes) radii.push_back(node.radius);
+    return make_spring_elements(model, radii, model.rest_shapes->springs);
 }
 
 std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics which) {

@@ -112,7 +112,12 @@ static std::vector<double> bending_resistance(const Model& model) {
 template <int ORDER>
 std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which) {
     const VecX& rest = model.rest_shapes->positions[size_t(which)];
+    const std::vector<double>& stiffer = model.rest_shapes->stiffer[size_t(which)];
     auto elements = std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr, ORDER));
+    for (size_t e = 0; e < stiffer.size(); ++e) {
+        elements->lambda[e] *= stiffer[e];
+        elements->mu[e] *= stiffer[e];
+    }
     for (int organ : model.cage.tet_organ)
         elements->damping_ratio.push_back(model.organs[size_t(organ)].material.damping_ratio);
     elements->section = capsules_of_tets(model);

@@ -12,6 +12,7 @@ struct ChainNode {
     int parent;       // smaller than its own index; -1 at a root
     int organ;        // that most of its capsule belongs to; -1 if the surface's parts have none
     double distance;  // along the chain from the root [m]
+    double fitted_radius;  // what the shape has, whatever radius was given [m]
 };
 
 struct Chain {

@@ -75,7 +75,7 @@ struct Maker {
         const double distance = parent < 0 ? 0
                                            : chain.nodes[size_t(parent)].distance +
                                                  (position - chain.nodes[size_t(parent)].position).norm();
-        chain.nodes.push_back({position, 0, parent, organ, distance});
+        chain.nodes.push_back({position, 0, parent, organ, distance, 0});
         moments.emplace_back();
         is_foot.push_back(parent < 0);
         return int(chain.nodes.size()) - 1;
@@ -143,22 +143,22 @@ void fit_radii(Maker& maker, const std::vector<Organ>& organs, double given) {
         if (node.parent >= 0)
             node.distance =
                 nodes[size_t(node.parent)].distance + (node.position - nodes[size_t(node.parent)].position).norm();
-        node.radius = given;
-        if (given > 0 || node.parent < 0) continue;
+        if (node.parent < 0) continue;
         const Vec3 begin = nodes[size_t(node.parent)].position;
         const double fitted =
             maker.moments[i].distance_from(begin - maker.bands.origin, (node.position - begin).normalized());
         const bool known = node.organ >= 0 && size_t(node.organ) < organs.size();
         const double least = known ? 0.5 * organs[size_t(node.organ)].material.thickness : 0;
-        node.radius = std::max({fitted, std::min(least, 0.25 * unit), 1e-3 * unit});
+        node.fitted_radius = std::max({fitted, std::min(least, 0.25 * unit), 1e-3 * unit});
     }
-    if (given > 0) return;
     // A foot is as thick as the first capsule that grows from it.
     for (size_t i = nodes.size(); i-- > 0;)
         if (nodes[i].parent >= 0 && nodes[size_t(nodes[i].parent)].parent < 0)
-            nodes[size_t(nodes[i].parent)].radius = nodes[i].radius;
-    for (ChainNode& node : nodes)
-        if (node.radius <= 0) node.radius = 0.1 * unit;
+            nodes[size_t(nodes[i].parent)].fitted_radius = nodes[i].fitted_radius;
+    for (ChainNode& node : nodes) {
+        if (node.fitted_radius <= 0) node.fitted_radius = 0.1 * unit;
+        node.radius = given > 0 ? given : node.fitted_radius;
+    }
 }
 
 // Each vertex to the nearer end of the capsule of its own piece.

@@ -102,6 +102,7 @@ struct Maker {
     int add(const Vec3& position, int parent, double radius, int organ) {
         ChainNode node = {};
         node.position = position;
+        node.fitted_radius = radius;
         node.radius = given_radius > 0 ? given_radius : radius;
         node.parent = parent;
         node.organ = organ;

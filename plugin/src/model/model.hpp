@@ -18,11 +18,14 @@ struct ChainArrays {
 // Under which a plant stands as it was modelled, along the model's -y [m/s^2].
 constexpr double GRAVITY = 9.81;
 
-// Cage nodes without gravity, by mechanics: found for the default one at load, for the others when first asked for.
+// What each mechanics has of its own so that a plant stands as modelled and sways alike in all: found for the default one
+// at load, for the others when first asked for.
 struct RestShapes {
     std::mutex mutex;
     std::array<bool, FROND_MECHANICS_COUNT> known = {};
-    std::array<VecX, FROND_MECHANICS_COUNT> positions;  // node_count*3 [m]; empty: as modelled
+    std::array<VecX, FROND_MECHANICS_COUNT> positions;  // cage nodes without gravity, node_count*3 [m]; empty: as modelled
+    std::array<std::vector<double>, FROND_MECHANICS_COUNT> stiffer;  // than tet_young, one a tet [-]; empty: not
+    std::vector<double> springs;  // than their material, spring_chain's capsules of each organ [-]; empty: not
 };
 
 struct Model {

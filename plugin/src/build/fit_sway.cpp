@@ -1,0 +1,106 @@
+// In: a plant whose organs were calibrated one by one, as it stands under its weight. Out: the change of its moduli
+// with which it sways as fast as its rods.
+//
+// What is right for each organ alone is not for the plant: where organs meet, cells are shared and copies of them
+// overlap, and what weight takes from a coarse cage's stiffness is more than it takes from a rod's. By Rayleigh's
+// principle the derivative of the square of a mode's frequency by the logarithm of a tet's modulus is the tet's elastic
+// energy in the mode, and the force that weight exerts is the same whatever the moduli are.
+#include "build/fit_sway.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "build/least_change.hpp"
+#include "build/static_stiffness.hpp"
+#include "mechanics/polar.hpp"
+#include "mechanics/rod_elements.hpp"
+#include "mechanics/tet_element.hpp"
+
+namespace frond {
+
+// Whether another organ grows out of an organ, one an organ.
+static std::vector<char> bearing_organs(const Model& model) {
+    std::vector<char> bears(model.organs.size(), 0);
+    for (const ChainNode& node : model.chain.nodes) {
+        if (node.parent < 0) continue;
+        const int below = model.chain.nodes[size_t(node.parent)].organ;
+        if (below >= 0 && below != node.organ) bears[size_t(below)] = 1;
+    }
+    return bears;
+}
+
+// Twice the elastic energy of each organ's pieces in a motion from the modelled shape.
+static VecX energies_of(const Model& model, const RodElements& elements, const VecX& shape) {
+    constexpr double SMALL = 1e-4;  // largest move or turn by which strains are told [m], [-]
+    const double scale = SMALL / shape.lpNorm<Eigen::Infinity>();
+    const std::vector<RodStrain> before = rod_strains(elements, elements.modelled);
+    const std::vector<RodStrain> after = rod_strains(elements, elements.modelled + scale * shape);
+    VecX energies = VecX::Zero(Eigen::Index(model.organs.size()));
+    for (size_t s = 0; s < elements.segments.size(); s++) {
+        const RodSegment& rod = elements.segments[s];
+        const Vec3 strain = (after[s].strain - before[s].strain) / scale;
+        const Vec3 curvature = (after[s].curvature - before[s].curvature) / scale;
+        energies[std::max(model.chain.nodes[size_t(rod.b)].organ, 0)] +=
+            rod.length * (strain.cwiseAbs2().dot(rod.stretch) + curvature.cwiseAbs2().dot(rod.bend));
+    }
+    return energies;
+}
+
+RodSways find_sways(const Model& model, const RodElements& elements, frond_mechanics which) {
+    constexpr double MUCH = 0.1;  // of a sway's elastic energy [-]
+    RodSways sways;
+    sways.carries.assign(model.organs.size(), 0);
+    const std::vector<char> bears = bearing_organs(model);
+    const Mechanics& row = mechanics(which);
+    const std::vector<uint8_t> still = still_nodes(model, elements, true);
+    StaticStiffness stiffness(elements.pattern);
+    if (!stiffness.set(elements, still, row, Tangent::exact, elements.modelled)) return sways;
+    const std::array<Sway, 2> found = first_sways(*stiffness.factor, row.masses(elements, FROND_LUMPED).node, still);
+    for (size_t i = 0; i < found.size(); i++) {
+        if (found[i].shape.size() == 0) continue;
+        sways.square[i] = found[i].square;
+        const VecX energies = sways.energies[i] = energies_of(model, elements, found[i].shape);
+        for (size_t o = 0; o < sways.carries.size(); o++)
+            if (bears[o] && energies[Eigen::Index(o)] > MUCH * energies.sum()) sways.carries[o] = 1;
+    }
+    return sways;
+}
+
+// Twice the elastic energy of each tet in a motion from x, one a tet.
+static VecX energies_of(const TetElements& elements, frond_mechanics which, const VecX& x, const VecX& shape) {
+    VecX energies(Eigen::Index(elements.tets.size()));
+    for (size_t e = 0; e < elements.tets.size(); e++) {
+        Mat3 gradient = deformation_gradient(elements, e, shape);
+        if (which != FROND_TET_LINEAR)
+            gradient = (polar_decomposition(deformation_gradient(elements, e, x)).rotation.transpose() * gradient).eval();
+        const Mat3 strain = 0.5 * (gradient + gradient.transpose());
+        energies[Eigen::Index(e)] = elements.volume[e] * (2 * elements.mu[e] * strain.squaredNorm() +
+                                                          elements.lambda[e] * strain.trace() * strain.trace());
+    }
+    return energies;
+}
+
+SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanics which, const VecX& x,
+                 DirectFactor& stiffness, const std::vector<uint8_t>& still, const RodSways& rods, const VecX& done) {
+    constexpr double FARTHEST = 1.8;      // in all, of a logarithm [-]
+    constexpr double LARGEST_STEP = 0.7;  // of a logarithm [-]
+    constexpr double RIGID = 0.01;        // what a change counts beside an error [-]
+    const VecX mass = mechanics(which).masses(elements, FROND_LUMPED).node;
+    const std::array<Sway, 2> sways = first_sways(stiffness, mass, still);
+    VecX errors = VecX::Zero(Eigen::Index(sways.size()));
+    MatX slope = MatX::Zero(errors.size(), Eigen::Index(elements.tets.size()));
+    for (size_t i = 0; i < sways.size(); i++) {
+        const Sway& sway = sways[i];
+        if (!(rods.square[i] > 0) || sway.shape.size() == 0) continue;
+        errors[Eigen::Index(i)] = std::log(rods.square[i] / sway.square);
+        slope.row(Eigen::Index(i)) = energies_of(elements, which, x, sway.shape).transpose() / sway.square;
+    }
+    for (size_t e = 0; e < elements.tets.size(); e++)
+        if (!rods.carries[size_t(model.cage.tet_organ[e])]) slope.col(Eigen::Index(e)).setZero();
+    if (!errors.allFinite() || !slope.allFinite()) return {};
+    return {errors.lpNorm<Eigen::Infinity>(),
+            least_change(slope, errors, (-FARTHEST - done.array()).max(-LARGEST_STEP),
+                         (FARTHEST - done.array()).min(LARGEST_STEP), RIGID)};
+}
+
+}  // namespace frond

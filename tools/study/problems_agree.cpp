@@ -1,0 +1,119 @@
+// Do the mechanics agree on whole plants? Where corn and cucumber stand under their weight, and how fast they sway first,
+// each against rods of the same model.
+#include <algorithm>
+#include <cmath>
+
+#include "study/plants.hpp"
+#include "study/problems.hpp"
+
+namespace frond::study {
+namespace {
+
+constexpr double G = 9.81;      // [m/s^2]
+constexpr double ASIDE = 0.01;  // share of the weight that draws the plant aside before it is let go [-]
+
+// With cells and capsules as they are by default.
+ModelPtr default_model(const PlantCase& plant, Session& session) {
+    ModelPtr& model = session.models[plant.name];
+    if (!model) model = load_plant({plant.name, plant.file, {}}, frond_default_model_def());
+    return model;
+}
+
+// The frequency of the highest peak of a signal's spectrum, seen through Hann's window [Hz].
+double main_frequency(const std::vector<double>& signal, double dt) {
+    constexpr double LOWEST = 0.1, HIGHEST = 10, STEP = 0.002;  // [Hz]
+    const double count = double(signal.size());
+    double mean = 0;
+    for (double s : signal) mean += s / count;
+    double best = 0, largest = 0;
+    for (double f = LOWEST; f < HIGHEST; f += STEP) {
+        double cosine = 0, sine = 0;
+        for (size_t i = 0; i < signal.size(); i++) {
+            const double window = 1 - std::cos(2 * M_PI * (double(i) + 0.5) / count);
+            const double phase = 2 * M_PI * f * dt * double(i);
+            cosine += window * (signal[i] - mean) * std::cos(phase);
+            sine += window * (signal[i] - mean) * std::sin(phase);
+        }
+        if (std::hypot(cosine, sine) <= largest) continue;
+        largest = std::hypot(cosine, sine);
+        best = f;
+    }
+    return best;
+}
+
+frond_vec3 tip_of(Trial& trial) {
+    frond_vec3 tip;
+    must(frond_plant_get_tip(trial.plant, &tip));
+    return tip;
+}
+
+struct Standing {
+    frond_vec3 tip;    // under its weight [m]
+    double frequency;  // of the first sway [Hz]
+    double cpu;        // for a simulated second
+    uint32_t trouble;
+};
+
+// Let go from where a hundredth of its weight, taken sideways, bends it, a plant sways mostly in its first mode.
+Standing watch(const ModelPtr& model, const Setup& setup, Effort effort) {
+    const double duration = effort == Effort::FULL ? 20 : effort == Effort::QUICK ? 8 : 4;  // [s]
+    const std::unique_ptr<Trial> rests =
+        settle(model, setup, 1, [](Trial& trial, double) { trial.set_gravity({0, -G, 0}); });
+    const std::unique_ptr<Trial> aside =
+        settle(model, setup, 1, [](Trial& trial, double) { trial.set_gravity({ASIDE * G, -G, 0}); });
+    Setup free = setup;
+    free.plant.mass_damping = free.plant.stiffness_damping = free.plant.material_damping = 0;
+    Trial trial(model, free);
+    trial.start_from(*aside);
+    trial.set_gravity({0, -G, 0});
+    std::vector<double> sway;
+    for (double t = 0; t < duration; t += setup.dt) {
+        trial.step(setup.dt);
+        const std::vector<double> x = trial.state().x;
+        double sum = 0;
+        for (size_t i = 0; i < x.size(); i += 3) sum += x[i];
+        sway.push_back(sum / double(x.size()));
+    }
+    return {tip_of(*rests), main_frequency(sway, setup.dt), trial.cpu / duration, rests->trouble | trial.trouble};
+}
+
+}  // namespace
+
+Setup agree_baseline() {
+    Setup setup = standing_baseline();
+    setup.dt = 1.0 / 120;
+    return setup;
+}
+
+Outcome run_agree(const Setup& setup, Session& session) {
+    Setup rods = setup;
+    rods.plant.mechanics = FROND_ROD;
+    Outcome outcome;
+    for (const PlantCase* plant : {&CORN, &CUCUMBER}) {
+        const ModelPtr model = default_model(*plant, session);
+        const frond_model_info info = model->info();
+        std::vector<double>& known = session.references[plant->name];
+        if (known.empty()) {
+            const Standing standing = watch(model, rods, session.effort);
+            known = {standing.tip.x, standing.tip.y, standing.tip.z, standing.frequency};
+        }
+        const Standing standing = watch(model, setup, session.effort);
+        const double off = std::hypot(std::hypot(standing.tip.x - known[0], standing.tip.y - known[1]),
+                                      standing.tip.z - known[2]) /
+                           (info.upper.y - info.lower.y);
+        const double faster = standing.frequency / known[3] - 1;
+        const std::string name = plant->name;
+        outcome.values.push_back({name + ": tip [% of height]", 100 * off, 0});
+        outcome.values.push_back({name + ": first sway [Hz]", standing.frequency, known[3]});
+        outcome.values.push_back({name + ": difference [%]", 100 * faster, 0});
+        outcome.error = std::max({outcome.error, off, std::abs(faster)});
+        outcome.cpu_per_second += standing.cpu;
+        outcome.trouble |= standing.trouble;
+        outcome.node_count += info.node_count;
+        outcome.tet_count += info.tet_count;
+        outcome.capsule_count += info.capsule_count;
+    }
+    return outcome;
+}
+
+}  // namespace frond::study
