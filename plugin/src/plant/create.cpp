@@ -100,6 +100,7 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.own_elements = nullptr;
     plant.follow = nullptr;
     plant.fibres = nullptr;
+    plant.fibre_give.clear();
     if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = fibres_of(plant);
     if (mechanics(which).moves_chain)
         plant.follow = shared_of<Follow>(plant.model, nodes.order,

@@ -60,23 +60,43 @@ void add_rows_of_grabs(const Plant& plant, std::vector<Row>& rows) {
     }
 }
 
+// How long a fibre is now, over what it is slack at [-].
+double drawn_out(const Plant& plant, const Fibre& fibre) {
+    const std::vector<Vec3>& places = plant.chain_positions;
+    const size_t node = size_t(fibre.node), parent = size_t(plant.model->chain.nodes[node].parent);
+    return (places[node] - places[parent]).norm() / fibre.length;
+}
+
+// Leaves that cross come apart only by being drawn out, so fibres of a plant that is entangled let it be, and then draw it
+// in again no faster than contacts can follow.
+void let_give(Plant& plant, double h) {
+    constexpr double RATE = 0.02;  // [1/s]
+    const std::vector<Fibre>& list = plant.fibres->list;
+    if (plant.is_entangled) plant.fibre_give.resize(list.size(), 1);
+    bool gives = false;
+    for (size_t i = 0; i < plant.fibre_give.size(); i++) {
+        double& give = plant.fibre_give[i];
+        give = plant.is_entangled ? std::max(give, drawn_out(plant, list[i])) : std::max(1.0, give - RATE * h);
+        gives = gives || give > 1;
+    }
+    if (!gives) plant.fibre_give.clear();
+}
+
 // Those that are taut and, if there are any, those that nearly are, which others may draw out.
-std::vector<Row> find_rows(Plant& plant) {
+std::vector<Row> find_rows(const Plant& plant) {
     constexpr double NEARLY = 0.985;  // as long as what is taut [-]
-    update_chain(plant);
-    const auto is_as_long = [&](const Fibre& fibre, double share) {
-        const std::vector<Vec3>& places = plant.chain_positions;
-        const size_t node = size_t(fibre.node), parent = size_t(plant.model->chain.nodes[node].parent);
-        return (places[node] - places[parent]).norm() > share * fibre.length;
-    };
     std::vector<Row> rows;
     const std::vector<Fibre>& list = plant.fibres->list;
-    if (std::none_of(list.begin(), list.end(), [&](const Fibre& fibre) { return is_as_long(fibre, 1); })) return rows;
-    for (const Fibre& fibre : list) {
-        if (!is_as_long(fibre, NEARLY) || fragment_of_chain_node(plant, size_t(fibre.node))) continue;
+    bool any = false;
+    for (size_t i = 0; i < list.size(); i++) {
+        const Fibre& fibre = list[i];
+        const double give = plant.fibre_give.empty() ? 1 : plant.fibre_give[i], drawn = drawn_out(plant, fibre) / give;
+        if (!(drawn > NEARLY) || fragment_of_chain_node(plant, size_t(fibre.node))) continue;
+        any = any || drawn > 1;
         const int parent = plant.model->chain.nodes[size_t(fibre.node)].parent;
-        rows.push_back({chain_grip(plant, parent), chain_grip(plant, fibre.node), fibre.length, fibre.stiffness});
+        rows.push_back({chain_grip(plant, parent), chain_grip(plant, fibre.node), give * fibre.length, fibre.stiffness});
     }
+    if (!any) return {};
     add_rows_of_grabs(plant, rows);
     return rows;
 }
@@ -186,8 +206,10 @@ Fibres make_fibres(const Model& model) {
 
 // Places first, in rounds, since pulls turn what they pull, which is of second order in the way. Then velocities, by
 // themselves: what brings places back in a part of a step would be too fast after it.
-void hold_lengths(Plant& plant) {
-    if (!plant.fibres || !plant.report.ok || plant.is_entangled) return;
+void hold_lengths(Plant& plant, double h) {
+    if (!plant.fibres || !plant.report.ok) return;
+    update_chain(plant);
+    if (plant.is_entangled || !plant.fibre_give.empty()) let_give(plant, h);
     const std::vector<Row> rows = find_rows(plant);
     if (rows.empty()) return;
     const Eigen::Index count = Eigen::Index(rows.size());

@@ -24,7 +24,7 @@ struct Fibres {
 };
 Fibres make_fibres(const Model& model);
 
-// After a solve: pulls together what is drawn out. Nothing is done where nothing is.
-void hold_lengths(Plant& plant);
+// After a solve over h [s]: pulls together what is drawn out. Nothing is done where nothing is.
+void hold_lengths(Plant& plant, double h);
 
 }  // namespace frond

@@ -57,6 +57,7 @@ struct Plant {
     Motion motion;        // of what the mechanics move, model frame
     std::shared_ptr<const Follow> follow;  // null where the cage itself moves
     std::shared_ptr<const Fibres> fibres;  // null where none pulls
+    std::vector<double> fibre_give;        // lengths at which they pull, over their own, after an entanglement; else empty [-]
     std::vector<uint8_t> pinned;           // one a cage node
     VecX pin_target;                       // where pinned cage nodes shall be, model frame [m]
     std::vector<int> anchor;               // the chain node that holds each cage node where it is pinned

@@ -106,7 +106,7 @@ static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond
         gather_air(plant, surroundings, effects, h / PARTS);
         plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / PARTS, plant.motion);
         if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x)) solve_carefully(plant, h / PARTS);
-        if (effects & FROND_FIBRES) hold_lengths(plant);
+        if (effects & FROND_FIBRES) hold_lengths(plant, h / PARTS);
         plant.report.add_cost(spent);
         spent = plant.report;
     }
@@ -134,7 +134,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
     if (!plant.report.ok || !is_plausible(plant)) solve_carefully(plant, h);
-    if (effects & FROND_FIBRES) hold_lengths(plant);
+    if (effects & FROND_FIBRES) hold_lengths(plant, h);
     plant.is_sound = is_sound(plant);
 }
 
