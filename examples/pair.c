@@ -31,7 +31,6 @@ static double play(frond_model model, frond_response response, frond_picture* pi
     int i, count;
 
     world_def.response = response;
-    world_def.sleep_distance = 0; /* what nothing pushes would sleep, and tell no contacts */
     check(frond_world_create(&world_def, &world));
     for (i = 0; i < 2; i++) {
         plant_def.position.x = i ? 0.45 : -0.45;

@@ -134,7 +134,7 @@ struct CornPair : Stand {
     static frond_world_def def_of(frond_response response) {
         frond_world_def def = frond_default_world_def();
         def.response = response;
-        def.sleep_distance = 0;  // what nothing pushes stands still, and would tell no contacts
+        def.sleep_distance = 0;  // what nothing pushes stands still
         return def;
     }
     double cage_depth() const { return deepest_overlap(cage(plants[0]), cage(plants[1])).depth; }

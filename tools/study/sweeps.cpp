@@ -68,6 +68,15 @@ void sweep_resolution(const Problem& problem, Effort effort, std::vector<Sweep>&
     }
 }
 
+// As they are, each a series of its own.
+void sweep_mechanics(const Problem& problem, std::vector<Sweep>& sweeps) {
+    for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
+        Setup setup = problem.baseline();
+        setup.plant.mechanics = frond_mechanics(m);
+        sweeps.push_back({frond_mechanics_name(setup.plant.mechanics), {setup}, false});
+    }
+}
+
 // Where space and time both count: rods with the mass and the integrator that err least.
 void sweep_exact_rods(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
     Setup setup = problem.baseline();
@@ -209,6 +218,7 @@ void change_shape(const Problem& problem, Effort effort, Changes& changes) {
 
 std::vector<Sweep> sweeps_of(const Problem& problem, Effort effort) {
     std::vector<Sweep> sweeps;
+    if (problem.axes == MECHANICS) sweep_mechanics(problem, sweeps);
     if (problem.axes & RESOLUTION) sweep_resolution(problem, effort, sweeps);
     if (problem.axes & RESOLUTION && problem.axes & TIME_STEP) sweep_exact_rods(problem, effort, sweeps);
     if (problem.axes & TIME_STEP) sweep_time_step(problem, effort, sweeps);

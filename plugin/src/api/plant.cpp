@@ -5,6 +5,7 @@
 #include "api/call.hpp"
 #include "api/handles.hpp"
 #include "world/fragments.hpp"
+#include "world/is_in.hpp"
 
 using namespace frond;
 
@@ -70,10 +71,11 @@ static frond_effects effects_of(const PlantBody& body) {
 // Of one plant, as it feels them.
 static std::vector<frond_contact> contacts_of(const PlantBody& body) {
     std::vector<frond_contact> out;
-    for (const Contact& c : body.world->contacts)
-        if (c.plant == &body)
+    const LastContacts* kept = body.rest.contacts.get();
+    for (const Contact& c : kept ? kept->with_bodies : body.world->contacts)
+        if (c.plant == &body && (!kept || is_in(*body.world->bullet, c.other)))
             out.push_back({from_vec(c.on_plant), from_vec(c.normal), from_vec(c.impulse), c.gap, c.capsule, c.other, {}});
-    for (const PlantContact& c : body.world->plant_contacts) {
+    for (const PlantContact& c : kept ? kept->with_plants : body.world->plant_contacts) {
         const size_t side = c.plants[0] == &body ? 0 : 1;
         if (c.plants[side] != &body) continue;
         const double sign = side == 0 ? 1 : -1;

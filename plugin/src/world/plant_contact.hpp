@@ -4,7 +4,7 @@
 
 #include "collide/cage_contact.hpp"
 #include "collide/cover.hpp"
-#include "world/plant_body.hpp"
+#include "world/contact.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -20,6 +20,12 @@ struct PlantContact {
     double depth;     // by which it has to [m]; below zero they are apart
     double friction;  // of both together [-]
     Vec3 impulse = Vec3::Zero();  // on the first; that of the last substep until this one's is known [N s]
+};
+
+// Of one plant, with bodies and with plants.
+struct LastContacts {
+    std::vector<Contact> with_bodies;
+    std::vector<PlantContact> with_plants;
 };
 
 // Memory that is kept between searches.

@@ -49,6 +49,12 @@ void fall_asleep(const World& world, PlantBody& body) {
     plant.motion.v.setZero();
     plant.motion.history.valid = false;
     body.forceActivationState(ISLAND_SLEEPING);
+    auto contacts = std::make_shared<LastContacts>();
+    for (const Contact& contact : world.contacts)
+        if (contact.plant == &body) contacts->with_bodies.push_back(contact);
+    for (const PlantContact& contact : world.plant_contacts)
+        if (contact.plants[0] == &body || contact.plants[1] == &body) contacts->with_plants.push_back(contact);
+    if (!contacts->with_bodies.empty() || !contacts->with_plants.empty()) body.rest.contacts = std::move(contacts);
     body.rest.air.setZero();
     if (!world.wind) return;
     std::vector<frond_vec3> air;
@@ -70,6 +76,11 @@ void wake(PlantBody& body) {
     if (!body.rest.asleep) return;
     body.rest.asleep = false;
     body.forceActivationState(DISABLE_DEACTIVATION);
+    // With what leans on it, or the other way round.
+    const std::shared_ptr<const LastContacts> contacts = std::move(body.rest.contacts);
+    if (!contacts) return;
+    for (const PlantContact& contact : contacts->with_plants)
+        for (PlantBody* other : contact.plants) wake(*other);
 }
 
 void wake_neighbours(World& world, const btCollisionObject& leaving) {

@@ -3,6 +3,8 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 
+#include <memory>
+
 #include "core/types.hpp"
 #include "frond/frond_bullet.hpp"
 
@@ -11,10 +13,12 @@ inline namespace FROND_BULLET_PRECISION {
 
 struct World;
 struct PlantBody;
+struct LastContacts;
 
 // What is known of a plant's rest.
 struct Rest {
     bool asleep = false;
+    std::shared_ptr<const LastContacts> contacts;  // with which it sleeps; null: none
     double still = 0;        // for how long nothing of it has gone far from `places` [s]
     VecX places;             // of what its mechanics move
     Vec3 air = Vec3::Zero();  // at its middle when it fell asleep [m/s]

@@ -10,7 +10,7 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-constexpr double ENTANGLED = 0.001;  // depth of plants in each other that touching alone does not make [m]
+constexpr double ENTANGLED = 0.0007;  // depth of plants in each other that touching alone does not make [m]
 
 Vec3 gravity_of(const World& world) {
     return from_bullet(world.bullet->getGravity());

@@ -63,6 +63,7 @@ PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant) {
 
 void remove_plant(World& world, PlantBody* body) {
     remove_fragments(world, *body);
+    wake(*body);
     wake_neighbours(world, *body);
     world.bullet->removeCollisionObject(body);
     world.contacts.clear();
