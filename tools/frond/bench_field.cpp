@@ -55,7 +55,7 @@ frond_report report_of(const Stage& stage) {
 }
 
 Figures measure(int count, const BenchOptions& options) {
-    constexpr int AWAKE = 10, SETTLE = 1800, STEPS = 60;
+    constexpr int AWAKE = 10, SETTLE = 3600, STEPS = 60;
     constexpr double APART = 1.2, FORCE = 0.5;  // [m], [N]
     const Casting casting = cast(options.what);
     Play play(casting, settings_of(casting, options.assignments));

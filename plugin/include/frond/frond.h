@@ -545,7 +545,8 @@ typedef struct frond_capsule {
 } frond_capsule;
 
 /* A point at which a body of the Bullet world, another plant or the plant itself touched a plant in the last substep, or
- * was about to. Each of two plants tells of it; what touches itself does once. */
+ * was about to. Each of two plants tells of it; what touches itself does once. Plants that sleep tell those with which they
+ * fell asleep. */
 typedef struct frond_contact {
     frond_vec3 point;   /* on the plant [m] */
     frond_vec3 normal;  /* from the body to the plant, length one */

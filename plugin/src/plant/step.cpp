@@ -89,6 +89,14 @@ static bool is_blown_about(const Plant& plant) {
     return !is_calm(*plant.system, plant.x_good, 0.5 * (plant.x_good + plant.motion.x));
 }
 
+// Part of the solve.
+static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h) {
+    if (!(effects & FROND_FIBRES)) return;
+    const Timer timer;
+    hold_lengths(plant, h);
+    plant.report.ms_solve += timer.ms();
+}
+
 // Again from the start in shorter steps, each in the air as it is then: a gale turns a leaf by more in a step than one
 // solve can tell.
 static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
@@ -106,7 +114,7 @@ static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond
         gather_air(plant, surroundings, effects, h / PARTS);
         plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / PARTS, plant.motion);
         if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x)) solve_carefully(plant, h / PARTS);
-        if (effects & FROND_FIBRES) hold_lengths(plant, h / PARTS);
+        hold_what_is_drawn_out(plant, effects, h / PARTS);
         plant.report.add_cost(spent);
         spent = plant.report;
     }
@@ -134,7 +142,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
     if (!plant.report.ok || !is_plausible(plant)) solve_carefully(plant, h);
-    if (effects & FROND_FIBRES) hold_lengths(plant, h);
+    hold_what_is_drawn_out(plant, effects, h);
     plant.is_sound = is_sound(plant);
 }
 
