@@ -114,17 +114,17 @@ enum {
     FROND_BREAKING = 1 << 11,
     FROND_WIND = 1 << 12,     /* the air's own motion pushes the plant, where the world has air: frond_world_set_wind */
     FROND_AIR_DRAG = 1 << 13, /* and the plant's own motion through the air is resisted */
-    /* Organs in a cage that is fatter than they are are not drawn out by more than 3 % and what their tissue gives; their
-     * cage alone gives as rubber does. Costs nothing while nothing is drawn out. Chains need none, FROND_TET_LINEAR has
-     * none. */
+    /* Organs in a cage that is fatter than they are are not drawn out by more than 3 % and what their tissue gives;
+     * their cage alone gives as rubber does. Costs nothing while nothing is drawn out. Chains need none,
+     * FROND_TET_LINEAR has none. */
     FROND_FIBRES = 1 << 14,
     FROND_ALL_EFFECTS = (1 << 15) - 1,
     /* of a plant; a world allows all */
     FROND_DEFAULT_EFFECTS = FROND_ALL_EFFECTS & ~(FROND_SELF_CONTACT | FROND_BREAKING)
 };
 
-/* What moves by itself. Every model has a chain and a cage: with the tets the cage moves and the chain follows, with the
- * last two the chain moves and the cage follows. */
+/* What moves by itself. Every model has a chain and a cage: with the tets the cage moves and the chain follows, with
+ * the last two the chain moves and the cage follows. */
 #define FROND_MECHANICS(X)                                                                                       \
     X(TET_LINEAR, "tet_linear")             /* the paper's equation (1): right for small deflections only */     \
     X(TET_COROTATIONAL, "tet_corotational") /* linear in each tet's own rotated frame: bends far */              \
@@ -146,8 +146,9 @@ enum {
     X(PCG_JACOBI, "pcg_jacobi")             /* the paper's conjugate gradients, preconditioned by the diagonal */      \
     X(PCG_BLOCK_JACOBI, "pcg_block_jacobi") /* by the 3x3 blocks of the diagonal */                                    \
     X(PCG_INCOMPLETE_CHOLESKY, "pcg_incomplete_cholesky") /* by factors without fill: fewest iterations */
-/* How mass is given to nodes: each its own, or shared with its neighbours as the elements' shape functions say. Of rods,
- * "consistent" is the mean of both, whose frequencies are right to 0.5 % with ten pieces (lumped: 2.5 % in the third). */
+/* How mass is given to nodes: each its own, or shared with its neighbours as the elements' shape functions say. Of
+ * rods, "consistent" is the mean of both, whose frequencies are right to 0.5 % with ten pieces (lumped: 2.5 % in the
+ * third). */
 #define FROND_MASSES(X) X(LUMPED, "lumped") X(CONSISTENT, "consistent")
 
 /* How it is found out where cages are in each other. All of them find the same. */
@@ -202,9 +203,9 @@ typedef struct frond_world_def {
     double response_tolerance; /* stop when no impulse changes by more than this share of the largest [-], 0 .. 1,
                                 * default 1e-6 */
     double penalty_stiffness;  /* of FROND_RESPONSE_PENALTY, a contact [N/m], 1e-6 .. 1e12, default 1000 */
-    /* A plant falls asleep when nothing of it has gone farther than this for half a period of its slowest sway, 0.5 to 3 s, and
-     * nothing that moves touches it [m], 0 .. 0.01, default 5e-5; 0: none sleeps. It then stands still and costs nothing,
-     * until it is touched, pulled, bent or blown at, a pin or bond moves, or something beside it leaves. */
+    /* A plant falls asleep when nothing of it has gone farther than this for half a period of its slowest sway, 0.5 to
+     * 3 s, and nothing that moves touches it [m], 0 .. 0.01, default 5e-5; 0: none sleeps. It then stands still and
+     * costs nothing, until it is touched, pulled, bent or blown at, a pin or bond moves, or something beside it leaves. */
     double sleep_distance;
     uint32_t cookie;       /* do not set */
 } frond_world_def;
@@ -271,10 +272,10 @@ FROND_API frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin
 
 /* ---- wind: the air of a world --------------------------------------------------------------------------------- */
 
-/* A world has no air, which costs nothing, until it is given some here. Each piece of the chain then feels the air that passes
- * it: stems across their axes, blades along their normals as they are turned now, both by skin friction as well. Forces
- * follow the plant's velocity implicitly, so that a light leaf in a gale is stable at any time step. Plants do not
- * shelter each other, and there is no lift but that of a slanted blade. */
+/* A world has no air, which costs nothing, until it is given some here. Each piece of the chain then feels the air that
+ * passes it: stems across their axes, blades along their normals as they are turned now, both by skin friction as well.
+ * Forces follow the plant's velocity implicitly, so that a light leaf in a gale is stable at any time step. Plants do
+ * not shelter each other, and there is no lift but that of a slanted blade. */
 
 /* How the mean wind and its gusts grow with height: see frond_wind_def. */
 typedef enum frond_wind_profile {
@@ -285,10 +286,11 @@ typedef enum frond_wind_profile {
 } frond_wind_profile;
 
 /* A mean wind, and gusts on it: velocities with Kaimal's spectra, f S(f) / sigma^2 = 4 n / (1 + 6 n)^(5/3) with
- * n = f L / U, and the coherence in space of IEC 61400-1, carried along by the mean wind (Taylor's hypothesis). They are
- * a function of place, time and seed and nothing else; a wind that is set anew while they blow takes them along. Across the wind and upwards they have 0.8 and 0.5 times the standard
- * deviation and a third and a twelfth of the length scale that they have along it, as there. Height z [m] is against gravity,
- * above the level of ground_height; gusts grow with it as the mean does. */
+ * n = f L / U, and the coherence in space of IEC 61400-1, carried along by the mean wind (Taylor's hypothesis). They are a
+ * function of place, time and seed and nothing else; a wind that is set anew while they blow takes them along. Across
+ * the wind and upwards they have 0.8 and 0.5 times the standard deviation and a third and a twelfth of the length scale
+ * that they have along it, as there. Height z [m] is against gravity, above the level of ground_height; gusts grow with
+ * it as the mean does. */
 typedef struct frond_wind_def {
     frond_vec3 velocity;        /* mean, at reference_height [m/s], up to 200; default 0: still air */
     double turbulence;          /* standard deviation of gusts along the wind over the mean speed [-], 0..1, default 0.2 */
@@ -303,8 +305,8 @@ typedef struct frond_wind_def {
     uint32_t cookie;            /* do not set */
 } frond_wind_def;
 
-/* The game's own wind, asked once a plant and substep. points: count of them, world frame [m]; time: of the substep's end
- * [s]. velocities [m/s]: what the world's frond_wind_def gives there, to be added to or replaced. */
+/* The game's own wind, asked once a plant and substep. points: count of them, world frame [m]; time: of the substep's
+ * end [s]. velocities [m/s]: what the world's frond_wind_def gives there, to be added to or replaced. */
 typedef void frond_wind_field_fn(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user);
 
 FROND_API frond_wind_def frond_default_wind_def(void);
@@ -349,8 +351,8 @@ typedef struct frond_material {
      * else 1 .. 1e12. */
     double strength;
     /* Drag coefficient in air of the area that the organ turns to the flow [-]; 0: by its kind, 0.01 .. 10. Blades and
-     * flowers are then flat plates of the organ's aspect, fruits spheres, crowns 0.4 and everything else a long cylinder, both
-     * by Reynolds number (sources: plugin/src/plant/air_pieces.cpp). The skin's friction comes on top. */
+     * flowers are then flat plates of the organ's aspect, fruits spheres, crowns 0.4 and everything else a long
+     * cylinder, both by Reynolds number (sources: plugin/src/plant/air_pieces.cpp). The skin's friction comes on top. */
     double drag;
 } frond_material;
 /* A material for the organs of one kind or name: see frond_model_def.organs. */
@@ -360,8 +362,8 @@ typedef struct frond_organ_material {
 } frond_organ_material;
 /* Published values for the kinds "stem", "petiole", "blade", "midrib", "peduncle", "flower", "fruit", "branch", "root",
  * "tendril", "crown" (foliage drawn as a solid) and "support" (stakes, pots), and for "grass_stem" and "grass_blade",
- * which stems and blades get whose name or material names a grass. Sources stand in plugin/src/model/materials.cpp. BAD_ARGUMENT names the
- * kinds there are. */
+ * which stems and blades get whose name or material names a grass. Sources stand in plugin/src/model/materials.cpp.
+ * BAD_ARGUMENT names the kinds there are. */
 FROND_API frond_result frond_material_preset(const char* kind, frond_material* out);
 
 typedef struct frond_model_def {
@@ -433,8 +435,8 @@ typedef struct frond_range {
     double least, most;
 } frond_range;
 /* An organ, and between what its sections lie, one a capsule of the chain. They are those of the organ as it grew, a
- * rod or a strip, not of the cage around it. A small organ can lie within another one's capsules; all from capsule_count
- * on is then 0. */
+ * rod or a strip, not of the cage around it. A small organ can lie within another one's capsules; all from
+ * capsule_count on is then 0. */
 typedef struct frond_organ {
     const char* name;         /* "leaf_3"; no two organs of a model share one */
     const char* kind;         /* "stem", "blade" ... */
@@ -492,10 +494,10 @@ typedef struct frond_plant_def {
     frond_vec3 position;               /* of the model's origin [m] */
     frond_quat rotation;               /* need not have length one; default identity */
     frond_mechanics mechanics;         /* default FROND_TET_COROTATIONAL */
-    /* Of the displacements within a tet, 1 (default) or 2. Linear tets are quick and lock: one cell across and five times
-     * as long as thick bends 3 % of what it should, which a cage made by Frond is calibrated for and the caller's own
-     * tets are not. Quadratic tets have a node in the middle of each edge too and bend such cells within 5 %, with some
-     * twenty times the work a step. For tets of your own (frond_model_from_tets, .msh, .vtk) only: the cages that
+    /* Of the displacements within a tet, 1 (default) or 2. Linear tets are quick and lock: one cell across and five
+     * times as long as thick bends 3 % of what it should, which a cage made by Frond is calibrated for and the caller's
+     * own tets are not. Quadratic tets have a node in the middle of each edge too and bend such cells within 5 %, with
+     * some twenty times the work a step. For tets of your own (frond_model_from_tets, .msh, .vtk) only: the cages that
      * Frond makes are calibrated for order 1, and UNSUPPORTED says so. Chain mechanics move alike with both. */
     int element_order;
     frond_integrator integrator;       /* default FROND_BDF2 */
@@ -505,10 +507,11 @@ typedef struct frond_plant_def {
     double newton_tolerance;  /* stop when the residual force is below this share of the first one [-], default 1e-6 */
     int max_iterations;       /* of an iterative linear solver, default 10000 */
     double tolerance;         /* of an iterative linear solver, relative residual [-], default 1e-6 */
-    /* A step is taken in 1, 2, 4 .. max_substeps (1 .. 64, default 1: always one, at no cost) equal parts, as few as keep
-     * the error that the step adds to the place of any node below substep_tolerance (1e-9 .. 1, default 1e-4) times the
-     * plant's size [-]. The error is told from how far nodes end from where their velocities and the last change of these
-     * said; a step in which it is too large is taken again. While bodies touch it, a plant takes whole steps. */
+    /* A step is taken in 1, 2, 4 .. max_substeps (1 .. 64, default 1: always one, at no cost) equal parts, as few as
+     * keep the error that the step adds to the place of any node below substep_tolerance (1e-9 .. 1, default 1e-4)
+     * times the plant's size [-]. The error is told from how far nodes end from where their velocities and the last
+     * change of these said; a step in which it is too large is taken again. While bodies touch it, a plant takes whole
+     * steps. */
     int max_substeps;
     double substep_tolerance;
     double mass_damping;      /* Rayleigh: D = mass_damping M + stiffness_damping K [1/s], default 0.1 */
@@ -544,9 +547,9 @@ typedef struct frond_capsule {
     double radius;         /* [m] */
 } frond_capsule;
 
-/* A point at which a body of the Bullet world, another plant or the plant itself touched a plant in the last substep, or
- * was about to. Each of two plants tells of it; what touches itself does once. Plants that sleep tell those with which they
- * fell asleep. */
+/* A point at which a body of the Bullet world, another plant or the plant itself touched a plant in the last substep,
+ * or was about to. Each of two plants tells of it; what touches itself does once. Plants that sleep tell those with
+ * which they fell asleep. */
 typedef struct frond_contact {
     frond_vec3 point;   /* on the plant [m] */
     frond_vec3 normal;  /* from the body to the plant, length one */
@@ -570,8 +573,8 @@ FROND_API frond_result frond_plant_wake(frond_plant plant);
 /* Null for an invalid handle. */
 FROND_API void* frond_plant_get_user(frond_plant plant);
 FROND_API frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects);
-/* Goes on with other mechanics, from the same shape and velocities: exactly between tets; between cage and chain as near
- * as the one can take the other's shape. What the plant stands on and is held by stays. */
+/* Goes on with other mechanics, from the same shape and velocities: exactly between tets; between cage and chain as
+ * near as the one can take the other's shape. What the plant stands on and is held by stays. */
 FROND_API frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics mechanics);
 /* Of the cage, whatever moves: the nodes of frond_cage_view first, as they stand there; with element_order 2 one in the
  * middle of each edge follows, ordered by the edge's lower and then its higher node. 0 for an invalid handle. */
@@ -582,10 +585,11 @@ FROND_API int frond_plant_get_capsule_count(frond_plant plant);
 FROND_API frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count);
 FROND_API frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
                                              int node_count);
-/* What of the plant's shape is lasting, besides the state above: how many numbers that is, 0 as long as nothing has yielded
- * or for an invalid handle, and the numbers, of use only to another plant of the same model and mechanics, broken at the same capsules. count must be
- * what the first says, for set that of the plant they came from: 0 takes all sets away. Tets hand them to other tets
- * when mechanics change and the chain to the chain; between the two they are lost. */
+/* What of the plant's shape is lasting, besides the state above: how many numbers that is, 0 as long as nothing has
+ * yielded or for an invalid handle, and the numbers, of use only to another plant of the same model and mechanics,
+ * broken at the same capsules. count must be what the first says, for set that of the plant they came from: 0 takes all
+ * sets away. Tets hand them to other tets when mechanics change and the chain to the chain; between the two they are
+ * lost. */
 FROND_API int frond_plant_get_lasting_count(frond_plant plant);
 FROND_API frond_result frond_plant_get_lasting(frond_plant plant, double* values, int count);
 FROND_API frond_result frond_plant_set_lasting(frond_plant plant, const double* values, int count);
@@ -627,12 +631,12 @@ typedef struct frond_broken {
 /* In the order in which they came off; 0 for an invalid handle. */
 FROND_API int frond_plant_get_broken_count(frond_plant plant);
 FROND_API frond_result frond_plant_get_broken(frond_plant plant, int fragment, frond_broken* out);
-/* Breaks a capsule whatever its strength and the effects: a harvest, or a plant that is restored. BAD_ARGUMENT if it came
- * off already or is a root of its own. */
+/* Breaks a capsule whatever its strength and the effects: a harvest, or a plant that is restored. BAD_ARGUMENT if it
+ * came off already or is a root of its own. */
 FROND_API frond_result frond_plant_break(frond_plant plant, int capsule);
-/* Puts all fragments back: the plant is as modelled, at rest, without sets; pins on nodes that had come off stay away. To
- * restore a plant, mend it, break it at the same capsules in their order, then set its lasting numbers, its state and
- * the states of its fragments. A fragment keeps the bend that it comes off with. */
+/* Puts all fragments back: the plant is as modelled, at rest, without sets; pins on nodes that had come off stay away.
+ * To restore a plant, mend it, break it at the same capsules in their order, then set its lasting numbers, its state
+ * and the states of its fragments. A fragment keeps the bend that it comes off with. */
 FROND_API frond_result frond_plant_mend(frond_plant plant);
 
 /* ---- grab: a spring between a point of a plant and a moving point, the mouse ---------------------------------- */
@@ -690,11 +694,11 @@ FROND_API const void* frond_rigid_get_body(frond_rigid rigid);
 
 /* ---- bond: a point of a plant held to a body: a fruit in a gripper, a pot that is carried --------------------- */
 
-/* Holds the surface vertex nearest to `point` [m] to the place of the body where it is now, turning with the body. Plant
- * and body feel equal and opposite impulses, as contacts do (FROND_TWO_WAY; FROND_RESPONSE_NONE lets go). One bond lets the
- * plant turn about the point; three hold it in every way: a plant in a pot has root_height -1 and some bonds around its
- * foot. A body that leaves the world holds nothing any more. Both of one world, or BAD_ARGUMENT. In a Bullet world of your
- * own, see bond() in frond_bullet.hpp. */
+/* Holds the surface vertex nearest to `point` [m] to the place of the body where it is now, turning with the body.
+ * Plant and body feel equal and opposite impulses, as contacts do (FROND_TWO_WAY; FROND_RESPONSE_NONE lets go). One
+ * bond lets the plant turn about the point; three hold it in every way: a plant in a pot has root_height -1 and some
+ * bonds around its foot. A body that leaves the world holds nothing any more. Both of one world, or BAD_ARGUMENT. In a
+ * Bullet world of your own, see bond() in frond_bullet.hpp. */
 FROND_API frond_result frond_bond_create(frond_plant plant, frond_vec3 point, frond_rigid rigid, frond_bond* out);
 /* Where on the plant it holds [m], and with what force on the plant in the last substep [N]. Either may be null. */
 FROND_API frond_result frond_bond_get(frond_bond bond, frond_vec3* point, frond_vec3* force);
