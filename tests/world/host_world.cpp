@@ -149,7 +149,7 @@ TEST_P(HostWorld, PlantsComeAndGoAmongBodiesThatTouchThem) {
     place.setOrigin(btVector3(0, 1, 0));  // the ball falls through the plants
     host.ball.setWorldTransform(place);
     std::vector<frond_plant> living;
-    const int rounds = SANITIZED ? 6 : 16;
+    const int rounds = SANITIZED ? 4 : 16;
     for (int i = 0; i < rounds; i++) {
         def.position.x = 0.025 * i;
         frond_plant plant;

@@ -122,6 +122,12 @@ const std::vector<Key>& keys() {
         real("cage_smoothness", "0..1", &Settings::model, &frond_model_def::cage_smoothness),
         choice("mechanics", "row of the table", &frond_plant_def::mechanics, FROND_MECHANICS_COUNT,
                frond_mechanics_name),
+        {"rest", "as_modelled, or without_gravity: then it droops",
+         [](Settings& s, const std::string& value) {
+             if (value != "as_modelled" && value != "without_gravity")
+                 throw SceneError("\"" + value + "\" is none of as_modelled, without_gravity");
+             s.model.rest = value == "as_modelled" ? FROND_REST_STANDS_AS_MODELLED : FROND_REST_WITHOUT_GRAVITY;
+         }},
         count("element_order", "of the tets, 1 or 2", &Settings::plant, &frond_plant_def::element_order),
         choice("integrator", "row of the table", &frond_plant_def::integrator, FROND_INTEGRATOR_COUNT,
                frond_integrator_name),

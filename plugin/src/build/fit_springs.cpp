@@ -4,7 +4,7 @@
 // that radius would. First each organ's chain of springs holds, under the plant's weight along each of the three axes,
 // the energy of bending that its rods hold; where that topples, since a blade's rods are stiffer edgewise and a
 // cylinder is not, it is made stiffer until it stands. Then those organs that carry the plant are fitted to its first
-// sways.
+// sways. A plant that droops from its mesh keeps what the energy of bending says.
 #include "build/fit_springs.hpp"
 
 #include <algorithm>
@@ -69,8 +69,8 @@ std::vector<double> fit_springs(const Model& model) {
     std::vector<double> factors = organ_factors(model), radii;
     for (const ChainNode& node : model.chain.nodes) radii.push_back(node.fitted_radius);
     const auto make = [&] { return make_spring_elements(model, radii, factors); };
-    if (model.stands_as_modelled)
-        strengthen_rods(model, FROND_SPRING_CHAIN, make, std::vector<double>(factors.size(), MARGIN), factors);
+    if (!model.stands_as_modelled) return factors;  // its sways are those of a shape that is not known yet
+    strengthen_rods(model, FROND_SPRING_CHAIN, make, std::vector<double>(factors.size(), MARGIN), factors);
     const RodSways rods = find_sways(model, make_rod_elements(model, FROND_ROD), FROND_ROD);
     const auto find = [&] { return find_gap(rods, find_sways(model, make(), FROND_SPRING_CHAIN)); };
     Gap gap = find();

@@ -19,7 +19,8 @@ size_t organ_of(const Model& model, size_t node) {
     return size_t(std::max(model.chain.nodes[node].organ, 0));
 }
 
-// Resistance of a piece's section, along, thin, wide, and how far its fibres reach: of its tissue, or of a full cylinder.
+// Resistance of a piece's section, along, thin, wide, and how far its fibres reach: of its tissue, or of a full cylinder,
+// stiffer by a factor in bending alone: a blade's is far below one, and would let it be drawn out like rubber.
 void take_section(const Model& model, size_t node, RodSegment& rod) {
     const Section& section = model.sections[node];
     const double stiffer = model.organ_stiffer[organ_of(model, node)], over = 12 / (rod.length * rod.length);
@@ -32,8 +33,8 @@ void take_section(const Model& model, size_t node, RodSegment& rod) {
 void take_cylinder(const Model& model, size_t node, double radius, double stiffer, RodSegment& rod) {
     const size_t organ = organ_of(model, node);
     const Material& material = model.organs[organ].material;
-    const double E = material.young * model.organ_stiffer[organ] * stiffer, over = 12 / (rod.length * rod.length);
-    const double area = M_PI * radius * radius, inertia = area * radius * radius / 4;
+    const double E = material.young * model.organ_stiffer[organ], over = 12 / (rod.length * rod.length);
+    const double area = M_PI * radius * radius, inertia = stiffer * area * radius * radius / 4;
     rod.reach_thin = rod.reach_wide = radius;
     rod.stretch = E * Vec3(area, over * inertia, over * inertia);
     rod.bend = E * Vec3(inertia / (1 + material.poisson), inertia, inertia);
@@ -77,6 +78,21 @@ void let_stand(RodElements& elements) {
         rod.rest_curvature -= (rod.frame.transpose() * couple).cwiseQuotient(rod.bend);
         force[a] += force[b];
         moment[a] += half - couple;
+    }
+}
+
+// Long pieces of thin blades bend by more than one piece can show, and what stands for that, shear, would draw them out:
+// at least so much resistance that the weight beyond a piece shears it by a third.
+void bound_shear(RodElements& elements) {
+    constexpr double LARGEST_SHEAR = 1.0 / 3;
+    std::vector<double> weight;
+    for (double m : elements.mass) weight.push_back(GRAVITY * m);
+    for (size_t s = elements.segments.size(); s-- > 0;) {
+        RodSegment& rod = elements.segments[s];
+        const double least = weight[size_t(rod.b)] / LARGEST_SHEAR;
+        rod.stretch[1] = std::max(rod.stretch[1], least);
+        rod.stretch[2] = std::max(rod.stretch[2], least);
+        weight[size_t(rod.a)] += weight[size_t(rod.b)];
     }
 }
 
@@ -132,6 +148,7 @@ RodElements make_elements(const Model& model, Take&& take) {
     for (double m : model.chain_mass) total += m;
     for (double m : model.chain_mass) out.mass.push_back(std::max(m, 1e-6 * total / double(nodes.size())));
     set_inertia(model, out);
+    bound_shear(out);
     if (model.stands_as_modelled) let_stand(out);
     return out;
 }

@@ -53,9 +53,9 @@ FibreStrain fibre_strain(const RodSegment& rod, const RodStrain& strain);
 void let_rods_yield(const Model& model, RodElements& elements);
 
 // From a model with chain, sections and organs: `rod` takes the sections as they are, `spring_chain` full cylinders of the
-// capsules' own radius, each organ's stiffer as the model says. Where plants stand as modelled, so do both.
+// capsules' own radius, each organ's stiffer in bending as the model says. Where plants stand as modelled, so do both.
 RodElements make_rod_elements(const Model& model, frond_mechanics which);
-// Of `spring_chain`, with other radii, one a chain node [m], and each organ stiffer by a factor; none: by nothing.
+// Of `spring_chain`, with other radii, one a chain node [m], and each organ stiffer in bending by a factor; none: by nothing.
 RodElements make_spring_elements(const Model& model, const std::vector<double>& radii,
                                  const std::vector<double>& stiffer);
 
