@@ -66,13 +66,12 @@ Standing watch(const ModelPtr& model, const Setup& setup, Effort effort) {
     Trial trial(model, free);
     trial.start_from(*aside);
     trial.set_gravity({0, -G, 0});
-    std::vector<double> sway;
+    std::vector<double> sway;  // the moment of the plant's mass [kg m]
     for (double t = 0; t < duration; t += setup.dt) {
         trial.step(setup.dt);
-        const std::vector<double> x = trial.state().x;
-        double sum = 0;
-        for (size_t i = 0; i < x.size(); i += 3) sum += x[i];
-        sway.push_back(sum / double(x.size()));
+        frond_vec3 momentum;
+        must(frond_plant_get_momentum(trial.plant, &momentum));
+        sway.push_back((sway.empty() ? 0 : sway.back()) + momentum.x * setup.dt);
     }
     return {tip_of(*rests), main_frequency(sway, setup.dt), trial.cpu / duration, rests->trouble | trial.trouble};
 }
