@@ -136,7 +136,7 @@ void add_study(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "study", "what accuracy costs in time: diagrams and tables over problems with known answers");
     command->add_option("problem", options->names, "names of problems, or all; none: list them");
-    command->add_flag("--quick", options->quick, "fewer points: all problems in about a minute");
+    command->add_flag("--quick", options->quick, "fewer points: all problems in some minutes");
     command->add_option("--out", options->out, "folder to write to, default study");
     command->add_option("--advice", options->advice,
                         "write the front of the problem sway to this file, as the table of frond_recommend");

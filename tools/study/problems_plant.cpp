@@ -93,7 +93,7 @@ const std::vector<double>& converged_rest(
     std::vector<double>& reference = session.references["rest"];
     if (!reference.empty()) return reference;
     std::vector<int> levels = {8, 16};
-    if (session.effort == Effort::QUICK) levels = {9, 13, 20};
+    if (session.effort == Effort::QUICK) levels = {8, 12, 18};
     if (session.effort == Effort::FULL) levels = {12, 18, 27, 40, 60};
     Setup fine = finest_setup(setup);
     std::string differences;
@@ -245,7 +245,7 @@ Outcome release(const PlantCase& plant, const Setup& setup, Session& session) {
         const Shape shape = shape_of(trial);
         return frond_vec3{shape[highest], shape[highest + 1], shape[highest + 2]};
     };
-    return compare_path(model, setup, begin, tip, session.effort == Effort::FULL ? 4 : 1, session);
+    return compare_path(model, setup, begin, tip, session.effort == Effort::FULL ? 4 : 0.4, session);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ std::vector<int> resolutions(Body body, int order, Effort effort, bool moving) {
 }
 
 std::vector<double> time_steps(Effort effort) {
-    return by<double>(effort, {1.0 / 60}, {1.0 / 30, 1.0 / 60, 1.0 / 240},
+    return by<double>(effort, {1.0 / 60}, {1.0 / 30, 1.0 / 60, 1.0 / 120},
                       {1.0 / 15, 1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480});
 }
 
