@@ -14,8 +14,9 @@ namespace frond::tools {
 namespace {
 
 struct Stages {
-    static constexpr const char* NAMES[] = {"effects", "assembly", "solve", "contact", "capsules", "surface", "all"};
-    static constexpr int COUNT = 7;
+    static constexpr const char* NAMES[] = {"effects",  "assembly", "solve",   "contact",
+                                            "capsules", "step",     "surface", "all"};
+    static constexpr int COUNT = 8;
     std::vector<double> ms[COUNT];
     void add(const frond_report& report) {
         const double values[COUNT] = {report.ms_effects,
@@ -23,6 +24,7 @@ struct Stages {
                                       report.ms_solve,
                                       report.ms_collide + report.ms_response,
                                       report.ms_capsules,
+                                      report.ms_step,
                                       report.ms_surface,
                                       report.ms_step + report.ms_surface};
         for (int i = 0; i < COUNT; i++) ms[i].push_back(values[i]);

@@ -147,6 +147,7 @@ static std::vector<uint8_t> find_held(const Plant& plant, double root_height) {
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def) {
     auto plant = std::make_unique<Plant>();
     plant->model = std::move(model);
+    plant->size = plant->model->surface.size();
     plant->nodes = shared_of<CageNodes>(plant->model, def.element_order,
                                         [&] { return make_nodes(plant->model->cage, def.element_order); });
     plant->mass = def.mass;

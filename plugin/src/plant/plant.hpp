@@ -35,6 +35,7 @@ struct Trend {
 struct Plant {
     std::shared_ptr<const Model> model;
     std::shared_ptr<const CageNodes> nodes;
+    double size;  // of the modelled surface, from corner to corner [m]
     frond_mechanics which;
     frond_mass mass;
     std::shared_ptr<const System> system;

@@ -56,7 +56,7 @@ static void keep_sets(Plant& plant, double h) {
 // No node has gone much farther than the plant is long.
 static bool is_plausible(const Plant& plant) {
     constexpr double FARTHEST = 4;  // in a step, over the plant's size [-]
-    return are_near(plant, plant.x_good, FARTHEST * plant.model->surface.size());
+    return are_near(plant, plant.x_good, FARTHEST * plant.size);
 }
 
 // Whether what was found can be the plant's next state.
@@ -64,7 +64,7 @@ static bool is_sound(const Plant& plant) {
     constexpr double FARTHEST = 100;  // a plant stretched to so many times its size has run away [-]
     const Motion& motion = plant.motion;
     return plant.report.ok && motion.x.allFinite() && motion.v.allFinite() && is_plausible(plant) &&
-           are_near(plant, elements_of(*plant.system).modelled, FARTHEST * plant.model->surface.size());
+           are_near(plant, elements_of(*plant.system).modelled, FARTHEST * plant.size);
 }
 
 // Again from the start, by what cannot overshoot.

@@ -58,7 +58,7 @@ SolveReport solve_in_substeps(Plant& plant, double h) {
     if (plant.max_substeps <= 1 || plant.is_touched)
         return solve_step(*plant.workspace, plant.step_settings, plant.loads, h, plant.motion);
     constexpr double TOO_FINE = 1.0 / 8;  // half as many substeps make four times the error
-    const double allowed = plant.substep_tolerance * plant.model->surface.size();
+    const double allowed = plant.substep_tolerance * plant.size;
     const Motion start = plant.motion;
     const Trend trend = plant.trend;
     SolveReport spent;

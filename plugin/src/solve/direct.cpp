@@ -1,4 +1,5 @@
-// In: a symmetric matrix of 3x3 blocks. Out: its factors L D L^T and solutions, through Eigen's SimplicialLDLT.
+// In: a symmetric matrix of 3x3 blocks. Out: its factors L D L^T and solutions, through Eigen's SimplicialLDLT, or
+// tree_factor.hpp where that is for the pattern.
 //
 // The order is found on the graph of nodes by approximate minimum degree (Amestoy, Davis, Duff 1996), so that a node's
 // three rows stay together. A plant is nearly a tree, and so is its elimination tree: fill grows linearly, and a right
@@ -62,6 +63,8 @@ std::vector<int> order_nodes(const BlockPattern& pattern) {
 
 DirectPlan make_direct_plan(const BlockPattern& pattern) {
     DirectPlan plan;
+    plan.tree = make_tree_plan(pattern);
+    if (plan.tree) return plan;
     plan.order = order_nodes(pattern);
     std::vector<int>& place = plan.place;
     place.resize(plan.order.size());
@@ -104,6 +107,7 @@ struct DirectFactor {
     // Of half solves, in elimination order, transposed; between them all zero.
     Eigen::Matrix3Xd sparse;
     std::vector<uint8_t> reached;
+    TreeFactor tree;
 };
 
 void DirectFactorDeleter::operator()(DirectFactor* factor) const {
@@ -114,6 +118,7 @@ DirectFactorPtr make_direct_factor(const DirectPlan& plan) {
     DirectFactorPtr factor(new DirectFactor);
     const int n = 3 * int(plan.order.size());
     factor->plan = &plan;
+    if (plan.tree) return factor;
     factor->ordered.resize(n, n);
     factor->ordered.resizeNonZeros(Eigen::Index(plan.row.size()));
     std::copy(plan.start.begin(), plan.start.end(), factor->ordered.outerIndexPtr());
@@ -125,6 +130,7 @@ DirectFactorPtr make_direct_factor(const DirectPlan& plan) {
 }
 
 bool factorize(DirectFactor& factor, const BlockMatrix& A) {
+    if (factor.plan->tree) return factorize(*factor.plan->tree, A, factor.tree);
     const std::vector<int>& source = factor.plan->source;
     double* values = factor.ordered.valuePtr();
     for (size_t k = 0; k < source.size(); ++k) values[k] = A.values[size_t(source[k])];
@@ -132,6 +138,7 @@ bool factorize(DirectFactor& factor, const BlockMatrix& A) {
 }
 
 void solve(DirectFactor& factor, const VecX& b, VecX& x) {
+    if (factor.plan->tree) return solve(*factor.plan->tree, factor.tree, b, x);
     const std::vector<int>& order = factor.plan->order;
     for (size_t k = 0; k < order.size(); ++k) point(factor.solution, int(k)) = point(b, order[k]);
     factor.ldlt.solve_in_place(factor.solution);
@@ -140,6 +147,7 @@ void solve(DirectFactor& factor, const VecX& b, VecX& x) {
 }
 
 void half_solve(DirectFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer) {
+    if (factor.plan->tree) return half_solve(*factor.plan->tree, factor.tree, right_side, answer);
     const Eigen::Index n = factor.solution.size();
     if (factor.sparse.cols() != n) {
         factor.sparse.setZero(3, n);
@@ -171,7 +179,7 @@ void half_solve(DirectFactor& factor, const std::vector<NodeBlock>& right_side, 
 }
 
 int64_t fill_of(const DirectFactor& factor) {
-    return factor.ldlt.fill();
+    return factor.plan->tree ? 72 * int64_t(factor.tree.pairs.size()) : factor.ldlt.fill();
 }
 
 void half_solve_direct(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, Answer& answer) {

@@ -5,11 +5,13 @@
 
 #include "mechanics/block_matrix.hpp"
 #include "solve/answer.hpp"
+#include "solve/tree_factor.hpp"
 
 namespace frond {
 
 // Shared by all matrices of a pattern.
 struct DirectPlan {
+    std::optional<TreePlan> tree;  // where the pattern is one, a solver of its own needs nothing of what follows
     std::vector<int> order;  // nodes, in the order in which they are eliminated
     std::vector<int> place;  // of each node in that order
     std::vector<int> start, row,
