@@ -32,8 +32,12 @@ std::array<double, 2> EveryStep::recurrence(double v, double g, double a, int st
                 v = stage(v, h), x += h * v;
                 break;
             case FROND_BDF2:
-                v = n == 0 ? stage(v, h) : stage((4 * v - v_prev) / 3, 2 * h / 3);
-                x = n == 0 ? x + h * v : (4 * x - x_prev) / 3 + 2 * h / 3 * v;
+                if (n == 0) {
+                    sdirk2();
+                    break;
+                }
+                v = stage((4 * v - v_prev) / 3, 2 * h / 3);
+                x = (4 * x - x_prev) / 3 + 2 * h / 3 * v;
                 break;
             case FROND_SDIRK2:
                 sdirk2();

@@ -171,9 +171,7 @@ TEST(Amplitude, IsKeptFromAFarBendInEveryMechanics) {
         EXPECT_EQ(setup.dt, 1.0 / 60);
         setup.plant.mechanics = frond_mechanics(m);
         const Outcome outcome = problem.run(setup, session);
-        // Cages whose tets turn inside far bends lose a little more than rods.
-        const bool turns = m == FROND_TET_COROTATIONAL || m == FROND_TET_NEOHOOKEAN;
-        EXPECT_LT(outcome.error, turns ? 0.06 : 0.05) << frond_mechanics_name(setup.plant.mechanics);
+        EXPECT_LT(outcome.error, 0.05) << frond_mechanics_name(setup.plant.mechanics);
         EXPECT_EQ(outcome.trouble & (FROND_TROUBLE_REWOUND | FROND_TROUBLE_RETRIED), 0u);
     }
 }

@@ -37,7 +37,7 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
         if (positions) motion.x = x;
         if (velocities) motion.v = v;
     }
-    motion.history.valid = false;
+    motion.history.valid = motion.history.shaken = false;
     plant.pins_changed = true;
     apply_pins(plant);
     moved(plant);

@@ -80,6 +80,7 @@ static void solve_carefully(Plant& plant, double h) {
     const SolveReport first = plant.report;
     plant.trouble |= FROND_TROUBLE_RETRIED;
     plant.report = solve_step(*plant.workspace, settings, plant.loads, h, plant.motion);
+    plant.motion.history.shaken = true;
     plant.report.add_cost(first);
 }
 
@@ -139,6 +140,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.ms_effects = timer.lap();
 
     // Solve.
+    motion.history.shaken |= plant.is_touched;
     plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
     if (!plant.report.ok || !is_plausible(plant)) solve_carefully(plant, h);

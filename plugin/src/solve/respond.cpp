@@ -33,6 +33,7 @@ void add_response(const Workspace& workspace, const VecX& dv, Motion& motion) {
 
 void add_shift(const Workspace& workspace, const VecX& dv, Motion& motion) {
     motion.x += workspace.reach * dv;
+    motion.history.shaken = true;
 }
 
 }  // namespace frond

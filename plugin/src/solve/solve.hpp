@@ -52,6 +52,7 @@ struct SolveSettings {
 // anything else moved a node since, or the integrator or the time step changed, the method starts anew.
 struct History {
     bool valid = false;
+    bool shaken = false;  // the last step was a first one too, or something pushed since: bdf2 then starts with damping
     frond_integrator integrator = FROND_IMPLICIT_EULER;
     double h = 0;       // of the last step [s]
     VecX x_end, v_end;  // what that step left [m], [m/s]

@@ -88,7 +88,9 @@ void finish_pins(Workspace& workspace, const Motion& motion) {
 // The start of this step becomes the past of the next one.
 void keep_history(Workspace& workspace, const StepInput& input, Motion& motion) {
     History& history = motion.history;
+    const bool was_valid = history.valid;
     history.valid = integrator(input.settings.integrator).looks_back;
+    history.shaken = history.valid && !was_valid;
     if (!history.valid) return;
     history.integrator = input.settings.integrator;
     history.h = input.h;
