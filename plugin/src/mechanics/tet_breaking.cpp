@@ -23,8 +23,7 @@ double weighted_square(const TetElements& elements, size_t e, const VecX& x) {
     for (int q = 0; q < Element::POINTS; ++q) {
         const TetShare share = Element::share(elements, e, q);
         const double strain = green_strain(share, Element::gradient(share, places, q));
-        const double young = share.mu * (3 * share.lambda + 2 * share.mu) / (share.lambda + share.mu);
-        sum += young * share.volume * strain * strain;
+        sum += young_of(share.lambda, share.mu) * share.volume * strain * strain;
     }
     return sum;
 }

@@ -26,6 +26,11 @@ struct TetShare {
     double volume, lambda, mu;
 };
 
+// Young's modulus out of Lame's constants [Pa].
+inline double young_of(double lambda, double mu) {
+    return mu * (3 * lambda + 2 * mu) / (lambda + mu);
+}
+
 inline const Mat3& rest_inverse(const TetElements& elements, size_t e, int q, int points) {
     if (elements.lasting.empty()) return elements.rest_inverse[e];
     return elements.lasting[e * size_t(points) + size_t(q)].rest_inverse;

@@ -35,24 +35,21 @@ double as_pulled(const TetShare& share, double deviator_norm) {
 // (tests/plant/plasticity.cpp).
 constexpr double RIM = 1.4;
 
-// The strain at which a calibrated cage's tets yield over that of its organ's outermost fibre, one a tet [-]. Within a
-// capsule tets of other moduli bear the same energy a volume.
-std::vector<double> strain_in_cage(const Model& model, const std::vector<int>& capsule) {
-    std::vector<double> resistance(model.chain.nodes.size(), 0);  // sum of E V [J]
-    std::vector<double> volume(resistance.size(), 0);
-    for (size_t e = 0; e < capsule.size(); ++e) {
-        const double own = std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
-        resistance[size_t(capsule[e])] += model.tet_young[e] * own;
-        volume[size_t(capsule[e])] += own;
-    }
+// The strain at which a calibrated cage's tets, of the moduli that they have in these mechanics, yield over that of
+// their organ's outermost fibre, one a tet [-]. Within a capsule tets of other moduli bear the same energy a volume.
+std::vector<double> strain_in_cage(const Model& model, const TetElements& elements) {
+    const std::vector<int>& capsule = elements.section;
+    std::vector<double> volume(model.chain.nodes.size(), 0);
+    for (size_t e = 0; e < capsule.size(); ++e)
+        volume[size_t(capsule[e])] += std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
     std::vector<double> share(capsule.size(), 1);
     for (size_t e = 0; e < share.size(); ++e) {
         const size_t i = size_t(capsule[e]);
         const Section& section = model.sections[i];
         const double stiffer = model.organ_stiffer[size_t(std::max(model.chain.nodes[i].organ, 0))];
-        if (model.chain.nodes[i].parent < 0 || resistance[i] == 0) continue;
-        share[e] = RIM *
-                   std::sqrt(stiffer * section.bending_thin() * section.length / (volume[i] * model.tet_young[e])) /
+        if (model.chain.nodes[i].parent < 0) continue;
+        const double young = young_of(elements.lambda[e], elements.mu[e]);
+        share[e] = RIM * std::sqrt(stiffer * section.bending_thin() * section.length / (volume[i] * young)) /
                    (0.5 * section.thickness);
     }
     return share;
@@ -109,7 +106,7 @@ void let_tets_yield(const Model& model, TetElements& elements) {
     for (int organ : model.cage.tet_organ) yields.push_back(yield_of(model, organ));
     if (std::all_of(yields.begin(), yields.end(), [](const Yield& y) { return y.strain == 0; })) return;
     if (model.calibrated) {
-        const std::vector<double> share = strain_in_cage(model, elements.section);
+        const std::vector<double> share = strain_in_cage(model, elements);
         for (size_t e = 0; e < yields.size(); ++e) yields[e].strain *= share[e];
     }
     for (size_t e = 0; e < yields.size(); ++e) {
