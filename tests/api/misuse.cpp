@@ -221,11 +221,6 @@ TEST(Misuse, OfPlantsIsRefused) {
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.newton_iterations = 0; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.element_order = 0; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.element_order = 3; }));
-    frond_plant_def quadratic = frond_default_plant_def();
-    quadratic.element_order = 2;  // a cage of Frond's own is calibrated for order 1
-    frond_plant none = {};
-    EXPECT_EQ(frond_plant_create(small.world, small.model, &quadratic, &none), FROND_UNSUPPORTED);
-    EXPECT_EQ(none.id, 0u);
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.max_iterations = -1; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.tolerance = NOT_A_NUMBER; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.mass_damping = -1; }));

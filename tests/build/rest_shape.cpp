@@ -23,20 +23,28 @@ std::shared_ptr<const Model> gallows(double young) {
     return build_from_stems(stems, 2, def);
 }
 
-struct EveryTets : testing::TestWithParam<frond_mechanics> {};
+struct EveryTets : testing::TestWithParam<std::tuple<frond_mechanics, int>> {
+    const frond_mechanics which = std::get<0>(GetParam());
+    const int order = std::get<1>(GetParam());
+};
 INSTANTIATE_TEST_SUITE_P(RestShape, EveryTets,
-                         testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN),
-                         [](const auto& info) { return std::string(mechanics(info.param).name); });
+                         testing::Combine(testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL,
+                                                          FROND_TET_NEOHOOKEAN),
+                                          testing::Values(1, 2)),
+                         [](const auto& info) {
+                             return std::string(mechanics(std::get<0>(info.param)).name) +
+                                    (std::get<1>(info.param) == 1 ? "" : "_quadratic");
+                         });
 
 TEST_P(EveryTets, WeightBendsItToTheShapeThatWasModelled) {
     const auto model = gallows(2e8);
-    ensure_rest_shape(*model, GetParam());
-    const VecX& rest = model->rest_shapes->positions[size_t(GetParam())];
+    ensure_rest_shape(*model, which, order);
+    const VecX& rest = model->rest_shapes->positions[size_t(order - 1)][size_t(which)];
     ASSERT_GT(rest.size(), 0);
-    const auto own = mechanics(GetParam()).make(*model, GetParam());
+    const auto own = mechanics(which, order).make(*model, which);
     const TetElements& elements = static_cast<const TetElements&>(*own);
-    const std::vector<uint8_t> held(model->root.begin(), model->root.end());
-    const VecX force = unbalanced_force(elements, held, GetParam(), elements.modelled, GRAVITY);
+    const std::vector<uint8_t> held = with_middles(elements.nodes, model->root);
+    const VecX force = unbalanced_force(elements, held, which, elements.modelled, GRAVITY);
     double weight = 0;
     for (size_t e = 0; e < elements.tets.size(); e++) weight += GRAVITY * elements.density[e] * elements.volume[e];
     EXPECT_LT(force.norm(), 1e-6 * weight);
@@ -44,16 +52,18 @@ TEST_P(EveryTets, WeightBendsItToTheShapeThatWasModelled) {
     EXPECT_GT((rest - elements.modelled).lpNorm<Eigen::Infinity>(), 0.01);
 }
 
-TEST(RestShape, NewtonsMethodFindsItInAFewRounds) {
+TEST_P(EveryTets, NewtonsMethodFindsItInAFewRounds) {
+    if (which == FROND_TET_LINEAR) GTEST_SKIP() << "swells where it turns far, so that whole moves overshoot";
     const auto model = gallows(2e8);
-    TetElements elements = make_tet_elements(*model);
-    const std::vector<uint8_t> held(model->root.begin(), model->root.end());
+    ensure_rest_shape(*model, which, order);  // and the moduli
+    TetElements elements = make_tet_elements(*model, nullptr, order);
+    const std::vector<uint8_t> held = with_middles(elements.nodes, model->root);
     RestSystem system(elements, held);
     VecX rest = elements.modelled, move;
     std::vector<double> moves;
     for (int round = 0; round < 8; round++) {
-        const VecX force = unbalanced_force(elements, held, FROND_TET_COROTATIONAL, elements.modelled, GRAVITY);
-        ASSERT_TRUE(system.find_move(elements, FROND_TET_COROTATIONAL, elements.modelled, GRAVITY, force, move));
+        const VecX force = unbalanced_force(elements, held, which, elements.modelled, GRAVITY);
+        ASSERT_TRUE(system.find_move(elements, which, elements.modelled, GRAVITY, force, move));
         rest += move;
         set_rest_positions(elements, rest);
         moves.push_back(move.lpNorm<Eigen::Infinity>());

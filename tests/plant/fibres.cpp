@@ -105,7 +105,7 @@ TEST_P(Pulled, SoftTissueGivesAsItShould) {
     def.organs = &organ;
     def.organ_count = 1;
     const auto model = build_from_stems(&stem, 1, def);
-    ASSERT_FALSE(make_fibres(*model).list.empty());
+    ASSERT_FALSE(make_fibres(*model, 1).list.empty());
     double force;
     const double stretched = drawn(*plant_of(model, GetParam()), {0, 0.3, 0}, 4, force) - 1;
     const double expected = force / (YOUNG * M_PI * RADIUS * RADIUS);
@@ -129,13 +129,13 @@ TEST_P(Pulled, SlackFibresChangeNoBit) {
 }
 
 TEST(Fibres, AreForCagesThatLackThem) {
-    EXPECT_GT(make_fibres(*blade(5e8, 3e-4)).list.size(), 4u);
+    EXPECT_GT(make_fibres(*blade(5e8, 3e-4), 1).list.size(), 4u);
     EXPECT_TRUE(plant_of(blade(5e8, 3e-4), FROND_TET_COROTATIONAL)->fibres);
     EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_TET_LINEAR)->fibres);  // grows when it turns
     EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_ROD)->fibres);
     Model tet;
     tet.calibrated = false;
-    EXPECT_TRUE(make_fibres(tet).list.empty());
+    EXPECT_TRUE(make_fibres(tet, 1).list.empty());
 }
 
 }  // namespace

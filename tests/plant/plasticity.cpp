@@ -189,7 +189,7 @@ TEST(PlasticityOfTets, IsHandedToOtherTets) {
 TEST(PlasticityOfTets, BeginsAtOneEnergyWhateverTheirModuli) {
     const auto model = stem_model(0.02, 0, FROND_REST_WITHOUT_GRAVITY);
     const auto soft = mechanics(FROND_TET_LINEAR).make(*model, FROND_TET_LINEAR);
-    model->rest_shapes->stiffer[FROND_TET_LINEAR].assign(model->cage.tets.size(), 4);
+    model->rest_shapes->stiffer[0][FROND_TET_LINEAR].assign(model->cage.tets.size(), 4);
     const auto stiff = mechanics(FROND_TET_LINEAR).make(*model, FROND_TET_LINEAR);
     ASSERT_EQ(soft->yields.size(), model->cage.tets.size());
     for (size_t e = 0; e < soft->yields.size(); ++e)

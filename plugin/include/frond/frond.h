@@ -497,8 +497,8 @@ typedef struct frond_plant_def {
     /* Of the displacements within a tet, 1 (default) or 2. Linear tets are quick and lock: one cell across and five
      * times as long as thick bends 3 % of what it should, which a cage made by Frond is calibrated for and the caller's
      * own tets are not. Quadratic tets have a node in the middle of each edge too and bend such cells within 5 %, with
-     * some twenty times the work a step. For tets of your own (frond_model_from_tets, .msh, .vtk) only: the cages that
-     * Frond makes are calibrated for order 1, and UNSUPPORTED says so. Chain mechanics move alike with both. */
+     * some twenty times the work a step. Cages that Frond makes are fitted to their rods anew when a plant
+     * first asks for order 2, which takes some seconds. Chain mechanics move alike with both. */
     int element_order;
     frond_integrator integrator;       /* default FROND_BDF2 */
     frond_linear_solver linear_solver; /* default FROND_DIRECT */

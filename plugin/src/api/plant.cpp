@@ -119,10 +119,6 @@ frond_result frond_plant_create(frond_world world, frond_model model, const fron
         World& w = get(world);
         const std::shared_ptr<const Model> m = get(model);
         check_plant_def(def);
-        if (def->element_order == 2 && m->calibrated)
-            fail(FROND_UNSUPPORTED,
-                 "def.element_order is 2, but this model's cage is calibrated for order 1; use order 1, or give your "
-                 "own tets with frond_model_from_tets");
         PlantBody* body = add_plant(w, create_plant(m, *def));
         body->handle.id = plant_slots().insert(body);
         if (!body->handle.id) {

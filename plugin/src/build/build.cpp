@@ -57,9 +57,9 @@ static void build_body(Model& model, const frond_model_def& def) {
     model.stands_as_modelled = def.rest == FROND_REST_STANDS_AS_MODELLED;
     WeakOrgan weak;
     if (model.stands_as_modelled) weak = strengthen(model);
-    calibrate(model);
+    calibrate(model, 1);
     if (!model.stands_as_modelled) return;
-    tell_stiffened(model, weak, find_rest_shape(model));
+    tell_stiffened(model, weak, find_rest_shape(model, 1));
 }
 
 static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def, const Timer& total) {

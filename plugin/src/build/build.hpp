@@ -22,14 +22,14 @@ struct WeakOrgan {
 WeakOrgan strengthen(Model& model);
 
 // Set tet_young and tet_poisson of a model whose organs, cage and root stand: as the materials are, for tets that the
-// caller brought; or so that a cage of Frond's own bends as its organs do.
+// caller brought; or so that a cage of Frond's own, in elements of an order, bends as its organs do.
 void take_materials(Model& model);
-void calibrate(Model& model);
+void calibrate(Model& model, int order);
 
 // Finds the shape without gravity from which weight bends the cage to the shape that was modelled, for the default
 // mechanics; where the cage would topple, after making organs stiffer in it, which returns the weakest.
-WeakOrgan find_rest_shape(Model& model);
-// For other mechanics, when a plant first asks for it; safe from any thread.
-void ensure_rest_shape(const Model& model, frond_mechanics which);
+WeakOrgan find_rest_shape(Model& model, int order);
+// For other mechanics, and with order 2 the moduli too, when a plant first asks for it; safe from any thread.
+void ensure_rest_shape(const Model& model, frond_mechanics which, int order);
 
 }  // namespace frond

@@ -34,15 +34,15 @@ static void take_moduli(Model& model, const LoneOrgan& lone) {
     for (size_t e = 0; e < lone.tets.size(); e++) model.tet_young[lone.tets[e]] = lone.model.tet_young[e];
 }
 
-void calibrate(Model& model) {
+void calibrate(Model& model, int order) {
     take_materials(model);  // the rule of mixtures, to begin with
     const std::vector<int> hangs = hang_tets(model);
     std::vector<char> alone;
     for (LoneOrgan& lone : take_organs(model)) {
-        alone.push_back(lone.is_sound() && fit_moduli(lone, model, hangs, 1));
+        alone.push_back(lone.is_sound() && fit_moduli(lone, model, hangs, order));
         if (alone.back()) take_moduli(model, lone);
     }
-    calibrate_together(model, alone);
+    calibrate_together(model, alone, order);
     model.calibrated = true;
 }
 

@@ -35,32 +35,36 @@ double cage_energy(const Model& model, const TetElements& elements, const VecX& 
     double sum = 0;
     for (size_t e = 0; e < elements.tets.size(); e++) {
         if (left_out[size_t(model.cage.tet_organ[e])]) continue;
-        const Mat3 F = deformation_gradient(elements, e, moved), strain = 0.5 * (F + F.transpose());
-        const double trace = strain.trace();
-        sum += elements.volume[e] * (elements.mu[e] * strain.squaredNorm() + 0.5 * elements.lambda[e] * trace * trace);
+        take_gradients(elements, e, moved, [&](const TetShare& share, const Mat3& F) {
+            const double swelling = F.trace();
+            sum += share.volume * (share.mu * (0.5 * (F + F.transpose())).squaredNorm() +
+                                   0.5 * share.lambda * swelling * swelling);
+        });
     }
     return sum;
 }
 
 }  // namespace
 
-void calibrate_together(Model& model, const std::vector<char>& alone) {
+void calibrate_together(Model& model, const std::vector<char>& alone, int order) {
     constexpr int ROUNDS = 4;
     constexpr double LARGEST_FACTOR = 1e6;  // of a modulus in a round [-]
     if (std::all_of(alone.begin(), alone.end(), [](char is) { return is; })) return;
     double rods = 0;
     for (int axis = 0; axis < 3; axis++) rods += rod_energy(model, axis, alone);
-    TetElements elements = make_tet_elements(model);
+    TetElements elements = make_tet_elements(model, nullptr, order);
     StaticStiffness stiffness(elements.pattern);
-    const VecX masses = mechanics(FROND_TET_LINEAR).masses(elements, FROND_LUMPED).node;
+    const Mechanics& row = mechanics(FROND_TET_LINEAR, order);
+    const std::vector<uint8_t> held = with_middles(elements.nodes, model.root);
+    const VecX masses = row.masses(elements, FROND_LUMPED).node;
     VecX load(elements.rest_positions.size()), moved(load.size());
     for (int round = 0; round < ROUNDS; round++) {
-        if (!stiffness.set(elements, model.root, FROND_TET_LINEAR, Tangent::positive, elements.rest_positions)) return;
+        if (!stiffness.set(elements, held, row, Tangent::positive, elements.rest_positions)) return;
         double cage = 0;
         for (int axis = 0; axis < 3; axis++) {
             load.setZero();
-            for (size_t i = 0; i < model.root.size(); i++)
-                if (!model.root[i]) load[3 * Eigen::Index(i) + axis] = GRAVITY * masses[Eigen::Index(i)];
+            for (size_t i = 0; i < held.size(); i++)
+                if (!held[i]) load[3 * Eigen::Index(i) + axis] = GRAVITY * masses[Eigen::Index(i)];
             solve(*stiffness.factor, load, moved);
             cage += cage_energy(model, elements, moved, alone);
         }

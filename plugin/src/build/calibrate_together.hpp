@@ -6,6 +6,6 @@
 namespace frond {
 
 // Scales tet_young of all organs but those that were calibrated `alone`, one an organ.
-void calibrate_together(Model& model, const std::vector<char>& alone);
+void calibrate_together(Model& model, const std::vector<char>& alone, int order);
 
 }  // namespace frond

@@ -8,13 +8,6 @@
 namespace frond {
 namespace {
 
-// With middles of edges between two held nodes.
-std::vector<uint8_t> held_nodes(const LoneOrgan& lone, const TetElements& elements) {
-    std::vector<uint8_t> held = lone.model.root;
-    for (const Edge& edge : elements.nodes.edges) held.push_back(held[size_t(edge[0])] && held[size_t(edge[1])]);
-    return held;
-}
-
 // Volume around each of an organ's nodes of those tets that hang on the chain within `reach` of a place.
 std::map<int, double> nodes_near(const LoneOrgan& lone, const Model& plant, const std::vector<int>& hangs,
                                  const Vec3& place, double reach) {
@@ -91,7 +84,7 @@ CageLoads cage_loads(const LoneOrgan& lone, const TetElements& elements, const M
     for (int node = 0; node < elements.node_count; node++)
         for (int axis = 0; axis < 3; axis++)
             loads.col(WEIGHT + axis).segment<3>(3 * node) = masses[node] * places.frame.col(axis);
-    const std::vector<uint8_t> held = held_nodes(lone, elements);
+    const std::vector<uint8_t> held = with_middles(elements.nodes, lone.model.root);
     for (size_t node = 0; node < held.size(); node++)
         if (held[node]) loads.middleRows<3>(3 * Eigen::Index(node)).setZero();
     return loads;
@@ -100,8 +93,8 @@ CageLoads cage_loads(const LoneOrgan& lone, const TetElements& elements, const M
 std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElements& elements,
                                          StaticStiffness& stiffness, const CageLoads& loads) {
     const int order = elements.nodes.order;
-    if (!stiffness.set(elements, held_nodes(lone, elements), mechanics(FROND_TET_LINEAR, order), Tangent::positive,
-                       elements.rest_positions))
+    if (!stiffness.set(elements, with_middles(elements.nodes, lone.model.root), mechanics(FROND_TET_LINEAR, order),
+                       Tangent::positive, elements.rest_positions))
         return {};
     std::array<VecX, LOAD_COUNT> moves;
     for (int l = 0; l < LOAD_COUNT; l++) {

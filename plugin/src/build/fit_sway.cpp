@@ -68,14 +68,19 @@ RodSways find_sways(const Model& model, const RodElements& elements, frond_mecha
 
 // Twice the elastic energy of each tet in a motion from x, one a tet.
 static VecX energies_of(const TetElements& elements, frond_mechanics which, const VecX& x, const VecX& shape) {
-    VecX energies(Eigen::Index(elements.tets.size()));
+    VecX energies = VecX::Zero(Eigen::Index(elements.tets.size()));
     for (size_t e = 0; e < elements.tets.size(); e++) {
-        Mat3 gradient = deformation_gradient(elements, e, shape);
-        if (which != FROND_TET_LINEAR)
-            gradient = (polar_decomposition(deformation_gradient(elements, e, x)).rotation.transpose() * gradient).eval();
-        const Mat3 strain = 0.5 * (gradient + gradient.transpose());
-        energies[Eigen::Index(e)] = elements.volume[e] * (2 * elements.mu[e] * strain.squaredNorm() +
-                                                          elements.lambda[e] * strain.trace() * strain.trace());
+        std::vector<Mat3> turned;  // one a point
+        take_gradients(elements, e, x, [&](const TetShare&, const Mat3& F) {
+            turned.push_back(which == FROND_TET_LINEAR ? Mat3(Mat3::Identity()) : polar_decomposition(F).rotation);
+        });
+        size_t q = 0;
+        take_gradients(elements, e, shape, [&](const TetShare& share, const Mat3& change) {
+            const Mat3 gradient = turned[q++].transpose() * change;
+            const Mat3 strain = 0.5 * (gradient + gradient.transpose());
+            energies[Eigen::Index(e)] += share.volume * (2 * share.mu * strain.squaredNorm() +
+                                                         share.lambda * strain.trace() * strain.trace());
+        });
     }
     return energies;
 }
@@ -85,7 +90,7 @@ SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanic
     constexpr double FARTHEST = 1.8;      // in all, of a logarithm [-]
     constexpr double LARGEST_STEP = 0.7;  // of a logarithm [-]
     constexpr double RIGID = 0.01;        // what a change counts beside an error [-]
-    const VecX mass = mechanics(which).masses(elements, FROND_LUMPED).node;
+    const VecX mass = mechanics(which, elements.nodes.order).masses(elements, FROND_LUMPED).node;
     const std::array<Sway, 2> sways = first_sways(stiffness, mass, still);
     VecX errors = VecX::Zero(Eigen::Index(sways.size()));
     MatX slope = MatX::Zero(errors.size(), Eigen::Index(elements.tets.size()));

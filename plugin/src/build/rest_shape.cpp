@@ -14,33 +14,34 @@
 #include "build/toppling.hpp"
 #include "mechanics/rod_elements.hpp"
 #include "mechanics/tet_element.hpp"
-#include "model/tet_geometry.hpp"
 
 namespace frond {
 namespace {
 
-VecX modelled_positions(const Model& model) {
-    VecX x(3 * Eigen::Index(model.cage.nodes.size()));
-    for (size_t i = 0; i < model.cage.nodes.size(); i++) point(x, int(i)) = model.cage.nodes[i];
-    return x;
-}
-
-double edge_length(const VecX& x, const Tet& tet) {
-    return std::max({(point(x, tet[1]) - point(x, tet[0])).norm(), (point(x, tet[2]) - point(x, tet[0])).norm(),
-                     (point(x, tet[3]) - point(x, tet[0])).norm()});
-}
-
-// The longest part of a move of the rest shape that keeps every tet above a third of its volume and does not draw it
-// out to a needle, which has no inverse; 0 if none does, and then the organ that weight tears.
-double longest_move(const Model& model, const VecX& x, const VecX& rest, const VecX& move, int& torn) {
+// Whether a tet that is moved at rest keeps, at each of its points, more than a third of its volume as modelled, and is
+// not drawn out.
+template <class Element>
+bool is_sound(const TetElements& elements, size_t e, const VecX& moved) {
     constexpr double LONGEST = 10;  // of an edge, over its length in the modelled shape [-]
+    const auto now = Element::places(elements, e, moved), before = Element::places(elements, e, elements.modelled);
+    for (int q = 0; q < Element::POINTS; q++) {
+        const Mat3 a = Element::edges(now, q), b = Element::edges(before, q);
+        if (!(a.determinant() / b.determinant() > 1.0 / 3) ||
+            !(a.colwise().norm().maxCoeff() < LONGEST * b.colwise().norm().maxCoeff()))
+            return false;
+    }
+    return true;
+}
+
+// The longest part of a move of the rest shape that leaves every tet sound, since a flat one or a needle has no
+// inverse; 0 if none does, and then the organ that weight tears.
+double longest_move(const Model& model, const TetElements& elements, const VecX& move, int& torn) {
     for (double share = 1; share > 0.01; share /= 2) {
-        const VecX moved = rest + share * move;
+        const VecX moved = elements.rest_positions + share * move;
         bool good = moved.allFinite();
-        for (size_t e = 0; e < model.cage.tets.size() && good; e++) {
-            const Tet& tet = model.cage.tets[e];
-            good = tet_volume(moved, tet) > tet_volume(x, tet) / 3 &&
-                   edge_length(moved, tet) < LONGEST * edge_length(x, tet);
+        for (size_t e = 0; e < elements.tets.size() && good; e++) {
+            good = elements.nodes.order == 1 ? is_sound<LinearTet>(elements, e, moved)
+                                             : is_sound<QuadraticTetElement>(elements, e, moved);
             if (!good) torn = model.cage.tet_organ[e];
         }
         if (good) return share;
@@ -51,21 +52,23 @@ double longest_move(const Model& model, const VecX& x, const VecX& rest, const V
 // A rest shape with its elements, and the stiffness that moves it.
 struct Search {
     const Model& model;
-    std::vector<uint8_t> held;
     frond_mechanics which;
-    VecX x, rest;
+    const Mechanics& row;
     TetElements elements;
+    std::vector<uint8_t> held;
+    VecX x, rest;
     StaticStiffness stiffness;
     RestSystem system;
     int torn = -1;  // the organ at which a balance failed
 
-    Search(const Model& model, frond_mechanics which)
+    Search(const Model& model, frond_mechanics which, int order)
         : model(model),
-          held(find_held_nodes(model.cage, model.root)),
           which(which),
-          x(modelled_positions(model)),
+          row(mechanics(which, order)),
+          elements(make_tet_elements(model, nullptr, order)),
+          held(with_middles(elements.nodes, find_held_nodes(model.cage, model.root))),
+          x(elements.modelled),
           rest(x),
-          elements(make_tet_elements(model)),
           stiffness(elements.pattern),
           system(elements, held) {}
     Search(const Search&) = delete;
@@ -85,14 +88,16 @@ struct Search {
 };
 
 // Of the node that moves farthest; -1 if none moves.
-int organ_of_largest(const Model& model, const VecX& move) {
+int organ_of_largest(const Model& model, const TetElements& elements, const VecX& move) {
     int node = 0;
     for (int i = 1; i < move.size() / 3; i++)
         if (point(move, i).squaredNorm() > point(move, node).squaredNorm()) node = i;
     if (point(move, node).isZero(0)) return -1;
-    for (size_t e = 0; e < model.cage.tets.size(); e++)
-        for (int corner : model.cage.tets[e])
-            if (corner == node) return model.cage.tet_organ[e];
+    for (size_t e = 0; e < model.cage.tets.size(); e++) {
+        const ElementNodes nodes = element_nodes(elements, e);
+        if (std::find(nodes.node, nodes.node + nodes.count, node) != nodes.node + nodes.count)
+            return model.cage.tet_organ[e];
+    }
     return -1;
 }
 
@@ -108,7 +113,7 @@ bool balance(Search& search, double gravity) {
     for (int round = 0; round < ROUNDS; round++) {
         const VecX force = unbalanced_force(search.elements, search.held, search.which, search.x, gravity);
         if (!search.system.find_move(search.elements, search.which, search.x, gravity, force, move)) break;
-        const double share = longest_move(search.model, search.x, search.rest, move, search.torn);
+        const double share = longest_move(search.model, search.elements, move, search.torn);
         if (share < LEAST_SHARE) {
             search.move_to(start);
             return false;
@@ -118,7 +123,7 @@ bool balance(Search& search, double gravity) {
         if (share == 1 && sizes.back() < TOLERANCE * search.model.surface.size()) return true;
         if (round >= 2 * PATIENCE && !(sizes.back() < 0.5 * sizes[size_t(round - PATIENCE)])) break;
     }
-    search.torn = organ_of_largest(search.model, move);
+    search.torn = organ_of_largest(search.model, search.elements, move);
     search.move_to(start);
     return false;
 }
@@ -135,15 +140,23 @@ struct Outcome {
 TetElements take_organ(const TetElements& all, const std::vector<int>& tet_organ, int organ) {
     TetElements one;
     one.node_count = all.node_count;
+    one.nodes.order = all.nodes.order;
+    const size_t points = all.rest_inverse.size() / all.tets.size();
+    const auto take = [&](const auto& from, auto& to, size_t e, size_t count = 1) {
+        if (!from.empty()) to.insert(to.end(), from.begin() + long(e * count), from.begin() + long((e + 1) * count));
+    };
     for (size_t e = 0; e < all.tets.size(); e++) {
         if (tet_organ[e] != organ) continue;
-        one.tets.push_back(all.tets[e]);
-        one.ordered.push_back(all.ordered[e]);
-        one.rest_inverse.push_back(all.rest_inverse[e]);
-        one.volume.push_back(all.volume[e]);
-        one.lambda.push_back(all.lambda[e]);
-        one.mu.push_back(all.mu[e]);
-        one.slots.push_back(all.slots[e]);
+        take(all.tets, one.tets, e);
+        take(all.ordered, one.ordered, e);
+        take(all.nodes.of_tet, one.nodes.of_tet, e);
+        take(all.rest_inverse, one.rest_inverse, e, points);
+        take(all.point_volume, one.point_volume, e, points);
+        take(all.volume, one.volume, e);
+        take(all.lambda, one.lambda, e);
+        take(all.mu, one.mu, e);
+        take(all.slots, one.slots, e);
+        take(all.quadratic_slots, one.quadratic_slots, e);
     }
     return one;
 }
@@ -152,8 +165,8 @@ TetElements take_organ(const TetElements& all, const std::vector<int>& tet_organ
 Outcome find_outcome(Search& search) {
     BlockMatrix taken;
     taken.set_pattern(search.elements.pattern);
-    take_by_weight(search.elements, search.which, search.x, taken);
-    if (!search.stiffness.set(search.elements, search.held, search.which, Tangent::positive, search.x)) return {};
+    take_by_weight(search.elements, search.row, search.x, taken);
+    if (!search.stiffness.set(search.elements, search.held, search.row, Tangent::positive, search.x)) return {};
     const Toppling toppling = find_toppling(search.stiffness, taken, search.held);
     if (toppling.mode.size() == 0) return {};
     Outcome outcome;
@@ -162,8 +175,8 @@ Outcome find_outcome(Search& search) {
     outcome.shares = find_shares(toppling, search.stiffness, taken, search.held, search.model.organs.size(),
                                  [&](size_t organ, BlockMatrix& resists) {
                                      const auto& tet_organ = search.model.cage.tet_organ;
-                                     mechanics(search.which)
-                                         .add_stiffness(take_organ(search.elements, tet_organ, int(organ)), search.x,
+                                     search.row.add_stiffness(
+                                         take_organ(search.elements, tet_organ, int(organ)), search.x,
                                                         Tangent::positive, 1, resists);
                                  });
     return outcome;
@@ -184,7 +197,7 @@ Outcome search_rest_shape(Search& search, double margin = 1) {
             if (step < SMALLEST_STEP) return {VecX(), {}, 1, search.torn};
         }
     }
-    const bool stands = search.stiffness.set(search.elements, search.held, search.which, Tangent::exact, search.x);
+    const bool stands = search.stiffness.set(search.elements, search.held, search.row, Tangent::exact, search.x);
     if (stands && margin == 1) return {search.rest, {}, 1, -1};
     Outcome outcome = find_outcome(search);
     outcome.overload *= margin;
@@ -200,7 +213,7 @@ VecX fit_sway(Search& search, const RodSways& rods) {
     constexpr double LEAST_SHARE = 0.1;  // of a change [-]
     VecX done = VecX::Zero(Eigen::Index(search.elements.tets.size()));
     const auto find = [&] {
-        if (!search.stiffness.set(search.elements, search.held, search.which, Tangent::exact, search.x))
+        if (!search.stiffness.set(search.elements, search.held, search.row, Tangent::exact, search.x))
             return SwayGap{INFINITY, {}};
         return find_gap(search.model, search.elements, search.which, search.x, *search.stiffness.factor, search.held, rods,
                         done);
@@ -226,29 +239,30 @@ VecX fit_sway(Search& search, const RodSways& rods) {
 }
 
 // The largest strain in each organ's tets under the plant's weight, linearly [-]; empty if the root does not hold it.
-std::vector<double> organ_strains(const Model& model) {
-    Search search(model, FROND_TET_LINEAR);
+std::vector<double> organ_strains(const Model& model, int order) {
+    Search search(model, FROND_TET_LINEAR, order);
     const TetElements& elements = search.elements;
     const VecX force = unbalanced_force(elements, search.held, FROND_TET_LINEAR, search.x, GRAVITY);
-    if (!search.stiffness.set(elements, search.held, FROND_TET_LINEAR, Tangent::positive, search.x)) return {};
+    if (!search.stiffness.set(elements, search.held, search.row, Tangent::positive, search.x)) return {};
     VecX u(force.size());
     solve(*search.stiffness.factor, force, u);
     std::vector<double> strains(model.organs.size(), 0.0);
     for (size_t e = 0; e < elements.tets.size(); e++) {
-        const Mat3 gradient = deformation_gradient(elements, e, u);
         double& strain = strains[size_t(model.cage.tet_organ[e])];
-        strain = std::max(strain, 0.5 * (gradient + gradient.transpose()).norm());
+        take_gradients(elements, e, u, [&](const TetShare&, const Mat3& gradient) {
+            strain = std::max(strain, 0.5 * (gradient + gradient.transpose()).norm());
+        });
     }
     return strains;
 }
 
 // Organs that weight would tear apart in the cage, loose bits that hang on a corner, are made stiffer by themselves, so
 // that the rest of the plant need not be.
-void stiffen_torn_organs(Model& model) {
+void stiffen_torn_organs(Model& model, int order) {
     constexpr double LARGEST_STRAIN = 0.35;
     constexpr int ROUNDS = 3;
     for (int round = 0; round < ROUNDS; round++) {
-        const std::vector<double> strains = organ_strains(model);
+        const std::vector<double> strains = organ_strains(model, order);
         bool torn = false;
         for (size_t e = 0; e < model.tet_young.size() && !strains.empty(); e++) {
             const double strain = strains[size_t(model.cage.tet_organ[e])];
@@ -276,7 +290,7 @@ static void stiffen_toppling_organs(Model& model, const Outcome& outcome, std::v
         if (stiffer[o] > 1) stiffen(model, o, stiffer[o], factor);
 }
 
-WeakOrgan find_rest_shape(Model& model) {
+WeakOrgan find_rest_shape(Model& model, int order) {
     // The default mechanics decides how stiff the cage has to be.
     constexpr double STIFFER = 2, MARGIN = 1.3;
     constexpr int MOST_TRIES = 40;
@@ -285,8 +299,8 @@ WeakOrgan find_rest_shape(Model& model) {
     const bool given = std::any_of(model.organs.begin(), model.organs.end(),
                                    [](const Organ& organ) { return organ.material_given; });
     const double margin = given ? 1 : MARGIN;
-    stiffen_torn_organs(model);
-    auto search = std::make_unique<Search>(model, FROND_TET_COROTATIONAL);
+    stiffen_torn_organs(model, order);
+    auto search = std::make_unique<Search>(model, FROND_TET_COROTATIONAL, order);
     Outcome outcome = search_rest_shape(*search, margin);
     for (int i = 0; i < MOST_TRIES && outcome.rest.size() == 0; i++) {
         if (!outcome.shares.empty())
@@ -295,32 +309,48 @@ WeakOrgan find_rest_shape(Model& model) {
             stiffen(model, size_t(outcome.torn), STIFFER, factor);
         else
             for (size_t o = 0; o < factor.size(); o++) stiffen(model, o, STIFFER, factor);
-        search = std::make_unique<Search>(model, FROND_TET_COROTATIONAL);
+        search = std::make_unique<Search>(model, FROND_TET_COROTATIONAL, order);
         outcome = search_rest_shape(*search, margin);
     }
     if (outcome.rest.size() > 0) {
         const VecX change = fit_sway(*search, find_sways(model, make_rod_elements(model, FROND_ROD), FROND_ROD));
         for (size_t e = 0; e < model.tet_young.size(); e++) model.tet_young[e] *= std::exp(change[Eigen::Index(e)]);
-        model.rest_shapes->positions[FROND_TET_COROTATIONAL] = search->rest;
+        model.rest_shapes->positions[size_t(order - 1)][FROND_TET_COROTATIONAL] = search->rest;
     }
-    model.rest_shapes->known[FROND_TET_COROTATIONAL] = true;
+    model.rest_shapes->known[size_t(order - 1)][FROND_TET_COROTATIONAL] = true;
     const size_t weakest = size_t(std::max_element(factor.begin(), factor.end()) - factor.begin());
     return {model.organs[weakest].name, factor[weakest]};
 }
 
-void ensure_rest_shape(const Model& model, frond_mechanics which) {
+// A cage of Frond's own is fitted to each order of its elements.
+static void fit_to_order(const Model& model, int order) {
+    Model fitted = model;
+    fitted.rest_shapes = std::make_shared<RestShapes>();
+    calibrate(fitted, order);
+    if (model.stands_as_modelled) find_rest_shape(fitted, order);
+    RestShapes& shapes = *model.rest_shapes;
+    const size_t row = size_t(order - 1);
+    shapes.known[row] = fitted.rest_shapes->known[row];
+    shapes.positions[row] = fitted.rest_shapes->positions[row];
+    shapes.quadratic_young = fitted.tet_young;
+}
+
+void ensure_rest_shape(const Model& model, frond_mechanics which, int order) {
     RestShapes& shapes = *model.rest_shapes;
     std::lock_guard<std::mutex> lock(shapes.mutex);
-    if (shapes.known[size_t(which)]) return;
-    shapes.known[size_t(which)] = true;
+    const bool moves_chain = mechanics(which).moves_chain;
+    if (order == 2 && !moves_chain && model.calibrated && shapes.quadratic_young.empty()) fit_to_order(model, order);
+    const size_t row = moves_chain ? 0 : size_t(order - 1);
+    if (shapes.known[row][size_t(which)]) return;
+    shapes.known[row][size_t(which)] = true;
     if (which == FROND_SPRING_CHAIN) shapes.springs = fit_springs(model);
-    if (!model.stands_as_modelled || mechanics(which).moves_chain) return;
-    Search search(model, which);
+    if (!model.stands_as_modelled || moves_chain) return;
+    Search search(model, which, order);
     if (search_rest_shape(search).rest.size() == 0) return;
     const VecX change = fit_sway(search, find_sways(model, make_rod_elements(model, FROND_ROD), FROND_ROD));
-    std::vector<double>& stiffer = shapes.stiffer[size_t(which)];
+    std::vector<double>& stiffer = shapes.stiffer[row][size_t(which)];
     for (size_t e = 0; e < model.tet_young.size(); e++) stiffer.push_back(std::exp(change[Eigen::Index(e)]));
-    shapes.positions[size_t(which)] = search.rest;
+    shapes.positions[row][size_t(which)] = search.rest;
 }
 
 }  // namespace frond

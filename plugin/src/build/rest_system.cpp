@@ -10,9 +10,13 @@ namespace frond {
 VecX unbalanced_force(const TetElements& elements, const std::vector<uint8_t>& held, frond_mechanics which,
                       const VecX& x, double gravity) {
     VecX f = VecX::Zero(x.size());
-    for (size_t e = 0; e < elements.tets.size(); e++)
-        for (int corner : elements.tets[e]) f[3 * corner + 1] -= gravity * elements.density[e] * elements.volume[e] / 4;
-    mechanics(which).add_force(elements, x, f);
+    for (size_t e = 0; e < elements.tets.size(); e++) {
+        const ElementNodes nodes = element_nodes(elements, e);
+        const double weight = gravity * elements.density[e] * elements.volume[e];
+        for (size_t n = 0; n < nodes.count; n++)
+            f[3 * nodes.node[n] + 1] -= lumped_share(elements.nodes.order, n) * weight;
+    }
+    mechanics(which, elements.nodes.order).add_force(elements, x, f);
     for (size_t i = 0; i < held.size(); i++)
         if (held[i]) point(f, int(i)).setZero();
     return f;
@@ -21,7 +25,8 @@ VecX unbalanced_force(const TetElements& elements, const std::vector<uint8_t>& h
 struct RestSystem::Inside {
     std::vector<uint8_t> held;
     Eigen::SparseMatrix<double> J;
-    std::vector<std::array<int, 16>> places;  // where an element's block (a, b) stands in its column, at [4 a + b]
+    // Where an element's block (a, b) of n nodes stands in its column, at [n a + b].
+    std::vector<std::vector<int>> places;
     Eigen::SparseLU<Eigen::SparseMatrix<double>> lu;
 
     // Adds a block of a free node's force by a free node's move.
@@ -54,12 +59,13 @@ RestSystem::RestSystem(const TetElements& elements, std::vector<uint8_t> held) :
         for (int node : neighbours[size_t(column / 3)])
             for (int r = 0; r < 3; r++) J.insert(3 * node + r, column) = 0;
     J.makeCompressed();
-    for (const Tet& tet : elements.ordered) {
-        std::array<int, 16>& places = inside->places.emplace_back();
-        for (size_t a = 0; a < 4; a++)
-            for (size_t b = 0; b < 4; b++) {
-                const std::vector<int>& list = neighbours[size_t(tet[b])];
-                places[4 * a + b] = int(std::lower_bound(list.begin(), list.end(), tet[a]) - list.begin());
+    for (size_t e = 0; e < elements.tets.size(); e++) {
+        const ElementNodes nodes = element_nodes(elements, e);
+        std::vector<int>& places = inside->places.emplace_back();
+        for (size_t a = 0; a < nodes.count; a++)
+            for (size_t b = 0; b < nodes.count; b++) {
+                const std::vector<int>& list = neighbours[size_t(nodes.node[b])];
+                places.push_back(int(std::lower_bound(list.begin(), list.end(), nodes.node[a]) - list.begin()));
             }
     }
     inside->lu.analyzePattern(J);
@@ -71,26 +77,21 @@ bool RestSystem::find_move(const TetElements& elements, frond_mechanics which, c
                            const VecX& unbalanced, VecX& move) {
     Inside& in = *inside;
     std::fill(in.J.valuePtr(), in.J.valuePtr() + in.J.nonZeros(), 0.0);
+    const int order = elements.nodes.order;
+    std::vector<Mat3> blocks;
+    std::vector<Vec3> slopes;
     for (size_t e = 0; e < elements.tets.size(); e++) {
-        const RestDerivative d = mechanics(which).rest_derivative(elements, e, x);
-        // Forces of the corners add up to nothing, and moving all alike changes nothing.
-        Mat3 block[4][4];
-        for (auto& row : block)
-            for (Mat3& one : row) one.setZero();
-        for (size_t a = 1; a < 4; a++)
-            for (size_t b = 1; b < 4; b++) {
-                block[a][b] = d[a - 1][b - 1];
-                block[0][b] -= d[a - 1][b - 1];
+        mechanics(which, order).rest_derivative(elements, e, x, blocks);
+        // Every node bears its share of the weight, which grows with the volume at rest.
+        volume_slopes(elements, e, slopes);
+        const double weight = gravity * elements.density[e];
+        const ElementNodes nodes = element_nodes(elements, e);
+        for (size_t a = 0; a < nodes.count; a++)
+            for (size_t b = 0; b < nodes.count; b++) {
+                const size_t at = nodes.count * a + b;
+                blocks[at].row(1) -= lumped_share(order, a) * weight * slopes[b].transpose();
+                in.add(nodes.node[a], nodes.node[b], in.places[e][at], blocks[at]);
             }
-        // Every corner bears a quarter of the weight, which grows with the volume at rest.
-        const double weight = gravity * elements.density[e] * elements.volume[e] / 4;
-        for (auto& row : block)
-            for (size_t b = 1; b < 4; b++) row[b].row(1) -= weight * elements.rest_inverse[e].row(Eigen::Index(b) - 1);
-        const Tet& tet = elements.ordered[e];
-        for (size_t a = 0; a < 4; a++) {
-            block[a][0] = -(block[a][1] + block[a][2] + block[a][3]);
-            for (size_t b = 0; b < 4; b++) in.add(tet[a], tet[b], in.places[e][4 * a + b], block[a][b]);
-        }
     }
     for (size_t i = 0; i < in.held.size(); i++)
         if (in.held[i])

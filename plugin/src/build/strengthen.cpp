@@ -70,7 +70,7 @@ struct Standing {
         : elements(std::move(rods)), weaker(elements), resisting(elements.pattern) {
         held = still_nodes(model, elements, true);
         taken.set_pattern(elements.pattern);
-        take_by_weight(elements, which, elements.modelled, taken);
+        take_by_weight(elements, mechanics(which), elements.modelled, taken);
         for (RodSegment& segment : weaker.segments) {
             const double s = safety[size_t(model.chain.nodes[size_t(segment.b)].organ)];
             segment.stretch /= s;

@@ -23,9 +23,7 @@ std::vector<uint8_t> still_nodes(const Model& model, const Elements& elements, b
     std::vector<uint8_t> held = find_held_nodes(model.cage, model.root);
     // A foot so slender that it counts as a hinge holds nothing: then it is taken at its word.
     if (std::all_of(held.begin(), held.end(), [](uint8_t h) { return h; })) held = model.root;
-    for (const Edge& edge : static_cast<const TetElements&>(elements).nodes.edges)
-        held.push_back(held[size_t(edge[0])] && held[size_t(edge[1])]);
-    return held;
+    return with_middles(static_cast<const TetElements&>(elements).nodes, held);
 }
 
 // Every node's mass times its move; nothing of those that do not sway.

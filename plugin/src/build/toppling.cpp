@@ -5,10 +5,10 @@
 
 namespace frond {
 
-void take_by_weight(const Elements& elements, frond_mechanics which, const VecX& x, BlockMatrix& taken) {
+void take_by_weight(const Elements& elements, const Mechanics& row, const VecX& x, BlockMatrix& taken) {
     taken.set_zero();
-    mechanics(which).add_stiffness(elements, x, Tangent::positive, 1, taken);
-    mechanics(which).add_stiffness(elements, x, Tangent::exact, -1, taken);
+    row.add_stiffness(elements, x, Tangent::positive, 1, taken);
+    row.add_stiffness(elements, x, Tangent::exact, -1, taken);
 }
 
 void hold(const std::vector<uint8_t>& held, VecX& x) {

@@ -15,7 +15,7 @@ struct Toppling {
 };
 
 // What weight takes from a body's stiffness at x: the positive one less the exact one.
-void take_by_weight(const Elements& elements, frond_mechanics which, const VecX& x, BlockMatrix& taken);
+void take_by_weight(const Elements& elements, const Mechanics& row, const VecX& x, BlockMatrix& taken);
 
 // Sets the three numbers of each held node to zero.
 void hold(const std::vector<uint8_t>& held, VecX& x);

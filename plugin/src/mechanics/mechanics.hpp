@@ -33,7 +33,6 @@ protected:
     Elements& operator=(Elements&&) = default;
 };
 
-// Nodes are the cage's, with order 2 the middles of its edges too. Edges are straight at rest.
 // What of the deformation at a point of integration is lasting: F = F_e F_p.
 struct TetLasting {
     Mat3 rest_inverse;  // the tet's, times F_p^-1 [1/m]
@@ -41,12 +40,16 @@ struct TetLasting {
     double hardening;   // see elastic_share()
 };
 
+// Nodes are the cage's, with order 2 the middles of its edges too. At rest those edges may be curved, so that each of
+// an element's points of integration has a volume and an inverse of its own.
 struct TetElements : Elements {
     TetNodes nodes;
     std::vector<Tet> tets;           // as in the cage
     std::vector<Tet> ordered;        // the same tets, nodes ascending: their blocks then fall in the lower triangle
-    std::vector<Mat3> rest_inverse;  // inverse of the edges from ordered[0] to ordered[1..3], as columns [1/m]
-    std::vector<double> volume;      // [m^3]
+    // Inverse of the edges from ordered[0] to ordered[1..3], as columns, as points see them; by tets and points [1/m].
+    std::vector<Mat3> rest_inverse;
+    std::vector<double> volume;        // [m^3]
+    std::vector<double> point_volume;  // with order 2 the shares of a tet's points in its volume, else none [m^3]
     std::vector<double> lambda, mu;  // Lame's constants [Pa]
     std::vector<double> density;     // [kg/m^3]
     std::vector<TetLasting> lasting;  // by tets and their points; of a plant that has yielded, else none
@@ -58,7 +61,7 @@ struct TetElements : Elements {
     std::vector<std::array<int, 55>> quadratic_slots;
 };
 
-// For rest positions of the corners other than as modelled (the rest shape found under gravity), pass them.
+// For rest positions of the nodes other than as modelled (the rest shape found under gravity), pass them.
 TetElements make_tet_elements(const Model& model, const VecX* rest_positions = nullptr, int order = 1);
 
 // Mass of the nodes.
@@ -67,9 +70,6 @@ struct Masses {
     bool lumped = true;        // the mass matrix is diagonal
     std::vector<double> slot;  // one a block of the pattern, times the identity [kg]
 };
-
-// Of forces by places at rest, block (a, b): the force on corner a+1 by a move of corner b+1.
-using RestDerivative = std::array<std::array<Mat3, 3>, 3>;
 
 // Which derivative of the force: the exact one, or one that is always positive semi-definite.
 enum class Tangent { exact, positive };
@@ -97,9 +97,9 @@ struct Mechanics {
     // Whether all elements are strained and turned little on the way, so that forces and stiffness at `to` are worth
     // taking for a step that begins at `from`.
     bool (*is_calm)(const Elements& elements, const VecX& from, const VecX& to);
-    // Derivative of one element's forces on its corners 1, 2, 3 by their places at rest, both against corner 0 [N/m]; in
-    // the order of TetElements::ordered. Null for elements other than linear tets.
-    RestDerivative (*rest_derivative)(const Elements& elements, size_t e, const VecX& x);
+    // Derivative of a tet's forces on its n nodes by their places at rest [N/m]: of the force on a by a move of b at
+    // [n a + b], nodes in the order of element_nodes(). Null where the rest shape is known without it.
+    void (*rest_derivative)(const Elements& elements, size_t e, const VecX& x, std::vector<Mat3>& out);
     // Plasticity. Whether something is strained beyond its yield at x; elements without `yields` are not to be asked.
     bool (*yields)(const Elements& elements, const VecX& x);
     // For a plant of its own that has yielded.
@@ -120,8 +120,7 @@ struct Mechanics {
     // Turning strains nothing. What is linear grows when it turns far.
     bool turns = true;
 };
-// With elements of order 1 or 2; what moves the chain is the same in both.
-constexpr int HIGHEST_ORDER = 2;
+// With elements of order 1 .. HIGHEST_ORDER; what moves the chain is the same in both.
 const Mechanics& mechanics(frond_mechanics which, int order = 1);
 
 }  // namespace frond

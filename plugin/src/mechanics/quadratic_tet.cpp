@@ -1,5 +1,6 @@
 // In: the stiffness of a linear tet, as which a quadratic one is seen at a point of integration. Out: that stiffness
-// between the ten nodes, W^T k W with W the nodes' parts in the four corners.
+// between the ten nodes, W^T k W with W the nodes' parts in the four corners; likewise anything else that is found
+// between corners, or at them.
 #include "mechanics/tet_element.hpp"
 
 namespace frond {
@@ -29,6 +30,23 @@ constexpr std::array<std::array<Parts, 10>, QuadraticTetElement::POINTS> PARTS =
                                                                                   parts_at(2), parts_at(3)};
 
 }  // namespace
+
+void QuadraticTetElement::add_to_nodes(int q, const std::array<Mat3, 16>& corners, std::vector<Mat3>& out) {
+    const std::array<Parts, 10>& parts = PARTS[size_t(q)];
+    for (size_t n = 0; n < 10; ++n)
+        for (size_t m = 0; m < 10; ++m)
+            for (size_t i = 0; i < (n < 4 ? 1u : 2u); ++i)
+                for (size_t j = 0; j < (m < 4 ? 1u : 2u); ++j)
+                    out[10 * n + m] += parts[n][i].part * parts[m][j].part *
+                                       corners[4 * parts[n][i].corner + parts[m][j].corner];
+}
+
+void QuadraticTetElement::add_to_nodes(int q, const std::array<Vec3, 4>& corners, std::vector<Vec3>& out) {
+    const std::array<Parts, 10>& parts = PARTS[size_t(q)];
+    for (size_t n = 0; n < 10; ++n)
+        for (size_t i = 0; i < (n < 4 ? 1u : 2u); ++i)
+            out[n] += parts[n][i].part * corners[parts[n][i].corner];
+}
 
 void QuadraticTetElement::add_stiffness(const TetElements& elements, size_t e, int q, const TetStiffness& k,
                                         BlockMatrix& K) {

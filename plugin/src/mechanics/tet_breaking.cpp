@@ -46,19 +46,21 @@ std::unique_ptr<Elements> without_tets(const Elements& body, const std::vector<u
     auto own = std::make_unique<TetElements>(all);
     const auto is_gone = [&](size_t e) { return gone[size_t(all.section[e])] != 0; };
     const size_t points = all.nodes.order == 1 ? LinearTet::POINTS : QuadraticTetElement::POINTS;
+    const auto point_is_gone = [&](size_t p) { return is_gone(p / points); };
     keep_others(own->damping_ratio, is_gone);
     keep_others(own->yields, is_gone);
     keep_others(own->nodes.of_tet, is_gone);
     keep_others(own->tets, is_gone);
     keep_others(own->ordered, is_gone);
-    keep_others(own->rest_inverse, is_gone);
+    keep_others(own->rest_inverse, point_is_gone);
+    keep_others(own->point_volume, point_is_gone);
     keep_others(own->volume, is_gone);
     keep_others(own->lambda, is_gone);
     keep_others(own->mu, is_gone);
     keep_others(own->density, is_gone);
     keep_others(own->slots, is_gone);
     keep_others(own->quadratic_slots, is_gone);
-    keep_others(own->lasting, [&](size_t p) { return is_gone(p / points); });
+    keep_others(own->lasting, point_is_gone);
     keep_others(own->section, is_gone);
     return own;
 }

@@ -12,8 +12,22 @@
 
 namespace frond {
 
-// Another shape at rest for elements of order 1, node_count*3 [m].
+// Another shape at rest, node_count*3 [m].
 void set_rest_positions(TetElements& elements, const VecX& rest_positions);
+
+// The nodes of a tet's element, ascending: `count` of them.
+struct ElementNodes {
+    const int* node;
+    size_t count;
+};
+inline ElementNodes element_nodes(const TetElements& elements, size_t e) {
+    if (elements.nodes.order == 1) return {elements.ordered[e].data(), 4};
+    return {elements.nodes.of_tet[e].data(), 10};
+}
+// The share of a tet's mass that one of its nodes has when mass is lumped.
+double lumped_share(int order, size_t node);
+// Derivative of a tet's volume at rest by the places of its nodes [m^2].
+void volume_slopes(const TetElements& elements, size_t e, std::vector<Vec3>& out);
 
 // What every row of the tets is given.
 inline const TetElements& as_tets(const Elements& elements) {
@@ -32,8 +46,8 @@ inline double young_of(double lambda, double mu) {
 }
 
 inline const Mat3& rest_inverse(const TetElements& elements, size_t e, int q, int points) {
-    if (elements.lasting.empty()) return elements.rest_inverse[e];
-    return elements.lasting[e * size_t(points) + size_t(q)].rest_inverse;
+    const size_t at = e * size_t(points) + size_t(q);
+    return elements.lasting.empty() ? elements.rest_inverse[at] : elements.lasting[at].rest_inverse;
 }
 
 // Stiffness between corners 1, 2, 3 of a linear tet; corner 0 follows, since moving all alike gives no force.
@@ -42,7 +56,7 @@ struct TetStiffness {
 };
 
 struct LinearTet {
-    static constexpr int POINTS = 1;
+    static constexpr int POINTS = 1, NODES = 4;
     using Places = Mat3;  // edges from the first corner
 
     static TetShare share(const TetElements& elements, size_t e, int q = 0) {
@@ -57,8 +71,18 @@ struct LinearTet {
         return edges;
     }
 
+    // Of the tet as a point sees it, from its first corner.
+    static Mat3 edges(const Places& places, int) { return places; }
     // F = sum over nodes of x b^T, with b the rest gradients of the shape functions.
     static Mat3 gradient(const TetShare& share, const Places& edges, int) { return edges * share.rest_inverse; }
+    // Adds what a point has between the corners that it sees, 16 blocks by rows, to what nodes have with each other;
+    // and what it has at corners to what nodes have.
+    static void add_to_nodes(int, const std::array<Mat3, 16>& corners, std::vector<Mat3>& out) {
+        for (size_t k = 0; k < 16; ++k) out[k] += corners[k];
+    }
+    static void add_to_nodes(int, const std::array<Vec3, 4>& corners, std::vector<Vec3>& out) {
+        for (size_t k = 0; k < 4; ++k) out[k] += corners[k];
+    }
 
     // Adds the nodes' forces -V P b for the stress P (first Piola-Kirchhoff); they add up to nothing.
     static void add_force(const TetElements& elements, size_t e, const TetShare& share, int, const Mat3& P, VecX& f) {
@@ -86,12 +110,8 @@ struct LinearTet {
     }
 };
 
-inline Mat3 deformation_gradient(const TetElements& elements, size_t e, const VecX& x) {
-    return LinearTet::gradient(LinearTet::share(elements, e), LinearTet::places(elements, e, x), 0);
-}
-
 struct QuadraticTetElement {
-    static constexpr int POINTS = 4;
+    static constexpr int POINTS = 4, NODES = 10;
     static constexpr double NEAR = 0.58541019662496845446, FAR = 0.13819660112501051518;  // a and b
     // What a node at a corner, or next to one, counts in that corner's y at a point far from it and from the node, and
     // how much more at the point beside the node.
@@ -104,7 +124,8 @@ struct QuadraticTetElement {
     };
 
     static TetShare share(const TetElements& elements, size_t e, int q) {
-        return {rest_inverse(elements, e, q, POINTS), elements.volume[e] / POINTS, elements.lambda[e], elements.mu[e]};
+        return {rest_inverse(elements, e, q, POINTS), elements.point_volume[POINTS * e + size_t(q)], elements.lambda[e],
+                elements.mu[e]};
     }
 
     static Places places(const TetElements& elements, size_t e, const VecX& x) {
@@ -120,15 +141,22 @@ struct QuadraticTetElement {
         return places;
     }
 
-    static Mat3 gradient(const TetShare& share, const Places& places, int q) {
+    static Mat3 edges(const Places& places, int q) {
         const auto corner = [&](size_t c) {
             return Vec3(places.corner[c] + MORE * places.node[size_t(TET_BETWEEN[c][q])]);
         };
         const Vec3 y0 = corner(0);
         Mat3 edges;
         for (int a = 0; a < 3; ++a) edges.col(a) = corner(size_t(a) + 1) - y0;
-        return edges * share.rest_inverse;
+        return edges;
     }
+
+    static Mat3 gradient(const TetShare& share, const Places& places, int q) {
+        return edges(places, q) * share.rest_inverse;
+    }
+
+    static void add_to_nodes(int q, const std::array<Mat3, 16>& corners, std::vector<Mat3>& out);
+    static void add_to_nodes(int q, const std::array<Vec3, 4>& corners, std::vector<Vec3>& out);
 
     static void add_force(const TetElements& elements, size_t e, const TetShare& share, int q, const Mat3& P,
                           VecX& f) {
@@ -147,5 +175,22 @@ struct QuadraticTetElement {
 
     static void add_stiffness(const TetElements& elements, size_t e, int q, const TetStiffness& k, BlockMatrix& K);
 };
+
+// Gradients of a field, given at the nodes, at each of a tet's points of integration: `take(share, gradient)`.
+template <class Take>
+void take_gradients(const TetElements& elements, size_t e, const VecX& x, Take&& take) {
+    const auto with = [&](auto element) {
+        using Element = decltype(element);
+        const auto places = Element::places(elements, e, x);
+        for (int q = 0; q < Element::POINTS; ++q) {
+            const TetShare share = Element::share(elements, e, q);
+            take(share, Element::gradient(share, places, q));
+        }
+    };
+    if (elements.nodes.order == 1)
+        with(LinearTet());
+    else
+        with(QuadraticTetElement());
+}
 
 }  // namespace frond

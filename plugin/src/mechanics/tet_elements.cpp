@@ -6,27 +6,24 @@
 #include "mechanics/rows.hpp"
 #include "mechanics/sections.hpp"
 #include "mechanics/tet_plasticity.hpp"
-#include "model/tet_geometry.hpp"
 
 namespace frond {
 
 namespace {
 
 // The mechanics trust what they are given, so everything is checked here.
-void check_model(const Model& model, const VecX* rest_positions) {
+void check_model(const Model& model, int order) {
     const size_t node_count = model.cage.nodes.size(), tet_count = model.cage.tets.size();
+    const std::vector<double>& young = model.young_of(order);
     if (tet_count == 0) fail(FROND_BAD_GEOMETRY, "the model has no tets; give it a cage first");
-    if (model.tet_density.size() != tet_count || model.tet_young.size() != tet_count ||
+    if (model.tet_density.size() != tet_count || young.size() != tet_count ||
         model.tet_poisson.size() != tet_count)
         fail(FROND_INTERNAL, "the model has %zu tets but not as many materials", tet_count);
-    if (rest_positions && size_t(rest_positions->size()) != 3 * node_count)
-        fail(FROND_BAD_ARGUMENT, "%zu rest positions were given for %zu nodes; give three numbers a node",
-             size_t(rest_positions->size()), node_count);
     for (size_t e = 0; e < tet_count; ++e) {
         for (int i : model.cage.tets[e])
             if (i < 0 || size_t(i) >= node_count)
                 fail(FROND_BAD_GEOMETRY, "tet %zu uses node %d, but there are %zu nodes", e, i, node_count);
-        const double density = model.tet_density[e], E = model.tet_young[e], nu = model.tet_poisson[e];
+        const double density = model.tet_density[e], E = young[e], nu = model.tet_poisson[e];
         if (!(density > 0) || !(E > 0) || !(nu >= 0) || !(nu < 0.5) || !std::isfinite(density * E))
             fail(FROND_BAD_ARGUMENT,
                  "tet %zu has density %g kg/m^3, Young's modulus %g Pa and Poisson's ratio %g; the first two must be "
@@ -48,27 +45,59 @@ std::array<int, PAIRS> slots_of(const BlockPattern& pattern, const std::array<in
 
 }  // namespace
 
-void set_rest_positions(TetElements& elements, const VecX& rest_positions) {
-    elements.rest_positions = rest_positions;
-    elements.rest_inverse.resize(elements.tets.size());
-    elements.volume.resize(elements.tets.size());
-    for (size_t e = 0; e < elements.tets.size(); ++e) {
-        const Tet& tet = elements.ordered[e];
-        Mat3 edges;
-        for (int a = 0; a < 3; ++a)
-            edges.col(a) = point(rest_positions, tet[size_t(a) + 1]) - point(rest_positions, tet[0]);
+template <class Element>
+static void set_rest(TetElements& elements) {
+    const size_t tet_count = elements.tets.size();
+    elements.rest_inverse.resize(tet_count * Element::POINTS);
+    elements.volume.assign(tet_count, 0);
+    if (Element::POINTS > 1) elements.point_volume.resize(tet_count * Element::POINTS);
+    for (size_t e = 0; e < tet_count; ++e) {
+        const auto places = Element::places(elements, e, elements.rest_positions);
+        for (int q = 0; q < Element::POINTS; ++q) {
+            const Mat3 edges = Element::edges(places, q);
+            const size_t at = e * Element::POINTS + size_t(q);
 
-        // A flat tet has no inverse; measure flatness against the tet's own size.
-        const double volume = std::abs(tet_volume(rest_positions, tet)), length = edges.norm();
-        if (!(volume > 1e-12 * length * length * length) || !std::isfinite(volume))
-            fail(FROND_BAD_GEOMETRY, "tet %zu has no volume at rest; remove it or move its nodes", e);
-        elements.rest_inverse[e] = edges.inverse();
-        elements.volume[e] = volume;
+            // A flat tet has no inverse; measure flatness against the tet's own size.
+            const double volume = std::abs(edges.determinant()) / 6, length = edges.norm();
+            if (!(volume > 1e-12 * length * length * length) || !std::isfinite(volume))
+                fail(FROND_BAD_GEOMETRY, "tet %zu has no volume at rest; remove it or move its nodes", e);
+            elements.rest_inverse[at] = edges.inverse();
+            elements.volume[e] += volume / Element::POINTS;
+            if (Element::POINTS > 1) elements.point_volume[at] = volume / Element::POINTS;
+        }
     }
 }
 
+void set_rest_positions(TetElements& elements, const VecX& rest_positions) {
+    if (rest_positions.size() != 3 * Eigen::Index(elements.node_count))
+        fail(FROND_BAD_ARGUMENT, "%zu rest positions were given for %d nodes; give three numbers a node",
+             size_t(rest_positions.size()), elements.node_count);
+    elements.rest_positions = rest_positions;
+    if (elements.nodes.order == 1)
+        set_rest<LinearTet>(elements);
+    else
+        set_rest<QuadraticTetElement>(elements);
+}
+
+template <class Element>
+static void add_volume_slopes(const TetElements& elements, size_t e, std::vector<Vec3>& out) {
+    out.assign(Element::NODES, Vec3::Zero());
+    for (int q = 0; q < Element::POINTS; ++q) {
+        const TetShare share = Element::share(elements, e, q);
+        const Mat3 slopes = share.volume * share.rest_inverse.transpose();
+        Element::add_to_nodes(q, {Vec3(-slopes.rowwise().sum()), slopes.col(0), slopes.col(1), slopes.col(2)}, out);
+    }
+}
+
+void volume_slopes(const TetElements& elements, size_t e, std::vector<Vec3>& out) {
+    if (elements.nodes.order == 1)
+        add_volume_slopes<LinearTet>(elements, e, out);
+    else
+        add_volume_slopes<QuadraticTetElement>(elements, e, out);
+}
+
 TetElements make_tet_elements(const Model& model, const VecX* rest_positions, int order) {
-    check_model(model, rest_positions);
+    check_model(model, order);
     TetElements out;
     out.tets = out.ordered = model.cage.tets;
     out.density = model.tet_density;
@@ -77,14 +106,12 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions, in
     out.modelled = node_places(out.nodes, [&](int i) { return model.cage.nodes[size_t(i)]; });
     // Ordering the nodes may mirror the tet; the deformation gradient does not see that.
     for (Tet& tet : out.ordered) std::sort(tet.begin(), tet.end());
-    set_rest_positions(
-        out, rest_positions ? node_places(out.nodes, [&](int i) { return Vec3(point(*rest_positions, i)); })
-                            : out.modelled);
+    set_rest_positions(out, rest_positions ? *rest_positions : out.modelled);
 
     out.pattern = order == 1 ? make_block_pattern(out.node_count, out.tets)
                              : make_block_pattern(out.node_count, out.nodes.of_tet);
     for (size_t e = 0; e < out.tets.size(); ++e) {
-        const double E = model.tet_young[e], nu = model.tet_poisson[e];
+        const double E = model.young_of(order)[e], nu = model.tet_poisson[e];
         out.lambda.push_back(E * nu / ((1 + nu) * (1 - 2 * nu)));
         out.mu.push_back(E / (2 * (1 + nu)));
 
@@ -111,8 +138,8 @@ static std::vector<double> bending_resistance(const Model& model) {
 
 template <int ORDER>
 std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which) {
-    const VecX& rest = model.rest_shapes->positions[size_t(which)];
-    const std::vector<double>& stiffer = model.rest_shapes->stiffer[size_t(which)];
+    const VecX& rest = model.rest_shapes->positions[ORDER - 1][size_t(which)];
+    const std::vector<double>& stiffer = model.rest_shapes->stiffer[ORDER - 1][size_t(which)];
     auto elements = std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr, ORDER));
     for (size_t e = 0; e < stiffer.size(); ++e) {
         elements->lambda[e] *= stiffer[e];
@@ -129,9 +156,15 @@ std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics wh
 template std::unique_ptr<const Elements> make_tets<1>(const Model&, frond_mechanics);
 template std::unique_ptr<const Elements> make_tets<2>(const Model&, frond_mechanics);
 
+// Corners and the middles of edges of quadratic tets: see quadratic_share().
+double lumped_share(int order, size_t node) {
+    if (order == 1) return 0.25;
+    return node < 4 ? 1.0 / 36 : 4.0 / 27;
+}
+
 // Of linear tets, lumped: a quarter to each node. Consistent: the shape functions' own products, (1 + delta) / 20.
 static double linear_share(size_t a, size_t b, bool lumped) {
-    if (lumped) return a == b ? 0.25 : 0.0;
+    if (lumped) return a == b ? lumped_share(1, a) : 0.0;
     return a == b ? 1.0 / 10 : 1.0 / 20;
 }
 
@@ -139,7 +172,7 @@ static double linear_share(size_t a, size_t b, bool lumped) {
 // Lumped: the diagonal of that, scaled to the tet's mass (Hinton, Rock, Zienkiewicz 1976, "A note on mass lumping and
 // related processes"), since sums of rows are negative at corners.
 static double quadratic_share(size_t a, size_t b, bool lumped) {
-    if (lumped) return a != b ? 0.0 : a < 4 ? 1.0 / 36 : 4.0 / 27;
+    if (lumped) return a == b ? lumped_share(2, a) : 0.0;
     const auto touches = [](size_t node, size_t corner) {
         if (node < 4) return node == corner;
         return size_t(TET_EDGES[node - 4][0]) == corner || size_t(TET_EDGES[node - 4][1]) == corner;

@@ -32,6 +32,11 @@ TetNodes make_tet_nodes(int corner_count, const std::vector<Tet>& tets, int orde
     return nodes;
 }
 
+std::vector<uint8_t> with_middles(const TetNodes& nodes, std::vector<uint8_t> held) {
+    for (const Edge& edge : nodes.edges) held.push_back(held[size_t(edge[0])] && held[size_t(edge[1])]);
+    return held;
+}
+
 TetPlace place_in_tet(const TetNodes& nodes, const std::vector<Tet>& tets, int tet, const std::array<double, 4>& L) {
     const Tet& corners = tets[size_t(tet)];
     TetPlace place;

@@ -34,6 +34,9 @@ VecX node_places(const TetNodes& nodes, const Places& corner) {
     return x;
 }
 
+// Which nodes are held, from the corners that are: the middle of an edge is where both of its corners are.
+std::vector<uint8_t> with_middles(const TetNodes& nodes, std::vector<uint8_t> held);
+
 // A place in a tet: the nodes that it follows, and how much.
 struct TetPlace {
     int count;  // of nodes

@@ -135,9 +135,7 @@ template bool tets_yield<QuadraticTetElement>(const Elements&, const VecX&);
 
 std::unique_ptr<Elements> copy_tets(const Elements& body) {
     auto own = std::make_unique<TetElements>(as_tets(body));
-    const size_t points = own->nodes.order == 1 ? LinearTet::POINTS : QuadraticTetElement::POINTS;
-    for (const Mat3& rest_inverse : own->rest_inverse)
-        own->lasting.insert(own->lasting.end(), points, TetLasting{rest_inverse, Mat3::Identity(), 0});
+    for (const Mat3& rest_inverse : own->rest_inverse) own->lasting.push_back({rest_inverse, Mat3::Identity(), 0});
     return own;
 }
 
@@ -167,7 +165,7 @@ void set_lasting_of_tets(Elements& body, const std::vector<double>& values) {
                  "what is lasting changes the volume of tet %zu or its hardening is below 0; give numbers that "
                  "frond_plant_get_lasting wrote",
                  p / points);
-        l.rest_inverse = elements.rest_inverse[p / points] * l.inverse;
+        l.rest_inverse = elements.rest_inverse[p] * l.inverse;
     }
     elements.lasting = std::move(lasting);
 }

@@ -105,7 +105,7 @@ struct TetRow {
                 const double elastic = elastic_share(elements.yields[e], now.strain, 1, h, next.hardening);
                 const Mat3 change = flow_of(now.S, elastic);
                 next.inverse *= change;
-                next.rest_inverse = elements.rest_inverse[e] * next.inverse;
+                next.rest_inverse = elements.rest_inverse[e * Element::POINTS + size_t(q)] * next.inverse;
                 // A change of shape may change the volume's energy at second order: energy never grows.
                 if (next.inverse.squaredNorm() < FARTHEST &&
                     Law::energy(share, Law::strain(share, F * change)) <= Law::energy(share, Law::strain(share, F)))
@@ -118,27 +118,39 @@ struct TetRow {
     static constexpr double FARTHEST = 25;  // square of the norm of F_p^-1 [-]
 };
 
-// A move of corner b at rest by dX acts on F as a move of it in space by -F dX does; it changes the volume V and the
-// gradients b_a besides. With H_a = V P b_a, minus the force on corner a, and K the stiffness at x,
+// Of the tet that a point sees, a move of corner b at rest by dX acts on F as a move of it in space by -F dX does; it
+// changes the volume V and the gradients b_a besides. With H_a = V P b_a, minus the force on corner a, and K the
+// stiffness at x,
 //   df_a/dX_b = K_ab F - H_a b_b^T + H_b b_a^T.
-template <class Law>
-RestDerivative rest_derivative(const Elements& body, size_t e, const VecX& x) {
+// Moving all corners alike changes nothing, and forces add up to nothing, which gives the blocks of corner 0.
+template <class Law, class Element>
+void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<Mat3>& out) {
     const TetElements& elements = as_tets(body);
-    const TetShare share = LinearTet::share(elements, e);
-    const Mat3 F = LinearTet::gradient(share, LinearTet::places(elements, e, x), 0);
-    const auto strain = Law::strain(share, F);
-    const Mat3& B = share.rest_inverse;
-    const Mat3 H = Law::stress(share, strain) * B.transpose() * share.volume;
-    const TetStiffness k = Law::stiffness(share, strain, Tangent::exact, 1);
-    const Mat3 K[3][3] = {{k.k11, k.k21.transpose(), k.k31.transpose()},
-                          {k.k21, k.k22, k.k32.transpose()},
-                          {k.k31, k.k32, k.k33}};
-    RestDerivative out;
-    for (size_t a = 0; a < 3; ++a)
-        for (size_t b = 0; b < 3; ++b)
-            out[a][b] = K[a][b] * F - H.col(Eigen::Index(a)) * B.row(Eigen::Index(b)) +
-                        H.col(Eigen::Index(b)) * B.row(Eigen::Index(a));
-    return out;
+    out.assign(Element::NODES * Element::NODES, Mat3::Zero());
+    const auto places = Element::places(elements, e, x);
+    for (int q = 0; q < Element::POINTS; ++q) {
+        const TetShare share = Element::share(elements, e, q);
+        const Mat3 F = Element::gradient(share, places, q);
+        const auto strain = Law::strain(share, F);
+        const Mat3& B = share.rest_inverse;
+        const Mat3 H = Law::stress(share, strain) * B.transpose() * share.volume;
+        const TetStiffness k = Law::stiffness(share, strain, Tangent::exact, 1);
+        const Mat3 K[3][3] = {{k.k11, k.k21.transpose(), k.k31.transpose()},
+                              {k.k21, k.k22, k.k32.transpose()},
+                              {k.k31, k.k32, k.k33}};
+        std::array<Mat3, 16> corners;
+        corners.fill(Mat3::Zero());
+        for (size_t a = 1; a < 4; ++a)
+            for (size_t b = 1; b < 4; ++b) {
+                const Eigen::Index i = Eigen::Index(a) - 1, j = Eigen::Index(b) - 1;
+                const Mat3 block = K[i][j] * F - H.col(i) * B.row(j) + H.col(j) * B.row(i);
+                corners[4 * a + b] = block;
+                corners[4 * a] -= block;
+                corners[b] -= block;
+                corners[0] += block;
+            }
+        Element::add_to_nodes(q, corners, out);
+    }
 }
 
 template <class Law>
@@ -151,9 +163,9 @@ Mechanics tet_row(const char* name, int order, bool needs_search) {
     };
     if (order == 1)
         return row(TetRow<Law, LinearTet>(), make_tets<1>, tets_are_calm<LinearTet>, tets_yield<LinearTet>,
-                   rest_derivative<Law>);
+                   rest_derivative<Law, LinearTet>);
     return row(TetRow<Law, QuadraticTetElement>(), make_tets<2>, tets_are_calm<QuadraticTetElement>,
-               tets_yield<QuadraticTetElement>, nullptr);
+               tets_yield<QuadraticTetElement>, rest_derivative<Law, QuadraticTetElement>);
 }
 
 }  // namespace frond

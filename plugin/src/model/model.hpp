@@ -18,13 +18,20 @@ struct ChainArrays {
 // Under which a plant stands as it was modelled, along the model's -y [m/s^2].
 constexpr double GRAVITY = 9.81;
 
-// What each mechanics has of its own so that a plant stands as modelled and sways alike in all: found for the default one
-// at load, for the others when first asked for.
+// Of the displacements within a tet: 1 linear, 2 quadratic.
+constexpr int HIGHEST_ORDER = 2;
+
+// What each mechanics, in elements of each order, has of its own so that a plant stands as modelled and sways alike in
+// all: found for linear tets and the default mechanics at load, for the others when first asked for. By order less one
+// and mechanics; what moves the chain has no order and stands with the first.
 struct RestShapes {
+    template <class T>
+    using Each = std::array<std::array<T, FROND_MECHANICS_COUNT>, HIGHEST_ORDER>;
     std::mutex mutex;
-    std::array<bool, FROND_MECHANICS_COUNT> known = {};
-    std::array<VecX, FROND_MECHANICS_COUNT> positions;  // cage nodes without gravity, node_count*3 [m]; empty: as modelled
-    std::array<std::vector<double>, FROND_MECHANICS_COUNT> stiffer;  // than tet_young, one a tet [-]; empty: not
+    Each<bool> known = {};
+    Each<VecX> positions;                 // nodes without gravity, node_count*3 [m]; empty: as modelled
+    Each<std::vector<double>> stiffer;    // than Model::young_of(), one a tet [-]; empty: not
+    std::vector<double> quadratic_young;  // like Model::tet_young, for order 2; empty: those hold for both [Pa]
     std::vector<double> springs;  // than their material, spring_chain's capsules of each organ [-]; empty: not
 };
 
@@ -38,7 +45,7 @@ struct Model {
     bool exact_sections = false;      // they are given, not measured on the surface
     std::vector<double> chain_mass;   // that each chain node carries of the plant's mass [kg]
     std::vector<double> organ_stiffer;  // how much stiffer than its material each organ was made so that it stands [-]
-    bool calibrated = false;          // tet_young holds for tets of order 1 only
+    bool calibrated = false;          // tet_young is fitted, for order 1 only; else it is the material's
     bool stands_as_modelled = false;  // under GRAVITY; else the modelled shape is the one without it
     std::vector<std::array<int, 2>> capsules;  // chain nodes at the two ends; a root alone is both ends
     Cage cage;
@@ -48,13 +55,13 @@ struct Model {
     std::vector<double> tet_young;    // so that it bends as it should [Pa]
     std::vector<double> tet_poisson;
     std::vector<uint8_t> root;  // cage nodes that the ground holds unless a plant says otherwise, node_count
-    // Like tet_young, for linear tets; quadratic ones take them as they are, the middles of edges straight between.
     std::shared_ptr<RestShapes> rest_shapes = std::make_shared<RestShapes>();
     double stiffened = 1;  // how much stiffer the organs were made so that the plant stands [-]
     CageReport cage_report;
     double ms_import = 0, ms_cage = 0, ms_chain = 0, ms_total = 0;
 
     double mass() const;  // [kg]
+    const std::vector<double>& young_of(int order) const;  // of the tets, as elements of an order [Pa]
 };
 
 // The cage nodes of the tets that hold the foot of the chain's roots: a drooping leaf that touches the ground stays

@@ -45,7 +45,7 @@ static std::shared_ptr<const SharedSystem> shared_system(const std::shared_ptr<c
                                                    frond_mass mass, int order) {
     static Shared<std::tuple<const Model*, frond_mechanics, frond_mass, int>, SharedSystem> systems;
     return systems.find_or_make({model.get(), which, mass, order}, [&] {
-        ensure_rest_shape(*model, which);
+        ensure_rest_shape(*model, which, order);
         SharedSystem shared = {make_system(model, which, mass, order), 0, rest_time_of(model)};
         const std::vector<Organ>& organs = model->organs;
         if (std::any_of(organs.begin(), organs.end(), [](const Organ& o) { return o.material.damping_ratio > 0; }))
@@ -79,7 +79,8 @@ std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant) {
 
 // None of those whose cage needs none.
 static std::shared_ptr<const Fibres> fibres_of(const Plant& plant) {
-    const auto fibres = shared_of<Fibres>(plant.model, 1, [&] { return make_fibres(*plant.model); });
+    const int order = plant.nodes->order;
+    const auto fibres = shared_of<Fibres>(plant.model, order, [&] { return make_fibres(*plant.model, order); });
     return fibres->list.empty() ? nullptr : fibres;
 }
 
@@ -140,8 +141,7 @@ static std::vector<uint8_t> find_held(const Plant& plant, double root_height) {
         for (size_t i = 0; i < held.size(); i++) held[i] = model.cage.nodes[i].y() < limit;
     else if (root_height == 0)
         held = model.root;
-    for (const Edge& edge : plant.nodes->edges) held.push_back(held[size_t(edge[0])] && held[size_t(edge[1])]);
-    return held;
+    return with_middles(*plant.nodes, held);
 }
 
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def) {

@@ -23,7 +23,7 @@ constexpr int ROUNDS = 3;
 constexpr double CLOSE = 0.001;  // stretch beyond what pulls give that needs no further round [-]
 
 // Share of each organ's stiffness against pull that its cage has not [-].
-std::vector<double> lack_of_organs(const Model& model) {
+std::vector<double> lack_of_organs(const Model& model, int order) {
     std::vector<double> tissue(model.organs.size(), 0.0), cage(model.organs.size(), 0.0);
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
@@ -32,7 +32,7 @@ std::vector<double> lack_of_organs(const Model& model) {
     }
     for (size_t e = 0; e < model.cage.tets.size(); e++)
         cage[size_t(model.cage.tet_organ[e])] +=
-            model.tet_young[e] * std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
+            model.young_of(order)[e] * std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
     for (size_t i = 0; i < tissue.size(); i++) tissue[i] = tissue[i] > 0 ? 1 - cage[i] / tissue[i] : 0;
     return tissue;
 }
@@ -186,12 +186,12 @@ void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const
 
 }  // namespace
 
-Fibres make_fibres(const Model& model) {
+Fibres make_fibres(const Model& model, int order) {
     constexpr double LEAST = 0.5;  // of an organ's stiffness against pull that a cage has to lack [-]
     Fibres fibres;
     fibres.of_node.assign(model.chain.nodes.size(), -1);
     if (!model.calibrated) return fibres;
-    const std::vector<double> lack = lack_of_organs(model);
+    const std::vector<double> lack = lack_of_organs(model, order);
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
         if (node.parent < 0 || node.organ < 0 || lack[size_t(node.organ)] < LEAST) continue;

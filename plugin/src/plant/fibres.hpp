@@ -22,7 +22,7 @@ struct Fibres {
     std::vector<Fibre> list;
     std::vector<int> of_node;  // index into `list`; -1: none
 };
-Fibres make_fibres(const Model& model);
+Fibres make_fibres(const Model& model, int order);
 
 // After a solve over h [s]: pulls together what is drawn out. Nothing is done where nothing is.
 void hold_lengths(Plant& plant, double h);
