@@ -165,6 +165,117 @@ TEST(Trellis, HoldsAPlantThatLeansOnIt) {
     EXPECT_LT(held.x, fallen.x - 0.001);
 }
 
+// ---- what breaks -------------------------------------------------------------------------------------------------
+
+struct Break {
+    frond_vec3 pull = {}, hold = {};  // of the hand, and
+    frond_vec3 begin = {}, end = {};  // of the capsule that gave way, just before
+    double radius = 0;
+    frond_broken broken = {};
+};
+
+static std::vector<frond_capsule> capsules_of(const Play& play) {
+    std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(play.stage.plants[0])));
+    must(frond_plant_get_capsules(play.stage.plants[0], capsules.data(), int(capsules.size())));
+    return capsules;
+}
+
+static Break play_until_it_breaks(Play& play) {
+    Break out;
+    for (int i = 0; i < 400; i++) {
+        if (!play.stage.grabs.empty())
+            must(frond_grab_get(play.stage.grabs[0], &out.hold, nullptr, &out.pull));
+        const std::vector<frond_capsule> capsules = capsules_of(play);
+        play.step();
+        frond_report report;
+        must(frond_world_get_report(play.stage.world, &report));
+        EXPECT_EQ(report.trouble & FROND_TROUBLE_REWOUND, 0u) << i;
+        if (frond_plant_get_broken_count(play.stage.plants[0]) == 0) continue;
+        must(frond_plant_get_broken(play.stage.plants[0], 0, &out.broken));
+        const frond_capsule& capsule = capsules[size_t(out.broken.capsule)];
+        out.begin = capsule.begin;
+        out.end = capsule.end;
+        out.radius = capsule.radius;
+        return out;
+    }
+    ADD_FAILURE() << "nothing broke";
+    return out;
+}
+
+static frond_vec3 cross(const frond_vec3& a, const frond_vec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+static frond_vec3 difference(const frond_vec3& a, const frond_vec3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static double length_of(const frond_vec3& a) {
+    return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
+}
+
+static frond_organ organ_of(const Play& play, const std::string& name) {
+    frond_organ organ = {};
+    for (int i = 0; i < info_of(play).organ_count; i++) {
+        must(frond_model_get_organ(play.stage.plant_models[0], i, &organ));
+        if (name == organ.name) return organ;
+    }
+    ADD_FAILURE() << "there is no " << name;
+    return organ;
+}
+
+// A round section breaks at the moment strength pi r^3 / 4.
+TEST(Snap, ACornStalkBreaksNearTheMomentThatItsStrengthBears) {
+    frond_material stalk = {};
+    must(frond_material_preset("grass_stem", &stalk));
+    for (const char* mechanics : {"rod", "tet_corotational", "tet_neohookean"}) {
+        SCOPED_TRACE(mechanics);
+        Play play = play_of("snap", {std::string("mechanics=") + mechanics});
+        const std::vector<frond_capsule> standing = capsules_of(play);
+        const Break b = play_until_it_breaks(play);
+        const double moment = length_of(cross(difference(b.hold, b.begin), b.pull));
+        const double known = stalk.strength * M_PI * std::pow(b.radius, 3) / 4;
+        EXPECT_NEAR(moment / known, 1, std::string(mechanics) == "rod" ? 0.1 : 0.3);
+        frond_rigid_state before = {}, after = {};
+        must(frond_rigid_get_state(b.broken.rigid, &before));
+        // What came off falls over, the stump stands up again.
+        for (int i = 0; i < 240; i++) play.step();
+        must(frond_rigid_get_state(b.broken.rigid, &after));
+        EXPECT_LT(after.position.y, before.position.y - 0.2);
+        EXPECT_GT(after.position.y, 0);
+        EXPECT_EQ(frond_plant_get_broken_count(play.stage.plants[0]), 1);
+        EXPECT_LT(distance(capsules_of(play)[0].end, standing[0].end), 0.005);
+    }
+}
+
+// Its section is flat, so that it bears between what it bears to its thin and to its wide side.
+TEST(Pick, ACucumberComesOffItsPeduncleAndFallsToTheGround) {
+    Play play = play_of("pick");
+    frond_vec3 tip_before = {}, tip = {};
+    must(frond_plant_get_tip(play.stage.plants[0], &tip_before));
+    const Break b = play_until_it_breaks(play);
+    const frond_organ peduncle = organ_of(play, "peduncle_3"), fruit = organ_of(play, "fruit_3");
+    EXPECT_NEAR(distance(b.begin, b.end), peduncle.length, 0.01 * peduncle.length);
+    EXPECT_GT(b.broken.mass, 0.5 * fruit.mass);
+    EXPECT_LT(b.broken.mass, 1.5 * fruit.mass);
+
+    const frond_vec3 middle = {(b.begin.x + b.end.x) / 2, (b.begin.y + b.end.y) / 2, (b.begin.z + b.end.z) / 2};
+    frond_rigid_state state = {};
+    must(frond_rigid_get_state(b.broken.rigid, &state));
+    const frond_vec3 by_hand = cross(difference(b.hold, middle), b.pull);
+    const frond_vec3 by_weight = cross(difference(state.position, middle), {0, -9.81 * b.broken.mass, 0});
+    const double moment = length_of({by_hand.x + by_weight.x, by_hand.y + by_weight.y, by_hand.z + by_weight.z});
+    const double bears = peduncle.material.strength / peduncle.material.young;  // strain of the outermost fibre [-]
+    EXPECT_GT(moment, 0.9 * bears * peduncle.bending_thin.least / (peduncle.thickness.most / 2));
+    EXPECT_LT(moment, 1.1 * bears * peduncle.bending_wide.most / (peduncle.width.most / 2));
+
+    for (int i = 0; i < 240; i++) play.step();
+    must(frond_rigid_get_state(b.broken.rigid, &state));
+    EXPECT_LT(state.position.y, 0.05);  // lies there
+    EXPECT_LT(length_of(state.velocity), 0.05);
+    must(frond_plant_get_tip(play.stage.plants[0], &tip));
+    EXPECT_LT(distance(tip, tip_before), 0.02);  // with less to carry
+    EXPECT_EQ(frond_plant_get_broken_count(play.stage.plants[0]), 1);
+}
+
 // The least of many, so that a processor that others use too may tell it.
 TEST(Twig, OfSixtyRodsIsQuick) {
     Play play = play_of("twig");

@@ -255,6 +255,93 @@ void build_twig(Stage& stage) {
     stage.plant(model, {0, 0, 0});
 }
 
+// ---- what breaks ------------------------------------------------------------------------------------------------
+
+void snap_defaults(Settings& settings) {
+    corn_defaults(settings);
+    settings.plant.effects |= FROND_BREAKING;
+    settings.grab_stiffness = 100;
+}
+void build_snap(Stage& stage) {
+    build_corn(stage);
+    add_ground(stage);
+}
+// As rods: in a cage a fruit, its peduncle and the stem beside it share cells.
+void pick_defaults(Settings& settings) {
+    settings.model.cage_size = 0.1;
+    settings.plant.mechanics = FROND_ROD;
+    settings.plant.effects |= FROND_BREAKING;
+    settings.grab_stiffness = 20;
+}
+void build_pick(Stage& stage) {
+    build_cucumber(stage);
+    add_ground(stage);
+}
+
+// Draws what it takes hold of along a way, ever farther, until something comes off; then lets go.
+void pull_off(Stage& stage, frond_vec3 (*place)(const Stage&), const frond_vec3& speed) {
+    const double t = stage.time - GRAB_AT;
+    if (t < -0.5 * stage.settings.dt) return;
+    if (frond_plant_get_broken_count(stage.plants[0]) > 0) {
+        for (frond_grab grab : stage.grabs) frond_grab_destroy(grab);
+        stage.grabs.clear();
+        return;
+    }
+    if (stage.grabs.empty()) {
+        stage.drag_stiffness = stage.settings.grab_stiffness;
+        take_hold(stage, place(stage));
+        must(frond_grab_get(stage.grabs[0], nullptr, &stage.drag_start, nullptr));
+    }
+    const frond_vec3& from = stage.drag_start;
+    must(frond_grab_move(stage.grabs[0], {from.x + speed.x * t, from.y + speed.y * t, from.z + speed.z * t}));
+}
+
+// A corn stalk is bent over until it snaps.
+void snap(Stage& stage) {
+    pull_off(stage, [](const Stage& s) { return point_on_axis(s.plant_models[0], 0.75); }, {0.35, -0.1, 0});
+}
+
+// Where an organ ends below [m]; at an infinite height if no triangle is of it.
+frond_vec3 lower_end(const Stage& stage, const frond_organ& organ, int part_count) {
+    frond_surface_view view;
+    must(frond_plant_get_surface(stage.plants[0], &view));
+    frond_vec3 end = {0, INFINITY, 0};
+    for (int i = 0; i < part_count; i++) {
+        frond_part part;
+        must(frond_model_get_part(stage.plant_models[0], i, &part));
+        if (std::string(part.organ) != organ.name) continue;
+        for (int t = 3 * part.first_triangle; t < 3 * (part.first_triangle + part.triangle_count); t++) {
+            const float* p = view.positions + 3 * size_t(view.indices[t]);
+            if (double(p[1]) < end.y) end = {double(p[0]), double(p[1]), double(p[2])};
+        }
+    }
+    return end;
+}
+
+// The lower end of the heaviest fruit that hangs above the lowest leaves.
+frond_vec3 end_of_fruit(const Stage& stage) {
+    const frond_model model = stage.plant_models[0];
+    frond_model_info info;
+    must(frond_model_get_info(model, &info));
+    frond_vec3 best = {};
+    double heaviest = 0;
+    for (int i = 0; i < info.organ_count; i++) {
+        frond_organ organ;
+        must(frond_model_get_organ(model, i, &organ));
+        if (std::string(organ.kind) != "fruit" || organ.mass <= heaviest) continue;
+        const frond_vec3 end = lower_end(stage, organ, info.part_count);
+        if (end.y < info.lower.y + 0.25 * (info.upper.y - info.lower.y) || !std::isfinite(end.y)) continue;
+        heaviest = organ.mass;
+        best = end;
+    }
+    if (heaviest == 0) throw SceneError("the plant bears no fruit");
+    return best;
+}
+// A cucumber is pulled off its peduncle.
+void pick(Stage& stage) {
+    pull_off(stage, end_of_fruit, {-0.06, 0.02, 0});
+}
+
 // ---- wind -----------------------------------------------------------------------------------------------------
 
 // A fresh breeze: 12 m/s where weather stations measure, some 8 among the leaves.
@@ -313,6 +400,8 @@ const std::vector<Scene>& scenes() {
         {"box", "a cardboard box of 80 g is set down on a rosette's leaves and rests there", 4, nullptr, build_box, rest},
         {"trellis", "a cucumber leans on a trellis of static boxes", 4, cucumber_defaults, build_trellis, rest},
         {"twig", "a twig of 60 rods is pulled aside and let go", 5, twig_defaults, build_twig, drag},
+        {"snap", "a corn stalk is bent over until it snaps", 7, snap_defaults, build_snap, snap},
+        {"pick", "a cucumber is pulled off its peduncle", 4, pick_defaults, build_pick, pick},
         {"wind", "a stand of corn in a gusty wind", 8, wind_defaults, build_wind, rest},
         {"tug", "a plant file: it stands, is pulled aside and let go", 5, tug_defaults, nullptr, drag},
     };
