@@ -5,6 +5,10 @@
 // exact stiffness, which converges quadratically, and fall back to the positive one when that has no factor. A line
 // search keeps them from making the residual and the stage's potential both larger.
 //
+// Without what tension adds to the stiffness, what hangs swings ever farther in steps of rods that are longer than it
+// takes to swing. The one solve of such a step takes the exact stiffness, and goes no farther than pieces turn little;
+// where that has no factor and the positive one leads far, the line search finds the way.
+//
 // D = mass_damping M + stiffness_damping K, K being the positive stiffness at the start of the step, and an element's own
 // damping times its part of K: it never feeds energy and does not resist turning as a whole.
 #include <algorithm>
@@ -30,6 +34,8 @@ struct Newton {
     int iterations;     // at most
     bool apart;         // elements damp each in its own way: the damping is not a multiple of the stiffness
     bool keep_damping;  // the damping is needed besides the stiffness
+    bool is_long;       // the step is longer than what hangs takes to swing, and has one solve
+    bool exact;         // the first solve takes the exact stiffness, the damping still the positive one
     bool skipped;       // the first solve was left to the line search
 };
 
@@ -76,17 +82,21 @@ void linearize_at_start(Newton& n) {
     // A wild guess is worse than none.
     const VecX& start = n.input.motion.x;
     const bool calm = &n.stage.x_from == &start || is_calm(n.system, start, n.stage.x_from);
-    assemble(calm ? n.stage.x_from : start);
-    if (!n.apart) w.dv += n.rayleigh * w.v;
+    const VecX& from = calm ? n.stage.x_from : start;
+    assemble(from);
+    const bool is_multiple = !n.apart && !n.exact;  // the damping, of this stiffness
+    if (!n.apart && (n.exact || n.keep_damping)) w.damping = w.A;
+    if (n.exact) {
+        w.A.set_zero();
+        n.body.add_stiffness(*n.w.elements, from, Tangent::exact, 1, w.A);
+    }
+    if (is_multiple) w.dv += n.rayleigh * w.v;
     w.A.multiply(w.dv, w.product);
     start_residual(n, w.v, w.rhs);
     w.rhs -= n.stage.step * w.product;
-    if (n.apart) {
-        w.damping.multiply(w.v, w.product);
-        w.rhs -= n.stage.step * w.product;
-    } else if (n.keep_damping) {
-        w.damping = w.A;
-    }
+    if (is_multiple) return;
+    w.damping.multiply(w.v, w.product);
+    w.rhs -= n.stage.step * n.rayleigh * w.product;
 }
 
 // The residual at the end of the stage with velocities v; leaves its elastic force and positions in the workspace.
@@ -129,7 +139,7 @@ double potential_at(const Newton& n, const VecX& v) {
 void form_matrix(Newton& n, bool first) {
     BlockMatrix& A = n.w.A;
     const double step = n.stage.step, mass = 1 + step * n.input.settings.mass_damping;
-    const bool alike = first && !n.apart;
+    const bool alike = first && !n.apart && !n.exact;
     const double scale = step * step + (alike ? step * n.rayleigh : 0);
     for (double& value : A.values) value *= scale;
     if (!alike && n.keep_damping)
@@ -218,17 +228,31 @@ bool search_line(Newton& n, VecX& rhs, double& norm) {
     return false;
 }
 
+// Leaves the first solve to the line search. Returns the norm of the residual, negative on failure.
+double skip_first(Newton& n) {
+    constexpr int SEARCHED_ITERATIONS = 20;
+    Timer timer;
+    n.iterations = std::max(n.iterations, SEARCHED_ITERATIONS);
+    n.skipped = true;
+    const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
+    n.report.ms_assembly += timer.lap();
+    return std::isfinite(norm) ? norm : -1;
+}
+
+bool ends_calmly(Newton& n, double part) {
+    n.w.v_trial = n.w.v + part * n.w.dv;
+    move(n, n.w.v_trial);
+    return is_calm(n.system, n.input.motion.x, n.w.x);
+}
+
 // The first solve, which is all there is with one iteration. Returns the norm of its right side, negative on failure.
 double solve_first(Newton& n) {
-    constexpr int SEARCHED_ITERATIONS = 20;
+    constexpr double LEAST = 1.0 / 64;  // of a way that is shortened until pieces turn little [-]
     Timer timer;
     linearize_at_start(n);
     if (n.input.settings.careful || (n.body.needs_search && n.report.inverted > 0)) {
-        n.iterations = std::max(n.iterations, SEARCHED_ITERATIONS);
-        n.skipped = true;
-        const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
         n.report.ms_assembly += timer.lap();
-        return std::isfinite(norm) ? norm : -1;
+        return skip_first(n);
     }
     form_matrix(n, true);
     hold(n);
@@ -236,8 +260,15 @@ double solve_first(Newton& n) {
     n.report.ms_assembly += timer.lap();
     const bool ok = std::isfinite(norm) && solve_linear(n);
     n.report.ms_solve += timer.lap();
+    if (!ok && n.exact) {
+        n.exact = false;
+        return solve_first(n);
+    }
     if (!ok) return -1;
-    n.w.v += n.w.dv;
+    double part = 1;
+    while (n.exact && part > LEAST && !ends_calmly(n, part)) part *= 0.5;
+    if (n.is_long && !n.exact && !ends_calmly(n, 1)) return skip_first(n);
+    n.w.v += part * n.w.dv;
     return norm;
 }
 
@@ -282,6 +313,8 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     const int iterations = stage.iterations > 0 ? stage.iterations : input.settings.newton_iterations;
     const double b = workspace.damping_scale;
     const bool apart = !workspace.element_damping.empty();
+    constexpr double LONG = 0.04;  // of a stage [s]
+    const bool is_long = workspace.system->row->moves_chain && stage.step > LONG && iterations == 1;
     Newton n = {workspace,
                 input,
                 stage,
@@ -291,7 +324,10 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
                 b,
                 iterations,
                 apart,
-                apart || (b > 0 && (iterations > 1 || workspace.system->row->needs_search || input.settings.careful)),
+                apart || (b > 0 && (iterations > 1 || is_long || workspace.system->row->needs_search ||
+                                    input.settings.careful)),
+                is_long,
+                is_long,
                 false};
     workspace.v = workspace.v_start;
     workspace.reach = stage.step;

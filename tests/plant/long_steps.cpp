@@ -1,0 +1,67 @@
+// Steps longer than the periods of what hangs: fruits on thin peduncles come to rest where they hung.
+#include <gtest/gtest.h>
+
+#include "plant/plant.hpp"
+#include "support/materials.hpp"
+#include "support/model_def.hpp"
+
+namespace frond::test {
+namespace {
+
+// A stiff post with an arm, from which a fruit hangs on a thread that swings back by its weight 15 times as hard as by
+// its own stiffness.
+std::shared_ptr<const Model> gallows() {
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.6, 0}, 0.02, 0.02},
+                                {0, {0, 0.6, 0}, {0.3, 0.6, 0}, 0.02, 0.02},
+                                {1, {0.3, 0.6, 0}, {0.3, 0.5, 0}, 0.002, 0.002},
+                                {2, {0.3, 0.5, 0}, {0.3, 0.35, 0}, 0.02, 0.02}};
+    const frond_organ_material organ = {"stem", plain_material(1000, 1e8, 0.3, 1e-3)};
+    frond_model_def def = model_def();
+    def.capsule_height = 0.05;
+    def.organs = &organ;
+    def.organ_count = 1;
+    return build_from_stems(stems, 4, def);
+}
+
+std::unique_ptr<Plant> plant_of(const std::shared_ptr<const Model>& model) {
+    frond_plant_def def = plant_def(FROND_ROD);
+    def.integrator = FROND_IMPLICIT_EULER;
+    def.effects &= ~uint32_t(FROND_PLASTICITY | FROND_BREAKING);
+    return create_plant(model, def);
+}
+
+// Pushed aside by a wind of gravity for two steps, then let go.
+void swing(Plant& plant, double h) {
+    Surroundings surroundings;
+    surroundings.gravity = {0.1 * GRAVITY, -GRAVITY, 0.05 * GRAVITY};
+    // Of the places.
+    const auto farthest = [&] {
+        double way = 0;
+        for (int i = 0; i < plant.motion.x.size() / 3; i += 2)
+            way = std::max(way, (point(plant.motion.x, i) - point(elements_of(plant).modelled, i)).norm());
+        return way;
+    };
+    double most = 0;
+    for (int step = 0; step < 60; ++step) {
+        if (step == 2) surroundings.gravity = {0, -GRAVITY, 0};
+        step_plant(plant, surroundings, h);
+        EXPECT_EQ(plant.trouble & FROND_TROUBLE_REWOUND, 0u) << step;
+        most = std::max(most, farthest());
+        ASSERT_LT(most, 0.6) << step;
+    }
+    EXPECT_GT(most, 0.003);
+    EXPECT_LT(farthest(), 0.1 * most) << "steps of " << h;
+}
+
+TEST(LongSteps, LetWhatHangsOnAThreadComeToRest) {
+    const auto model = gallows();
+    for (double h : {0.1, 0.5, 2.0}) swing(*plant_of(model), h);
+}
+
+TEST(LongSteps, LetACucumberComeToRest) {
+    const auto model = build_from_file(FROND_SOURCE_DIR "/models/cucumber/cucumber.obj", model_def());
+    for (double h : {0.1, 0.5}) swing(*plant_of(model), h);
+}
+
+}  // namespace
+}  // namespace frond::test
