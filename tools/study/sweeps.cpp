@@ -53,7 +53,7 @@ void sweep_resolution(const Problem& problem, Effort effort, std::vector<Sweep>&
                 Setup setup = with_body(base, body);
                 setup.plant.mechanics = mechanics;
                 setup.plant.element_order = order;
-                // Cages are calibrated for order 1; rods have no order.
+                // Cages are fitted to order 2 as well, but in minutes; rods have no order.
                 if (order == 2 && body != Body::MESH) continue;
                 Sweep sweep;
                 sweep.name = frond_mechanics_name(mechanics);
