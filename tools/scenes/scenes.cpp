@@ -314,6 +314,8 @@ const std::vector<Scene>& scenes() {
         {"trellis", "a cucumber leans on a trellis of static boxes", 4, cucumber_defaults, build_trellis, rest},
         {"twig", "a twig of 60 rods is pulled aside and let go", 5, twig_defaults, build_twig, drag},
         {"wind", "a stand of corn in a gusty wind", 8, wind_defaults, build_wind, rest},
+        {"field", "10,000 plants of four kinds: one walks a path through them, a ball rolls ahead, wind on a patch", 8,
+         field_defaults, build_field, drive_field},
         {"tug", "a plant file: it stands, is pulled aside and let go", 5, tug_defaults, nullptr, drag},
     };
     return table;
