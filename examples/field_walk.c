@@ -24,7 +24,7 @@ static void check_picture(bool ok) {
 enum { KINDS = 4, SIDE = 50, PLANTS = SIDE * SIDE, STEPS = 240, SHOT = 200 };
 
 int main(int argc, char** argv) {
-    static const char* const FILES[KINDS] = {"wheat/wheat.obj", "corn/corn.obj", "sunflower/sunflower.obj",
+    static const char* const FILES[KINDS] = {"corn/corn.obj", "sunflower/sunflower.obj", "wheat/wheat.obj",
                                              "cucumber/cucumber.obj"};
     static frond_plant plants[PLANTS];
     static frond_vec3 places[PLANTS];
@@ -58,8 +58,8 @@ int main(int argc, char** argv) {
     plant_def.starts_asleep = true;
     for (i = 0; i < PLANTS; i++) {
         const double x = apart * (i % SIDE), z = apart * (i / SIDE - SIDE / 2 + 0.5);
-        const int strip = (int)(x / 6) % KINDS;
-        kinds[i] = strip == 3 && fabs(z) > 3 ? 0 : strip;
+        const int strip = (int)(x / 4) % KINDS;
+        kinds[i] = strip == 3 && fabs(z) > 3 ? 2 : strip;
         places[i] = (frond_vec3){x + 0.1 * sin(7.0 * i), 0, z + 0.1 * sin(11.0 * i)};
         plant_def.position = places[i];
         plant_def.rotation = (frond_quat){0, sin(1.3 * i), 0, cos(1.3 * i)};
@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
         for (shot = 0; step == SHOT && shot < 2; shot++) {
             const frond_vec3 at = state.position;
             scene.camera.target = (frond_vec3){at.x + (shot ? 4 : 2), shot ? 0.9 : 0, 0};
-            scene.camera.eye = shot ? (frond_vec3){at.x - 4.5, 1.9, 0.3} : (frond_vec3){at.x - 5, 9, 6};
+            scene.camera.eye = shot ? (frond_vec3){at.x - 4, 2, 0.9} : (frond_vec3){at.x - 5, 10, 7};
             check_picture(frond_picture_begin(picture, &scene));
             for (i = 0; i < PLANTS; i++)
                 if (hypot(places[i].x - at.x - 4, places[i].z) < seen)

@@ -159,10 +159,10 @@ PathFigures measure_path(int count, const BenchOptions& options) {
 // A thousand in wind, in full wherever they are; where the time of a step goes [ms].
 void bench_wind(const BenchOptions& options) {
     constexpr int WARM_UP = 30, STEPS = 60, COUNT = 1000;
-    std::printf("\n%d rod plants, all in a wind of 5 m/s, median [ms]\n%8s %9s %9s %9s %9s %9s %9s %9s\n", COUNT, "threads",
+    std::printf("\n%d rod plants, all in a wind of 6 m/s at 10 m height, median [ms]\n%8s %9s %9s %9s %9s %9s %9s %9s\n", COUNT, "threads",
                 "segments", "step", "air", "assembly", "solve", "capsules", "collide");
     for (const int threads : {1, 2}) {
-        Play play(cast("field"), field_settings(options, {"patch_wind=0", "detail=0", "wind=9,0,0", "plants=" + std::to_string(COUNT),
+        Play play(cast("field"), field_settings(options, {"patch_wind=0", "detail=0", "wind=6,0,0", "plants=" + std::to_string(COUNT),
                                                           "threads=" + std::to_string(threads)}));
         for (frond_plant plant : play.stage.plants) must(frond_plant_wake(plant));
         double segments = 0;

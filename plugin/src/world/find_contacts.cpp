@@ -161,7 +161,14 @@ void sweep_shape(World& world, btCollisionObject& object, const btCollisionShape
 void add_fast_bodies(World& world, double h, std::vector<Contact>& contacts) {
     constexpr double FAR = 0.005;  // in a step [m]
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
+    std::vector<const btCollisionObject*>& plants = world.plants_at;
+    plants.resize(size_t(objects.size()));
     for (int i = 0; i < objects.size(); i++) {
+        if (plants[size_t(i)] == objects[i]) continue;
+        if (PlantBody::of(objects[i])) {
+            plants[size_t(i)] = objects[i];
+            continue;
+        }
         btCollisionObject& object = *objects[i];
         if (object.isStaticObject() || !object.isActive() || !pushes(object) || !object.getBroadphaseHandle()) continue;
         btVector3 velocity;

@@ -84,6 +84,8 @@ void remove_plant(World& world, PlantBody* body) {
     world.bonds.remove_if([&](const Bond& bond) { return bond.plant == body; });
     for (std::vector<PlantBody*>* list : {&world.awake, &world.taking_part, &world.looked_at})
         list->erase(std::remove(list->begin(), list->end(), body), list->end());
+    std::replace(world.plants_at.begin(), world.plants_at.end(), static_cast<const btCollisionObject*>(body),
+                 static_cast<const btCollisionObject*>(nullptr));
     const size_t index = size_t(body->index);
     world.bodies.erase(world.bodies.begin() + body->index);
     for (size_t i = index; i < world.bodies.size(); i++) world.bodies[i]->index = int(i);

@@ -43,6 +43,8 @@ struct World final : btActionInterface {
     std::vector<PlantBody*> awake;        // by index, but for those that woke since the last substep
     std::vector<PlantBody*> taking_part;  // in the running substep, by number: what is awake, and what sleeps beside it
     std::vector<PlantBody*> looked_at;    // asleep, but unfolded since the last substep
+    // Bullet's objects that are plants, at their places among all: thousands need not be looked at to know what they are.
+    std::vector<const btCollisionObject*> plants_at;
     frond_parallel_for_fn* parallel_for;  // null: the host lends no threads of its own
     void* parallel_user;
     std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
