@@ -81,8 +81,8 @@ int main(int argc, char** argv) {
     check(frond_rigid_create(world, &walker_def, &walker));
 
     mkdir(folder, 0777);
-    picture_def.width = 1280;
-    picture_def.height = 720;
+    picture_def.width = 960;
+    picture_def.height = 540;
     picture_def.sky_samples = 4;
     check_picture(frond_picture_create(&picture_def, &picture));
 

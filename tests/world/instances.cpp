@@ -63,7 +63,12 @@ struct Rows {
 };
 
 constexpr double FEW_PIECES = 0.4;  // capsules as long as that make 41 of the corn [m]
-constexpr double ROD_ASLEEP = 4, CAGE_AWAKE = 1024;  // that one keeps [kB]
+// That one keeps, beyond its model [kB]. Bullet's own part of it, soft body and proxy, is larger in double precision.
+#ifdef BT_USE_DOUBLE_PRECISION
+constexpr double ROD_ASLEEP = 5, CAGE_AWAKE = 1024;
+#else
+constexpr double ROD_ASLEEP = 4, CAGE_AWAKE = 1024;
+#endif
 
 TEST(Instances, OfRodsThatSleepKeepLittleWhetherTheyEverMovedOrNot) {
     if (SANITIZED) GTEST_SKIP() << "another allocator";

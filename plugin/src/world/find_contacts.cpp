@@ -192,7 +192,7 @@ void discount_grown_in(std::vector<Contact>& contacts) {
         std::unique_ptr<GrownIn>& grown_in = contact.plant->grown_in;
         const btBroadphaseProxy* proxy = contact.other->getBroadphaseHandle();
         const GrownIn::key_type key(contact.capsule, contact.other, proxy ? proxy->m_uniqueId : 0);
-        if (contact.plant->is_new && contact.other->isStaticObject() && contact.gap < 0) {
+        if (contact.plant->new_for > 0 && contact.other->isStaticObject() && contact.gap < 0) {
             if (!grown_in) grown_in = std::make_unique<GrownIn>();
             (*grown_in)[key] = std::max((*grown_in)[key], -contact.gap);
         }
@@ -217,7 +217,7 @@ std::vector<Contact> find_contacts(World& world, double h) {
     }
     add_fast_bodies(world, h, contacts);
     discount_grown_in(contacts);
-    for (PlantBody* body : world.awake) body->is_new = false;
+    for (PlantBody* body : world.awake) body->new_for = std::max(body->new_for - 1, 0);
     return contacts;
 }
 

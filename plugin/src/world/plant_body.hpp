@@ -47,7 +47,7 @@ struct PlantBody : btSoftBody {
     std::unique_ptr<Plant> plant;
     World* world;
     frond_plant handle = {};
-    bool is_new = true;  // has not stepped yet
+    int new_for = 1;  // substeps in which what it stands in is yet to be found out; one that began asleep wakes without pairs
     Rest rest;
     std::unique_ptr<GrownIn> grown_in;  // null: in nothing
     int index = 0;    // among the world's plants

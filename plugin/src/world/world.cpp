@@ -63,6 +63,7 @@ PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, bool asleep) {
     // The default filter of a kinematic object would meet nothing that is static.
     world.bullet->addCollisionObject(body, btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter);
     if (asleep) {
+        body->new_for = 2;
         fall_asleep(world, *body);
     } else {
         world.awake.push_back(body);
