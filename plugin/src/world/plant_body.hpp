@@ -39,6 +39,7 @@ struct Level {
     double distance = 0;       // as it counts
     double touched = 0;        // until when it was touched lately [s]
     double ms = 0;             // that a step took, lately
+    double ms_capsules = 0;    // of the last one
 };
 
 struct PlantBody : btSoftBody {

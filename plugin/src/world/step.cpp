@@ -132,7 +132,9 @@ void finish(const World& world, PlantBody& body, const Surroundings& surrounding
     accept_step(plant, surroundings, body.level.pending);
     const double ms = plant.ms_effects + plant.report.ms_assembly + plant.report.ms_solve;
     body.level.ms += (body.level.ms > 0 ? LATELY : 1) * (ms - body.level.ms);
+    const Timer timer;
     if (!(plant.effects & world.effects & FROND_BREAKING)) move_capsules(body);
+    body.level.ms_capsules = timer.ms();
     if (world.sleep_distance > 0) watch(world, body, body.level.pending);
 }
 
@@ -144,8 +146,10 @@ void sway(const World& world, PlantBody& body, const Surroundings& surroundings,
     body.level.is_due = is_turn;
     if (world.sleep_distance > 0) watch(world, body, h);
     if (!is_turn) return;
+    const Timer timer;
     pose(*body.plant);
     move_capsules(body);
+    body.level.ms_capsules = timer.ms();
 }
 
 // A plant's own part of the substep, which no other has anything to do with.
@@ -174,7 +178,7 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
         add_effect(report, FROND_BREAKING, timer.ms());
     }
     collision_world.updateSingleAabb(&body);
-    report.ms_capsules += timer.ms();
+    report.ms_capsules += timer.ms() + body.level.ms_capsules;
     body.level.pending = 0;
     if (!world.own) clear_user_force(*body.plant);
 }
