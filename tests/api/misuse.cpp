@@ -37,7 +37,37 @@ TEST(Header, EveryEnumHasANameAndOutOfRangeHasOneToo) {
     EXPECT_STREQ(frond_hash_layout_name(frond_hash_layout(-1)), "?");
     EXPECT_STREQ(frond_response_name(FROND_RESPONSE_IMPULSE), "impulse");
     EXPECT_STREQ(frond_response_name(FROND_RESPONSE_COUNT), "?");
+    EXPECT_STREQ(frond_detail_name(FROND_DETAIL_SWAY), "sway");
+    EXPECT_STREQ(frond_detail_name(FROND_DETAIL_COUNT), "?");
+    EXPECT_STREQ(frond_effect_name(FROND_WIND), "wind");
+    EXPECT_STREQ(frond_effect_name(FROND_WIND | FROND_GRAVITY), "?");
+    EXPECT_STREQ(frond_effect_name(1u << FROND_EFFECT_COUNT), "?");
     EXPECT_GT(std::strlen(frond_version_string()), 2u);
+}
+
+TEST(Misuse, OfDetailIsRefused) {
+    SmallWorld small;
+    frond_detail_def def = {};
+    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_BAD_DEF);
+    EXPECT_TRUE(error_names("frond_default_detail_def"));
+    def = frond_default_detail_def();
+    EXPECT_EQ(frond_world_set_detail({}, &def), FROND_BAD_HANDLE);
+    def.sway_from = def.half_from - 1;
+    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_BAD_ARGUMENT);
+    EXPECT_TRUE(error_names("sway_from"));
+    def = frond_default_detail_def();
+    def.hysteresis = 1;
+    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_BAD_ARGUMENT);
+    def = frond_default_detail_def();
+    def.budget = NOT_A_NUMBER;
+    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_BAD_ARGUMENT);
+    EXPECT_TRUE(error_names("budget"));
+    EXPECT_EQ(frond_world_set_viewer(small.world, {0, INFINITE, 0}), FROND_BAD_ARGUMENT);
+    EXPECT_TRUE(error_names("position"));
+    frond_detail detail = FROND_DETAIL_STILL;
+    EXPECT_EQ(frond_plant_get_detail({}, &detail), FROND_BAD_HANDLE);
+    EXPECT_EQ(detail, FROND_DETAIL_FULL);
+    EXPECT_EQ(frond_plant_get_detail(small.plant, nullptr), FROND_BAD_ARGUMENT);
 }
 
 TEST(Misuse, OfWorldsIsRefused) {

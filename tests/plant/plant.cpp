@@ -119,6 +119,7 @@ TEST(Surface, StandsInTheWorldWhereThePlantIsPlaced) {
     def.position = {5, 6, 7};
     def.rotation = {0, 0, 2, 2};  // a quarter turn about z, not of length one
     const auto plant = create_plant(small_model(), def);
+    update_surface(*plant, FROND_ALL_EFFECTS);
     const Surface& surface = plant->model->surface;
     for (size_t v = 0; v < surface.positions.size(); v++) {
         const Vec3& rest = surface.positions[v];

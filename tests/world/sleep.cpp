@@ -109,6 +109,29 @@ TEST_P(Sleep, ChangesNothingByMoreThanATenthOfAMillimetre) {
     EXPECT_EQ(sleeps.report().ms_solve, 0);
 }
 
+// One whose foot is in the ground from the start is not pushed out of it when it wakes.
+TEST(Sleep, FromTheStartLeavesAPlantWhereItStands) {
+    Stand stand;
+    frond_rigid_def ground = frond_default_rigid_def();
+    ground.shape = FROND_PLANE;
+    ground.state.position.y = 0.05;
+    frond_rigid rigid = {};
+    must(frond_rigid_create(stand.world, &ground, &rigid));
+    frond_plant_def def = frond_default_plant_def();
+    def.mechanics = FROND_ROD;
+    def.starts_asleep = true;
+    frond_plant plant = {};
+    must(frond_plant_create(stand.world, stand.model, &def, &plant));
+    stand.steps(10);
+    EXPECT_FALSE(frond_plant_is_awake(plant));
+    const std::vector<double> start = stand.places(plant);
+    must(frond_plant_wake(plant));
+    stand.steps(20);
+    EXPECT_TRUE(frond_plant_is_awake(plant));
+    const std::vector<double> now = stand.places(plant);
+    for (size_t i = 0; i < now.size(); i++) ASSERT_NEAR(now[i], start[i], 1e-5) << i;
+}
+
 TEST_P(Sleep, ComesNotWhileAPlantSways) {
     Stand stand;
     const frond_plant plant = stand.add(0, GetParam());

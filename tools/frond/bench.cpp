@@ -179,13 +179,18 @@ void add_bench(CLI::App& app) {
     contact->add_flag("--csv", contact_options->csv, "print CSV");
     contact->add_option("--set", contact_options->assignments, "key=value, may be repeated; see frond run --help");
     auto field_options = std::make_shared<BenchOptions>();
-    field_options->what = "corn";
-    field_options->most = 1000;
-    CLI::App* field = bench->add_subcommand("field", "plants that are many: to make, to keep, awake and asleep");
-    field->add_option("what", field_options->what, "a scene of one plant or a mesh file, default corn");
-    field->add_option("--most", field_options->most, "plants, default 1000")->check(CLI::Range(100, 100000));
+    field_options->most = 10000;
+    CLI::App* field = bench->add_subcommand("field", "a field: asleep but a path, in wind, with a crowd in it");
+    field->add_option("--most", field_options->most, "plants, default 10000")->check(CLI::Range(100, 100000));
+    field->add_option("--out", field_options->out, "folder for a diagram");
     field->add_option("--set", field_options->assignments, "key=value, may be repeated; see frond run --help");
     field->callback([field_options] { bench_field(*field_options); });
+    auto effects_options = std::make_shared<BenchOptions>();
+    auto inside = std::make_shared<bool>(false);
+    CLI::App* effects = bench->add_subcommand("effects", "instructions that each effect costs, counted by valgrind");
+    effects->add_flag("--csv", effects_options->csv, "print CSV");
+    effects->add_flag("--inside", *inside, "steps all cases, for valgrind to count")->group("");
+    effects->callback([effects_options, inside] { *inside ? step_all_effects() : bench_effects(*effects_options); });
     contact->callback([contact_options] { bench_contact(*contact_options); });
 }
 

@@ -13,9 +13,13 @@ struct BenchOptions {
     int rounds = 20;
     int most = 17;  // plants
     bool csv = false;
+    std::string out;  // folder for diagrams; empty: none
     std::vector<std::string> assignments;
 };
 
 void bench_field(const BenchOptions& options);
+void bench_effects(const BenchOptions& options);
+// What the latter has counted.
+void step_all_effects();
 
 }  // namespace frond::tools

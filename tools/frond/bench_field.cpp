@@ -1,11 +1,12 @@
-// frond bench field: what plants cost that are many: to make, to keep, awake and asleep.
-#include <unistd.h>
+// frond bench field: what a field costs, asleep but for a path, all in wind, and with a crowd in it.
+#include <btBulletDynamicsCommon.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
+#include <sstream>
 
 #include "bench.hpp"
 #include "study/report.hpp"
@@ -19,33 +20,10 @@ double now() {  // [ms]
     return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
 }
 
-// What the process keeps in memory [kB].
+// What the process has allocated [kB].
 double memory() {
-    std::ifstream file("/proc/self/statm");
-    double pages = 0, resident = 0;
-    file >> pages >> resident;
-    return resident * double(sysconf(_SC_PAGESIZE)) / 1024;
-}
-
-struct Figures {
-    int plants, capsules;
-    double ms_made, kb;               // of one
-    double awake, one_awake, asleep;  // steps of the whole Bullet world [ms]
-    double frond_asleep;              // of that, Frond's
-};
-
-// The median of steps; before each, the first plant is pushed or not.
-double median_step(Stage& stage, int steps, double force) {
-    std::vector<double> ms;
-    for (int i = 0; i < steps; i++) {
-        const frond_plant first = stage.plants.front();
-        if (force > 0) must(frond_plant_add_force(first, frond_plant_get_node_count(first) - 1, {force, 0, 0}));
-        const double start = now();
-        must(frond_world_step(stage.world, stage.settings.dt));
-        ms.push_back(now() - start);
-    }
-    std::sort(ms.begin(), ms.end());
-    return ms[ms.size() / 2];
+    const struct mallinfo2 info = mallinfo2();
+    return double(info.uordblks + info.hblkhd) / 1024;
 }
 
 frond_report report_of(const Stage& stage) {
@@ -54,46 +32,216 @@ frond_report report_of(const Stage& stage) {
     return report;
 }
 
-Figures measure(int count, const BenchOptions& options) {
-    constexpr int AWAKE = 10, SETTLE = 3600, STEPS = 60;
-    constexpr double APART = 1.2, FORCE = 0.5;  // [m], [N]
-    const Casting casting = cast(options.what);
-    Play play(casting, settings_of(casting, options.assignments));
-    Stage& stage = play.stage;
-    const int side = int(std::ceil(std::sqrt(count)));
-    const double before = memory(), start = now();
-    for (int i = 1; i < count; i++)
-        stage.plant(stage.models.front(), {APART * (i % side), 0, APART * (i / side)}, i);
-    Figures figures = {};
+double share_of(std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    return values[size_t(share * double(values.size() - 1))];
+}
+
+Settings field_settings(const BenchOptions& options, const std::vector<std::string>& assignments) {
+    std::vector<std::string> all = assignments;
+    all.insert(all.end(), options.assignments.begin(), options.assignments.end());
+    return settings_of(cast("field"), all);
+}
+
+// A Bullet world with the field's plants as static bodies, and its ground, ball and walker.
+struct StaticField {
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+    std::vector<std::unique_ptr<btCollisionShape>> shapes;
+    std::vector<std::unique_ptr<btCollisionObject>> objects;
+    btRigidBody* walker = nullptr;
+
+    template <class Shape, class... Arguments>
+    Shape* shape(Arguments... arguments) {
+        shapes.push_back(std::make_unique<Shape>(arguments...));
+        return static_cast<Shape*>(shapes.back().get());
+    }
+    btRigidBody* rigid(btCollisionShape* of, double mass, const frond_rigid_state& state) {
+        btVector3 inertia(0, 0, 0);
+        if (mass > 0) of->calculateLocalInertia(btScalar(mass), inertia);
+        btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, of, inertia);
+        const frond_vec3& p = state.position;
+        info.m_startWorldTransform.setOrigin(btVector3(btScalar(p.x), btScalar(p.y), btScalar(p.z)));
+        auto body = std::make_unique<btRigidBody>(info);
+        btRigidBody* given = body.get();
+        objects.push_back(std::move(body));
+        world.addRigidBody(given);
+        return given;
+    }
+    void add_plant(frond_plant plant) {
+        std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
+        must(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())));
+        btCompoundShape* compound = shape<btCompoundShape>();
+        for (const frond_capsule& c : capsules) {
+            const btVector3 begin(btScalar(c.begin.x), btScalar(c.begin.y), btScalar(c.begin.z));
+            const btVector3 end(btScalar(c.end.x), btScalar(c.end.y), btScalar(c.end.z));
+            const btScalar length = begin.distance(end);
+            const btQuaternion turn = length > 0 ? shortestArcQuat(btVector3(0, 1, 0), (end - begin) / length)
+                                                 : btQuaternion::getIdentity();
+            compound->addChildShape(btTransform(turn, (begin + end) / 2),
+                                    shape<btCapsuleShape>(btScalar(c.radius), length));
+        }
+        objects.push_back(std::make_unique<btCollisionObject>());
+        objects.back()->setCollisionShape(compound);
+        world.addCollisionObject(objects.back().get(), btBroadphaseProxy::StaticFilter,
+                                 btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter);
+    }
+    explicit StaticField(const Stage& stage) {
+        for (frond_plant plant : stage.plants) add_plant(plant);
+        const std::vector<frond_rigid_def>& defs = stage.rigid_defs;
+        rigid(shape<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)), 0, defs[0].state);
+        btRigidBody* ball = rigid(shape<btSphereShape>(btScalar(defs[1].size.x)), defs[1].mass, defs[1].state);
+        ball->setLinearVelocity(btVector3(btScalar(defs[1].state.velocity.x), 0, 0));
+        walker = rigid(shape<btCapsuleShape>(btScalar(defs[2].size.x), btScalar(2 * defs[2].size.y)), 0, defs[2].state);
+        walker->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+        walker->setActivationState(DISABLE_DEACTIVATION);
+    }
+    ~StaticField() {
+        for (const auto& object : objects) world.removeCollisionObject(object.get());
+    }
+    double step(double dt) {
+        btTransform frame = walker->getWorldTransform();
+        frame.getOrigin() += btVector3(btScalar(1.3 * dt), 0, 0);
+        walker->setWorldTransform(frame);
+        const double start = now();
+        world.stepSimulation(btScalar(dt), 0);
+        return now() - start;
+    }
+};
+
+struct PathFigures {
+    int plants;
+    double ms_made, kb;          // of one
+    double whole, frond, still;  // medians: a step of the world, Frond's share of it, Bullet's with static bodies [ms]
+    double awake;                // plants, mean
+    double beyond() const { return whole - still; }
+};
+
+// All asleep but for those on the path.
+PathFigures measure_path(int count, const BenchOptions& options) {
+    constexpr int WARM_UP = 30, STEPS = 240;
+    const Casting casting = cast("field");
+    PathFigures figures = {};
     figures.plants = count;
-    figures.capsules = frond_plant_get_capsule_count(stage.plants.front());
-    figures.ms_made = (now() - start) / std::max(count - 1, 1);
-    figures.awake = median_step(stage, AWAKE, 0);
-    figures.kb = (memory() - before) / std::max(count - 1, 1);
-    for (int i = 0; i < SETTLE && report_of(stage).awake_count > 0; i++)
-        must(frond_world_step(stage.world, stage.settings.dt));
-    if (report_of(stage).awake_count > 0)
-        std::fprintf(stderr, "frond: %d of %d plants do not come to rest\n", report_of(stage).awake_count, count);
-    figures.asleep = median_step(stage, STEPS, 0);
-    figures.frond_asleep = report_of(stage).ms_step;
-    figures.one_awake = median_step(stage, STEPS, FORCE);
+    // Without the models, which all share.
+    const double before_models = memory(), start_models = now();
+    const Play models(casting, field_settings(options, {"patch_wind=0", "plants=4"}));
+    const double kb_models = memory() - before_models, ms_models = now() - start_models;
+    const double before = memory(), start = now();
+    Play play(casting, field_settings(options, {"patch_wind=0", "plants=" + std::to_string(count)}));
+    figures.ms_made = (now() - start - ms_models) / count;
+    figures.kb = (memory() - before - kb_models) / count;
+    StaticField still(play.stage);
+    play.step();
+    std::vector<double> whole, frond, bullet, awake;
+    for (int i = 0; i < WARM_UP + STEPS; i++) {
+        play.casting.scene->drive(play.stage);
+        const double begin = now();
+        must(frond_world_step(play.stage.world, play.stage.settings.dt));
+        const double ms = now() - begin, ms_still = still.step(play.stage.settings.dt);
+        if (i < WARM_UP) continue;
+        const frond_report report = report_of(play.stage);
+        whole.push_back(ms);
+        frond.push_back(report.ms_step);
+        bullet.push_back(ms_still);
+        awake.push_back(report.awake_count);
+    }
+    figures.whole = share_of(whole, 0.5);
+    figures.frond = share_of(frond, 0.5);
+    figures.still = share_of(bullet, 0.5);
+    for (const double count_awake : awake) figures.awake += count_awake / double(awake.size());
     return figures;
+}
+
+// A thousand in wind, in full wherever they are; where the time of a step goes [ms].
+void bench_wind(const BenchOptions& options) {
+    constexpr int WARM_UP = 30, STEPS = 60, COUNT = 1000;
+    std::printf("\n%d rod plants, all in a wind of 6 m/s at 10 m height, median [ms]\n%8s %9s %9s %9s %9s %9s %9s %9s\n", COUNT, "threads",
+                "segments", "step", "air", "assembly", "solve", "capsules", "collide");
+    for (const int threads : {1, 2}) {
+        Play play(cast("field"), field_settings(options, {"patch_wind=0", "detail=0", "wind=6,0,0", "plants=" + std::to_string(COUNT),
+                                                          "threads=" + std::to_string(threads)}));
+        for (frond_plant plant : play.stage.plants) must(frond_plant_wake(plant));
+        double segments = 0;
+        for (frond_plant plant : play.stage.plants) segments += frond_plant_get_capsule_count(plant) / double(COUNT);
+        std::vector<double> step, air, assembly, solve, capsules, collide;
+        for (int i = 0; i < WARM_UP + STEPS; i++) {
+            play.step();
+            const frond_report report = report_of(play.stage);
+            if (i < WARM_UP) continue;
+            step.push_back(report.ms_step);
+            air.push_back(report.ms_effects);
+            assembly.push_back(report.ms_assembly);
+            solve.push_back(report.ms_solve);
+            capsules.push_back(report.ms_capsules);
+            collide.push_back(report.ms_collide);
+        }
+        std::printf("%8d %9.0f %9.2f %9.2f %9.2f %9.2f %9.2f %9.2f\n", threads, segments, share_of(step, 0.5),
+                    share_of(air, 0.5), share_of(assembly, 0.5), share_of(solve, 0.5), share_of(capsules, 0.5),
+                    share_of(collide, 0.5));
+    }
+}
+
+// Fifty come in; with and without a budget.
+void bench_crowd(const BenchOptions& options, double budget) {
+    constexpr int STEPS = 600;
+    Play play(cast("field"), field_settings(options, {"walkers=50", "budget=" + std::to_string(budget),
+                                                      "plants=" + std::to_string(options.most)}));
+    std::vector<double> ms;
+    double awake = 0, simulated = 0;
+    for (int i = 0; i < STEPS; i++) {
+        play.step();
+        const frond_report report = report_of(play.stage);
+        ms.push_back(report.ms_step);
+        awake += report.awake_count / double(STEPS);
+        simulated += (report.detail_count[FROND_DETAIL_FULL] + report.detail_count[FROND_DETAIL_ROD]) / double(STEPS);
+    }
+    std::printf("%8.1f %9.2f %9.2f %9.2f %9.2f %9.1f %9.1f\n", budget, share_of(ms, 0.5), share_of(ms, 0.95),
+                share_of(ms, 0.99), share_of(ms, 1), awake, simulated);
+    std::fflush(stdout);
+}
+
+std::string plot_of(const std::vector<PathFigures>& path, const std::string& base) {
+    std::ostringstream plot;
+    plot << "set xlabel 'plants in the field'\nset ylabel 'ms a step, median'\nset logscale xy\nset grid\n"
+         << "set key left top\nset yrange [0.005:20]\n$data << EOD\n";
+    for (const PathFigures& f : path)
+        plot << f.plants << ' ' << f.whole << ' ' << f.still << ' ' << std::max(f.beyond(), 1e-3) << ' ' << f.frond << '\n';
+    plot << "EOD\nplot $data using 1:2 with linespoints lw 2 pt 7 title 'the whole Bullet world', "
+         << "$data using 1:3 with linespoints lw 2 pt 5 title 'Bullet alone, plants as static bodies', "
+         << "$data using 1:4 with linespoints lw 2 pt 9 title 'beyond that', "
+         << "2 with lines dt 2 lc 'gray' title '2 ms'\n";
+    return study::drawn_twice(plot.str(), base);
 }
 
 }  // namespace
 
 void bench_field(const BenchOptions& options) {
-    std::printf("%s, %s; steps of the whole world, median [ms], one core\n%s, %s, frond %s %s\n", options.what.c_str(),
-                "one after another in rows, 1.2 m apart", study::processor_name().c_str(), FROND_COMPILER,
+    std::printf("scene field; one core unless told\n%s, %s, frond %s %s\n", study::processor_name().c_str(), FROND_COMPILER,
                 frond_version_string(), FROND_COMMIT);
-    std::printf("%8s %10s %12s %10s %10s %10s %12s %12s\n", "plants", "capsules", "made [ms]", "each [kB]", "all awake",
-                "one awake", "all asleep", "of it Frond");
+    std::printf("all asleep but a path on which one walks behind a ball, median [ms]\n");
+    std::printf("%8s %10s %10s %8s %10s %10s %10s %10s\n", "plants", "made [ms]", "each [kB]", "awake", "world",
+                "static", "beyond", "Frond");
+    std::vector<PathFigures> path;
     for (int count = 100; count <= options.most; count *= 10) {
-        const Figures f = measure(count, options);
-        std::printf("%8d %10d %12.3f %10.1f %10.3f %10.3f %12.4f %12.4f\n", f.plants, f.capsules, f.ms_made, f.kb, f.awake,
-                    f.one_awake, f.asleep, f.frond_asleep);
+        path.push_back(measure_path(count, options));
+        const PathFigures& f = path.back();
+        std::printf("%8d %10.3f %10.2f %8.1f %10.3f %10.3f %10.3f %10.3f\n", f.plants, f.ms_made, f.kb, f.awake, f.whole,
+                    f.still, f.beyond(), f.frond);
         std::fflush(stdout);
     }
+    bench_wind(options);
+    std::printf("\na crowd of 50 comes into %d plants, Frond's time of a step [ms]\n%8s %9s %9s %9s %9s %9s %9s\n",
+                options.most, "budget", "median", "95 %", "99 %", "most", "awake", "simulated");
+    for (const double budget : {0.0, 8.0, 4.0, 2.0}) bench_crowd(options, budget);
+    if (options.out.empty()) return;
+    study::require_gnuplot();
+    study::prepare_folder(options.out);
+    study::write_file(options.out + "/field.gp", plot_of(path, options.out + "/field"));
+    study::run_gnuplot(options.out + "/field.gp");
 }
 
 }  // namespace frond::tools

@@ -75,6 +75,12 @@ nlohmann::ordered_json summary(const Play& play, const Record& record) {
     out["tip_farthest"] = record.farthest;
     out["contacts"] = last.contact_count + last.plant_contact_count;
     out["trouble"] = trouble_text(record.trouble);
+    for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++) {
+        const auto ran = [&](const frond_report& r) { return r.effects_run >> bit & 1; };
+        if (std::any_of(record.reports.begin(), record.reports.end(), ran))
+            out["effects"][frond_effect_name(1u << bit)] =
+                median_of(record, [&](const frond_report& r) { return r.ms_of_effect[bit]; });
+    }
     out["ms_per_step"] = {{"all", median_of(record, [](const frond_report& r) { return r.ms_step; })},
                           {"effects", median_of(record, [](const frond_report& r) { return r.ms_effects; })},
                           {"assembly", median_of(record, [](const frond_report& r) { return r.ms_assembly; })},
@@ -96,6 +102,12 @@ void print(const nlohmann::ordered_json& out) {
                 out["steps"].get<int>(), out["time"].get<double>(), out["tip_at_start"][1].get<double>(),
                 out["tip"][1].get<double>(), out["tip_farthest"].get<double>(), out["contacts"].get<int>(),
                 out["trouble"].get<std::string>().c_str());
+    std::printf("  effects:");
+    for (const auto& [name, ms] : out["effects"].items()) {
+        std::printf(" %s", name.c_str());
+        if (ms.get<double>() > 0) std::printf(" %.4f", ms.get<double>());
+    }
+    std::printf(" (median ms; without a number: part of what others solve)\n");
     const auto& ms = out["ms_per_step"];
     std::printf("  median step %.3f ms: effects %.3f, assembly %.3f, solve %.3f, contact %.3f, capsules %.3f; "
                 "surface %.3f ms\n",
@@ -176,10 +188,10 @@ nlohmann::ordered_json play_once(const RunOptions& options, const Casting& casti
         play.step();
         if (film && i % options.every == 0) film->add(*studio, play.stage);
 
-        // What a game does each frame: take the surface of every plant.
-        for (frond_plant plant : play.stage.plants) {
+        // What a game does each frame: take the surface of every plant that it draws.
+        for (size_t k = 0; k < play.stage.plants.size(); k++) {
             frond_surface_view view;
-            must(frond_plant_get_surface(plant, &view));
+            if (play.stage.sees(k)) must(frond_plant_get_surface(play.stage.plants[k], &view));
         }
         frond_report report;
         must(frond_world_get_report(play.stage.world, &report));

@@ -31,8 +31,12 @@ const uint8_t* Studio::shoot(const Stage& stage) {
     frond_picture_scene scene = frond_default_picture_scene();
     // A margin on all sides, since plants move.
     const double margin = 0.08 * (stage.upper.y - stage.lower.y);
-    const frond_vec3 lower = {stage.lower.x - margin, stage.lower.y, stage.lower.z - margin};
-    const frond_vec3 upper = {stage.upper.x + margin, stage.upper.y + margin, stage.upper.z + margin};
+    frond_vec3 lower = {stage.lower.x - margin, stage.lower.y, stage.lower.z - margin};
+    frond_vec3 upper = {stage.upper.x + margin, stage.upper.y + margin, stage.upper.z + margin};
+    if (stage.has_view) {
+        lower = stage.view_lower;
+        upper = stage.view_upper;
+    }
     scene.camera =
         frond_picture_frame(lower, upper, {0, 1, 0}, view.azimuth, view.elevation, double(view.width) / view.height);
     // The ground is at zero for what reaches a little below it with its roots, else where the lowest point is.
@@ -50,7 +54,8 @@ const uint8_t* Studio::shoot(const Stage& stage) {
     if (wants("capsules")) what |= FROND_PICTURE_CAPSULES;
     if (wants("contacts")) what |= FROND_PICTURE_CONTACTS;
     for (size_t i = 0; i < stage.plants.size(); i++)
-        must(frond_picture_draw_plant(picture, stage.plants[i], stage.plant_models[i], what));
+        if (stage.sees(i))
+            must(frond_picture_draw_plant(picture, stage.plants[i], stage.plant_models[i], what));
     const frond_color clay = {0.55f, 0.16f, 0.07f, 1};
     for (size_t i = 0; i < stage.rigids.size(); i++)
         must(frond_picture_draw_rigid(picture, &stage.rigid_defs[i], stage.rigids[i], clay));

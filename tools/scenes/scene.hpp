@@ -2,6 +2,7 @@
 // only.
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,6 +27,11 @@ struct Settings {
     double dt = 1.0 / 60;        // [s]
     double pull = 0.2;           // how far the user drags, as a share of the plant's height [-]
     int plants = 0;              // of a field; 0: as many as it has
+    int walkers = 1;             // in a field
+    double patch_wind = 5;       // over a patch of a field [m/s]
+    double budget = 0;           // of a step of all plants [ms]; 0: any
+    bool detail = true;          // a field's far plants are simulated for less
+    int threads = 1;
     double grab_stiffness = 60;  // [N/m]; 0: as stiff as it takes to move the plant
     struct OrganOverride {
         std::string organ;
@@ -42,9 +48,25 @@ std::string settings_help();
 // Cage cells with which the two models come to the paper's counts of nodes and tets [m].
 constexpr double PAPER_CORN_CELL = 0.24, PAPER_CUCUMBER_CELL = 0.205;
 
+// Threads that a world is lent. As many are made as asked for, less the caller's own; they wait in between.
+class Team {
+public:
+    explicit Team(int threads);
+    Team(const Team&) = delete;
+    Team& operator=(const Team&) = delete;
+    ~Team();
+    // A frond_parallel_for_fn; user: the team.
+    static void parallel_for(int count, frond_job_fn* job, void* data, void* user);
+
+private:
+    struct Work;
+    std::unique_ptr<Work> work;
+};
+
 // What is on the stage while a scene runs.
 struct Stage {
     Settings settings;
+    std::unique_ptr<Team> team;  // null with one thread
     frond_world world = {};
     std::vector<frond_model> models;
     std::vector<frond_plant> plants;
@@ -53,6 +75,11 @@ struct Stage {
     std::vector<frond_rigid_def> rigid_defs;  // as they were made
     std::vector<frond_rigid> rigids;
     frond_vec3 lower = {}, upper = {};  // box of all plants at the start [m]
+    bool has_view = false;              // pictures show the box below, and what stands in it, instead of all plants
+    frond_vec3 view_lower = {}, view_upper = {};
+    std::vector<frond_vec3> places;     // one a plant [m]
+    frond_vec3 patch = {};              // middle of the patch over which the wind blows [m]
+    double patch_radius = 0;            // [m]
     double time = 0;                    // [s]
     frond_vec3 drag_start = {};         // where the user took hold [m]
     double drag_stiffness = 0;          // of the user's spring as it is now [N/m]
@@ -67,6 +94,8 @@ struct Stage {
     // Turned about its own height by `turn` [rad].
     frond_plant plant(frond_model model, frond_vec3 position, double turn = 0);
     frond_rigid rigid(const frond_rigid_def& def);
+    // Whether a plant stands in view, or somewhat beside it.
+    bool sees(size_t plant) const;
 };
 
 struct Scene {
@@ -79,6 +108,10 @@ struct Scene {
     const char* without = nullptr;  // a setting with which it is played, and pictured, for comparison
 };
 const std::vector<Scene>& scenes();
+// Of the scene `field`.
+void field_defaults(Settings& settings);
+void build_field(Stage& stage);
+void drive_field(Stage& stage);
 // The scene of that name, or the scene "tug" around a plant file. Throws a SceneError that names the scenes there are.
 struct Casting {
     const Scene* scene;

@@ -403,6 +403,8 @@ const std::vector<Scene>& scenes() {
         {"snap", "a corn stalk is bent over until it snaps", 7, snap_defaults, build_snap, snap},
         {"pick", "a cucumber is pulled off its peduncle", 4, pick_defaults, build_pick, pick},
         {"wind", "a stand of corn in a gusty wind", 8, wind_defaults, build_wind, rest},
+        {"field", "10,000 plants of four kinds: one walks a path through them, a ball rolls ahead, wind on a patch", 8,
+         field_defaults, build_field, drive_field},
         {"tug", "a plant file: it stands, is pulled aside and let go", 5, tug_defaults, nullptr, drag},
     };
     return table;

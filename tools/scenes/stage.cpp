@@ -10,6 +10,11 @@
 namespace frond::tools {
 
 Stage::Stage(const Settings& given) : settings(given) {
+    if (settings.threads > 1) {
+        team = std::make_unique<Team>(settings.threads);
+        settings.world.parallel_for = Team::parallel_for;
+        settings.world.parallel_user = team.get();
+    }
     must(frond_world_create(&settings.world, &world));
     const frond_vec3& wind = settings.wind.velocity;
     if (wind.x == 0 && wind.y == 0 && wind.z == 0) return;
@@ -97,8 +102,15 @@ frond_plant Stage::plant(frond_model model, frond_vec3 position, double turn) {
     grow(lower.y, upper.y, position.y + info.lower.y, position.y + info.upper.y);
     grow(lower.z, upper.z, z - deep, z + deep);
     plants.push_back(plant);
+    places.push_back(position);
     plant_models.push_back(model);
     return plant;
+}
+
+bool Stage::sees(size_t plant) const {
+    constexpr double BESIDE = 6;  // [m]
+    const frond_vec3 &p = places[plant], &a = view_lower, &b = view_upper;
+    return !has_view || (p.x > a.x - BESIDE && p.x < b.x + BESIDE && p.z > a.z - BESIDE && p.z < b.z + BESIDE);
 }
 
 frond_rigid Stage::rigid(const frond_rigid_def& def) {

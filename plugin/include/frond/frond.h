@@ -14,7 +14,8 @@
  * Errors     Zero (FROND_OK) is success. On failure the call changed nothing, out parameters are zeroed, and
  *            frond_last_error() says what was wrong and what to do. Wrong input never aborts the program.
  * Threads    One world, one thread at a time. Different worlds may be used from different threads. Models are
- *            read-only and may be shared by all of them.
+ *            read-only and may be shared by all of them. Within a step a world may use threads that the host lends it:
+ *            frond_world_def.parallel_for.
  */
 #ifndef FROND_H
 #define FROND_H
@@ -95,33 +96,41 @@ typedef struct frond_bond {
 /* ---- choices ------------------------------------------------------------------------------------------- */
 
 /* What a scene pays for. An effect runs only if its bit is set on the world AND on the plant. */
+#define FROND_EFFECTS(X)                                                                                              \
+    X(GRAVITY, 0, "gravity")                                                                                          \
+    X(DAMPING, 1, "damping")              /* mass_, stiffness_ and material_damping of the plant's def */             \
+    X(USER_FORCE, 2, "user_force")        /* frond_plant_add_force and grabs */                                       \
+    X(SURFACE, 3, "surface")              /* deform the render mesh */                                                \
+    X(NORMALS, 4, "normals")              /* and its normals; needs FROND_SURFACE */                                  \
+    X(RIGID_CONTACT, 5, "rigid_contact")  /* bodies of the Bullet world push the plant */                             \
+    X(FRICTION, 6, "friction")            /* and rub on it; likewise plants on plants */                              \
+    X(TWO_WAY, 7, "two_way")              /* and feel the same impulses; needs FROND_RIGID_CONTACT */                 \
+    X(PLASTICITY, 8, "plasticity")        /* what is bent beyond its yield_strain keeps a set, and creeps */          \
+    X(PLANT_CONTACT, 9, "plant_contact")  /* plants push each other by their cages, where both have this bit. Those   \
+                                           * that stand in each other when they are made come apart, slowly. */       \
+    X(SELF_CONTACT, 10, "self_contact")   /* and parts of a plant do, but for those that meet as modelled */          \
+    X(BREAKING, 11, "breaking")           /* what is bent or pulled beyond its strength breaks there: all beyond      \
+                                           * comes off as a rigid body, and goes on being drawn with the plant. */    \
+    X(WIND, 12, "wind")                   /* the air's own motion pushes the plant, where the world has air:          \
+                                           * frond_world_set_wind */                                                  \
+    X(AIR_DRAG, 13, "air_drag")           /* and the plant's own motion through the air is resisted */                \
+    X(FIBRES, 14, "fibres")               /* organs in a cage that is fatter than they are are not drawn out by more  \
+                                           * than 3 % and what their tissue gives; their cage alone gives as rubber   \
+                                           * does. Costs nothing while nothing is drawn out. Chains need none,        \
+                                           * FROND_TET_LINEAR has none. */
 typedef uint32_t frond_effects;
+#define FROND_EFFECT_ENUM(code, bit, text) FROND_##code = 1 << bit,
+#define FROND_EFFECT_ONE(code, bit, text) +1
 enum {
-    FROND_GRAVITY = 1 << 0,
-    FROND_DAMPING = 1 << 1,    /* mass_, stiffness_ and material_damping of the plant's def */
-    FROND_USER_FORCE = 1 << 2, /* frond_plant_add_force and grabs */
-    FROND_SURFACE = 1 << 3,    /* deform the render mesh */
-    FROND_NORMALS = 1 << 4,    /* and its normals; needs FROND_SURFACE */
-    FROND_RIGID_CONTACT = 1 << 5, /* bodies of the Bullet world push the plant */
-    FROND_FRICTION = 1 << 6,      /* and rub on it; likewise plants on plants */
-    FROND_TWO_WAY = 1 << 7,       /* and feel the same impulses; needs FROND_RIGID_CONTACT */
-    FROND_PLASTICITY = 1 << 8,    /* what is bent beyond its material's yield_strain keeps a set, and creeps */
-    FROND_PLANT_CONTACT = 1 << 9, /* plants push each other by their cages, where both have this bit. Those that stand
-                                   * in each other when they are made come apart, slowly. */
-    FROND_SELF_CONTACT = 1 << 10, /* and parts of a plant do, but for those that meet in the modelled shape */
-    /* What is bent or pulled beyond its material's strength breaks there: all beyond comes off as a rigid body of the
-     * Bullet world, and goes on being drawn with the plant. */
-    FROND_BREAKING = 1 << 11,
-    FROND_WIND = 1 << 12,     /* the air's own motion pushes the plant, where the world has air: frond_world_set_wind */
-    FROND_AIR_DRAG = 1 << 13, /* and the plant's own motion through the air is resisted */
-    /* Organs in a cage that is fatter than they are are not drawn out by more than 3 % and what their tissue gives;
-     * their cage alone gives as rubber does. Costs nothing while nothing is drawn out. Chains need none,
-     * FROND_TET_LINEAR has none. */
-    FROND_FIBRES = 1 << 14,
-    FROND_ALL_EFFECTS = (1 << 15) - 1,
+    FROND_EFFECTS(FROND_EFFECT_ENUM) FROND_EFFECT_COUNT = 0 FROND_EFFECTS(FROND_EFFECT_ONE),
+    FROND_ALL_EFFECTS = (1 << FROND_EFFECT_COUNT) - 1,
     /* of a plant; a world allows all */
     FROND_DEFAULT_EFFECTS = FROND_ALL_EFFECTS & ~(FROND_SELF_CONTACT | FROND_BREAKING)
 };
+#undef FROND_EFFECT_ENUM
+#undef FROND_EFFECT_ONE
+/* The name of one bit, "wind"; "?" of any other number. */
+FROND_API const char* frond_effect_name(frond_effects effect);
 
 /* What moves by itself. Every model has a chain and a cage: with the tets the cage moves and the chain follows, with
  * the last two the chain moves and the cage follows. */
@@ -162,7 +171,15 @@ enum {
     X(RESPONSE_PENALTY, "penalty") /* a spring at each contact, stable however stiff: cheap, yields a little */   \
     X(RESPONSE_NONE, "none")       /* contacts are told but nothing pushes */
 
+/* How much of a plant is simulated, from most to least: see frond_world_set_detail. */
+#define FROND_DETAILS(X)                                                                                            \
+    X(DETAIL_FULL, "full")   /* the plant's own mechanics */                                                        \
+    X(DETAIL_ROD, "rod")     /* rods, where the plant's own are tets */                                             \
+    X(DETAIL_SWAY, "sway")   /* the plant's two first sways, driven by the wind; a touch makes it rods */            \
+    X(DETAIL_STILL, "still") /* comes to rest as modelled and stays there, asleep, whatever touches or blows at it */
+
 #define FROND_MECHANICS_ENUM(code, text) FROND_##code,
+typedef enum frond_detail { FROND_DETAILS(FROND_MECHANICS_ENUM) FROND_DETAIL_COUNT } frond_detail;
 typedef enum frond_mechanics { FROND_MECHANICS(FROND_MECHANICS_ENUM) FROND_MECHANICS_COUNT } frond_mechanics;
 typedef enum frond_integrator { FROND_INTEGRATORS(FROND_MECHANICS_ENUM) FROND_INTEGRATOR_COUNT } frond_integrator;
 typedef enum frond_linear_solver {
@@ -185,8 +202,14 @@ FROND_API const char* frond_linear_solver_name(frond_linear_solver solver);
 FROND_API const char* frond_mass_name(frond_mass mass);
 FROND_API const char* frond_hash_layout_name(frond_hash_layout layout);
 FROND_API const char* frond_response_name(frond_response response);
+FROND_API const char* frond_detail_name(frond_detail detail);
 
 /* ---- world --------------------------------------------------------------------------------------------- */
+
+/* A host's own threads: runs job(data, i) for each i in 0 .. count-1, in any order, on any threads, the caller's among
+ * them, and returns when all have ended. */
+typedef void frond_job_fn(void* data, int index);
+typedef void frond_parallel_for_fn(int count, frond_job_fn* job, void* data, void* user);
 
 typedef struct frond_world_def {
     frond_vec3 gravity;    /* [m/s^2], default (0, -9.81, 0) */
@@ -207,6 +230,10 @@ typedef struct frond_world_def {
      * 3 s, and nothing that moves touches it [m], 0 .. 0.01, default 5e-5; 0: none sleeps. It then stands still and
      * costs nothing, until it is touched, pulled, bent or blown at, a pin or bond moves, or something beside it leaves. */
     double sleep_distance;
+    /* Threads for the steps of plants, each a job; results are the same bits for any number of them. Null (default):
+     * Bullet's task scheduler, if the host has set one (btSetTaskScheduler), else the caller's thread alone. */
+    frond_parallel_for_fn* parallel_for;
+    void* parallel_user;
     uint32_t cookie;       /* do not set */
 } frond_world_def;
 
@@ -241,6 +268,12 @@ typedef struct frond_report {
     double ms_step, ms_collide, ms_effects, ms_assembly, ms_solve, ms_response, ms_capsules, ms_surface;
     /* Of ms_collide, plants with plants: whose organs may meet, the spatial hash, tests and depths. */
     double ms_broad, ms_hash, ms_narrow;
+    /* Effects that something was done for in the last substep, and the time each took, by bit [ms]. Gravity, damping,
+     * friction and two-way impulses are part of what others solve: they have no time of their own and are 0. Where
+     * plants are stepped by several threads the times of these add up, as those of assembly and solve do. */
+    frond_effects effects_run;
+    double ms_of_effect[FROND_EFFECT_COUNT];
+    int detail_count[FROND_DETAIL_COUNT]; /* awake plants in each detail; a plant that sleeps is in none */
 } frond_report;
 
 typedef struct frond_ray_hit {
@@ -305,7 +338,8 @@ typedef struct frond_wind_def {
     uint32_t cookie;            /* do not set */
 } frond_wind_def;
 
-/* The game's own wind, asked once a plant and substep. points: count of them, world frame [m]; time: of the substep's
+/* The game's own wind, asked once a plant and substep, from one thread at a time but from any that the world was lent;
+ * it is to depend on place and time alone. points: count of them, world frame [m]; time: of the substep's
  * end [s]. velocities [m/s]: what the world's frond_wind_def gives there, to be added to or replaced. */
 typedef void frond_wind_field_fn(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user);
 
@@ -523,6 +557,9 @@ typedef struct frond_plant_def {
     double root_height;       /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
                                * from the shape; negative pins none. A node on an edge is where both its ends are. */
     frond_effects effects;    /* default FROND_DEFAULT_EFFECTS */
+    /* Begins asleep, as modelled, as if it had come to rest so: a field of thousands then costs no steps until
+     * something moves them. Default false. */
+    bool starts_asleep;
     void* user;
     uint32_t cookie; /* do not set */
 } frond_plant_def;
@@ -614,6 +651,43 @@ FROND_API frond_result frond_plant_get_air_force(frond_plant plant, frond_vec3* 
 FROND_API frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out);
 /* The highest point of the surface against gravity [m]. */
 FROND_API frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out);
+
+/* ---- detail: near plants in full, far ones for less ---------------------------------------------------------------
+ * Call frond_world_set_viewer with the camera's place each frame: that is all. From the first call on plants are
+ * simulated in the detail that their distance asks for, as frond_default_detail_def says. Places and velocities go on
+ * without a jump: what another detail cannot have of a plant's shape fades within a second. A body that touches a plant
+ * in DETAIL_SWAY makes it rods at once. Which detail a plant has depends on the calls and on nothing else, unless there
+ * is a budget. */
+
+/* Says how far off a plant is to count, given the distance to the viewer that counts otherwise [m] (with by_size [-]): a
+ * game's own order of importance. Not finite or below zero counts as zero. */
+typedef double frond_detail_fn(frond_plant plant, double distance, void* user);
+
+typedef struct frond_detail_def {
+    /* From which distance of the plant's middle from the viewer on it has less detail [m], each 0 .. 1e9, none smaller
+     * than the one before. */
+    double rod_from;   /* default 5 */
+    double half_from;  /* rods are stepped every second substep, by twice its length; default 12 */
+    double sway_from;  /* default 25; sways are told every fourth substep and drawn at each */
+    double still_from; /* default 150 */
+    bool by_size;      /* distances count in sizes of the plant instead of metres, as it looks on the screen; default false */
+    double hysteresis; /* share by which a plant has to come nearer to get detail back [-], 0 .. 0.9, default 0.15 */
+    /* Time that a substep of all plants may take [ms], 0 .. 1e6; 0 (default): any. Plants then lose detail, those that
+     * count as farthest first, as soon as more is measured, and get it back when there is time again. Results then
+     * depend on the machine's speed. */
+    double budget;
+    frond_detail_fn* distance; /* null (default): as it is */
+    void* user;
+    uint32_t cookie; /* do not set */
+} frond_detail_def;
+
+FROND_API frond_detail_def frond_default_detail_def(void);
+/* Null: all plants in full again. Without a viewer, all are at distance zero. */
+FROND_API frond_result frond_world_set_detail(frond_world world, const frond_detail_def* def);
+/* [m]. Begins with the default def where none was set. */
+FROND_API frond_result frond_world_set_viewer(frond_world world, frond_vec3 position);
+/* What the plant has now; one that sleeps gets what it should have when it wakes. */
+FROND_API frond_result frond_plant_get_detail(frond_plant plant, frond_detail* out);
 
 /* ---- fragments: what broke off -----------------------------------------------------------------------------------
  * With FROND_BREAKING a plant breaks at the capsule whose outermost fibre is strained most, one a substep, if that is

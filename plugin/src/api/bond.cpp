@@ -28,7 +28,7 @@ frond_result frond_bond_create(frond_plant plant, frond_vec3 point, frond_rigid 
     return call([&] {
         check_pointer(out, "out");
         *out = {};
-        PlantBody& body = get(plant);
+        PlantBody& body = look_at(get(plant));
         Rigid& held_by = get(rigid);
         if (held_by.world != body.world) fail(FROND_BAD_ARGUMENT, "the rigid body is of another world than the plant");
         make_bond(body, point, *held_by.body, out);
@@ -67,7 +67,7 @@ frond_result bond(frond_plant plant, const btVector3& point, btCollisionObject* 
     return call([&] {
         check_pointer(out, "out");
         *out = {};
-        PlantBody& body = get(plant);
+        PlantBody& body = look_at(get(plant));
         check_pointer(object, "body");
         if (!is_in(*body.world->bullet, object) || PlantBody::of(object))
             fail(FROND_BAD_ARGUMENT, "the body is not in the plant's Bullet world, or is a plant; add it first");

@@ -72,6 +72,6 @@ void check_def(const Def* def, uint32_t cookie, const char* name) {
 }
 
 constexpr uint32_t WORLD_DEF_COOKIE = 0x46724e57, MODEL_DEF_COOKIE = 0x46724e4d, PLANT_DEF_COOKIE = 0x46724e50,
-                   RIGID_DEF_COOKIE = 0x46724e52, WIND_DEF_COOKIE = 0x46724e41;
+                   RIGID_DEF_COOKIE = 0x46724e52, WIND_DEF_COOKIE = 0x46724e41, DETAIL_DEF_COOKIE = 0x46724e44;
 
 }  // namespace frond

@@ -40,9 +40,9 @@ frond_result frond_grab_get(frond_grab grab, frond_vec3* held_point, frond_vec3*
         for (frond_vec3* out : {held_point, target, force})
             if (out) *out = {};
         const GrabEntry entry = get(grab);
-        if (held_point) *held_point = from_vec(vertex_position(*entry.body->plant, entry.grab->vertex));
+        if (held_point) *held_point = from_vec(vertex_position(*look_at(*entry.body).plant, entry.grab->vertex));
         if (target) *target = from_vec(entry.grab->target);
-        if (force) *force = from_vec(grab_force(*entry.body->plant, *entry.grab));
+        if (force) *force = from_vec(grab_force(*look_at(*entry.body).plant, *entry.grab));
     });
 }
 

@@ -56,6 +56,7 @@ PlantBody& get(frond_plant plant) {
 PlantBody& get_awake(frond_plant plant) {
     PlantBody& body = get(plant);
     wake(body);
+    end_sway(body);
     return body;
 }
 GrabEntry get(frond_grab grab) {

@@ -119,7 +119,7 @@ frond_result frond_plant_create(frond_world world, frond_model model, const fron
         World& w = get(world);
         const std::shared_ptr<const Model> m = get(model);
         check_plant_def(def);
-        PlantBody* body = add_plant(w, create_plant(m, *def));
+        PlantBody* body = add_plant(w, create_plant(m, *def), def->starts_asleep);
         body->handle.id = plant_slots().insert(body);
         if (!body->handle.id) {
             remove_plant(w, body);
@@ -147,8 +147,17 @@ bool frond_plant_is_awake(frond_plant plant) {
     return body && !body->rest.asleep;
 }
 
+frond_result frond_plant_get_detail(frond_plant plant, frond_detail* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = FROND_DETAIL_FULL;
+        const PlantBody& body = get(plant);
+        *out = detail_of(*body.world, body);
+    });
+}
+
 frond_result frond_plant_wake(frond_plant plant) {
-    return call([&] { get_awake(plant); });
+    return call([&] { wake(get(plant)); });
 }
 
 void* frond_plant_get_user(frond_plant plant) {
@@ -169,7 +178,10 @@ frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics which)
     return call([&] {
         PlantBody& body = get_awake(plant);
         check_row(number_of(which), FROND_MECHANICS_COUNT, "mechanics");
+        end_swing(*body.plant);
         set_mechanics(*body.plant, which);
+        body.level.own = which;
+        body.level.now = FROND_DETAIL_FULL;
         show(body);
     });
 }
@@ -186,7 +198,7 @@ int frond_plant_get_capsule_count(frond_plant plant) {
 
 frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count) {
     return call([&] {
-        const Plant& p = *get(plant).plant;
+        const Plant& p = *look_at(get(plant)).plant;
         check_count(node_count, node_count_of(p), "node_count");
         const VecX v = velocities ? cage_velocities(p) : VecX();
         for (int i = 0; i < node_count; i++) {
@@ -264,6 +276,7 @@ frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force
         Plant& p = *get_awake(plant).plant;
         check_node(p, node);
         check_vec(force, "force [N]");
+        if (p.user_force.size() == 0) p.user_force = VecX::Zero(3 * Eigen::Index(node_count_of(p)));
         point(p.user_force, node) += to_vec(force);
         p.has_user_force = true;
     });
@@ -273,7 +286,7 @@ frond_result frond_plant_get_energy(frond_plant plant, frond_energy* out) {
     return call([&] {
         check_pointer(out, "out");
         *out = {};
-        const PlantBody& body = get(plant);
+        const PlantBody& body = look_at(get(plant));
         *out = energy_of(*body.plant, gravity_of(*body.world));
     });
 }
@@ -284,13 +297,14 @@ frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out)
         *out = {};
         PlantBody& body = get(plant);
         Plant& p = *body.plant;
-        if (p.surface_stale && effects_of(body) & FROND_SURFACE) update_surface(p, effects_of(body));
+        if (p.surface_positions.empty()) update_surface(*look_at(body).plant, FROND_ALL_EFFECTS);
+        if (p.surface_stale && effects_of(body) & FROND_SURFACE) update_surface(*look_at(body).plant, effects_of(body));
         const Surface& surface = p.model->surface;
         out->positions = p.surface_positions.data();
         out->normals = p.surface_normals.data();
         out->uvs = surface.uvs.empty() ? nullptr : surface.uvs.front().data();
         out->colors = surface.colors.empty() ? nullptr : surface.colors.front().data();
-        out->indices = (p.fragments.empty() ? surface.triangles : p.parting.triangles).front().data();
+        out->indices = (p.fragments.empty() ? surface.triangles : p.parting->triangles).front().data();
         out->vertex_count = int(surface.positions.size());
         out->triangle_count = int(surface.triangles.size());
     });
@@ -299,7 +313,7 @@ frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out)
 frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int capsule_count) {
     return call([&] {
         check_pointer(out, "out");
-        const PlantBody& body = get(plant);
+        const PlantBody& body = look_at(get(plant));
         check_count(capsule_count, int(body.capsules.size()), "capsule_count");
         const Plant& p = *body.plant;
         for (size_t i = 0; i < body.capsules.size(); i++) {
@@ -355,6 +369,7 @@ frond_result frond_plant_break(frond_plant plant, int capsule) {
         if (begin == end) fail(FROND_BAD_ARGUMENT, "capsule %d is a root of its own; nothing grows beyond it", capsule);
         if (fragment_of_chain_node(p, size_t(end)))
             fail(FROND_BAD_ARGUMENT, "capsule %d has come off already; mend the plant first", capsule);
+        end_swing(*body.plant);
         break_off(*body.world, body, end);
         show(body);
     });
@@ -373,7 +388,7 @@ frond_result frond_plant_get_air_force(frond_plant plant, frond_vec3* out) {
     return call([&] {
         check_pointer(out, "out");
         *out = {};
-        *out = from_vec(air_force(*get(plant).plant));
+        *out = from_vec(air_force(*look_at(get(plant)).plant));
     });
 }
 
@@ -381,7 +396,7 @@ frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out) {
     return call([&] {
         check_pointer(out, "out");
         *out = {};
-        const Plant& p = *get(plant).plant;
+        const Plant& p = *look_at(get(plant)).plant;
         const VecX& mass = node_mass_of(*p.system);
         Vec3 sum = Vec3::Zero();
         for (int i = 0; i < mass.size(); i++) sum += mass[i] * point(p.motion.v, i);
@@ -393,7 +408,7 @@ frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out) {
     return call([&] {
         check_pointer(out, "out");
         *out = {};
-        const PlantBody& body = get(plant);
+        const PlantBody& body = look_at(get(plant));
         const Vec3 gravity = gravity_of(*body.world);
         const Vec3 up = gravity.norm() > 0 ? Vec3(-gravity) : Vec3(Vec3::UnitY());
         Vec3 tip = vertex_position(*body.plant, 0);

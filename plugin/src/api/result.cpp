@@ -32,7 +32,11 @@ static const char* const MASS_NAMES[] = {FROND_MASSES(ROW_TEXT)};
 static const char* const HASH_LAYOUT_NAMES[] = {FROND_HASH_LAYOUTS(ROW_TEXT)};
 static const char* const RESPONSE_NAMES[] = {FROND_RESPONSES(ROW_TEXT)};
 static const char* const SHAPE_NAMES[] = {FROND_SHAPES(ROW_TEXT)};
+static const char* const DETAIL_NAMES[] = {FROND_DETAILS(ROW_TEXT)};
 #undef ROW_TEXT
+#define EFFECT_TEXT(code, bit, text) text,
+static const char* const EFFECT_NAMES[] = {FROND_EFFECTS(EFFECT_TEXT)};
+#undef EFFECT_TEXT
 
 extern "C" {
 
@@ -69,6 +73,14 @@ const char* frond_hash_layout_name(frond_hash_layout layout) {
 }
 const char* frond_response_name(frond_response response) {
     return row_name(RESPONSE_NAMES, int(response), "?");
+}
+const char* frond_detail_name(frond_detail detail) {
+    return row_name(DETAIL_NAMES, int(detail), "?");
+}
+const char* frond_effect_name(frond_effects effect) {
+    for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++)
+        if (effect == 1u << bit) return EFFECT_NAMES[bit];
+    return "?";
 }
 
 }  // extern "C"

@@ -40,7 +40,13 @@ static frond_report full_report(const World& world) {
     for (const auto& body : world.bodies) {
         report.node_count += node_count_of(*body->plant);
         report.tet_count += int(body->plant->model->cage.tets.size());
-        report.ms_surface += body->plant->ms_surface;
+        const Plant& plant = *body->plant;
+        report.ms_surface += plant.ms_surface;
+        if (plant.surface_stale || !(plant.ms_surface > 0)) continue;
+        const frond_effects effects = plant.effects & world.effects;
+        report.effects_run |= effects & (FROND_SURFACE | FROND_NORMALS);
+        report.ms_of_effect[3] += plant.ms_surface - plant.ms_normals;
+        report.ms_of_effect[4] += plant.ms_normals;
     }
     return report;
 }
@@ -140,7 +146,7 @@ frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin, frond_ve
         if (!hit.body) return;
         out->plant = hit.body->handle;
         out->capsule = hit.capsule;
-        out->node = nearest_node(*hit.body->plant, hit.point);
+        out->node = nearest_node(*look_at(*hit.body).plant, hit.point);
         out->point = from_vec(hit.point);
         out->distance = (hit.point - from).norm();
     });

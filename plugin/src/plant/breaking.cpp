@@ -60,8 +60,8 @@ void mark_surface(const Plant& plant, Parting& parting) {
 // How the fragment's cage nodes are turned against the modelled shape.
 Mat3 turn_of(const Plant& plant, int number) {
     std::vector<Vec3> from, to;
-    for (size_t i = 0; i < plant.parting.of_node.size(); i++) {
-        if (plant.parting.of_node[i] != number) continue;
+    for (size_t i = 0; i < plant.parting->of_node.size(); i++) {
+        if (plant.parting->of_node[i] != number) continue;
         from.push_back(point(plant.nodes->modelled, int(i)));
         to.push_back(point(plant.fragments[size_t(number)].cage_x, int(i)));
     }
@@ -120,8 +120,8 @@ void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
 // Nodes that nothing holds any more rest where they are.
 void let_rest(Plant& plant) {
     Motion& motion = plant.motion;
-    for (size_t i = 0; i < plant.parting.of_node.size(); i++)
-        if (plant.parting.of_node[i] >= 0) plant.pinned[i] = 0;
+    for (size_t i = 0; i < plant.parting->of_node.size(); i++)
+        if (plant.parting->of_node[i] >= 0) plant.pinned[i] = 0;
     const VecX& mass = node_mass_of(*plant.system);
     const int step = plant.follow ? 2 : 1;
     for (int i = 0; i < mass.size(); i += step)
@@ -136,6 +136,11 @@ const Fragment* fragment_at(const Plant& plant, const std::vector<int>& list, si
 
 }  // namespace
 
+std::shared_ptr<Parting> no_parting() {
+    static const std::shared_ptr<Parting> none = std::make_shared<Parting>();
+    return none;
+}
+
 int find_break(const Plant& plant) {
     return find_overload(mechanics(plant.which, plant.nodes->order), elements_of(plant), plant.motion.x);
 }
@@ -143,14 +148,16 @@ int find_break(const Plant& plant) {
 // The elements of what is gone leave the plant's system.
 static void take_away(Plant& plant) {
     std::vector<uint8_t> gone;
-    for (int fragment : plant.parting.of_chain) gone.push_back(fragment >= 0);
+    for (int fragment : plant.parting->of_chain) gone.push_back(fragment >= 0);
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     std::unique_ptr<Elements> own = plant.own_elements ? row.without(*plant.own_elements, gone) : nullptr;
     plant.system = system_without(*plant.system, gone);
-    plant.workspace = make_workspace(plant.system);
-    use_elements(*plant.workspace, own.get());
+    plant.workspace = nullptr;
+    plant.seat.leave();
+    plant.seat.pool = std::make_shared<WorkspacePool>();
+    plant.seat.take();
     plant.own_elements = std::move(own);
-    plant.parting.start = plant.motion.x;
+    plant.parting->start = plant.motion.x;
 }
 
 void leave_fragments(Plant& plant) {
@@ -167,9 +174,10 @@ const Fragment& break_off(Plant& plant, int node) {
     fragment.turn = plant.rotation.toRotationMatrix();
     fragment.shift = plant.position;
     const VecX mass = node_mass_of(*plant.system);
-    mark_chain(plant, node, int(plant.fragments.size()), plant.parting.of_chain);
-    mark_cage(plant, plant.parting);
-    mark_surface(plant, plant.parting);
+    if (plant.fragments.empty()) plant.parting = std::make_shared<Parting>();
+    mark_chain(plant, node, int(plant.fragments.size()), plant.parting->of_chain);
+    mark_cage(plant, *plant.parting);
+    mark_surface(plant, *plant.parting);
     plant.fragments.push_back(std::move(fragment));
     take_away(plant);
     measure(plant, mass - node_mass_of(*plant.system), plant.fragments.back());
@@ -182,16 +190,16 @@ const Fragment& break_off(Plant& plant, int node) {
 void carry_stumps(Plant& plant) {
     if (!plant.follow || plant.fragments.empty()) return;
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
-    const VecX& start = plant.parting.start;
+    const VecX& start = plant.parting->start;
     Motion& motion = plant.motion;
     // A method that looks back is not to take this for a push.
     History& history = motion.history;
     const bool follows = history.valid && history.x_end.size() == motion.x.size();
     std::vector<int> stump(nodes.size(), -1);
     for (size_t i = 0; i < nodes.size(); i++) {
-        if (plant.parting.of_chain[i] < 0) continue;
+        if (plant.parting->of_chain[i] < 0) continue;
         const int parent = nodes[i].parent, node = int(2 * i);
-        stump[i] = plant.parting.of_chain[size_t(parent)] < 0 ? parent : stump[size_t(parent)];
+        stump[i] = plant.parting->of_chain[size_t(parent)] < 0 ? parent : stump[size_t(parent)];
         const int at = 2 * stump[i];
         const Mat3 turn = rotation_of<double>(point(motion.x, at + 1)) *
                           rotation_of<double>(point(start, at + 1)).transpose();
@@ -208,13 +216,13 @@ void carry_stumps(Plant& plant) {
 }
 
 const Fragment* fragment_of_vertex(const Plant& plant, size_t vertex) {
-    return fragment_at(plant, plant.parting.of_vertex, vertex);
+    return fragment_at(plant, plant.parting->of_vertex, vertex);
 }
 const Fragment* fragment_of_chain_node(const Plant& plant, size_t node) {
-    return fragment_at(plant, plant.parting.of_chain, node);
+    return fragment_at(plant, plant.parting->of_chain, node);
 }
 const Fragment* fragment_of_node(const Plant& plant, size_t node) {
-    return fragment_at(plant, plant.parting.of_node, node);
+    return fragment_at(plant, plant.parting->of_node, node);
 }
 
 }  // namespace frond

@@ -32,6 +32,7 @@ struct SharedSystem {
     std::shared_ptr<const System> system;
     double full_damping;  // of full_damping(); 0 where no organ has a damping ratio [s]
     double rest_time;     // half a period of the slowest sway [s]
+    std::shared_ptr<WorkspacePool> pool;
 };
 
 // Half a period of the slowest sway, within what a game notices.
@@ -46,7 +47,8 @@ static std::shared_ptr<const SharedSystem> shared_system(const std::shared_ptr<c
     static Shared<std::tuple<const Model*, frond_mechanics, frond_mass, int>, SharedSystem> systems;
     return systems.find_or_make({model.get(), which, mass, order}, [&] {
         ensure_rest_shape(*model, which, order);
-        SharedSystem shared = {make_system(model, which, mass, order), 0, rest_time_of(model)};
+        SharedSystem shared = {make_system(model, which, mass, order), 0, rest_time_of(model),
+                               std::make_shared<WorkspacePool>()};
         const std::vector<Organ>& organs = model->organs;
         if (std::any_of(organs.begin(), organs.end(), [](const Organ& o) { return o.material.damping_ratio > 0; }))
             shared.full_damping = full_damping(*shared.system, which, order);
@@ -77,6 +79,13 @@ std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant) {
     return shared_of<AirPieces>(plant.model, plant.nodes->order, [&] { return make_air_pieces(*plant.model); });
 }
 
+std::shared_ptr<const SwingModes> swing_modes_of(const Plant& plant) {
+    return shared_of<SwingModes>(plant.model, 1, [&] {
+        const auto rods = shared_system(plant.model, FROND_ROD, FROND_LUMPED, 1);
+        return make_swing_modes(*rods->system, *air_pieces_of(plant));
+    });
+}
+
 // None of those whose cage needs none.
 static std::shared_ptr<const Fibres> fibres_of(const Plant& plant) {
     const int order = plant.nodes->order;
@@ -94,12 +103,19 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.which = which;
     const CageNodes& nodes = *plant.nodes;
     const std::shared_ptr<const SharedSystem> shared = shared_system(plant.model, which, plant.mass, nodes.order);
-    plant.system = std::shared_ptr<const System>(shared, shared->system.get());
+    // Workspaces in the pool keep their system alive, so it is not to keep the pool.
+    plant.workspace = nullptr;
+    plant.system = shared->system;
+    plant.seat.leave();
+    plant.seat.pool = std::shared_ptr<WorkspacePool>(shared, shared->pool.get());
+    plant.seat.take();
     plant.settings.full_damping = plant.material_damping * shared->full_damping;
     plant.rest_time = shared->rest_time;
-    plant.workspace = make_workspace(plant.system);
     plant.own_elements = nullptr;
     plant.follow = nullptr;
+    plant.swing = nullptr;
+    plant.fade = {};
+    plant.lead = 0;
     plant.fibres = nullptr;
     plant.fibre_give.clear();
     if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = fibres_of(plant);
@@ -115,23 +131,6 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.substeps = 1;
 }
 
-// The chain nodes that hold pinned cage nodes: of those that the ground holds, the nearest one at the foot.
-static void find_anchors(Plant& plant, double limit) {
-    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
-    plant.anchor.assign(plant.pinned.size(), 0);
-    for (size_t n = 0; n < plant.pinned.size(); n++) {
-        if (plant.follow) plant.anchor[n] = plant.follow->nearest[n];
-        if (!plant.pinned[n]) continue;
-        double least = INFINITY;
-        for (size_t i = 0; i < nodes.size(); i++) {
-            const double distance = (nodes[i].position - point(plant.nodes->modelled, int(n))).norm();
-            if ((nodes[i].parent >= 0 && nodes[i].position.y() >= limit) || distance >= least) continue;
-            least = distance;
-            plant.anchor[n] = int(i);
-        }
-    }
-}
-
 // What the ground holds of the cage's corners; a node between two is held where both are.
 static std::vector<uint8_t> find_held(const Plant& plant, double root_height) {
     const Model& model = *plant.model;
@@ -144,10 +143,41 @@ static std::vector<uint8_t> find_held(const Plant& plant, double root_height) {
     return with_middles(*plant.nodes, held);
 }
 
+// The chain nodes that hold pinned cage nodes: of those that the ground holds, the nearest one at the foot.
+static std::vector<int> find_anchors(const Plant& plant, const std::vector<uint8_t>& pinned, double limit) {
+    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
+    std::vector<int> anchor(pinned.size(), 0);
+    for (size_t n = 0; n < pinned.size(); n++) {
+        if (plant.follow) anchor[n] = plant.follow->nearest[n];
+        if (!pinned[n]) continue;
+        double least = INFINITY;
+        for (size_t i = 0; i < nodes.size(); i++) {
+            const double distance = (nodes[i].position - point(plant.nodes->modelled, int(n))).norm();
+            if ((nodes[i].parent >= 0 && nodes[i].position.y() >= limit) || distance >= least) continue;
+            least = distance;
+            anchor[n] = int(i);
+        }
+    }
+    return anchor;
+}
+
+static std::shared_ptr<const Foot> foot_of(const Plant& plant, double root_height) {
+    static Shared<std::tuple<const Model*, int, bool, double>, OfModel<Foot>> feet;
+    const auto shared = feet.find_or_make({plant.model.get(), plant.nodes->order, bool(plant.follow), root_height}, [&] {
+        Foot foot;
+        foot.pinned = find_held(plant, root_height);
+        foot.pin_target = cage_places(plant);
+        const double limit = root_height > 0 ? plant.model->surface.lower().y() + root_height : -INFINITY;
+        foot.anchor = find_anchors(plant, foot.pinned, limit);
+        return std::make_shared<const OfModel<Foot>>(OfModel<Foot>{plant.model, std::move(foot)});
+    });
+    return std::shared_ptr<const Foot>(shared, &shared->value);
+}
+
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def) {
     auto plant = std::make_unique<Plant>();
     plant->model = std::move(model);
-    plant->size = plant->model->surface.size();
+    plant->size = float(plant->model->surface.size());
     plant->nodes = shared_of<CageNodes>(plant->model, def.element_order,
                                         [&] { return make_nodes(plant->model->cage, def.element_order); });
     plant->mass = def.mass;
@@ -167,23 +197,25 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     plant->position = Vec3(def.position.x, def.position.y, def.position.z);
     plant->rotation = Quat(def.rotation.w, def.rotation.x, def.rotation.y, def.rotation.z).normalized();
     plant->user = def.user;
-    plant->user_force = VecX::Zero(3 * Eigen::Index(plant->nodes->count()));
 
     // At rest as modelled, held by the ground.
     take_mechanics(*plant, def.mechanics);
-    plant->pinned = find_held(*plant, def.root_height);
+    plant->foot = foot_of(*plant, def.root_height);
+    plant->pinned = plant->foot->pinned;
+    plant->anchor = plant->foot->anchor;
+    plant->pin_target = plant->foot->pin_target;
     plant->stands_on_roots = def.root_height == 0;
-    plant->pin_target = cage_places(*plant);
-    find_anchors(*plant, def.root_height > 0 ? plant->model->surface.lower().y() + def.root_height : -INFINITY);
     apply_pins(*plant);
     moved(*plant);
-    update_surface(*plant, FROND_ALL_EFFECTS);
     return plant;
 }
 
-void set_mechanics(Plant& plant, frond_mechanics which) {
+void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (which == plant.which) return;
+    end_swing(plant);
     const VecX places = cage_places(plant), velocities = cage_velocities(plant);
+    if (smoothly && plant.follow) keep_only_swing(plant);
+    const VecX smooth = cage_places(plant), smooth_rate = cage_velocities(plant);
     // Tets have their points in common, rods their pieces.
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
     const std::vector<double> lasting = keeps ? lasting_of(plant) : std::vector<double>();
@@ -191,20 +223,24 @@ void set_mechanics(Plant& plant, frond_mechanics which) {
     if (plant.follow) {
         fit_chain(*plant.follow, *plant.model, places, plant.motion.x);
         fit_velocities(*plant.follow, plant.motion.x, velocities, plant.motion.v);
+        if (smoothly) keep_only_swing(plant);
     } else {
-        plant.motion.x = places;
-        plant.motion.v = velocities;
+        plant.motion.x = smooth;
+        plant.motion.v = smooth_rate;
+        if (smoothly) relax(plant);
     }
     leave_fragments(plant);
     set_lasting(plant, lasting);
     apply_pins(plant);
     moved(plant);
+    if (smoothly) begin_fade(plant.fade, places - cage_places(plant), velocities - cage_velocities(plant));
+    plant.cage_stale = true;
 }
 
 void mend(Plant& plant) {
     if (plant.fragments.empty()) return;
     plant.fragments.clear();
-    plant.parting = {};
+    plant.parting = no_parting();
     take_mechanics(plant, plant.which);
     apply_pins(plant);
     moved(plant);

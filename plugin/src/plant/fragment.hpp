@@ -2,6 +2,8 @@
 // body does, which whoever simulates bodies does for it.
 #pragma once
 
+#include <memory>
+
 #include "core/types.hpp"
 
 namespace frond {
@@ -33,6 +35,9 @@ struct Parting {
     std::vector<Triangle> triangles;  // the surface's; those across a break have no area
     VecX start;                  // of a chain: the motion's places when nodes were last taken away
 };
+
+// That of all plants of which nothing came off.
+std::shared_ptr<Parting> no_parting();
 
 // Effect: the chain node at the end of the capsule that is strained beyond its strength, if any; else -1.
 int find_break(const Plant& plant);

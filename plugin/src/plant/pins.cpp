@@ -12,7 +12,7 @@ namespace frond {
 void pin_node(Plant& plant, int node) {
     point(plant.pin_target, node) = point(cage_places(plant), node);
     plant.pinned[size_t(node)] = 1;
-    plant.pins_changed = true;
+    plant.pins_changed = plant.pins_are_own = true;
     if (plant.follow) return;
     point(plant.motion.v, node).setZero();
     point(plant.motion.pin_target, node) = point(plant.motion.x, node);
@@ -20,12 +20,12 @@ void pin_node(Plant& plant, int node) {
 
 void unpin_node(Plant& plant, int node) {
     plant.pinned[size_t(node)] = 0;
-    plant.pins_changed = true;
+    plant.pins_changed = plant.pins_are_own = true;
 }
 
 void move_pin(Plant& plant, int node, const Vec3& target) {
     point(plant.pin_target, node) = target;
-    plant.pins_changed = true;
+    plant.pins_changed = plant.pins_are_own = true;
 }
 
 // The rotation vector of R, on that side of the half turn on which the node is now.

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <list>
+#include <mutex>
 
 #include "plant/air.hpp"
 #include "plant/fibres.hpp"
 #include "plant/follow.hpp"
 #include "plant/fragment.hpp"
+#include "plant/swing.hpp"
 #include "solve/solve.hpp"
 
 namespace frond {
@@ -31,64 +33,103 @@ struct Trend {
     VecX rate;   // [m/s^2]
 };
 
+// Workspaces that the plants of one system lend from each other: one has its own only between the halves of a step.
+struct WorkspacePool {
+    std::mutex mutex;
+    std::vector<WorkspacePtr> free;
+    size_t seats = 0;  // plants that may ask for one: those that are awake
+};
+// A plant's right to one. Without as many seats, free workspaces go.
+struct PoolSeat {
+    std::shared_ptr<WorkspacePool> pool;
+    bool is_taken = false;
+    PoolSeat() = default;
+    PoolSeat(const PoolSeat&) = delete;
+    PoolSeat& operator=(const PoolSeat&) = delete;
+    ~PoolSeat() { leave(); }
+    void take();
+    void leave();
+};
+
+// How a plant is held when it is made; shared by all plants of a model that are held alike.
+struct Foot {
+    std::vector<uint8_t> pinned;
+    VecX pin_target;
+    std::vector<int> anchor;
+};
+
 // Nodes that the host sees are the cage's, whatever moves. Where the mechanics move the chain, the cage follows it.
 struct Plant {
     std::shared_ptr<const Model> model;
     std::shared_ptr<const CageNodes> nodes;
-    double size;  // of the modelled surface, from corner to corner [m]
     frond_mechanics which;
     frond_mass mass;
     std::shared_ptr<const System> system;
     std::unique_ptr<Elements> own_elements;  // of a plant that has yielded, with what of its shape is lasting; else null
-    WorkspacePtr workspace;  // refers to them
+    PoolSeat seat;           // among the plants of the system
+    WorkspacePtr workspace;  // lent for a step; refers to system and own elements
     SolveSettings settings, step_settings;  // the latter without what the running step's effects leave out
     double material_damping;  // share of the organs' damping ratios that counts [-]
-    int max_substeps;
     double substep_tolerance;  // local error of a place in a step, over the plant's size [-]
-    int substeps = 1;          // of the next step
-    bool is_touched = false;   // by bodies, which answer to whole steps
-    bool is_entangled = false;  // deep in itself or another plant: leaves that cross come apart only by being drawn out
     Trend trend;               // empty with one substep
     double rest_time;          // for which a plant that rests has been still [s]
-    frond_effects effects;
     Vec3 position;  // of the model's frame in the world [m]
     Quat rotation;
     void* user = nullptr;
 
     Motion motion;        // of what the mechanics move, model frame
     std::shared_ptr<const Follow> follow;  // null where the cage itself moves
+    std::unique_ptr<Swing> swing;          // of a chain that only sways; else null
+    Fade fade;                             // of the cage, beside where the mechanics have it
+    double lead = 0;                       // for which the cage is drawn to go on, until the plant is stepped again [s]
     std::shared_ptr<const Fibres> fibres;  // null where none pulls
     std::vector<double> fibre_give;        // lengths at which they pull, over their own, after an entanglement; else empty [-]
     std::vector<uint8_t> pinned;           // one a cage node
     VecX pin_target;                       // where pinned cage nodes shall be, model frame [m]
     std::vector<int> anchor;               // the chain node that holds each cage node where it is pinned
     std::vector<Spring> pin_springs;       // hold pinned cage nodes that are too few to hold a chain node
-    bool pins_changed = true;
-    bool stands_on_roots = false;          // the model's own root holds it
+    std::shared_ptr<const Foot> foot;      // the three above at first
     VecX x_good, v_good;  // before the running step, of the motion
     VecX contact_impulse;  // of the running step's contacts on the nodes of the mechanics [N s]; empty: none
     VecX contact_shift;    // likewise, of those that move the plant and give it no velocity
     Loads loads;          // of the running step, kept to reuse its memory
     std::unique_ptr<AirState> air;  // null until the plant is in air
-    VecX user_force;      // on cage nodes, until the end of the host's step, world frame [N]
-    bool has_user_force = false;
+    VecX user_force;      // on cage nodes, until the end of the host's step, world frame [N]; empty: none yet
     std::list<Grab> grabs;
 
     std::vector<Fragment> fragments;  // that came off
-    Parting parting;
+    std::shared_ptr<Parting> parting = no_parting();  // of its own only where there are fragments
 
     // What follows the cage.
     std::vector<Vec3> chain_positions;                      // model frame [m]
     std::vector<float> surface_positions, surface_normals;  // world frame
+    mutable VecX cage_x;  // model frame [m]; where it is not what the mechanics have
+
+    // Folded: put away as what it takes to unfold it. Then all above that a step changes is empty.
+    std::vector<float> away;  // from the modelled shape, of what the mechanics move [m]; empty: it is at rest there
+
+    // Small ones side by side: fields have thousands of plants.
+    frond_effects effects;
+    uint32_t trouble = 0;  // of the last step
+    int max_substeps;
+    int substeps = 1;              // of the next step
+    bool is_touched = false;       // by bodies, which answer to whole steps
+    bool is_entangled = false;     // deep in itself or another plant: leaves that cross come apart only by being drawn out
+    bool has_user_force = false;
+    bool pins_changed = true;
+    bool pins_are_own = false;     // the host has changed them
+    bool stands_on_roots = false;  // the model's own root holds it
     bool surface_stale = true;
-    mutable VecX cage_x;  // model frame [m]; of plants whose cage follows
     mutable bool cage_stale = true;
+    bool folded = false;
+    bool is_sound = true;          // what was found can be the next state
+    float size;                    // of the modelled surface, from corner to corner [m]
 
     // Of the last step.
     SolveReport report;
-    bool is_sound = true;  // what was found can be the next state
-    uint32_t trouble = 0;
-    double ms_effects = 0, ms_surface = 0;
+    double ms_effects = 0, ms_surface = 0, ms_normals = 0;
+    // Of ms_effects and of what is beside it [ms].
+    double ms_user_force = 0, ms_air = 0, ms_fibres = 0, ms_plasticity = 0;
 
     Vec3 to_world(const Vec3& p) const { return rotation * p + position; }
     Vec3 to_model(const Vec3& p) const { return rotation.conjugate() * (p - position); }
@@ -114,9 +155,17 @@ void add_contacts(Plant& plant, double h);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Both.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);
+// Before and after a step.
+void lend_workspace(Plant& plant);
+void give_workspace_back(Plant& plant);
+// Puts a plant that stands still away, and takes it out again: in the same place to 1e-8 m, or in the modelled shape if
+// nothing of it is farther than that from there. The surface stays if it is asked to.
+void fold(Plant& plant, double tolerance, bool keep_surface);
+void unfold(Plant& plant);
 // Sets the drags of the running step's loads.
 void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h);
 std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant);
+std::shared_ptr<const SwingModes> swing_modes_of(const Plant& plant);
 Vec3 air_force(const Plant& plant);  // of the last step, world frame [N]
 // Forces given by frond_plant_add_force end.
 void clear_user_force(Plant& plant);
@@ -160,7 +209,10 @@ void move_pin(Plant& plant, int node, const Vec3& target);
 // What the pins are for the nodes of the mechanics.
 void apply_pins(Plant& plant);
 
-// Goes on with other mechanics from the same shape and motion.
-void set_mechanics(Plant& plant, frond_mechanics which);
+// Lets go of what would snap back at once.
+void relax(Plant& plant);
+// Goes on with other mechanics from the same shape and motion. `smoothly`: between cage and chain only the swing is handed
+// over, which strains neither, and the rest of shape and motion fades.
+void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly = false);
 
 }  // namespace frond

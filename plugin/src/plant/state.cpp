@@ -18,6 +18,7 @@ Vec3 grab_force(const Plant& plant, const Grab& grab) {
 }
 
 void set_state(Plant& plant, const double* positions, const double* velocities) {
+    end_swing(plant);
     const Quat to_model = plant.rotation.conjugate();
     Motion& motion = plant.motion;
     VecX x, v;
@@ -38,6 +39,8 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
         if (velocities) motion.v = v;
     }
     motion.history.valid = motion.history.shaken = false;
+    plant.fade = {};
+    plant.lead = 0;
     plant.pins_changed = true;
     apply_pins(plant);
     moved(plant);
@@ -55,7 +58,7 @@ void set_lasting(Plant& plant, const std::vector<double>& values) {
         own = row.copy(elements_of(*plant.system));
         row.set_lasting(*own, values);
     }
-    use_elements(*plant.workspace, own.get());
+    if (plant.workspace) use_elements(*plant.workspace, own.get());
     plant.own_elements = std::move(own);
 }
 
@@ -64,12 +67,19 @@ const Elements& elements_of(const Plant& plant) {
 }
 
 int node_count_of(const Plant& plant) {
-    return int(plant.pinned.size());
+    return plant.nodes->count();
 }
 
 const VecX& cage_places(const Plant& plant) {
-    if (!plant.follow) return plant.motion.x;
-    if (plant.cage_stale) follow_places(*plant.follow, plant.motion.x, plant.cage_x);
+    if (!plant.follow && is_over(plant.fade) && plant.lead == 0) return plant.motion.x;
+    if (plant.cage_stale) {
+        if (plant.follow)
+            follow_places(*plant.follow, plant.motion.x, plant.cage_x);
+        else
+            plant.cage_x = plant.motion.x;
+        add_offset(plant.fade, plant.cage_x);
+        if (plant.lead > 0) plant.cage_x += plant.lead * cage_velocities(plant);
+    }
     plant.cage_stale = false;
     return plant.cage_x;
 }
@@ -85,9 +95,9 @@ Vec3 node_velocity(const Plant& plant, const VecX& v, int node) {
 }
 
 VecX cage_velocities(const Plant& plant) {
-    if (!plant.follow) return plant.motion.v;
-    VecX velocities;
-    follow_velocities(*plant.follow, plant.motion.x, plant.motion.v, velocities);
+    VecX velocities = plant.motion.v;
+    if (plant.follow) follow_velocities(*plant.follow, plant.motion.x, plant.motion.v, velocities);
+    add_rate(plant.fade, velocities);
     return velocities;
 }
 

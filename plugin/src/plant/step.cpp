@@ -48,7 +48,6 @@ static void keep_sets(Plant& plant, double h) {
     if (!plant.own_elements) {
         if (!row.yields(shared, plant.motion.x)) return;
         plant.own_elements = row.copy(shared);
-        use_elements(*plant.workspace, plant.own_elements.get());
     }
     row.flow(*plant.own_elements, plant.motion.x, h);
 }
@@ -95,6 +94,7 @@ static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h
     if (!(effects & FROND_FIBRES)) return;
     const Timer timer;
     hold_lengths(plant, h);
+    plant.ms_fibres += timer.ms();
     plant.report.ms_solve += timer.ms();
 }
 
@@ -129,15 +129,20 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.x_good = motion.x;
     plant.v_good = motion.v;
     plant.trouble = 0;
+    plant.lead = 0;
 
     // Effects.
+    lend_workspace(plant);
     Timer timer;
     apply_pins(plant);
     gather_loads(plant, surroundings, effects);
+    plant.ms_user_force = timer.lap();
     gather_air(plant, surroundings, effects, h);
+    plant.ms_air = timer.lap();
     SolveSettings& settings = plant.step_settings = plant.settings;
     if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
-    plant.ms_effects = timer.lap();
+    plant.ms_effects = plant.ms_user_force + plant.ms_air;
+    plant.ms_fibres = plant.ms_plasticity = 0;
 
     // Solve.
     motion.history.shaken |= plant.is_touched;
@@ -193,10 +198,14 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
         motion.history.valid = false;
         plant.trouble |= FROND_TROUBLE_REWOUND;
     } else if (effects & FROND_PLASTICITY) {
+        const Timer timer;
         keep_sets(plant, h);
+        plant.ms_plasticity = timer.ms();
     }
     carry_stumps(plant);
+    pass_time(plant.fade, h);
     moved(plant);
+    give_workspace_back(plant);
 }
 
 void step_plant(Plant& plant, const Surroundings& surroundings, double h) {

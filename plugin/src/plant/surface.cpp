@@ -70,7 +70,7 @@ static void update_normals(Plant& plant, const Drawn& drawn) {
     };
     if (plant.nodes->order == 1) {
         for (size_t e = 0; e < model.cage.tets.size(); e++) {
-            if (!belongs(plant.parting.of_tet, e, drawn)) continue;
+            if (!belongs(plant.parting->of_tet, e, drawn)) continue;
             const Tet& tet = model.cage.tets[e];
             const Mat3 E = edges_of(point(x, tet[0]), point(x, tet[1]), point(x, tet[2]), point(x, tet[3]));
             const Mat3 weighted = weighted_cofactor(E, modelled_edges(tet));
@@ -78,7 +78,7 @@ static void update_normals(Plant& plant, const Drawn& drawn) {
         }
     } else {
         for (size_t e = 0; e < model.cage.tets.size(); e++) {
-            if (!belongs(plant.parting.of_tet, e, drawn)) continue;
+            if (!belongs(plant.parting->of_tet, e, drawn)) continue;
             const QuadraticTet& tet = plant.nodes->of_tet[e];
             const Mat3 M = modelled_edges(tet);
             for (size_t c = 0; c < 4; c++) cofactor[size_t(tet[c])] += weighted_cofactor(edges_at_corner(tet, c, x), M);
@@ -87,7 +87,7 @@ static void update_normals(Plant& plant, const Drawn& drawn) {
     for (Mat3& C : cofactor) C = drawn.turn * C;
 
     for (size_t v = 0; v < model.surface.normals.size(); v++) {
-        if (!belongs(plant.parting.of_vertex, v, drawn)) continue;
+        if (!belongs(plant.parting->of_vertex, v, drawn)) continue;
         const Tet& tet = model.cage.tets[size_t(model.embedding.tet[v])];
         const std::array<double, 4>& w = model.embedding.weights[v];
         const Vec3 rest = model.surface.normals[v].cast<double>();
@@ -103,6 +103,7 @@ void update_surface(Plant& plant, frond_effects effects) {
     const Model& model = *plant.model;
     const size_t vertex_count = model.surface.positions.size();
     Timer timer;
+    plant.ms_normals = 0;
     plant.surface_positions.resize(3 * vertex_count);
     plant.surface_normals.resize(3 * vertex_count);
     std::vector<Drawn> list = {{-1, cage_places(plant), plant.rotation.toRotationMatrix(), plant.position}};
@@ -110,11 +111,13 @@ void update_surface(Plant& plant, frond_effects effects) {
         list.push_back({int(list.size()) - 1, fragment.cage_x, fragment.turn, fragment.shift});
     for (const Drawn& drawn : list) {
         for (size_t v = 0; v < vertex_count; v++) {
-            if (!belongs(plant.parting.of_vertex, v, drawn)) continue;
+            if (!belongs(plant.parting->of_vertex, v, drawn)) continue;
             const Vec3 p = drawn.turn * bound_point(plant, model.embedding, v, drawn.x) + drawn.shift;
             for (int axis = 0; axis < 3; axis++) plant.surface_positions[3 * v + size_t(axis)] = float(p[axis]);
         }
+        const Timer normals_timer;
         if (effects & FROND_NORMALS) update_normals(plant, drawn);
+        plant.ms_normals += normals_timer.ms();
     }
     plant.surface_stale = false;
     plant.ms_surface = timer.ms();
@@ -143,7 +146,7 @@ int nearest_vertex(const Plant& plant, const Vec3& point) {
 static Vec3 chain_point(const Plant& plant, size_t i) {
     const Embedding& embedding = plant.model->chain_embedding;
     const int parent = plant.model->chain.nodes[i].parent;
-    const std::vector<int>& of_tet = plant.parting.of_tet;
+    const std::vector<int>& of_tet = plant.parting->of_tet;
     const int fragment = of_tet.empty() ? -1 : of_tet[size_t(embedding.tet[i])];
     if (fragment < 0 || parent < 0) return bound_point(plant, embedding, i, plant.motion.x);
     const std::vector<Vec3>& then = plant.fragments[size_t(fragment)].chain_x;

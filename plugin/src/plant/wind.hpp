@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 
 #include "core/types.hpp"
 #include "frond/frond.h"
@@ -20,6 +21,7 @@ struct Wind {
     std::array<std::vector<Gust>, 3> gusts;  // of the velocity along, across and above the mean wind
     double travelled = 0;                    // way of the mean wind so far, along itself [m]
     frond_wind_field_fn* field = nullptr;    // the host's own
+    mutable std::mutex field_mutex;          // it is asked from one thread at a time
     void* user = nullptr;
 };
 

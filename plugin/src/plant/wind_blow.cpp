@@ -103,6 +103,7 @@ bool wind_velocities(const Wind& wind, const Vec3& up, double time, const std::v
         }
     }
     if (!wind.field) return true;
+    std::lock_guard<std::mutex> lock(wind.field_mutex);
     wind.field(points.data(), int(points.size()), time, out.data(), wind.user);
     return sort_out(out);
 }

@@ -20,7 +20,7 @@ Bond& add_bond(World& world, PlantBody& plant, const Vec3& point, btCollisionObj
 }
 
 Vec3 held_place(const Bond& bond) {
-    return vertex_position(*bond.plant->plant, bond.vertex);
+    return vertex_position(*look_at(*bond.plant).plant, bond.vertex);
 }
 
 Vec3 place_on_body(const Bond& bond) {

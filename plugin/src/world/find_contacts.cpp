@@ -91,6 +91,7 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
     btCollisionObject* other = plant_first ? second : first;
     if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other)) return;
     if (body->rest.asleep && !is_moving(*other)) return;
+    look_at(*body);
     for (int i = 0; i < manifold.getNumContacts(); i++) {
         const btManifoldPoint& p = manifold.getContactPoint(i);
         const btVector3 on_other = other->getWorldTransform() * (plant_first ? p.m_localPointB : p.m_localPointA);
@@ -125,6 +126,7 @@ struct Sweep : btCollisionWorld::ConvexResultCallback {
         });
         if (known || capsule < 0 || size_t(capsule) >= body->capsules.size()) return 1;
         if (is_apart(*body, capsule, other)) return 1;
+        look_at(*body);
         btVector3 normal = hit.m_hitNormalLocal;
         if (!normal_in_world) normal = body->getWorldTransform().getBasis() * normal;
         const Vec3 passed = double(hit.m_hitFraction) * way, on_plant = from_bullet(hit.m_hitPointLocal);
@@ -159,7 +161,14 @@ void sweep_shape(World& world, btCollisionObject& object, const btCollisionShape
 void add_fast_bodies(World& world, double h, std::vector<Contact>& contacts) {
     constexpr double FAR = 0.005;  // in a step [m]
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
+    std::vector<const btCollisionObject*>& plants = world.plants_at;
+    plants.resize(size_t(objects.size()));
     for (int i = 0; i < objects.size(); i++) {
+        if (plants[size_t(i)] == objects[i]) continue;
+        if (PlantBody::of(objects[i])) {
+            plants[size_t(i)] = objects[i];
+            continue;
+        }
         btCollisionObject& object = *objects[i];
         if (object.isStaticObject() || !object.isActive() || !pushes(object) || !object.getBroadphaseHandle()) continue;
         btVector3 velocity;
@@ -180,13 +189,16 @@ void add_fast_bodies(World& world, double h, std::vector<Contact>& contacts) {
 // roots in the ground, do not touch it at all.
 void discount_grown_in(std::vector<Contact>& contacts) {
     for (Contact& contact : contacts) {
-        GrownIn& grown_in = contact.plant->grown_in;
+        std::unique_ptr<GrownIn>& grown_in = contact.plant->grown_in;
         const btBroadphaseProxy* proxy = contact.other->getBroadphaseHandle();
         const GrownIn::key_type key(contact.capsule, contact.other, proxy ? proxy->m_uniqueId : 0);
-        if (contact.plant->is_new && contact.other->isStaticObject() && contact.gap < 0)
-            grown_in[key] = std::max(grown_in[key], -contact.gap);
-        const auto found = grown_in.find(key);
-        if (found == grown_in.end()) continue;
+        if (contact.plant->new_for > 0 && contact.other->isStaticObject() && contact.gap < 0) {
+            if (!grown_in) grown_in = std::make_unique<GrownIn>();
+            (*grown_in)[key] = std::max((*grown_in)[key], -contact.gap);
+        }
+        if (!grown_in) continue;
+        const auto found = grown_in->find(key);
+        if (found == grown_in->end()) continue;
         const double radius = double(contact.plant->capsules[size_t(contact.capsule)]->getRadius());
         contact.gap += found->second > radius ? INFINITY : found->second;
     }
@@ -205,7 +217,7 @@ std::vector<Contact> find_contacts(World& world, double h) {
     }
     add_fast_bodies(world, h, contacts);
     discount_grown_in(contacts);
-    for (const auto& body : world.bodies) body->is_new = false;
+    for (PlantBody* body : world.awake) body->new_for = std::max(body->new_for - 1, 0);
     return contacts;
 }
 

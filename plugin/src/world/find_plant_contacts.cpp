@@ -19,25 +19,33 @@ bool has(const World& world, const PlantBody& body, frond_effects effect) {
 
 // Plants whose boxes meet, and lone ones that touch themselves.
 std::vector<std::vector<PlantBody*>> find_islands(World& world) {
-    UnionFind sets(world.bodies.size());
     btBroadphasePairArray& pairs = world.bullet->getPairCache()->getOverlappingPairArray();
-    std::vector<uint8_t> takes_part(world.bodies.size(), 0);
-    for (const auto& body : world.bodies) 
-        takes_part[size_t(body->number)] = !body->rest.asleep && has(world, *body, FROND_SELF_CONTACT);
+    std::vector<std::array<int, 2>> meet;
     for (int i = 0; i < pairs.size(); i++) {
-        const PlantBody* first = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject));
+        PlantBody* first = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject));
         if (!first || first->world != &world || !has(world, *first, FROND_PLANT_CONTACT)) continue;
-        const PlantBody* second = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject));
+        PlantBody* second = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject));
         if (!second || second->world != &world || !has(world, *second, FROND_PLANT_CONTACT)) continue;
         if (first->rest.asleep && second->rest.asleep) continue;
-        sets.join(first->number, second->number);
-        takes_part[size_t(first->number)] = takes_part[size_t(second->number)] = 1;
+        meet.push_back({number_of(world, *first), number_of(world, *second)});
     }
-    std::vector<std::vector<PlantBody*>> all(world.bodies.size()), islands;
-    for (const auto& body : world.bodies)
-        if (takes_part[size_t(body->number)]) all[size_t(sets.find(body->number))].push_back(body.get());
+    UnionFind sets(world.taking_part.size());
+    std::vector<uint8_t> takes_part(world.taking_part.size(), 0);
+    for (size_t i = 0; i < takes_part.size(); i++) {
+        const PlantBody& body = *world.taking_part[i];
+        takes_part[i] = !body.rest.asleep && has(world, body, FROND_SELF_CONTACT);
+    }
+    for (const auto& [first, second] : meet) {
+        sets.join(first, second);
+        takes_part[size_t(first)] = takes_part[size_t(second)] = 1;
+    }
+    std::vector<std::vector<PlantBody*>> all(takes_part.size()), islands;
+    for (size_t i = 0; i < takes_part.size(); i++)
+        if (takes_part[i]) all[size_t(sets.find(int(i)))].push_back(world.taking_part[i]);
     for (std::vector<PlantBody*>& island : all)
         if (!island.empty()) islands.push_back(std::move(island));
+    for (const std::vector<PlantBody*>& island : islands)
+        for (PlantBody* body : island) take_collider(look_at(*body));
     return islands;
 }
 
@@ -223,15 +231,15 @@ std::vector<PlantContact> find_plant_contacts(World& world) {
     const std::vector<PlantContact> last = std::move(world.plant_contacts);
     world.plant_contacts.clear();
     Timer timer;
-    const auto count = [&](frond_effects effect) {
-        return std::count_if(world.bodies.begin(), world.bodies.end(),
-                             [&](const auto& body) { return has(world, *body, effect); });
-    };
-    const bool together = count(FROND_PLANT_CONTACT) > 1;
-    if (!together && count(FROND_SELF_CONTACT) == 0) return contacts;
-    for (const auto& body : world.bodies)
-        if (has(world, *body, FROND_SELF_CONTACT) || (together && has(world, *body, FROND_PLANT_CONTACT)))
-            take_collider(*body);
+    // Those that move are as wide as their cages for the broad phase, before they meet any.
+    bool any = false;
+    for (PlantBody* body : world.awake) {
+        const bool together = world.bodies.size() > 1 && has(world, *body, FROND_PLANT_CONTACT);
+        if (!together && !has(world, *body, FROND_SELF_CONTACT)) continue;
+        take_collider(*body);
+        any = true;
+    }
+    if (!any) return contacts;
     const std::vector<std::vector<PlantBody*>> islands = find_islands(world);
     if (!islands.empty() && !world.plant_search) world.plant_search = std::make_unique<PlantSearch>();
     world.report.ms_broad += timer.lap();
@@ -265,7 +273,7 @@ std::vector<PlantContact> find_plant_contacts(World& world) {
         world.report.ms_narrow += timer.lap() - times.ms_hash;
     }
     keep_contacts(world, last, contacts);
-    keep_deepest(world.bodies.size(), contacts);
+    keep_deepest(world.taking_part.size(), contacts);
     return contacts;
 }
 

@@ -22,22 +22,49 @@ struct Rigid;
 // and the body's number in the broad phase, which tells it from a later one in the same memory [m].
 using GrownIn = std::map<std::tuple<int, const btCollisionObject*, int>, double>;
 
+// The collision shapes that all plants of a model have in common in a world.
+struct Hull {
+    std::vector<std::unique_ptr<btCapsuleShape>> capsules;  // in the order of Model::capsules
+    std::unique_ptr<btCompoundShape> rest;                  // all of them as modelled: of plants that sleep so
+    double wider = 0;                                       // what the cage is wider than the capsules [m]; 0: not asked
+};
+
+// How much of the plant is simulated now.
+struct Level {
+    frond_detail now = FROND_DETAIL_FULL;
+    frond_mechanics own;       // of FROND_DETAIL_FULL
+    int every = 1;             // substeps that are taken as one
+    double pending = 0;        // time that is not yet stepped [s]
+    bool is_due = true;        // is stepped in the running substep
+    double distance = 0;       // as it counts
+    double touched = 0;        // until when it was touched lately [s]
+    double ms = 0;             // that a step took, lately
+    double ms_capsules = 0;    // of the last one
+};
+
 struct PlantBody : btSoftBody {
     BT_DECLARE_ALIGNED_ALLOCATOR();
 
     std::unique_ptr<Plant> plant;
     World* world;
     frond_plant handle = {};
-    bool is_new = true;  // has not stepped yet
+    int new_for = 1;  // substeps in which what it stands in is yet to be found out; one that began asleep wakes without pairs
     Rest rest;
-    GrownIn grown_in;
-    int number = 0;  // among the world's plants, in the running substep
+    std::unique_ptr<GrownIn> grown_in;  // null: in nothing
+    int index = 0;    // among the world's plants
+    int number = -1;  // among those that take part in the running substep; -1: it does not
+    Level level;
+    std::shared_ptr<Hull> hull;
+    bool is_hidden = false;  // from what sleeps and from what is static: asleep with nothing touching it
+    int filter_group = 0, filter_mask = 0;  // of the broad phase, while it is hidden
+    bool is_looked_at = false;  // asleep, but unfolded for somebody to look
     std::shared_ptr<const Collider> collider;  // null until other plants, or it itself, may touch it
     std::vector<Rigid*> fragment_bodies;  // the world's, one for each of plant->fragments
-    std::vector<std::unique_ptr<btCapsuleShape>> capsules;  // in the order of Model::capsules
+    const std::vector<std::unique_ptr<btCapsuleShape>>& capsules;  // the hull's
 
     PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> plant);
     ~PlantBody() override;
+    btCollisionShape*& shape() { return m_collisionShape; }
     btCompoundShape* compound() { return static_cast<btCompoundShape*>(getCollisionShape()); }
     // Bullet's broad phase pairs plants, but its narrow phase need not look at them.
     bool checkCollideWithOverride(const btCollisionObject* other) const override {
@@ -48,6 +75,12 @@ struct PlantBody : btSoftBody {
     static const PlantBody* of(const btCollisionObject* object) { return dynamic_cast<const PlantBody*>(object); }
 };
 
+// Takes the hull's shape as modelled, or one of its own that moves.
+void share_shape(PlantBody& body);
+void take_own_shape(PlantBody& body);
+// Sleepers that nothing touches make no pairs with each other and with what is static. A host's filter is kept.
+void hide(PlantBody& body);
+void show_again(PlantBody& body);
 // Moves the capsules to where the chain is.
 void move_capsules(PlantBody& body);
 // Makes ready for contact of cages. The broad phase then sees the plant as wide as its cage.

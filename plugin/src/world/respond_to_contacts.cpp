@@ -74,6 +74,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
 // A bond closes half of its gap a step.
 void add_row(Bond& bond, double h, std::vector<Row>& rows) {
     constexpr double SHARE = 0.5, FASTEST = 10;  // [m/s]
+    if (bond.plant->rest.asleep) return;
     bond.impulse.setZero();
     bond.length = h;
     if (!bond.body) return;
@@ -103,7 +104,7 @@ struct Sides {
 };
 
 std::vector<Sides> sort_by_plant(const World& world, const std::vector<Row>& rows) {
-    std::vector<Sides> sides(world.bodies.size());
+    std::vector<Sides> sides(world.taking_part.size());
     for (size_t i = 0; i < rows.size(); i++)
         for (size_t k = 0; k < 2; k++) {
             if (!rows[i].plants[k]) continue;
@@ -200,7 +201,7 @@ void give(World& world, std::vector<Row>& rows, const Pushes& pushes, double h) 
                   [](Plant& p, const PlantTouch& touch, const Vec3& impulse) { take_impulse(p, touch, impulse); });
         if (!pushes.shifts.empty()) to_plants(rows[i], pushes.shifts[i], take_shift);
     }
-    for (const std::unique_ptr<PlantBody>& body : world.bodies) add_contacts(*body->plant, h);
+    for (PlantBody* body : world.awake) add_contacts(*body->plant, body->level.pending);
     // A plant that cannot bear it is put back, and then pushes nothing.
     for (size_t i = 0; i < rows.size(); i++) {
         if (rows[i].plants[1] || pushes.impulses[i].isZero(0)) continue;

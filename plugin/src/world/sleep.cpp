@@ -19,16 +19,18 @@ namespace {
 
 // Air at the middle of sleeping plants, for a share of them in each substep.
 void wake_blown(World& world) {
-    constexpr int TURNS = 8;       // substeps in which each plant is asked about once
+    constexpr size_t TURNS = 8;    // substeps in which each plant is asked about once,
+    constexpr size_t MOST = 128;   // if there are not more than so many to ask about in one
     constexpr double GUST = 0.05;  // change of the air that wakes [m/s]
     std::vector<PlantBody*> asked;
     std::vector<frond_vec3> points, air;
-    world.turn = (world.turn + 1) % TURNS;
-    for (const auto& body : world.bodies) {
-        const frond_effects effects = world.effects & body->plant->effects;
-        if (!body->rest.asleep || !(effects & FROND_WIND) || body->number % TURNS != world.turn) continue;
-        asked.push_back(body.get());
-        points.push_back(middle_of(*body));
+    const size_t count = world.bodies.size(), here = std::min((count + TURNS - 1) / TURNS, MOST);
+    for (size_t i = 0; i < here; i++) {
+        PlantBody& body = *world.bodies[world.turn++ % count];
+        const frond_effects effects = world.effects & body.plant->effects;
+        if (!body.rest.asleep || !(effects & FROND_WIND) || is_still(world, body)) continue;
+        asked.push_back(&body);
+        points.push_back(middle_of(body));
     }
     if (asked.empty()) return;
     wind_velocities(*world.wind, up_of(gravity_of(world)), world.time, points, air);
@@ -43,26 +45,52 @@ bool meets(const Contact& contact, double h) {
     return contact.gap < NEAR + 2 * h * velocity.norm();
 }
 
-void fall_asleep(const World& world, PlantBody& body) {
+}  // namespace
+
+void fall_asleep(World& world, PlantBody& body) {
     Plant& plant = *body.plant;
-    body.rest.asleep = true;
+    pose(plant);
     plant.motion.v.setZero();
     plant.motion.history.valid = false;
-    body.forceActivationState(ISLAND_SLEEPING);
     auto contacts = std::make_shared<LastContacts>();
     for (const Contact& contact : world.contacts)
         if (contact.plant == &body) contacts->with_bodies.push_back(contact);
     for (const PlantContact& contact : world.plant_contacts)
         if (contact.plants[0] == &body || contact.plants[1] == &body) contacts->with_plants.push_back(contact);
     if (!contacts->with_bodies.empty() || !contacts->with_plants.empty()) body.rest.contacts = std::move(contacts);
+    body.rest.asleep = true;
+    body.rest.still = 0;
     body.rest.air.setZero();
+    VecX().swap(body.rest.places);
+    body.forceActivationState(ISLAND_SLEEPING);
+    fold(plant, world.sleep_distance, false);
+    if (!body.rest.contacts) {
+        if (plant.folded && plant.away.empty()) share_shape(body);
+        hide(body);
+    }
     if (!world.wind) return;
     std::vector<frond_vec3> air;
     wind_velocities(*world.wind, up_of(gravity_of(world)), world.time, {middle_of(body)}, air);
     body.rest.air = Vec3(air[0].x, air[0].y, air[0].z);
 }
 
-}  // namespace
+void fold_looked_at(World& world) {
+    for (PlantBody* body : world.looked_at) {
+        if (body->is_looked_at && body->rest.asleep) fold(*body->plant, world.sleep_distance, true);
+        body->is_looked_at = false;
+    }
+    world.looked_at.clear();
+}
+
+PlantBody& look_at(PlantBody& body) {
+    Plant& plant = *body.plant;
+    pose(plant);
+    if (!plant.folded) return body;
+    unfold(plant);
+    if (!body.is_looked_at) body.world->looked_at.push_back(&body);
+    body.is_looked_at = true;
+    return body;
+}
 
 frond_vec3 middle_of(const PlantBody& body) {
     btVector3 lower, upper;
@@ -76,6 +104,12 @@ void wake(PlantBody& body) {
     if (!body.rest.asleep) return;
     body.rest.asleep = false;
     body.forceActivationState(DISABLE_DEACTIVATION);
+    unfold(*body.plant);
+    take_own_shape(body);
+    show_again(body);
+    body.world->awake.push_back(&body);
+    body.level.pending = 0;
+    end_sway(body);
     // With what leans on it, or the other way round.
     const std::shared_ptr<const LastContacts> contacts = std::move(body.rest.contacts);
     if (!contacts) return;
@@ -83,16 +117,27 @@ void wake(PlantBody& body) {
         for (PlantBody* other : contact.plants) wake(*other);
 }
 
+namespace {
+
+struct WakeThere : btBroadphaseAabbCallback {
+    World& world;
+    explicit WakeThere(World& world) : world(world) {}
+    std::vector<PlantBody*> found;
+    bool process(const btBroadphaseProxy* proxy) override {
+        PlantBody* body = PlantBody::of(static_cast<btCollisionObject*>(proxy->m_clientObject));
+        if (body && body->world == &world) found.push_back(body);
+        return true;
+    }
+};
+
+}  // namespace
+
 void wake_neighbours(World& world, const btCollisionObject& leaving) {
     const btBroadphaseProxy* proxy = leaving.getBroadphaseHandle();
-    const btBroadphasePairArray& pairs = world.bullet->getPairCache()->getOverlappingPairArray();
-    for (int i = 0; proxy && i < pairs.size(); i++) {
-        const btBroadphaseProxy *first = pairs[i].m_pProxy0, *second = pairs[i].m_pProxy1;
-        if (first != proxy && second != proxy) continue;
-        const btBroadphaseProxy* other = first == proxy ? second : first;
-        PlantBody* body = PlantBody::of(static_cast<btCollisionObject*>(other->m_clientObject));
-        if (body && body->world == &world) wake(*body);
-    }
+    if (!proxy) return;
+    WakeThere there(world);
+    world.bullet->getBroadphase()->aabbTest(proxy->m_aabbMin, proxy->m_aabbMax, there);
+    for (PlantBody* body : there.found) wake(*body);
 }
 
 bool is_moving(btCollisionObject& object) {
@@ -115,10 +160,13 @@ void wake_by_world(World& world) {
 
 void wake_touched(World& world, double h) {
     for (const Contact& contact : world.contacts)
-        if (contact.plant->rest.asleep && is_moving(*contact.other) && meets(contact, h)) wake(*contact.plant);
+        if (contact.plant->rest.asleep && is_moving(*contact.other) && meets(contact, h) &&
+            !is_still(world, *contact.plant))
+            wake(*contact.plant);
     for (const PlantContact& contact : world.plant_contacts) {
         const auto& [first, second] = contact.plants;
-        if (contact.depth > 0 && first->rest.asleep != second->rest.asleep) wake(first->rest.asleep ? *first : *second);
+        PlantBody& sleeper = first->rest.asleep ? *first : *second;
+        if (contact.depth > 0 && first->rest.asleep != second->rest.asleep && !is_still(world, sleeper)) wake(sleeper);
     }
     const auto sleeps = [](const PlantBody* body) { return body->rest.asleep; };
     const auto of_sleeper = [&](const Contact& contact) { return sleeps(contact.plant); };
@@ -134,8 +182,12 @@ void wake_touched(World& world, double h) {
 void watch(const World& world, PlantBody& body, double h) {
     const Plant& plant = *body.plant;
     Rest& rest = body.rest;
-    const VecX& x = plant.motion.x;
-    const bool stirs = plant.has_user_force || plant.trouble & FROND_TROUBLE_REWOUND || !plant.fragments.empty();
+    VecX swing(2);
+    if (plant.swing) swing = Eigen::Map<const Eigen::Vector2d>(swing_of(plant).data());
+    const VecX& x = plant.swing ? swing : plant.motion.x;
+    const bool fades = !is_over(plant.fade) || (plant.swing && !is_over(plant.swing->fade));
+    const bool stirs =
+        plant.has_user_force || plant.trouble & FROND_TROUBLE_REWOUND || !plant.fragments.empty() || fades;
     if (!stirs && rest.places.size() == x.size() &&
         (x - rest.places).lpNorm<Eigen::Infinity>() <= world.sleep_distance) {
         rest.still += h;
@@ -146,21 +198,26 @@ void watch(const World& world, PlantBody& body, double h) {
 }
 
 void put_to_sleep(World& world) {
-    UnionFind touching(world.bodies.size());
-    std::vector<uint8_t> stirs(world.bodies.size(), 0);
-    for (const auto& body : world.bodies)
-        stirs[size_t(body->number)] = !body->rest.asleep && body->rest.still < body->plant->rest_time;
+    const size_t count = world.taking_part.size();
+    UnionFind touching(count);
+    std::vector<uint8_t> stirs(count, 0), island_stirs(count, 0);
+    for (size_t i = 0; i < count; i++) {
+        const PlantBody& body = *world.taking_part[i];
+        stirs[i] = !body.rest.asleep && body.rest.still < body.plant->rest_time;
+    }
     for (const Contact& contact : world.contacts)
         if (is_moving(*contact.other)) stirs[size_t(contact.plant->number)] = 1;
     for (const Bond& bond : world.bonds)
-        if (bond.body && is_moving(*bond.body)) stirs[size_t(bond.plant->number)] = 1;
+        if (bond.body && bond.plant->number >= 0 && is_moving(*bond.body)) stirs[size_t(bond.plant->number)] = 1;
     for (const PlantContact& contact : world.plant_contacts)
         touching.join(contact.plants[0]->number, contact.plants[1]->number);
-    std::vector<uint8_t> island_stirs(world.bodies.size(), 0);
-    for (const auto& body : world.bodies)
-        if (stirs[size_t(body->number)]) island_stirs[size_t(touching.find(body->number))] = 1;
-    for (const auto& body : world.bodies)
-        if (!body->rest.asleep && !island_stirs[size_t(touching.find(body->number))]) fall_asleep(world, *body);
+    for (size_t i = 0; i < count; i++)
+        if (stirs[i]) island_stirs[size_t(touching.find(int(i)))] = 1;
+    for (size_t i = 0; i < count; i++)
+        if (!world.taking_part[i]->rest.asleep && !island_stirs[size_t(touching.find(int(i)))])
+            fall_asleep(world, *world.taking_part[i]);
+    const auto sleeps = [](const PlantBody* body) { return body->rest.asleep; };
+    world.awake.erase(std::remove_if(world.awake.begin(), world.awake.end(), sleeps), world.awake.end());
 }
 
 }  // namespace FROND_BULLET_PRECISION

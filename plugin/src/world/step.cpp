@@ -16,83 +16,222 @@ Vec3 gravity_of(const World& world) {
     return from_bullet(world.bullet->getGravity());
 }
 
+// What was done for an effect, and the time it took [ms].
+static void add_effect(frond_report& report, frond_effects effect, double ms) {
+    report.effects_run |= effect;
+    size_t bit = 0;
+    while (effect >> bit != 1) bit++;
+    report.ms_of_effect[bit] += ms;
+}
+
 // Adds what a plant did in this substep to the world's report.
-static void add_to_report(const Plant& plant, frond_report& report) {
+static void add_to_report(const World& world, const Plant& plant, frond_report& report) {
     report.trouble |= plant.trouble;
+    if (plant.swing) return;
     report.solver_iterations += plant.report.iterations;
     report.residual = std::max(report.residual, plant.report.residual);
     report.ms_effects += plant.ms_effects;
     report.ms_assembly += plant.report.ms_assembly;
     report.ms_solve += plant.report.ms_solve;
+    const frond_effects effects = plant.effects & world.effects;
+    report.effects_run |= effects & (FROND_GRAVITY | FROND_DAMPING);
+    if (effects & FROND_USER_FORCE && (plant.has_user_force || !plant.grabs.empty()))
+        add_effect(report, FROND_USER_FORCE, plant.ms_user_force);
+    const frond_effects air = effects & (FROND_WIND | FROND_AIR_DRAG);
+    if (world.wind && air) {
+        add_effect(report, air & FROND_WIND ? FROND_WIND : FROND_AIR_DRAG, plant.ms_air);
+        report.effects_run |= air;
+    }
+    if (effects & FROND_FIBRES && plant.fibres) add_effect(report, FROND_FIBRES, plant.ms_fibres);
+    if (effects & FROND_PLASTICITY) add_effect(report, FROND_PLASTICITY, plant.ms_plasticity);
 }
 
-void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
+int number_of(World& world, PlantBody& body) {
+    if (body.number >= 0) return body.number;
+    body.number = int(world.taking_part.size());
+    world.taking_part.push_back(&body);
+    return body.number;
+}
+
+namespace {
+
+bool any_wants(const World& world, frond_effects effect) {
+    return std::any_of(world.awake.begin(), world.awake.end(),
+                       [&](const PlantBody* body) { return body->plant->effects & world.effects & effect; });
+}
+
+// Those that are awake, in the order in which they came into the world.
+void call_roll(World& world) {
+    for (PlantBody* body : world.taking_part) body->number = -1;
+    world.taking_part.clear();
+    std::sort(world.awake.begin(), world.awake.end(),
+              [](const PlantBody* a, const PlantBody* b) { return a->index < b->index; });
+    for (PlantBody* body : world.awake) number_of(world, *body);
+}
+
+void find_touches(World& world, double h) {
+    frond_report& report = world.report;
+    const Timer find_timer;
+    wake_by_world(world);
+    world.contacts.clear();
+    if (world.effects & FROND_RIGID_CONTACT &&
+        (world.awake.size() < world.bodies.size() || any_wants(world, FROND_RIGID_CONTACT))) {
+        const Timer timer;
+        world.contacts = find_contacts(world, h);
+        add_effect(report, FROND_RIGID_CONTACT, timer.ms());
+    }
+    const frond_effects among = FROND_PLANT_CONTACT | FROND_SELF_CONTACT;
+    if (any_wants(world, among)) {
+        const Timer timer;
+        world.plant_contacts = find_plant_contacts(world);
+        add_effect(report, any_wants(world, FROND_PLANT_CONTACT) ? FROND_PLANT_CONTACT : FROND_SELF_CONTACT, timer.ms());
+    } else {
+        world.plant_contacts.clear();
+    }
+    wake_touched(world, h);
+    report.ms_collide = find_timer.ms();
+}
+
+// A plant that a body touches is simulated for a while, wherever it is.
+void note_touches(World& world) {
+    constexpr double WHILE = 0.5, NEAR = 0.02;  // [s], [m]
+    if (!world.detail) return;
+    for (const Contact& contact : world.contacts)
+        if (contact.gap < NEAR && is_moving(*contact.other)) contact.plant->level.touched = world.time + WHILE;
+}
+
+// Contacts of plants that only sway push nothing; those that push are stepped now.
+void mark_touched(World& world) {
+    const auto sways = [](const PlantBody* body) { return body->plant->swing != nullptr; };
+    world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(),
+                                        [&](const Contact& contact) { return sways(contact.plant); }),
+                         world.contacts.end());
+    world.plant_contacts.erase(
+        std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(),
+                       [&](const PlantContact& c) { return sways(c.plants[0]) || sways(c.plants[1]); }),
+        world.plant_contacts.end());
+    for (PlantBody* body : world.awake) {
+        body->plant->is_touched = body->plant->is_entangled = false;
+        body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;
+    }
+    for (const Contact& contact : world.contacts) contact.plant->plant->is_touched = true;
+    for (const PlantContact& contact : world.plant_contacts)
+        for (PlantBody* body : contact.plants) {
+            body->plant->is_touched = true;
+            body->plant->is_entangled |= contact.depth > ENTANGLED;
+        }
+    for (const Bond& bond : world.bonds) bond.plant->plant->is_touched = true;
+    for (PlantBody* body : world.awake)
+        if (body->plant->is_touched || body->plant->has_user_force) body->level.is_due = true;
+}
+
+// What remains of a step when nothing pushes the plant any more; a plant that may break moves its capsules later.
+void finish(const World& world, PlantBody& body, const Surroundings& surroundings) {
+    constexpr double LATELY = 0.3;
+    Plant& plant = *body.plant;
+    accept_step(plant, surroundings, body.level.pending);
+    const double ms = plant.ms_effects + plant.report.ms_assembly + plant.report.ms_solve;
+    body.level.ms += (body.level.ms > 0 ? LATELY : 1) * (ms - body.level.ms);
+    const Timer timer;
+    if (!(plant.effects & world.effects & FROND_BREAKING)) move_capsules(body);
+    body.level.ms_capsules = timer.ms();
+    if (world.sleep_distance > 0) watch(world, body, body.level.pending);
+}
+
+// Sways are told, and the capsules put where they are, in every so many substeps.
+void sway(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
+    constexpr uint64_t TURNS = 4;
+    const bool is_turn = (world.substep + uint64_t(body.index)) % TURNS == 0;
+    keep_swinging(*body.plant, surroundings, h, is_turn);
+    body.level.is_due = is_turn;
+    if (world.sleep_distance > 0) watch(world, body, h);
+    if (!is_turn) return;
+    const Timer timer;
+    pose(*body.plant);
+    move_capsules(body);
+    body.level.ms_capsules = timer.ms();
+}
+
+// A plant's own part of the substep, which no other has anything to do with.
+void step_alone(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
+    if (body.plant->swing) return sway(world, body, surroundings, h);
+    body.level.pending += h;
+    if (!body.level.is_due) {
+        body.plant->lead = body.level.pending;
+        body.plant->cage_stale = body.plant->surface_stale = true;
+        return;
+    }
+    solve_plant(*body.plant, surroundings, body.level.pending);
+    if (!body.plant->is_touched) finish(world, body, surroundings);
+}
+
+// What has to be done by one thread, plant by plant.
+void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
+    frond_report& report = world.report;
+    report.detail_count[body.level.now]++;
+    if (!body.level.is_due) return;
+    add_to_report(world, *body.plant, report);
+    const Timer timer;
+    if (!body.plant->swing && body.plant->effects & world.effects & FROND_BREAKING) {
+        report.broken_count += break_overloaded(world, body);
+        move_capsules(body);
+        add_effect(report, FROND_BREAKING, timer.ms());
+    }
+    collision_world.updateSingleAabb(&body);
+    report.ms_capsules += timer.ms() + body.level.ms_capsules;
+    body.level.pending = 0;
+    if (!world.own) clear_user_force(*body.plant);
+}
+
+}  // namespace
+
+void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
+    const double h = double(step);
     if (!(h > 0)) return;
     const Timer step_timer;
     is_stepping = true;
+    substep++;
     end_hold(gravity_ahead, *collision_world);
     report = {};
     Surroundings surroundings;
     surroundings.gravity = gravity_of(*this);
     surroundings.effects = effects;
-    if (wind) pass_time(*wind, double(h));
+    if (wind) pass_time(*wind, h);
     surroundings.wind = wind.get();
-    surroundings.time = time + double(h);
-    const auto any_wants = [&](frond_effects effect, bool awake) {
-        return std::any_of(bodies.begin(), bodies.end(), [&](const std::unique_ptr<PlantBody>& body) {
-            return body->plant->effects & effects & effect && !(awake && body->rest.asleep);
-        });
-    };
-    for (const std::unique_ptr<PlantBody>& body : bodies) {
+    surroundings.time = time + h;
+    call_roll(*this);
+    for (PlantBody* body : awake) {
         if (body->fragment_bodies.empty()) continue;
         carry_fragments(*body);
-        if (body->plant->effects & effects & FROND_USER_FORCE) pull_fragments(*body, double(h));
+        if (body->plant->effects & effects & FROND_USER_FORCE) pull_fragments(*body, h);
     }
-    contacts.clear();
-    for (size_t i = 0; i < bodies.size(); i++) bodies[i]->number = int(i);
-    const Timer find_timer;
-    wake_by_world(*this);
-    if (any_wants(FROND_RIGID_CONTACT, false)) contacts = find_contacts(*this, double(h));
-    if (any_wants(FROND_PLANT_CONTACT | FROND_SELF_CONTACT, true))
-        plant_contacts = find_plant_contacts(*this);
-    else
-        plant_contacts.clear();
-    wake_touched(*this, double(h));
-    std::vector<PlantBody*> awake;
-    for (const std::unique_ptr<PlantBody>& body : bodies)
-        if (!body->rest.asleep) awake.push_back(body.get());
-    report.ms_collide = find_timer.ms();
-    for (PlantBody* body : awake) body->plant->is_touched = body->plant->is_entangled = false;
-    for (const Contact& contact : contacts) contact.plant->plant->is_touched = true;
-    for (const PlantContact& contact : plant_contacts)
-        for (PlantBody* body : contact.plants) {
-            body->plant->is_touched = true;
-            body->plant->is_entangled |= contact.depth > ENTANGLED;
-        }
-    for (const Bond& bond : bonds) bond.plant->plant->is_touched = true;
-    for (PlantBody* body : awake) solve_plant(*body->plant, surroundings, double(h));
+    find_touches(*this, h);
+    call_roll(*this);
+    note_touches(*this);
+    choose_details(*this);
+    mark_touched(*this);
+
+    run_jobs(*this, awake.size(), [&](size_t i) { step_alone(*this, *awake[i], surroundings, h); });
     const Timer response_timer;
     let_go_of_gone(*this);
-    if (!contacts.empty() || !plant_contacts.empty() || !bonds.empty()) respond_to_contacts(*this, double(h));
+    if (!contacts.empty() || !plant_contacts.empty() || !bonds.empty()) {
+        respond_to_contacts(*this, h);
+        report.effects_run |= effects & (FROND_FRICTION | (contacts.empty() ? 0 : FROND_TWO_WAY));
+    }
     report.ms_response = response_timer.ms();
     report.contact_count = int(contacts.size());
     report.plant_contact_count = int(plant_contacts.size());
     report.awake_count = int(awake.size());
-    for (PlantBody* body : awake) {
-        accept_step(*body->plant, surroundings, double(h));
-        add_to_report(*body->plant, report);
-        if (body->plant->effects & effects & FROND_BREAKING) report.broken_count += break_overloaded(*this, *body);
-
-        const Timer capsule_timer;
-        move_capsules(*body);
-        collision_world->updateSingleAabb(body);
-        report.ms_capsules += capsule_timer.ms();
-        if (sleep_distance > 0) watch(*this, *body, double(h));
-        if (!own) clear_user_force(*body->plant);
-    }
+    std::vector<PlantBody*> touched;
+    for (PlantBody* body : awake)
+        if (body->plant->is_touched && !body->plant->swing) touched.push_back(body);
+    run_jobs(*this, touched.size(), [&](size_t i) { finish(*this, *touched[i], surroundings); });
+    for (PlantBody* body : awake) settle(*this, *body, *collision_world);
     if (sleep_distance > 0) put_to_sleep(*this);
-    time += double(h);
+    fold_looked_at(*this);
+    time += h;
     report.ms_step = step_timer.ms();
+    learn_times(*this);
     is_stepping = false;
 }
 
@@ -101,17 +240,18 @@ void World::debugDraw(btIDebugDraw*) {}
 void advance(World& world, double dt) {
     const int substeps = int(std::ceil(dt / world.max_substep - 1e-9));
     for (int i = 0; i < substeps; i++) world.bullet->stepSimulation(btScalar(dt / substeps), 0);
-    for (const std::unique_ptr<PlantBody>& body : world.bodies) clear_user_force(*body->plant);
+    for (PlantBody* body : world.awake) clear_user_force(*body->plant);
 }
 
 // FNV-1a over the bits of all nodes, of what is lasting and of what came off.
-uint64_t state_hash(const World& world) {
+uint64_t state_hash(World& world) {
     uint64_t hash = 0xcbf29ce484222325u;
     const auto add = [&](const auto& values) {
         const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
         for (size_t i = 0; i < size_t(values.size()) * sizeof(double); i++) hash = (hash ^ bytes[i]) * 0x100000001b3u;
     };
     for (const std::unique_ptr<PlantBody>& body : world.bodies) {
+        look_at(*body);
         add(body->plant->motion.x);
         add(body->plant->motion.v);
         add(lasting_of(*body->plant));
@@ -124,6 +264,7 @@ uint64_t state_hash(const World& world) {
             add(from_bullet(rigid.getAngularVelocity()));
         }
     }
+    fold_looked_at(world);
     return hash;
 }
 

@@ -21,15 +21,18 @@ static std::set<btDynamicsWorld*>& attached_worlds() {
 World::World(std::unique_ptr<OwnBullet> given, btDynamicsWorld* bullet, const frond_world_def& def)
     : own(std::move(given)), bullet(bullet), effects(def.effects), max_substep(def.max_substep),
       hash({def.hash_layout, def.hash_table_size, def.hash_cell_size}), response(def.response),
-      sleep_distance(def.sleep_distance) {
+      parallel_for(def.parallel_for), parallel_user(def.parallel_user), sleep_distance(def.sleep_distance) {
     response_settings.limits = {def.response_iterations, def.response_tolerance};
     response_settings.stiffness = def.penalty_stiffness;
     soft_info.m_broadphase = bullet->getBroadphase();
     soft_info.m_dispatcher = bullet->getDispatcher();
     bullet->addAction(this);
+    gravity_before = gravity_of(*this);
+    effects_before = effects;
 }
 
 World::~World() {
+    is_ending = true;
     while (!bodies.empty()) remove_plant(*this, bodies.back().get());
     while (!rigids.empty()) remove_rigid(*this, rigids.back().get());
     bullet->removeAction(this);
@@ -53,24 +56,40 @@ std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def
     return std::make_unique<World>(std::move(own), bullet, def);
 }
 
-PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant) {
+PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, bool asleep) {
     world.bodies.push_back(std::make_unique<PlantBody>(&world.soft_info, &world, std::move(plant)));
     PlantBody* body = world.bodies.back().get();
+    body->index = int(world.bodies.size()) - 1;
     // The default filter of a kinematic object would meet nothing that is static.
     world.bullet->addCollisionObject(body, btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter);
+    if (asleep) {
+        body->new_for = 2;
+        fall_asleep(world, *body);
+    } else {
+        world.awake.push_back(body);
+        take_own_shape(*body);
+    }
     return body;
 }
 
 void remove_plant(World& world, PlantBody* body) {
     remove_fragments(world, *body);
-    wake(*body);
-    wake_neighbours(world, *body);
+    if (!world.is_ending) {
+        wake(*body);
+        wake_neighbours(world, *body);
+    }
+    show_again(*body);
     world.bullet->removeCollisionObject(body);
     world.contacts.clear();
     world.plant_contacts.clear();
     world.bonds.remove_if([&](const Bond& bond) { return bond.plant == body; });
-    const auto is_body = [&](const std::unique_ptr<PlantBody>& other) { return other.get() == body; };
-    world.bodies.erase(std::find_if(world.bodies.begin(), world.bodies.end(), is_body));
+    for (std::vector<PlantBody*>* list : {&world.awake, &world.taking_part, &world.looked_at})
+        list->erase(std::remove(list->begin(), list->end(), body), list->end());
+    std::replace(world.plants_at.begin(), world.plants_at.end(), static_cast<const btCollisionObject*>(body),
+                 static_cast<const btCollisionObject*>(nullptr));
+    const size_t index = size_t(body->index);
+    world.bodies.erase(world.bodies.begin() + body->index);
+    for (size_t i = index; i < world.bodies.size(); i++) world.bodies[i]->index = int(i);
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -4,11 +4,14 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <functional>
 #include <list>
+#include <map>
 
 #include "solve/impulses.hpp"
 #include "world/bond.hpp"
 #include "world/contact.hpp"
+#include "world/detail.hpp"
 #include "world/gravity_ahead.hpp"
 #include "world/plant_contact.hpp"
 #include "world/rigid.hpp"
@@ -35,14 +38,25 @@ struct World final : btActionInterface {
     frond_response response;
     ResponseSettings response_settings;
     std::unique_ptr<Wind> wind;  // null: there is no air
+    std::map<const Model*, std::weak_ptr<Hull>> hulls;
     std::vector<std::unique_ptr<PlantBody>> bodies;
+    std::vector<PlantBody*> awake;        // by index, but for those that woke since the last substep
+    std::vector<PlantBody*> taking_part;  // in the running substep, by number: what is awake, and what sleeps beside it
+    std::vector<PlantBody*> looked_at;    // asleep, but unfolded since the last substep
+    // Bullet's objects that are plants, at their places among all: thousands need not be looked at to know what they are.
+    std::vector<const btCollisionObject*> plants_at;
+    frond_parallel_for_fn* parallel_for;  // null: the host lends no threads of its own
+    void* parallel_user;
     std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
     std::list<Bond> bonds;
     double sleep_distance;          // 0: no plant sleeps [m]
-    int turn = 0;                   // of asking sleeping plants about the air
+    size_t turn = 0;                // of asking sleeping plants about the air
+    uint64_t substep = 0;
+    std::unique_ptr<Detail> detail;  // null: all plants are simulated in full
     Vec3 gravity_before = Vec3::Zero();  // in the last substep [m/s^2]
     frond_effects effects_before = 0;    // likewise
     bool is_stepping = false;       // in updateAction
+    bool is_ending = false;
     std::vector<Contact> contacts;  // of the last substep, with bodies
     GravityAhead gravity_ahead;     // of those
     std::vector<PlantContact> plant_contacts;  // likewise, of plants with each other and themselves
@@ -57,14 +71,20 @@ struct World final : btActionInterface {
     void debugDraw(btIDebugDraw* drawer) override;
 };
 
+// job(i) for all i below count, on as many threads as the host lends.
+void run_jobs(const World& world, size_t count, const std::function<void(size_t)>& job);
+// Its number in the running substep, in which it takes part from now on.
+int number_of(World& world, PlantBody& body);
+// A plant as it is now, whether it sleeps or only sways: for those who read it.
+PlantBody& look_at(PlantBody& body);
 // Without `bullet` the world makes its own. Throws BAD_ARGUMENT when `bullet` has plants already.
 std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def& def);
-PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant);
+PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, bool asleep);
 void remove_plant(World& world, PlantBody* body);
 // Steps a world of Frond's own by exactly dt.
 void advance(World& world, double dt);
 Vec3 gravity_of(const World& world);
-uint64_t state_hash(const World& world);
+uint64_t state_hash(World& world);
 
 struct RayHit {
     PlantBody* body = nullptr;

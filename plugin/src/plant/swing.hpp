@@ -1,0 +1,54 @@
+// Swing: a plant of which only its two first sways are simulated, as the air drives them. The rest of the chain follows.
+#pragma once
+
+#include "plant/air.hpp"
+#include "plant/fade.hpp"
+#include "plant/wind.hpp"
+
+namespace frond {
+
+struct Plant;
+struct Surroundings;
+
+// One of the two. Of unit modal mass, so that coordinates are metres times the root of a kilogram.
+struct SwingMode {
+    VecX shape;                // of the chain's places and rotations; empty: the plant has no such sway
+    double square = 0;         // of the angular frequency, under weight [1/s^2]
+    double stiffness = 0;      // shape.K shape, without weight [1/s^2]
+    double ratio = 0;          // the same, each element times its organ's damping ratio [1/s^2]
+    double reach = 0;          // of the place that moves farthest [1/sqrt kg]
+    std::array<Vec3, 3> push = {};      // of air at 1 m/s along each axis, over its speed and density
+    std::array<double, 3> resist = {};  // of the mode's own motion likewise
+};
+// Shared by all plants of a model.
+struct SwingModes {
+    std::array<SwingMode, 2> modes;
+    Vec3 middle = Vec3::Zero();  // where the air is asked for, model frame [m]
+};
+SwingModes make_swing_modes(const System& rods, const AirPieces& pieces);
+
+struct Swing {
+    std::shared_ptr<const SwingModes> modes;
+    std::array<double, 2> place = {}, speed = {};  // when the air was asked last
+    std::array<double, 2> rest = {}, damping = {};  // to which the air drives them, and how they are damped since [1/s]
+    double since = 0;         // [s]
+    bool comes_to_rest = false;  // whatever the air does, damped half critically at least
+    bool fresh = true;        // the air was not asked yet
+    bool stale = true;        // the chain is not yet where the sway is
+    Fade fade;                // of the chain
+    std::vector<frond_vec3> at, air;  // one each
+};
+
+// A chain goes on as a sway, and as what it was, from where it is. Nothing of it may be broken off.
+void begin_swing(Plant& plant);
+void end_swing(Plant& plant);
+// The chain without what its two first sways cannot have of its shape and motion.
+void keep_only_swing(Plant& plant);
+// Time goes on; `ask`: the air is asked what it does now.
+void keep_swinging(Plant& plant, const Surroundings& surroundings, double h, bool ask);
+// Puts the chain where its sway is, if it has one.
+void pose(Plant& plant);
+// Where the places are that move farthest, one a mode [m].
+std::array<double, 2> swing_of(const Plant& plant);
+
+}  // namespace frond

@@ -1,0 +1,297 @@
+// Detail: far plants are simulated for less, go over from one to the other without a jump, and keep to a time budget.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "frond/frond.h"
+#include "support/sanitized.hpp"
+#include "support/stems.hpp"
+
+namespace {
+
+constexpr double H = 1.0 / 60;
+
+void must(frond_result result) {
+    ASSERT_EQ(result, FROND_OK) << frond_last_error();
+}
+
+double distance(const frond_vec3& a, const frond_vec3& b) {
+    return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
+}
+
+frond_detail detail_of(frond_plant plant) {
+    frond_detail detail = {};
+    EXPECT_EQ(frond_plant_get_detail(plant, &detail), FROND_OK);
+    return detail;
+}
+
+frond_report report_of(frond_world world) {
+    frond_report report = {};
+    EXPECT_EQ(frond_world_get_report(world, &report), FROND_OK);
+    return report;
+}
+
+// Places and velocities of all nodes.
+struct State {
+    std::vector<double> x, v;
+    explicit State(frond_plant plant) : x(3 * size_t(frond_plant_get_node_count(plant))), v(x.size()) {
+        EXPECT_EQ(frond_plant_get_state(plant, x.data(), v.data(), int(x.size() / 3)), FROND_OK);
+    }
+};
+
+// How far a node ends from where the velocities at both ends of a step take it, at most.
+double largest_jump(const State& before, const State& after) {
+    double most = 0;
+    for (size_t i = 0; i < before.x.size(); i += 3) {
+        double sum = 0;
+        for (size_t c = i; c < i + 3; c++) {
+            const double way = after.x[c] - before.x[c] - 0.5 * H * (before.v[c] + after.v[c]);
+            sum += way * way;
+        }
+        most = std::max(most, std::sqrt(sum));
+    }
+    return most;
+}
+
+double largest_speed_change(const State& before, const State& after) {
+    double most = 0;
+    for (size_t i = 0; i < before.v.size(); i++) most = std::max(most, std::abs(after.v[i] - before.v[i]));
+    return most;
+}
+
+// Corn in wind, while the viewer goes away beyond everything and comes back.
+TEST(Detail, IsHandedOverWithoutAJumpBothWays) {
+    frond_world world = {};
+    frond_model model = {};
+    frond_plant plant = {};
+    const frond_world_def def = frond_default_world_def();
+    must(frond_world_create(&def, &world));
+    const frond_model_def model_def = frond_default_model_def();
+    must(frond_model_load((std::string(FROND_SOURCE_DIR) + "/models/corn/corn.obj").c_str(), &model_def, &model));
+    const frond_plant_def plant_def = frond_default_plant_def();
+    must(frond_plant_create(world, model, &plant_def, &plant));
+    frond_wind_def wind = frond_default_wind_def();
+    wind.velocity = {5, 0, 0};
+    must(frond_world_set_wind(world, &wind));
+    frond_model_info info = {};
+    must(frond_model_get_info(model, &info));
+    const double height = info.upper.y - info.lower.y;
+
+    const double far_away[] = {0, 8, 20, 60, 300, 60, 20, 8, 0};
+    const frond_detail wanted[] = {FROND_DETAIL_FULL, FROND_DETAIL_ROD,  FROND_DETAIL_ROD,
+                                   FROND_DETAIL_SWAY, FROND_DETAIL_STILL, FROND_DETAIL_SWAY,
+                                   FROND_DETAIL_ROD,  FROND_DETAIL_ROD,  FROND_DETAIL_FULL};
+    constexpr double MOST_FASTER = 0.5;  // of any node, as three steps of free fall make it, or what it is used to [m/s]
+    State before(plant);
+    frond_vec3 tip;
+    must(frond_plant_get_tip(plant, &tip));
+    double tip_speed = 0, faster = 0;
+    for (size_t k = 0; k < sizeof far_away / sizeof *far_away; k++) {
+        must(frond_world_set_viewer(world, {far_away[k], 1, 0}));
+        for (int i = 0; i < 60; i++) {
+            must(frond_world_step(world, H));
+            const State after(plant);
+            frond_vec3 tip_now;
+            must(frond_plant_get_tip(plant, &tip_now));
+            // The tip goes on as fast as before but for half a per cent of the height.
+            const double moved = distance(tip, tip_now);
+            if (i > 0) faster = std::max(faster, largest_speed_change(before, after));
+            if (i == 0 && k > 0) {
+                EXPECT_LT(std::abs(moved - tip_speed), 0.005 * height) << "to " << frond_detail_name(wanted[k]);
+                EXPECT_LT(largest_jump(before, after), 0.005 * height) << "to " << frond_detail_name(wanted[k]);
+                EXPECT_LT(largest_speed_change(before, after), std::max(MOST_FASTER, 1.25 * faster)) << "to " << frond_detail_name(wanted[k]);
+                std::printf("to %-6s tip %.3f %% of the height, nodes %.3f %%, speeds %.3f m/s (usual %.3f)\n",
+                            frond_detail_name(wanted[k]), 100 * std::abs(moved - tip_speed) / height,
+                            100 * largest_jump(before, after) / height, largest_speed_change(before, after), faster);
+                faster = 0;
+            }
+            tip_speed = moved;
+            tip = tip_now;
+            before = after;
+        }
+        EXPECT_EQ(detail_of(plant), wanted[k]) << far_away[k];
+    }
+    EXPECT_EQ(report_of(world).trouble & FROND_TROUBLE_REWOUND, 0u);
+    frond_world_destroy(world);
+    frond_model_destroy(model);
+}
+
+// Stems in a row away from the viewer.
+struct Stand {
+    frond_world world = {};
+    frond_model model = {};
+    std::vector<frond_plant> plants;
+    Stand(int count, double apart, frond_mechanics mechanics = FROND_ROD) {
+        const frond_world_def def = frond_default_world_def();
+        must(frond_world_create(&def, &world));
+        model = make_small_model(0, FROND_REST_STANDS_AS_MODELLED);
+        for (int i = 0; i < count; i++) {
+            frond_plant_def plant_def = frond_default_plant_def();
+            plant_def.mechanics = mechanics;
+            plant_def.position = {apart * i, 0, 0};
+            frond_plant plant = {};
+            must(frond_plant_create(world, model, &plant_def, &plant));
+            plants.push_back(plant);
+        }
+    }
+    ~Stand() {
+        frond_world_destroy(world);
+        frond_model_destroy(model);
+    }
+};
+
+TEST(Detail, HasHysteresis) {
+    Stand stand(1, 1);
+    const frond_detail_def def = frond_default_detail_def();
+    const auto at = [&](double far) {
+        EXPECT_EQ(frond_world_set_viewer(stand.world, {far, 0.3, 0}), FROND_OK);
+        must(frond_plant_wake(stand.plants[0]));
+        must(frond_world_step(stand.world, H));
+        return detail_of(stand.plants[0]);
+    };
+    EXPECT_EQ(at(0.95 * def.sway_from), FROND_DETAIL_ROD);
+    EXPECT_EQ(at(1.05 * def.sway_from), FROND_DETAIL_SWAY);
+    EXPECT_EQ(at(0.95 * def.sway_from), FROND_DETAIL_SWAY);
+    EXPECT_EQ(at(0.8 * def.sway_from), FROND_DETAIL_ROD);
+    EXPECT_EQ(at(1.05 * def.still_from), FROND_DETAIL_STILL);
+    EXPECT_EQ(at(0.95 * def.still_from), FROND_DETAIL_STILL);
+    EXPECT_EQ(at(0.8 * def.still_from), FROND_DETAIL_SWAY);
+    EXPECT_EQ(at(0), FROND_DETAIL_FULL);
+}
+
+// In a steady wind the sway leans as its rods do, and it swings as fast.
+TEST(Detail, SwaysAsTheRodsDo) {
+    double lean[2], first_peak[2];
+    for (const bool sways : {false, true}) {
+        Stand stand(1, 1);
+        frond_wind_def wind = frond_default_wind_def();
+        wind.velocity = {20, 0, 0};
+        wind.turbulence = 0;
+        wind.profile = FROND_WIND_UNIFORM;
+        must(frond_world_set_wind(stand.world, &wind));
+        must(frond_world_set_viewer(stand.world, {sways ? 50.0 : 0.0, 0.3, 0}));
+        frond_vec3 tip, start;
+        must(frond_plant_get_tip(stand.plants[0], &start));
+        double most = 0;
+        int peak = 0;
+        for (int i = 0; i < 600; i++) {
+            must(frond_world_step(stand.world, H));
+            must(frond_plant_get_tip(stand.plants[0], &tip));
+            if (i < 60 && tip.x - start.x > most) {
+                most = tip.x - start.x;
+                peak = i;
+            }
+        }
+        lean[sways] = tip.x - start.x;
+        first_peak[sways] = peak;
+        EXPECT_EQ(detail_of(stand.plants[0]), sways ? FROND_DETAIL_SWAY : FROND_DETAIL_FULL);
+    }
+    EXPECT_GT(lean[0], 0.001);
+    EXPECT_NEAR(lean[1], lean[0], 0.15 * lean[0]);
+    EXPECT_NEAR(first_peak[1], first_peak[0], 4);
+}
+
+TEST(Detail, OfWhatIsTouchedIsRodsAndOfWhatIsStillNothing) {
+    for (const double far : {50.0, 300.0}) {
+        Stand stand(1, 1);
+        must(frond_world_set_viewer(stand.world, {-far, 0.3, 0}));
+        frond_rigid_def ball = frond_default_rigid_def();
+        ball.size.x = 0.05;
+        ball.state.position = {0.25, 0.25, 0};
+        ball.state.velocity = {-1, 1, 0};
+        frond_rigid rigid = {};
+        must(frond_rigid_create(stand.world, &ball, &rigid));
+        int rods = 0, contacts = 0;
+        for (int i = 0; i < 40; i++) {
+            must(frond_world_step(stand.world, H));
+            rods += detail_of(stand.plants[0]) <= FROND_DETAIL_ROD;
+            contacts += report_of(stand.world).contact_count;
+        }
+        EXPECT_EQ(rods > 0, far < 100) << far;
+        EXPECT_EQ(contacts > 0, far < 100) << far;
+        frond_rigid_state state;
+        must(frond_rigid_get_state(rigid, &state));
+        EXPECT_EQ(state.velocity.x == -1, far > 100) << state.velocity.x;
+    }
+}
+
+TEST(Detail, OfStillPlantsIsSleepWhateverBlows) {
+    Stand stand(3, 1);
+    must(frond_world_set_viewer(stand.world, {500, 0, 0}));
+    frond_wind_def wind = frond_default_wind_def();
+    wind.velocity = {10, 0, 0};
+    must(frond_world_set_wind(stand.world, &wind));
+    for (int i = 0; i < 600 && report_of(stand.world).awake_count > 0; i++) must(frond_world_step(stand.world, H));
+    for (int i = 0; i < 120; i++) must(frond_world_step(stand.world, H));
+    EXPECT_EQ(report_of(stand.world).awake_count, 0);
+    // Who comes near sees them move again.
+    must(frond_world_set_viewer(stand.world, {0, 0, 0}));
+    for (int i = 0; i < 30; i++) must(frond_world_step(stand.world, H));
+    EXPECT_EQ(report_of(stand.world).awake_count, 3);
+}
+
+double double_of(frond_plant, double far, void* user) {
+    ++*static_cast<int*>(user);
+    return 2 * far;
+}
+
+TEST(Detail, GoesByTheHostsOwnDistanceAndBySize) {
+    Stand stand(1, 1);
+    int asked = 0;
+    frond_detail_def def = frond_default_detail_def();
+    def.distance = double_of;
+    def.user = &asked;
+    must(frond_world_set_detail(stand.world, &def));
+    must(frond_world_set_viewer(stand.world, {0.6 * def.sway_from, 0, 0}));
+    must(frond_world_step(stand.world, H));
+    EXPECT_GT(asked, 0);
+    EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_SWAY);
+    def = frond_default_detail_def();
+    def.by_size = true;  // the plant is some 0.7 m long
+    must(frond_world_set_detail(stand.world, &def));
+    must(frond_world_set_viewer(stand.world, {0.5 * def.sway_from, 0, 0}));
+    must(frond_world_step(stand.world, H));
+    EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_ROD);
+    must(frond_world_set_viewer(stand.world, {0.9 * def.sway_from, 0, 0}));
+    must(frond_world_step(stand.world, H));
+    EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_SWAY);
+    must(frond_world_set_detail(stand.world, nullptr));
+    EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_FULL);
+}
+
+// With a budget that is a part of what all plants need, the median step keeps it and near plants go first.
+TEST(Detail, KeepsABudget) {
+    if (SANITIZED) GTEST_SKIP() << "a time";
+    constexpr int COUNT = 200;
+    Stand stand(COUNT, 0.5);
+    frond_wind_def wind = frond_default_wind_def();
+    wind.velocity = {5, 0, 0};
+    must(frond_world_set_wind(stand.world, &wind));
+    const auto median = [&] {
+        std::vector<double> ms;
+        for (int i = 0; i < 60; i++) {
+            must(frond_world_step(stand.world, H));
+            ms.push_back(report_of(stand.world).ms_step);
+        }
+        std::sort(ms.begin(), ms.end());
+        return ms[30];
+    };
+    const double all = median();
+    frond_detail_def def = frond_default_detail_def();
+    def.half_from = def.sway_from = def.still_from = 1e6;
+    def.budget = 0.4 * all;
+    must(frond_world_set_detail(stand.world, &def));
+    must(frond_world_set_viewer(stand.world, {0, 0, 0}));
+    median();
+    EXPECT_LT(median(), def.budget);
+    const frond_report report = report_of(stand.world);
+    EXPECT_GT(report.detail_count[FROND_DETAIL_SWAY], COUNT / 10);
+    EXPECT_GT(report.detail_count[FROND_DETAIL_FULL] + report.detail_count[FROND_DETAIL_ROD], 2);
+    EXPECT_LE(detail_of(stand.plants[0]), FROND_DETAIL_ROD);
+    EXPECT_EQ(detail_of(stand.plants[COUNT - 1]), FROND_DETAIL_SWAY);
+}
+
+}  // namespace
