@@ -17,7 +17,8 @@ struct SwingMode {
     double stiffness = 0;      // shape.K shape, without weight [1/s^2]
     double ratio = 0;          // the same, each element times its organ's damping ratio [1/s^2]
     double reach = 0;          // of the place that moves farthest [1/sqrt kg]
-    std::array<Vec3, 3> push = {};      // of air at 1 m/s along each axis, over its speed and density
+    // Of air at 1 m/s along each axis, over its speed and density.
+    std::array<Vec3, 3> push = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     std::array<double, 3> resist = {};  // of the mode's own motion likewise
 };
 // Shared by all plants of a model.
