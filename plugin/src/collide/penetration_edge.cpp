@@ -234,6 +234,19 @@ static CageContact contact_of(const OverlapSearch& search, const BodyPair& pair,
     return contact;
 }
 
+// A hanging edge leaves as the deeper one of its ends that are inside.
+static WayOut way_of_end(const Collider& a, const NodeMarks& inside, int base, const std::vector<WayOut>& node_ways,
+                         const Chord& chord) {
+    WayOut way;
+    for (size_t k = 0; k < 2; ++k) {
+        const int node = inside[size_t(base + a.edges[size_t(chord.edge)][k])];
+        if ((k == 0 ? chord.first : chord.last) >= 0 || node < 0) continue;
+        const WayOut& end = node_ways[size_t(node)];
+        if (end.known && (!way.known || end.depth > way.depth)) way = end;
+    }
+    return way;
+}
+
 void find_edge_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
                         const std::vector<WayOut>& node_ways, std::vector<CageContact>& out) {
     const OverlapScene& scene = search.scene;
@@ -257,25 +270,17 @@ void find_edge_contacts(const OverlapSearch& search, const BodyPair& pair, const
         if (ways[i].known && ways[i].depth > 0) out.push_back(contact_of(search, pair, chords[i], ways[i]));
     }
 
-    // Ridges that are farther.
-    const int base = scene.first_node[size_t(pair.a)];
+    // Ridges that are farther above an edge than what it follows; unless there is a shorter way out for it alone.
     for (size_t i = 0; i < chords.size(); ++i) {
-        Chord& chord = chords[i];
-        WayOut way;
-        if (i < through) {
-            way = ways[i];
-        } else {
-            // As the deeper one of the ends that are inside.
-            for (size_t k = 0; k < 2; ++k) {
-                const int of = inside[size_t(base + a.edges[size_t(chord.edge)][k])];
-                if ((k == 0 ? chord.first : chord.last) >= 0 || of < 0) continue;
-                const WayOut& end = node_ways[size_t(of)];
-                if (end.known && (!way.known || end.depth > way.depth)) way = end;
-            }
-        }
+        Chord &chord = chords[i], alone = chord;
+        WayOut way = i < through ? ways[i] : way_of_end(a, inside, scene.first_node[size_t(pair.a)], node_ways, chord);
         if (!way.known || !(way.depth > 0)) continue;
         gather_edges(b, scene, search, chord, candidates);
-        if (find_ridge_above(search, pair, candidates, way, chord, way.depth))
+        if (!find_ridge_above(search, pair, candidates, way, chord, way.depth)) continue;
+        const WayOut shorter = i < through ? WayOut() : leave_across(scene, pair, candidates, alone);
+        if (shorter.known && shorter.depth < way.depth)
+            out.push_back(contact_of(search, pair, alone, shorter));
+        else
             out.push_back(contact_of(search, pair, chord, way));
     }
 }
