@@ -41,12 +41,19 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
     return islands;
 }
 
-void place_shape(const PlantBody& body, PlantSearch::Shape& shape) {
+// Where the cage will be at the end of the step if nothing touches it, so that what is about to meet is found before it is
+// in each other.
+void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
     const Plant& plant = *body.plant;
     const VecX& x = cage_places(plant);
+    const VecX v = cage_velocities(plant);
     const Mat3 turn = plant.rotation.toRotationMatrix();
     shape.places.resize(size_t(body.collider->node_count));
-    for (size_t n = 0; n < shape.places.size(); n++) shape.places[n] = turn * point(x, int(n)) + plant.position;
+    shape.ways.resize(shape.places.size());
+    for (size_t n = 0; n < shape.places.size(); n++) {
+        shape.ways[n] = h * (turn * point(v, int(n)));
+        shape.places[n] = turn * point(x, int(n)) + plant.position + shape.ways[n];
+    }
     shape.axes.clear();
     for (const auto& [begin, end] : plant.model->capsules)
         shape.axes.push_back({plant.to_world(plant.chain_positions[size_t(begin)]),
@@ -69,7 +76,14 @@ void take_grips(PlantContact& contact) {
     contact.between = places[0] - places[1];
 }
 
-PlantContact contact_of(const CageContact& found, const std::vector<PlantBody*>& island) {
+// How a point of the cage goes on in the step.
+Vec3 way_of(const PlantSearch::Shape& shape, const ContactSide& side) {
+    Vec3 way = Vec3::Zero();
+    for (size_t k = 0; k < size_t(side.node_count); k++) way += side.weights[k] * shape.ways[size_t(side.nodes[k])];
+    return way;
+}
+
+PlantContact contact_of(const CageContact& found, const PlantSearch& memory, const std::vector<PlantBody*>& island) {
     PlantContact contact;
     contact.sides = {found.a, found.b};
     contact.friction = 1;
@@ -77,9 +91,12 @@ PlantContact contact_of(const CageContact& found, const std::vector<PlantBody*>&
         contact.plants[k] = island[size_t(contact.sides[k].body)];
         contact.friction *= friction_of(*contact.plants[k], contact.sides[k].organ);
     }
-    contact.point = found.point;
+    // Back to where they are now.
+    const Vec3 first = way_of(memory.shapes[size_t(found.a.body)], found.a);
+    const Vec3 second = way_of(memory.shapes[size_t(found.b.body)], found.b);
+    contact.point = found.point - first;
     contact.normal = found.normal;
-    contact.depth = found.depth;
+    contact.depth = found.depth + found.normal.dot(first - second);
     take_grips(contact);
     return contact;
 }
@@ -149,7 +166,7 @@ void keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
 
 }  // namespace
 
-std::vector<PlantContact> find_plant_contacts(World& world) {
+std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     std::vector<PlantContact> contacts;
     const std::vector<PlantContact> last = std::move(world.plant_contacts);
     world.plant_contacts.clear();
@@ -169,7 +186,7 @@ std::vector<PlantContact> find_plant_contacts(World& world) {
     for (const std::vector<PlantBody*>& island : islands) {
         PlantSearch& memory = *world.plant_search;
         memory.shapes.resize(std::max(memory.shapes.size(), island.size()));
-        for (size_t i = 0; i < island.size(); i++) place_shape(*island[i], memory.shapes[i]);
+        for (size_t i = 0; i < island.size(); i++) place_shape(*island[i], h, memory.shapes[i]);
         std::vector<CoveredBody> covered;
         std::vector<CollisionBody> bodies;
         for (size_t i = 0; i < island.size(); i++) {
@@ -186,7 +203,7 @@ std::vector<PlantContact> find_plant_contacts(World& world) {
         world.report.ms_broad += timer.lap();
         if (!meet) continue;
         const SearchTimes times = find_cage_contacts(*memory.search, bodies, world.hash, memory.found);
-        for (const CageContact& found : memory.found) contacts.push_back(contact_of(found, island));
+        for (const CageContact& found : memory.found) contacts.push_back(contact_of(found, memory, island));
         world.report.ms_hash += times.ms_hash;
         world.report.ms_narrow += timer.lap() - times.ms_hash;
     }

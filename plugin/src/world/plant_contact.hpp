@@ -32,7 +32,8 @@ struct PlantSearch {
     std::vector<CageContact> found;
     // One a plant.
     struct Shape {
-        std::vector<Vec3> places;  // of the cage's nodes, world frame [m]
+        std::vector<Vec3> places;  // of the cage's nodes at the end of the step, world frame [m]
+        std::vector<Vec3> ways;    // by which they get there [m]
         std::vector<Axis> axes;
         std::vector<Capsule> covers;
     };
@@ -42,8 +43,8 @@ struct PlantSearch {
 // Bullet's broad phase says which plants may meet, capsules around pieces of their cages which organs do, a spatial hash
 // which nodes, edges and tets of those (section 3.3 of the paper). Where a chain moves, its cage is where that took it.
 // Contacts of the last substep whose points have only just parted are kept, so that what rests on another plant does not
-// sink into it again and again.
-std::vector<PlantContact> find_plant_contacts(World& world);
+// sink into it again and again; those that will meet within the step of h, as they move now, are found before.
+std::vector<PlantContact> find_plant_contacts(World& world, double h);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -54,7 +54,7 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar h) {
     wake_by_world(*this);
     if (any_wants(FROND_RIGID_CONTACT, false)) contacts = find_contacts(*this, double(h));
     if (any_wants(FROND_PLANT_CONTACT | FROND_SELF_CONTACT, true))
-        plant_contacts = find_plant_contacts(*this);
+        plant_contacts = find_plant_contacts(*this, double(h));
     else
         plant_contacts.clear();
     wake_touched(*this, double(h));
