@@ -42,8 +42,9 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
 }
 
 // Where the cage will be at the end of the step if nothing touches it, so that what is about to meet is found before it is
-// in each other.
+// in each other; no farther than straight ways can tell.
 void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
+    constexpr double FARTHEST = 0.01;  // [m]
     const Plant& plant = *body.plant;
     const VecX& x = cage_places(plant);
     const VecX v = cage_velocities(plant);
@@ -52,6 +53,8 @@ void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
     shape.ways.resize(shape.places.size());
     for (size_t n = 0; n < shape.places.size(); n++) {
         shape.ways[n] = h * (turn * point(v, int(n)));
+        const double way = shape.ways[n].norm();
+        if (way > FARTHEST) shape.ways[n] *= FARTHEST / way;
         shape.places[n] = turn * point(x, int(n)) + plant.position + shape.ways[n];
     }
     shape.axes.clear();
