@@ -21,7 +21,7 @@ const std::vector<Case>& cases() {
         {"baseline", {}, Effort::TINY},
         {"response penalty", {"response=penalty"}, Effort::QUICK},
         {"response none", {"response=none"}, Effort::TINY},
-        {"step 1/30 s", {"dt=0.0333333333"}, Effort::QUICK},
+        {"step 1/30 s", {"dt=0.0333333333", "max_substep=0.0333333333"}, Effort::QUICK},
         {"step 1/120 s", {"dt=0.0083333333"}, Effort::QUICK},
         {"step 1/240 s", {"dt=0.0041666667"}, Effort::FULL},
         {"rods", {"mechanics=rod"}, Effort::QUICK},

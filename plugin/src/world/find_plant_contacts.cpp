@@ -44,7 +44,7 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
 // Where the cage will be at the end of the step if nothing touches it, so that what is about to meet is found before it is
 // in each other; no farther than straight ways can tell.
 void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
-    constexpr double FARTHEST = 0.01;  // [m]
+    constexpr double FARTHEST = 0.03;  // [m]
     const Plant& plant = *body.plant;
     const VecX& x = cage_places(plant);
     const VecX v = cage_velocities(plant);
