@@ -22,7 +22,7 @@ const std::vector<Case>& cases() {
         {"response penalty", {"response=penalty"}, Effort::QUICK},
         {"response none", {"response=none"}, Effort::TINY},
         {"step 1/30 s", {"dt=0.0333333333", "max_substep=0.0333333333"}, Effort::QUICK},
-        {"step 1/120 s", {"dt=0.0083333333"}, Effort::QUICK},
+        {"step 1/120 s", {"dt=0.0083333333"}, Effort::FULL},
         {"step 1/240 s", {"dt=0.0041666667"}, Effort::FULL},
         {"rods", {"mechanics=rod"}, Effort::QUICK},
         {"neo-Hookean tets", {"mechanics=tet_neohookean"}, Effort::FULL},
