@@ -157,22 +157,43 @@ TEST(CageContact, WhatIsWhollyInsideLeavesByTheNearestFace) {
     }
 }
 
+// Turns both and moves a towards b until it is at most 0.02 m in it. False if they never met.
+bool bring_together(TestCage& a, TestCage& b, Dice& dice) {
+    constexpr double STEP = 0.02, FAR = 1.2;
+    a.move(-a.middle());
+    b.move(-b.middle());
+    a.turn(dice.rotation());
+    b.turn(dice.rotation());
+    const Vec3 line = Vec3(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)).normalized();
+    a.move(FAR * line);
+    for (double far = FAR; far > 0; far -= STEP) {
+        a.move(-STEP * line);
+        if (deepest_overlap(a.boundary(), b.boundary()).pairs > 0) return true;
+    }
+    return false;
+}
+
+TEST(CageContact, ContactsAreAsDeepAsTheDeepestPairOfFaces) {
+    // Edges that hang on a node inside go under ridges that the node itself is not under.
+    Dice dice(11);
+    for (int n = 0; n < 60; ++n) {
+        const bool blades = n % 2;
+        TestCage a = blades ? box_cage(5, 2, 1, {0.8, 0.2, 0.02}) : box_cage(4, 2, 2, {0.8, 0.3, 0.3});
+        TestCage b = blades ? box_cage(3, 3, 1, {0.7, 0.3, 0.03}) : box_cage(3, 3, 2, {0.6, 0.5, 0.3});
+        ASSERT_TRUE(bring_together(a, b, dice));
+        double deepest = 0;
+        for (const CageContact& contact : contacts_of({a.body(), b.body()})) deepest = std::max(deepest, contact.depth);
+        EXPECT_GE(deepest, deepest_overlap(a.boundary(), b.boundary()).depth - 1e-4) << n;
+    }
+}
+
 TEST(CageContact, ConvexBodiesComeApartAlongTheirDeepestContacts) {
     Dice dice(3);
     int overlapped = 0;
     for (int n = 0; n < 60; ++n) {
         TestCage a = box_cage(4, 2, 2, {0.8, 0.3, 0.3}), b = box_cage(3, 3, 2, {0.6, 0.5, 0.3});
-        a.move(-a.middle());
-        b.move(-b.middle());
-        a.turn(dice.rotation());
-        b.turn(dice.rotation());
-        // Shallow: as far apart as they can just still touch along a line.
-        const Vec3 line = Vec3(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)).normalized();
-        double far = 1.2;
         const auto crosses = [&] { return deepest_overlap(a.boundary(), b.boundary()).pairs > 0; };
-        a.move(far * line);
-        for (; far > 0 && !crosses(); far -= 0.02) a.move(-0.02 * line);
-        overlapped += crosses();
+        overlapped += bring_together(a, b, dice);
         Vec3 way = Vec3::Zero();
         for (int k = 0; k < 20; ++k) {
             const std::vector<CageContact> contacts = contacts_of({a.body(), b.body()});

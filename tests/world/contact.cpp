@@ -222,6 +222,33 @@ TEST_P(EveryBody, AKinematicBoxTakesAStemAlong) {
     EXPECT_NEAR(double(box.getWorldTransform().getOrigin().x()), 0.2, 1e-5);
 }
 
+// A floor that rises, or a slab, through the foot of what is held there: it cannot be lifted, and is not drawn out.
+TEST_P(EveryBody, AFloorDrivenThroughAHeldFootDoesNotStretchThePlant) {
+    for (const bool is_plane : {true, false}) {
+        Scene scene;
+        scene.add_stems({{-1, {0, 0, 0}, {0, 0.8, 0}, 0.015, 0.01}, {0, {0, 0.4, 0}, {0.3, 0.6, 0}, 0.006, 0.004}}, 1e8,
+                        GetParam());
+        btCollisionShape* shape = new btBoxShape(btVector3(1, btScalar(0.1), 1));
+        if (is_plane) {
+            delete shape;
+            shape = new btStaticPlaneShape(btVector3(0, 1, 0), 0);
+        }
+        btRigidBody& floor = scene.add(shape, 0, btVector3(0, btScalar(is_plane ? -0.05 : -0.15), 0));
+        floor.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+        floor.setActivationState(DISABLE_DEACTIVATION);
+        double highest = 0;
+        for (int i = 0; i < 120; i++) {
+            btTransform frame = floor.getWorldTransform();
+            frame.setOrigin(frame.getOrigin() + btVector3(0, btScalar(0.005), 0));
+            floor.setWorldTransform(frame);
+            scene.steps(1);
+            highest = std::max(highest, scene.tip().y);
+            EXPECT_EQ(scene.report().trouble & FROND_TROUBLE_REWOUND, 0u) << i;
+        }
+        EXPECT_LT(highest, 0.85) << is_plane;  // it stood 0.8 m high
+    }
+}
+
 TEST(ContactEffects, OffMeansThatNothingTouches) {
     Scene scene(0);
     scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_ROD);

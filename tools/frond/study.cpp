@@ -112,7 +112,7 @@ void run_study(const StudyOptions& options) {
         tell(results.back());
     }
     for (const study::FigureRow* row : chosen.figures) {
-        figures.push_back(row->make(options.out));
+        figures.push_back(row->make(options.out, effort));
         study::write_file(options.out + "/" + row->name + ".csv", study::csv_of(figures.back()));
         write_diagram(figures.back(), options.out, row->name);
         std::printf("%-18s drawn\n", row->name);

@@ -104,12 +104,12 @@ FigurePanel stand_panel(const std::string& folder, double h) {
     return panel;
 }
 
-Figure make_fig6(const std::string& folder) {
+Figure make_fig6(const std::string& folder, Effort) {
     Figure figure = {"fig6",
                      "the cucumber's natural stand under gravity, its mesh being the shape without it and its stem as firm as with a string",
                      "height of the axis as drawn [m]",
                      "moved by gravity [m]",
-                     false,
+                     "",
                      {"h [m]", "capsules", "axis moved at most [m]", "CPU ms a step of 1/60 s"},
                      {}};
     for (double h : {0.20, 0.10, 0.05, 0.03}) figure.panels.push_back(stand_panel(folder, h));
@@ -149,12 +149,12 @@ FigurePanel drag_panel(const std::string& folder, double r) {
     return panel;
 }
 
-Figure make_fig7(const std::string& folder) {
+Figure make_fig7(const std::string& folder, Effort) {
     Figure figure = {"fig7",
                      "the cucumber dragged by its user, h = 20 cm; the drag force is the red line",
                      "way of the point that is held [m]",
                      "drag force [N]",
-                     true,
+                     "xy",
                      {"r [m]", "capsules", "point moved [m]", "force [N]"},
                      {}};
     for (double r : {0.25, 0.10, 0.05}) figure.panels.push_back(drag_panel(folder, r));
@@ -167,6 +167,8 @@ const std::vector<FigureRow>& figures() {
     static const std::vector<FigureRow> table = {
         {"fig6", "the paper's Fig 6: the cucumber's natural stand for four capsule heights", make_fig6},
         {"fig7", "the paper's Fig 7: the cucumber dragged, for three capsule radii", make_fig7},
+        {"contact", "two corn plants that stand in each other: what is left of that over time, and what it costs",
+         make_contact},
     };
     return table;
 }
@@ -185,21 +187,21 @@ std::string markdown_of(const Figure& figure) {
     std::ostringstream out;
     std::string pictures = "|", rule = "|", captions = "|";
     for (const FigurePanel& panel : figure.panels) {
+        if (panel.picture.empty()) continue;
         pictures += " ![" + panel.caption + "](" + panel.picture + ") |";
         captions += " " + panel.caption + " |";
         rule += "---|";
     }
-    out << "## " << figure.name << "\n\n"
-        << figure.shows << ".\n\n"
-        << captions << "\n"
-        << rule << "\n"
-        << pictures << "\n\n![" << figure.name << "](" << figure.name << ".svg)\n\n|";
+    out << "## " << figure.name << "\n\n" << figure.shows << ".\n\n";
+    if (rule.size() > 1) out << captions << "\n" << rule << "\n" << pictures << "\n\n";
+    out << "![" << figure.name << "](" << figure.name << ".svg)\n\n|";
     for (const std::string& column : figure.columns) out << ' ' << markdown_cell(column) << " |";
     out << "\n|";
     for (size_t i = 0; i < figure.columns.size(); i++) out << "---|";
     out << "\n";
     for (const FigurePanel& panel : figure.panels) {
         out << '|';
+        if (figure.columns.size() > panel.row.size()) out << ' ' << markdown_cell(panel.caption) << " |";
         for (double value : panel.row) out << ' ' << std::lround(value * 1000) / 1000.0 << " |";
         out << "\n";
     }
@@ -207,19 +209,28 @@ std::string markdown_of(const Figure& figure) {
 }
 
 std::string gnuplot_of(const Figure& figure, const std::string& picture_base) {
+    constexpr size_t MARKED = 100;  // points that are told apart
     std::ostringstream out, plot;
     out << "set encoding utf8\nset xlabel " << gnuplot_text(figure.x_label) << "\nset ylabel "
         << gnuplot_text(figure.y_label) << "\nset tics nomirror\nset border 3\nset grid lc rgb '#dddddd' lw 0.5\n"
         << "set key outside right top Left reverse noenhanced\n";
-    if (figure.logarithmic) out << "set logscale xy\nset format xy '10^{%T}'\n";
-    static constexpr const char* COLOURS[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7"};
-    for (size_t i = 0; i < figure.panels.size(); i++) {
-        const Curve& curve = figure.panels[i].curve;
+    if (*figure.logarithmic)
+        out << "set logscale " << figure.logarithmic << "\nset format " << figure.logarithmic << " '10^{%T}'\n";
+    static constexpr const char* COLOURS[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
+    int drawn = 0;
+    for (const FigurePanel& panel : figure.panels) {
+        const Curve& curve = panel.curve;
+        if (curve.x.empty()) continue;
+        const int i = drawn++;
         out << "$c" << i << " << EOD\n";
         for (size_t k = 0; k < curve.x.size(); k++) out << curve.x[k] << ' ' << curve.y[k] << '\n';
         out << "EOD\n";
-        plot << (i ? ", " : "plot ") << "$c" << i << " using 1:2 with linespoints pt 7 ps 0.6 lw 2 lc rgb '"
-             << COLOURS[i % 4] << "' title " << gnuplot_text(curve.name);
+        plot << (i ? ", " : "plot ") << "$c" << i << " using 1:2 with ";
+        if (curve.x.size() > MARKED)
+            plot << "lines";
+        else
+            plot << "linespoints pt 7 ps 0.6";
+        plot << " lw 2 dt " << 1 + i / 7 << " lc rgb '" << COLOURS[i % 7] << "' title " << gnuplot_text(curve.name);
     }
     out << drawn_twice(plot.str(), picture_base);
     return out.str();

@@ -1,20 +1,21 @@
-// Figures: the paper's own studies, as pictures and as curves.
-//   fig6  the cucumber's natural stand under gravity for four heights h of the capsules
-//   fig7  the cucumber dragged by its user, for three radii r of the capsules at h = 20 cm
+// Figures: the paper's own studies, as pictures and as curves, and what is seen over time instead of cost.
+//   fig6     the cucumber's natural stand under gravity for four heights h of the capsules
+//   fig7     the cucumber dragged by its user, for three radii r of the capsules at h = 20 cm
+//   contact  how two corn plants that stand in each other come apart, over everything that contact can be set to
 #pragma once
 
 #include "study/study.hpp"
 
 namespace frond::study {
 
-// One of the curves beside the pictures.
+// One of the curves beside the pictures; without points it is not drawn.
 struct Curve {
     std::string name;
     std::vector<double> x, y;
 };
 
 struct FigurePanel {
-    std::string picture;  // file name in the folder
+    std::string picture;  // file name in the folder; empty: none
     std::string caption;
     Curve curve;
     std::vector<double> row;  // of the figure's table
@@ -25,8 +26,8 @@ struct Figure {
     const char* shows;
     const char* x_label;
     const char* y_label;
-    bool logarithmic;
-    std::vector<std::string> columns;  // of the table
+    const char* logarithmic;           // axes: "", "y" or "xy"
+    std::vector<std::string> columns;  // of the table; one more than a row has numbers: the first one is the caption
     std::vector<FigurePanel> panels;
 };
 
@@ -34,9 +35,10 @@ struct FigureRow {
     const char* name;
     const char* shows;
     // Draws its pictures into the folder.
-    Figure (*make)(const std::string& folder);
+    Figure (*make)(const std::string& folder, Effort effort);
 };
 const std::vector<FigureRow>& figures();
+Figure make_contact(const std::string& folder, Effort effort);
 
 std::string csv_of(const Figure& figure);
 std::string markdown_of(const Figure& figure);

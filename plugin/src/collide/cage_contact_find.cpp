@@ -69,8 +69,8 @@ SearchTimes find_cage_contacts(ContactSearch& search, const std::vector<Collisio
             return search.inside[size_t(base + scene.node[size_t(search.overlaps.nodes[size_t(overlap)].node)])];
         };
         for (size_t i = 0; i < pair.nodes.size(); ++i) place_of(pair.nodes[i]) = int(i);
-        find_node_contacts(search.overlaps, pair, search.inside, out);
-        find_edge_contacts(search.overlaps, pair, search.inside, out);
+        const std::vector<WayOut> ways = find_node_contacts(search.overlaps, pair, search.inside, out);
+        find_edge_contacts(search.overlaps, pair, search.inside, ways, out);
         for (const int overlap : pair.nodes) place_of(overlap) = -1;
     }
     drop_doubles(out);

@@ -126,7 +126,7 @@ Collider make_collider(const std::vector<Vec3>& nodes, const std::vector<Tet>& t
     return collider;
 }
 
-// Capsules that are beside each other at rest are near too: chains touch by their capsules.
+// Pieces whose capsules are beside each other at rest are near too.
 static void find_near_capsules(const Model& model, Collider& collider) {
     constexpr double BESIDE = 0.015;  // [m]
     std::vector<Capsule> capsules;

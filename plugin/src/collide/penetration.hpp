@@ -27,11 +27,12 @@ struct WayOut {
 // left that could: inversely weighted by the squared distance, deeper by what is between them along their normal.
 void spread_ways_out(std::vector<WayOut>& ways, const std::vector<std::vector<int>>& neighbours);
 
-// Add the contacts of a pair of bodies. `inside` marks the nodes of a that are within b.
-void find_node_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
-                        std::vector<CageContact>& out);
+// Add the contacts of a pair of bodies. `inside` marks the nodes of a that are within b, by their number among
+// pair.nodes; their ways out come back, for the edges at them.
+std::vector<WayOut> find_node_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
+                                       std::vector<CageContact>& out);
 void find_edge_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
-                        std::vector<CageContact>& out);
+                        const std::vector<WayOut>& node_ways, std::vector<CageContact>& out);
 
 // What both need of the scene.
 Vec3 face_normal(const OverlapScene& scene, int body, int face);

@@ -1,8 +1,10 @@
-// Contacts of edges: edges of one body that go through faces of another without an end inside come in, contacts with
-// depth and normal go out. Where a boundary edge of the other body is beside the faces that are gone through, and both
-// edges are the outermost along the line across both (the Gauss-map test of edge pairs in separating-axis tests:
-// Gregorius 2013, "The Separating Axis Test between Convex Polyhedra"), that is the way out; edges deeper inside take
-// it over from their neighbours as nodes do.
+// Contacts of edges: edges of one body that go through faces of another come in, contacts with depth and normal go out.
+// Where an edge passes through without an end inside and a boundary edge of the other body is beside the faces that are
+// gone through, and both edges are the outermost along the line across both (the Gauss-map test of edge pairs in
+// separating-axis tests: Gregorius 2013, "The Separating Axis Test between Convex Polyhedra"), that is the way out; edges
+// deeper inside take it over from their neighbours as nodes do. An edge that hangs on a node inside leaves as that does.
+// Along its way out an edge may have a ridge of the other body above it, farther than its end or its first way tells:
+// then it has to pass that too.
 #include <algorithm>
 #include <map>
 
@@ -10,16 +12,45 @@
 
 namespace frond {
 
-// An edge of a inside b, from where it goes in to where it comes out.
+// A stretch of an edge of a that is inside b.
 struct Chord {
-    int edge, first, last;  // overlaps
-    int other_edge = -1;    // of b, across which it leaves
+    int edge;
+    int first = -1, last = -1;  // overlaps where it goes in and comes out; -1: the edge's end is inside there
+    int other_edge = -1;        // of b, across which it leaves
     double along = 0, other_along = 0;
+    bool hangs() const { return first < 0 || last < 0; }
 };
 
 static Vec3 edge_place(const OverlapScene& scene, int body, int edge, double along) {
     const auto& ends = scene.bodies[size_t(body)].collider->edges[size_t(edge)];
     return scene.place(body, ends[0]) + along * (scene.place(body, ends[1]) - scene.place(body, ends[0]));
+}
+
+// Whether the edge goes into b at an overlap, seen from its first node.
+static bool goes_in(const OverlapSearch& search, const BodyPair& pair, int edge, int overlap) {
+    const OverlapScene& scene = search.scene;
+    const Vec3 along = edge_place(scene, pair.a, edge, 1) - edge_place(scene, pair.a, edge, 0);
+    return face_normal(scene, pair.b, scene.face[size_t(search.edges[size_t(overlap)].face)]).dot(along) < 0;
+}
+
+// Cuts an edge at the overlaps from first to last. Where copies of cells overlap it may go in twice before it comes out.
+static void cut_edge(const OverlapSearch& search, const BodyPair& pair, int edge, const int* first, const int* last,
+                     bool begins_inside, std::vector<Chord>& chords) {
+    int level = 0, least = 0;
+    for (const int* k = first; k != last; ++k) least = std::min(least, level += goes_in(search, pair, edge, *k) ? 1 : -1);
+    level = begins_inside ? std::max(1, -least) : -least;
+    Chord chord = {edge};
+    if (!begins_inside && level > 0) chord.first = *first;  // only by rounding
+    for (const int* k = first; k != last; ++k) {
+        const int before = level;
+        level += goes_in(search, pair, edge, *k) ? 1 : -1;
+        if (before == 0) chord.first = *k;
+        if (level > 0) continue;
+        chord.last = *k;
+        chords.push_back(chord);
+        chord = {edge};
+    }
+    if (level > 0) chords.push_back(chord);
 }
 
 static std::vector<Chord> find_chords(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside) {
@@ -32,9 +63,8 @@ static std::vector<Chord> find_chords(const OverlapSearch& search, const BodyPai
         const int edge = search.edges[size_t(pair.edges[k])].edge;
         while (k < pair.edges.size() && search.edges[size_t(pair.edges[k])].edge == edge) ++k;
         const int number = scene.edge[size_t(edge)];
-        const auto& ends = a.edges[size_t(number)];
-        if (inside[size_t(base + ends[0])] >= 0 || inside[size_t(base + ends[1])] >= 0) continue;
-        chords.push_back({number, pair.edges[first], pair.edges[k - 1]});
+        const bool begins_inside = inside[size_t(base + a.edges[size_t(number)][0])] >= 0;
+        cut_edge(search, pair, number, pair.edges.data() + first, pair.edges.data() + k, begins_inside, chords);
     }
     return chords;
 }
@@ -43,29 +73,40 @@ static std::vector<Chord> find_chords(const OverlapSearch& search, const BodyPai
 static void gather_edges(const Collider& b, const OverlapScene& scene, const OverlapSearch& search, const Chord& chord,
                          std::vector<int>& out) {
     out.clear();
-    for (const int overlap : {chord.first, chord.last})
+    for (const int overlap : {chord.first, chord.last}) {
+        if (overlap < 0) continue;
         for (const int edge : b.face_edges[size_t(scene.face[size_t(search.edges[size_t(overlap)].face)])])
             for (const int face : b.edge_faces[size_t(edge)])
                 out.insert(out.end(), b.face_edges[size_t(face)].begin(), b.face_edges[size_t(face)].end());
+    }
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
-// Whether a direction across an edge points between the normals of its two faces, which form a ridge.
-static bool is_outward(const OverlapScene& scene, int body, int edge, const Vec3& direction) {
-    constexpr double FLAT = 1e-4, ROUNDING = 0.01;
+// The normals of the two faces at an edge; false unless they form a ridge.
+static bool make_ridge(const OverlapScene& scene, int body, int edge, Vec3& n, Vec3& m) {
+    constexpr double FLAT = 1e-4;
     const Collider& collider = *scene.bodies[size_t(body)].collider;
     const auto [f, g] = collider.edge_faces[size_t(edge)];
-    const Vec3 n = face_normal(scene, body, f), m = face_normal(scene, body, g);
-    const double cosine = n.dot(m), sine_squared = 1 - cosine * cosine;
-    if (!(sine_squared > FLAT)) return false;
-    // A ridge: the far corner of the one face is below the other.
+    n = face_normal(scene, body, f);
+    m = face_normal(scene, body, g);
+    const double cosine = n.dot(m);
+    if (!(1 - cosine * cosine > FLAT)) return false;
+    // The far corner of the one face is below the other.
     const auto& ends = collider.edges[size_t(edge)];
     const Triangle& other = collider.faces[size_t(g)];
     int far_corner = other[0];
     for (const int corner : other)
         if (corner != ends[0] && corner != ends[1]) far_corner = corner;
-    if (n.dot(scene.place(body, far_corner) - scene.place(body, ends[0])) >= 0) return false;
+    return n.dot(scene.place(body, far_corner) - scene.place(body, ends[0])) < 0;
+}
+
+// Whether a direction across an edge points between the normals of its two faces, which form a ridge.
+static bool is_outward(const OverlapScene& scene, int body, int edge, const Vec3& direction) {
+    constexpr double ROUNDING = 0.01;
+    Vec3 n, m;
+    if (!make_ridge(scene, body, edge, n, m)) return false;
+    const double cosine = n.dot(m), sine_squared = 1 - cosine * cosine;
     const double along_n = direction.dot(n), along_m = direction.dot(m);
     return along_n - cosine * along_m >= -ROUNDING * sine_squared &&
            along_m - cosine * along_n >= -ROUNDING * sine_squared;
@@ -100,6 +141,39 @@ static WayOut leave_across(const OverlapScene& scene, const BodyPair& pair, cons
     return best;
 }
 
+// The ridge that is highest above the chord along a way out, if that is higher than `depth`.
+static bool find_ridge_above(const OverlapSearch& search, const BodyPair& pair, const std::vector<int>& candidates,
+                             const WayOut& way, Chord& chord, double& depth) {
+    constexpr double PARALLEL = 0.02, FACES = 0.2, BEYOND = 0.5;  // the last over the chord's length
+    const OverlapScene& scene = search.scene;
+    const Vec3 p = edge_place(scene, pair.a, chord.edge, 0), d = edge_place(scene, pair.a, chord.edge, 1) - p;
+    double begin = chord.first < 0 ? 0 : search.edges[size_t(chord.first)].along;
+    double end = chord.last < 0 ? 1 : search.edges[size_t(chord.last)].along;
+    const double beyond = BEYOND * (end - begin);
+    begin = std::max(0.0, begin - beyond);
+    end = std::min(1.0, end + beyond);
+    bool found = false;
+    for (const int edge : candidates) {
+        const Vec3 q = edge_place(scene, pair.b, edge, 0), e = edge_place(scene, pair.b, edge, 1) - q;
+        const double squared = d.cross(e).dot(way.normal);
+        if (!(std::abs(squared) > PARALLEL * d.norm() * e.norm())) continue;
+        // Where they cross, seen along the way out.
+        const double along = (q - p).cross(e).dot(way.normal) / squared;
+        const double other_along = (q - p).cross(d).dot(way.normal) / squared;
+        if (along < begin || along > end || other_along < 0 || other_along > 1) continue;
+        const double height = way.normal.dot(q + other_along * e - p - along * d);
+        Vec3 n, m;
+        if (!(height > depth) || !make_ridge(scene, pair.b, edge, n, m)) continue;
+        if (std::max(n.dot(way.normal), m.dot(way.normal)) < FACES) continue;
+        depth = height;
+        chord.other_edge = edge;
+        chord.along = along;
+        chord.other_along = other_along;
+        found = true;
+    }
+    return found;
+}
+
 // Where nothing beside tells the way: out on the side of the faces gone through, else back against a's own outside.
 static void leave_anyhow(const OverlapSearch& search, const BodyPair& pair, const Chord& chord, WayOut& way) {
     const OverlapScene& scene = search.scene;
@@ -119,16 +193,17 @@ static void leave_anyhow(const OverlapSearch& search, const BodyPair& pair, cons
     way.known = true;
 }
 
-// Chords whose edges share a node.
-static std::vector<std::vector<int>> find_neighbours(const Collider& a, const std::vector<Chord>& chords) {
+// Of the first `count` chords, those of different edges that share a node.
+static std::vector<std::vector<int>> find_neighbours(const Collider& a, const std::vector<Chord>& chords,
+                                                     size_t count) {
     std::map<int, std::vector<int>> at_node;
-    for (size_t i = 0; i < chords.size(); ++i)
+    for (size_t i = 0; i < count; ++i)
         for (const int end : a.edges[size_t(chords[i].edge)]) at_node[end].push_back(int(i));
-    std::vector<std::vector<int>> neighbours(chords.size());
+    std::vector<std::vector<int>> neighbours(count);
     for (const auto& [node, list] : at_node)
         for (const int i : list)
             for (const int j : list)
-                if (i != j) neighbours[size_t(i)].push_back(j);
+                if (chords[size_t(i)].edge != chords[size_t(j)].edge) neighbours[size_t(i)].push_back(j);
     return neighbours;
 }
 
@@ -138,7 +213,7 @@ static CageContact contact_of(const OverlapSearch& search, const BodyPair& pair,
     const Collider &a = *scene.bodies[size_t(pair.a)].collider, &b = *scene.bodies[size_t(pair.b)].collider;
     const int a_tet = a.face_tet[size_t(a.edge_faces[size_t(chord.edge)][0])];
     const bool across = chord.other_edge >= 0;
-    const EdgeOverlap& overlap = search.edges[size_t(chord.first)];
+    const EdgeOverlap& overlap = search.edges[size_t(chord.first >= 0 ? chord.first : chord.last)];
     const double along = across ? chord.along : overlap.along;
     const std::array<double, 2> weights = {1 - along, along};
     CageContact contact;
@@ -159,14 +234,29 @@ static CageContact contact_of(const OverlapSearch& search, const BodyPair& pair,
     return contact;
 }
 
+// A hanging edge leaves as the deeper one of its ends that are inside.
+static WayOut way_of_end(const Collider& a, const NodeMarks& inside, int base, const std::vector<WayOut>& node_ways,
+                         const Chord& chord) {
+    WayOut way;
+    for (size_t k = 0; k < 2; ++k) {
+        const int node = inside[size_t(base + a.edges[size_t(chord.edge)][k])];
+        if ((k == 0 ? chord.first : chord.last) >= 0 || node < 0) continue;
+        const WayOut& end = node_ways[size_t(node)];
+        if (end.known && (!way.known || end.depth > way.depth)) way = end;
+    }
+    return way;
+}
+
 void find_edge_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
-                        std::vector<CageContact>& out) {
+                        const std::vector<WayOut>& node_ways, std::vector<CageContact>& out) {
     const OverlapScene& scene = search.scene;
     const Collider &a = *scene.bodies[size_t(pair.a)].collider, &b = *scene.bodies[size_t(pair.b)].collider;
     std::vector<Chord> chords = find_chords(search, pair, inside);
-    std::vector<WayOut> ways(chords.size());
+    const auto first_hanging = std::stable_partition(chords.begin(), chords.end(), [](const Chord& c) { return !c.hangs(); });
+    const size_t through = size_t(first_hanging - chords.begin());
+    std::vector<WayOut> ways(through);
     std::vector<int> candidates;
-    for (size_t i = 0; i < chords.size(); ++i) {
+    for (size_t i = 0; i < through; ++i) {
         gather_edges(b, scene, search, chords[i], candidates);
         ways[i] = leave_across(scene, pair, candidates, chords[i]);
         if (ways[i].known) continue;
@@ -174,10 +264,24 @@ void find_edge_contacts(const OverlapSearch& search, const BodyPair& pair, const
         const double last = search.edges[size_t(chords[i].last)].along;
         ways[i].point = edge_place(scene, pair.a, chords[i].edge, 0.5 * (first + last));
     }
-    spread_ways_out(ways, find_neighbours(a, chords));
-    for (size_t i = 0; i < chords.size(); ++i) {
+    spread_ways_out(ways, find_neighbours(a, chords, through));
+    for (size_t i = 0; i < through; ++i) {
         if (!ways[i].known || !(ways[i].depth > 0)) leave_anyhow(search, pair, chords[i], ways[i]);
         if (ways[i].known && ways[i].depth > 0) out.push_back(contact_of(search, pair, chords[i], ways[i]));
+    }
+
+    // Ridges that are farther above an edge than what it follows; unless there is a shorter way out for it alone.
+    for (size_t i = 0; i < chords.size(); ++i) {
+        Chord &chord = chords[i], alone = chord;
+        WayOut way = i < through ? ways[i] : way_of_end(a, inside, scene.first_node[size_t(pair.a)], node_ways, chord);
+        if (!way.known || !(way.depth > 0)) continue;
+        gather_edges(b, scene, search, chord, candidates);
+        if (!find_ridge_above(search, pair, candidates, way, chord, way.depth)) continue;
+        const WayOut shorter = i < through ? WayOut() : leave_across(scene, pair, candidates, alone);
+        if (shorter.known && shorter.depth < way.depth)
+            out.push_back(contact_of(search, pair, alone, shorter));
+        else
+            out.push_back(contact_of(search, pair, chord, way));
     }
 }
 

@@ -82,8 +82,8 @@ static void leave_nearest(const OverlapScene& scene, int body, WayOut& way) {
     }
 }
 
-void find_node_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
-                        std::vector<CageContact>& out) {
+std::vector<WayOut> find_node_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
+                                       std::vector<CageContact>& out) {
     const OverlapScene& scene = search.scene;
     const Collider &a = *scene.bodies[size_t(pair.a)].collider, &b = *scene.bodies[size_t(pair.b)].collider;
     const int base = scene.first_node[size_t(pair.a)];
@@ -119,6 +119,7 @@ void find_node_contacts(const OverlapSearch& search, const BodyPair& pair, const
                        side_of_nodes(b, pair.b, b.tets[size_t(tet)].data(), overlap.weights.data(), 4, tet), way.point,
                        way.normal, way.depth});
     }
+    return ways;
 }
 
 }  // namespace frond

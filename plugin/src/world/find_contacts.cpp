@@ -206,6 +206,63 @@ void discount_grown_in(std::vector<Contact>& contacts) {
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_far), contacts.end());
 }
 
+// The chain nodes from one to its root.
+std::vector<uint8_t> path_down(const Plant& plant, int chain_node) {
+    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
+    std::vector<uint8_t> path(nodes.size(), 0);
+    for (int i = chain_node; i >= 0; i = nodes[size_t(i)].parent) path[size_t(i)] = 1;
+    return path;
+}
+
+// How a body pushes a stem: 1 along it and away from its root, -1 towards that, 0 across.
+int way_along(const Contact& contact) {
+    constexpr double ALONG = 0.5;  // cosine
+    const Plant& plant = *contact.plant->plant;
+    const auto& [begin, end] = plant.model->capsules[size_t(contact.capsule)];
+    const Vec3 outward = plant.rotation * (plant.chain_positions[size_t(end)] - plant.chain_positions[size_t(begin)]);
+    const double along = contact.normal.dot(outward), least = ALONG * outward.norm();
+    return along > least ? 1 : along < -least ? -1 : 0;
+}
+
+// Of what is held: 2 where the capsule itself is, 1 where it grows out of that.
+int is_held(const Plant& plant, int capsule) {
+    const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
+    const std::vector<uint8_t> path = path_down(plant, end);
+    int held = 0;
+    for (size_t n = 0; n < plant.pinned.size(); n++) {
+        const int anchor = plant.anchor[n];
+        if (plant.pinned[n] && path[size_t(anchor)]) held = std::max(held, anchor == begin || anchor == end ? 2 : 1);
+    }
+    return held;
+}
+
+// Where a stem is held, what moves as it likes would only draw it out by pushing it along itself; or press it together,
+// where the stem goes through that and is held beyond, there and above.
+void drop_what_draws_out(std::vector<Contact>& contacts) {
+    constexpr double AXIS = 0.9;  // share of the radius from which on the axis counts as reached
+    std::vector<Contact> useless;
+    for (const Contact& contact : contacts) {
+        const int way = way_along(contact);
+        if (!contact.other->isStaticOrKinematicObject() || way == 0) continue;
+        const double radius = double(contact.plant->capsules[size_t(contact.capsule)]->getRadius());
+        const bool goes_through = contact.gap < -AXIS * radius;
+        if (!goes_through && way < 0) continue;
+        if (is_held(*contact.plant->plant, contact.capsule) >= (goes_through ? 1 : 2)) useless.push_back(contact);
+    }
+    if (useless.empty()) return;
+    const auto end_of = [](const Contact& contact) {
+        return contact.plant->plant->model->capsules[size_t(contact.capsule)][1];
+    };
+    const auto draws_out = [&](const Contact& contact) {
+        if (way_along(contact) == 0) return false;
+        const std::vector<uint8_t> path = path_down(*contact.plant->plant, end_of(contact));
+        return std::any_of(useless.begin(), useless.end(), [&](const Contact& below) {
+            return below.plant == contact.plant && below.other == contact.other && path[size_t(end_of(below))];
+        });
+    };
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), draws_out), contacts.end());
+}
+
 }  // namespace
 
 std::vector<Contact> find_contacts(World& world, double h) {
@@ -217,6 +274,7 @@ std::vector<Contact> find_contacts(World& world, double h) {
     }
     add_fast_bodies(world, h, contacts);
     discount_grown_in(contacts);
+    drop_what_draws_out(contacts);
     for (PlantBody* body : world.awake) body->new_for = std::max(body->new_for - 1, 0);
     return contacts;
 }
