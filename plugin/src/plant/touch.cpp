@@ -30,47 +30,23 @@ Grip capsule_grip(const Plant& plant, int capsule, double along) {
     return grip;
 }
 
-// Of the chain nodes that hold the point, the two that hold most, with arms that turn with them.
-static Grip following_grip(const Follow& follow, const ContactSide& side) {
-    struct Part {
-        int node;
-        double weight;
-        Vec3 arm;
-    };
-    std::vector<Part> parts;
-    for (size_t i = 0; i < size_t(side.node_count); i++) {
-        const Grip& grip = follow.grips[size_t(side.nodes[i])];
-        for (size_t k = 0; k < size_t(grip.count); k++) {
-            const Part part = {grip.node[k], side.weights[i] * grip.weight[k], side.weights[i] * grip.arm[k]};
-            const auto known = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.node == part.node; });
-            if (known == parts.end()) {
-                parts.push_back(part);
-            } else {
-                known->weight += part.weight;
-                known->arm += part.arm;
-            }
-        }
-    }
-    std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.weight > b.weight; });
-    parts.resize(std::min(parts.size(), size_t(2)));
-    double sum = 0;
-    for (const Part& part : parts) sum += part.weight;
-    Grip grip;
-    grip.turns = true;
-    for (const Part& part : parts) {
-        grip.node[size_t(grip.count)] = part.node;
-        grip.weight[size_t(grip.count)] = part.weight / sum;
-        grip.arm[size_t(grip.count++)] = part.arm / sum;
-    }
-    return grip;
-}
-
 Grip cage_grip(const Plant& plant, const ContactSide& side) {
-    if (plant.follow) return following_grip(*plant.follow, side);
     Grip grip;
-    grip.count = side.node_count;
-    std::copy_n(side.nodes.begin(), side.node_count, grip.node.begin());
-    std::copy_n(side.weights.begin(), side.node_count, grip.weight.begin());
+    const auto add = [&](int node, double weight) {
+        int k = 0;
+        while (k < grip.count && grip.node[size_t(k)] != node) k++;
+        grip.node[size_t(k)] = node;
+        grip.weight[size_t(k)] += weight;
+        grip.count = std::max(grip.count, k + 1);
+    };
+    for (size_t i = 0; i < size_t(side.node_count); i++) {
+        if (!plant.follow) {
+            add(side.nodes[i], side.weights[i]);
+            continue;
+        }
+        const Grip& follows = plant.follow->grips[size_t(side.nodes[i])];
+        for (size_t k = 0; k < size_t(follows.count); k++) add(follows.node[k], side.weights[i] * follows.weight[k]);
+    }
     return grip;
 }
 

@@ -13,8 +13,7 @@ std::shared_ptr<const Collider> collider_of(const Plant& plant);
 // side is taken there: as a lever it would spin hairs by radians in a step, which no linear answer can tell.
 Grip capsule_grip(const Plant& plant, int capsule, double along);
 
-// A point of the cage. Where the chain moves the cage, it hangs on the two chain nodes that hold most of it, and a push
-// there turns them.
+// A point of the cage. Where the chain moves the cage, it is a point of the chain's axis likewise, whatever its distance.
 Grip cage_grip(const Plant& plant, const ContactSide& side);
 
 // One touch of a plant, between the two halves of a step.

@@ -246,7 +246,8 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
         if (!contact.other->isStaticOrKinematicObject() || way == 0) continue;
         const double radius = double(contact.plant->capsules[size_t(contact.capsule)]->getRadius());
         const bool goes_through = contact.gap < -AXIS * radius;
-        if (!goes_through && way < 0) continue;
+        const bool may_lift = way > 0 && contact.other->isKinematicObject();  // what is static lifts nothing
+        if (!goes_through && !may_lift) continue;
         if (is_held(*contact.plant->plant, contact.capsule) >= (goes_through ? 1 : 2)) useless.push_back(contact);
     }
     if (useless.empty()) return;

@@ -49,6 +49,13 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
     return islands;
 }
 
+constexpr double NEAR = 0.01;  // capsules that are about to touch [m]
+
+Eigen::AlignedBox3d box_of(const Capsule& capsule) {
+    const Vec3 reach = Vec3::Constant(capsule.radius + 0.5 * NEAR);
+    return {capsule.begin.cwiseMin(capsule.end) - reach, capsule.begin.cwiseMax(capsule.end) + reach};
+}
+
 // Where the cage will be at the end of the step if nothing touches it, so that what is about to meet is found before it is
 // in each other; no farther than straight ways can tell.
 void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
@@ -70,6 +77,12 @@ void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
         shape.axes.push_back({plant.to_world(plant.chain_positions[size_t(begin)]),
                               plant.to_world(plant.chain_positions[size_t(end)])});
     shape.covers = cover_pieces(*body.collider, shape.places.data(), shape.axes);
+    shape.capsules.clear();
+    shape.box.setEmpty();
+    for (size_t i = 0; i < shape.axes.size(); i++) {
+        shape.capsules.push_back({shape.axes[i][0], shape.axes[i][1], double(body.capsules[i]->getRadius())});
+        shape.box.extend(box_of(shape.capsules[i]));
+    }
 }
 
 double friction_of(const PlantBody& body, int organ) {
@@ -81,7 +94,9 @@ void take_grips(PlantContact& contact) {
     std::array<Vec3, 2> places;
     for (size_t k = 0; k < 2; k++) {
         const Plant& plant = *contact.plants[k]->plant;
-        contact.grips[k] = cage_grip(plant, contact.sides[k]);
+        const ContactSide& side = contact.sides[k];
+        contact.grips[k] =
+            side.node_count > 0 ? cage_grip(plant, side) : capsule_grip(plant, side.piece, side.weights[0]);
         places[k] = plant.to_world(grip_place(contact.grips[k], plant.motion.x));
     }
     contact.between = places[0] - places[1];
@@ -110,6 +125,70 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     contact.depth = found.depth + found.normal.dot(first - second);
     take_grips(contact);
     return contact;
+}
+
+// How far along a capsule's axis a point on it is.
+double along_of(const Capsule& capsule, const Vec3& p) {
+    const Vec3 axis = capsule.end - capsule.begin;
+    const double square = axis.squaredNorm();
+    return square > 0 ? std::clamp(axis.dot(p - capsule.begin) / square, 0.0, 1.0) : 0;
+}
+
+std::vector<size_t> capsules_in(const std::vector<Capsule>& capsules, const Eigen::AlignedBox3d& box) {
+    std::vector<size_t> found;
+    for (size_t i = 0; i < capsules.size(); i++)
+        if (box.intersects(box_of(capsules[i]))) found.push_back(i);
+    return found;
+}
+
+// Capsules of two bodies, or of one, that touch or are about to.
+void add_capsule_contacts(const PlantSearch& memory, const std::vector<PlantBody*>& island, size_t a, size_t b,
+                          std::vector<PlantContact>& contacts) {
+    const std::vector<Capsule> &first = memory.shapes[a].capsules, &second = memory.shapes[b].capsules;
+    const std::vector<size_t> near_a = capsules_in(first, memory.shapes[b].box);
+    const std::vector<size_t> near_b = capsules_in(second, memory.shapes[a].box);
+    for (const size_t i : near_a)
+        for (const size_t j : near_b) {
+            if (a == b && j <= i) continue;
+            if (a == b && island[a]->collider->are_near(int(i), int(j))) continue;
+            // Quick: balls around both.
+            const Vec3 apart = first[i].begin + first[i].end - second[j].begin - second[j].end;
+            const double reach = (first[i].end - first[i].begin).norm() + (second[j].end - second[j].begin).norm() +
+                                 2 * (first[i].radius + second[j].radius + NEAR);
+            if (apart.squaredNorm() > reach * reach) continue;
+            const Gap gap = gap_between(first[i], second[j]);
+            if (gap.distance > NEAR) continue;
+            PlantContact contact;
+            contact.plants = {island[a], island[b]};
+            contact.friction = 1;
+            const std::array<size_t, 2> capsules = {i, j};
+            const std::array<const Capsule*, 2> shapes = {&first[i], &second[j]};
+            const std::array<Vec3, 2> on_axis = {gap.on_a, gap.on_b};
+            for (size_t k = 0; k < 2; k++) {
+                const Model& model = *contact.plants[k]->plant->model;
+                const int organ = model.chain.nodes[size_t(model.capsules[capsules[k]][1])].organ;
+                contact.sides[k] = {int(k == 0 ? a : b), organ, int(capsules[k]), 0, {}, {along_of(*shapes[k], on_axis[k])}};
+                contact.friction *= friction_of(*contact.plants[k], organ);
+            }
+            contact.point = gap.on_a - first[i].radius * gap.normal;
+            contact.normal = gap.normal;
+            contact.depth = -gap.distance;
+            take_grips(contact);
+            contacts.push_back(contact);
+        }
+}
+
+// All pairs of an island of which one moves by its chain.
+void add_chain_contacts(const World& world, const PlantSearch& memory, const std::vector<PlantBody*>& island,
+                        std::vector<PlantContact>& contacts) {
+    for (size_t a = 0; a < island.size(); a++)
+        for (size_t b = a; b < island.size(); b++) {
+            if (!island[a]->plant->follow && !island[b]->plant->follow) continue;
+            if (island[a]->rest.asleep && island[b]->rest.asleep) continue;
+            if (!memory.shapes[a].box.intersects(memory.shapes[b].box)) continue;
+            if (a != b || has(world, *island[a], FROND_SELF_CONTACT))
+                add_capsule_contacts(memory, island, a, b, contacts);
+        }
 }
 
 // The point that touches: its plant, the other one, and its nodes.
@@ -141,7 +220,7 @@ void keep_contacts(const World& world, const std::vector<PlantContact>& last, st
     };
     for (const PlantContact& before : last) {
         const bool pushed = before.depth > 0 || !before.impulse.isZero(0);
-        if (!pushed || !may_touch(world, before)) continue;
+        if (!pushed || before.sides[0].node_count == 0 || !may_touch(world, before)) continue;
         if (PlantContact* again = find_again(before)) {
             again->impulse = before.impulse;
             continue;
@@ -191,23 +270,28 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
         any = true;
     }
     if (!any) return contacts;
-    const std::vector<std::vector<PlantBody*>> islands = find_islands(world);
+    std::vector<std::vector<PlantBody*>> islands = find_islands(world);
     if (!islands.empty() && !world.plant_search) world.plant_search = std::make_unique<PlantSearch>();
     world.report.ms_broad += timer.lap();
-    for (const std::vector<PlantBody*>& island : islands) {
+    for (std::vector<PlantBody*>& island : islands) {
         PlantSearch& memory = *world.plant_search;
         memory.shapes.resize(std::max(memory.shapes.size(), island.size()));
+        // Those whose cages move by themselves first: they meet by those, others by their capsules.
+        const auto end = std::stable_partition(island.begin(), island.end(),
+                                               [](const PlantBody* body) { return !body->plant->follow; });
+        const size_t caged = size_t(end - island.begin());
         for (size_t i = 0; i < island.size(); i++) place_shape(*island[i], h, memory.shapes[i]);
+        add_chain_contacts(world, memory, island, contacts);
         std::vector<CoveredBody> covered;
         std::vector<CollisionBody> bodies;
-        for (size_t i = 0; i < island.size(); i++) {
+        for (size_t i = 0; i < caged; i++) {
             const bool with_itself = has(world, *island[i], FROND_SELF_CONTACT);
             covered.push_back({island[i]->collider.get(), &memory.shapes[i].covers, with_itself});
             bodies.push_back({island[i]->collider.get(), memory.shapes[i].places.data(), {}, with_itself});
         }
         std::vector<std::vector<uint8_t>> pieces = find_meeting_pieces(covered, 0);
         bool meet = false;
-        for (size_t i = 0; i < island.size(); i++) {
+        for (size_t i = 0; i < caged; i++) {
             meet = meet || !pieces[i].empty();
             bodies[i].pieces = std::move(pieces[i]);
         }

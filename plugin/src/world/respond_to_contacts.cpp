@@ -55,7 +55,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
 
 // Plants part by being moved: cages may have been in each other by half a leaf when they were made, and would fly.
 void add_row(const World& world, PlantContact& contact, double h, std::vector<Row>& rows) {
-    constexpr double SHARE = 0.4, FASTEST = 0.3;
+    constexpr double SHARE = 0.4, FASTEST = 0.5;
     Row row;
     row.plants = contact.plants;
     for (size_t k = 0; k < 2; k++)
