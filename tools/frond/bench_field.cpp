@@ -114,7 +114,7 @@ struct StaticField {
 
 struct PathFigures {
     int plants;
-    double ms_made, kb;          // of one
+    double kb;                   // of one, beyond its model
     double whole, frond, still;  // medians: a step of the world, Frond's share of it, Bullet's with static bodies [ms]
     double awake;                // plants, mean
     double beyond() const { return whole - still; }
@@ -127,12 +127,11 @@ PathFigures measure_path(int count, const BenchOptions& options) {
     PathFigures figures = {};
     figures.plants = count;
     // Without the models, which all share.
-    const double before_models = memory(), start_models = now();
+    const double before_models = memory();
     const Play models(casting, field_settings(options, {"patch_wind=0", "plants=4"}));
-    const double kb_models = memory() - before_models, ms_models = now() - start_models;
-    const double before = memory(), start = now();
+    const double kb_models = memory() - before_models;
+    const double before = memory();
     Play play(casting, field_settings(options, {"patch_wind=0", "plants=" + std::to_string(count)}));
-    figures.ms_made = (now() - start - ms_models) / count;
     figures.kb = (memory() - before - kb_models) / count;
     StaticField still(play.stage);
     play.step();
@@ -223,13 +222,13 @@ void bench_field(const BenchOptions& options) {
     std::printf("scene field; one core unless told\n%s, %s, frond %s %s\n", study::processor_name().c_str(), FROND_COMPILER,
                 frond_version_string(), FROND_COMMIT);
     std::printf("all asleep but a path on which one walks behind a ball, median [ms]\n");
-    std::printf("%8s %10s %10s %8s %10s %10s %10s %10s\n", "plants", "made [ms]", "each [kB]", "awake", "world",
+    std::printf("%8s %10s %8s %10s %10s %10s %10s\n", "plants", "each [kB]", "awake", "world",
                 "static", "beyond", "Frond");
     std::vector<PathFigures> path;
     for (int count = 100; count <= options.most; count *= 10) {
         path.push_back(measure_path(count, options));
         const PathFigures& f = path.back();
-        std::printf("%8d %10.3f %10.2f %8.1f %10.3f %10.3f %10.3f %10.3f\n", f.plants, f.ms_made, f.kb, f.awake, f.whole,
+        std::printf("%8d %10.2f %8.1f %10.3f %10.3f %10.3f %10.3f\n", f.plants, f.kb, f.awake, f.whole,
                     f.still, f.beyond(), f.frond);
         std::fflush(stdout);
     }
