@@ -242,8 +242,9 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
     constexpr double AXIS = 0.9;  // share of the radius from which on the axis counts as reached
     std::vector<Contact> useless;
     for (const Contact& contact : contacts) {
+        if (!contact.other->isStaticOrKinematicObject()) continue;
         const int way = way_along(contact);
-        if (!contact.other->isStaticOrKinematicObject() || way == 0) continue;
+        if (way == 0) continue;
         const double radius = double(contact.plant->capsules[size_t(contact.capsule)]->getRadius());
         const bool goes_through = contact.gap < -AXIS * radius;
         const bool may_lift = way > 0 && contact.other->isKinematicObject();  // what is static lifts nothing

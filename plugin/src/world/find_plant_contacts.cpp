@@ -58,7 +58,7 @@ Eigen::AlignedBox3d box_of(const Capsule& capsule) {
 
 // Where the cage will be at the end of the step if nothing touches it, so that what is about to meet is found before it is
 // in each other; no farther than straight ways can tell.
-void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
+void place_cage(const PlantBody& body, double h, PlantSearch::Shape& shape) {
     constexpr double FARTHEST = 0.03;  // [m]
     const Plant& plant = *body.plant;
     const VecX& x = cage_places(plant);
@@ -72,17 +72,23 @@ void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
         if (way > FARTHEST) shape.ways[n] *= FARTHEST / way;
         shape.places[n] = turn * point(x, int(n)) + plant.position + shape.ways[n];
     }
-    shape.axes.clear();
-    for (const auto& [begin, end] : plant.model->capsules)
-        shape.axes.push_back({plant.to_world(plant.chain_positions[size_t(begin)]),
-                              plant.to_world(plant.chain_positions[size_t(end)])});
     shape.covers = cover_pieces(*body.collider, shape.places.data(), shape.axes);
+}
+
+// Axes and capsules of all plants, as others may meet them by those; cages of those that meet by them.
+void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
+    const Plant& plant = *body.plant;
+    shape.axes.clear();
     shape.capsules.clear();
     shape.box.setEmpty();
-    for (size_t i = 0; i < shape.axes.size(); i++) {
+    for (size_t i = 0; i < plant.model->capsules.size(); i++) {
+        const auto& [begin, end] = plant.model->capsules[i];
+        shape.axes.push_back({plant.to_world(plant.chain_positions[size_t(begin)]),
+                              plant.to_world(plant.chain_positions[size_t(end)])});
         shape.capsules.push_back({shape.axes[i][0], shape.axes[i][1], double(body.capsules[i]->getRadius())});
         shape.box.extend(box_of(shape.capsules[i]));
     }
+    if (!plant.follow) place_cage(body, h, shape);
 }
 
 double friction_of(const PlantBody& body, int organ) {
