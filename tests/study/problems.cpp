@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Study, EveryProblem, ::testing::ValuesIn(names()),
 
 TEST_P(EveryProblem, RunsAndKeepsItsError) {
     const std::string problem = GetParam();
-    const Result result = run_problem(find_problem(problem), Effort::TINY, nullptr);
+    const Result result = run_problems({&find_problem(problem)}, Effort::TINY, nullptr).front();
     ASSERT_FALSE(result.points.empty());
     double best = INFINITY;
     for (const Point& point : result.points) {
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Study, OpenProblem, ::testing::ValuesIn(open_names()),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST_P(OpenProblem, EndsWithAFigureOrSaysWhyNot) {
-    const Result result = run_problem(find_problem(GetParam()), Effort::TINY, nullptr);
+    const Result result = run_problems({&find_problem(GetParam())}, Effort::TINY, nullptr).front();
     ASSERT_FALSE(result.points.empty());
     for (const Point& point : result.points)
         EXPECT_TRUE(!point.failure.empty() || std::isfinite(point.outcome.error)) << point.series;

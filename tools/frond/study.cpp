@@ -18,25 +18,6 @@ struct StudyOptions {
     bool quick = false;
 };
 
-// "swing: run 12 of 40" on a terminal.
-class Line : public study::Watcher {
-public:
-    void at(const std::string& problem, int done, int total) override {
-        if (!progress || problem != name) {
-            name = problem;
-            text = problem + ": run";
-            progress.reset();
-            progress = std::make_unique<Progress>(text.c_str(), total);
-        }
-        progress->at(done);
-    }
-    void end() { progress.reset(); }
-
-private:
-    std::string name, text;
-    std::unique_ptr<Progress> progress;
-};
-
 // What was asked for, in the order of the tables for "all".
 struct Chosen {
     std::vector<const study::Problem*> problems;
@@ -84,13 +65,33 @@ void write_diagram(const Subject& subject, const std::string& folder, const std:
 
 void tell(const study::Result& result) {
     const study::Point& first = result.changes.front();
-    if (first.failure.empty())
-        std::printf("%-18s baseline error %.3g, %.3g ms a simulated second\n", result.problem->name,
-                    first.outcome.error, 1e3 * first.outcome.cpu_per_second);
-    else
-        std::printf("%-18s baseline failed: %s\n", result.problem->name, first.failure.c_str());
+    char text[64];
+    std::snprintf(text, sizeof text, "baseline error %.3g, %.3g ms a simulated second", first.outcome.error,
+                  1e3 * first.outcome.cpu_per_second);
+    std::printf("%-18s %s (CPU time of all: %.1f s)\n", result.problem->name,
+                first.failure.empty() ? text : ("baseline failed: " + first.failure).c_str(), result.cpu);
     std::fflush(stdout);
 }
+
+// "run 12 of 40" on a terminal; writes down what a problem gave as soon as it has ended.
+class Writer : public study::Watcher {
+public:
+    Writer(std::string folder, const study::Provenance& provenance) : folder(std::move(folder)), provenance(provenance) {}
+    void at(int done, int total) override {
+        if (!progress) progress = std::make_unique<Progress>("run", total);
+        progress->at(done);
+    }
+    void ended(const study::Result& result) override {
+        study::write_file(folder + "/" + result.problem->name + ".csv", study::csv_of(result, provenance));
+        write_diagram(result, folder, result.problem->name);
+        tell(result);
+    }
+
+private:
+    std::string folder;
+    const study::Provenance& provenance;
+    std::unique_ptr<Progress> progress;
+};
 
 void run_study(const StudyOptions& options) {
     if (options.names.empty()) return list_problems();
@@ -102,15 +103,11 @@ void run_study(const StudyOptions& options) {
                                           frond_version_string()};
     const study::Effort effort = options.quick ? study::Effort::QUICK : study::Effort::FULL;
     std::vector<study::Result> results;
-    std::vector<study::Figure> figures;
-    Line line;
-    for (const study::Problem* problem : chosen.problems) {
-        results.push_back(study::run_problem(*problem, effort, &line));
-        line.end();
-        study::write_file(options.out + "/" + problem->name + ".csv", study::csv_of(results.back(), provenance));
-        write_diagram(results.back(), options.out, problem->name);
-        tell(results.back());
+    {
+        Writer writer(options.out, provenance);
+        results = study::run_problems(chosen.problems, effort, &writer);
     }
+    std::vector<study::Figure> figures;
     for (const study::FigureRow* row : chosen.figures) {
         figures.push_back(row->make(options.out, effort));
         study::write_file(options.out + "/" + row->name + ".csv", study::csv_of(figures.back()));
@@ -136,7 +133,7 @@ void add_study(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "study", "what accuracy costs in time: diagrams and tables over problems with known answers");
     command->add_option("problem", options->names, "names of problems, or all; none: list them");
-    command->add_flag("--quick", options->quick, "fewer points: all problems in some minutes");
+    command->add_flag("--quick", options->quick, "fewer points: all problems in a minute or two");
     command->add_option("--out", options->out, "folder to write to, default study");
     command->add_option("--advice", options->advice,
                         "write the front of the problem sway to this file, as the table of frond_recommend");

@@ -1,5 +1,10 @@
-// Runs a problem over its sweeps and its changes; equal setups are run once.
+// Runs problems over their sweeps and their changes, each problem on a thread; equal setups are run once.
+#include <algorithm>
+#include <atomic>
 #include <cstdio>
+#include <functional>
+#include <mutex>
+#include <thread>
 
 #include "study/figures.hpp"
 
@@ -40,53 +45,99 @@ private:
     std::map<std::string, Point> done;
 };
 
-// Takes the library's warnings for the report while it lives.
+// Takes this thread's warnings of the library for the report while it lives.
 struct Warnings {
     int count = 0;
     std::string first;
-    Warnings() { frond_set_log(take, this); }
+    Warnings() { current = this; }
     Warnings(const Warnings&) = delete;
     Warnings& operator=(const Warnings&) = delete;
-    ~Warnings() { frond_set_log(to_stderr, nullptr); }
-    static void take(const char* message, void* user) {
-        Warnings& warnings = *static_cast<Warnings*>(user);
-        if (warnings.count++ == 0) warnings.first = message;
+    ~Warnings() { current = nullptr; }
+    static thread_local Warnings* current;
+    static void take(const char* message, void*) {
+        if (!current) return to_stderr(message, nullptr);
+        if (current->count++ == 0) current->first = message;
     }
     static void to_stderr(const char* message, void*) { std::fprintf(stderr, "frond: %s\n", message); }
 };
+thread_local Warnings* Warnings::current = nullptr;
 
-}  // namespace
+// What is to be run of a problem.
+struct Plan {
+    const Problem* problem;
+    std::vector<Sweep> sweeps;
+    std::vector<Setup> changes;
+    int count() const {
+        int sum = int(changes.size());
+        for (const Sweep& sweep : sweeps) sum += int(sweep.setups.size());
+        return sum;
+    }
+};
 
-Result run_problem(const Problem& problem, Effort effort, Watcher* watcher) {
+Result run_plan(const Plan& plan, Effort effort, const std::function<void()>& ran_one) {
     Session session;
     session.effort = effort;
-    Runner runner(problem, session);
+    Runner runner(*plan.problem, session);
     const Warnings warnings;
-    const std::vector<Sweep> sweeps = sweeps_of(problem, effort);
-    const std::vector<Setup> changes = changes_of(problem, effort);
-    int total = int(changes.size()), count = 0;
-    for (const Sweep& sweep : sweeps) total += int(sweep.setups.size());
-
-    Result result = {&problem, {}, {}, {}};
-    const auto tell = [&] {
-        if (watcher) watcher->at(problem.name, ++count, total);
-    };
-    for (const Sweep& sweep : sweeps)
+    Result result = {plan.problem, {}, {}, {}, -cpu_now()};
+    for (const Sweep& sweep : plan.sweeps)
         for (const Setup& setup : sweep.setups) {
             result.points.push_back(runner.run(sweep.name, setup));
             result.points.back().scattered = sweep.scattered;
-            tell();
+            ran_one();
         }
-    for (const Setup& setup : changes) {
+    for (const Setup& setup : plan.changes) {
         result.changes.push_back(runner.run("", setup));
-        tell();
+        ran_one();
     }
+    result.cpu += cpu_now();
     mark_front(result.points);
     result.notes = session.notes;
     if (warnings.count > 0)
         result.notes.push_back("The library warned " + std::to_string(warnings.count) +
                                " times, first: " + warnings.first + ".");
     return result;
+}
+
+}  // namespace
+
+std::vector<Result> run_problems(const std::vector<const Problem*>& problems, Effort effort, Watcher* watcher) {
+    std::vector<Plan> plans;
+    int total = 0;
+    for (const Problem* problem : problems) {
+        plans.push_back({problem, sweeps_of(*problem, effort), changes_of(*problem, effort)});
+        total += plans.back().count();
+    }
+    std::vector<Result> results(plans.size());
+    std::mutex watching;
+    int count = 0;
+    std::atomic<int> left = int(plans.size());
+    std::exception_ptr failure;  // a file that cannot be written; what a problem itself fails at is a point of its diagram
+    const auto run = [&](size_t k) {
+        results[k] = run_plan(plans[k], effort, [&] {
+            const std::lock_guard<std::mutex> lock(watching);
+            if (watcher) watcher->at(++count, total);
+        });
+        const std::lock_guard<std::mutex> lock(watching);
+        if (watcher) watcher->ended(results[k]);
+    };
+    const auto work = [&] {
+        // The last of the table take longest, so they are begun first.
+        for (int i = --left; i >= 0; i = --left) try {
+                run(size_t(i));
+            } catch (...) {
+                left = 0;
+                const std::lock_guard<std::mutex> lock(watching);
+                failure = std::current_exception();
+            }
+    };
+    frond_set_log(Warnings::take, nullptr);
+    std::vector<std::thread> threads(std::min<size_t>(plans.size(), std::max(1u, std::thread::hardware_concurrency())));
+    for (std::thread& thread : threads) thread = std::thread(work);
+    for (std::thread& thread : threads) thread.join();
+    frond_set_log(Warnings::to_stderr, nullptr);
+    if (failure) std::rethrow_exception(failure);
+    return results;
 }
 
 const Problem& find_problem(const std::string& name) {

@@ -82,6 +82,9 @@ enum Axis : unsigned {
     EVERYTHING = 32  // mechanics, resolution, integrator and time step, each with each
 };
 
+// CPU time of this thread [s].
+double cpu_now();
+
 struct Problem {
     const char* name;
     const char* measures;
@@ -120,13 +123,16 @@ struct Result {
     std::vector<Point> points;   // of the sweeps
     std::vector<Point> changes;  // one at a time, the baseline first
     std::vector<std::string> notes;
+    double cpu = 0;  // of the whole problem [s]
 };
-class Watcher {  // is told how far a study is
+class Watcher {  // is told how far a study is, by one thread at a time
 public:
     virtual ~Watcher() = default;
-    virtual void at(const std::string& problem, int done, int total) = 0;
+    virtual void at(int done, int total) = 0;
+    virtual void ended(const Result& result) = 0;
 };
-Result run_problem(const Problem& problem, Effort effort, Watcher* watcher);
+// In the given order. Problems run beside each other, one on each of the machine's cores; costs are of their own threads.
+std::vector<Result> run_problems(const std::vector<const Problem*>& problems, Effort effort, Watcher* watcher);
 
 // Marks those points that no other beats in both cost and error; failed ones are never on the front.
 void mark_front(std::vector<Point>& points);

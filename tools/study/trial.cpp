@@ -29,12 +29,13 @@ frond_vec3 solve(const std::array<frond_vec3, 3>& rows, const frond_vec3& right)
             dot(a, cross(b, right)) / determinant};
 }
 
-// Process time [s].
-double cpu_now() {
-    return double(std::clock()) / CLOCKS_PER_SEC;
-}
-
 }  // namespace
+
+double cpu_now() {
+    timespec time;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
 
 Trial::Trial(ModelPtr given, const Setup& given_setup) : model(std::move(given)), setup(given_setup) {
     frond_world_def def = frond_default_world_def();
@@ -212,12 +213,11 @@ static double farthest(const std::vector<double>& a, const std::vector<double>& 
 
 // Null if the library had to put the plant back on the way.
 static std::unique_ptr<Trial> try_to_settle(const ModelPtr& model, const Setup& setup, int ramp, double step,
-                                            const LoadFunction& load) {
+                                            int most_steps, const LoadFunction& load) {
     constexpr double AT_REST = 1e-7;  // [m] a step
-    constexpr int MOST_STEPS = 300;
     auto trial = std::make_unique<Trial>(model, setup);
     std::vector<double> before = trial->state().x;
-    for (int i = 1; i <= MOST_STEPS; i++) {
+    for (int i = 1; i <= most_steps; i++) {
         load(*trial, std::min(1.0, double(i) / ramp));
         trial->step(step);
         if (trial->trouble & FROND_TROUBLE_REWOUND) return nullptr;
@@ -228,7 +228,8 @@ static std::unique_ptr<Trial> try_to_settle(const ModelPtr& model, const Setup& 
     return trial;
 }
 
-std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ramp, const LoadFunction& load) {
+std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ramp, const LoadFunction& load,
+                              int most_steps) {
     Setup patient = setup;
     patient.plant.integrator = FROND_IMPLICIT_EULER;
     patient.plant.newton_tolerance = 1e-9;
@@ -239,7 +240,8 @@ std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ram
         for (int solves : {10, 1}) {
             patient.plant.newton_iterations = solves;
             const int raised = int(std::lround(ramp / std::sqrt(step)));
-            if (std::unique_ptr<Trial> trial = try_to_settle(model, patient, raised, step, load)) return trial;
+            if (std::unique_ptr<Trial> trial = try_to_settle(model, patient, raised, step, most_steps, load))
+                return trial;
         }
     throw SceneError("no shape at rest was found");
 }
