@@ -115,6 +115,34 @@ TEST_P(EveryRod, PositiveStiffnessIsNeverNegativeAndExactWithoutLoad) {
     EXPECT_LT((at_rest - stiffness(elements, elements.modelled, Tangent::exact)).norm(), 1e-9 * at_rest.norm());
 }
 
+// Also where there are fewer pieces than lanes.
+TEST_P(EveryRod, ForceAndStiffnessAheadAreThoseOfTheirParts) {
+    Dice dice(7);
+    const RodElements elements = make_rod_elements(chain_model(true), which);
+    for (double turn : {1e-6, 0.01, 0.5, 1.2, 2.5}) {
+        const VecX x = deformed(elements, dice, 0.05, turn);
+        VecX way(x.size()), v(x.size());
+        for (Eigen::Index i = 0; i < x.size(); ++i) way[i] = dice.uniform(-0.01, 0.01), v[i] = dice.uniform(-1, 1);
+        const std::vector<double> apart = {0.001, 0.004, 0.002, 0.003};
+        for (const std::vector<double>& each : {std::vector<double>(), apart}) {
+            const double step = 0.01, alike = each.empty() ? 0.005 : 0;
+            VecX f = VecX::Zero(x.size()), known = f;
+            BlockMatrix A, K, D;
+            for (BlockMatrix* matrix : {&A, &K, &D}) {
+                matrix->set_pattern(elements.pattern);
+                matrix->set_zero();
+            }
+            row.add_ahead(elements, x, {way, v, step, alike, each}, f, A);
+            row.add_force_stiffness_and_damping(
+                elements, x, each.empty() ? std::vector<double>(elements.segments.size(), alike) : each, known, K, D);
+            known -= dense(K) * way + dense(D) * v;
+            EXPECT_LT((f - known).norm(), 1e-12 * known.norm()) << "turn " << turn;
+            const Eigen::MatrixXd matrix = step * step * dense(K) + step * dense(D);
+            EXPECT_LT((dense(A) - matrix).norm(), 1e-12 * matrix.norm()) << "turn " << turn;
+        }
+    }
+}
+
 TEST_P(EveryRod, TurningAndMovingItAsAWholeCostsNothing) {
     Dice dice(4);
     const RodElements elements = make_rod_elements(chain_model(), which);

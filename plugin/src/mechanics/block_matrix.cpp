@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/lanes.hpp"
+
 namespace frond {
 
 int BlockPattern::slot(int i, int j) const {
@@ -45,32 +47,36 @@ void BlockMatrix::set_zero() {
     std::fill(values.begin(), values.end(), 0.0);
 }
 
+// Two rows of a block at once, the third by itself.
 void BlockMatrix::multiply(const VecX& x, VecX& y) const {
     y.setZero(x.size());
     const double* a = values.data();
     for (int j = 0; j < pattern->node_count; ++j) {
         const double *xj = x.data() + 3 * j, x0 = xj[0], x1 = xj[1], x2 = xj[2];
         // The diagonal block, which comes first in its column.
-        double y0 = a[0] * x0 + a[3] * x1 + a[6] * x2;
-        double y1 = a[1] * x0 + a[4] * x1 + a[7] * x2;
-        double y2 = a[2] * x0 + a[5] * x1 + a[8] * x2;
+        TwoLanes own = x0 * load<TwoLanes>(a) + x1 * load<TwoLanes>(a + 3) + x2 * load<TwoLanes>(a + 6);
+        double own2 = a[2] * x0 + a[5] * x1 + a[8] * x2;
         a += 9;
         // A block below it serves twice: as it stands for its row, transposed for this column.
+        TwoLanes sum0 = {}, sum1 = {}, sum2 = {};
         for (int k = pattern->start[size_t(j)] + 1; k < pattern->start[size_t(j) + 1]; ++k, a += 9) {
             const int i = 3 * pattern->row[size_t(k)];
+            const TwoLanes a0 = load<TwoLanes>(a), a1 = load<TwoLanes>(a + 3), a2 = load<TwoLanes>(a + 6);
             double* yi = y.data() + i;
-            yi[0] += a[0] * x0 + a[3] * x1 + a[6] * x2;
-            yi[1] += a[1] * x0 + a[4] * x1 + a[7] * x2;
+            store(TwoLanes(load<TwoLanes>(yi) + (x0 * a0 + x1 * a1 + x2 * a2)), yi);
             yi[2] += a[2] * x0 + a[5] * x1 + a[8] * x2;
             const double* xi = x.data() + i;
-            y0 += a[0] * xi[0] + a[1] * xi[1] + a[2] * xi[2];
-            y1 += a[3] * xi[0] + a[4] * xi[1] + a[5] * xi[2];
-            y2 += a[6] * xi[0] + a[7] * xi[1] + a[8] * xi[2];
+            const TwoLanes xi01 = load<TwoLanes>(xi);
+            sum0 += a0 * xi01;
+            sum1 += a1 * xi01;
+            sum2 += a2 * xi01;
+            own += TwoLanes{a[2], a[5]} * xi[2];
+            own2 += a[8] * xi[2];
         }
+        own += TwoLanes{sum0[0] + sum0[1], sum1[0] + sum1[1]};
         double* yj = y.data() + 3 * j;
-        yj[0] += y0;
-        yj[1] += y1;
-        yj[2] += y2;
+        store(TwoLanes(load<TwoLanes>(yj) + own), yj);
+        yj[2] += own2 + (sum2[0] + sum2[1]);
     }
 }
 

@@ -22,10 +22,6 @@ struct Dual {
     }
 
     Dual operator-() const { return {-value, -slope}; }
-    Dual& operator+=(const Dual& b) { return *this = *this + b; }
-    Dual& operator-=(const Dual& b) { return *this = *this - b; }
-    Dual& operator*=(const Dual& b) { return *this = *this * b; }
-    Dual& operator/=(const Dual& b) { return *this = *this / b; }
     friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.slope + b.slope}; }
     friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.slope - b.slope}; }
     friend Dual operator*(const Dual& a, const Dual& b) {
@@ -36,36 +32,16 @@ struct Dual {
         return {quotient, (a.slope - quotient * b.slope) / b.value};
     }
     friend bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
-    friend bool operator>(const Dual& a, const Dual& b) { return a.value > b.value; }
-    friend bool operator==(const Dual& a, const Dual& b) { return a.value == b.value; }
-    friend bool operator!=(const Dual& a, const Dual& b) { return a.value != b.value; }
 };
 
 inline Dual sqrt(const Dual& a) {
     const double root = std::sqrt(a.value);
     return {root, a.slope * (0.5 / root)};
 }
-inline Dual sin(const Dual& a) {
-    return {std::sin(a.value), std::cos(a.value) * a.slope};
-}
-inline Dual cos(const Dual& a) {
-    return {std::cos(a.value), -std::sin(a.value) * a.slope};
-}
-inline Dual tan(const Dual& a) {
-    const double tangent = std::tan(a.value);
-    return {tangent, (1 + tangent * tangent) * a.slope};
-}
-inline Dual atan2(const Dual& y, const Dual& x) {
-    const double square = x.value * x.value + y.value * y.value;
-    return {std::atan2(y.value, x.value), (x.value * y.slope - y.value * x.slope) / square};
+inline void sine_cosine(const Dual& a, Dual& sine, Dual& cosine) {
+    const double s = std::sin(a.value), c = std::cos(a.value);
+    sine = {s, c * a.slope};
+    cosine = {c, -s * a.slope};
 }
 
 }  // namespace frond
-
-template <>
-struct Eigen::NumTraits<frond::Dual> : Eigen::NumTraits<double> {
-    using Real = frond::Dual;
-    using NonInteger = frond::Dual;
-    using Nested = frond::Dual;
-    enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 13, AddCost = 13, MulCost = 39 };
-};

@@ -74,6 +74,14 @@ struct Masses {
 // Which derivative of the force: the exact one, or one that is always positive semi-definite.
 enum class Tangent { exact, positive };
 
+// What one solve knows of the end of a step.
+struct Ahead {
+    const VecX &way, &v;  // from x to where v leads [m], and v [m/s]
+    double step;          // [s]
+    double damping;       // times the stiffness: of all elements [s],
+    const std::vector<double>& element_damping;  // and beside that of each; empty: none [s]
+};
+
 // x is in the frame of the rest positions: a plant that is placed turned in a world is not bent by that.
 struct Mechanics {
     const char* name;
@@ -91,6 +99,9 @@ struct Mechanics {
     // The same with the positive stiffness, and damping[e] [s] times each element's own part of it added to D [N s/m].
     int (*add_force_stiffness_and_damping)(const Elements& elements, const VecX& x, const std::vector<double>& damping,
                                            VecX& f, BlockMatrix& K, BlockMatrix& D);
+    // With K the positive stiffness at x and D what it damps by: adds the force at x less K way and D v to f, and
+    // step^2 K + step D to A. Null: the functions above do as well.
+    void (*add_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A);
     // Rotary inertia of each pair of nodes, place and rotation, by the rate of the rotation vector at x [kg m^2]; null
     // where no node turns.
     void (*rotary_inertia)(const Elements& elements, const VecX& x, std::vector<Mat3>& out);

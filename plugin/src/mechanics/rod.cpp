@@ -6,127 +6,255 @@
 // F the piece's frame in the modelled shape, R = R1 exp(log(R1^T R2) / 2) the rotation half way. The resistance to
 // shear is the residual bending flexibility, 12 EI / L^2 (MacNeal 1978): for small turns the piece then is the
 // Euler-Bernoulli beam with cubic shape functions, exact at its ends.
+#include <algorithm>
+
 #include "mechanics/dual.hpp"
 #include "mechanics/rod_elements.hpp"
-#include "mechanics/rotation.hpp"
+#include "mechanics/rod_piece.hpp"
 #include "mechanics/rows.hpp"
 
 namespace frond {
 
 namespace {
 
-using Twelve = Eigen::Matrix<double, 12, 1>;
-
-// A node as its rods see it.
+// As many pieces as there are lanes; past the last one it is taken again.
 template <class S>
-struct RodNode {
-    Vec3of<S> place;
-    Mat3of<S> rotation, rate;  // and from the rate of its vector to its angular velocity
+struct Group {
+    const RodSegment* rod[LANES<S>];
+    int count;
+    FROND_INLINE Group(const std::vector<RodSegment>& rods, size_t first)
+        : count(int(std::min(size_t(LANES<S>), rods.size() - first))) {
+        for (int lane = 0; lane < LANES<S>; ++lane) rod[lane] = &rods[first + size_t(std::min(lane, count - 1))];
+    }
+    FROND_INLINE Lanes3<S> vector(Vec3 RodSegment::*of) const {
+        return {gather<S>([&](int l) { return (rod[l]->*of)[0]; }), gather<S>([&](int l) { return (rod[l]->*of)[1]; }),
+                gather<S>([&](int l) { return (rod[l]->*of)[2]; })};
+    }
+    FROND_INLINE S element(int row, int column) const {
+        return gather<S>([&](int l) { return rod[l]->frame.data()[row + 3 * column]; });
+    }
+    FROND_INLINE RodPiece<S> piece() const {
+        RodPiece<S> out;
+        out.length = gather<S>([&](int l) { return rod[l]->length; });
+        for (int r = 0; r < 3; ++r) out.frame.r[r] = {element(r, 0), element(r, 1), element(r, 2)};
+        out.stretch = vector(&RodSegment::stretch);
+        out.bend = vector(&RodSegment::bend);
+        out.rest_strain = vector(&RodSegment::rest_strain);
+        out.rest_curvature = vector(&RodSegment::rest_curvature);
+        return out;
+    }
+    // Three of the six numbers of one of its ends.
+    FROND_INLINE Lanes3<S> point(const double* x, int RodSegment::*end, int first) const {
+        const auto at = [&](int l, int c) { return x[6 * (rod[l]->*end) + first + c]; };
+        return {gather<S>([&](int l) { return at(l, 0); }), gather<S>([&](int l) { return at(l, 1); }),
+                gather<S>([&](int l) { return at(l, 2); })};
+    }
+    FROND_INLINE RodEnd<S> end(const double* x, int RodSegment::*which) const {
+        return rod_end(point(x, which, 0), point(x, which, 3));
+    }
 };
 
 template <class S>
-RodNode<S> node_at(const Vec3of<S>& place, const Vec3of<S>& turn) {
-    return {place, rotation_of<S>(turn), rate_matrix<S>(turn)};
-}
-
-// What follows from the places of the two ends.
-template <class S>
-struct Bent {
-    Vec3of<S> chord;           // x2 - x1 [m]
-    Vec3of<S> turn;            // log(R1^T R2)
-    Mat3of<S> middle;          // R F
-    Vec3of<S> strain, curvature;  // over the rest's
+struct Placed {
+    RodPiece<S> piece;
+    RodEnd<S> a, b;
+    RodBent<S> bent;
+    FROND_INLINE Placed(const Group<S>& group, const VecX& x)
+        : piece(group.piece()), a(group.end(x.data(), &RodSegment::a)), b(group.end(x.data(), &RodSegment::b)),
+          bent(bend_between(piece, a, b)) {}
 };
 
 template <class S>
-Bent<S> bend_between(const RodSegment& rod, const RodNode<S>& a, const RodNode<S>& b) {
-    Bent<S> out;
-    out.chord = b.place - a.place;
-    out.turn = rotation_vector<S>(a.rotation.transpose() * b.rotation);
-    const Vec3of<S> half = out.turn * S(0.5);
-    out.middle = a.rotation * rotation_of<S>(half) * rod.frame.cast<S>();
-    const S over = S(1 / rod.length);
-    out.strain = out.middle.transpose() * out.chord * over - rod.rest_strain.cast<S>();
-    out.curvature = rod.frame.transpose().cast<S>() * out.turn * over - rod.rest_curvature.cast<S>();
-    return out;
+FROND_INLINE void store(const Lanes3<S>& v, double* first, int stride, int lane) {
+    first[0] = v.x[lane];
+    first[stride] = v.y[lane];
+    first[2 * stride] = v.z[lane];
 }
 
-// How the rotation half way follows that of the second end, in the frame of the room: R1 (1 + exp(turn/2))^-1 R1^T.
-template <class S>
-Mat3of<S> middle_share(const RodNode<S>& a, const Vec3of<S>& turn) {
-    using std::sqrt;
-    using std::tan;
-    const S square = turn.squaredNorm();
-    // tan(angle/4) / angle
-    const S slope = square < 1e-8 ? S(S(0.25) + square / 192.) : S(tan(0.25 * sqrt(square)) / sqrt(square));
-    const S scale = -0.5 * slope;
-    Mat3of<S> share = scale * cross_matrix<S>(a.rotation * turn);
-    share.diagonal().array() += S(0.5);
-    return share;
-}
+struct FindStrains {
+    const RodElements& elements;
+    const VecX& x;
+    std::vector<RodStrain>& out;
+    template <class S>
+    FROND_INLINE void run() const {
+        out.resize(elements.segments.size());
+        for (size_t s = 0; s < elements.segments.size(); s += size_t(LANES<S>)) {
+            const Group<S> group(elements.segments, s);
+            const Placed<S> at(group, x);
+            for (int lane = 0; lane < group.count; ++lane) {
+                store(at.bent.strain, out[s + size_t(lane)].strain.data(), 1, lane);
+                store(at.bent.curvature, out[s + size_t(lane)].curvature.data(), 1, lane);
+            }
+        }
+    }
+};
 
-// Gradient of the energy by the four nodes of the mechanics.
-template <class S>
-Eigen::Matrix<S, 12, 1> gradient(const RodSegment& rod, const RodNode<S>& a, const RodNode<S>& b,
-                                 const Bent<S>& bent) {
-    const Vec3of<S> force = bent.middle * Vec3of<S>(rod.stretch.cast<S>().cwiseProduct(bent.strain));
-    const Vec3of<S> middle_moment = force.cross(bent.chord);
-    const Vec3of<S> couple = rod.frame.cast<S>() * Vec3of<S>(rod.bend.cast<S>().cwiseProduct(bent.curvature));
-    const Vec3of<S> end_moment = a.rotation * (inverse_rate_matrix<S>(bent.turn).transpose() * couple);
-    const Vec3of<S> second = middle_share(a, bent.turn).transpose() * middle_moment;
-    Eigen::Matrix<S, 12, 1> g;
-    g.template segment<3>(0) = -force;
-    g.template segment<3>(3) = a.rate.transpose() * (middle_moment - second - end_moment);
-    g.template segment<3>(6) = force;
-    g.template segment<3>(9) = b.rate.transpose() * (second + end_moment);
-    return g;
-}
+struct FindEnergy {
+    const RodElements& elements;
+    const VecX& x;
+    double& sum;
+    template <class S>
+    FROND_INLINE void run() const {
+        for (size_t s = 0; s < elements.segments.size(); s += size_t(LANES<S>)) {
+            const Group<S> group(elements.segments, s);
+            const Placed<S> at(group, x);
+            const S energy = 0.5 * at.piece.length *
+                             (dot(at.piece.stretch, scaled(at.bent.strain, at.bent.strain)) +
+                              dot(at.piece.bend, scaled(at.bent.curvature, at.bent.curvature)));
+            for (int lane = 0; lane < group.count; ++lane) sum += energy[lane];
+        }
+    }
+};
 
-double energy_of(const RodSegment& rod, const RodNode<double>& a, const RodNode<double>& b) {
-    const Bent<double> bent = bend_between(rod, a, b);
-    return 0.5 * rod.length *
-           (rod.stretch.dot(bent.strain.cwiseAbs2()) + rod.bend.dot(bent.curvature.cwiseAbs2()));
-}
+// Force, and the positive stiffness; what is null is left out.
+struct Assemble {
+    const RodElements& elements;
+    const VecX& x;
+    VecX* f = nullptr;
+    BlockMatrix* K = nullptr;
+    double scale = 1;                               // of K
+    const std::vector<double>* damping = nullptr;   // of each piece, times its stiffness into D
+    BlockMatrix* D = nullptr;
+    const Ahead* ahead = nullptr;
 
-// Lower blocks (r, c), c <= r, of the stiffness between the four nodes of the mechanics, at [r (r + 1) / 2 + c].
+    template <class S>
+    FROND_INLINE Lanes3<S> move(const Group<S>& group, int RodSegment::*end, int first, const S& c) const {
+        return group.point(ahead->way.data(), end, first) + c * group.point(ahead->v.data(), end, first);
+    }
+    // Forces of what the stiffness says of the way ahead, on the ends' six numbers each, are taken off.
+    template <class S>
+    FROND_INLINE void look_ahead(const Group<S>& group, const Placed<S>& at, const RodChange<S>& change, const S& c,
+                                 RodGradient<S>& g) const {
+        const S per_length = 1.0 / at.piece.length;
+        const Lanes3<S> turn_a = move(group, &RodSegment::a, 3, c), turn_b = move(group, &RodSegment::b, 3, c);
+        const Lanes3<S> chord = move(group, &RodSegment::b, 0, c) - move(group, &RodSegment::a, 0, c);
+        const Lanes3<S> force =
+            per_length * scaled(at.piece.stretch, transposed_times(at.bent.middle, chord) + change.strain_a * turn_a +
+                                                      change.strain_b * turn_b);
+        const Lanes3<S> moment =
+            per_length * scaled(at.piece.bend, change.bend_b * turn_b - change.bend_a * turn_a);
+        const Lanes3<S> on_b = at.bent.middle * force;
+        g.place_a = g.place_a - on_b;
+        g.place_b = g.place_b + on_b;
+        g.turn_a = g.turn_a + transposed_times(change.strain_a, force) - transposed_times(change.bend_a, moment);
+        g.turn_b = g.turn_b + transposed_times(change.strain_b, force) + transposed_times(change.bend_b, moment);
+    }
+    template <class S>
+    FROND_INLINE void take_force(const Group<S>& group, const RodGradient<S>& g) const {
+        for (int lane = 0; lane < group.count; ++lane) {
+            double *a = f->data() + 6 * group.rod[lane]->a, *b = f->data() + 6 * group.rod[lane]->b;
+            const Lanes3<S>* parts[4] = {&g.place_a, &g.turn_a, &g.place_b, &g.turn_b};
+            for (int k = 0; k < 4; ++k) {
+                double* to = (k < 2 ? a : b) + 3 * (k % 2);
+                to[0] -= parts[k]->x[lane];
+                to[1] -= parts[k]->y[lane];
+                to[2] -= parts[k]->z[lane];
+            }
+        }
+    }
+    // Blocks lie by columns.
+    template <class S>
+    FROND_INLINE static void add_blocks(const Group<S>& group, const Lanes33<S> (&blocks)[10], const S& by, BlockMatrix& A) {
+        S values[90];
+        for (int k = 0; k < 10; ++k)
+            for (int r = 0; r < 3; ++r) {
+                values[9 * k + r] = by * blocks[k].r[r].x;
+                values[9 * k + r + 3] = by * blocks[k].r[r].y;
+                values[9 * k + r + 6] = by * blocks[k].r[r].z;
+            }
+        const double* from = reinterpret_cast<const double*>(values);
+        for (int lane = 0; lane < group.count; ++lane)
+            for (int r = 0, k = 0; r < 4; ++r)
+                for (int c = 0; c <= r; ++c, ++k) {
+                    double* to = A.values.data() + 9 * size_t(group.rod[lane]->slots[size_t(4 * r + c)]);
+                    for (int i = 0; i < 9; ++i) to[i] += from[LANES<S> * (9 * k + i) + lane];
+                }
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        const std::vector<RodSegment>& rods = elements.segments;
+        for (size_t s = 0; s < rods.size(); s += size_t(LANES<S>)) {
+            const Group<S> group(rods, s);
+            const Placed<S> at(group, x);
+            const Lanes33<S> rotation_a = rotation_of(at.a.w, at.a.p), rate_a = rate_of(at.a), rate_b = rate_of(at.b);
+            RodGradient<S> g;
+            if (f) g = gradient_of(at.piece, rotation_a, rate_a, rate_b, at.bent);
+            if (K) {
+                const S c = gather<S>([&](int lane) {
+                    return damping ? (*damping)[s + size_t(std::min(lane, group.count - 1))] : 0.0;
+                });
+                const RodChange<S> change = change_of(at.piece, rotation_a, rate_a, rate_b, at.bent);
+                Lanes33<S> blocks[10];
+                positive_stiffness(at.piece, at.bent, change, blocks);
+                const double step = ahead ? ahead->step : 1;
+                const S alike = c + (ahead ? ahead->damping : 0.0);
+                if (ahead) look_ahead(group, at, change, alike, g);
+                add_blocks(group, blocks, ahead ? S(step * step + step * alike) : constant<S>(scale), *K);
+                if (D) add_blocks(group, blocks, c, *D);
+            }
+            if (f) take_force(group, g);
+        }
+    }
+};
+
+// Of the nodes from the i-th on, as many as there are lanes.
+struct FindInertia {
+    const RodElements& elements;
+    const VecX& x;
+    std::vector<Mat3>& out;
+    size_t node(size_t i, int lane) const { return std::min(i + size_t(lane), elements.inertia.size() - 1); }
+    template <class S>
+    FROND_INLINE S turn(size_t i, int c) const {
+        return gather<S>([&](int lane) { return x.data()[6 * node(i, lane) + 3 + size_t(c)]; });
+    }
+    template <class S>
+    FROND_INLINE S entry(size_t i, int r, int c) const {
+        return gather<S>([&](int lane) { return elements.inertia[node(i, lane)].data()[r + 3 * c]; });
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        for (size_t i = 0; i < elements.inertia.size(); i += size_t(LANES<S>)) {
+            // To the rate in the node's own frame: R(v)^T T(v) = T(-v).
+            const Lanes3<S> v = {turn<S>(i, 0), turn<S>(i, 1), turn<S>(i, 2)};
+            const Lanes33<S> rate = rate_of(rod_end(Lanes3<S>{}, -v));
+            Lanes33<S> inertia;
+            for (int r = 0; r < 3; ++r) inertia.r[r] = {entry<S>(i, r, 0), entry<S>(i, r, 1), entry<S>(i, r, 2)};
+            const Lanes33<S> seen = transposed_times(rate, inertia * rate);
+            for (int lane = 0; lane < LANES<S> && i + size_t(lane) < elements.inertia.size(); ++lane)
+                for (int r = 0; r < 3; ++r) store(seen.r[r], out[i + size_t(lane)].data() + r, 3, lane);
+        }
+    }
+};
+
+// Blocks as in positive_stiffness.
 using Blocks = std::array<Mat3, 10>;
 
-// The part of the stiffness that is never negative: how strains change with the nodes, weighted with resistance. The
-// strain changes by T^T (move of b - move of a) + A (turn of a) + B (turn of b), T the frame half way.
-Blocks positive_stiffness(const RodSegment& rod, const RodNode<double>& a, const RodNode<double>& b,
-                          const Bent<double>& bent) {
-    const Mat3 share = middle_share(a, bent.turn), chord = cross_matrix<double>(bent.chord);
-    const Mat3 seen = bent.middle.transpose() * chord, by_share = seen * share;
-    const Mat3 A = (seen - by_share) * a.rate, B = by_share * b.rate;
-    const Mat3 turning = rod.frame.transpose() * inverse_rate_matrix<double>(bent.turn) * a.rotation.transpose();
-    const Mat3 turn_a = turning * a.rate, turn_b = turning * b.rate;
-    const Vec3 stretch = rod.stretch / rod.length, bend = rod.bend / rod.length;
-    const Mat3 pulled = stretch.asDiagonal() * bent.middle.transpose();
-    const Mat3 weighted_A = stretch.asDiagonal() * A, weighted_B = stretch.asDiagonal() * B;
-    const Mat3 bent_a = bend.asDiagonal() * turn_a, bent_b = bend.asDiagonal() * turn_b;
-    Blocks K;
-    K[0] = bent.middle * pulled;
-    K[1] = -A.transpose() * pulled;
-    K[2] = A.transpose() * weighted_A + turn_a.transpose() * bent_a;
-    K[3] = -K[0];
-    K[4] = -K[1].transpose();
-    K[5] = K[0];
-    K[6] = -B.transpose() * pulled;
-    K[7] = B.transpose() * weighted_A - turn_b.transpose() * bent_a;
-    K[8] = -K[6];
-    K[9] = B.transpose() * weighted_B + turn_b.transpose() * bent_b;
-    return K;
+template <class S>
+Lanes3<S> lanes_of(const Vec3& v) {
+    return {S(v[0]), S(v[1]), S(v[2])};
 }
 
 // The derivative of the gradient, by forward differentiation of its own code.
 Blocks exact_stiffness(const RodSegment& rod, const VecX& x) {
-    Vec3of<Dual> v[4];
-    for (int n = 0; n < 4; ++n)
-        for (int c = 0; c < 3; ++c)
-            v[n][c] = Dual::variable(x[3 * (2 * (n < 2 ? rod.a : rod.b) + n % 2) + c], 3 * n + c);
-    const RodNode<Dual> a = node_at<Dual>(v[0], v[1]), b = node_at<Dual>(v[2], v[3]);
-    const Eigen::Matrix<Dual, 12, 1> g = gradient<Dual>(rod, a, b, bend_between(rod, a, b));
-    const auto slope = [&](int r, int c) { return 0.5 * (g[r].slope[c] + g[c].slope[r]); };
+    RodPiece<Dual> piece;
+    piece.length = rod.length;
+    for (int r = 0; r < 3; ++r) piece.frame.r[r] = lanes_of<Dual>(rod.frame.row(r));
+    piece.stretch = lanes_of<Dual>(rod.stretch);
+    piece.bend = lanes_of<Dual>(rod.bend);
+    piece.rest_strain = lanes_of<Dual>(rod.rest_strain);
+    piece.rest_curvature = lanes_of<Dual>(rod.rest_curvature);
+    Lanes3<Dual> v[4];
+    for (int n = 0; n < 4; ++n) {
+        const double* from = x.data() + 3 * (2 * (n < 2 ? rod.a : rod.b) + n % 2);
+        v[n] = {Dual::variable(from[0], 3 * n), Dual::variable(from[1], 3 * n + 1), Dual::variable(from[2], 3 * n + 2)};
+    }
+    const RodEnd<Dual> a = rod_end(v[0], v[1]), b = rod_end(v[2], v[3]);
+    const RodGradient<Dual> gradient =
+        gradient_of(piece, rotation_of(a.w, a.p), rate_of(a), rate_of(b), bend_between(piece, a, b));
+    const Lanes3<Dual>* parts[4] = {&gradient.place_a, &gradient.turn_a, &gradient.place_b, &gradient.turn_b};
+    std::array<Dual, 12> g;
+    for (size_t n = 0; n < 4; ++n) g[3 * n] = parts[n]->x, g[3 * n + 1] = parts[n]->y, g[3 * n + 2] = parts[n]->z;
+    const auto slope = [&](int r, int c) { return 0.5 * (g[size_t(r)].slope[c] + g[size_t(c)].slope[r]); };
     Blocks K;
     for (int r = 0, k = 0; r < 4; ++r)
         for (int c = 0; c <= r; ++c, ++k)
@@ -135,103 +263,77 @@ Blocks exact_stiffness(const RodSegment& rod, const VecX& x) {
     return K;
 }
 
-std::vector<RodNode<double>> nodes_at(const VecX& x) {
-    std::vector<RodNode<double>> nodes(size_t(x.size()) / 6);
-    for (size_t i = 0; i < nodes.size(); ++i)
-        nodes[i] = node_at<double>(point(x, int(2 * i)), point(x, int(2 * i + 1)));
-    return nodes;
-}
-
-void scatter_force(const RodSegment& rod, const Twelve& g, VecX& f) {
-    f.segment<6>(6 * Eigen::Index(rod.a)) -= g.head<6>();
-    f.segment<6>(6 * Eigen::Index(rod.b)) -= g.tail<6>();
-}
-
-void scatter_stiffness(const RodSegment& rod, const Blocks& stiffness, double scale, BlockMatrix& K) {
-    for (size_t r = 0, k = 0; r < 4; ++r)
-        for (size_t c = 0; c <= r; ++c, ++k) K.block(rod.slots[4 * r + c]) += scale * stiffness[k];
+void add_exact_stiffness(const RodElements& elements, const VecX& x, double scale, BlockMatrix& K) {
+    for (const RodSegment& rod : elements.segments) {
+        const Blocks stiffness = exact_stiffness(rod, x);
+        for (size_t r = 0, k = 0; r < 4; ++r)
+            for (size_t c = 0; c <= r; ++c, ++k) K.block(rod.slots[4 * r + c]) += scale * stiffness[k];
+    }
 }
 
 }  // namespace
 
 std::vector<RodStrain> rod_strains(const RodElements& elements, const VecX& x) {
-    // Strains alone need no rates.
-    std::vector<RodNode<double>> nodes;
-    nodes.reserve(size_t(x.size()) / 6);
-    for (int i = 0; i < x.size() / 3; i += 2)
-        nodes.push_back({point(x, i), rotation_of<double>(point(x, i + 1)), Mat3::Zero()});
     std::vector<RodStrain> strains;
-    strains.reserve(elements.segments.size());
-    for (const RodSegment& rod : elements.segments) {
-        const Bent<double> bent = bend_between(rod, nodes[size_t(rod.a)], nodes[size_t(rod.b)]);
-        strains.push_back({bent.strain, bent.curvature});
-    }
+    run_in_lanes(FindStrains{elements, x, strains});
     return strains;
 }
 
 double rod_energy(const Elements& body, const VecX& x) {
-    const std::vector<RodNode<double>> nodes = nodes_at(x);
     double energy = 0;
-    for (const RodSegment& rod : as_rods(body).segments)
-        energy += energy_of(rod, nodes[size_t(rod.a)], nodes[size_t(rod.b)]);
+    run_in_lanes(FindEnergy{as_rods(body), x, energy});
     return energy;
 }
 
 int rod_add_force(const Elements& body, const VecX& x, VecX& f) {
-    const std::vector<RodNode<double>> nodes = nodes_at(x);
-    for (const RodSegment& rod : as_rods(body).segments) {
-        const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
-        scatter_force(rod, gradient(rod, a, b, bend_between(rod, a, b)), f);
-    }
+    Assemble job = {as_rods(body), x};
+    job.f = &f;
+    run_in_lanes(job);
     return 0;
 }
 
 void rod_add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale, BlockMatrix& K) {
-    const std::vector<RodNode<double>> nodes = nodes_at(x);
-    for (const RodSegment& rod : as_rods(body).segments) {
-        const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
-        const Blocks stiffness = tangent == Tangent::exact ? exact_stiffness(rod, x)
-                                                           : positive_stiffness(rod, a, b, bend_between(rod, a, b));
-        scatter_stiffness(rod, stiffness, scale, K);
-    }
+    if (tangent == Tangent::exact) return add_exact_stiffness(as_rods(body), x, scale, K);
+    Assemble job = {as_rods(body), x};
+    job.K = &K;
+    job.scale = scale;
+    run_in_lanes(job);
 }
 
 int rod_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
-    const std::vector<RodNode<double>> nodes = nodes_at(x);
-    for (const RodSegment& rod : as_rods(body).segments) {
-        const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
-        const Bent<double> bent = bend_between(rod, a, b);
-        scatter_force(rod, gradient(rod, a, b, bent), f);
-        scatter_stiffness(
-            rod, tangent == Tangent::exact ? exact_stiffness(rod, x) : positive_stiffness(rod, a, b, bent), 1, K);
-    }
+    Assemble job = {as_rods(body), x};
+    job.f = &f;
+    if (tangent == Tangent::exact)
+        add_exact_stiffness(as_rods(body), x, 1, K);
+    else
+        job.K = &K;
+    run_in_lanes(job);
     return 0;
 }
 
 int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double>& damping, VecX& f, BlockMatrix& K,
                    BlockMatrix& D) {
-    const std::vector<RodNode<double>> nodes = nodes_at(x);
-    const std::vector<RodSegment>& segments = as_rods(body).segments;
-    for (size_t s = 0; s < segments.size(); ++s) {
-        const RodSegment& rod = segments[s];
-        const RodNode<double>&a = nodes[size_t(rod.a)], &b = nodes[size_t(rod.b)];
-        const Bent<double> bent = bend_between(rod, a, b);
-        scatter_force(rod, gradient(rod, a, b, bent), f);
-        const Blocks stiffness = positive_stiffness(rod, a, b, bent);
-        scatter_stiffness(rod, stiffness, 1, K);
-        scatter_stiffness(rod, stiffness, damping[s], D);
-    }
+    Assemble job = {as_rods(body), x};
+    job.f = &f;
+    job.K = &K;
+    job.damping = &damping;
+    job.D = &D;
+    run_in_lanes(job);
     return 0;
 }
 
+void rod_add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
+    Assemble job = {as_rods(body), x};
+    job.f = &f;
+    job.K = &A;
+    job.damping = ahead.element_damping.empty() ? nullptr : &ahead.element_damping;
+    job.ahead = &ahead;
+    run_in_lanes(job);
+}
+
 void rod_inertia(const Elements& body, const VecX& x, std::vector<Mat3>& out) {
-    const RodElements& elements = as_rods(body);
-    out.resize(elements.inertia.size());
-    for (size_t i = 0; i < out.size(); ++i) {
-        // To the rate in the node's own frame: R(v)^T T(v) = T(-v).
-        const Mat3 rate = rate_matrix<double>(-point(x, int(2 * i + 1)));
-        out[i] = rate.transpose() * elements.inertia[i] * rate;
-    }
+    out.resize(as_rods(body).inertia.size());
+    run_in_lanes(FindInertia{as_rods(body), x, out});
 }
 
 bool rods_are_calm(const Elements& body, const VecX& from, const VecX& to) {

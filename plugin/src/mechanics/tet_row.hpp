@@ -157,7 +157,7 @@ template <class Law>
 Mechanics tet_row(const char* name, int order, bool needs_search) {
     const auto row = [&](auto rows, auto make, auto is_calm, auto yields, auto rest_derivative) {
         return Mechanics{name,          make,            tet_masses, rows.energy, rows.add_force, rows.add_stiffness,
-                         rows.add_both, rows.add_damped, nullptr,    is_calm,     rest_derivative, yields,
+                         rows.add_both, rows.add_damped, nullptr,    nullptr,     is_calm,         rest_derivative, yields,
                          copy_tets,     rows.flow,       lasting_of_tets, set_lasting_of_tets, tet_section_strains, without_tets, needs_search,
                          false};
     };

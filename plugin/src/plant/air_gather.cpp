@@ -2,7 +2,8 @@
 //
 // The resistance is that of the air's speed past the plant at the start of the step; the velocity that it is multiplied
 // with is the one at the end, so that still air takes energy at any time step, and what stands in a wind feels exactly its force.
-#include "mechanics/rotation.hpp"
+#include "mechanics/rod_piece.hpp"
+#include "plant/air_resistance.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {
@@ -21,55 +22,132 @@ Grip chain_grip(const Plant& plant, size_t node) {
     return grip;
 }
 
-// Where the piece's wide side lies now; of no certain length.
-Vec3 wide_of(const Plant& plant, const AirPiece& piece, int parent) {
+// Where the wide sides of pieces in a cage lie now.
+void look_at_cage(const Plant& plant, AirState& air) {
     const VecX& x = plant.motion.x;
-    Vec3 wide = Vec3::Zero();
-    const int ends[2] = {parent, piece.node};
-    for (size_t k = 0; k < 2; k++) {
-        if (plant.follow) {
-            wide += rotation_of<double>(point(x, 2 * ends[k] + 1)) * piece.wide;
-            continue;
+    for (size_t i = 0; i < air.wide.size(); i++) {
+        const AirPiece& piece = (*air.pieces)[i];
+        const int ends[2] = {piece.parent, piece.node};
+        air.wide[i].setZero();
+        for (size_t k = 0; k < 2; k++) {
+            const Tet& tet = plant.model->cage.tets[size_t(plant.model->chain_embedding.tet[size_t(ends[k])])];
+            for (size_t c = 0; c < 4; c++) air.wide[i] += piece.spread[k][c] * point(x, tet[c]);
         }
-        const Tet& tet = plant.model->cage.tets[size_t(plant.model->chain_embedding.tet[size_t(ends[k])])];
-        for (size_t c = 0; c < 4; c++) wide += piece.spread[k][c] * point(x, tet[c]);
     }
-    return wide;
 }
 
-// Columns axis, thin, wide. False where the piece has lost its shape.
-bool frame_of(const Plant& plant, const AirPiece& piece, int parent, Mat3& frame) {
-    constexpr double LEAST = 1e-9;  // [m], [-]
-    const Vec3 chord = plant.chain_positions[size_t(piece.node)] - plant.chain_positions[size_t(parent)];
-    if (!(chord.norm() > LEAST)) return false;
-    const Vec3 axis = chord.normalized(), wide = wide_of(plant, piece, parent);
-    const Vec3 across = wide - axis * axis.dot(wide);
-    if (!(across.norm() > LEAST)) return false;
-    frame.col(0) = axis;
-    frame.col(2) = across.normalized();
-    frame.col(1) = frame.col(2).cross(axis);
-    return true;
-}
+// Adds up what pieces do at their ends, a half at either, several pieces of a shape at once.
+struct GatherPieces {
+    const Plant& plant;
+    AirState& air;
+    double density, h;
 
-// Pressure is along the normal of the step's start. What a wind could carry past itself within a step is held back from
-// turning by more than that allows: of no effect on what rests, and of first order in the step [-].
-double lag_of(const AirPiece& piece, const Vec3& wind, double h) {
-    constexpr double MANY = 2;
-    return MANY * wind.norm() * h / piece.chord_along;
-}
+    template <class S>
+    struct Group {
+        const AirPiece* piece[LANES<S>];
+        int number[LANES<S>], count;
+    };
+    // From the i-th piece on; past the last one of its shape that is taken again.
+    template <class S>
+    FROND_INLINE Group<S> group_at(size_t i) const {
+        Group<S> group;
+        group.count = 0;
+        for (int lane = 0; lane < LANES<S>; lane++) {
+            const bool goes_on = size_t(group.count) + i < air.pieces->size() &&
+                                 (*air.pieces)[i + size_t(group.count)].shape == (*air.pieces)[i].shape;
+            if (goes_on) group.count++;
+            group.number[lane] = int(i) + group.count - 1;
+            group.piece[lane] = &(*air.pieces)[size_t(group.number[lane])];
+        }
+        return group;
+    }
+    template <class S>
+    FROND_INLINE static Lanes3<S> vector(const Group<S>& group, const std::vector<Vec3>& of, int AirPiece::*at) {
+        return {gather<S>([&](int l) { return of[size_t(group.piece[l]->*at)][0]; }),
+                gather<S>([&](int l) { return of[size_t(group.piece[l]->*at)][1]; }),
+                gather<S>([&](int l) { return of[size_t(group.piece[l]->*at)][2]; })};
+    }
+    // Of a piece of the chain, turned as one of its ends is.
+    template <class S>
+    FROND_INLINE Lanes3<S> turned(const Group<S>& group, const Lanes3<S>& v, int AirPiece::*end) const {
+        const double* x = plant.motion.x.data();
+        const Lanes3<S> turn = {gather<S>([&](int l) { return x[6 * (group.piece[l]->*end) + 3]; }),
+                                gather<S>([&](int l) { return x[6 * (group.piece[l]->*end) + 4]; }),
+                                gather<S>([&](int l) { return x[6 * (group.piece[l]->*end) + 5]; })};
+        const RodEnd<S> at = rod_end(Lanes3<S>{}, turn);
+        return rotation_of(at.w, at.p) * v;
+    }
+    template <class S>
+    FROND_INLINE Lanes3<S> wide_of(const Group<S>& group) const {
+        const auto wide = [&](int l) -> const Vec3& {
+            return plant.follow ? group.piece[l]->wide : air.wide[size_t(group.number[l])];
+        };
+        const Lanes3<S> v = {gather<S>([&](int l) { return wide(l)[0]; }), gather<S>([&](int l) { return wide(l)[1]; }),
+                             gather<S>([&](int l) { return wide(l)[2]; })};
+        return plant.follow ? turned(group, v, &AirPiece::parent) + turned(group, v, &AirPiece::node) : v;
+    }
+    // Axis, thin, wide as rows; nothing where the piece has lost its shape.
+    template <class S>
+    FROND_INLINE Lanes33<S> frame_of(const Group<S>& group) const {
+        constexpr double LEAST = 1e-9;  // [m], [-]
+        const Lanes3<S> chord = vector(group, plant.chain_positions, &AirPiece::node) -
+                                vector(group, plant.chain_positions, &AirPiece::parent);
+        const S length = sqrt(dot(chord, chord));
+        const auto is_long = length > LEAST;
+        const Lanes3<S> axis = (1.0 / select(is_long, length, constant<S>(1))) * chord;
+        const Lanes3<S> wide = wide_of(group), across = wide - dot(axis, wide) * axis;
+        const S size = sqrt(dot(across, across));
+        const auto is_wide = size > LEAST;
+        const S over = select(is_wide, S(1.0 / select(is_wide, size, constant<S>(1))), S{});
+        const Lanes3<S> along = select(is_long, over * size, S{}) * axis, beside = select(is_long, over, S{}) * across;
+        return {{along, cross(beside, along), beside}};
+    }
+    template <class S>
+    FROND_INLINE void add_at(const Group<S>& group, const AirLanes<S>& piece, const Lanes33<S>& frame,
+                             int AirPiece::*end) const {
+        const Lanes3<S> passing = vector(group, air.passing, end);
+        const Lanes3<S> d = air_resistance(piece, group.piece[0]->shape, frame * passing, density);
+        const Lanes33<S> by = scaled_rows(constant<S>(0.5) * d, frame), half = transposed_times(frame, by);
+        const S six[6] = {half.r[0].x, half.r[0].y, half.r[0].z, half.r[1].y, half.r[1].z, half.r[2].z};
+        // Pressure is along the normal of the step's start. What a wind could carry past itself within a step is held back
+        // from turning by more than that allows: of no effect on what rests, and of first order in the step [-].
+        constexpr double MANY = 2;
+        const Lanes3<S> wind = passing + vector(group, air.velocities, end);
+        const S lag = MANY * h * sqrt(dot(wind, wind)) / piece.chord_along;
+        for (int lane = 0; lane < group.count; lane++) {
+            SixOf& resistance = air.resistance[size_t(group.piece[lane]->*end)];
+            SixOf& held_back = air.lag[size_t(group.piece[lane]->*end)];
+            for (size_t k = 0; k < 6; k++) {
+                resistance[k] += six[k][lane];
+                held_back[k] += lag[lane] * six[k][lane];
+            }
+        }
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        for (size_t i = 0; i < air.pieces->size();) {
+            const Group<S> group = group_at<S>(i);
+            const AirLanes<S> piece([&](int lane) -> const AirPiece& { return *group.piece[lane]; });
+            const Lanes33<S> frame = frame_of(group);
+            add_at(group, piece, frame, &AirPiece::parent);
+            add_at(group, piece, frame, &AirPiece::node);
+            i += size_t(group.count);
+        }
+    }
+};
 
 // The air at the chain nodes, and how it passes them.
 void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects effects) {
     AirState& air = *plant.air;
     const size_t count = plant.chain_positions.size();
-    const Quat to_model = plant.rotation.conjugate();
+    const Mat3 to_world = plant.rotation.toRotationMatrix();
     air.points.resize(count);
     air.wind.assign(count, frond_vec3{0, 0, 0});
     air.velocities.assign(count, Vec3::Zero());
     air.passing.resize(count);
     if (effects & FROND_WIND) {
         for (size_t i = 0; i < count; i++) {
-            const Vec3 p = plant.to_world(plant.chain_positions[i]);
+            const Vec3 p = to_world * plant.chain_positions[i] + plant.position;
             air.points[i] = {p.x(), p.y(), p.z()};
         }
         if (!wind_velocities(*surroundings.wind, up_of(surroundings.gravity), surroundings.time, air.points, air.wind))
@@ -77,8 +155,9 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
     }
     for (size_t i = 0; i < count; i++) {
         if (effects & FROND_AIR_DRAG)
-            air.velocities[i] = grip_velocity(chain_grip(plant, i), plant.motion.x, plant.motion.v);
-        air.passing[i] = to_model * Vec3(air.wind[i].x, air.wind[i].y, air.wind[i].z) - air.velocities[i];
+            air.velocities[i] = plant.follow ? Vec3(point(plant.motion.v, int(2 * i)))
+                                             : grip_velocity(chain_grip(plant, i), plant.motion.x, plant.motion.v);
+        air.passing[i] = to_world.transpose() * Vec3(air.wind[i].x, air.wind[i].y, air.wind[i].z) - air.velocities[i];
     }
 }
 
@@ -88,30 +167,25 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
     std::vector<Drag>& drags = plant.loads.drags;
     drags.clear();
     if (!surroundings.wind || !(effects & (FROND_WIND | FROND_AIR_DRAG))) return;
-    if (!plant.air) plant.air = std::make_unique<AirState>(AirState{air_pieces_of(plant), {}, {}, {}, {}, {}, {}});
+    if (!plant.air) {
+        plant.air = std::make_unique<AirState>();
+        plant.air->pieces = air_pieces_of(plant);
+    }
     AirState& air = *plant.air;
     look_at_air(plant, surroundings, effects);
 
-    // Each piece gives a half to either end.
-    air.resistance.assign(air.points.size(), Mat3::Zero());
-    air.lag.assign(air.points.size(), Mat3::Zero());
-    for (const AirPiece& piece : *air.pieces) {
-        const int parent = plant.model->chain.nodes[size_t(piece.node)].parent;
-        Mat3 frame;
-        if (!frame_of(plant, piece, parent, frame)) continue;
-        for (size_t end : {size_t(parent), size_t(piece.node)}) {
-            const Mat3 half = 0.5 * air_resistance(piece, frame, air.passing[end], surroundings.wind->def.density);
-            air.resistance[end] += half;
-            air.lag[end] += lag_of(piece, air.passing[end] + air.velocities[end], h) * half;
-        }
-    }
+    air.resistance.assign(air.points.size(), SixOf{});
+    air.lag.assign(air.points.size(), SixOf{});
+    air.wide.resize(plant.follow ? 0 : air.pieces->size());
+    if (!plant.follow) look_at_cage(plant, air);
+    run_in_lanes(GatherPieces{plant, air, surroundings.wind->def.density, h});
 
     for (size_t i = 0; i < air.resistance.size(); i++) {
-        const Mat3& resistance = air.resistance[i];
-        if (resistance.isZero(0)) continue;
+        if (air.resistance[i] == SixOf{}) continue;
+        const Mat3 resistance = matrix_of(air.resistance[i]);
         const Vec3 wind = air.passing[i] + air.velocities[i];
         drags.push_back({chain_grip(plant, i), resistance * wind,
-                         effects & FROND_AIR_DRAG ? Mat3(resistance + air.lag[i]) : Mat3(Mat3::Zero())});
+                         effects & FROND_AIR_DRAG ? Mat3(resistance + matrix_of(air.lag[i])) : Mat3(Mat3::Zero())});
     }
 }
 

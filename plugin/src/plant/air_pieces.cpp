@@ -77,6 +77,7 @@ AirPieces make_air_pieces(const Model& model) {
         const Section& section = model.sections[i];
         AirPiece piece;
         piece.node = int(i);
+        piece.parent = parent;
         piece.shape = shape_of(organ);
         piece.coefficient = coefficient_of(organ, size);
         const double end = piece.shape == AirShape::COMPACT ? size.section * section.length / size.length : 0;
@@ -95,6 +96,7 @@ AirPieces make_air_pieces(const Model& model) {
             piece.spread[k] = spread_in(model, model.chain_embedding.tet[k == 0 ? size_t(parent) : i], piece.wide);
         pieces.push_back(piece);
     }
+    std::stable_sort(pieces.begin(), pieces.end(), [](const AirPiece& a, const AirPiece& b) { return a.shape < b.shape; });
     return pieces;
 }
 

@@ -94,10 +94,16 @@ static void pin_chain(Plant& plant) {
     }
 }
 
+// Whether the nodes of a chain that are held are where they shall be, on the same side of the half turn.
+static bool is_where_held(const Motion& motion) {
+    for (size_t i = 0; i < motion.pinned.size(); i++)
+        if (motion.pinned[i] && point(motion.x, int(i)) != point(motion.pin_target, int(i))) return false;
+    return true;
+}
+
 void apply_pins(Plant& plant) {
-    // The side of the half turn may have changed since; a chain has few pins.
     if (plant.follow) {
-        pin_chain(plant);
+        if (plant.pins_changed || !is_where_held(plant.motion)) pin_chain(plant);
     } else if (plant.pins_changed) {
         plant.motion.pinned = plant.pinned;
         plant.motion.pin_target = plant.pin_target;

@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lanes.hpp"
 #include "plant/wind.hpp"
 
 namespace frond {
 
 namespace {
 
-// cos 2 pi x within 6e-8, without a branch and the same on every machine: the compiler does several at a time.
-inline double cosine_of_turns(double x) {
-    constexpr double ROUND = 6755399441055744.0;  // 1.5 2^52: adding it leaves no digits behind the point
-    const double r = x - ((x + ROUND) - ROUND);
-    const double q = 2 * M_PI * (0.25 - std::abs(r)), s = q * q;
-    return q * (1 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880 - s / 39916800)))));
+// cos 2 pi x within 6e-8.
+template <class S>
+FROND_INLINE S cosine_of_turns(const S& x) {
+    const S r = x - whole<S>(x), size = select(r < 0.0, S(-r), r);
+    const S q = 2 * M_PI * (0.25 - size), s = q * q;
+    return q * (1.0 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880 - s * (1.0 / 39916800))))));
 }
 
 // Mean wind and gusts at a height over those at the reference height [-].
@@ -36,35 +37,45 @@ Mat3 wind_frame(const Vec3& mean, const Vec3& up) {
     return frame;
 }
 
-void add_gusts(const Wind& wind, const Mat3& frame, const std::vector<frond_vec3>& points,
-               std::vector<frond_vec3>& out) {
-    // By blocks that stay in registers and cache.
-    constexpr size_t BLOCK = 32;
-    double place[3][BLOCK], sum[3][BLOCK];
-    for (size_t begin = 0; begin < points.size(); begin += BLOCK) {
-        const size_t count = std::min(BLOCK, points.size() - begin);
-        for (size_t i = 0; i < BLOCK; i++) {
-            const frond_vec3& p = points[begin + std::min(i, count - 1)];
-            for (int c = 0; c < 3; c++) {
-                place[c][i] = frame(c, 0) * p.x + frame(c, 1) * p.y + frame(c, 2) * p.z;
-                sum[c][i] = 0;
+struct AddGusts {
+    const Wind& wind;
+    const Mat3& frame;
+    const std::vector<frond_vec3>& points;
+    std::vector<frond_vec3>& out;
+
+    static constexpr int BLOCK = 16;  // points that stay in registers and cache
+    template <class S>
+    FROND_INLINE static void add(const Gust& gust, double travelled, const S (&along)[BLOCK / LANES<S>],
+                                 const S (&across)[BLOCK / LANES<S>], const S (&above)[BLOCK / LANES<S>],
+                                 S (&sum)[BLOCK / LANES<S>]) {
+        const S now = constant<S>(gust.waves[0] * travelled + gust.phase);
+        for (int i = 0; i < BLOCK / LANES<S>; i++)
+            sum[i] += gust.size * cosine_of_turns<S>(now - gust.waves[0] * along[i] - gust.waves[1] * across[i] -
+                                                     gust.waves[2] * above[i]);
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        constexpr int MANY = BLOCK / LANES<S>;
+        for (size_t begin = 0; begin < points.size(); begin += BLOCK) {
+            const int count = int(std::min(size_t(BLOCK), points.size() - begin));
+            S place[3][MANY], sum[3][MANY] = {};
+            for (int i = 0; i < BLOCK; i++) {
+                const frond_vec3& p = points[begin + size_t(std::min(i, count - 1))];
+                for (int c = 0; c < 3; c++)
+                    place[c][i / LANES<S>][i % LANES<S>] = frame(c, 0) * p.x + frame(c, 1) * p.y + frame(c, 2) * p.z;
             }
-        }
-        for (size_t c = 0; c < 3; c++)
-            for (const Gust& gust : wind.gusts[c]) {
-                const double now = gust.waves[0] * wind.travelled + gust.phase;
-                const double along = gust.waves[0], across = gust.waves[1], above = gust.waves[2], size = gust.size;
-                for (size_t i = 0; i < BLOCK; i++)
-                    sum[c][i] += size * cosine_of_turns(now - along * place[0][i] - across * place[1][i] -
-                                                        above * place[2][i]);
+            for (size_t c = 0; c < 3; c++)
+                for (const Gust& gust : wind.gusts[c])
+                    add<S>(gust, wind.travelled, place[0], place[1], place[2], sum[c]);
+            for (int i = 0; i < count; i++) {
+                const auto at = [&](int c) { return sum[c][i / LANES<S>][i % LANES<S>]; };
+                frond_vec3& v = out[begin + size_t(i)];
+                const Vec3 gust = frame.transpose() * Vec3(at(0), at(1), at(2));
+                v = {v.x + gust.x(), v.y + gust.y(), v.z + gust.z()};
             }
-        for (size_t i = 0; i < count; i++) {
-            frond_vec3& v = out[begin + i];
-            const Vec3 gust = frame.transpose() * Vec3(sum[0][i], sum[1][i], sum[2][i]);
-            v = {v.x + gust.x(), v.y + gust.y(), v.z + gust.z()};
         }
     }
-}
+};
 
 // Takes out what no wind can be.
 bool sort_out(std::vector<frond_vec3>& velocities) {
@@ -95,7 +106,10 @@ bool wind_velocities(const Wind& wind, const Vec3& up, double time, const std::v
     const Vec3 mean(def.velocity.x, def.velocity.y, def.velocity.z);
     out.assign(points.size(), def.velocity);
     if (!mean.isZero(0)) {
-        if (!wind.gusts[0].empty()) add_gusts(wind, wind_frame(mean, up), points, out);
+        if (!wind.gusts[0].empty()) {
+            const Mat3 frame = wind_frame(mean, up);
+            run_in_lanes(AddGusts{wind, frame, points, out});
+        }
         for (size_t i = 0; i < points.size(); i++) {
             const double height = up.dot(Vec3(points[i].x, points[i].y, points[i].z)) - def.ground_height;
             const double share = profile_at(def, height);

@@ -37,6 +37,7 @@ struct Newton {
     bool is_long;       // the step is longer than what hangs takes to swing, and has one solve
     bool exact;         // the first solve takes the exact stiffness, the damping still the positive one
     bool skipped;       // the first solve was left to the line search
+    bool at_once;       // the mechanics give right side and matrix of the only solve in one pass
 };
 
 // Where the stage ends with velocities v.
@@ -65,6 +66,12 @@ double free_norm(const Newton& n, const VecX& rhs) {
     return std::sqrt(sum);
 }
 
+// A wild guess is worse than none.
+const VecX& linearized_from(const Newton& n) {
+    const VecX& start = n.input.motion.x;
+    return &n.stage.x_from == &start || is_calm(n.system, start, n.stage.x_from) ? n.stage.x_from : start;
+}
+
 // Force and stiffness at x_from, extrapolated to the end of the stage with the velocities known so far.
 void linearize_at_start(Newton& n) {
     Workspace& w = n.w;
@@ -79,10 +86,16 @@ void linearize_at_start(Newton& n) {
         move(n, w.v);
         w.dv = w.x - x;
     };
-    // A wild guess is worse than none.
-    const VecX& start = n.input.motion.x;
-    const bool calm = &n.stage.x_from == &start || is_calm(n.system, start, n.stage.x_from);
-    const VecX& from = calm ? n.stage.x_from : start;
+    const VecX& from = linearized_from(n);
+    if (n.at_once) {
+        w.elastic.setZero(from.size());
+        w.A.set_zero();
+        move(n, w.v);
+        w.dv = w.x - from;
+        n.body.add_ahead(*w.elements, from, {w.dv, w.v, n.stage.step, n.apart ? 0 : n.rayleigh, w.element_damping},
+                         w.elastic, w.A);
+        return start_residual(n, w.v, w.rhs);
+    }
     assemble(from);
     const bool is_multiple = !n.apart && !n.exact;  // the damping, of this stiffness
     if (!n.apart && (n.exact || n.keep_damping)) w.damping = w.A;
@@ -141,8 +154,9 @@ void form_matrix(Newton& n, bool first) {
     const double step = n.stage.step, mass = 1 + step * n.input.settings.mass_damping;
     const bool alike = first && !n.apart && !n.exact;
     const double scale = step * step + (alike ? step * n.rayleigh : 0);
-    for (double& value : A.values) value *= scale;
-    if (!alike && n.keep_damping)
+    if (!n.at_once)
+        for (double& value : A.values) value *= scale;
+    if (!n.at_once && !alike && n.keep_damping)
         for (size_t k = 0; k < A.values.size(); ++k) A.values[k] += step * n.rayleigh * n.w.damping.values[k];
     for (size_t k = 0; k < n.system.masses.slot.size(); ++k) {
         const double m = mass * n.system.masses.slot[k];
@@ -328,7 +342,8 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
                                     input.settings.careful)),
                 is_long,
                 is_long,
-                false};
+                false,
+                workspace.system->row->add_ahead && iterations == 1 && !is_long && !input.settings.careful};
     workspace.v = workspace.v_start;
     workspace.reach = stage.step;
     const bool converged_before = report.converged;

@@ -8,12 +8,45 @@
 #include <cmath>
 #include <functional>
 
+#include "core/lanes.hpp"
+
 namespace frond {
 
 namespace {
 
 constexpr int SIX = 6;
 using Block = double[SIX][SIX];
+
+// Six numbers in registers.
+template <class S>
+struct Six;
+template <>
+struct Six<TwoLanes> {
+    TwoLanes a, b, c;
+    FROND_INLINE explicit Six(const double* from)
+        : a(load<TwoLanes>(from)), b(load<TwoLanes>(from + 2)), c(load<TwoLanes>(from + 4)) {}
+    FROND_INLINE void put(double* to) const { store(a, to), store(b, to + 2), store(c, to + 4); }
+    FROND_INLINE void take_off(double times, const Six& x) { a -= times * x.a, b -= times * x.b, c -= times * x.c; }
+    FROND_INLINE void scale(double by) { a *= by, b *= by, c *= by; }
+    FROND_INLINE double dot(const Six& x) const {
+        const TwoLanes sum = (a * x.a + b * x.b) + c * x.c;
+        return sum[0] + sum[1];
+    }
+};
+template <>
+struct Six<FourLanes> {
+    FourLanes a;
+    TwoLanes c;
+    FROND_INLINE explicit Six(const double* from) : a(load<FourLanes>(from)), c(load<TwoLanes>(from + 4)) {}
+    FROND_INLINE void put(double* to) const { store(a, to), store(c, to + 4); }
+    FROND_INLINE void take_off(double times, const Six& x) { a -= times * x.a, c -= times * x.c; }
+    FROND_INLINE void scale(double by) { a *= by, c *= by; }
+    FROND_INLINE double dot(const Six& x) const {
+        const FourLanes by = a * x.a;
+        const TwoLanes sum = (TwoLanes{by[0], by[1]} + TwoLanes{by[2], by[3]}) + c * x.c;
+        return sum[0] + sum[1];
+    }
+};
 
 // The 3x3 block of a matrix, which is stored by columns, at (r, c) of one of six by six.
 void put(const BlockMatrix& A, int slot, int r, int c, Block& out) {
@@ -22,41 +55,125 @@ void put(const BlockMatrix& A, int slot, int r, int c, Block& out) {
         for (int i = 0; i < 3; ++i) out[r + i][c + j] = slot < 0 ? 0.0 : from[i + 3 * j];
 }
 
-// The lower half of a pair's own block, its diagonal included, becomes L and D; the reciprocals of D come out besides.
-bool factorize_own(TreeFactor::Pair& pair, double (&inverse)[SIX]) {
-    Block& a = pair.lower;
+// The same, turned over.
+void put_transposed(const BlockMatrix& A, int slot, int r, int c, Block& out) {
+    const double* from = A.values.data() + 9 * size_t(std::max(slot, 0));
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) out[r + i][c + j] = slot < 0 ? 0.0 : from[3 * i + j];
+}
+
+// Of a pair's own block only what is right of the diagonal counts; it becomes L' and D.
+template <class S>
+FROND_INLINE bool factorize_own(TreeFactor::Pair& pair) {
+    Block& a = pair.own;
     for (int k = 0; k < SIX; ++k) {
         const double d = pair.pivot[k] = a[k][k];
         if (!(d > 0) || !std::isfinite(d)) return false;
-        inverse[k] = 1 / d;
+        const double inverse = pair.inverse[k] = 1 / d;
+        Six<S> row(a[k]);
         for (int r = k + 1; r < SIX; ++r) {
-            const double l = a[r][k] * inverse[k];
-            for (int c = k + 1; c <= r; ++c) a[r][c] -= l * a[c][k];
+            Six<S> below(a[r]);
+            below.take_off(a[k][r] * inverse, row);
+            below.put(a[r]);
         }
-        for (int r = k + 1; r < SIX; ++r) a[r][k] *= inverse[k];
+        row.scale(inverse);
+        row.put(a[k]);
+        for (int c = 0; c <= k; ++c) a[k][c] = 0;
     }
     return true;
 }
 
 // What the pair's elimination takes off its parent's own block, C' A^-1 C, C being its block with the parent; C becomes
 // D^-1 L^-1 C.
-void eliminate(TreeFactor::Pair& pair, const double (&inverse)[SIX], Block& parent) {
+template <class S>
+FROND_INLINE void eliminate(TreeFactor::Pair& pair, Block& parent) {
     Block &C = pair.to_parent, over;
-    for (int r = 1; r < SIX; ++r)
-        for (int k = 0; k < r; ++k)
-            for (int c = 0; c < SIX; ++c) C[r][c] -= pair.lower[r][k] * C[k][c];
-    for (int k = 0; k < SIX; ++k)
-        for (int c = 0; c < SIX; ++c) over[k][c] = C[k][c] * inverse[k];
-    for (int r = 0; r < SIX; ++r) {
-        double row[SIX];
-        for (int c = 0; c < SIX; ++c) row[c] = parent[r][c];
-        for (int k = 0; k < SIX; ++k)
-            for (int c = 0; c < SIX; ++c) row[c] -= over[k][r] * C[k][c];
-        for (int c = 0; c < SIX; ++c) parent[r][c] = row[c];
+    for (int k = 0; k < SIX; ++k) {
+        Six<S> row(C[k]);
+        for (int r = k + 1; r < SIX; ++r) {
+            Six<S> below(C[r]);
+            below.take_off(pair.own[k][r], row);
+            below.put(C[r]);
+        }
+        row.scale(pair.inverse[k]);
+        row.put(over[k]);
     }
-    for (int k = 0; k < SIX; ++k)
-        for (int c = 0; c < SIX; ++c) C[k][c] = over[k][c];
+    for (int r = 0; r < SIX; ++r) {
+        Six<S> row(parent[r]);
+        for (int k = 0; k < SIX; ++k) row.take_off(over[k][r], Six<S>(C[k]));
+        row.put(parent[r]);
+    }
+    for (int k = 0; k < SIX; ++k) Six<S>(over[k]).put(C[k]);
 }
+
+struct Factorize {
+    const TreePlan& plan;
+    const BlockMatrix& A;
+    TreeFactor& factor;
+    bool& ok;
+    template <class S>
+    FROND_INLINE void run() const {
+        ok = false;
+        for (size_t i = 0; i < plan.pairs.size(); ++i) {
+            Block& own = factor.pairs[i].own;
+            put(A, plan.pairs[i].own[0], 0, 0, own);
+            put_transposed(A, plan.pairs[i].own[1], 0, 3, own);
+            put(A, plan.pairs[i].own[2], 3, 3, own);
+            for (int r = 3; r < SIX; ++r)
+                for (int c = 0; c < 3; ++c) own[r][c] = 0;
+        }
+        for (size_t i = plan.pairs.size(); i-- > 0;) {
+            const TreePlan::Pair& place = plan.pairs[i];
+            TreeFactor::Pair& pair = factor.pairs[i];
+            if (!factorize_own<S>(pair)) return;
+            if (place.parent < 0) continue;
+            for (int k = 0; k < 4; ++k) put(A, place.link[size_t(k)], 3 * (k % 2), 3 * (k / 2), pair.to_parent);
+            eliminate<S>(pair, factor.pairs[size_t(place.parent)].own);
+        }
+        ok = true;
+    }
+};
+
+struct Solve {
+    const TreePlan& plan;
+    const TreeFactor& factor;
+    double* y;
+    template <class S>
+    FROND_INLINE void down() const {
+        for (size_t i = plan.pairs.size(); i-- > 0;) {
+            const TreeFactor::Pair& pair = factor.pairs[i];
+            double* own = y + SIX * i;
+            for (int k = 0; k + 1 < SIX; ++k) {
+                Six<S> rest(own);
+                rest.take_off(own[k], Six<S>(pair.own[k]));
+                rest.put(own);
+            }
+            if (plan.pairs[i].parent < 0) continue;
+            double* parent = y + SIX * size_t(plan.pairs[i].parent);
+            Six<S> sum(parent);
+            for (int k = 0; k < SIX; ++k) sum.take_off(own[k], Six<S>(pair.to_parent[k]));
+            sum.put(parent);
+        }
+    }
+    template <class S>
+    FROND_INLINE void up() const {
+        for (size_t i = 0; i < plan.pairs.size(); ++i) {
+            const TreeFactor::Pair& pair = factor.pairs[i];
+            double* own = y + SIX * i;
+            for (int k = 0; k < SIX; ++k) own[k] *= pair.inverse[k];
+            if (plan.pairs[i].parent >= 0) {
+                const Six<S> parent(y + SIX * size_t(plan.pairs[i].parent));
+                for (int k = 0; k < SIX; ++k) own[k] -= parent.dot(Six<S>(pair.to_parent[k]));
+            }
+            for (int k = SIX - 1; k-- > 0;) own[k] -= Six<S>(own).dot(Six<S>(pair.own[k]));
+        }
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        down<S>();
+        up<S>();
+    }
+};
 
 }  // namespace
 
@@ -81,50 +198,14 @@ std::optional<TreePlan> make_tree_plan(const BlockPattern& pattern) {
 
 bool factorize(const TreePlan& plan, const BlockMatrix& A, TreeFactor& factor) {
     factor.pairs.resize(plan.pairs.size());
-    for (size_t i = 0; i < plan.pairs.size(); ++i) {
-        Block& own = factor.pairs[i].lower;
-        put(A, plan.pairs[i].own[0], 0, 0, own);
-        put(A, plan.pairs[i].own[1], 3, 0, own);
-        put(A, plan.pairs[i].own[2], 3, 3, own);
-    }
-    for (size_t i = plan.pairs.size(); i-- > 0;) {
-        const TreePlan::Pair& place = plan.pairs[i];
-        TreeFactor::Pair& pair = factor.pairs[i];
-        double inverse[SIX];
-        if (!factorize_own(pair, inverse)) return false;
-        if (place.parent < 0) continue;
-        for (int k = 0; k < 4; ++k) put(A, place.link[size_t(k)], 3 * (k % 2), 3 * (k / 2), pair.to_parent);
-        eliminate(pair, inverse, factor.pairs[size_t(place.parent)].lower);
-    }
-    return true;
+    bool ok = false;
+    run_in_lanes(Factorize{plan, A, factor, ok});
+    return ok;
 }
 
-void solve(const TreePlan& plan, TreeFactor& factor, const VecX& b, VecX& x) {
-    std::vector<double>& y = factor.sums;
-    y.assign(b.data(), b.data() + b.size());
-    for (size_t i = plan.pairs.size(); i-- > 0;) {
-        const TreeFactor::Pair& pair = factor.pairs[i];
-        double* own = y.data() + SIX * i;
-        for (int r = 1; r < SIX; ++r)
-            for (int k = 0; k < r; ++k) own[r] -= pair.lower[r][k] * own[k];
-        if (plan.pairs[i].parent < 0) continue;
-        double* parent = y.data() + SIX * size_t(plan.pairs[i].parent);
-        for (int k = 0; k < SIX; ++k)
-            for (int c = 0; c < SIX; ++c) parent[c] -= pair.to_parent[k][c] * own[k];
-    }
-    for (size_t i = 0; i < plan.pairs.size(); ++i) {
-        const TreeFactor::Pair& pair = factor.pairs[i];
-        double* own = y.data() + SIX * i;
-        for (int k = 0; k < SIX; ++k) own[k] /= pair.pivot[k];
-        if (plan.pairs[i].parent >= 0) {
-            const double* parent = y.data() + SIX * size_t(plan.pairs[i].parent);
-            for (int k = 0; k < SIX; ++k)
-                for (int c = 0; c < SIX; ++c) own[k] -= pair.to_parent[k][c] * parent[c];
-        }
-        for (int r = SIX - 1; r > 0; --r)
-            for (int k = 0; k < r; ++k) own[k] -= pair.lower[r][k] * own[r];
-    }
-    x = Eigen::Map<const VecX>(y.data(), b.size());
+void solve(const TreePlan& plan, const TreeFactor& factor, const VecX& b, VecX& x) {
+    x = b;
+    run_in_lanes(Solve{plan, factor, x.data()});
 }
 
 void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer) {
@@ -151,7 +232,7 @@ void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<Node
         const int parent = plan.pairs[size_t(i)].parent;
         auto own = factor.sparse.middleCols<SIX>(SIX * Eigen::Index(i));
         for (int r = 0; r < SIX; ++r) {
-            for (int k = 0; k < r; ++k) own.col(r) -= pair.lower[r][k] * own.col(k);
+            for (int k = 0; k < r; ++k) own.col(r) -= pair.own[k][r] * own.col(k);
             const Eigen::Index at = Eigen::Index(answer.rows.size());
             answer.left.col(at) = own.col(r);
             answer.right.col(at) = own.col(r) / pair.pivot[r];

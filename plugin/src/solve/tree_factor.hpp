@@ -22,21 +22,20 @@ std::optional<TreePlan> make_tree_plan(const BlockPattern& pattern);
 
 // Pairs are eliminated from the last one to the first; a row of the factor is one of a pair's six numbers, in that order.
 struct TreeFactor {
-    // Row by row. L of a pair's own six numbers has ones on its diagonal that are not stored; L' to its parent, over D.
+    // Row by row: L' of a pair's own six numbers, zero up to its diagonal of ones, L' to its parent, and D.
     struct Pair {
-        double lower[6][6], to_parent[6][6];
-        double pivot[6];
+        double own[6][6], to_parent[6][6];
+        double pivot[6], inverse[6];
     };
     std::vector<Pair> pairs;
-    std::vector<double> sums;         // six a pair: of a solve
-    std::vector<uint8_t> reached;     // of half solves; between them none is
-    Eigen::Matrix3Xd sparse;          // likewise, all zero
+    std::vector<uint8_t> reached;  // of half solves; between them none is
+    Eigen::Matrix3Xd sparse;       // likewise, all zero
 };
 
 // False if a pivot is not above zero: A is not positive definite.
 bool factorize(const TreePlan& plan, const BlockMatrix& A, TreeFactor& factor);
 // x = A^-1 b with the matrix factorized last.
-void solve(const TreePlan& plan, TreeFactor& factor, const VecX& b, VecX& x);
+void solve(const TreePlan& plan, const TreeFactor& factor, const VecX& b, VecX& x);
 // As half_solve() in direct.hpp.
 void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer);
 

@@ -9,11 +9,23 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
+// The shortest turn from y: 1 + [k] + [k]^2 / (1 + cos), k = y x axis.
 btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
-    const Vec3 axis = end - begin;
-    const Quat turn = axis.squaredNorm() > 0 ? Quat::FromTwoVectors(Vec3::UnitY(), axis) : Quat::Identity();
-    const btQuaternion rotation(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), btScalar(turn.w()));
-    return btTransform(rotation, to_bullet(0.5 * (begin + end)));
+    constexpr double BACK = -0.99;  // cosine from which on that is not well conditioned
+    const Vec3 chord = end - begin, axis = chord.normalized();
+    const btVector3 middle = to_bullet(0.5 * (begin + end));
+    if (axis == Vec3::Zero()) return btTransform(btQuaternion::getIdentity(), middle);
+    if (!(axis.y() > BACK)) {
+        const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), axis);
+        return btTransform(
+            btQuaternion(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), btScalar(turn.w())), middle);
+    }
+    const double over = 1 / (1 + axis.y()), across = -axis.x() * axis.z() * over;
+    const btScalar x = btScalar(axis.x()), y = btScalar(axis.y()), z = btScalar(axis.z());
+    return btTransform(btMatrix3x3(btScalar(1 - axis.x() * axis.x() * over), x, btScalar(across),  //
+                                   -x, y, -z,                                                     //
+                                   btScalar(across), z, btScalar(1 - axis.z() * axis.z() * over)),
+                       middle);
 }
 
 namespace {
@@ -27,13 +39,43 @@ struct PlantShape : btCompoundShape {
         if (!world->is_stepping) hold_gravity(world->gravity_ahead, *world->bullet);
         btCompoundShape::getAabb(frame, lower, upper);
     }
+    void set_box(const btVector3& lower, const btVector3& upper) {
+        m_localAabbMin = lower;
+        m_localAabbMax = upper;
+    }
 };
 
-}  // namespace
-
-static void place_capsule(btCompoundShape& shape, size_t capsule, const Vec3& begin, const Vec3& end) {
-    shape.updateChildTransform(int(capsule), capsule_frame(begin, end), false);
+// Its place in the tree of the compound's boxes is kept as long as it is in the box that it has there, a little wider than
+// itself.
+void place_capsule(btCompoundShape& shape, size_t capsule, const Vec3& begin, const Vec3& end, btVector3& lower,
+                   btVector3& upper) {
+    constexpr btScalar WIDER = btScalar(0.01);  // [m]
+    btCompoundShapeChild& child = shape.getChildList()[capsule];
+    child.m_transform = capsule_frame(begin, end);
+    const auto& round = static_cast<const btCapsuleShape&>(*child.m_childShape);
+    const btVector3 half = (round.getHalfHeight() * child.m_transform.getBasis().getColumn(1)).absolute() +
+                           btVector3(1, 1, 1) * round.getRadius();
+    const btVector3 &middle = child.m_transform.getOrigin(), from = middle - half, to = middle + half;
+    lower.setMin(from);
+    upper.setMax(to);
+    if (child.m_node->volume.Contain(btDbvtVolume::FromMM(from, to))) return;
+    const btVector3 wider(WIDER, WIDER, WIDER);
+    btDbvtVolume room = btDbvtVolume::FromMM(from - wider, to + wider);
+    shape.getDynamicAabbTree()->update(child.m_node, room);
 }
+
+// Each capsule between ends(capsule), its two ends.
+template <class Ends>
+void place_capsules(PlantShape& shape, const Ends& ends) {
+    btVector3 lower(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT), upper = -lower;
+    for (size_t i = 0; i < size_t(shape.getNumChildShapes()); i++) {
+        const std::array<Vec3, 2> at = ends(i);
+        place_capsule(shape, i, at[0], at[1], lower, upper);
+    }
+    shape.set_box(lower, upper);
+}
+
+}  // namespace
 
 static void fill_shape(btCompoundShape& shape, const Hull& hull) {
     for (const auto& capsule : hull.capsules) shape.addChildShape(btTransform::getIdentity(), capsule.get());
@@ -46,18 +88,19 @@ static std::shared_ptr<Hull> hull_of(World& world, const Model& model) {
     if (hull) return hull;
     hull = std::make_shared<Hull>();
     known = hull;
-    hull->rest = std::make_unique<PlantShape>(&world);
+    auto rest = std::make_unique<PlantShape>(&world);
     const std::vector<ChainNode>& nodes = model.chain.nodes;
     for (const auto& [begin, end] : model.capsules) {
         const double height = (nodes[size_t(end)].position - nodes[size_t(begin)].position).norm();
         hull->capsules.push_back(
             std::make_unique<btCapsuleShape>(btScalar(nodes[size_t(end)].radius), btScalar(height)));
     }
-    fill_shape(*hull->rest, *hull);
-    for (size_t i = 0; i < model.capsules.size(); i++)
-        place_capsule(*hull->rest, i, nodes[size_t(model.capsules[i][0])].position,
-                      nodes[size_t(model.capsules[i][1])].position);
-    hull->rest->recalculateLocalAabb();
+    fill_shape(*rest, *hull);
+    place_capsules(*rest, [&](size_t i) {
+        const auto& [begin, end] = model.capsules[i];
+        return std::array<Vec3, 2>{nodes[size_t(begin)].position, nodes[size_t(end)].position};
+    });
+    hull->rest = std::move(rest);
     return hull;
 }
 
@@ -133,12 +176,7 @@ PlantBody::~PlantBody() {
 }
 
 void move_capsules(PlantBody& body) {
-    const Plant& plant = *body.plant;
-    for (size_t i = 0; i < body.capsules.size(); i++) {
-        const auto [begin, end] = capsule_ends(plant, i);
-        place_capsule(*body.compound(), i, begin, end);
-    }
-    body.compound()->recalculateLocalAabb();
+    place_capsules(static_cast<PlantShape&>(*body.compound()), [&](size_t i) { return capsule_ends(*body.plant, i); });
 }
 
 void take_collider(PlantBody& body) {

@@ -1,0 +1,204 @@
+// Lanes: several numbers that the processor works on at once, and vectors and matrices of them. Each number comes out as
+// if it were alone, to the last bit, whatever the width: the processor's own square roots and no fused products.
+#pragma once
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include <cmath>
+
+// How lanes are handed to functions depends on the processor that is compiled for; none is handed to any, see below.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace frond {
+
+// All that is written for lanes has to become part of the function that a width was chosen for.
+#define FROND_INLINE [[gnu::always_inline]] inline
+
+using TwoLanes = double __attribute__((vector_size(16)));
+using FourLanes = double __attribute__((vector_size(32)));
+template <class S>
+constexpr int LANES = int(sizeof(S) / sizeof(double));
+
+// Runs job.run<S>() in the widest lanes that this processor has; that function has to be FROND_INLINE.
+#if defined(__x86_64__)
+template <class Job>
+[[gnu::target("avx2")]] void run_in_four_lanes(const Job& job) {
+    job.template run<FourLanes>();
+}
+#endif
+template <class Job>
+void run_in_two_lanes(const Job& job) {
+    job.template run<TwoLanes>();
+}
+template <class Job>
+void run_in_lanes(const Job& job) {
+#if defined(__x86_64__)
+    static const bool has_four = __builtin_cpu_supports("avx2");
+    if (has_four) return run_in_four_lanes(job);
+#endif
+    run_in_two_lanes(job);
+}
+
+// A constant in all lanes.
+template <class S>
+FROND_INLINE S constant(double value) {
+    return S{} + value;
+}
+template <class Mask, class S>
+FROND_INLINE S select(const Mask& mask, const S& yes, const S& no) {
+    return mask ? yes : no;
+}
+// value(lane) of each lane.
+template <class S, class Value>
+FROND_INLINE S gather(const Value& value) {
+    S out;
+    for (int lane = 0; lane < LANES<S>; ++lane) out[lane] = value(lane);
+    return out;
+}
+
+FROND_INLINE TwoLanes sqrt(const TwoLanes& a) {
+#if defined(__SSE2__)
+    return _mm_sqrt_pd(a);
+#else
+    return TwoLanes{std::sqrt(a[0]), std::sqrt(a[1])};
+#endif
+}
+FROND_INLINE FourLanes sqrt(const FourLanes& a) {
+    const TwoLanes low = sqrt(TwoLanes{a[0], a[1]}), high = sqrt(TwoLanes{a[2], a[3]});
+    return FourLanes{low[0], low[1], high[0], high[1]};
+}
+
+// From and to memory of any alignment.
+template <class S>
+FROND_INLINE S load(const double* from) {
+    S out;
+    __builtin_memcpy(&out, from, sizeof(S));
+    return out;
+}
+template <class S>
+FROND_INLINE void store(const S& value, double* to) {
+    __builtin_memcpy(to, &value, sizeof(S));
+}
+
+// To the nearest whole number, of numbers below 2^51: adding this leaves no digits behind the point.
+template <class S>
+FROND_INLINE S whole(const S& a) {
+    constexpr double ROUND = 6755399441055744.0;  // 1.5 2^52
+    return (a + ROUND) - ROUND;
+}
+
+// c[0] + c[1] x + c[2] x^2 + ...
+template <class S, int N>
+FROND_INLINE S polynomial(const double (&c)[N], const S& x) {
+    S sum = constant<S>(c[N - 1]);
+    for (int i = N - 2; i >= 0; --i) sum = sum * x + c[i];
+    return sum;
+}
+
+// Within 4e-16 for angles of a few turns, less so the larger they are: what is left of it beside whole half turns, halved, by their series.
+template <class S>
+FROND_INLINE void sine_cosine(const S& angle, S& sine, S& cosine) {
+    constexpr double PI_BELOW = 1.2246467991473532e-16;  // what M_PI leaves of pi
+    constexpr double SINE[] = {1, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800,
+                               -1.0 / 1307674368000};
+    constexpr double COSINE[] = {1, -1.0 / 2, 1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800, 1.0 / 479001600,
+                                 -1.0 / 87178291200, 1.0 / 20922789888000};
+    const S turns = whole<S>(angle * (1 / M_PI));
+    const S half = ((angle - turns * M_PI) - turns * PI_BELOW) * 0.5, square = half * half;
+    const S odd = turns - 2.0 * whole<S>(turns * 0.5);
+    const S sign = 1.0 - 2.0 * odd * odd;
+    const S s = half * polynomial(SINE, square), c = polynomial(COSINE, square);
+    sine = sign * 2.0 * s * c;
+    cosine = sign * (c * c - s * s);
+}
+
+template <class S>
+struct Lanes3 {
+    S x, y, z;
+};
+// By rows.
+template <class S>
+struct Lanes33 {
+    Lanes3<S> r[3];
+};
+
+template <class S>
+FROND_INLINE Lanes3<S> operator+(const Lanes3<S>& a, const Lanes3<S>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class S>
+FROND_INLINE Lanes3<S> operator-(const Lanes3<S>& a, const Lanes3<S>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class S>
+FROND_INLINE Lanes3<S> operator-(const Lanes3<S>& a) {
+    return {-a.x, -a.y, -a.z};
+}
+template <class S>
+FROND_INLINE Lanes3<S> operator*(const S& a, const Lanes3<S>& b) {
+    return {a * b.x, a * b.y, a * b.z};
+}
+template <class S>
+FROND_INLINE Lanes33<S> operator-(const Lanes33<S>& a, const Lanes33<S>& b) {
+    return {{a.r[0] - b.r[0], a.r[1] - b.r[1], a.r[2] - b.r[2]}};
+}
+template <class S>
+FROND_INLINE Lanes33<S> operator+(const Lanes33<S>& a, const Lanes33<S>& b) {
+    return {{a.r[0] + b.r[0], a.r[1] + b.r[1], a.r[2] + b.r[2]}};
+}
+template <class S>
+FROND_INLINE Lanes33<S> operator-(const Lanes33<S>& a) {
+    return {{-a.r[0], -a.r[1], -a.r[2]}};
+}
+template <class S>
+FROND_INLINE S dot(const Lanes3<S>& a, const Lanes3<S>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class S>
+FROND_INLINE Lanes3<S> cross(const Lanes3<S>& a, const Lanes3<S>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+// One by one.
+template <class S>
+FROND_INLINE Lanes3<S> scaled(const Lanes3<S>& a, const Lanes3<S>& b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+template <class S>
+FROND_INLINE Lanes33<S> scaled_rows(const Lanes3<S>& a, const Lanes33<S>& b) {
+    return {{a.x * b.r[0], a.y * b.r[1], a.z * b.r[2]}};
+}
+template <class S>
+FROND_INLINE Lanes33<S> transposed(const Lanes33<S>& a) {
+    return {{{a.r[0].x, a.r[1].x, a.r[2].x}, {a.r[0].y, a.r[1].y, a.r[2].y}, {a.r[0].z, a.r[1].z, a.r[2].z}}};
+}
+template <class S>
+FROND_INLINE Lanes3<S> operator*(const Lanes33<S>& a, const Lanes3<S>& b) {
+    return {dot(a.r[0], b), dot(a.r[1], b), dot(a.r[2], b)};
+}
+template <class S>
+FROND_INLINE Lanes33<S> operator*(const Lanes33<S>& a, const Lanes33<S>& b) {
+    Lanes33<S> out;
+    for (int i = 0; i < 3; ++i) out.r[i] = a.r[i].x * b.r[0] + a.r[i].y * b.r[1] + a.r[i].z * b.r[2];
+    return out;
+}
+// a^T b.
+template <class S>
+FROND_INLINE Lanes3<S> transposed_times(const Lanes33<S>& a, const Lanes3<S>& b) {
+    return b.x * a.r[0] + b.y * a.r[1] + b.z * a.r[2];
+}
+template <class S>
+FROND_INLINE Lanes33<S> transposed_times(const Lanes33<S>& a, const Lanes33<S>& b) {
+    return transposed(a) * b;
+}
+// I + a [v] + b [v]^2.
+template <class S>
+FROND_INLINE Lanes33<S> turning(const Lanes3<S>& v, const S& a, const S& b) {
+    const S bx = b * v.x, by = b * v.y, bz = b * v.z;
+    const S xx = bx * v.x, yy = by * v.y, zz = bz * v.z, xy = bx * v.y, xz = bx * v.z, yz = by * v.z;
+    const Lanes3<S> w = a * v;
+    return {{{1.0 - (yy + zz), xy - w.z, xz + w.y}, {xy + w.z, 1.0 - (xx + zz), yz - w.x}, {xz - w.y, yz + w.x, 1.0 - (xx + yy)}}};
+}
+
+}  // namespace frond

@@ -1,0 +1,183 @@
+// In: a piece of rod and where its two ends are. Out: its strain, the gradient of its energy, its stiffness. Written for
+// numbers of any kind: lanes, or numbers that carry their derivatives.
+//
+// Rotations go as quaternions (w, p): the one half way and tan(angle/4) of the turn between the ends, which its share
+// needs, then take no trigonometric function, and the turn itself one arc tangent of a small number.
+#pragma once
+
+#include "core/lanes.hpp"
+
+namespace frond {
+
+// Of a rod at rest; see RodSegment.
+template <class S>
+struct RodPiece {
+    S length;
+    Lanes33<S> frame;
+    Lanes3<S> stretch, bend, rest_strain, rest_curvature;
+};
+
+template <class S>
+struct RodEnd {
+    Lanes3<S> place, turn;
+    S square;      // of the turn's angle
+    S w, half;     // cosine of half the angle, and its sine over the angle
+    Lanes3<S> p;   // the quaternion's vector
+};
+
+template <class S>
+FROND_INLINE RodEnd<S> rod_end(const Lanes3<S>& place, const Lanes3<S>& turn) {
+    constexpr double TINY = 1e-8;
+    RodEnd<S> end;
+    end.place = place;
+    end.turn = turn;
+    end.square = dot(turn, turn);
+    const auto tiny = end.square < TINY;
+    const S angle = sqrt(select(tiny, constant<S>(TINY), end.square));
+    S sine, cosine;
+    sine_cosine(S(0.5 * angle), sine, cosine);
+    end.w = select(tiny, S(1.0 - end.square * 0.125), cosine);
+    end.half = select(tiny, S(0.5 - end.square * (1.0 / 48)), S(sine / angle));
+    end.p = end.half * turn;
+    return end;
+}
+
+template <class S>
+FROND_INLINE Lanes33<S> rotation_of(const S& w, const Lanes3<S>& p) {
+    return turning<S>(p, 2.0 * w, constant<S>(2));
+}
+
+// From the rate of the rotation vector to the angular velocity: I + (1 - cos a)/a^2 [v] + (a - sin a)/a^3 [v]^2.
+template <class S>
+FROND_INLINE Lanes33<S> rate_of(const RodEnd<S>& end) {
+    constexpr double SERIES[] = {1.0 / 6, -1.0 / 120, 1.0 / 5040, -1.0 / 362880, 1.0 / 39916800, -1.0 / 6227020800,
+                                 1.0 / 1307674368000, -1.0 / 355687428096000};
+    const auto small = end.square < 1.0;
+    const S square = select(small, constant<S>(1), end.square);
+    const S second = select(small, polynomial(SERIES, end.square), S((1.0 - 2.0 * end.half * end.w) / square));
+    return turning<S>(end.turn, 2.0 * end.half * end.half, second);
+}
+
+// What follows from the places of the two ends.
+template <class S>
+struct RodBent {
+    Lanes3<S> chord;    // [m]
+    Lanes3<S> turn;     // of the second end against the first, as a rotation vector
+    Lanes3<S> quarter;  // its axis times tan(angle/4)
+    S cotangent;        // angle/2 cot(angle/2)
+    Lanes33<S> middle;  // the frame, turned half way
+    Lanes3<S> strain, curvature;  // over the rest's
+};
+
+template <class S>
+FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a, const RodEnd<S>& b) {
+    // atan(x)/x by powers of x^2, for x up to tan(pi/8): Chebyshev's best polynomial, within 2e-18.
+    constexpr double ARC[] = {0.99999999999999999874, -0.33333333333333121163,  0.19999999999940891408,
+                              -0.14285714279250239667, 0.11111110744919395758,  -0.090908968090564377814,
+                              0.076920453307659118451, -0.066629518120618369597, 0.058468782857870010961,
+                              -0.050351024039430294125, 0.037965256099576568431, -0.017805395704537507381};
+    RodBent<S> out;
+    out.chord = b.place - a.place;
+    S w = a.w * b.w + dot(a.p, b.p);
+    Lanes3<S> u = a.w * b.p - b.w * a.p - cross(a.p, b.p);
+    const S sign = select(w < 0.0, constant<S>(-1), constant<S>(1));
+    w = w * sign;
+    const S over = 1.0 / (1.0 + w);
+    out.quarter = (sign * over) * u;
+    const S square = dot(out.quarter, out.quarter), secant = sqrt(1.0 + square), eighth = 1.0 / (1.0 + secant);
+    const S angle_over = 8.0 * eighth * polynomial(ARC, S(square * eighth * eighth));  // over tan of its quarter
+    out.turn = angle_over * out.quarter;
+    out.cotangent = 0.5 * angle_over * over * w;
+    const S shrink = 1.0 / secant;
+    const S w_middle = (a.w - dot(a.p, out.quarter)) * shrink;
+    const Lanes3<S> p_middle = shrink * (a.p + a.w * out.quarter + cross(a.p, out.quarter));
+    out.middle = rotation_of(w_middle, p_middle) * rod.frame;
+    const S per_length = 1.0 / rod.length;
+    out.strain = per_length * transposed_times(out.middle, out.chord) - rod.rest_strain;
+    out.curvature = per_length * transposed_times(rod.frame, out.turn) - rod.rest_curvature;
+    return out;
+}
+
+// From the angular velocity to the rate of the rotation vector, I - [v]/2 + (1 - a/2 cot(a/2))/a^2 [v]^2, transposed.
+template <class S>
+FROND_INLINE S inverse_rate_second(const RodBent<S>& bent) {
+    // |B_2k| / (2k)!, Bernoulli's numbers
+    constexpr double SERIES[] = {0.083333333333333333333, 0.0013888888888888888889, 3.3068783068783068783e-5,
+                                 8.2671957671957671958e-7, 2.0876756987868098979e-8, 5.2841901386874931848e-10,
+                                 1.3382536530684678833e-11, 3.3896802963225828668e-13, 8.5860620562778445641e-15,
+                                 2.174868698558061873e-16, 5.5090028283602295152e-18};
+    const S square = dot(bent.turn, bent.turn);
+    const auto small = square < 1.0;
+    return select(small, polynomial(SERIES, square),
+                  S((1.0 - bent.cotangent) / select(small, constant<S>(1), square)));
+}
+
+// Gradient of the energy by place and rotation vector of either end.
+template <class S>
+struct RodGradient {
+    Lanes3<S> place_a, turn_a, place_b, turn_b;
+};
+
+template <class S>
+FROND_INLINE RodGradient<S> gradient_of(const RodPiece<S>& rod, const Lanes33<S>& rotation_a, const Lanes33<S>& rate_a,
+                                        const Lanes33<S>& rate_b, const RodBent<S>& bent) {
+    const Lanes3<S> force = bent.middle * scaled(rod.stretch, bent.strain);
+    const Lanes3<S> middle_moment = cross(force, bent.chord);
+    const Lanes3<S> couple = rod.frame * scaled(rod.bend, bent.curvature);
+    const Lanes3<S> turned = cross(bent.turn, couple);
+    const Lanes3<S> end_moment =
+        rotation_a * (couple + constant<S>(0.5) * turned + inverse_rate_second(bent) * cross(bent.turn, turned));
+    // The rotation half way follows that of the second end by (1 - [R1 quarter]) / 2.
+    const Lanes3<S> second =
+        constant<S>(0.5) * (middle_moment + cross(rotation_a * bent.quarter, middle_moment)) + end_moment;
+    return {-force, transposed_times(rate_a, middle_moment - second), force, transposed_times(rate_b, second)};
+}
+
+// How strain and curvature change with the ends: strain by middle^T (place b - place a) + strain_a turn_a + strain_b
+// turn_b, curvature by bend_b turn_b - bend_a turn_a; all over the length.
+template <class S>
+struct RodChange {
+    Lanes33<S> strain_a, strain_b, bend_a, bend_b;
+};
+
+template <class S>
+FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& rotation_a, const Lanes33<S>& rate_a,
+                                    const Lanes33<S>& rate_b, const RodBent<S>& bent) {
+    const Lanes3<S>& c = bent.chord;
+    const Lanes3<S> share = rotation_a * bent.quarter;
+    Lanes33<S> seen, by_share;
+    for (int i = 0; i < 3; ++i) {
+        // Rows of middle^T [chord], and of that times the second end's share.
+        const Lanes3<S> axis = i == 0   ? Lanes3<S>{bent.middle.r[0].x, bent.middle.r[1].x, bent.middle.r[2].x}
+                               : i == 1 ? Lanes3<S>{bent.middle.r[0].y, bent.middle.r[1].y, bent.middle.r[2].y}
+                                        : Lanes3<S>{bent.middle.r[0].z, bent.middle.r[1].z, bent.middle.r[2].z};
+        seen.r[i] = cross(axis, c);
+        by_share.r[i] = constant<S>(0.5) * (seen.r[i] - cross(seen.r[i], share));
+    }
+    const Lanes33<S> inverse_rate = turning<S>(bent.turn, constant<S>(-0.5), inverse_rate_second(bent));
+    const Lanes33<S> turning_by = transposed_times(rod.frame, inverse_rate) * transposed(rotation_a);
+    return {(seen - by_share) * rate_a, by_share * rate_b, turning_by * rate_a, turning_by * rate_b};
+}
+
+// Lower blocks (r, c), c <= r, of the part of the stiffness that is never negative, at [r (r + 1) / 2 + c].
+template <class S>
+FROND_INLINE void positive_stiffness(const RodPiece<S>& rod, const RodBent<S>& bent, const RodChange<S>& change,
+                                     Lanes33<S> (&K)[10]) {
+    const S per_length = 1.0 / rod.length;
+    const Lanes3<S> stretch = per_length * rod.stretch, bend = per_length * rod.bend;
+    const Lanes33<S> pulled = scaled_rows(stretch, transposed(bent.middle));
+    const Lanes33<S> weighted_a = scaled_rows(stretch, change.strain_a), weighted_b = scaled_rows(stretch, change.strain_b);
+    const Lanes33<S> bent_a = scaled_rows(bend, change.bend_a), bent_b = scaled_rows(bend, change.bend_b);
+    K[0] = bent.middle * pulled;
+    K[1] = -transposed_times(change.strain_a, pulled);
+    K[2] = transposed_times(change.strain_a, weighted_a) + transposed_times(change.bend_a, bent_a);
+    K[3] = -K[0];
+    K[4] = -transposed(K[1]);
+    K[5] = K[0];
+    K[6] = -transposed_times(change.strain_b, pulled);
+    K[7] = transposed_times(change.strain_b, weighted_a) - transposed_times(change.bend_b, bent_a);
+    K[8] = -K[6];
+    K[9] = transposed_times(change.strain_b, weighted_b) + transposed_times(change.bend_b, bent_b);
+}
+
+}  // namespace frond

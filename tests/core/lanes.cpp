@@ -1,0 +1,61 @@
+// Lanes: functions are right, and each number comes out as if it were alone, to the last bit, whatever the width.
+#include "core/lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace frond::test {
+namespace {
+
+// All functions of a list of numbers, in lanes of a width.
+struct Functions {
+    const std::vector<double>& in;
+    std::vector<double>& out;
+    template <class S>
+    FROND_INLINE void run() const {
+        for (size_t i = 0; i < in.size(); i += size_t(LANES<S>)) {
+            const S x = gather<S>([&](int lane) { return in[i + size_t(lane)]; });
+            S sine, cosine;
+            sine_cosine(x, sine, cosine);
+            const S all[] = {sine, cosine, sqrt(x * x + 1.0), whole(x), select(x < 0.0, S(-x), x)};
+            for (int lane = 0; lane < LANES<S>; ++lane)
+                for (const S& value : all) out.push_back(value[lane]);
+        }
+    }
+};
+
+std::vector<double> some_numbers() {
+    std::mt19937_64 random(3);
+    std::vector<double> numbers = {0, 1e-9, -1e-9, M_PI, -M_PI, M_PI / 2, 3 * M_PI, 1e-300};
+    for (double size : {1e-4, 1.0, 10.0, 1000.0})
+        for (int i = 0; i < 100; ++i) numbers.push_back(std::uniform_real_distribution<double>(-size, size)(random));
+    return numbers;
+}
+
+TEST(Lanes, OfAnyWidthGiveTheSameBits) {
+    const std::vector<double> numbers = some_numbers();
+    std::vector<double> widest, two;
+    run_in_lanes(Functions{numbers, widest});
+    run_in_two_lanes(Functions{numbers, two});
+    EXPECT_EQ(widest, two);
+}
+
+TEST(Lanes, HaveTheFunctionsThatTheyAreNamedFor) {
+    const std::vector<double> numbers = some_numbers();
+    std::vector<double> out;
+    run_in_lanes(Functions{numbers, out});
+    for (size_t i = 0; i < numbers.size(); ++i) {
+        const double x = numbers[i], *f = out.data() + 5 * i;
+        const double near = 4e-16 * std::max(1.0, std::abs(x));
+        EXPECT_NEAR(f[0], std::sin(x), near) << x;
+        EXPECT_NEAR(f[1], std::cos(x), near) << x;
+        EXPECT_EQ(f[2], std::sqrt(x * x + 1)) << x;
+        EXPECT_EQ(f[3], std::nearbyint(x)) << x;
+        EXPECT_EQ(f[4], std::abs(x)) << x;
+    }
+}
+
+}  // namespace
+}  // namespace frond::test
