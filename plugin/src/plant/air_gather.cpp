@@ -2,7 +2,7 @@
 //
 // The resistance is that of the air's speed past the plant at the start of the step; the velocity that it is multiplied
 // with is the one at the end, so that still air takes energy at any time step, and what stands in a wind feels exactly its force.
-#include "mechanics/rotation.hpp"
+#include "plant/flat.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {
@@ -19,36 +19,6 @@ Grip chain_grip(const Plant& plant, size_t node) {
     grip.node[0] = int(2 * node);
     grip.weight[0] = 1;
     return grip;
-}
-
-// Where the piece's wide side lies now; of no certain length.
-Vec3 wide_of(const Plant& plant, const AirPiece& piece, int parent) {
-    const VecX& x = plant.motion.x;
-    Vec3 wide = Vec3::Zero();
-    const int ends[2] = {parent, piece.node};
-    for (size_t k = 0; k < 2; k++) {
-        if (plant.follow) {
-            wide += rotation_of<double>(point(x, 2 * ends[k] + 1)) * piece.wide;
-            continue;
-        }
-        const Tet& tet = plant.model->cage.tets[size_t(plant.model->chain_embedding.tet[size_t(ends[k])])];
-        for (size_t c = 0; c < 4; c++) wide += piece.spread[k][c] * point(x, tet[c]);
-    }
-    return wide;
-}
-
-// Columns axis, thin, wide. False where the piece has lost its shape.
-bool frame_of(const Plant& plant, const AirPiece& piece, int parent, Mat3& frame) {
-    constexpr double LEAST = 1e-9;  // [m], [-]
-    const Vec3 chord = plant.chain_positions[size_t(piece.node)] - plant.chain_positions[size_t(parent)];
-    if (!(chord.norm() > LEAST)) return false;
-    const Vec3 axis = chord.normalized(), wide = wide_of(plant, piece, parent);
-    const Vec3 across = wide - axis * axis.dot(wide);
-    if (!(across.norm() > LEAST)) return false;
-    frame.col(0) = axis;
-    frame.col(2) = across.normalized();
-    frame.col(1) = frame.col(2).cross(axis);
-    return true;
 }
 
 // Pressure is along the normal of the step's start. What a wind could carry past itself within a step is held back from
@@ -98,7 +68,7 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
     for (const AirPiece& piece : *air.pieces) {
         const int parent = plant.model->chain.nodes[size_t(piece.node)].parent;
         Mat3 frame;
-        if (!frame_of(plant, piece, parent, frame)) continue;
+        if (!piece_frame(plant, piece.node, piece.wide, piece.spread, frame)) continue;
         for (size_t end : {size_t(parent), size_t(piece.node)}) {
             const Mat3 half = 0.5 * air_resistance(piece, frame, air.passing[end], surroundings.wind->def.density);
             air.resistance[end] += half;
