@@ -151,6 +151,29 @@ TEST(Box, ComesToRestOnLeavesAndStays) {
     }
 }
 
+TEST(Flag, FoldsOntoItselfAndPassesThroughOnlyWithoutSelfContact) {
+    for (const char* mechanics : {"mechanics=rod", "mechanics=tet_corotational"}) {
+        Play play = play_of("flag", {mechanics}), through = play_of("flag", {mechanics, "self_contact=off"});
+        for (int i = 0; i < 240; i++) {
+            play.step();
+            through.step();
+            frond_report report;
+            must(frond_world_get_report(play.stage.world, &report));
+            EXPECT_EQ(report.trouble & FROND_TROUBLE_REWOUND, 0u) << i;
+        }
+        // Its tip is down beside its lower half, on the side from which it came, and pressed on that; else beyond.
+        frond_vec3 tip, tip_through;
+        must(frond_grab_get(play.stage.grabs[0], &tip, nullptr, nullptr));
+        must(frond_grab_get(through.stage.grabs[0], &tip_through, nullptr, nullptr));
+        EXPECT_LT(tip.y, 0.1);
+        EXPECT_GT(tip.x, 0);
+        EXPECT_LT(tip.x, 0.03);
+        EXPECT_LT(tip_through.x, -0.01);
+        EXPECT_GT(frond_plant_get_contact_count(play.stage.plants[0]), 0);
+        EXPECT_EQ(frond_plant_get_contact_count(through.stage.plants[0]), 0);
+    }
+}
+
 TEST(Trellis, HoldsAPlantThatLeansOnIt) {
     Play play = play_of("trellis");
     Play free = play_of("trellis", {"response=none"});

@@ -152,21 +152,25 @@ void build_corn_field(Stage& stage) {
     }
 }
 
-// A leaf like a flag: a ribbon, held at one end, whose other end the user lays back onto it, and further.
-constexpr double FLAG_LENGTH = 0.6, FLAG_WIDTH = 0.08, FLAG_HEIGHT = 0.4;  // [m]
+// A leaf like a flag: a ribbon whose lower half is held upright, and whose tip the user lays down onto that, and further.
+constexpr double FLAG_LENGTH = 0.6, FLAG_WIDTH = 0.08, FLAG_HELD = 0.3;  // [m]
 void flag_defaults(Settings& settings) {
     settings.model.rest = FROND_REST_WITHOUT_GRAVITY;
+    settings.model.capsule_height = 0.03;
+    settings.plant.mechanics = FROND_ROD;
     settings.plant.effects |= FROND_SELF_CONTACT;
+    settings.plant.effects &= ~uint32_t(FROND_PLASTICITY);  // or it would stay crumpled
     settings.world.gravity = {0, 0, 0};
-    settings.grab_stiffness = 40;
+    settings.plant.root_height = FLAG_HELD;
+    settings.grab_stiffness = 5;
 }
 void build_flag(Stage& stage) {
-    constexpr int LONG = 24, WIDE = 2;
+    constexpr int LONG = 40, WIDE = 2;
     std::vector<float> xyz;
     std::vector<int32_t> indices;
     for (int i = 0; i <= LONG; i++)
         for (int k = 0; k <= WIDE; k++)
-            for (const double value : {FLAG_LENGTH * i / LONG, FLAG_HEIGHT, FLAG_WIDTH * (double(k) / WIDE - 0.5)})
+            for (const double value : {0.0, FLAG_LENGTH * i / LONG, FLAG_WIDTH * (double(k) / WIDE - 0.5)})
                 xyz.push_back(float(value));
     for (int32_t i = 0; i < LONG; i++)
         for (int32_t k = 0; k < WIDE; k++) {
@@ -180,25 +184,28 @@ void build_flag(Stage& stage) {
     frond_model_def def = stage.settings.model;
     def.organs = &organ;
     def.organ_count = 1;
+    def.scale = 1;
+    def.up = {0, 1, 0};
     frond_model model = {};
     must(frond_model_from_triangles(xyz.data(), int(xyz.size() / 3), indices.data(), int(indices.size() / 3), &def,
                                     &model));
     stage.plant(stage.keep(model), {0, 0, 0});
 }
 
-// Over in a half circle, and then past where it is held.
+// Over and down in a half circle, and then through where the lower half stands.
 void fold(Stage& stage) {
-    constexpr double PI = 3.14159265358979, BEGIN = 0.2, OVER = 1.4, PAST = 2.2;  // [s]
+    constexpr double PI = 3.14159265358979, BEGIN = 0.2, DOWN = 2.0, PAST = 3.0;  // [s]
+    constexpr double FAR = 0.06;  // past the lower half [m]
     const double t = stage.time;
     if (t < BEGIN) return;
     if (stage.grabs.empty()) {
         stage.drag_stiffness = stage.settings.grab_stiffness;
-        take_hold(stage, {FLAG_LENGTH, FLAG_HEIGHT, 0});
+        take_hold(stage, {0, FLAG_LENGTH, 0});
     }
-    const double turn = PI * std::clamp((t - BEGIN) / (OVER - BEGIN), 0.0, 1.0);
-    const double down = std::clamp((t - OVER) / (PAST - OVER), 0.0, 1.0);
-    const double x = FLAG_LENGTH * (0.6 + 0.4 * std::cos(turn)), y = FLAG_HEIGHT + 0.45 * FLAG_LENGTH * std::sin(turn);
-    must(frond_grab_move(stage.grabs[0], {x, y - 0.2 * FLAG_LENGTH * down, 0}));
+    const double turn = PI * std::clamp((t - BEGIN) / (DOWN - BEGIN), 0.0, 1.0);
+    const double past = std::clamp((t - DOWN) / (PAST - DOWN), 0.0, 1.0), radius = FLAG_LENGTH - FLAG_HELD;
+    const double x = radius * std::sin(turn) - FAR * past, y = FLAG_HELD + radius * std::cos(turn);
+    must(frond_grab_move(stage.grabs[0], {x, y, 0}));
 }
 
 // A crate that is let go a little above the cucumber's leaves.
@@ -395,7 +402,8 @@ const std::vector<Scene>& scenes() {
          "response=none"},
         {"tangle", "one of two tangled corn plants is pulled away and let go", 4, corn_defaults, build_tangle, drag},
         {"corn_field", "17 corn plants touch", 3, corn_defaults, build_corn_field, rest},
-        {"flag", "a ribbon of a leaf is folded onto itself", 3, flag_defaults, build_flag, fold},
+        {"flag", "a ribbon of a leaf is folded, and its layers are pressed on each other", 4, flag_defaults, build_flag, fold,
+         "self_contact=off"},
         {"crate", "a small crate is let fall on a cucumber's leaves", 3, cucumber_defaults, build_crate, rest},
         {"box", "a cardboard box of 80 g is set down on a rosette's leaves and rests there", 4, nullptr, build_box, rest},
         {"trellis", "a cucumber leans on a trellis of static boxes", 4, cucumber_defaults, build_trellis, rest},

@@ -52,5 +52,7 @@ Collider make_collider(const std::vector<Vec3>& nodes, const std::vector<Tet>& t
                        const std::vector<int>& tet_organ, int piece_count);
 // A piece for each of the model's capsules: tets go to the nearest capsule of their own organ.
 Collider make_collider(const Model& model);
+// Pieces that are the model's capsules do not collide where these are beside each other at rest.
+void separate_near_capsules(const Model& model, Collider& collider);
 
 }  // namespace frond

@@ -126,8 +126,7 @@ Collider make_collider(const std::vector<Vec3>& nodes, const std::vector<Tet>& t
     return collider;
 }
 
-// Pieces whose capsules are beside each other at rest are near too.
-static void find_near_capsules(const Model& model, Collider& collider) {
+void separate_near_capsules(const Model& model, Collider& collider) {
     constexpr double BESIDE = 0.015;  // [m]
     std::vector<Capsule> capsules;
     for (const auto& [begin, end] : model.capsules) {
@@ -165,7 +164,7 @@ Collider make_collider(const Model& model) {
     }
     Collider collider =
         make_collider(cage.nodes, cage.tets, tet_piece, cage.tet_organ, std::max(int(model.capsules.size()), 1));
-    find_near_capsules(model, collider);
+    separate_near_capsules(model, collider);
     return collider;
 }
 

@@ -2,6 +2,7 @@
 // which passes it.
 #pragma once
 
+#include "plant/flat.hpp"
 #include "plant/wind.hpp"
 #include "solve/solve.hpp"
 
@@ -23,8 +24,8 @@ struct AirPiece {
     double skin;         // its surface [m^2]
     double chord_along;  // how far air goes along the skin, along the axis and across it [m]
     double chord_across;
-    Vec3 wide;                                    // in the modelled shape, length one
-    std::array<std::array<double, 4>, 2> spread;  // of `wide` by the corners of the tets that hold parent and node [1/m]
+    Vec3 wide;           // in the modelled shape, length one
+    TetSpread spread;    // of `wide`
 };
 using AirPieces = std::vector<AirPiece>;
 

@@ -24,15 +24,9 @@ Grip chain_grip(const Plant& plant, size_t node) {
 
 // Where the wide sides of pieces in a cage lie now.
 void look_at_cage(const Plant& plant, AirState& air) {
-    const VecX& x = plant.motion.x;
     for (size_t i = 0; i < air.wide.size(); i++) {
         const AirPiece& piece = (*air.pieces)[i];
-        const int ends[2] = {piece.parent, piece.node};
-        air.wide[i].setZero();
-        for (size_t k = 0; k < 2; k++) {
-            const Tet& tet = plant.model->cage.tets[size_t(plant.model->chain_embedding.tet[size_t(ends[k])])];
-            for (size_t c = 0; c < 4; c++) air.wide[i] += piece.spread[k][c] * point(x, tet[c]);
-        }
+        air.wide[i] = wide_now(plant, piece.node, piece.wide, piece.spread);
     }
 }
 

@@ -54,16 +54,6 @@ double coefficient_of(const Organ& organ, const OrganSize& size) {
     return std::min(1.10 + 0.02 * (aspect + 1 / aspect), ENDLESS_PLATE);
 }
 
-// A direction in the modelled shape as the sum of the corners of a tet, each times its own number: these follow the tet.
-std::array<double, 4> spread_in(const Model& model, int tet, const Vec3& direction) {
-    const Tet& corners = model.cage.tets[size_t(tet)];
-    Mat3 edges;
-    for (int k = 0; k < 3; k++)
-        edges.col(k) = model.cage.nodes[size_t(corners[size_t(k) + 1])] - model.cage.nodes[size_t(corners[0])];
-    const Vec3 share = edges.inverse() * direction;
-    return {-share.sum(), share[0], share[1], share[2]};
-}
-
 }  // namespace
 
 AirPieces make_air_pieces(const Model& model) {
@@ -92,8 +82,7 @@ AirPieces make_air_pieces(const Model& model) {
         piece.chord_along = size.length;
         piece.chord_across = section.width;
         piece.wide = (section.wide() - section.axis * section.axis.dot(section.wide())).normalized();
-        for (size_t k = 0; k < 2; k++)
-            piece.spread[k] = spread_in(model, model.chain_embedding.tet[k == 0 ? size_t(parent) : i], piece.wide);
+        piece.spread = spread_of(model, int(i), piece.wide);
         pieces.push_back(piece);
     }
     std::stable_sort(pieces.begin(), pieces.end(), [](const AirPiece& a, const AirPiece& b) { return a.shape < b.shape; });

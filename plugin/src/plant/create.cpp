@@ -75,6 +75,10 @@ std::shared_ptr<const Collider> collider_of(const Plant& plant) {
     return shared_of<Collider>(plant.model, 1, [&] { return make_collider(*plant.model); });
 }
 
+std::shared_ptr<const Sheath> sheath_of(const Plant& plant) {
+    return shared_of<Sheath>(plant.model, 1, [&] { return make_sheath(*plant.model); });
+}
+
 std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant) {
     return shared_of<AirPieces>(plant.model, plant.nodes->order, [&] { return make_air_pieces(*plant.model); });
 }

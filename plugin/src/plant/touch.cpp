@@ -1,7 +1,5 @@
 #include "plant/touch.hpp"
 
-#include <algorithm>
-
 namespace frond {
 
 // Both chain nodes' tets together; of quadratic ones, which have too many nodes for that, those of the nearer node.
@@ -30,22 +28,12 @@ Grip capsule_grip(const Plant& plant, int capsule, double along) {
     return grip;
 }
 
-Grip cage_grip(const Plant& plant, const ContactSide& side) {
+Grip cage_grip(const ContactSide& side) {
     Grip grip;
-    const auto add = [&](int node, double weight) {
-        int k = 0;
-        while (k < grip.count && grip.node[size_t(k)] != node) k++;
-        grip.node[size_t(k)] = node;
-        grip.weight[size_t(k)] += weight;
-        grip.count = std::max(grip.count, k + 1);
-    };
+    grip.count = side.node_count;
     for (size_t i = 0; i < size_t(side.node_count); i++) {
-        if (!plant.follow) {
-            add(side.nodes[i], side.weights[i]);
-            continue;
-        }
-        const Grip& follows = plant.follow->grips[size_t(side.nodes[i])];
-        for (size_t k = 0; k < size_t(follows.count); k++) add(follows.node[k], side.weights[i] * follows.weight[k]);
+        grip.node[i] = side.nodes[i];
+        grip.weight[i] = side.weights[i];
     }
     return grip;
 }

@@ -3,18 +3,21 @@
 
 #include "collide/cage_contact.hpp"
 #include "plant/plant.hpp"
+#include "plant/sheath.hpp"
 
 namespace frond {
 
 // What of the plant's cage collides; shared by all plants of the model that ask while one of them keeps it.
 std::shared_ptr<const Collider> collider_of(const Plant& plant);
+// Likewise, what collides of one whose chain moves by itself.
+std::shared_ptr<const Sheath> sheath_of(const Plant& plant);
 
 // The point of a capsule's axis at `along` of the way from its first node to its second, 0..1. A push on the capsule's
 // side is taken there: as a lever it would spin hairs by radians in a step, which no linear answer can tell.
 Grip capsule_grip(const Plant& plant, int capsule, double along);
 
-// A point of the cage. Where the chain moves the cage, it is a point of the chain's axis likewise, whatever its distance.
-Grip cage_grip(const Plant& plant, const ContactSide& side);
+// A point of the cage, which moves by itself.
+Grip cage_grip(const ContactSide& side);
 
 // One touch of a plant, between the two halves of a step.
 struct PlantTouch {

@@ -1,4 +1,5 @@
-// Contact: a point of a body of the host's that touches a capsule of a plant, or is about to within the step.
+// Contact: a point of a body of the host's that touches a capsule of a plant, or the flat piece that it stands for, or is
+// about to within the step.
 #pragma once
 
 #include "world/plant_body.hpp"
@@ -12,6 +13,7 @@ struct Contact {
     PlantBody* plant;
     int capsule;
     double along;              // of the capsule, 0..1
+    double across;             // of a flat one, from its axis to its wide side [m]; else 0
     btCollisionObject* other;
     Vec3 on_plant, on_other;   // world frame [m]
     Vec3 normal;               // from the other to the plant

@@ -7,6 +7,7 @@
 
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
+#include "world/plate.hpp"
 #include "world/pusher.hpp"
 #include "world/world.hpp"
 
@@ -24,19 +25,33 @@ bool takes_part(const World& world, const PlantBody* body) {
     return body && body->world == &world && (world.effects & body->plant->effects & FROND_RIGID_CONTACT);
 }
 
-// The point of a capsule's axis that is nearest to p, and where along the axis it is.
-struct OnAxis {
+// All of a piece is within `radius` of its core: a capsule's axis, or a flat one's rectangle.
+double radius_of(const PlantBody& body, int capsule) {
+    const Flat& flat = body.hull->flats[size_t(capsule)];
+    return flat.half_width > 0 ? flat.half_thickness : double(body.capsules[size_t(capsule)]->getRadius());
+}
+
+// The point of a piece's core that is nearest to p.
+struct OnCore {
     Vec3 point;
-    double along;
+    double along, across;  // as in Contact
 };
-OnAxis nearest_on_axis(const PlantBody& body, int capsule, const Vec3& p) {
+OnCore nearest_on_core(const PlantBody& body, int capsule, const Vec3& p) {
     const Plant& plant = *body.plant;
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
     const Vec3 a = plant.to_world(plant.chain_positions[size_t(begin)]);
     const Vec3 axis = plant.to_world(plant.chain_positions[size_t(end)]) - a;
     const double square = axis.squaredNorm();
     const double along = square > 0 ? std::clamp((p - a).dot(axis) / square, 0.0, 1.0) : 0.0;
-    return {a + along * axis, along};
+    OnCore core = {a + along * axis, along, 0};
+    const Flat& flat = body.hull->flats[size_t(capsule)];
+    Mat3 frame;
+    if (flat.half_width == 0 || !piece_frame(plant, end, flat.wide, flat.spread, frame)) return core;
+    const Vec3 wide = plant.rotation * frame.col(2);
+    const double most = flat.half_width - flat.half_thickness;
+    core.across = std::clamp((p - core.point).dot(wide), -most, most);
+    core.point += core.across * wide;
+    return core;
 }
 
 double friction_of(const PlantBody& body, int capsule) {
@@ -45,13 +60,13 @@ double friction_of(const PlantBody& body, int capsule) {
     return organ >= 0 ? model.organs[size_t(organ)].material.friction : 0;
 }
 
-// GImpact meshes do not say which of the compound's capsules they met.
+// GImpact meshes do not say which of the compound's children they met.
 int nearest_capsule(const PlantBody& body, const Vec3& p) {
     int nearest = -1;
     double least = INFINITY;
     for (size_t capsule = 0; capsule < body.capsules.size(); capsule++) {
         const double distance =
-            (nearest_on_axis(body, int(capsule), p).point - p).norm() - double(body.capsules[capsule]->getRadius());
+            (nearest_on_core(body, int(capsule), p).point - p).norm() - radius_of(body, int(capsule));
         if (distance >= least) continue;
         least = distance;
         nearest = int(capsule);
@@ -59,27 +74,56 @@ int nearest_capsule(const PlantBody& body, const Vec3& p) {
     return nearest;
 }
 
-// Bullet multiplies the coefficients of two bodies.
+// Whether a body would push a flat piece against its end, where the blade goes on with the next one.
+bool is_between_pieces(const PlantBody& body, int capsule, const Vec3& normal) {
+    constexpr double ALONG = 0.5;  // cosine
+    if (body.hull->flats[size_t(capsule)].half_width == 0) return false;
+    const Plant& plant = *body.plant;
+    const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
+    const Vec3 axis = plant.chain_positions[size_t(end)] - plant.chain_positions[size_t(begin)];
+    const double along = (plant.rotation * axis).dot(normal), least = ALONG * axis.norm();
+    if (std::abs(along) < least) return false;
+    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
+    const auto grows_on = [&](const ChainNode& node) { return node.parent == end; };
+    // From its tip a blade is pushed back.
+    return along > 0 || std::any_of(nodes.begin(), nodes.end(), grows_on);
+}
+
+// Bullet multiplies the coefficients of two bodies. An infinite gap: none.
 Contact contact_at(PlantBody& body, int capsule, btCollisionObject& other, const Vec3& on_other, const Vec3& towards) {
-    const OnAxis axis = nearest_on_axis(body, capsule, on_other);
-    const double radius = double(body.capsules[size_t(capsule)]->getRadius());
-    const Vec3 way = axis.point - on_other;
+    const OnCore core = nearest_on_core(body, capsule, on_other);
+    const double radius = radius_of(body, capsule);
+    const Vec3 way = core.point - on_other;
     const double distance = way.norm();
-    // Where the body's point is past the axis, the way out is the one that Bullet found.
+    // Where the body's point is past the core, the way out is the one that Bullet found.
     constexpr double SIDEWAYS = 0.2;
     const bool outside = way.dot(towards) > SIDEWAYS * distance;
     const Vec3 normal = outside ? Vec3(way / distance) : towards;
     Contact contact;
+    contact.gap = way.dot(normal) - radius;
+    if (is_between_pieces(body, capsule, normal)) contact.gap = INFINITY;
     contact.plant = &body;
     contact.capsule = capsule;
-    contact.along = axis.along;
+    contact.along = core.along;
+    contact.across = core.across;
     contact.other = &other;
-    contact.on_plant = axis.point - radius * normal;
+    contact.on_plant = core.point - radius * normal;
     contact.on_other = on_other;
     contact.normal = normal;
-    contact.gap = way.dot(normal) - radius;
     contact.friction = friction_of(body, capsule) * double(other.getFriction());
     return contact;
+}
+
+void add_contact(PlantBody& body, int capsule, btCollisionObject& other, const Vec3& on_other, const Vec3& towards,
+                 std::vector<Contact>& contacts) {
+    constexpr double FAR = 0.05;  // [m]
+    const Contact contact = contact_at(body, capsule, other, on_other, towards);
+    if (contact.gap < FAR) contacts.push_back(contact);
+}
+
+// A capsule in whose place a plate is touched.
+bool is_covered(const PlantBody& body, int child) {
+    return child >= 0 && size_t(child) < body.capsules.size() && body.hull->flats[size_t(child)].half_width > 0;
 }
 
 void add_manifold(World& world, const btPersistentManifold& manifold, std::vector<Contact>& contacts) {
@@ -92,20 +136,25 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
     if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other)) return;
     if (body->rest.asleep && !is_moving(*other)) return;
     look_at(*body);
+    std::vector<int> plates;  // whose corners are in it
     for (int i = 0; i < manifold.getNumContacts(); i++) {
         const btManifoldPoint& p = manifold.getContactPoint(i);
         const btVector3 on_other = other->getWorldTransform() * (plant_first ? p.m_localPointB : p.m_localPointA);
-        int capsule = plant_first ? p.m_index0 : p.m_index1;
-        if (capsule < 0) capsule = nearest_capsule(*body, from_bullet(on_other));
-        if (capsule < 0 || size_t(capsule) >= body->capsules.size() || is_apart(*body, capsule, *other)) continue;
+        const int child = plant_first ? p.m_index0 : p.m_index1;
+        if (is_covered(*body, child)) continue;
+        const int capsule = child < 0 ? nearest_capsule(*body, from_bullet(on_other)) : body->hull->capsule_of(child);
+        if (capsule < 0 || is_apart(*body, capsule, *other)) continue;
         const Vec3 towards = (plant_first ? 1.0 : -1.0) * from_bullet(p.m_normalWorldOnB);
-        Contact contact = contact_at(*body, capsule, *other, from_bullet(on_other), towards);
-        constexpr double FAR = 0.05;  // [m]
-        if (contact.gap < FAR) contacts.push_back(contact);
+        add_contact(*body, capsule, *other, from_bullet(on_other), towards, contacts);
+        const bool is_flat = body->hull->flats[size_t(capsule)].half_width > 0;
+        if (!is_flat || std::find(plates.begin(), plates.end(), capsule) != plates.end()) continue;
+        plates.push_back(capsule);
+        for (const Vec3& point : points_over_plate(*body, capsule, *other, towards))
+            add_contact(*body, capsule, *other, point, towards, contacts);
     }
 }
 
-// All capsules of this world's plants in the way of a shape.
+// All pieces of this world's plants in the way of a shape.
 struct Sweep : btCollisionWorld::ConvexResultCallback {
     World& world;
     btCollisionObject& other;
@@ -120,11 +169,13 @@ struct Sweep : btCollisionWorld::ConvexResultCallback {
     }
     btScalar addSingleResult(btCollisionWorld::LocalConvexResult& hit, bool normal_in_world) override {
         auto* body = PlantBody::of(const_cast<btCollisionObject*>(hit.m_hitCollisionObject));
-        const int capsule = hit.m_localShapeInfo ? hit.m_localShapeInfo->m_triangleIndex : -1;
+        const int child = hit.m_localShapeInfo ? hit.m_localShapeInfo->m_triangleIndex : -1;
+        if (is_covered(*body, child)) return 1;
+        const int capsule = body->hull->capsule_of(child);
         const bool known = std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
             return c.plant == body && c.capsule == capsule && c.other == &other;
         });
-        if (known || capsule < 0 || size_t(capsule) >= body->capsules.size()) return 1;
+        if (known || capsule < 0) return 1;
         if (is_apart(*body, capsule, other)) return 1;
         look_at(*body);
         btVector3 normal = hit.m_hitNormalLocal;
@@ -133,10 +184,12 @@ struct Sweep : btCollisionWorld::ConvexResultCallback {
         Contact contact = contact_at(*body, capsule, other, on_plant - passed, -from_bullet(normal));
         contact.normal = -from_bullet(normal);
         contact.on_plant = on_plant;
-        contact.along = nearest_on_axis(*body, capsule, on_plant).along;
+        const OnCore core = nearest_on_core(*body, capsule, on_plant);
+        contact.along = core.along;
+        contact.across = core.across;
         contact.gap = std::max(0.0, passed.dot(contact.normal));
         contacts.push_back(contact);
-        return 1;  // go on: every capsule in the way counts
+        return 1;  // go on: every piece in the way counts
     }
 };
 
@@ -199,7 +252,7 @@ void discount_grown_in(std::vector<Contact>& contacts) {
         if (!grown_in) continue;
         const auto found = grown_in->find(key);
         if (found == grown_in->end()) continue;
-        const double radius = double(contact.plant->capsules[size_t(contact.capsule)]->getRadius());
+        const double radius = radius_of(*contact.plant, contact.capsule);
         contact.gap += found->second > radius ? INFINITY : found->second;
     }
     const auto is_far = [](const Contact& contact) { return !std::isfinite(contact.gap); };
@@ -245,7 +298,7 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
         if (!contact.other->isStaticOrKinematicObject()) continue;
         const int way = way_along(contact);
         if (way == 0) continue;
-        const double radius = double(contact.plant->capsules[size_t(contact.capsule)]->getRadius());
+        const double radius = radius_of(*contact.plant, contact.capsule);
         const bool goes_through = contact.gap < -AXIS * radius;
         const bool may_lift = way > 0 && contact.other->isKinematicObject();  // what is static lifts nothing
         if (!goes_through && !may_lift) continue;

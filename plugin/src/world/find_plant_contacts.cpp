@@ -1,4 +1,4 @@
-// In: where plants are, and which of them Bullet's broad phase saw together. Out: contacts of their cages.
+// In: where plants are, and which of them Bullet's broad phase saw together. Out: contacts of their cages and sheaths.
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -49,46 +49,40 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
     return islands;
 }
 
-constexpr double NEAR = 0.01;  // capsules that are about to touch [m]
-
-Eigen::AlignedBox3d box_of(const Capsule& capsule) {
-    const Vec3 reach = Vec3::Constant(capsule.radius + 0.5 * NEAR);
-    return {capsule.begin.cwiseMin(capsule.end) - reach, capsule.begin.cwiseMax(capsule.end) + reach};
+// Where cage or sheath are, and would be at the end of the step.
+void place_nodes(const PlantBody& body, double h, VecX& now, VecX& then) {
+    const Plant& plant = *body.plant;
+    if (plant.follow) {
+        follow_places(body.sheath->follow, plant.motion.x, now);
+        follow_places(body.sheath->follow, plant.motion.x + h * plant.motion.v, then);
+        return;
+    }
+    now = cage_places(plant);
+    then = now + h * cage_velocities(plant);
 }
 
-// Where the cage will be at the end of the step if nothing touches it, so that what is about to meet is found before it is
+// Where a plant will be at the end of the step if nothing touches it, so that what is about to meet is found before it is
 // in each other; no farther than straight ways can tell.
-void place_cage(const PlantBody& body, double h, PlantSearch::Shape& shape) {
+void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
     constexpr double FARTHEST = 0.03;  // [m]
     const Plant& plant = *body.plant;
-    const VecX& x = cage_places(plant);
-    const VecX v = cage_velocities(plant);
-    const Mat3 turn = plant.rotation.toRotationMatrix();
-    shape.places.resize(size_t(body.collider->node_count));
-    shape.ways.resize(shape.places.size());
-    for (size_t n = 0; n < shape.places.size(); n++) {
-        shape.ways[n] = h * (turn * point(v, int(n)));
-        const double way = shape.ways[n].norm();
-        if (way > FARTHEST) shape.ways[n] *= FARTHEST / way;
-        shape.places[n] = turn * point(x, int(n)) + plant.position + shape.ways[n];
-    }
-    shape.covers = cover_pieces(*body.collider, shape.places.data(), shape.axes);
-}
-
-// Axes and capsules of all plants, as others may meet them by those; cages of those that meet by them.
-void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
-    const Plant& plant = *body.plant;
     shape.axes.clear();
-    shape.capsules.clear();
-    shape.box.setEmpty();
-    for (size_t i = 0; i < plant.model->capsules.size(); i++) {
-        const auto& [begin, end] = plant.model->capsules[i];
+    for (const auto& [begin, end] : plant.model->capsules)
         shape.axes.push_back({plant.to_world(plant.chain_positions[size_t(begin)]),
                               plant.to_world(plant.chain_positions[size_t(end)])});
-        shape.capsules.push_back({shape.axes[i][0], shape.axes[i][1], double(body.capsules[i]->getRadius())});
-        shape.box.extend(box_of(shape.capsules[i]));
+    VecX now, then;
+    place_nodes(body, h, now, then);
+    const Mat3 turn = plant.rotation.toRotationMatrix();
+    const Collider& collider = body.touched_collider();
+    shape.places.resize(size_t(collider.node_count));
+    shape.ways.resize(shape.places.size());
+    for (size_t n = 0; n < shape.places.size(); n++) {
+        shape.ways[n] = turn * (point(then, int(n)) - point(now, int(n)));
+        const double way = shape.ways[n].norm();
+        if (way > FARTHEST) shape.ways[n] *= FARTHEST / way;
+        shape.places[n] = turn * point(now, int(n)) + plant.position + shape.ways[n];
     }
-    if (!plant.follow) place_cage(body, h, shape);
+    shape.covers = cover_pieces(collider, shape.places.data(), shape.axes);
 }
 
 double friction_of(const PlantBody& body, int organ) {
@@ -101,14 +95,13 @@ void take_grips(PlantContact& contact) {
     for (size_t k = 0; k < 2; k++) {
         const Plant& plant = *contact.plants[k]->plant;
         const ContactSide& side = contact.sides[k];
-        contact.grips[k] =
-            side.node_count > 0 ? cage_grip(plant, side) : capsule_grip(plant, side.piece, side.weights[0]);
+        contact.grips[k] = plant.follow ? sheath_grip(*contact.plants[k]->sheath, side) : cage_grip(side);
         places[k] = plant.to_world(grip_place(contact.grips[k], plant.motion.x));
     }
     contact.between = places[0] - places[1];
 }
 
-// How a point of the cage goes on in the step.
+// How a point goes on in the step.
 Vec3 way_of(const PlantSearch::Shape& shape, const ContactSide& side) {
     Vec3 way = Vec3::Zero();
     for (size_t k = 0; k < size_t(side.node_count); k++) way += side.weights[k] * shape.ways[size_t(side.nodes[k])];
@@ -121,6 +114,7 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     contact.friction = 1;
     for (size_t k = 0; k < 2; k++) {
         contact.plants[k] = island[size_t(contact.sides[k].body)];
+        contact.by_sheath[k] = contact.plants[k]->plant->follow != nullptr;
         contact.friction *= friction_of(*contact.plants[k], contact.sides[k].organ);
     }
     // Back to where they are now.
@@ -133,70 +127,6 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     return contact;
 }
 
-// How far along a capsule's axis a point on it is.
-double along_of(const Capsule& capsule, const Vec3& p) {
-    const Vec3 axis = capsule.end - capsule.begin;
-    const double square = axis.squaredNorm();
-    return square > 0 ? std::clamp(axis.dot(p - capsule.begin) / square, 0.0, 1.0) : 0;
-}
-
-std::vector<size_t> capsules_in(const std::vector<Capsule>& capsules, const Eigen::AlignedBox3d& box) {
-    std::vector<size_t> found;
-    for (size_t i = 0; i < capsules.size(); i++)
-        if (box.intersects(box_of(capsules[i]))) found.push_back(i);
-    return found;
-}
-
-// Capsules of two bodies, or of one, that touch or are about to.
-void add_capsule_contacts(const PlantSearch& memory, const std::vector<PlantBody*>& island, size_t a, size_t b,
-                          std::vector<PlantContact>& contacts) {
-    const std::vector<Capsule> &first = memory.shapes[a].capsules, &second = memory.shapes[b].capsules;
-    const std::vector<size_t> near_a = capsules_in(first, memory.shapes[b].box);
-    const std::vector<size_t> near_b = capsules_in(second, memory.shapes[a].box);
-    for (const size_t i : near_a)
-        for (const size_t j : near_b) {
-            if (a == b && j <= i) continue;
-            if (a == b && island[a]->collider->are_near(int(i), int(j))) continue;
-            // Quick: balls around both.
-            const Vec3 apart = first[i].begin + first[i].end - second[j].begin - second[j].end;
-            const double reach = (first[i].end - first[i].begin).norm() + (second[j].end - second[j].begin).norm() +
-                                 2 * (first[i].radius + second[j].radius + NEAR);
-            if (apart.squaredNorm() > reach * reach) continue;
-            const Gap gap = gap_between(first[i], second[j]);
-            if (gap.distance > NEAR) continue;
-            PlantContact contact;
-            contact.plants = {island[a], island[b]};
-            contact.friction = 1;
-            const std::array<size_t, 2> capsules = {i, j};
-            const std::array<const Capsule*, 2> shapes = {&first[i], &second[j]};
-            const std::array<Vec3, 2> on_axis = {gap.on_a, gap.on_b};
-            for (size_t k = 0; k < 2; k++) {
-                const Model& model = *contact.plants[k]->plant->model;
-                const int organ = model.chain.nodes[size_t(model.capsules[capsules[k]][1])].organ;
-                contact.sides[k] = {int(k == 0 ? a : b), organ, int(capsules[k]), 0, {}, {along_of(*shapes[k], on_axis[k])}};
-                contact.friction *= friction_of(*contact.plants[k], organ);
-            }
-            contact.point = gap.on_a - first[i].radius * gap.normal;
-            contact.normal = gap.normal;
-            contact.depth = -gap.distance;
-            take_grips(contact);
-            contacts.push_back(contact);
-        }
-}
-
-// All pairs of an island of which one moves by its chain.
-void add_chain_contacts(const World& world, const PlantSearch& memory, const std::vector<PlantBody*>& island,
-                        std::vector<PlantContact>& contacts) {
-    for (size_t a = 0; a < island.size(); a++)
-        for (size_t b = a; b < island.size(); b++) {
-            if (!island[a]->plant->follow && !island[b]->plant->follow) continue;
-            if (island[a]->rest.asleep && island[b]->rest.asleep) continue;
-            if (!memory.shapes[a].box.intersects(memory.shapes[b].box)) continue;
-            if (a != b || has(world, *island[a], FROND_SELF_CONTACT))
-                add_capsule_contacts(memory, island, a, b, contacts);
-        }
-}
-
 // The point that touches: its plant, the other one, and its nodes.
 std::tuple<int, int, std::array<int, 4>> key_of(const PlantContact& contact) {
     return {contact.plants[0]->number, contact.plants[1]->number, contact.sides[0].nodes};
@@ -205,6 +135,13 @@ std::tuple<int, int, std::array<int, 4>> key_of(const PlantContact& contact) {
 bool may_touch(const World& world, const PlantContact& contact) {
     if (contact.plants[0] == contact.plants[1]) return has(world, *contact.plants[0], FROND_SELF_CONTACT);
     return has(world, *contact.plants[0], FROND_PLANT_CONTACT) && has(world, *contact.plants[1], FROND_PLANT_CONTACT);
+}
+
+// Whether both sides still are touched by what they were touched by then.
+bool is_by_the_same(const PlantContact& contact) {
+    for (size_t k = 0; k < 2; k++)
+        if (contact.by_sheath[k] != (contact.plants[k]->plant->follow != nullptr)) return false;
+    return true;
 }
 
 // Contacts of the last substep that were not found again are kept as long as they push and both sides are beside each
@@ -226,7 +163,7 @@ void keep_contacts(const World& world, const std::vector<PlantContact>& last, st
     };
     for (const PlantContact& before : last) {
         const bool pushed = before.depth > 0 || !before.impulse.isZero(0);
-        if (!pushed || before.sides[0].node_count == 0 || !may_touch(world, before)) continue;
+        if (!pushed || !may_touch(world, before) || !is_by_the_same(before)) continue;
         if (PlantContact* again = find_again(before)) {
             again->impulse = before.impulse;
             continue;
@@ -267,7 +204,7 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     const std::vector<PlantContact> last = std::move(world.plant_contacts);
     world.plant_contacts.clear();
     Timer timer;
-    // Those that move are as wide as their cages for the broad phase, before they meet any.
+    // Those that move are as wide as their cages or sheaths for the broad phase, before they meet any.
     bool any = false;
     for (PlantBody* body : world.awake) {
         const bool together = world.bodies.size() > 1 && has(world, *body, FROND_PLANT_CONTACT);
@@ -282,22 +219,18 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     for (std::vector<PlantBody*>& island : islands) {
         PlantSearch& memory = *world.plant_search;
         memory.shapes.resize(std::max(memory.shapes.size(), island.size()));
-        // Those whose cages move by themselves first: they meet by those, others by their capsules.
-        const auto end = std::stable_partition(island.begin(), island.end(),
-                                               [](const PlantBody* body) { return !body->plant->follow; });
-        const size_t caged = size_t(end - island.begin());
-        for (size_t i = 0; i < island.size(); i++) place_shape(*island[i], h, memory.shapes[i]);
-        add_chain_contacts(world, memory, island, contacts);
         std::vector<CoveredBody> covered;
         std::vector<CollisionBody> bodies;
-        for (size_t i = 0; i < caged; i++) {
+        for (size_t i = 0; i < island.size(); i++) {
+            place_shape(*island[i], h, memory.shapes[i]);
             const bool with_itself = has(world, *island[i], FROND_SELF_CONTACT);
-            covered.push_back({island[i]->collider.get(), &memory.shapes[i].covers, with_itself});
-            bodies.push_back({island[i]->collider.get(), memory.shapes[i].places.data(), {}, with_itself});
+            const Collider* collider = &island[i]->touched_collider();
+            covered.push_back({collider, &memory.shapes[i].covers, with_itself});
+            bodies.push_back({collider, memory.shapes[i].places.data(), {}, with_itself});
         }
         std::vector<std::vector<uint8_t>> pieces = find_meeting_pieces(covered, 0);
         bool meet = false;
-        for (size_t i = 0; i < caged; i++) {
+        for (size_t i = 0; i < island.size(); i++) {
             meet = meet || !pieces[i].empty();
             bodies[i].pieces = std::move(pieces[i]);
         }

@@ -28,6 +28,12 @@ btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
                        middle);
 }
 
+// `axes` has the columns axis, thin, wide.
+static btTransform plate_frame(const Mat3& axes, const Vec3& middle) {
+    const btVector3 x = to_bullet(axes.col(2)), y = to_bullet(axes.col(0)), z = to_bullet(axes.col(1));
+    return btTransform(btMatrix3x3(x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]), to_bullet(middle));
+}
+
 namespace {
 
 // Asked by Bullet for its box once a substep, after gravity was given to bodies and before the solver: the one place there
@@ -45,17 +51,14 @@ struct PlantShape : btCompoundShape {
     }
 };
 
-// Its place in the tree of the compound's boxes is kept as long as it is in the box that it has there, a little wider than
-// itself.
-void place_capsule(btCompoundShape& shape, size_t capsule, const Vec3& begin, const Vec3& end, btVector3& lower,
-                   btVector3& upper) {
+// A child's place in the tree of the compound's boxes is kept as long as it is in the box that it has there, a little wider
+// than itself. `lower` and `upper` come to hold it.
+void place_child(btCompoundShape& shape, size_t number, const btTransform& frame, const btVector3& half, btVector3& lower,
+                 btVector3& upper) {
     constexpr btScalar WIDER = btScalar(0.01);  // [m]
-    btCompoundShapeChild& child = shape.getChildList()[capsule];
-    child.m_transform = capsule_frame(begin, end);
-    const auto& round = static_cast<const btCapsuleShape&>(*child.m_childShape);
-    const btVector3 half = (round.getHalfHeight() * child.m_transform.getBasis().getColumn(1)).absolute() +
-                           btVector3(1, 1, 1) * round.getRadius();
-    const btVector3 &middle = child.m_transform.getOrigin(), from = middle - half, to = middle + half;
+    btCompoundShapeChild& child = shape.getChildList()[number];
+    child.m_transform = frame;
+    const btVector3 from = frame.getOrigin() - half, to = frame.getOrigin() + half;
     lower.setMin(from);
     upper.setMax(to);
     if (child.m_node->volume.Contain(btDbvtVolume::FromMM(from, to))) return;
@@ -64,22 +67,73 @@ void place_capsule(btCompoundShape& shape, size_t capsule, const Vec3& begin, co
     shape.getDynamicAabbTree()->update(child.m_node, room);
 }
 
-// Each capsule between ends(capsule), its two ends.
-template <class Ends>
-void place_capsules(PlantShape& shape, const Ends& ends) {
+// Each capsule between ends(capsule), its two ends; each plate in frame_of(its capsule, frame), which may be false: then it
+// stays as it was.
+template <class Ends, class FrameOf>
+void place_pieces(PlantShape& shape, const Hull& hull, const Ends& ends, const FrameOf& frame_of) {
     btVector3 lower(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT), upper = -lower;
-    for (size_t i = 0; i < size_t(shape.getNumChildShapes()); i++) {
+    for (size_t i = 0; i < hull.capsules.size(); i++) {
         const std::array<Vec3, 2> at = ends(i);
-        place_capsule(shape, i, at[0], at[1], lower, upper);
+        const btCapsuleShape& round = *hull.capsules[i];
+        const btTransform frame = capsule_frame(at[0], at[1]);
+        const btVector3 half = (round.getHalfHeight() * frame.getBasis().getColumn(1)).absolute() +
+                               btVector3(1, 1, 1) * round.getRadius();
+        place_child(shape, i, frame, half, lower, upper);
+    }
+    for (size_t i = 0; i < hull.plates.size(); i++) {
+        const size_t capsule = size_t(hull.plate_capsule[i]), child = hull.capsules.size() + i;
+        const std::array<Vec3, 2> at = ends(capsule);
+        Mat3 axes;
+        btTransform frame = shape.getChildTransform(int(child));
+        if (frame_of(capsule, axes)) frame = plate_frame(axes, 0.5 * (at[0] + at[1]));
+        const btMatrix3x3& basis = frame.getBasis();
+        const btConvexHullShape& plate = *hull.plates[i];
+        const btVector3& corner = plate.getUnscaledPoints()[plate.getNumPoints() - 1];  // of a rectangle: +x, +y
+        const btVector3 half = (corner.x() * basis.getColumn(0)).absolute() +
+                               (corner.y() * basis.getColumn(1)).absolute() + btVector3(1, 1, 1) * plate.getMargin();
+        place_child(shape, child, frame, half, lower, upper);
     }
     shape.set_box(lower, upper);
 }
 
 }  // namespace
 
+// How much thicker a plate is than its blade, so that Bullet tells what is about to touch: where boxes have edges it takes
+// them for round ones [m].
+static constexpr double AHEAD = 0.005;
+// Half of a blade's thickness for bodies, at least: they sink by half a millimetre into what they rest on [m].
+static constexpr double THINNEST = 0.002;
+
+int Hull::capsule_of(int child) const {
+    if (child < 0 || child >= int(capsules.size() + plates.size())) return -1;
+    return child < int(capsules.size()) ? child : plate_capsule[size_t(child) - capsules.size()];
+}
+
 static void fill_shape(btCompoundShape& shape, const Hull& hull) {
     for (const auto& capsule : hull.capsules) shape.addChildShape(btTransform::getIdentity(), capsule.get());
-    shape.setMargin(btScalar(hull.wider));
+    for (const auto& plate : hull.plates) shape.addChildShape(btTransform::getIdentity(), plate.get());
+    shape.setMargin(btScalar(std::max(hull.wider_by_cage, hull.wider_by_sheath)));
+}
+
+// Rectangles with a margin, round at their rims. Boxes tell only of what is in each other already, and of other points from
+// step to step where edges are touched.
+static void add_plates(const Model& model, Hull& hull) {
+    hull.flats = make_flats(model);
+    for (size_t i = 0; i < hull.flats.size(); i++) {
+        Flat& flat = hull.flats[i];
+        if (flat.half_width == 0) continue;
+        flat.half_thickness = std::max(flat.half_thickness, THINNEST);
+        const auto& [begin, end] = model.capsules[i];
+        const Vec3 chord = model.chain.nodes[size_t(end)].position - model.chain.nodes[size_t(begin)].position;
+        const btScalar x = btScalar(flat.half_width - flat.half_thickness), y = btScalar(0.5 * chord.norm());
+        auto plate = std::make_unique<btConvexHullShape>();
+        for (const btScalar side : {-x, x})
+            for (const btScalar end : {-y, y}) plate->addPoint(btVector3(side, end, 0), false);
+        plate->setMargin(btScalar(flat.half_thickness + AHEAD));
+        plate->recalcLocalAabb();
+        hull.plates.push_back(std::move(plate));
+        hull.plate_capsule.push_back(int(i));
+    }
 }
 
 static std::shared_ptr<Hull> hull_of(World& world, const Model& model) {
@@ -95,10 +149,18 @@ static std::shared_ptr<Hull> hull_of(World& world, const Model& model) {
         hull->capsules.push_back(
             std::make_unique<btCapsuleShape>(btScalar(nodes[size_t(end)].radius), btScalar(height)));
     }
+    add_plates(model, *hull);
     fill_shape(*rest, *hull);
-    place_capsules(*rest, [&](size_t i) {
+    const auto ends = [&](size_t i) {
         const auto& [begin, end] = model.capsules[i];
         return std::array<Vec3, 2>{nodes[size_t(begin)].position, nodes[size_t(end)].position};
+    };
+    place_pieces(*rest, *hull, ends, [&](size_t i, Mat3& axes) {
+        const std::array<Vec3, 2> at = ends(i);
+        axes.col(0) = (at[1] - at[0]).normalized();
+        axes.col(2) = hull->flats[i].wide;
+        axes.col(1) = axes.col(2).cross(axes.col(0));
+        return true;
     });
     hull->rest = std::move(rest);
     return hull;
@@ -176,25 +238,42 @@ PlantBody::~PlantBody() {
 }
 
 void move_capsules(PlantBody& body) {
-    place_capsules(static_cast<PlantShape&>(*body.compound()), [&](size_t i) { return capsule_ends(*body.plant, i); });
+    const Plant& plant = *body.plant;
+    const Hull& hull = *body.hull;
+    place_pieces(
+        static_cast<PlantShape&>(*body.compound()), hull, [&](size_t i) { return capsule_ends(plant, i); },
+        [&](size_t i, Mat3& axes) {
+            const Flat& flat = hull.flats[i];
+            return piece_frame(plant, plant.model->capsules[i][1], flat.wide, flat.spread, axes);
+        });
 }
 
-void take_collider(PlantBody& body) {
-    if (body.collider) return;
-    body.collider = collider_of(*body.plant);
-    Hull& hull = *body.hull;
-    if (hull.wider > 0) {
-        body.compound()->setMargin(btScalar(hull.wider));
-        return;
-    }
+// By how much capsules around the pieces of a collider at rest are wider than those of the chain, at most [m].
+static double wider_than_capsules(const PlantBody& body, const Collider& collider, const Vec3* places) {
     const Model& model = *body.plant->model;
     std::vector<Axis> axes;
     for (const auto& [begin, end] : model.capsules)
         axes.push_back({model.chain.nodes[size_t(begin)].position, model.chain.nodes[size_t(end)].position});
-    const std::vector<Capsule> covers = cover_pieces(*body.collider, model.cage.nodes.data(), axes);
+    const std::vector<Capsule> covers = cover_pieces(collider, places, axes);
+    double wider = 0;
     for (size_t i = 0; i < covers.size(); i++)
-        hull.wider = std::max(hull.wider, covers[i].radius - double(body.capsules[i]->getRadius()));
-    for (btCompoundShape* shape : {body.compound(), hull.rest.get()}) shape->setMargin(btScalar(hull.wider));
+        wider = std::max(wider, covers[i].radius - double(body.capsules[i]->getRadius()));
+    return wider;
+}
+
+void take_collider(PlantBody& body) {
+    const bool by_sheath = body.plant->follow != nullptr;
+    if (by_sheath ? body.sheath != nullptr : body.collider != nullptr) return;
+    Hull& hull = *body.hull;
+    double& wider = by_sheath ? hull.wider_by_sheath : hull.wider_by_cage;
+    if (by_sheath)
+        body.sheath = sheath_of(*body.plant);
+    else
+        body.collider = collider_of(*body.plant);
+    const std::vector<Vec3>& modelled = by_sheath ? body.sheath->modelled : body.plant->model->cage.nodes;
+    if (wider == 0) wider = wider_than_capsules(body, body.touched_collider(), modelled.data());
+    for (btCompoundShape* shape : {body.compound(), hull.rest.get()})
+        shape->setMargin(btScalar(std::max(hull.wider_by_cage, hull.wider_by_sheath)));
 }
 
 }  // namespace FROND_BULLET_PRECISION

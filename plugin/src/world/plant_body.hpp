@@ -1,14 +1,17 @@
-// PlantBody: a plant as Bullet sees it, a soft body whose shape is a compound of capsules. It has no nodes of its own.
+// PlantBody: a plant as Bullet sees it, a soft body whose shape is a compound of capsules, and of plates where these stand
+// for blades. It has no nodes of its own.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <map>
 #include <tuple>
 
 #include "frond/frond_bullet.hpp"
+#include "plant/flat.hpp"
 #include "plant/touch.hpp"
 #include "world/sleep.hpp"
 
@@ -22,11 +25,17 @@ struct Rigid;
 // and the body's number in the broad phase, which tells it from a later one in the same memory [m].
 using GrownIn = std::map<std::tuple<int, const btCollisionObject*, int>, double>;
 
-// The collision shapes that all plants of a model have in common in a world.
+// The collision shapes that all plants of a model have in common in a world. A capsule is narrower than the blade for which
+// it stands and far thicker, so a flat piece has a plate besides: bodies touch that instead.
 struct Hull {
     std::vector<std::unique_ptr<btCapsuleShape>> capsules;  // in the order of Model::capsules
-    std::unique_ptr<btCompoundShape> rest;                  // all of them as modelled: of plants that sleep so
-    double wider = 0;                                       // what the cage is wider than the capsules [m]; 0: not asked
+    std::vector<Flat> flats;                                // one a capsule
+    std::vector<std::unique_ptr<btConvexHullShape>> plates;  // of the flat ones: x is wide, y along and z thin
+    std::vector<int> plate_capsule;                          // of each plate
+    std::unique_ptr<btCompoundShape> rest;  // capsules, then plates, as modelled: of plants that sleep so
+    double wider_by_cage = 0, wider_by_sheath = 0;  // what those are wider than the capsules [m]; 0: not asked
+    // Of the compound's children, the capsule that a child is or stands for; -1 if there is no such child.
+    int capsule_of(int child) const;
 };
 
 // How much of the plant is simulated now.
@@ -58,7 +67,8 @@ struct PlantBody : btSoftBody {
     bool is_hidden = false;  // from what sleeps and from what is static: asleep with nothing touching it
     int filter_group = 0, filter_mask = 0;  // of the broad phase, while it is hidden
     bool is_looked_at = false;  // asleep, but unfolded for somebody to look
-    std::shared_ptr<const Collider> collider;  // null until other plants, or it itself, may touch it
+    std::shared_ptr<const Collider> collider;  // of its cage; null until other plants, or it itself, may touch it
+    std::shared_ptr<const Sheath> sheath;      // likewise, where its chain moves by itself
     std::vector<Rigid*> fragment_bodies;  // the world's, one for each of plant->fragments
     const std::vector<std::unique_ptr<btCapsuleShape>>& capsules;  // the hull's
 
@@ -66,6 +76,8 @@ struct PlantBody : btSoftBody {
     ~PlantBody() override;
     btCollisionShape*& shape() { return m_collisionShape; }
     btCompoundShape* compound() { return static_cast<btCompoundShape*>(getCollisionShape()); }
+    // Of its cage or its sheath, whichever it is that others touch now.
+    const Collider& touched_collider() const { return plant->follow ? sheath->collider : *collider; }
     // Bullet's broad phase pairs plants, but its narrow phase need not look at them.
     bool checkCollideWithOverride(const btCollisionObject* other) const override {
         return !of(other) && btSoftBody::checkCollideWithOverride(other);
@@ -83,7 +95,7 @@ void hide(PlantBody& body);
 void show_again(PlantBody& body);
 // Moves the capsules to where the chain is.
 void move_capsules(PlantBody& body);
-// Makes ready for contact of cages. The broad phase then sees the plant as wide as its cage.
+// Makes ready for contact of cages, or of sheaths. The broad phase then sees the plant as wide as those.
 void take_collider(PlantBody& body);
 // The frame of a capsule, whose axis is y, between two points.
 btTransform capsule_frame(const Vec3& begin, const Vec3& end);

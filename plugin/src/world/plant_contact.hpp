@@ -1,5 +1,5 @@
-// PlantContact: a place where two plants are in each other, or where one is in itself: by their cages, or by their capsules
-// where the chain of one of them moves by itself.
+// PlantContact: a place where two plants are in each other, or where one is in itself: by their cages, or by their sheaths
+// where their chains move by themselves.
 #pragma once
 
 #include "collide/cage_contact.hpp"
@@ -11,8 +11,8 @@ inline namespace FROND_BULLET_PRECISION {
 
 struct PlantContact {
     std::array<PlantBody*, 2> plants;  // the same one twice where it touches itself
-    // Of their cages. Without nodes: the point of capsule `piece` at weights[0] of its axis.
-    std::array<ContactSide, 2> sides;
+    std::array<ContactSide, 2> sides;  // of cages or sheaths
+    std::array<bool, 2> by_sheath;
     std::array<Grip, 2> grips;         // what holds those points
     Vec3 between;     // of the grips' places, the first's less the second's, world frame [m]
     Vec3 point;       // on the first, world frame [m]
@@ -34,18 +34,16 @@ struct PlantSearch {
     std::vector<CageContact> found;
     // One a plant.
     struct Shape {
-        std::vector<Vec3> places;  // of the cage's nodes at the end of the step, world frame [m]
+        std::vector<Vec3> places;  // of the nodes of cage or sheath at the end of the step, world frame [m]
         std::vector<Vec3> ways;    // by which they get there [m]
         std::vector<Axis> axes;
-        std::vector<Capsule> covers, capsules;
-        Eigen::AlignedBox3d box;  // of the capsules, and what they are about to touch
+        std::vector<Capsule> covers;
     };
     std::vector<Shape> shapes;
 };
 
 // Bullet's broad phase says which plants may meet, capsules around pieces of their cages which organs do, a spatial hash
-// which nodes, edges and tets of those (section 3.3 of the paper). Where a chain moves by itself the capsules of both
-// plants are tested instead: a cage that follows one has thin blades' rims as levers, which a push in wind spins.
+// which nodes, edges and tets of those (section 3.3 of the paper).
 // Contacts of the last substep whose points have only just parted are kept, so that what rests on another plant does not
 // sink into it again and again; those that will meet within the step of h, as they move now, are found before.
 std::vector<PlantContact> find_plant_contacts(World& world, double h);

@@ -19,7 +19,7 @@ struct NearestPlant : btCollisionWorld::RayResultCallback {
         m_closestHitFraction = result.m_hitFraction;
         m_collisionObject = result.m_collisionObject;
         body = PlantBody::of(result.m_collisionObject);
-        capsule = result.m_localShapeInfo ? result.m_localShapeInfo->m_triangleIndex : 0;
+        capsule = body->hull->capsule_of(result.m_localShapeInfo ? result.m_localShapeInfo->m_triangleIndex : 0);
         return result.m_hitFraction;
     }
 };

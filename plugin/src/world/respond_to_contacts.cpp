@@ -35,13 +35,18 @@ bool rubs(const World& world, const PlantBody& body) {
     return world.effects & body.plant->effects & FROND_FRICTION;
 }
 
+Grip grip_of(const Contact& contact) {
+    const Flat& flat = contact.plant->hull->flats[size_t(contact.capsule)];
+    return flat_grip(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
+}
+
 // With bodies, which have moved already, velocities see to it that overlaps go.
 void add_row(const World& world, Contact& contact, double h, std::vector<Row>& rows) {
     constexpr double SHARE = 0.2, FASTEST = 1;
     Plant& plant = *contact.plant->plant;
     Row row;
     row.plants[0] = contact.plant;
-    if (!make_touch(plant, capsule_grip(plant, contact.capsule, contact.along), row.touches[0])) return;
+    if (!make_touch(plant, grip_of(contact), row.touches[0])) return;
     wake(*contact.other, contact.normal, row.touches[0].velocity);
     row.pusher = make_pusher(*contact.other, contact.on_other, h);
     row.touch.normal = contact.normal;
@@ -51,6 +56,16 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
     row.touch.depth = -contact.gap;
     row.impulse = &contact.impulse;
     rows.push_back(std::move(row));
+}
+
+// What is struck at its rim would turn by more in the step than a linear answer can tell: then it is taken at its axis.
+bool drop_levers(double way, Grip& grip) {
+    constexpr double TURN = 0.15;  // [rad]
+    const double lever = (grip.arm[0] + grip.arm[1]).norm();
+    if (lever == 0 || way < TURN * lever) return false;
+    grip.arm[0].setZero();
+    grip.arm[1].setZero();
+    return true;
 }
 
 // Plants part by being moved: cages may have been in each other by half a leaf when they were made, and would fly.
@@ -64,6 +79,12 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
     const double room = std::max(0.0, SLOP - contact.depth) / h;
     row.touch.least_speed = -room;
+    const double way = h * (row.touch.least_speed - row.touch.velocity.dot(contact.normal));
+    for (size_t k = 0; k < 2; k++)
+        if (drop_levers(way, contact.grips[k]) &&
+            !make_touch(*contact.plants[k]->plant, contact.grips[k], row.touches[k]))
+            return;
+    row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
     row.touch.least_shift = room > 0 ? -room : parting_speed(contact.depth, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
     row.touch.depth = contact.depth;

@@ -1,0 +1,138 @@
+// In: a model's chain and sections. Out: rings of four nodes around the chain's nodes, and tets between two rings.
+//
+// A blade is at least as thick as what moves into it within a step: thinner ones would be through each other unseen. What
+// goes across a blade at a push beside its midrib turns with the chain's nodes.
+#include <algorithm>
+
+#include "model/tet_geometry.hpp"
+#include "plant/flat.hpp"
+#include "plant/sheath.hpp"
+
+namespace frond {
+
+namespace {
+
+constexpr double THINNEST = 0.004;  // half of a blade [m]
+
+// Half the size of a ring, across and through.
+struct Ring {
+    Vec3 wide, thin;
+    double half_width, half_thickness;  // [m]
+    bool is_flat;
+};
+
+struct Maker {
+    const Model& model;
+    std::vector<Flat> flats;      // one a capsule
+    std::vector<int> capsule_of;  // that ends at a chain node; -1: none
+    Sheath sheath;
+    std::vector<Tet> tets;
+    std::vector<int> tet_piece, tet_organ;
+};
+
+Ring ring_of(const Maker& maker, int capsule) {
+    const Model& model = maker.model;
+    const auto& [begin, end] = model.capsules[size_t(capsule)];
+    const ChainNode& node = model.chain.nodes[size_t(end)];
+    const Vec3 chord = node.position - model.chain.nodes[size_t(begin)].position;
+    const Vec3 axis = chord.norm() > 0 ? Vec3(chord.normalized()) : Vec3(Vec3::UnitY());
+    const Flat& flat = maker.flats[size_t(capsule)];
+    Ring ring;
+    ring.is_flat = flat.half_width > 0;
+    ring.wide = ring.is_flat ? flat.wide : Vec3(axis.unitOrthogonal());
+    ring.thin = ring.wide.cross(axis).normalized();
+    ring.half_width = ring.is_flat ? flat.half_width : node.radius;
+    ring.half_thickness = ring.is_flat ? std::max(flat.half_thickness, THINNEST) : node.radius;
+    return ring;
+}
+
+// The four corners of a ring around a chain node; returns the first.
+int add_ring(Maker& maker, int chain_node, const Ring& ring) {
+    const Vec3& middle = maker.model.chain.nodes[size_t(chain_node)].position;
+    const int first = int(maker.sheath.modelled.size());
+    for (const double across : {-ring.half_width, ring.half_width})
+        for (const double through : {-ring.half_thickness, ring.half_thickness}) {
+            Grip grip;
+            grip.turns = true;
+            grip.count = 1;
+            grip.node[0] = 2 * chain_node;
+            grip.weight[0] = 1;
+            grip.arm[0] = across * ring.wide + through * ring.thin;
+            maker.sheath.modelled.push_back(middle + grip.arm[0]);
+            maker.sheath.follow.grips.push_back(grip);
+            maker.sheath.follow.nearest.push_back(chain_node);
+            grip.arm[0] = ring.is_flat ? Vec3(across * ring.wide) : Vec3(Vec3::Zero());
+            maker.sheath.holds.push_back(grip);
+        }
+    return first;
+}
+
+// Six tets around the diagonal from the first corner to the last (Kuhn 1960): those of two boxes in a row have the same
+// faces between them.
+void add_box(Maker& maker, int below, int above, int capsule) {
+    constexpr int WAYS[6][3] = {{4, 2, 1}, {4, 1, 2}, {2, 4, 1}, {2, 1, 4}, {1, 4, 2}, {1, 2, 4}};
+    const auto node = [&](int corner) { return (corner & 4 ? above : below) + (corner & 3); };
+    const int end = maker.model.capsules[size_t(capsule)][1];
+    for (const auto& way : WAYS) {
+        Tet tet = {node(0), node(way[0]), node(way[0] | way[1]), node(7)};
+        if (tet_volume(maker.sheath.modelled, tet) < 0) std::swap(tet[1], tet[2]);
+        if (!(tet_volume(maker.sheath.modelled, tet) > 0)) continue;
+        maker.tets.push_back(tet);
+        maker.tet_piece.push_back(capsule);
+        maker.tet_organ.push_back(maker.model.chain.nodes[size_t(end)].organ);
+    }
+}
+
+// Along a capsule: from the ring where the one before it ends, if both are alike, to one of its own.
+void add_capsule(Maker& maker, int capsule, std::vector<int>& last_ring, std::vector<Ring>& rings) {
+    const Model& model = maker.model;
+    const auto& [begin, end] = model.capsules[size_t(capsule)];
+    const int before = maker.capsule_of[size_t(begin)];
+    Ring ring = ring_of(maker, capsule);
+    const bool goes_on = before >= 0 && last_ring[size_t(before)] >= 0 &&
+                         rings[size_t(before)].is_flat == ring.is_flat &&
+                         model.chain.nodes[size_t(begin)].organ == model.chain.nodes[size_t(end)].organ;
+    if (goes_on && ring.wide.dot(rings[size_t(before)].wide) < 0) {
+        ring.wide = -ring.wide;
+        ring.thin = -ring.thin;
+    }
+    const int below = goes_on ? last_ring[size_t(before)] : add_ring(maker, begin, ring);
+    last_ring[size_t(capsule)] = add_ring(maker, end, ring);
+    rings[size_t(capsule)] = ring;
+    add_box(maker, below, last_ring[size_t(capsule)], capsule);
+}
+
+}  // namespace
+
+Sheath make_sheath(const Model& model) {
+    Maker maker = {model, make_flats(model), std::vector<int>(model.chain.nodes.size(), -1), {}, {}, {}, {}};
+    for (size_t i = 0; i < model.capsules.size(); i++)
+        if (model.capsules[i][0] != model.capsules[i][1]) maker.capsule_of[size_t(model.capsules[i][1])] = int(i);
+    // Nodes come after their parents, and so do the capsules that end there.
+    std::vector<int> last_ring(model.capsules.size(), -1);
+    std::vector<Ring> rings(model.capsules.size());
+    for (size_t i = 0; i < model.chain.nodes.size(); i++)
+        if (maker.capsule_of[i] >= 0) add_capsule(maker, maker.capsule_of[i], last_ring, rings);
+    Sheath& sheath = maker.sheath;
+    sheath.collider = make_collider(sheath.modelled, maker.tets, maker.tet_piece, maker.tet_organ,
+                                    std::max(int(model.capsules.size()), 1));
+    separate_near_capsules(model, sheath.collider);
+    return std::move(sheath);
+}
+
+Grip sheath_grip(const Sheath& sheath, const ContactSide& side) {
+    Grip grip;
+    grip.turns = true;
+    for (size_t i = 0; i < size_t(side.node_count); i++) {
+        const Grip& hold = sheath.holds[size_t(side.nodes[i])];
+        int k = 0;
+        while (k < grip.count && grip.node[size_t(k)] != hold.node[0]) k++;
+        grip.node[size_t(k)] = hold.node[0];
+        grip.weight[size_t(k)] += side.weights[i];
+        grip.arm[size_t(k)] += side.weights[i] * hold.arm[0];
+        grip.count = std::max(grip.count, k + 1);
+    }
+    return grip;
+}
+
+}  // namespace frond

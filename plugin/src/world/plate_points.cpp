@@ -1,0 +1,81 @@
+// In: a flat piece, and a convex body near it. Out: the points by which they touch if they do: the outline of the body's
+// side that looks at the piece, clipped by the piece (Sutherland, Hodgman 1974, "Reentrant polygon clipping").
+#include <cmath>
+
+#include "world/convert.hpp"
+#include "world/plate.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+// x is wide, y along, z thin; from the middle of the piece.
+using Outline = std::vector<Vec3>;
+
+// What of an outline is on the lower side of `most` along an axis, or with sign -1 on the upper side of -most.
+Outline clip(const Outline& outline, int axis, double sign, double most) {
+    Outline inside;
+    for (size_t i = 0; i < outline.size(); i++) {
+        const Vec3 &from = outline[i], &to = outline[(i + 1) % outline.size()];
+        const double before = most - sign * from[axis], after = most - sign * to[axis];
+        if (before >= 0) inside.push_back(from);
+        if ((before > 0 && after < 0) || (before < 0 && after > 0))
+            inside.push_back(from + before / (before - after) * (to - from));
+    }
+    return inside;
+}
+
+// Without points that are beside one there is.
+void drop_doubles(Outline& outline) {
+    constexpr double BESIDE = 0.001;  // [m]
+    Outline kept;
+    for (const Vec3& p : outline) {
+        bool is_new = true;
+        for (const Vec3& other : kept) is_new = is_new && (p - other).norm() > BESIDE;
+        if (is_new) kept.push_back(p);
+    }
+    outline = kept;
+}
+
+}  // namespace
+
+std::vector<Vec3> points_over_plate(const PlantBody& body, int capsule, const btCollisionObject& other,
+                                    const Vec3& towards) {
+    constexpr double FACING = 0.7, TILT = 0.05;  // cosine; of the body's side against the piece [rad]
+    constexpr int DIRECTIONS = 8;
+    const Plant& plant = *body.plant;
+    const Flat& flat = body.hull->flats[size_t(capsule)];
+    const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
+    Mat3 piece;
+    if (!other.getCollisionShape()->isConvex() || !piece_frame(plant, end, flat.wide, flat.spread, piece)) return {};
+    Mat3 frame;
+    frame << plant.rotation * piece.col(2), plant.rotation * piece.col(0), plant.rotation * piece.col(1);
+    const Vec3 a = plant.to_world(plant.chain_positions[size_t(begin)]);
+    const Vec3 b = plant.to_world(plant.chain_positions[size_t(end)]), middle = 0.5 * (a + b);
+    const double facing = towards.dot(frame.col(2));
+    if (std::abs(facing) < FACING) return {};
+
+    // The body's outermost points in directions around the piece's normal.
+    const auto& shape = static_cast<const btConvexShape&>(*other.getCollisionShape());
+    const btTransform& place = other.getWorldTransform();
+    Outline outline;
+    for (int k = 0; k < DIRECTIONS; k++) {
+        const double turn = 2 * M_PI * k / DIRECTIONS;
+        const Vec3 aside = TILT * (std::cos(turn) * frame.col(0) + std::sin(turn) * frame.col(1));
+        const btVector3 way = to_bullet(Vec3(std::copysign(1.0, facing) * frame.col(2) + aside));
+        const btVector3 point = place * shape.localGetSupportingVertex(way * place.getBasis());
+        outline.push_back(frame.transpose() * (from_bullet(point) - middle));
+    }
+    const double half_width = flat.half_width - flat.half_thickness, half_length = 0.5 * (b - a).norm();
+    for (const double sign : {-1.0, 1.0}) {
+        outline = clip(outline, 0, sign, half_width);
+        outline = clip(outline, 1, sign, half_length);
+    }
+    drop_doubles(outline);
+    for (Vec3& p : outline) p = middle + frame * p;
+    return outline;
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
