@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "build/build_urdf.hpp"
 #include "build/weigh.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -10,7 +11,7 @@
 
 namespace frond {
 
-static ImportOptions import_options(const frond_model_def& def) {
+ImportOptions import_options(const frond_model_def& def) {
     return {def.scale, Vec3(def.up.x, def.up.y, def.up.z)};
 }
 
@@ -20,7 +21,7 @@ static void find_organs(Model& model, const frond_model_def& def) {
     model.organ_stiffer.assign(model.organs.size(), 1.0);
 }
 
-static void find_chain(Model& model, const frond_model_def& def) {
+void find_chain(Model& model, const frond_model_def& def) {
     model.chain = make_chain(model.surface, model.topology, model.organs, {def.capsule_height, def.capsule_radius});
     model.sections = measure_sections(model.surface, model.topology, model.organs, model.chain);
 }
@@ -47,8 +48,7 @@ static void tell_stiffened(Model& model, const WeakOrgan& weak, const WeakOrgan&
              in_cage.name.c_str(), in_cage.factor);
 }
 
-// From a surface whose organs and chain stand.
-static void build_body(Model& model, const frond_model_def& def) {
+void build_body(Model& model, const frond_model_def& def) {
     const Timer timer;
     make_cage(model.surface, model.topology, model.organs, {def.cage_size, def.cage_offset, def.cage_smoothness},
               model.cage, model.embedding);
@@ -81,8 +81,7 @@ std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_mod
     return build(std::move(surface), def, total);
 }
 
-// How place_surface() moved a surface that was made as it stands.
-static StemPlacement placement_of(const Surface& before, const Surface& after) {
+StemPlacement placement_of(const Surface& before, const Surface& after) {
     StemPlacement placed;
     placed.scale = after.scale;
     placed.turn = Quat::FromTwoVectors(after.up, Vec3::UnitY()).toRotationMatrix();
@@ -123,6 +122,7 @@ std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def
 
 std::shared_ptr<const Model> build_from_file(const std::string& path, const frond_model_def& def) {
     if (is_tet_file(path)) return build_from_tets(import_tets(path), def);
+    if (is_urdf(path)) return build_from_urdf(path, def);
     const Timer total;
     return build(import_surface(path, import_options(def)), def, total);
 }

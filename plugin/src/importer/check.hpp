@@ -8,12 +8,13 @@
 
 namespace frond {
 
-enum class FileFormat { OBJ, PLY, GLTF, GLB, FBX, DAE, STL };
+enum class FileFormat { OBJ, PLY, GLTF, GLB, FBX, DAE, STL, URDF };
 
 struct MeshFile {
     std::string path, name, folder;  // as given; without and only the folder ("." if none)
     std::string bytes;
     FileFormat format = FileFormat::OBJ;
+    bool ignores_up = false;  // Collada's up axis, as URDF readers do
 };
 
 // Reads the file and tells its format by name and content. Throws FILE_FORMAT.

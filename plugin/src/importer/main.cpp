@@ -1,5 +1,6 @@
-// frond-import: reads a mesh file and writes the surface to stdout as an import stream.
-//     frond-import FILE [CPU_SECONDS WALL_SECONDS MEMORY_MIB]
+// frond-import: reads a mesh file or a URDF file and writes surface or tree to stdout as an import stream.
+//     frond-import FILE [CPU_SECONDS WALL_SECONDS MEMORY_MIB [collides]]
+// With "collides" the meshes of a URDF file that are read are those that collide, not those that are seen.
 // It limits itself before it looks at the file; whoever started it expects that it may crash.
 #include <signal.h>
 #include <sys/prctl.h>
@@ -8,10 +9,12 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 
 #include "core/log.hpp"
 #include "importer/importer.hpp"
+#include "importer/urdf.hpp"
 #include "model/import_stream.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -52,12 +55,15 @@ static void keep_warning(const char* message, void* result) {
     static_cast<frond::ImportResult*>(result)->warnings.push_back(message);
 }
 
-static void read_file(const std::string& path, frond::ImportResult& result) {
+static void read_file(const std::string& path, frond::UrdfUse use, frond::ImportResult& result) {
     using namespace frond;
     try {
         const MeshFile file = open_file(path);
         check_file(file);
-        result.surface = file.format == FileFormat::PLY ? read_ply(file) : read_scene(file);
+        if (file.format == FileFormat::URDF)
+            result.tree = read_urdf(file, use);
+        else
+            result.surface = file.format == FileFormat::PLY ? read_ply(file) : read_scene(file);
     } catch (const Error& error) {
         result.code = error.code;
         result.error = error.what();
@@ -68,7 +74,9 @@ static void read_file(const std::string& path, frond::ImportResult& result) {
         result.code = FROND_FILE_FORMAT;
         result.error = std::string("the file could not be read: ") + error.what();
     }
-    if (result.code != FROND_OK) result.surface = Surface();
+    if (result.code == FROND_OK) return;
+    result.surface = Surface();
+    result.tree = UrdfTree();
 }
 
 int main(int argument_count, char** arguments) {
@@ -81,7 +89,8 @@ int main(int argument_count, char** arguments) {
     if (!write_all(frond::import_greeting())) return 1;
     frond::ImportResult result;
     frond::set_log(keep_warning, &result);
-    read_file(arguments[1], result);
+    const bool collides = argument_count > 5 && strcmp(arguments[5], "collides") == 0;
+    read_file(arguments[1], collides ? frond::UrdfUse::COLLIDES : frond::UrdfUse::SEEN, result);
     const bool written = write_all(frond::encode_import(result));
     // Without destructors: a scene that is half damaged is not worth tearing down.
     _exit(written ? 0 : 1);

@@ -34,12 +34,12 @@ static FileFormat format_by_name(const std::string& name) {
         FileFormat format;
     } ROWS[] = {{".obj", FileFormat::OBJ}, {".ply", FileFormat::PLY}, {".gltf", FileFormat::GLTF},
                 {".glb", FileFormat::GLB}, {".fbx", FileFormat::FBX}, {".dae", FileFormat::DAE},
-                {".stl", FileFormat::STL}};
+                {".stl", FileFormat::STL}, {".urdf", FileFormat::URDF}};
     const size_t dot = name.rfind('.');
     const std::string ending = dot == std::string::npos ? "" : name.substr(dot);
     for (const auto& row : ROWS)
         if (strcasecmp(row.ending, ending.c_str()) == 0) return row.format;
-    fail(FROND_FILE_FORMAT, "the name ends in \"%s\"; meshes are read from .obj .ply .gltf .glb .fbx .dae .stl",
+    fail(FROND_FILE_FORMAT, "the name ends in \"%s\"; meshes are read from .obj .ply .gltf .glb .fbx .dae .stl, trees of links from .urdf",
          ending.c_str());
 }
 
@@ -62,7 +62,7 @@ static const char* format_by_content(const std::string& bytes) {
 }
 
 static const char* name_of(FileFormat format) {
-    static const char* const NAMES[] = {"OBJ", "PLY", "glTF", "GLB", "FBX", "DAE", "STL"};
+    static const char* const NAMES[] = {"OBJ", "PLY", "glTF", "GLB", "FBX", "DAE", "STL", "URDF"};
     return NAMES[int(format)];
 }
 
@@ -79,8 +79,8 @@ MeshFile open_file(const std::string& path) {
     if (content && strcmp(content, name_of(file.format)) != 0 && file.format != FileFormat::STL)
         fail(FROND_FILE_FORMAT, "the content is that of a %s file, not of the %s file that the name promises", content,
              name_of(file.format));
-    const bool is_text =
-        file.format == FileFormat::OBJ || file.format == FileFormat::GLTF || file.format == FileFormat::DAE;
+    const bool is_text = file.format == FileFormat::OBJ || file.format == FileFormat::GLTF ||
+                         file.format == FileFormat::DAE || file.format == FileFormat::URDF;
     const bool is_wide = starts_with(file.bytes, "\xff\xfe") || starts_with(file.bytes, "\xfe\xff");
     const size_t zero = file.bytes.find('\0');
     if (is_text && !is_wide && zero != std::string::npos)
@@ -94,6 +94,7 @@ void check_file(const MeshFile& file) {
         case FileFormat::OBJ:
             return check_obj(file);
         case FileFormat::PLY:
+        case FileFormat::URDF:
             return;  // the reader checks as it goes
         case FileFormat::GLTF:
         case FileFormat::GLB:

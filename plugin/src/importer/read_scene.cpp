@@ -99,6 +99,7 @@ Surface read_scene(const MeshFile& file) {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_CAMERAS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_LIGHTS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, file.ignores_up);
     const aiScene* scene = importer.ReadFile(file.path, aiProcess_Triangulate);
     if (!scene) {
         const char* text = importer.GetErrorString();

@@ -1,4 +1,4 @@
-// Runs the import program on a mesh file: a path comes in, a surface goes out, or an error with the file's name and the
+// Runs the import program on a file: a path comes in, a surface or a tree of links goes out, or an error with the file's name and the
 // cause. The program has limits on time and memory, and nothing that it says is believed unchecked. Its exit status is
 // a hint only: a host may ignore SIGCHLD or reap our child before us, so the complete stream alone decides.
 #include "model/import_process.hpp"
@@ -9,6 +9,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -72,11 +73,12 @@ static ImportLimits choose_limits(const ImportLimits& wanted, double file_bytes)
 }
 
 static pid_t start_program(const std::string& program, const std::string& path, const ImportLimits& limits,
-                           Pipe& output, Pipe& messages) {
+                           UrdfUse use, Pipe& output, Pipe& messages) {
     const std::string cpu = std::to_string(int(limits.cpu_seconds + 0.999));
     const std::string wall = std::to_string(int(limits.wall_seconds + 0.999));
     const std::string memory = std::to_string(int64_t(limits.memory_mib));
-    const char* arguments[] = {program.c_str(), path.c_str(), cpu.c_str(), wall.c_str(), memory.c_str(), nullptr};
+    const char* what = use == UrdfUse::COLLIDES ? "collides" : nullptr;
+    const char* arguments[] = {program.c_str(), path.c_str(), cpu.c_str(), wall.c_str(), memory.c_str(), what, nullptr};
 
     // Standard descriptors and default signals, nothing else of the host's.
     posix_spawn_file_actions_t actions;
@@ -201,7 +203,7 @@ static std::string last_line(std::string text) {
          signalled ? " with signal " : "", signalled ? std::to_string(signal).c_str() : "");
 }
 
-Surface run_importer(const std::string& path, const ImportLimits& wanted) {
+static ImportResult run_program(const std::string& path, const ImportLimits& wanted, UrdfUse use) {
     // What can be told without the program.
     const std::string name = file_name(path);
     struct stat status;
@@ -222,7 +224,7 @@ Surface run_importer(const std::string& path, const ImportLimits& wanted) {
     Pipe output, messages;
     open_pipe(output);
     open_pipe(messages);
-    const pid_t process = start_program(program, path, limits, output, messages);
+    const pid_t process = start_program(program, path, limits, use, output, messages);
     output.writing.reset();
     messages.writing.reset();
     std::string stream, errors;
@@ -243,7 +245,11 @@ Surface run_importer(const std::string& path, const ImportLimits& wanted) {
         fail_incomplete(name, program, limits, ending, greeted, exit_status, errors);
     for (const std::string& warning : result.warnings) warn("%s: %s", name.c_str(), warning.c_str());
     if (result.code != FROND_OK) fail(result.code, "%s: %s", name.c_str(), result.error.c_str());
-    return std::move(result.surface);
+    return result;
+}
+
+Surface run_importer(const std::string& path, const ImportLimits& limits) {
+    return run_program(path, limits, UrdfUse::SEEN).surface;
 }
 
 Surface import_surface(const std::string& path, const ImportOptions& options) {
@@ -256,6 +262,17 @@ Surface import_surface(const std::string& path, const ImportOptions& options) {
         throw Error(error.code, file_name(path) + ": " + error.what());
     }
     return surface;
+}
+
+bool is_urdf(const std::string& path) {
+    const size_t dot = path.rfind('.');
+    return dot != std::string::npos && strcasecmp(path.c_str() + dot, ".urdf") == 0;
+}
+
+UrdfTree import_urdf(const std::string& path, UrdfUse use) {
+    if (!is_urdf(path))
+        fail(FROND_FILE_FORMAT, "%s: the name does not end in .urdf; give the path of a URDF file", file_name(path).c_str());
+    return run_program(path, ImportLimits(), use).tree;
 }
 
 }  // namespace frond

@@ -1,13 +1,13 @@
 // Writes and reads the import stream. The reader trusts nothing: lengths are checked before memory is taken for them,
-// and a surface whose indices or sizes do not agree is refused as a whole.
+// and a surface or tree whose indices or sizes do not agree is refused as a whole.
 #include "model/import_stream.hpp"
 
-#include <cstring>
+#include "model/byte_stream.hpp"
 
 namespace frond {
 
 static constexpr char MAGIC[] = "frond-import";
-static constexpr uint32_t VERSION = 1;
+static constexpr uint32_t VERSION = 2;
 static constexpr uint32_t MAX_PARTS = 1000000, MAX_TEXTURES = 10000, MAX_WARNINGS = 1000;
 
 std::string import_greeting() {
@@ -28,24 +28,6 @@ static uint64_t checksum(const char* bytes, size_t count) {
     }
     for (; i < count; ++i) sum = (sum ^ uint8_t(bytes[i])) * 0x100000001B3ull;
     return sum;
-}
-
-// ---- writing ----
-
-template <typename Value>
-static void put(std::string& out, const Value& value) {
-    out.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-static void put_text(std::string& out, const std::string& text) {
-    put(out, uint32_t(text.size()));
-    out += text;
-}
-
-template <typename Value>
-static void put_array(std::string& out, const std::vector<Value>& values) {
-    put(out, uint32_t(values.size()));
-    if (!values.empty()) out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
 }
 
 static void put_surface(std::string& out, const Surface& surface) {
@@ -82,52 +64,14 @@ std::string encode_import(const ImportResult& result) {
     put_text(out, result.error);
     put(out, uint32_t(std::min<size_t>(result.warnings.size(), MAX_WARNINGS)));
     for (size_t i = 0; i < result.warnings.size() && i < MAX_WARNINGS; ++i) put_text(out, result.warnings[i]);
-    if (result.code == FROND_OK) put_surface(out, surface);
+    if (result.code == FROND_OK) {
+        put_surface(out, surface);
+        put_tree(out, result.tree);
+    }
     const uint64_t length = out.size() - 8;
     std::memcpy(&out[0], &length, 8);
     put(out, checksum(out.data() + 8, size_t(length)));
     return out;
-}
-
-// ---- reading ----
-
-struct StreamReader {
-    const char* at;
-    size_t left;
-    bool good = true;
-};
-
-static bool take_bytes(StreamReader& in, void* out, size_t count) {
-    in.good = in.good && count <= in.left;
-    if (!in.good) return false;
-    if (count > 0) std::memcpy(out, in.at, count);
-    in.at += count;
-    in.left -= count;
-    return true;
-}
-
-template <typename Value>
-static Value take(StreamReader& in) {
-    Value value{};
-    take_bytes(in, &value, sizeof value);
-    return value;
-}
-
-template <typename Array>
-static void take_array(StreamReader& in, Array& values) {
-    const size_t count = take<uint32_t>(in), item = sizeof(values[0]);
-    in.good = in.good && count <= in.left / item;
-    if (!in.good) return;
-    values.resize(count);
-    if (count > 0) take_bytes(in, static_cast<void*>(&values[0]), count * item);
-}
-
-static std::string take_text(StreamReader& in) {
-    std::string text;
-    take_array(in, text);
-    for (char& letter : text)
-        if (uint8_t(letter) < 32) letter = ' ';
-    return text;
 }
 
 static void take_surface(StreamReader& in, Surface& surface) {
@@ -203,6 +147,8 @@ bool decode_import(const char* bytes, size_t byte_count, ImportResult& result) {
     if (in.good && result.code == FROND_OK) {
         take_surface(in, result.surface);
         if (in.good && !holds_together(result.surface)) return false;
+        take_tree(in, result.tree);
+        if (in.good && !result.tree.links.empty() && !what_is_wrong_with(result.tree).empty()) return false;
     }
     return in.good && in.left == 0;
 }

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "model/surface.hpp"
+#include "model/urdf.hpp"
 
 namespace frond {
 
@@ -11,7 +12,9 @@ struct ImportResult {
     frond_result code = FROND_OK;
     std::string error;  // if code is not FROND_OK
     std::vector<std::string> warnings;
-    Surface surface;  // if it is
+    // If it is, one of these: the other is empty.
+    Surface surface;
+    UrdfTree tree;
 };
 
 constexpr size_t IMPORT_GREETING_SIZE = 16;

@@ -26,4 +26,7 @@ std::vector<char> find_sheets(const Topology& topology);
 // ground where that may be.
 std::vector<char> find_crowns(const Topology& topology, bool on_ground);
 
+// The part of find_organs() that replaces materials by the caller's.
+void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count);
+
 }  // namespace frond

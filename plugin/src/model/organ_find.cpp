@@ -147,7 +147,7 @@ static std::string list_organs(const std::vector<Organ>& organs) {
     return text;
 }
 
-static void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count) {
+void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count) {
     if (count < 0 || (count > 0 && !overrides))
         fail(FROND_BAD_ARGUMENT, "organ_count is %d but organs is %s; give an array of that many", count,
              overrides ? "an array" : "null");

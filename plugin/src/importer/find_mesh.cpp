@@ -1,0 +1,68 @@
+// Finds the mesh files that a URDF file names.
+#include <sys/stat.h>
+
+#include <cstdlib>
+
+#include "importer/urdf.hpp"
+
+namespace frond {
+
+static constexpr int MOST_ABOVE = 8;  // folders above the file in which packages are looked for
+
+static bool is_file(const std::string& path) {
+    struct stat status;
+    return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+}
+
+static bool starts_with(const std::string& text, const std::string& start) {
+    return text.compare(0, start.size(), start) == 0;
+}
+
+// Folders in which packages lie.
+static std::vector<std::string> package_folders(const std::string& folder) {
+    std::vector<std::string> folders;
+    for (const char* variable : {"FROND_PACKAGE_PATH", "ROS_PACKAGE_PATH"}) {
+        const char* value = std::getenv(variable);
+        std::string rest = value ? value : "";
+        while (!rest.empty()) {
+            const size_t colon = rest.find(':');
+            if (colon != 0) folders.push_back(rest.substr(0, colon));
+            rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
+        }
+    }
+    std::string above = folder;
+    for (int i = 0; i < MOST_ABOVE; ++i, above += "/..") folders.push_back(above);
+    return folders;
+}
+
+static std::string find_in_package(const std::string& folder, const std::string& package, const std::string& path) {
+    for (const std::string& above : package_folders(folder)) {
+        if (is_file(above + "/" + package + "/" + path)) return above + "/" + package + "/" + path;
+        // The package's own folder, whatever it was renamed to.
+        if (is_file(above + "/package.xml") && is_file(above + "/" + path)) return above + "/" + path;
+    }
+    fail(FROND_FILE_NOT_FOUND,
+         "the mesh package://%.64s/%.256s was not found; set FROND_PACKAGE_PATH to the folder in which the folder %.64s "
+         "lies",
+         package.c_str(), path.c_str(), package.c_str());
+}
+
+std::string find_mesh(const std::string& folder, const std::string& reference) {
+    for (const std::string& scheme : {std::string("package://"), std::string("model://")}) {
+        if (!starts_with(reference, scheme)) continue;
+        const std::string rest = reference.substr(scheme.size());
+        const size_t slash = rest.find('/');
+        if (slash == std::string::npos || slash == 0)
+            fail(FROND_FILE_FORMAT, "the mesh %.256s names no file in a package; write %sNAME/PATH", reference.c_str(),
+                 scheme.c_str());
+        return find_in_package(folder, rest.substr(0, slash), rest.substr(slash + 1));
+    }
+    const std::string path = starts_with(reference, "file://") ? reference.substr(7) : reference;
+    const std::string found = starts_with(path, "/") ? path : folder + "/" + path;
+    if (!is_file(found))
+        fail(FROND_FILE_NOT_FOUND, "the mesh %.256s was not found; paths are taken from the URDF file's folder",
+             reference.c_str());
+    return found;
+}
+
+}  // namespace frond

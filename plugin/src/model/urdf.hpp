@@ -1,0 +1,83 @@
+// Urdf: a description of links and joints as a URDF file has it, read and checked by the import program. Plants and
+// robots are both made of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace frond {
+
+// A frame in another one: places go to turn * place + origin.
+struct UrdfFrame {
+    Vec3 origin = Vec3::Zero();  // [m]
+    Quat turn = Quat::Identity();
+    Vec3 operator*(const Vec3& place) const { return turn * place + origin; }
+    UrdfFrame operator*(const UrdfFrame& inner) const { return {turn * inner.origin + origin, turn * inner.turn}; }
+};
+
+enum class UrdfKind { SPHERE, BOX, CYLINDER, CAPSULE, MESH };
+
+struct UrdfShape {
+    UrdfKind kind = UrdfKind::SPHERE;
+    UrdfFrame frame;             // in the link
+    Vec3 size = Vec3::Zero();    // radius; sides; radius and length along z, a capsule's without its ends; scale [m], [-]
+    int mesh = -1;               // index into UrdfTree::meshes
+    std::string material;        // its name; "" if it has none
+    bool has_color = false;
+    std::array<float, 4> color = {1, 1, 1, 1};  // linear RGBA
+};
+
+enum class UrdfJoint { FIXED, REVOLUTE, CONTINUOUS, PRISMATIC, FLOATING };
+
+struct UrdfLink {
+    std::string name;
+    int parent = -1;  // smaller than its own index; -1: the root, which comes first
+    // The joint to the parent; the root has none.
+    std::string joint_name;
+    UrdfJoint joint = UrdfJoint::FIXED;
+    UrdfFrame frame;              // in the parent, with the joint at zero
+    Vec3 axis = Vec3::UnitX();    // in the link, length one
+    double lower = 0, upper = 0;  // [rad] or [m]; of revolute and prismatic ones
+    double effort = 0;            // largest force or torque, 0: not said [N], [N m]
+    double speed = 0;             // likewise [m/s], [rad/s]
+    // Inertia about the centre of mass, in a frame there.
+    bool has_inertia = false;
+    double mass = 0;  // [kg]
+    UrdfFrame centre;
+    Mat3 inertia = Mat3::Zero();  // [kg m^2]
+    std::vector<UrdfShape> visuals, collisions;
+    // Of <frond organ="" name="" material="" mass="" stretching="" bending="" twisting=""/>; the numbers are of a section of
+    // the link, all zero if there are none.
+    std::string organ, organ_name, organ_material;
+    double section_mass = 0;                // [kg/m]
+    double stretching = 0, twisting = 0;    // EA [N], GJ [N m^2]
+    double bending_x = 0, bending_y = 0;    // EI against bending towards the link's x and y axis [N m^2]
+};
+
+// Triangles of a mesh file, as they stand in it.
+struct UrdfMesh {
+    std::string name;
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+};
+
+struct UrdfTree {
+    std::string name;
+    std::vector<UrdfLink> links;  // parents first; at least one
+    std::vector<UrdfMesh> meshes;
+};
+
+// Which meshes are read: what is seen (collisions of links that show nothing), or what collides.
+enum class UrdfUse { SEEN, COLLIDES };
+UrdfTree import_urdf(const std::string& path, UrdfUse use);
+bool is_urdf(const std::string& path);
+
+// Of each link in the root's frame, all joints at zero.
+std::vector<UrdfFrame> link_frames(const UrdfTree& tree);
+
+// Whether indices and sizes agree and numbers are such as can be simulated; else why not, "" if so.
+std::string what_is_wrong_with(const UrdfTree& tree);
+
+}  // namespace frond
