@@ -1,11 +1,12 @@
 // frond_bond_*: points of plants held to bodies.
+#include "api/bonds.hpp"
 #include "api/call.hpp"
-#include "api/handles.hpp"
 #include "world/is_in.hpp"
 
 using namespace frond;
 
-namespace {
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
 
 void make_bond(PlantBody& plant, const frond_vec3& point, btCollisionObject& body, frond_bond* out) {
     check_vec(point, "point [m]");
@@ -20,7 +21,8 @@ void make_bond(PlantBody& plant, const frond_vec3& point, btCollisionObject& bod
     out->id = bond.handle;
 }
 
-}  // namespace
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
 
 extern "C" {
 

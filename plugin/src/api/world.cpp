@@ -1,6 +1,6 @@
 // frond_world_*, and the C++ side that attaches to a host's world.
 #include "api/call.hpp"
-#include "api/handles.hpp"
+#include "api/robots.hpp"
 
 using namespace frond;
 
@@ -83,6 +83,7 @@ void frond_world_destroy(frond_world world) {
         if (!taken) return;
         for (const auto& body : taken->bodies) forget(*body);
         for (const auto& rigid : taken->rigids) rigid_slots().erase(rigid->handle.id);
+        forget_robots(*taken);
     });
 }
 

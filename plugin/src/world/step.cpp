@@ -5,6 +5,7 @@
 #include "core/timer.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
+#include "world/robot.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -191,6 +192,7 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     const Timer step_timer;
     is_stepping = true;
     substep++;
+    substep_length = h;
     end_hold(gravity_ahead, *collision_world);
     report = {};
     Surroundings surroundings;
@@ -229,6 +231,7 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     for (PlantBody* body : awake) settle(*this, *body, *collision_world);
     if (sleep_distance > 0) put_to_sleep(*this);
     fold_looked_at(*this);
+    limit_motors(*this, h);
     time += h;
     report.ms_step = step_timer.ms();
     learn_times(*this);
@@ -239,6 +242,7 @@ void World::debugDraw(btIDebugDraw*) {}
 
 void advance(World& world, double dt) {
     const int substeps = int(std::ceil(dt / world.max_substep - 1e-9));
+    if (substeps > 0) limit_motors(world, dt / substeps);
     for (int i = 0; i < substeps; i++) world.bullet->stepSimulation(btScalar(dt / substeps), 0);
     for (PlantBody* body : world.awake) clear_user_force(*body->plant);
 }

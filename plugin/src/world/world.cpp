@@ -7,6 +7,8 @@
 
 #include "core/error.hpp"
 #include "world/fragments.hpp"
+#include "world/own_bullet.hpp"
+#include "world/robot.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -34,6 +36,7 @@ World::World(std::unique_ptr<OwnBullet> given, btDynamicsWorld* bullet, const fr
 World::~World() {
     is_ending = true;
     while (!bodies.empty()) remove_plant(*this, bodies.back().get());
+    while (!robots.empty()) remove_robot(*this, robots.back().get());
     while (!rigids.empty()) remove_rigid(*this, rigids.back().get());
     bullet->removeAction(this);
     std::lock_guard<std::mutex> lock(attached_mutex);

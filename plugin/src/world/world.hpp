@@ -19,14 +19,8 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// The Bullet world that Frond makes when the host has none. Members are destroyed from the last to the first.
-struct OwnBullet {
-    btDefaultCollisionConfiguration configuration;
-    btCollisionDispatcher dispatcher{&configuration};
-    btDbvtBroadphase broadphase;
-    btSequentialImpulseConstraintSolver solver;
-    btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
-};
+struct OwnBullet;
+struct Robot;
 
 struct World final : btActionInterface {
     std::unique_ptr<OwnBullet> own;  // null when attached
@@ -48,10 +42,12 @@ struct World final : btActionInterface {
     frond_parallel_for_fn* parallel_for;  // null: the host lends no threads of its own
     void* parallel_user;
     std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
+    std::vector<std::unique_ptr<Robot>> robots;  // likewise
     std::list<Bond> bonds;
     double sleep_distance;          // 0: no plant sleeps [m]
     size_t turn = 0;                // of asking sleeping plants about the air
     uint64_t substep = 0;
+    double substep_length = 0;      // of the last one [s]
     std::unique_ptr<Detail> detail;  // null: all plants are simulated in full
     Vec3 gravity_before = Vec3::Zero();  // in the last substep [m/s^2]
     frond_effects effects_before = 0;    // likewise

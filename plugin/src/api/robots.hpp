@@ -1,0 +1,19 @@
+// Handles of robots.
+#pragma once
+
+#include "api/handles.hpp"
+#include "world/robot.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+constexpr uint32_t ROBOT_DEF_COOKIE = 0x46724e42;
+
+using RobotSlots = Slots<Robot*, 7>;
+RobotSlots& robot_slots();
+Robot& get(frond_robot robot);
+// Takes the handles of a world's robots back.
+void forget_robots(const World& world);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

@@ -1,0 +1,105 @@
+// Chain -> URDF: a link with a cylinder for each capsule, from its parent's end to its own along the link's z axis. The
+// cylinder has the section's area, so that it weighs what the capsule does; how stiff it is stands in <frond>.
+#include "model/write_urdf.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace frond {
+
+namespace {
+
+struct Frame {
+    Vec3 origin = Vec3::Zero();
+    Quat turn = Quat::Identity();
+};
+
+// XML takes neither < & " nor control characters in an attribute.
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (char letter : text) {
+        if (letter == '<' || letter == '&' || letter == '"' || letter == '>' || uint8_t(letter) < 32)
+            out += '_';
+        else
+            out += letter;
+    }
+    return out;
+}
+
+std::string numbers(const Vec3& v) {
+    return text_of("%.9g %.9g %.9g", v.x(), v.y(), v.z());
+}
+
+// Fixed axes x, y, z, as URDF turns.
+std::string roll_pitch_yaw(const Quat& q) {
+    const Mat3 R = q.toRotationMatrix();
+    const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
+    const bool is_upright = std::hypot(R(0, 0), R(1, 0)) < 1e-9;
+    const double roll = is_upright ? std::atan2(-R(1, 2), R(1, 1)) : std::atan2(R(2, 1), R(2, 2));
+    const double yaw = is_upright ? 0 : std::atan2(R(1, 0), R(0, 0));
+    return numbers({roll, pitch, yaw});
+}
+
+std::string link_text(const Model& model, size_t node, const std::string& name) {
+    const Section& section = model.sections[node];
+    const Organ& organ = model.organs[size_t(std::max(model.chain.nodes[node].organ, 0))];
+    const double length = section.length, radius = std::sqrt(section.area / M_PI), mass = section.mass() * length;
+    const std::string half = numbers({0, 0, 0.5 * length});
+    const std::string geometry = text_of(
+        "      <origin xyz=\"%s\"/>\n      <geometry><cylinder radius=\"%.9g\" length=\"%.9g\"/></geometry>\n", half.c_str(),
+        radius, length);
+    const double across = mass * (radius * radius / 4 + length * length / 12), along = mass * radius * radius / 2;
+    std::string text = "  <link name=\"" + name + "\">\n";
+    text += "    <visual>\n" + geometry + "      <material name=\"" + escaped(organ.kind) + "\"/>\n    </visual>\n";
+    text += "    <collision>\n" + geometry + "    </collision>\n";
+    text += text_of("    <inertial>\n      <origin xyz=\"%s\"/>\n      <mass value=\"%.9g\"/>\n      <inertia ixx=\"%.9g\" "
+                    "ixy=\"0\" ixz=\"0\" iyy=\"%.9g\" iyz=\"0\" izz=\"%.9g\"/>\n    </inertial>\n",
+                    half.c_str(), mass, across, across, along);
+    const Material* grass = material_preset("grass_" + organ.kind);
+    const bool is_grass = grass && std::memcmp(grass, &organ.material, sizeof *grass) == 0;
+    text += text_of("    <frond organ=\"%s\" material=\"%s%s\" name=\"%s\" mass=\"%.9g\" stretching=\"%.9g\" bending=\"%.9g %.9g\" "
+                    "twisting=\"%.9g\"/>\n",
+                    organ.kind.c_str(), is_grass ? "grass_" : "", organ.kind.c_str(), escaped(organ.name).c_str(), section.mass(), section.stretching(),
+                    section.bending_thin(), section.bending_wide(), section.twisting());
+    return text + "  </link>\n";
+}
+
+std::string joint_text(const std::string& parent, const std::string& child, const Frame& frame) {
+    return "  <joint name=\"" + child + "_joint\" type=\"fixed\">\n    <parent link=\"" + parent + "\"/>\n    <child link=\"" +
+           child + "\"/>\n    <origin xyz=\"" + numbers(frame.origin) + "\" rpy=\"" + roll_pitch_yaw(frame.turn) +
+           "\"/>\n  </joint>\n";
+}
+
+// z along the capsule, x where it is thinnest.
+Quat turn_of(const Section& section) {
+    Mat3 axes;
+    axes.col(2) = section.axis;
+    axes.col(0) = section.thin;
+    axes.col(1) = section.axis.cross(section.thin);
+    return Quat(axes).normalized();
+}
+
+}  // namespace
+
+std::string urdf_of(const Model& model, const std::string& name) {
+    const Quat upright = Quat::FromTwoVectors(Vec3::UnitY(), Vec3::UnitZ());
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(name) + "\">\n  <link name=\"ground\"/>\n";
+    std::vector<std::string> link(nodes.size(), "ground");
+    std::vector<Frame> frames(nodes.size());  // of the link that ends in a node; of a root the ground's
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const int parent = nodes[i].parent;
+        if (parent < 0) continue;
+        link[i] = "piece_" + std::to_string(i);
+        frames[i] = {upright * nodes[size_t(parent)].position, (upright * turn_of(model.sections[i])).normalized()};
+        const Frame& above = frames[size_t(parent)];
+        const Quat back = above.turn.conjugate();
+        text += link_text(model, i, link[i]);
+        text += joint_text(link[size_t(parent)], link[i], {back * (frames[i].origin - above.origin), back * frames[i].turn});
+    }
+    return text + "</robot>\n";
+}
+
+}  // namespace frond

@@ -1,0 +1,35 @@
+// A pinned node does not accelerate: what holds it is the opposite of all else that pulls it, elastic forces and weight.
+// Where the chain moves, nodes are pairs of a place and a rotation, and a held rotation is held by a moment.
+#include "plant/root_force.hpp"
+
+#include "mechanics/rotation.hpp"
+
+namespace frond {
+
+Wrench root_force(const Plant& plant, const Vec3& gravity, const Vec3& about) {
+    const VecX& x = plant.motion.x;
+    const VecX& mass = node_mass_of(*plant.system);
+    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
+    const Vec3 centre = plant.to_model(about), weight = plant.rotation.conjugate() * gravity;
+    VecX pull = VecX::Zero(x.size());
+    row.add_force(elements_of(plant), x, pull);
+    Wrench held;
+    const auto hold = [&](const Vec3& force, const Vec3& place) {
+        held.force += force;
+        held.moment += (place - centre).cross(force);
+    };
+    for (int i = 0; i < int(mass.size()); i++) {
+        if (plant.motion.pinned.empty() || !plant.motion.pinned[size_t(i)]) continue;
+        if (row.moves_chain && i % 2 == 1)
+            held.moment -= inverse_rate_matrix<double>(Vec3(point(x, i))).transpose() * point(pull, i);
+        else
+            hold(-point(pull, i) - mass[i] * weight, point(x, i));
+    }
+    for (const Spring& spring : plant.pin_springs) {
+        const Vec3 place = grip_place(spring.grip, x);
+        hold(spring.stiffness * (spring.target - place), place);
+    }
+    return {plant.rotation * held.force, plant.rotation * held.moment};
+}
+
+}  // namespace frond

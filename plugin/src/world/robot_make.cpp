@@ -1,0 +1,181 @@
+// Makes a robot: a tree of links comes in, a multi-body with motors and limits in the Bullet world goes out. Frames and
+// offsets follow btMultiBody.h: those of links are at their centres of mass, along principal axes.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "world/convert.hpp"
+#include "world/robot.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+btQuaternion to_bullet(const Quat& q) {
+    return btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w()));
+}
+using frond::to_bullet;
+
+UrdfFrame inverse(const UrdfFrame& frame) {
+    return {frame.turn.conjugate() * -frame.origin, frame.turn.conjugate()};
+}
+
+// A base that floats hangs on a root that is nothing but the world: that root goes.
+bool drop_floating_root(UrdfTree& tree) {
+    const auto floats = [](const UrdfLink& link) { return link.joint == UrdfJoint::FLOATING; };
+    if (std::none_of(tree.links.begin(), tree.links.end(), floats)) return false;
+    const UrdfLink& root = tree.links.front();
+    const bool is_lone = tree.links.size() > 1 && floats(tree.links[1]) && root.collisions.empty() && root.mass == 0 &&
+                         std::count_if(tree.links.begin(), tree.links.end(), floats) == 1 &&
+                         std::none_of(tree.links.begin() + 2, tree.links.end(),
+                                      [](const UrdfLink& link) { return link.parent == 0; });
+    if (!is_lone)
+        fail(FROND_UNSUPPORTED,
+             "a joint floats that is not the only one of a root without mass and shapes; give what floats a file of its own");
+    tree.links.erase(tree.links.begin());
+    for (UrdfLink& link : tree.links) link.parent--;
+    tree.links.front().joint = UrdfJoint::FIXED;
+    return true;
+}
+
+// Principal axes. A link that moves needs some inertia, or its joint would answer to any force without end.
+RobotLink weigh(const UrdfLink& link, bool needs_mass) {
+    constexpr double LIGHT = 0.01, SIZE = 0.02;  // of what has none [kg], [m]
+    RobotLink out;
+    out.centre = link.centre;
+    out.mass = link.mass;
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(link.inertia);
+    Mat3 axes = solver.eigenvectors();
+    if (axes.determinant() < 0) axes.col(0) *= -1;
+    out.centre.turn = (link.centre.turn * Quat(axes)).normalized();
+    out.inertia = solver.eigenvalues().cwiseMax(0);
+    if (!needs_mass) return out;
+    if (out.mass < 1e-6) {
+        warn("link \"%s\" moves and has no mass; taking %g kg", link.name.c_str(), LIGHT);
+        out.mass = LIGHT;
+    }
+    out.inertia = out.inertia.cwiseMax(0.1 * out.mass * SIZE * SIZE);
+    return out;
+}
+
+void set_up_joint(Robot& robot, size_t i) {
+    const UrdfLink& link = robot.tree.links[i];
+    const RobotLink &own = robot.links[i], &parent = robot.links[size_t(link.parent)];
+    const UrdfFrame joint = inverse(parent.centre) * link.frame, back = inverse(own.centre);
+    const btQuaternion turn = to_bullet(Quat(back.turn * joint.turn.conjugate()));
+    const btVector3 to_pivot = to_bullet(joint.origin), to_centre = to_bullet(Vec3(-back.origin));
+    const btVector3 axis = to_bullet(Vec3(back.turn * link.axis)), inertia = to_bullet(own.inertia);
+    const int number = int(i) - 1, above = link.parent - 1;
+    const btScalar mass = btScalar(own.mass);
+    if (link.joint == UrdfJoint::FIXED)
+        robot.body->setupFixed(number, mass, inertia, above, turn, to_pivot, to_centre);
+    else if (link.joint == UrdfJoint::PRISMATIC)
+        robot.body->setupPrismatic(number, mass, inertia, above, turn, axis, to_pivot, to_centre, true);
+    else
+        robot.body->setupRevolute(number, mass, inertia, above, turn, axis, to_pivot, to_centre, true);
+}
+
+void add_collider(Robot& robot, size_t i, const frond_robot_def& def) {
+    RobotLink& link = robot.links[i];
+    if (!make_shapes(robot.tree, robot.tree.links[i], link.centre, link)) return;
+    link.collider = std::make_unique<btMultiBodyLinkCollider>(robot.body.get(), int(i) - 1);
+    link.collider->setCollisionShape(link.shapes.back().get());
+    link.collider->setFriction(btScalar(def.friction));
+    if (i == 0)
+        robot.body->setBaseCollider(link.collider.get());
+    else
+        robot.body->getLink(int(i) - 1).m_collider = link.collider.get();
+    if (i == 0 && robot.body->hasFixedBase())
+        link.collider->setCollisionFlags(link.collider->getCollisionFlags() | btCollisionObject::CF_STATIC_OBJECT);
+}
+
+void add_constraints(Robot& robot, size_t i) {
+    const UrdfLink& link = robot.tree.links[i];
+    RobotLink& own = robot.links[i];
+    if (link.joint == UrdfJoint::FIXED) return;
+    btMultiBody* body = robot.body.get();
+    own.motor = std::make_unique<btMultiBodyJointMotor>(body, int(i) - 1, btScalar(0), btScalar(0));
+    own.motor->finalizeMultiDof();
+    robot.bullet->addMultiBodyConstraint(own.motor.get());
+    if (link.joint == UrdfJoint::CONTINUOUS) return;
+    own.limit = std::make_unique<btMultiBodyJointLimitConstraint>(body, int(i) - 1, btScalar(link.lower),
+                                                                  btScalar(link.upper));
+    own.limit->finalizeMultiDof();
+    robot.bullet->addMultiBodyConstraint(own.limit.get());
+}
+
+std::unique_ptr<Robot> make_robot(World& world, UrdfTree tree, const frond_robot_def& def) {
+    auto robot = std::make_unique<Robot>();
+    robot->world = &world;
+    robot->bullet = dynamic_cast<btMultiBodyDynamicsWorld*>(world.bullet);
+    if (!robot->bullet)
+        fail(FROND_UNSUPPORTED, "this Bullet world takes no multi-bodies; make it a btMultiBodyDynamicsWorld");
+    const bool floats = drop_floating_root(tree);
+    const bool is_fixed = def.is_fixed && !floats;
+    robot->surface = make_surface(tree);
+    robot->tree = std::move(tree);
+    for (size_t i = 0; i < robot->tree.links.size(); i++) {
+        const UrdfLink& link = robot->tree.links[i];
+        robot->links.push_back(weigh(link, i == 0 ? !is_fixed : link.joint != UrdfJoint::FIXED));
+    }
+    const RobotLink& base = robot->links.front();
+    robot->body = std::make_unique<btMultiBody>(int(robot->links.size()) - 1, btScalar(is_fixed ? 0 : base.mass),
+                                                to_bullet(base.inertia), is_fixed, false);
+    btMultiBody& body = *robot->body;
+    const frond_quat& q = def.rotation;
+    UrdfFrame placed = {Vec3(def.position.x, def.position.y, def.position.z), Quat(q.w, q.x, q.y, q.z).normalized()};
+    if (floats) placed = placed * robot->tree.links.front().frame;
+    const UrdfFrame frame = placed * base.centre;
+    body.setBaseWorldTransform(btTransform(to_bullet(frame.turn), to_bullet(frame.origin)));
+    for (size_t i = 1; i < robot->links.size(); i++) set_up_joint(*robot, i);
+    body.finalizeMultiDof();
+    body.setHasSelfCollision(false);
+    body.setCanSleep(false);
+    body.setLinearDamping(0);
+    body.setAngularDamping(0);
+    return robot;
+}
+
+}  // namespace
+
+Robot* add_robot(World& world, UrdfTree tree, const frond_robot_def& def) {
+    // With Bullet's ten rounds motors sag and give way to each other and to limits; the host's world is the host's.
+    constexpr int ROUNDS = 100;
+    std::unique_ptr<Robot> robot = make_robot(world, std::move(tree), def);
+    if (world.own) robot->bullet->getSolverInfo().m_numIterations = ROUNDS;
+    for (size_t i = 0; i < robot->links.size(); i++) add_collider(*robot, i, def);
+    robot->bullet->addMultiBody(robot->body.get());
+    for (size_t i = 1; i < robot->links.size(); i++) {
+        add_constraints(*robot, i);
+        const UrdfLink& link = robot->tree.links[i];
+        if (!moves(*robot, i)) continue;
+        const double start = link.joint == UrdfJoint::CONTINUOUS ? 0 : std::clamp(0.0, link.lower, link.upper);
+        put_joint(*robot, i, start);
+    }
+    for (const RobotLink& link : robot->links)
+        if (link.collider) robot->bullet->addCollisionObject(link.collider.get(), def.group, def.mask);
+    world.robots.push_back(std::move(robot));
+    return world.robots.back().get();
+}
+
+void remove_robot(World& world, Robot* robot) {
+    for (const RobotLink& link : robot->links) {
+        for (btMultiBodyConstraint* constraint :
+             {static_cast<btMultiBodyConstraint*>(link.motor.get()), static_cast<btMultiBodyConstraint*>(link.limit.get())})
+            if (constraint) robot->bullet->removeMultiBodyConstraint(constraint);
+        if (!link.collider) continue;
+        wake_neighbours(world, *link.collider);
+        robot->bullet->removeCollisionObject(link.collider.get());
+        for (Bond& bond : world.bonds)
+            if (bond.body == link.collider.get()) bond.body = nullptr;
+    }
+    world.contacts.clear();
+    robot->bullet->removeMultiBody(robot->body.get());
+    const auto is_it = [&](const std::unique_ptr<Robot>& other) { return other.get() == robot; };
+    world.robots.erase(std::find_if(world.robots.begin(), world.robots.end(), is_it));
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

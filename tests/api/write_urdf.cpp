@@ -1,0 +1,35 @@
+// A plant that is written as URDF is the same plant when it is read again.
+#include "frond/frond_robot.h"
+#include "support/urdf.hpp"
+
+TEST(WrittenUrdf, IsTheSamePlantWhenItIsReadAgain) {
+    const UrdfFolder folder;
+    const frond_model_def def = frond_default_model_def();
+    frond_model corn = {};
+    ASSERT_EQ(frond_model_load(FROND_SOURCE_DIR "/models/corn/corn.obj", &def, &corn), FROND_OK) << frond_last_error();
+    frond_model_info info;
+    ASSERT_EQ(frond_model_get_info(corn, &info), FROND_OK);
+    const std::string file = folder.path + "/corn.urdf";
+    ASSERT_EQ(frond_model_write_urdf(corn, file.c_str()), FROND_OK) << frond_last_error();
+    const Loaded again(file);
+    EXPECT_NEAR(again.info.chain_length, info.chain_length, 1e-4 * info.chain_length);
+    int compared = 0;
+    for (int i = 0; i < info.organ_count; i++) {
+        frond_organ organ;
+        ASSERT_EQ(frond_model_get_organ(corn, i, &organ), FROND_OK);
+        if (organ.capsule_count == 0) continue;
+        ASSERT_EQ(again.organs.count(organ.name), 1u) << organ.name;
+        const frond_organ& other = again.organs.at(organ.name);
+        EXPECT_STREQ(other.kind, organ.kind);
+        EXPECT_NEAR(other.mass, organ.mass, 1e-4 * organ.mass) << organ.name;
+        EXPECT_NEAR(other.bending_thin.least, organ.bending_thin.least, 1e-4 * organ.bending_thin.least) << organ.name;
+        EXPECT_NEAR(other.bending_wide.most, organ.bending_wide.most, 1e-4 * organ.bending_wide.most) << organ.name;
+        EXPECT_NEAR(other.torsion.most, organ.torsion.most, 1e-4 * organ.torsion.most) << organ.name;
+        compared++;
+    }
+    EXPECT_GT(compared, 5);
+    EXPECT_LT(wandering(again.model, FROND_ROD), 0.003);
+    EXPECT_EQ(frond_model_write_urdf(corn, "/none/corn.urdf"), FROND_FILE_NOT_FOUND);
+    EXPECT_EQ(frond_model_write_urdf({}, file.c_str()), FROND_BAD_HANDLE);
+    frond_model_destroy(corn);
+}
