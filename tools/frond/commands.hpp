@@ -10,5 +10,6 @@ void add_run(CLI::App& app);
 void add_grow(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_study(CLI::App& app);
+void add_export(CLI::App& app);
 
 }  // namespace frond::tools

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     frond::tools::add_grow(app);
     frond::tools::add_bench(app);
     frond::tools::add_study(app);
+    frond::tools::add_export(app);
     try {
         app.parse(argc, argv);
         return 0;
