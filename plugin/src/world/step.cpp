@@ -1,4 +1,6 @@
-// A substep of all plants of a world, inside Bullet's own.
+// A substep of all plants of a world, inside Bullet's own. Its parts have zones in Bullet's profiler.
+#include <LinearMath/btQuickprof.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -72,6 +74,7 @@ void call_roll(World& world) {
 
 void find_touches(World& world, double h) {
     frond_report& report = world.report;
+    BT_PROFILE("frond collide");
     const Timer find_timer;
     wake_by_world(world);
     world.contacts.clear();
@@ -189,6 +192,7 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
 void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     const double h = double(step);
     if (!(h > 0)) return;
+    BT_PROFILE("frond");
     const Timer step_timer;
     is_stepping = true;
     substep++;
@@ -213,10 +217,14 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     choose_details(*this);
     mark_touched(*this);
 
-    run_jobs(*this, awake.size(), [&](size_t i) { step_alone(*this, *awake[i], surroundings, h); });
+    {
+        BT_PROFILE("frond solve");
+        run_jobs(*this, awake.size(), [&](size_t i) { step_alone(*this, *awake[i], surroundings, h); });
+    }
     const Timer response_timer;
     let_go_of_gone(*this);
     if (!contacts.empty() || !plant_contacts.empty() || !bonds.empty()) {
+        BT_PROFILE("frond respond");
         respond_to_contacts(*this, h);
         report.effects_run |= effects & (FROND_FRICTION | (contacts.empty() ? 0 : FROND_TWO_WAY));
     }
@@ -228,7 +236,10 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     for (PlantBody* body : awake)
         if (body->plant->is_touched && !body->plant->swing) touched.push_back(body);
     run_jobs(*this, touched.size(), [&](size_t i) { finish(*this, *touched[i], surroundings); });
-    for (PlantBody* body : awake) settle(*this, *body, *collision_world);
+    {
+        BT_PROFILE("frond settle");
+        for (PlantBody* body : awake) settle(*this, *body, *collision_world);
+    }
     if (sleep_distance > 0) put_to_sleep(*this);
     fold_looked_at(*this);
     limit_motors(*this, h);
@@ -237,8 +248,6 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     learn_times(*this);
     is_stepping = false;
 }
-
-void World::debugDraw(btIDebugDraw*) {}
 
 void advance(World& world, double dt) {
     const int substeps = int(std::ceil(dt / world.max_substep - 1e-9));
