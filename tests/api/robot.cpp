@@ -120,10 +120,12 @@ TEST(Robot, IsDrivenToPlacesAndAtSpeeds) {
     EXPECT_NEAR(arm.state("right").joint_position, 0.04, 0.005);
 }
 
+std::string inertial() {
+    return "<inertial><mass value=\"2\"/><inertia ixx=\"0.01\" iyy=\"0.01\" izz=\"0.01\" ixy=\"0\" "
+           "ixz=\"0\" iyz=\"0\"/></inertial>";
+}
 std::string floating_box() {
-    const std::string inertial = "<inertial><mass value=\"2\"/><inertia ixx=\"0.01\" iyy=\"0.01\" izz=\"0.01\" ixy=\"0\" "
-                                 "ixz=\"0\" iyz=\"0\"/></inertial>";
-    return urdf_robot(urdf_link("world", "") + urdf_link("box", inertial) + urdf_joint("world", "box", "0 0 3", "floating"));
+    return urdf_robot(urdf_link("world", "") + urdf_link("box", inertial()) + urdf_joint("world", "box", "0 0 3", "floating"));
 }
 
 TEST(Robot, WithAFloatingJointFallsFreely) {
@@ -133,6 +135,21 @@ TEST(Robot, WithAFloatingJointFallsFreely) {
     EXPECT_NEAR(box.state("box").position.y, 3, 1e-6);
     box.step(30);
     EXPECT_NEAR(box.state("box").position.y, 3 - 0.5 * 9.81 * 0.25, 0.05);
+}
+
+TEST(Robot, MovesLinksThatTouchNothing) {
+    const UrdfFolder folder;
+    const std::string slide = "<axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" effort=\"200\" velocity=\"2\"/>";
+    const RobotWorld rail(folder.write(
+        "rail.urdf", urdf_robot(urdf_link("rail", "") + urdf_link("slide", inertial()) +
+                                urdf_joint("rail", "slide", "0 0 0", "prismatic", slide))));
+    ASSERT_EQ(frond_robot_drive_to(rail.robot, rail.link("slide"), 0.5, 0, 0), FROND_OK);
+    rail.step(120);
+    EXPECT_NEAR(rail.state("slide").position.y, 0.5, 0.001);
+    EXPECT_NEAR(rail.state("slide").motor_force, 2 * 9.81, 0.2);
+    frond_robot_link link;
+    ASSERT_EQ(frond_robot_get_link(rail.robot, rail.link("slide"), &link), FROND_OK);
+    EXPECT_EQ(link.body, nullptr);
 }
 
 // A stem is bent by the forearm, which then stays where it is.

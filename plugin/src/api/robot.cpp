@@ -179,7 +179,8 @@ frond_result frond_robot_get_link(frond_robot robot, int link, frond_robot_link*
         out->upper = is_limited ? of_file.upper : 0;
         out->max_force = of_file.effort;
         out->mass = found.links[i].mass;
-        out->body = static_cast<const btCollisionObject*>(found.links[i].collider.get());
+        if (!of_file.collisions.empty())
+            out->body = static_cast<const btCollisionObject*>(found.links[i].collider.get());
     });
 }
 
@@ -259,7 +260,7 @@ frond_result frond_robot_bond(frond_plant plant, frond_vec3 point, frond_robot r
         Robot& found = get(robot);
         const size_t i = check_link(found, link);
         if (found.world != body.world) fail(FROND_BAD_ARGUMENT, "the robot is of another world than the plant");
-        if (!found.links[i].collider)
+        if (found.tree.links[i].collisions.empty())
             fail(FROND_BAD_ARGUMENT, "link %d, \"%s\", has no <collision> to hold something with", link,
                  found.tree.links[i].name.c_str());
         make_bond(body, point, *found.links[i].collider, out);

@@ -22,8 +22,8 @@ struct RobotLink {
     UrdfFrame centre;
     double mass = 0;   // [kg]
     Vec3 inertia = Vec3::Zero();  // about the principal axes [kg m^2]
-    std::vector<std::unique_ptr<btCollisionShape>> shapes;  // of the compound, which comes last
-    std::unique_ptr<btMultiBodyLinkCollider> collider;      // null: it touches nothing
+    std::vector<std::unique_ptr<btCollisionShape>> shapes;  // of the collider's, which comes last
+    std::unique_ptr<btMultiBodyLinkCollider> collider;      // null: it touches nothing and its joint is fixed
     std::unique_ptr<btMultiBodyJointMotor> motor;           // null: the joint is fixed
     std::unique_ptr<btMultiBodyJointLimitConstraint> limit; // null: it has none
     double motor_force = 0;                                 // at most; 0: it lets go [N], [N m]

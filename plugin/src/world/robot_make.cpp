@@ -1,5 +1,7 @@
 // Makes a robot: a tree of links comes in, a multi-body with motors and limits in the Bullet world goes out. Frames and
 // offsets follow btMultiBody.h: those of links are at their centres of mass, along principal axes.
+#include <BulletCollision/CollisionShapes/btEmptyShape.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
@@ -77,9 +79,14 @@ void set_up_joint(Robot& robot, size_t i) {
         robot.body->setupRevolute(number, mass, inertia, above, turn, axis, to_pivot, to_centre, true);
 }
 
+// Bullet solves the motor of a link only if the link has a collider, which may be of no shape.
 void add_collider(Robot& robot, size_t i, const frond_robot_def& def) {
     RobotLink& link = robot.links[i];
-    if (!make_shapes(robot.tree, robot.tree.links[i], link.centre, link)) return;
+    const UrdfLink& of_file = robot.tree.links[i];
+    if (!make_shapes(robot.tree, of_file, link.centre, link)) {
+        if (of_file.joint == UrdfJoint::FIXED) return;
+        link.shapes.push_back(std::make_unique<btEmptyShape>());
+    }
     link.collider = std::make_unique<btMultiBodyLinkCollider>(robot.body.get(), int(i) - 1);
     link.collider->setCollisionShape(link.shapes.back().get());
     link.collider->setFriction(btScalar(def.friction));
@@ -154,8 +161,11 @@ Robot* add_robot(World& world, UrdfTree tree, const frond_robot_def& def) {
         const double start = link.joint == UrdfJoint::CONTINUOUS ? 0 : std::clamp(0.0, link.lower, link.upper);
         put_joint(*robot, i, start);
     }
-    for (const RobotLink& link : robot->links)
-        if (link.collider) robot->bullet->addCollisionObject(link.collider.get(), def.group, def.mask);
+    for (size_t i = 0; i < robot->links.size(); i++) {
+        btCollisionObject* collider = robot->links[i].collider.get();
+        const bool touches = !robot->tree.links[i].collisions.empty();
+        if (collider) robot->bullet->addCollisionObject(collider, touches ? def.group : 0, touches ? def.mask : 0);
+    }
     world.robots.push_back(std::move(robot));
     return world.robots.back().get();
 }
