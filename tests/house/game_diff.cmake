@@ -1,0 +1,10 @@
+# In: BEFORE and AFTER, two sources. A game gets plants by a diff of at most 15 lines.
+execute_process(COMMAND diff ${BEFORE} ${AFTER} OUTPUT_VARIABLE text RESULT_VARIABLE status)
+if(NOT status EQUAL 1)
+    message(FATAL_ERROR "diff of ${BEFORE} and ${AFTER} ended with ${status}")
+endif()
+string(REGEX MATCHALL "(^|\n)[<>]" lines "${text}")
+list(LENGTH lines count)
+if(count GREATER 15)
+    message(FATAL_ERROR "${count} lines differ, more than 15:\n${text}")
+endif()
