@@ -9,6 +9,7 @@
 #include "world/fragments.hpp"
 #include "world/plate.hpp"
 #include "world/pusher.hpp"
+#include "world/show.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -223,6 +224,7 @@ void add_fast_bodies(World& world, double h, std::vector<Contact>& contacts) {
             continue;
         }
         btCollisionObject& object = *objects[i];
+        if (object.isKinematicObject() && pushes(object) && is_moving(object)) show_sleepers_to(world, object, h);
         if (object.isStaticObject() || !object.isActive() || !pushes(object) || !object.getBroadphaseHandle()) continue;
         btVector3 velocity;
         if (const btRigidBody* rigid = btRigidBody::upcast(&object))
