@@ -206,6 +206,38 @@ TEST(Wake, ComesFromAllThatMovesAPlant) {
     }
 }
 
+// A kinematic body, which is filtered as what is static is, wakes one that never moved; so does the next one.
+TEST(Wake, ComesFromWhatTheHostCarriesIntoAPlant) {
+    Stand stand;
+    frond_plant_def def = frond_default_plant_def();
+    def.mechanics = FROND_ROD;
+    def.starts_asleep = true;
+    frond_plant plant = {};
+    must(frond_plant_create(stand.world, stand.model, &def, &plant));
+    stand.steps(5);
+    for (int i = 0; i < 2; i++) {
+        frond_rigid_def carried = frond_default_rigid_def();
+        carried.mass = 0;
+        carried.size = {0.1, 0, 0};
+        carried.state.position = {-0.6, 0.3, 0};
+        frond_rigid rigid = {};
+        must(frond_rigid_create(stand.world, &carried, &rigid));
+        EXPECT_FALSE(frond_plant_is_awake(plant));
+        int most = 0;
+        for (int k = 0; k < 50; k++) {
+            carried.state.position.x += 0.02;
+            must(frond_rigid_set_state(rigid, &carried.state));
+            stand.steps(1);
+            most = std::max(most, stand.report().contact_count);
+        }
+        EXPECT_TRUE(frond_plant_is_awake(plant)) << i;
+        EXPECT_GT(most, 0) << i;
+        frond_rigid_destroy(rigid);
+        EXPECT_TRUE(stand.rests_within(60)) << i;
+        stand.steps(70);
+    }
+}
+
 TEST(Wake, ComesToAllFromWhatIsOfTheWorld) {
     Stand stand;
     stand.add(0);

@@ -1,6 +1,8 @@
 // Threads: the host's own, for the steps of plants; the same bits come out for any number of them.
+#include <LinearMath/btThreads.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <set>
 #include <thread>
@@ -94,6 +96,60 @@ TEST(Threads, OfAnyNumberGiveTheSameBits) {
         EXPECT_GE(team.calls, 60);
         EXPECT_GT(team.jobs, 60 * 6);
     }
+}
+
+// A task scheduler of the host's, as it gives one to Bullet.
+struct Scheduler : btITaskScheduler {
+    Team team;
+    int grain = 0;
+    explicit Scheduler(int size) : btITaskScheduler("of the test"), team{size} {}
+    int getMaxNumThreads() const override { return team.size; }
+    int getNumThreads() const override { return team.size; }
+    void setNumThreads(int) override {}
+    void parallelFor(int begin, int end, int grain_size, const btIParallelForBody& body) override {
+        grain = grain_size;
+        struct Range {
+            int begin, end, grain;
+            const btIParallelForBody& body;
+        } range = {begin, end, grain_size, body};
+        const auto run = [](void* data, int i) {
+            const Range& r = *static_cast<Range*>(data);
+            r.body.forLoop(r.begin + i * r.grain, std::min(r.end, r.begin + (i + 1) * r.grain));
+        };
+        parallel_for((end - begin + grain_size - 1) / grain_size, run, &range, &team);
+    }
+    btScalar parallelSum(int begin, int end, int, const btIParallelSumBody& body) override {
+        return body.sumLoop(begin, end);
+    }
+};
+
+// Sets it for as long as this lives.
+struct WithScheduler {
+    explicit WithScheduler(btITaskScheduler* scheduler) { btSetTaskScheduler(scheduler); }
+    ~WithScheduler() { btSetTaskScheduler(nullptr); }
+};
+
+TEST(Threads, OfBulletsTaskSchedulerGiveTheSameBits) {
+    const uint64_t alone = hash_with(nullptr);
+    for (const int size : {2, 4}) {
+        Scheduler scheduler(size);
+        const WithScheduler set(&scheduler);
+        EXPECT_EQ(hash_with(nullptr), alone) << size << " threads";
+        EXPECT_GE(scheduler.team.calls, 60);
+        EXPECT_GT(scheduler.team.jobs * scheduler.grain, 60 * 6);
+    }
+    const WithScheduler set(btGetSequentialTaskScheduler());
+    EXPECT_EQ(hash_with(nullptr), alone) << "Bullet's own, of one thread";
+}
+
+// A host that lends threads to Frond itself has said which it wants.
+TEST(Threads, OfTheHostGoBeforeBulletsTaskScheduler) {
+    Scheduler scheduler(2);
+    const WithScheduler set(&scheduler);
+    Team team = {2};
+    hash_with(&team);
+    EXPECT_GT(team.calls, 0);
+    EXPECT_EQ(scheduler.team.calls, 0);
 }
 
 }  // namespace

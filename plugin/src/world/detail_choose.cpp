@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/convert.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -24,10 +25,12 @@ bool is_held(const World& world, const PlantBody& body) {
 double distance_of(const World& world, const PlantBody& body) {
     const Detail& detail = *world.detail;
     if (!detail.has_viewer) return 0;
-    const Model& model = *body.plant->model;
-    const Vec3 middle = body.plant->to_world(0.5 * (model.surface.lower() + model.surface.upper()));
+    // Of its capsules as modelled.
+    btVector3 lower, upper;
+    body.hull->rest->btCompoundShape::getAabb(btTransform::getIdentity(), lower, upper);
+    const Vec3 middle = body.plant->to_world(0.5 * (from_bullet(lower) + from_bullet(upper)));
     double distance = (middle - detail.viewer).norm();
-    if (detail.def.by_size) distance /= std::max(model.surface.size(), 1e-9);
+    if (detail.def.by_size) distance /= std::max(double(body.plant->size), 1e-9);
     if (detail.def.distance) distance = detail.def.distance(body.handle, distance, detail.def.user);
     return distance > 0 && std::isfinite(distance) ? distance : 0;
 }

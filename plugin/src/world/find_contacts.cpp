@@ -9,6 +9,7 @@
 #include "world/fragments.hpp"
 #include "world/plate.hpp"
 #include "world/pusher.hpp"
+#include "world/show.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -135,7 +136,8 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
     btCollisionObject* other = plant_first ? second : first;
     if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other)) return;
     if (body->rest.asleep && !is_moving(*other)) return;
-    look_at(*body);
+    // Those that sway are only asked whether they are touched: as they were put last is near enough.
+    if (!body->plant->swing) look_at(*body);
     std::vector<int> plates;  // whose corners are in it
     for (int i = 0; i < manifold.getNumContacts(); i++) {
         const btManifoldPoint& p = manifold.getContactPoint(i);
@@ -165,7 +167,8 @@ struct Sweep : btCollisionWorld::ConvexResultCallback {
 
     bool needsCollision(btBroadphaseProxy* proxy) const override {
         const PlantBody* body = PlantBody::of(static_cast<btCollisionObject*>(proxy->m_clientObject));
-        return takes_part(world, body) && btCollisionWorld::ConvexResultCallback::needsCollision(proxy);
+        return takes_part(world, body) && !body->plant->swing &&
+               btCollisionWorld::ConvexResultCallback::needsCollision(proxy);
     }
     btScalar addSingleResult(btCollisionWorld::LocalConvexResult& hit, bool normal_in_world) override {
         auto* body = PlantBody::of(const_cast<btCollisionObject*>(hit.m_hitCollisionObject));
@@ -223,6 +226,7 @@ void add_fast_bodies(World& world, double h, std::vector<Contact>& contacts) {
             continue;
         }
         btCollisionObject& object = *objects[i];
+        if (object.isKinematicObject() && pushes(object) && is_moving(object)) show_sleepers_to(world, object, h);
         if (object.isStaticObject() || !object.isActive() || !pushes(object) || !object.getBroadphaseHandle()) continue;
         btVector3 velocity;
         if (const btRigidBody* rigid = btRigidBody::upcast(&object))

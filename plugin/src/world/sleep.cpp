@@ -10,6 +10,7 @@
 #include "model/union_find.hpp"
 #include "world/convert.hpp"
 #include "world/pusher.hpp"
+#include "world/show.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -117,27 +118,10 @@ void wake(PlantBody& body) {
         for (PlantBody* other : contact.plants) wake(*other);
 }
 
-namespace {
-
-struct WakeThere : btBroadphaseAabbCallback {
-    World& world;
-    explicit WakeThere(World& world) : world(world) {}
-    std::vector<PlantBody*> found;
-    bool process(const btBroadphaseProxy* proxy) override {
-        PlantBody* body = PlantBody::of(static_cast<btCollisionObject*>(proxy->m_clientObject));
-        if (body && body->world == &world) found.push_back(body);
-        return true;
-    }
-};
-
-}  // namespace
-
 void wake_neighbours(World& world, const btCollisionObject& leaving) {
     const btBroadphaseProxy* proxy = leaving.getBroadphaseHandle();
     if (!proxy) return;
-    WakeThere there(world);
-    world.bullet->getBroadphase()->aabbTest(proxy->m_aabbMin, proxy->m_aabbMax, there);
-    for (PlantBody* body : there.found) wake(*body);
+    for (PlantBody* body : plants_in(world, proxy->m_aabbMin, proxy->m_aabbMax)) wake(*body);
 }
 
 bool is_moving(btCollisionObject& object) {
@@ -218,6 +202,7 @@ void put_to_sleep(World& world) {
             fall_asleep(world, *world.taking_part[i]);
     const auto sleeps = [](const PlantBody* body) { return body->rest.asleep; };
     world.awake.erase(std::remove_if(world.awake.begin(), world.awake.end(), sleeps), world.awake.end());
+    hide_sleepers_again(world);
 }
 
 }  // namespace FROND_BULLET_PRECISION
