@@ -1,7 +1,7 @@
 // The table of responses: one row for each name in FROND_RESPONSES; what needs impulses alone stands here.
 #include <algorithm>
 
-#include "solve/impulses.hpp"
+#include "solve/shifts.hpp"
 
 namespace frond {
 
@@ -23,16 +23,10 @@ void push_by_impulse(const std::vector<Touch>& touches, const CouplingTable& cou
     find_impulses(touches, coupling, settings.limits, out.impulses, MOVES);
     const auto overlaps = [](const Touch& touch) { return touch.least_shift > 0; };
     if (std::none_of(touches.begin(), touches.end(), overlaps)) return;
-    std::vector<Touch> places = touches;
-    for (Touch& touch : places) {
-        touch.velocity.setZero();
-        touch.wanted.setZero();
-        touch.least_speed = touch.least_shift;
-        touch.friction = 0;
-    }
     // Leaves that are pressed from two sides may have no answer at all; what is left is for the next steps.
-    const ImpulseLimits limits = {std::min(settings.limits.iterations, 40), settings.limits.tolerance};
-    find_impulses(places, coupling, limits, out.shifts, SHIFTS, false);
+    constexpr int ROUNDS = 40;
+    out.shifts = find_shifts(touches, coupling, std::min(settings.limits.iterations, ROUNDS), settings.limits.tolerance,
+                             SHIFTS);
 }
 
 }  // namespace frond

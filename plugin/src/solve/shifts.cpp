@@ -1,0 +1,80 @@
+// In: touches that overlap and how they are coupled. Out: impulses of places, by projected Gauss-Seidel along the normals.
+#include "solve/shifts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frond {
+
+namespace {
+
+struct Along {
+    int other;
+    double answer;  // along the other's normal, by an impulse along this one's [1/kg]
+};
+
+// A touch whose impulse has ever changed.
+struct Row {
+    bool known = false;
+    double own = 0, answer = 0;  // what it answers to itself along the normal and in all [1/kg]
+    std::vector<Along> others;
+};
+
+struct Search {
+    const std::vector<Touch>& touches;
+    const CouplingTable& coupling;
+    std::vector<double> pushes, speeds;  // along the normals
+    std::vector<Row> rows;
+};
+
+const Row& row_of(Search& search, int i) {
+    Row& row = search.rows[size_t(i)];
+    if (row.known) return row;
+    row.known = true;
+    const Vec3& normal = search.touches[size_t(i)].normal;
+    Vec3 own = Vec3::Zero();
+    for (const Coupling& c : search.coupling.row(i)) {
+        const Vec3 answer = c.block.transpose() * normal;
+        row.others.push_back({c.other, answer.dot(search.touches[size_t(c.other)].normal)});
+        if (c.other == i) own += answer;
+    }
+    row.own = own.dot(normal);
+    row.answer = own.norm();
+    return row;
+}
+
+// A round over an island's touches; returns whether another one is of use.
+bool sweep(Search& search, const std::vector<int>& island, double tolerance, double unfelt) {
+    constexpr double IMMOVABLE = 1e-12;  // [1/kg]
+    double most = 0, largest = 0, speed = 0;
+    for (const int i : island) {
+        double& push = search.pushes[size_t(i)];
+        const double lacking = search.touches[size_t(i)].least_shift - search.speeds[size_t(i)];
+        if (push == 0 && lacking <= 0) continue;
+        const Row& row = row_of(search, i);
+        const double by = row.own > IMMOVABLE ? std::max(-push, lacking / row.own) : 0;
+        push += by;
+        if (by != 0)
+            for (const Along& along : row.others) search.speeds[size_t(along.other)] += along.answer * by;
+        most = std::max(most, std::abs(by));
+        largest = std::max(largest, push);
+        speed = std::max(speed, row.answer * std::abs(by));
+    }
+    return most > tolerance * largest && speed > unfelt;
+}
+
+}  // namespace
+
+std::vector<Vec3> find_shifts(const std::vector<Touch>& touches, const CouplingTable& coupling, int rounds,
+                              double tolerance, double unfelt) {
+    const size_t count = touches.size();
+    Search search = {touches, coupling, std::vector<double>(count, 0), std::vector<double>(count, 0),
+                     std::vector<Row>(count)};
+    for (const std::vector<int>& island : coupling.islands)
+        for (int round = 0; round < rounds && sweep(search, island, tolerance, unfelt); round++) {}
+    std::vector<Vec3> shifts(count);
+    for (size_t i = 0; i < count; i++) shifts[i] = search.pushes[i] * touches[i].normal;
+    return shifts;
+}
+
+}  // namespace frond
