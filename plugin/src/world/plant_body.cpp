@@ -100,7 +100,7 @@ void place_pieces(PlantShape& shape, const Hull& hull, const Ends& ends, const F
 
 // How much thicker a plate is than its blade, so that Bullet tells what is about to touch: where boxes have edges it takes
 // them for round ones [m].
-static constexpr double AHEAD = 0.005;
+static constexpr double AHEAD = 0.012;
 // Half of a blade's thickness for bodies, at least: they sink by half a millimetre into what they rest on [m].
 static constexpr double THINNEST = 0.002;
 
