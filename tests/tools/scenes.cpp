@@ -251,14 +251,19 @@ TEST(Snap, ACornStalkBreaksNearTheMomentThatItsStrengthBears) {
     must(frond_material_preset("grass_stem", &stalk));
     for (const char* mechanics : {"rod", "tet_corotational", "tet_neohookean"}) {
         SCOPED_TRACE(mechanics);
-        Play play = play_of("snap", {std::string("mechanics=") + mechanics});
+        // A leaf that falls over as the stalk is bent would strike the ground, and shake it.
+        Play play = play_of("snap", {std::string("mechanics=") + mechanics, "rigid_contact=off"});
         const std::vector<frond_capsule> standing = capsules_of(play);
         const Break b = play_until_it_breaks(play);
-        const double moment = length_of(cross(difference(b.hold, b.begin), b.pull));
-        const double known = stalk.strength * M_PI * std::pow(b.radius, 3) / 4;
-        EXPECT_NEAR(moment / known, 1, std::string(mechanics) == "rod" ? 0.1 : 0.3);
         frond_rigid_state before = {}, after = {};
         must(frond_rigid_get_state(b.broken.rigid, &before));
+        // By the hand and by the weight of what came off, about the middle of the piece.
+        const frond_vec3 middle = {0.5 * (b.begin.x + b.end.x), 0.5 * (b.begin.y + b.end.y), 0.5 * (b.begin.z + b.end.z)};
+        const frond_vec3 by_hand = cross(difference(b.hold, middle), b.pull);
+        const frond_vec3 by_weight = cross(difference(before.position, middle), {0, -9.81 * b.broken.mass, 0});
+        const double moment = length_of({by_hand.x + by_weight.x, by_hand.y + by_weight.y, by_hand.z + by_weight.z});
+        const double known = stalk.strength * M_PI * std::pow(b.radius, 3) / 4;
+        EXPECT_NEAR(moment / known, 1, 0.2);
         // What came off falls over, the stump stands up again.
         for (int i = 0; i < 240; i++) play.step();
         must(frond_rigid_get_state(b.broken.rigid, &after));

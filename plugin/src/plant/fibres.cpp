@@ -32,8 +32,7 @@ std::vector<double> lack_of_organs(const Model& model, int order) {
     }
     for (size_t e = 0; e < model.cage.tets.size(); e++)
         cage[size_t(model.cage.tet_organ[e])] +=
-            (model.young_of(order)[e] + (model.grain_of(order).empty() ? 0 : model.grain_of(order)[e])) *
-            std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
+            model.young_of(order)[e] * std::abs(tet_volume(model.cage.nodes, model.cage.tets[e]));
     for (size_t i = 0; i < tissue.size(); i++) tissue[i] = tissue[i] > 0 ? 1 - cage[i] / tissue[i] : 0;
     return tissue;
 }

@@ -98,10 +98,8 @@ Vec3 corrected(const Touch& touch, const Own& own, Vec3 velocity, const Vec3& be
     return push * touch.normal + hold;
 }
 
-// A round over the touches. What would change a touch's own speed by a fraction of what is felt waits until it is more:
-// late in the search that is nearly all, and telling everybody of it is what a round costs.
-Change sweep(Search& search, double unfelt) {
-    constexpr double FRACTION = 0.3;
+// A round over the touches.
+Change sweep(Search& search) {
     Change change;
     for (int k = 0; k < int(search.island.size()); k++) {
         const Touch& touch = search.touches[size_t(search.island[size_t(k)])];
@@ -110,11 +108,10 @@ Change sweep(Search& search, double unfelt) {
         if (waits) continue;
         const Own& own = own_of(search, k);
         const Vec3 by = corrected(touch, own, velocity, before) - before;
-        const double speed = (own.block * by).norm();
+        if (!by.isZero(0)) add_impulse(search, k, by);
         change.largest = std::max(change.largest, (before + by).norm());
         change.most = std::max(change.most, by.norm());
-        change.speed = std::max(change.speed, speed);
-        if (speed > FRACTION * unfelt) add_impulse(search, k, by);
+        change.speed = std::max(change.speed, (own.block * by).norm());
     }
     return change;
 }
@@ -126,7 +123,7 @@ int solve_island(Search& search, const ImpulseLimits& limits, double unfelt, boo
     for (int iteration = 1;; iteration++) {
         from = search.impulses;
         from_velocities = search.velocities;
-        const Change change = sweep(search, unfelt);
+        const Change change = sweep(search);
         converged = change.most <= limits.tolerance * change.largest || change.speed <= unfelt;
         if (converged || iteration >= limits.iterations) return iteration;
         if (!onward) continue;
