@@ -63,8 +63,6 @@ std::vector<Case> cases() {
     const Stuff stuff = {1000, 1e3, 0.3}, soft = {500, 100, 0.45}, cork = {200, 1e3, 0.0};
     return {{single_tet_model(1, stuff), 1e-3},         {single_tet_model(0.5, soft), 0.2},
             {single_tet_model(1, cork), 0.4},           {box_model(1, 2, 1, {1, 2, 1}, stuff), 0.05},
-            {with_grain(single_tet_model(1, soft), 5e3, {1, 2, -1}), 0.3},
-            {with_grain(box_model(1, 2, 1, {1, 2, 1}, stuff), 2e3, {1, 0.5, 0}), 0.1},
             {box_model(2, 1, 1, {2, 1, 1}, soft), 0.3}, {single_tet_model(1, stuff), 1.5},
             {box_model(1, 1, 1, {1, 1, 1}, stuff), 1.0}};
 }
@@ -104,7 +102,7 @@ TEST_P(EveryMechanics, RestDerivativeIsThatOfTheForce) {
             // All other tets without stiffness.
             TetElements one = elements;
             for (size_t other = 0; other < one.mu.size(); ++other)
-                if (other != e) one.mu[other] = one.lambda[other] = one.grain[other] = 0;
+                if (other != e) one.mu[other] = one.lambda[other] = 0;
             const auto forces = [&](const VecX& X) {
                 set_rest_positions(one, X);
                 return force(one, x);
@@ -182,7 +180,7 @@ TEST_P(EveryMechanics, PositiveStiffnessIsNeverNegative) {
 }
 
 TEST_P(EveryMechanics, BothTangentsAgreeAtRest) {
-    const TetElements elements = elements_of(with_grain(box_model(2, 2, 2, {1, 1, 1}), 1e7, {1, 1, 0}));
+    const TetElements elements = elements_of(box_model(2, 2, 2, {1, 1, 1}));
     const Eigen::MatrixXd exact = stiffness(elements, elements.rest_positions, Tangent::exact);
     const Eigen::MatrixXd positive = stiffness(elements, elements.rest_positions, Tangent::positive);
     EXPECT_NEAR((exact - positive).norm(), 0, 1e-12 * exact.norm());
@@ -233,7 +231,7 @@ TEST(Neohookean, HasTheEnergyOfItsFormula) {
 
 TEST_P(EveryMechanics, GivesNoForceUnderRigidMotion) {
     Dice dice(4);
-    const TetElements elements = elements_of(with_grain(tree_model(6, 4, 3, {1000, 1e6, 0.3}), 1e6, {1, 2, 3}));
+    const TetElements elements = elements_of(tree_model(6, 4, 3, {1000, 1e6, 0.3}));
     const double scale = stiffness(elements, elements.rest_positions, Tangent::exact).norm();
     for (int repeat = 0; repeat < 20; ++repeat) {
         const Vec3 shift(dice.uniform(-9, 9), dice.uniform(-9, 9), dice.uniform(-9, 9));
@@ -264,7 +262,7 @@ TEST(Linear, MistakesALargeTurnForAStretch) {
 
 TEST_P(EveryMechanics, ForcesAddUpToNothing) {
     Dice dice(5);
-    const TetElements elements = elements_of(with_grain(box_model(2, 2, 3, {1, 1, 1.5}), 1e7, {1, 2, 3}));
+    const TetElements elements = elements_of(box_model(2, 2, 3, {1, 1, 1.5}));
     for (int repeat = 0; repeat < 20; ++repeat) {
         const VecX x = elements.rest_positions + dice.vector(elements.rest_positions.size(), 0.3);
         const VecX f = force(elements, x);
@@ -282,7 +280,7 @@ TEST_P(EveryMechanics, ForcesAddUpToNothing) {
 
 TEST_P(EveryMechanics, OnePassGivesTheSameAsTwo) {
     Dice dice(6);
-    const TetElements elements = elements_of(with_grain(box_model(2, 2, 2, {1, 1, 1}), 1e7, {1, 1, 0}));
+    const TetElements elements = elements_of(box_model(2, 2, 2, {1, 1, 1}));
     const VecX x = elements.rest_positions + dice.vector(elements.rest_positions.size(), 0.2);
     for (Tangent tangent : {Tangent::exact, Tangent::positive}) {
         BlockMatrix K, twice;
@@ -324,27 +322,6 @@ TEST_P(EveryMechanics, StretchesABarAsYoungsModulusSays) {
     EXPECT_NEAR((energy(s) + energy(-s)) / 2, 0.5 * 2e6 * s * s * 3, (is_hookean() ? 1e-9 : 1e-7) * 2e6 * s * s);
 }
 
-// Along the grain it counts in full, at an angle by the fourth power of the cosine, across not at all.
-TEST_P(EveryMechanics, GrainResistsOnlyAlongIt) {
-    const double s = 1e-4, grain = 3e6;
-    const auto energy_with = [&](const Model& model) {
-        const TetElements elements = elements_of(model);
-        const auto energy = [&](double strain) {
-            VecX x = elements.rest_positions;
-            for (int i = 0; i < elements.node_count; ++i) x[3 * i] *= 1 + strain;
-            return row.energy(elements, x);
-        };
-        return (energy(s) + energy(-s)) / 2;
-    };
-    const Model plain = box_model(3, 1, 1, {3, 1, 1}, {1000, 2e6, 0.3});
-    for (const double angle : {0.0, 0.5, M_PI / 2}) {
-        const Model model = with_grain(plain, grain, {std::cos(angle), std::sin(angle), 0});
-        EXPECT_NEAR(energy_with(model) - energy_with(plain), 0.5 * grain * std::pow(std::cos(angle), 4) * s * s * 3,
-                    1e-6 * grain * s * s)
-            << angle;
-    }
-}
-
 TEST(TetElements, RefuseWhatHasNoVolumeOrNoSense) {
     const auto code_of = [](const Model& model) {
         try {
@@ -373,8 +350,6 @@ TEST(TetElements, RefuseWhatHasNoVolumeOrNoSense) {
         bad.tet_poisson[0] = nu;
         EXPECT_EQ(code_of(bad), FROND_BAD_ARGUMENT) << nu;
     }
-    for (double grain : {-1.0, HUGE_VAL})
-        EXPECT_EQ(code_of(with_grain(good, grain, {1, 0, 0})), FROND_BAD_ARGUMENT) << grain;
     for (double E : {0.0, -1.0, HUGE_VAL}) {
         bad = good;
         bad.tet_young[0] = E;

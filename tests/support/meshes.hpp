@@ -29,13 +29,6 @@ inline void set_stuff(Model& model, const Stuff& stuff) {
         model.organs.push_back({"stem", "stem", plain_material(stuff.density, stuff.young, stuff.poisson, 1e-3)});
 }
 
-// Gives every tet grain too, in one direction [Pa].
-inline Model with_grain(Model model, double modulus, const Vec3& axis) {
-    model.tet_grain.assign(model.cage.tets.size(), modulus);
-    model.tet_axis.assign(model.cage.tets.size(), axis.normalized());
-    return model;
-}
-
 // Adds a tet with positive volume, whatever the order of its nodes.
 inline void add_tet(Cage& cage, Tet tet) {
     if (tet_volume(cage.nodes, tet) < 0) std::swap(tet[2], tet[3]);

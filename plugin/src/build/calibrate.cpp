@@ -1,6 +1,6 @@
 // Calibration: organ materials -> constants of the cage's tets. A cage is fatter than the organ in it, and four-node
 // tets are too stiff in bending, by a factor of ten to a thousand; so the moduli of each organ's tets are scaled until
-// the organ in the cage, held where it grows out of another one, bends and twists as the rod with its true section would.
+// the organ in the cage, held where it grows out of another one, bends as the rod with its true section would.
 #include <cmath>
 
 #include "build/build.hpp"
@@ -23,35 +23,20 @@ void take_materials(Model& model) {
     }
 }
 
-// No grain yet, but the axes along which it is to lie.
-static void lay_grain(Model& model, const std::vector<int>& hangs) {
-    model.tet_grain.assign(hangs.size(), 0.0);
-    model.tet_axis.clear();
-    for (int node : hangs) model.tet_axis.push_back(model.sections[size_t(node)].axis);
-}
-
 // Tets that hang loose are as stiff as the organ is in the mean.
 static void take_moduli(Model& model, const LoneOrgan& lone) {
-    double stiffer = 0, grain = 0;
-    for (size_t e = 0; e < lone.tets.size(); e++) {
-        stiffer += std::log(lone.model.tet_young[e] / model.tet_young[lone.tets[e]]) / double(lone.tets.size());
-        grain += lone.model.tet_grain[e] / lone.model.tet_young[e] / double(lone.tets.size());
-    }
-    for (size_t e = 0; e < model.tet_young.size(); e++) {
-        if (model.cage.tet_organ[e] != lone.organ) continue;
-        model.tet_young[e] *= std::exp(stiffer);
-        model.tet_grain[e] = grain * model.tet_young[e];
-    }
-    for (size_t e = 0; e < lone.tets.size(); e++) {
-        model.tet_young[lone.tets[e]] = lone.model.tet_young[e];
-        model.tet_grain[lone.tets[e]] = lone.model.tet_grain[e];
-    }
+    double sum = 0;
+    for (size_t e = 0; e < lone.tets.size(); e++)
+        sum += std::log(lone.model.tet_young[e] / model.tet_young[lone.tets[e]]);
+    const double mean = std::exp(sum / double(lone.tets.size()));
+    for (size_t e = 0; e < model.tet_young.size(); e++)
+        if (model.cage.tet_organ[e] == lone.organ) model.tet_young[e] *= mean;
+    for (size_t e = 0; e < lone.tets.size(); e++) model.tet_young[lone.tets[e]] = lone.model.tet_young[e];
 }
 
 void calibrate(Model& model, int order) {
     take_materials(model);  // the rule of mixtures, to begin with
     const std::vector<int> hangs = hang_tets(model);
-    lay_grain(model, hangs);
     std::vector<char> alone;
     for (LoneOrgan& lone : take_organs(model)) {
         alone.push_back(lone.is_sound() && fit_moduli(lone, model, hangs, order));

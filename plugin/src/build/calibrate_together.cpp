@@ -36,7 +36,9 @@ double cage_energy(const Model& model, const TetElements& elements, const VecX& 
     for (size_t e = 0; e < elements.tets.size(); e++) {
         if (left_out[size_t(model.cage.tet_organ[e])]) continue;
         take_gradients(elements, e, moved, [&](const TetShare& share, const Mat3& F) {
-            sum += 0.5 * share.volume * twice_energy(share, 0.5 * (F + F.transpose()));
+            const double swelling = F.trace();
+            sum += share.volume * (share.mu * (0.5 * (F + F.transpose())).squaredNorm() +
+                                   0.5 * share.lambda * swelling * swelling);
         });
     }
     return sum;
@@ -70,8 +72,9 @@ void calibrate_together(Model& model, const std::vector<char>& alone, int order)
         const double factor = std::clamp(cage / rods, 1 / LARGEST_FACTOR, LARGEST_FACTOR);
         for (size_t e = 0; e < model.tet_young.size(); e++) {
             if (alone[size_t(model.cage.tet_organ[e])]) continue;
-            model.scale_moduli(e, factor);
-            scale_moduli(elements, e, factor);
+            model.tet_young[e] *= factor;
+            elements.mu[e] *= factor;
+            elements.lambda[e] *= factor;
         }
     }
 }

@@ -29,7 +29,7 @@ std::vector<Compliance> rod_compliances(const Model& plant, int organ, const Loa
 using CageLoads = Eigen::Matrix<double, Eigen::Dynamic, LOAD_COUNT>;
 CageLoads cage_loads(const LoneOrgan& lone, const TetElements& elements, const Model& plant,
                      const std::vector<int>& hangs, const LoadPlaces& places);
-// Each tet's share in the compliance of an organ's cage, then its grain's; empty if its root does not hold it.
+// Each tet's share in the compliance of an organ's cage; empty if its root does not hold it.
 std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElements& elements,
                                          StaticStiffness& stiffness, const CageLoads& loads);
 

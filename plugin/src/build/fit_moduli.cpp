@@ -1,11 +1,9 @@
 // In: an organ's cage, alone, and its rods. Out: moduli of the tets with which the cage has the rods' compliance.
 //
-// A tet has two moduli: Young's, the same in all directions, and that of the grain along the organ's axis, which twist does
-// not feel. First the whole: one factor each, so that the organ bends and twists as far as it should. Then place by
-// place: under equal loads elastic energy is inversely proportional to modulus, so the ratio of energies, cage over rods,
-// is the factor. Then tet by tet, because a lattice of one cell across is not equally stiff in all directions: Gauss-Newton
-// rounds, each the least change of the moduli's logarithms after which all compliances match, within bounds, since tets
-// that are much softer than those around them turn inside out.
+// First as a whole and place by place: under equal loads elastic energy is inversely proportional to modulus, so the
+// ratio of energies, cage over rods, is the factor. Then tet by tet, because a lattice of one cell across is not equally
+// stiff in all directions and hard to twist: Gauss-Newton rounds, each the least change of the moduli's logarithms after
+// which all compliances match, within bounds, since tets that are much softer than those around them turn inside out.
 #include "build/fit_moduli.hpp"
 
 #include <algorithm>
@@ -13,28 +11,9 @@
 
 #include "build/compliance.hpp"
 #include "build/least_change.hpp"
-#include "model/section.hpp"
 
 namespace frond {
 namespace {
-
-// Grain over Young's modulus [-]. Pressed together, grain that is much stiffer than what it lies in buckles tet by tet: a stem's
-// where it is bent as far as its length.
-constexpr double LEAST_GRAIN = 0.001, MOST_GRAIN = 30, FIRST_GRAIN = 0.05;
-
-constexpr int TWIST = TIP_MOMENT + 2;
-
-// Stems that stand alone do. Sheets get none, as their cage is a hundred times as thick as they are and weight alone would
-// buckle it; nor do organs that grow out of others or bear them, as whole plants then swayed by 5 to 16 % too fast or too
-// slowly when let go. They twist as they may.
-bool may_have_grain(const Model& plant, int organ) {
-    if (is_sheet(plant.organs[size_t(organ)])) return false;
-    const std::vector<ChainNode>& nodes = plant.chain.nodes;
-    return std::none_of(nodes.begin(), nodes.end(), [&](const ChainNode& node) {
-        const int below = node.parent >= 0 ? nodes[size_t(node.parent)].organ : node.organ;
-        return below != node.organ && (below == organ || node.organ == organ);
-    });
-}
 
 // An organ's cage in elements of one order, with its loads.
 struct Bench {
@@ -43,46 +22,27 @@ struct Bench {
     TetElements elements;
     StaticStiffness stiffness;
     CageLoads loads;
-    bool plain;  // without grain
 
-    Bench(LoneOrgan& lone, const Compliance& rods, int order, bool plain)
+    Bench(LoneOrgan& lone, const Compliance& rods, int order)
         : lone(lone),
           rods(rods),
           elements(make_tet_elements(lone.model, nullptr, order)),
-          stiffness(elements.pattern),
-          plain(plain) {}
+          stiffness(elements.pattern) {}
     Bench(const Bench&) = delete;
     Bench& operator=(const Bench&) = delete;
-    size_t tet_count() const { return lone.tets.size(); }
-    // The grain keeps within what it may be beside the tet's modulus.
-    void scale(size_t e, double bulk, double grain) {
-        const double young = lone.model.tet_young[e] *= bulk;
-        elements.mu[e] *= bulk;
-        elements.lambda[e] *= bulk;
-        if (plain) return;
-        const double before = lone.model.tet_grain[e];
-        lone.model.tet_grain[e] = std::clamp(grain * before, LEAST_GRAIN * young, MOST_GRAIN * young);
-        elements.grain[e] *= lone.model.tet_grain[e] / before;
+    void scale(size_t e, double factor) {
+        lone.model.tet_young[e] *= factor;
+        elements.mu[e] *= factor;
+        elements.lambda[e] *= factor;
     }
-    // Shares of tets, then of their grain if there is any.
-    std::vector<Compliance> measure() {
-        std::vector<Compliance> shares = cage_compliances(lone, elements, stiffness, loads);
-        if (plain && !shares.empty()) shares.resize(tet_count());
-        return shares;
-    }
+    std::vector<Compliance> measure() { return cage_compliances(lone, elements, stiffness, loads); }
 };
 
-// Moduli with which a cage that reaches one edge beyond the organ has about its stiffness against bending and twist, less
-// where the organ fills little of the tet.
-void set_first_moduli(const Section& section, double stiffer, double edge, double fill, bool plain, Model& model,
-                      size_t e) {
+// A modulus with which a cage that reaches one edge beyond the organ has about its bending stiffness, less where the
+// organ fills little of the tet.
+double first_modulus(const Section& section, double stiffer, double edge, double fill) {
     const double thickness = section.thickness + edge, width = section.width + edge;
-    const double less = stiffer * std::pow(fill, 0.25);
-    const double along = less * 12 * section.bending_thin() / (std::pow(thickness, 3) * width);
-    const double shear = less * section.twisting() / strip_torsion_constant(std::max(width, thickness), thickness);
-    const double young = plain ? along : std::clamp(2 * (1 + model.tet_poisson[e]) * shear, along / MOST_GRAIN, along);
-    model.tet_young[e] = young;
-    model.tet_grain[e] = plain ? 0 : std::max(along - young, FIRST_GRAIN * young);
+    return stiffer * 12 * section.bending_thin() / (std::pow(thickness, 3) * width) * std::pow(fill, 0.25);
 }
 
 // ---- place by place ----------------------------------------------------------------------------------------------
@@ -135,37 +95,6 @@ Places find_places(const LoneOrgan& lone, const Model& plant, const std::vector<
     return places;
 }
 
-// One factor for all tets' moduli and one for their grain, by Newton's method on the logarithms of energy and twist. Where
-// there is no grain, places are enough.
-bool fit_whole(Bench& bench) {
-    if (bench.plain) return true;
-    constexpr int ROUNDS = 5;
-    constexpr double LARGEST_STEP = 2;  // of a logarithm [-]
-    constexpr double RIGID = 0.02;      // what a change counts beside an error [-]
-    const size_t tet_count = bench.tet_count();
-    for (int round = 0; round < ROUNDS; round++) {
-        const std::vector<Compliance> shares = bench.measure();
-        if (shares.empty()) return false;
-        Eigen::Matrix2d share = Eigen::Matrix2d::Zero();  // bending and twist, of bulk and of grain
-        for (size_t k = 0; k < shares.size(); k++)
-            share.col(k < tet_count ? 0 : 1) +=
-                Eigen::Vector2d(energy_of(shares[k], bench.rods) / WHOLE_ENERGY,
-                                shares[k](TWIST, TWIST) / bench.rods(TWIST, TWIST));
-        const Eigen::Vector2d sum = share.rowwise().sum();
-        if (!(sum.minCoeff() > 0)) return false;
-        // A first round only brings the whole to the right order.
-        Eigen::Vector2d step = Eigen::Vector2d::Constant(std::log(sum[0]));
-        if (round > 0) {
-            const Eigen::Matrix2d slope = sum.cwiseInverse().asDiagonal() * share;
-            const Eigen::Matrix2d square = slope.transpose() * slope + RIGID * Eigen::Matrix2d::Identity();
-            step = square.inverse() * slope.transpose() * sum.array().log().matrix();
-            step = step.cwiseMax(-LARGEST_STEP).cwiseMin(LARGEST_STEP);
-        }
-        for (size_t e = 0; e < tet_count; e++) bench.scale(e, std::exp(step[0]), std::exp(step[1]));
-    }
-    return true;
-}
-
 bool fit_places(Bench& bench, const Places& places) {
     constexpr int ROUNDS = 3;
     constexpr double LARGEST_FACTOR = 1e6;         // of a modulus in a round [-]
@@ -179,8 +108,7 @@ bool fit_places(Bench& bench, const Places& places) {
         std::vector<double> cage(places.wanted.size(), 0.0);
         double sum = 0;
         for (size_t e = 0; e < tet_count; e++) {
-            double energy = energy_of(shares[e], bench.rods);
-            if (!bench.plain) energy += energy_of(shares[tet_count + e], bench.rods);
+            const double energy = energy_of(shares[e], bench.rods);
             cage[size_t(places.of_tet[e])] += energy;
             sum += energy;
         }
@@ -191,8 +119,7 @@ bool fit_places(Bench& bench, const Places& places) {
             const double here = (cage[place] + BLUR * sum) / (places.wanted[place] + BLUR * WHOLE_ENERGY) / whole;
             const double before = local[e];
             if (round > 0) local[e] = std::clamp(before * here, SOFTEST, STIFFEST);
-            const double factor = whole * local[e] / before;
-            bench.scale(e, factor, factor);
+            bench.scale(e, whole * local[e] / before);
         }
     }
     return true;
@@ -200,22 +127,18 @@ bool fit_places(Bench& bench, const Places& places) {
 
 // ---- tet by tet --------------------------------------------------------------------------------------------------
 
+// What all loads but twist and moments must come to, at the last; in the rounds before that they pull along.
+enum class Aim { EVERYTHING, BENDING };
+
 bool is_moment(int load) {
     return load >= TIP_MOMENT && load < TIP_MOMENT + 3;
 }
 
-// In the first rounds moments pull along, in the last ones bending by forces comes first, where there is no grain alone, since
-// twist is not to be had without.
-struct Aim {
-    bool plain, last;
-};
-
 // How much a load counts.
 double weight_of(int load, Aim aim) {
-    if (!is_moment(load)) return 1;
-    if (load != TWIST) return aim.last ? 0.1 : 0.5;
-    if (aim.plain) return aim.last ? 1e-3 : 0.5;
-    return aim.last ? 0.3 : 1;
+    if (load == TIP_MOMENT + 2) return aim == Aim::EVERYTHING ? 0.5 : 1e-3;
+    if (is_moment(load)) return aim == Aim::EVERYTHING ? 0.5 : 0.1;
+    return 1;
 }
 
 // A compliance much smaller than the largest of its kind is not told from nothing.
@@ -274,52 +197,31 @@ double worst_error(Bench& bench) {
     return worst;
 }
 
-// Half of what each tet's grain may still become stiffer beside the rest, as a logarithm.
-VecX grain_room(const Bench& bench) {
-    VecX room(Eigen::Index(bench.tet_count()));
-    for (Eigen::Index e = 0; e < room.size(); e++)
-        room[e] = 0.5 * std::log(MOST_GRAIN * bench.lone.model.tet_young[size_t(e)] /
-                                 bench.lone.model.tet_grain[size_t(e)]);
-    return room.cwiseMax(0);
-}
-
 bool fit_tets(Bench& bench) {
-    constexpr double SOFTEST = 0.25, STIFFEST = 6;         // of a tet, over how it began [-]
-    constexpr double LEAST_ALONG = 0.02, MOST_ALONG = 30;  // of its grain [-]
-    constexpr double LARGEST_STEP = 1;                     // of a logarithm [-]
-    constexpr double RIGID = 0.01;                         // what a change counts beside an error [-]
-    constexpr double CLOSE = 2e-3;                         // an error that is none [-]
+    constexpr double SOFTEST = 0.25, STIFFEST = 6;  // of a tet, over how it began [-]
+    constexpr double LARGEST_STEP = 1;              // of a logarithm [-]
+    constexpr double RIGID = 0.01;                  // what a change counts beside an error [-]
+    constexpr double CLOSE = 2e-3;                  // an error that is none [-]
     constexpr int MOST_ROUNDS = 5, LAST_ROUNDS = 3;
-    const Model before = bench.lone.model;
-    const size_t tet_count = bench.tet_count();
-    const Eigen::Index half = Eigen::Index(tet_count);
-    VecX change = VecX::Zero(bench.plain ? half : 2 * half), least = change, most = change;
-    least.setConstant(std::log(LEAST_ALONG)), most.setConstant(std::log(MOST_ALONG));
-    least.head(half).setConstant(std::log(SOFTEST)), most.head(half).setConstant(std::log(STIFFEST));
+    const double softest = std::log(SOFTEST), stiffest = std::log(STIFFEST);
+    const std::vector<double> before = bench.lone.model.tet_young;
+    VecX change = VecX::Zero(Eigen::Index(bench.lone.tets.size()));
     for (int round = 0; round < MOST_ROUNDS + LAST_ROUNDS; round++) {
         const std::vector<Compliance> shares = bench.measure();
         if (shares.empty()) return false;
         const bool last = round >= MOST_ROUNDS;
-        const Errors errors = errors_of(shares, bench.rods, {bench.plain, last});
+        const Errors errors = errors_of(shares, bench.rods, last ? Aim::BENDING : Aim::EVERYTHING);
         if (last && errors.value.lpNorm<Eigen::Infinity>() < CLOSE) break;
-        VecX lowest = (least - change).array().max(-LARGEST_STEP), highest = (most - change).array().min(LARGEST_STEP);
-        if (!bench.plain) {
-            const VecX room = grain_room(bench);
-            lowest.head(half) = lowest.head(half).cwiseMax(-room);
-            highest.tail(half) = highest.tail(half).cwiseMin(room);
-        }
-        const VecX step = least_change(errors.slope, -errors.value, lowest, highest, RIGID);
-        for (size_t e = 0; e < tet_count; e++)
-            bench.scale(e, std::exp(step[Eigen::Index(e)]), bench.plain ? 1 : std::exp(step[half + Eigen::Index(e)]));
+        const VecX step = least_change(errors.slope, -errors.value, (softest - change.array()).max(-LARGEST_STEP),
+                                       (stiffest - change.array()).min(LARGEST_STEP), RIGID);
+        for (size_t e = 0; e < shares.size(); e++) bench.scale(e, std::exp(step[Eigen::Index(e)]));
         change += step;
     }
     // Where that is not to be had, as in blades one cell thick and many times as wide, tets are drawn apart in vain, and the
     // softest turn inside out when the plant is pulled.
     constexpr double MENDED = 0.2;  // of a logarithm [-]
     if (worst_error(bench) > MENDED)
-        for (size_t e = 0; e < tet_count; e++)
-            bench.scale(e, before.tet_young[e] / bench.lone.model.tet_young[e],
-                        bench.plain ? 1 : before.tet_grain[e] / bench.lone.model.tet_grain[e]);
+        for (size_t e = 0; e < before.size(); e++) bench.scale(e, before[e] / bench.lone.model.tet_young[e]);
     return true;
 }
 
@@ -333,13 +235,13 @@ bool fit_moduli(LoneOrgan& lone, const Model& plant, const std::vector<int>& han
     if (!(rods.diagonal().minCoeff() > 0)) return false;
 
     const double edge = mean_edge(lone.model.cage);
-    const bool plain = !may_have_grain(plant, lone.organ);
     for (size_t e = 0; e < lone.tets.size(); e++)
-        set_first_moduli(plant.sections[size_t(hangs[lone.tets[e]])], plant.organ_stiffer[size_t(lone.organ)], edge,
-                         plant.cage.tet_fill[lone.tets[e]], plain, lone.model, e);
-    Bench bench(lone, rods, order, plain);
+        lone.model.tet_young[e] =
+            first_modulus(plant.sections[size_t(hangs[lone.tets[e]])], plant.organ_stiffer[size_t(lone.organ)], edge,
+                          plant.cage.tet_fill[lone.tets[e]]);
+    Bench bench(lone, rods, order);
     bench.loads = cage_loads(lone, bench.elements, plant, hangs, load_places);
-    return fit_whole(bench) && fit_places(bench, find_places(lone, plant, hangs, rod_shares, rods)) && fit_tets(bench);
+    return fit_places(bench, find_places(lone, plant, hangs, rod_shares, rods)) && fit_tets(bench);
 }
 
 }  // namespace frond

@@ -79,8 +79,11 @@ struct Search {
     }
     // Logarithms, one a tet.
     void stiffen(const VecX& change) {
-        for (size_t e = 0; e < elements.tets.size(); e++)
-            scale_moduli(elements, e, std::exp(change[Eigen::Index(e)]));
+        for (size_t e = 0; e < elements.tets.size(); e++) {
+            const double factor = std::exp(change[Eigen::Index(e)]);
+            elements.mu[e] *= factor;
+            elements.lambda[e] *= factor;
+        }
     }
 };
 
@@ -152,9 +155,6 @@ TetElements take_organ(const TetElements& all, const std::vector<int>& tet_organ
         take(all.volume, one.volume, e);
         take(all.lambda, one.lambda, e);
         take(all.mu, one.mu, e);
-        take(all.grain, one.grain, e);
-        take(all.grain_line, one.grain_line, e, points);
-        take(all.grain_axis, one.grain_axis, e, points);
         take(all.slots, one.slots, e);
         take(all.quadratic_slots, one.quadratic_slots, e);
     }
@@ -267,7 +267,7 @@ void stiffen_torn_organs(Model& model, int order) {
         for (size_t e = 0; e < model.tet_young.size() && !strains.empty(); e++) {
             const double strain = strains[size_t(model.cage.tet_organ[e])];
             if (!(strain > LARGEST_STRAIN)) continue;
-            model.scale_moduli(e, strain / LARGEST_STRAIN);
+            model.tet_young[e] *= strain / LARGEST_STRAIN;
             torn = true;
         }
         if (!torn) return;
@@ -280,7 +280,7 @@ void stiffen_torn_organs(Model& model, int order) {
 static void stiffen(Model& model, size_t organ, double stiffer, std::vector<double>& factor) {
     factor[organ] *= stiffer;
     for (size_t e = 0; e < model.tet_young.size(); e++)
-        if (size_t(model.cage.tet_organ[e]) == organ) model.scale_moduli(e, stiffer);
+        if (size_t(model.cage.tet_organ[e]) == organ) model.tet_young[e] *= stiffer;
 }
 
 // Makes those organs stiffer that give way most when the plant topples.
@@ -314,7 +314,7 @@ WeakOrgan find_rest_shape(Model& model, int order) {
     }
     if (outcome.rest.size() > 0) {
         const VecX change = fit_sway(*search, find_sways(model, make_rod_elements(model, FROND_ROD), FROND_ROD));
-        for (size_t e = 0; e < model.tet_young.size(); e++) model.scale_moduli(e, std::exp(change[Eigen::Index(e)]));
+        for (size_t e = 0; e < model.tet_young.size(); e++) model.tet_young[e] *= std::exp(change[Eigen::Index(e)]);
         model.rest_shapes->positions[size_t(order - 1)][FROND_TET_COROTATIONAL] = search->rest;
     }
     model.rest_shapes->known[size_t(order - 1)][FROND_TET_COROTATIONAL] = true;
@@ -333,7 +333,6 @@ static void fit_to_order(const Model& model, int order) {
     shapes.known[row] = fitted.rest_shapes->known[row];
     shapes.positions[row] = fitted.rest_shapes->positions[row];
     shapes.quadratic_young = fitted.tet_young;
-    shapes.quadratic_grain = fitted.tet_grain;
 }
 
 void ensure_rest_shape(const Model& model, frond_mechanics which, int order) {

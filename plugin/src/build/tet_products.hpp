@@ -6,52 +6,39 @@
 namespace frond {
 
 // Of the moves u_i, columns with three numbers a node of the elements, in tet e: the matrix of u_i' K_e u_j, by linear
-// theory, without grain or its alone. Summed over the tets that is u_i' K u_j; where u_i = K^-1 f_i, minus it is the
-// derivative of f_i' K^-1 f_j by the logarithm of the tet's modulus.
+// theory. Summed over the tets that is u_i' K u_j; where u_i = K^-1 f_i, minus it is the derivative of f_i' K^-1 f_j by
+// the logarithm of the tet's modulus.
 template <int COUNT>
 using Products = Eigen::Matrix<double, COUNT, COUNT>;
 
-template <int COUNT>
-struct TetProducts {
-    Products<COUNT> bulk = Products<COUNT>::Zero(), grain = Products<COUNT>::Zero();
-};
-
 template <class Element, int COUNT>
-TetProducts<COUNT> products_in_tet(const TetElements& elements, size_t e, const std::array<VecX, COUNT>& moves) {
+Products<COUNT> products_in_tet(const TetElements& elements, size_t e, const std::array<VecX, COUNT>& moves) {
     std::array<typename Element::Places, COUNT> places;
     for (size_t i = 0; i < COUNT; i++) places[i] = Element::places(elements, e, moves[i]);
-    TetProducts<COUNT> sum;
+    Products<COUNT> sum = Products<COUNT>::Zero();
     for (int q = 0; q < Element::POINTS; q++) {
         const TetShare share = Element::share(elements, e, q);
         // Strains as columns: three along the axes, three across times the root of two.
         Eigen::Matrix<double, 6, COUNT> strains;
-        Eigen::Matrix<double, 1, COUNT> along;
         for (int i = 0; i < COUNT; i++) {
             const Mat3 F = Element::gradient(share, places[size_t(i)], q);
             strains.col(i) << F(0, 0), F(1, 1), F(2, 2), (F(0, 1) + F(1, 0)) * M_SQRT1_2,
                 (F(0, 2) + F(2, 0)) * M_SQRT1_2, (F(1, 2) + F(2, 1)) * M_SQRT1_2;
-            along[i] = share.axis.dot(F * share.axis);
         }
         const Eigen::Matrix<double, 1, COUNT> swelling = strains.template topRows<3>().colwise().sum();
-        sum.bulk += share.volume *
-                    (2 * share.mu * strains.transpose() * strains + share.lambda * swelling.transpose() * swelling);
-        sum.grain += share.volume * share.grain * along.transpose() * along;
+        sum += share.volume *
+               (2 * share.mu * strains.transpose() * strains + share.lambda * swelling.transpose() * swelling);
     }
     return sum;
 }
 
-// First of the tets without grain, then of their grain.
+// One a tet.
 template <int COUNT>
 std::vector<Products<COUNT>> products_of_tets(const TetElements& elements, const std::array<VecX, COUNT>& moves) {
-    const size_t tet_count = elements.tets.size();
-    std::vector<Products<COUNT>> all(2 * tet_count);
-    for (size_t e = 0; e < tet_count; e++) {
-        const TetProducts<COUNT> of_tet = elements.nodes.order == 1
-                                              ? products_in_tet<LinearTet, COUNT>(elements, e, moves)
-                                              : products_in_tet<QuadraticTetElement, COUNT>(elements, e, moves);
-        all[e] = of_tet.bulk;
-        all[tet_count + e] = of_tet.grain;
-    }
+    std::vector<Products<COUNT>> all;
+    for (size_t e = 0; e < elements.tets.size(); e++)
+        all.push_back(elements.nodes.order == 1 ? products_in_tet<LinearTet, COUNT>(elements, e, moves)
+                                                : products_in_tet<QuadraticTetElement, COUNT>(elements, e, moves));
     return all;
 }
 

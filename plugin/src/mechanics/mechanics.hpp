@@ -51,10 +51,6 @@ struct TetElements : Elements {
     std::vector<double> volume;        // [m^3]
     std::vector<double> point_volume;  // with order 2 the shares of a tet's points in its volume, else none [m^3]
     std::vector<double> lambda, mu;  // Lame's constants [Pa]
-    std::vector<double> grain;       // modulus along the axis besides, one a tet [Pa]
-    // A line along that axis in the modelled shape, by tets and points: its parts along the three edges, and its
-    // direction at rest.
-    std::vector<Vec3> grain_line, grain_axis;
     std::vector<double> density;     // [kg/m^3]
     std::vector<TetLasting> lasting;  // by tets and their points; of a plant that has yielded, else none
     // E I length / reach^2 of each capsule's section, reach being that of its outermost fibre [J].

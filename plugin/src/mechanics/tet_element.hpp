@@ -37,23 +37,8 @@ inline const TetElements& as_tets(const Elements& elements) {
 // What a material is given: the share of a tet that one point of integration stands for.
 struct TetShare {
     const Mat3& rest_inverse;
-    double volume, lambda, mu, grain;
-    const Vec3& axis;  // of the grain, at rest
+    double volume, lambda, mu;
 };
-
-// Scales all moduli of a tet.
-inline void scale_moduli(TetElements& elements, size_t e, double factor) {
-    elements.mu[e] *= factor;
-    elements.lambda[e] *= factor;
-    elements.grain[e] *= factor;
-}
-
-// Twice the elastic energy of a small strain, a volume [J/m^3].
-inline double twice_energy(const TetShare& share, const Mat3& strain) {
-    const double along = share.axis.dot(strain * share.axis);
-    return 2 * share.mu * strain.squaredNorm() + share.lambda * strain.trace() * strain.trace() +
-           share.grain * along * along;
-}
 
 // Young's modulus out of Lame's constants [Pa].
 inline double young_of(double lambda, double mu) {
@@ -75,8 +60,7 @@ struct LinearTet {
     using Places = Mat3;  // edges from the first corner
 
     static TetShare share(const TetElements& elements, size_t e, int q = 0) {
-        return {rest_inverse(elements, e, q, POINTS), elements.volume[e], elements.lambda[e], elements.mu[e],
-                elements.grain[e], elements.grain_axis[e]};
+        return {rest_inverse(elements, e, q, POINTS), elements.volume[e], elements.lambda[e], elements.mu[e]};
     }
 
     static Places places(const TetElements& elements, size_t e, const VecX& x) {
@@ -140,9 +124,8 @@ struct QuadraticTetElement {
     };
 
     static TetShare share(const TetElements& elements, size_t e, int q) {
-        const size_t at = POINTS * e + size_t(q);
-        return {rest_inverse(elements, e, q, POINTS), elements.point_volume[at], elements.lambda[e], elements.mu[e],
-                elements.grain[e], elements.grain_axis[at]};
+        return {rest_inverse(elements, e, q, POINTS), elements.point_volume[POINTS * e + size_t(q)], elements.lambda[e],
+                elements.mu[e]};
     }
 
     static Places places(const TetElements& elements, size_t e, const VecX& x) {

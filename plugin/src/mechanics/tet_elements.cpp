@@ -29,9 +29,6 @@ void check_model(const Model& model, int order) {
                  "tet %zu has density %g kg/m^3, Young's modulus %g Pa and Poisson's ratio %g; the first two must be "
                  "above 0, the last within 0 .. 0.499",
                  e, density, E, nu);
-        if (!model.tet_grain.empty() && !(model.grain_of(order)[e] >= 0 && std::isfinite(model.grain_of(order)[e])))
-            fail(FROND_BAD_ARGUMENT, "the grain of tet %zu has a modulus of %g Pa; it must not be below 0", e,
-                 model.grain_of(order)[e]);
     }
 }
 
@@ -67,7 +64,6 @@ static void set_rest(TetElements& elements) {
             elements.rest_inverse[at] = edges.inverse();
             elements.volume[e] += volume / Element::POINTS;
             if (Element::POINTS > 1) elements.point_volume[at] = volume / Element::POINTS;
-            if (elements.grain[e] > 0) elements.grain_axis[at] = (edges * elements.grain_line[at]).normalized();
         }
     }
 }
@@ -81,20 +77,6 @@ void set_rest_positions(TetElements& elements, const VecX& rest_positions) {
         set_rest<LinearTet>(elements);
     else
         set_rest<QuadraticTetElement>(elements);
-}
-
-// Lines along the axes that the model gives its tets, in the modelled shape.
-template <class Element>
-static void set_grain(const Model& model, TetElements& elements) {
-    elements.grain_line.assign(elements.tets.size() * Element::POINTS, Vec3::Zero());
-    elements.grain_axis = elements.grain_line;
-    for (size_t e = 0; e < elements.tets.size(); ++e) {
-        if (!(elements.grain[e] > 0)) continue;
-        const auto places = Element::places(elements, e, elements.modelled);
-        for (int q = 0; q < Element::POINTS; ++q)
-            elements.grain_line[e * Element::POINTS + size_t(q)] =
-                Element::edges(places, q).partialPivLu().solve(model.tet_axis[e]);
-    }
 }
 
 template <class Element>
@@ -124,12 +106,6 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions, in
     out.modelled = node_places(out.nodes, [&](int i) { return model.cage.nodes[size_t(i)]; });
     // Ordering the nodes may mirror the tet; the deformation gradient does not see that.
     for (Tet& tet : out.ordered) std::sort(tet.begin(), tet.end());
-    const std::vector<double>& grain = model.grain_of(order);
-    out.grain = grain.empty() ? std::vector<double>(out.tets.size(), 0.0) : grain;
-    if (order == 1)
-        set_grain<LinearTet>(model, out);
-    else
-        set_grain<QuadraticTetElement>(model, out);
     set_rest_positions(out, rest_positions ? *rest_positions : out.modelled);
 
     out.pattern = order == 1 ? make_block_pattern(out.node_count, out.tets)
@@ -165,7 +141,10 @@ std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics wh
     const VecX& rest = model.rest_shapes->positions[ORDER - 1][size_t(which)];
     const std::vector<double>& stiffer = model.rest_shapes->stiffer[ORDER - 1][size_t(which)];
     auto elements = std::make_unique<TetElements>(make_tet_elements(model, rest.size() ? &rest : nullptr, ORDER));
-    for (size_t e = 0; e < stiffer.size(); ++e) scale_moduli(*elements, e, stiffer[e]);
+    for (size_t e = 0; e < stiffer.size(); ++e) {
+        elements->lambda[e] *= stiffer[e];
+        elements->mu[e] *= stiffer[e];
+    }
     for (int organ : model.cage.tet_organ)
         elements->damping_ratio.push_back(model.organs[size_t(organ)].material.damping_ratio);
     elements->section = capsules_of_tets(model);

@@ -38,7 +38,7 @@ struct Linear {
 }  // namespace
 
 Mechanics tet_linear(int order) {
-    Mechanics row = tet_row<Linear, StraightGrain>("tet_linear", order, false);
+    Mechanics row = tet_row<Linear>("tet_linear", order, false);
     row.turns = false;
     return row;
 }

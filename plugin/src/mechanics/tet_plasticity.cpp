@@ -26,14 +26,10 @@ constexpr double FLATTEST = 0.05;  // least stretch that still flows [-]
 constexpr double LOG_OVER_GREEN = 2.2;  // strains: down to a stretch of 0.4 the logarithmic one is no larger [-]
 constexpr size_t NUMBERS = 10;     // of a point: F_p^-1 by columns, hardening
 
-// Von Mises: of a bar pulled by e the deviator is (1 + nu) e (2/3, -1/3, -1/3). What the grain is drawn out by counts by
-// its modulus, so that modulus times the square of the strain is twice the energy.
-double as_pulled(const TetShare& share, double deviator_norm, double along) {
+// Von Mises: of a bar pulled by e the deviator is (1 + nu) e (2/3, -1/3, -1/3).
+double as_pulled(const TetShare& share, double deviator_norm) {
     const double poisson = share.lambda / (2 * (share.lambda + share.mu));
-    const double pulled = std::sqrt(1.5) * deviator_norm / (1 + poisson);
-    if (share.grain == 0) return pulled;
-    const double young = young_of(share.lambda, share.mu);
-    return std::sqrt((young * pulled * pulled + share.grain * along * along) / (young + share.grain));
+    return std::sqrt(1.5) * deviator_norm / (1 + poisson);
 }
 
 // Tets are strained unevenly: at the mean square the first ones would yield long before the rod's rim. At so many times
@@ -54,7 +50,7 @@ std::vector<double> strain_in_cage(const Model& model, const TetElements& elemen
         const Section& section = model.sections[i];
         const double stiffer = model.organ_stiffer[size_t(std::max(model.chain.nodes[i].organ, 0))];
         if (model.chain.nodes[i].parent < 0) continue;
-        const double young = young_of(elements.lambda[e], elements.mu[e]) + elements.grain[e];
+        const double young = young_of(elements.lambda[e], elements.mu[e]);
         share[e] = RIM * std::sqrt(stiffer * section.bending_thin() * section.length / (volume[i] * young)) /
                    (0.5 * section.thickness);
     }
@@ -69,20 +65,14 @@ Strained strained_at(const TetShare& share, const Mat3& F) {
     const Vec3 stretch = Eigen::SelfAdjointEigenSolver<Mat3>(out.S, Eigen::EigenvaluesOnly).eigenvalues();
     if (!(stretch[0] > FLATTEST)) return out;
     const Eigen::Array3d strain = stretch.array().log();
-    const double along = share.grain > 0 ? std::log((out.S * share.axis).norm()) : 0;
-    out.strain = as_pulled(share, (strain - strain.mean()).matrix().norm(), along);
+    out.strain = as_pulled(share, (strain - strain.mean()).matrix().norm());
     return out;
 }
 
 double green_strain(const TetShare& share, const Mat3& F) {
     Mat3 E = 0.5 * (F.transpose() * F);
-    const double along = share.axis.dot(E * share.axis) - 0.5;
     E.diagonal().array() -= E.trace() / 3;
-    return as_pulled(share, E.norm(), along);
-}
-
-double stretching_modulus(const TetShare& share) {
-    return young_of(share.lambda, share.mu) + share.grain;
+    return as_pulled(share, E.norm());
 }
 
 bool exceeds(const TetShare& share, const Mat3& F, double most, Strained& out) {

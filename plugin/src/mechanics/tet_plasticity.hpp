@@ -14,8 +14,6 @@ struct Strained {
 // Nearly the same by Green's strain, for strains that are small; without a rotation, and of any F.
 double green_strain(const TetShare& share, const Mat3& F);
 Strained strained_at(const TetShare& share, const Mat3& F);
-// Stress over strain of a bar that is pulled along the grain [Pa].
-double stretching_modulus(const TetShare& share);
 // Whether that strain is beyond `most`, which is never where `most` is zero. Most tets are told without a rotation.
 bool exceeds(const TetShare& share, const Mat3& F, double most, Strained& out);
 // Makes 1 - `elastic` of the distortion of S lasting: F becomes F times this, of determinant one.

@@ -5,11 +5,9 @@
 //   Mat3 stress(share, strain)                      first Piola-Kirchhoff, dW/dF [Pa]
 //   TetStiffness stiffness(share, strain, tangent, scale)   scale times volume times d2W/dF2 between corners [N/m]
 //   bool inverted(strain)
-// Grain is added to all of them.
 #pragma once
 
 #include "mechanics/rows.hpp"
-#include "mechanics/tet_grain.hpp"
 #include "mechanics/tet_plasticity.hpp"
 
 namespace frond {
@@ -133,11 +131,10 @@ void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<
     for (int q = 0; q < Element::POINTS; ++q) {
         const TetShare share = Element::share(elements, e, q);
         const Mat3 F = Element::gradient(share, places, q);
-        const auto strain = Law::Own::strain(share, F);
+        const auto strain = Law::strain(share, F);
         const Mat3& B = share.rest_inverse;
-        const Vec3 beta = B * share.axis;
-        const Mat3 H = Law::Own::stress(share, strain) * B.transpose() * share.volume;
-        const TetStiffness k = Law::Own::stiffness(share, strain, Tangent::exact, 1);
+        const Mat3 H = Law::stress(share, strain) * B.transpose() * share.volume;
+        const TetStiffness k = Law::stiffness(share, strain, Tangent::exact, 1);
         const Mat3 K[3][3] = {{k.k11, k.k21.transpose(), k.k31.transpose()},
                               {k.k21, k.k22, k.k32.transpose()},
                               {k.k31, k.k32, k.k33}};
@@ -146,9 +143,7 @@ void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<
         for (size_t a = 1; a < 4; ++a)
             for (size_t b = 1; b < 4; ++b) {
                 const Eigen::Index i = Eigen::Index(a) - 1, j = Eigen::Index(b) - 1;
-                Mat3 block = K[i][j] * F - H.col(i) * B.row(j) + H.col(j) * B.row(i);
-                if (share.grain > 0)
-                    block += beta[i] * Law::Grains::rest_derivative(share, F, B.row(j).transpose(), beta[j]);
+                const Mat3 block = K[i][j] * F - H.col(i) * B.row(j) + H.col(j) * B.row(i);
                 corners[4 * a + b] = block;
                 corners[4 * a] -= block;
                 corners[b] -= block;
@@ -158,9 +153,8 @@ void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<
     }
 }
 
-template <class Material, class Grain = TurningGrain>
+template <class Law>
 Mechanics tet_row(const char* name, int order, bool needs_search) {
-    using Law = Grained<Material, Grain>;
     const auto row = [&](auto rows, auto make, auto is_calm, auto yields, auto rest_derivative) {
         return Mechanics{name,          make,            tet_masses, rows.energy, rows.add_force, rows.add_stiffness,
                          rows.add_both, rows.add_damped, nullptr,    nullptr,     is_calm,         rest_derivative, yields,

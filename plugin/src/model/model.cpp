@@ -13,17 +13,8 @@ double Model::mass() const {
     return sum;
 }
 
-void Model::scale_moduli(size_t tet, double factor) {
-    tet_young[tet] *= factor;
-    if (!tet_grain.empty()) tet_grain[tet] *= factor;
-}
-
 const std::vector<double>& Model::young_of(int order) const {
     return order == 2 && !rest_shapes->quadratic_young.empty() ? rest_shapes->quadratic_young : tet_young;
-}
-
-const std::vector<double>& Model::grain_of(int order) const {
-    return order == 2 && !rest_shapes->quadratic_grain.empty() ? rest_shapes->quadratic_grain : tet_grain;
 }
 
 // Holds those corners that lie in the lower part of the cells around a foot: held up to the top of a coarse cell, a stem

@@ -32,7 +32,6 @@ struct RestShapes {
     Each<VecX> positions;                 // nodes without gravity, node_count*3 [m]; empty: as modelled
     Each<std::vector<double>> stiffer;    // than Model::young_of(), one a tet [-]; empty: not
     std::vector<double> quadratic_young;  // like Model::tet_young, for order 2; empty: those hold for both [Pa]
-    std::vector<double> quadratic_grain;  // and like Model::tet_grain
     std::vector<double> springs;  // than their material, spring_chain's capsules of each organ [-]; empty: not
 };
 
@@ -55,8 +54,6 @@ struct Model {
     std::vector<double> tet_density;  // of the cage's tets, so that the organ weighs what it should [kg/m^3]
     std::vector<double> tet_young;    // so that it bends as it should [Pa]
     std::vector<double> tet_poisson;
-    std::vector<double> tet_grain;    // modulus along tet_axis besides, which twist does not feel; empty: none [Pa]
-    std::vector<Vec3> tet_axis;       // of its organ where the tet is, length one; empty: no grain
     std::vector<uint8_t> root;  // cage nodes that the ground holds unless a plant says otherwise, node_count
     std::shared_ptr<RestShapes> rest_shapes = std::make_shared<RestShapes>();
     double stiffened = 1;  // how much stiffer the organs were made so that the plant stands [-]
@@ -64,9 +61,7 @@ struct Model {
     double ms_import = 0, ms_cage = 0, ms_chain = 0, ms_total = 0;
 
     double mass() const;  // [kg]
-    void scale_moduli(size_t tet, double factor);  // all of a tet's
     const std::vector<double>& young_of(int order) const;  // of the tets, as elements of an order [Pa]
-    const std::vector<double>& grain_of(int order) const;
 };
 
 // The cage nodes of the tets that hold the foot of the chain's roots: a drooping leaf that touches the ground stays
