@@ -193,7 +193,7 @@ int frond_plant_get_node_count(frond_plant plant) {
 
 int frond_plant_get_capsule_count(frond_plant plant) {
     const PlantBody* body = plant_slots().find(plant.id);
-    return body ? int(body->capsules.size()) : 0;
+    return body ? int(body->capsules().size()) : 0;
 }
 
 frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count) {
@@ -314,13 +314,13 @@ frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int
     return call([&] {
         check_pointer(out, "out");
         const PlantBody& body = look_at(get(plant));
-        check_count(capsule_count, int(body.capsules.size()), "capsule_count");
+        check_count(capsule_count, int(body.capsules().size()), "capsule_count");
         const Plant& p = *body.plant;
-        for (size_t i = 0; i < body.capsules.size(); i++) {
+        for (size_t i = 0; i < body.capsules().size(); i++) {
             const auto [begin, end] = capsule_ends(p, i);
             out[i].begin = from_vec(p.to_world(begin));
             out[i].end = from_vec(p.to_world(end));
-            out[i].radius = double(body.capsules[i]->getRadius());
+            out[i].radius = double(body.capsules()[i]->getRadius());
         }
     });
 }
@@ -364,7 +364,7 @@ frond_result frond_plant_break(frond_plant plant, int capsule) {
     return call([&] {
         PlantBody& body = get_awake(plant);
         const Plant& p = *body.plant;
-        check_range(capsule, 0, double(body.capsules.size()) - 1, "capsule");
+        check_range(capsule, 0, double(body.capsules().size()) - 1, "capsule");
         const auto& [begin, end] = p.model->capsules[size_t(capsule)];
         if (begin == end) fail(FROND_BAD_ARGUMENT, "capsule %d is a root of its own; nothing grows beyond it", capsule);
         if (fragment_of_chain_node(p, size_t(end)))

@@ -76,7 +76,7 @@ void give(PlantBody& body, frond_detail wanted) {
 
 // What a step of it will take in a detail [ms].
 double cost_of(const Detail& detail, const PlantBody& body, frond_detail wanted) {
-    const double ms = wanted == body.level.now && body.level.ms > 0 ? body.level.ms : detail.ms_of[int(wanted)];
+    const double ms = wanted == body.level.now && body.level.ms > 0 ? double(body.level.ms) : detail.ms_of[int(wanted)];
     return ms / body.level.every;
 }
 
@@ -164,7 +164,7 @@ void learn_times(World& world) {
     double sum[2] = {}, count[2] = {};
     for (const PlantBody* body : world.awake) {
         if (!is_simulated(body->level.now) || !body->level.is_due) continue;
-        sum[int(body->level.now)] += body->level.ms;
+        sum[int(body->level.now)] += double(body->level.ms);
         count[int(body->level.now)]++;
     }
     for (size_t k = 0; k < 2; k++)

@@ -29,7 +29,7 @@ bool takes_part(const World& world, const PlantBody* body) {
 // All of a piece is within `radius` of its core: a capsule's axis, or a flat one's rectangle.
 double radius_of(const PlantBody& body, int capsule) {
     const Flat& flat = body.hull->flats[size_t(capsule)];
-    return flat.half_width > 0 ? flat.half_thickness : double(body.capsules[size_t(capsule)]->getRadius());
+    return flat.half_width > 0 ? flat.half_thickness : double(body.capsules()[size_t(capsule)]->getRadius());
 }
 
 // The point of a piece's core that is nearest to p.
@@ -65,7 +65,7 @@ double friction_of(const PlantBody& body, int capsule) {
 int nearest_capsule(const PlantBody& body, const Vec3& p) {
     int nearest = -1;
     double least = INFINITY;
-    for (size_t capsule = 0; capsule < body.capsules.size(); capsule++) {
+    for (size_t capsule = 0; capsule < body.capsules().size(); capsule++) {
         const double distance =
             (nearest_on_core(body, int(capsule), p).point - p).norm() - radius_of(body, int(capsule));
         if (distance >= least) continue;
@@ -124,7 +124,7 @@ void add_contact(PlantBody& body, int capsule, btCollisionObject& other, const V
 
 // A capsule in whose place a plate is touched.
 bool is_covered(const PlantBody& body, int child) {
-    return child >= 0 && size_t(child) < body.capsules.size() && body.hull->flats[size_t(child)].half_width > 0;
+    return child >= 0 && size_t(child) < body.capsules().size() && body.hull->flats[size_t(child)].half_width > 0;
 }
 
 void add_manifold(World& world, const btPersistentManifold& manifold, std::vector<Contact>& contacts) {

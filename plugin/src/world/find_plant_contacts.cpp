@@ -14,7 +14,7 @@ namespace {
 
 // The cage of a plant that broke still has the nodes of what came off: it takes no part any more.
 bool has(const World& world, const PlantBody& body, frond_effects effect) {
-    return world.effects & body.plant->effects & effect && !body.capsules.empty() && body.plant->fragments.empty();
+    return world.effects & body.plant->effects & effect && !body.capsules().empty() && body.plant->fragments.empty();
 }
 
 // Plants whose boxes meet, and lone ones that touch themselves.

@@ -30,9 +30,9 @@ Mat3 matrix_from_bullet(const btMatrix3x3& m) {
 void add_capsules(const PlantBody& body, const Fragment& fragment, const btTransform& frame, Rigid& rigid) {
     const Plant& plant = *body.plant;
     auto compound = std::make_unique<btCompoundShape>();
-    for (size_t i = 0; i < body.capsules.size(); i++) {
+    for (size_t i = 0; i < body.capsules().size(); i++) {
         if (fragment_of_chain_node(plant, size_t(plant.model->capsules[i][1])) != &fragment) continue;
-        const btCapsuleShape& whole = *body.capsules[i];
+        const btCapsuleShape& whole = *body.capsules()[i];
         rigid.children.push_back(std::make_unique<btCapsuleShape>(whole.getRadius(), 2 * whole.getHalfHeight()));
         const auto [begin, end] = capsule_ends(plant, i);
         const btTransform place = capsule_frame(plant.to_world(begin), plant.to_world(end));

@@ -211,8 +211,7 @@ void show_again(PlantBody& body) {
 }
 
 PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> given)
-    : btSoftBody(info), plant(std::move(given)), world(world), hull(hull_of(*world, *plant->model)),
-      capsules(hull->capsules) {
+    : btSoftBody(info), plant(std::move(given)), world(world), hull(hull_of(*world, *plant->model)) {
     m_softBodySolver = nullptr;  // Bullet's constructor leaves it open
     level.own = plant->which;
 
@@ -257,7 +256,7 @@ static double wider_than_capsules(const PlantBody& body, const Collider& collide
     const std::vector<Capsule> covers = cover_pieces(collider, places, axes);
     double wider = 0;
     for (size_t i = 0; i < covers.size(); i++)
-        wider = std::max(wider, covers[i].radius - double(body.capsules[i]->getRadius()));
+        wider = std::max(wider, covers[i].radius - double(body.capsules()[i]->getRadius()));
     return wider;
 }
 

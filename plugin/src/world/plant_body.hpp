@@ -43,12 +43,12 @@ struct Level {
     frond_detail now = FROND_DETAIL_FULL;
     frond_mechanics own;       // of FROND_DETAIL_FULL
     int every = 1;             // substeps that are taken as one
-    double pending = 0;        // time that is not yet stepped [s]
     bool is_due = true;        // is stepped in the running substep
+    double pending = 0;        // time that is not yet stepped [s]
     double distance = 0;       // as it counts
     double touched = 0;        // until when it was touched lately [s]
-    double ms = 0;             // that a step took, lately
-    double ms_capsules = 0;    // of the last one
+    float ms = 0;              // that a step took, lately
+    float ms_capsules = 0;     // of the last one
 };
 
 struct PlantBody : btSoftBody {
@@ -60,21 +60,21 @@ struct PlantBody : btSoftBody {
     int new_for = 1;  // substeps in which what it stands in is yet to be found out; one that began asleep wakes without pairs
     Rest rest;
     std::unique_ptr<GrownIn> grown_in;  // null: in nothing
+    bool is_hidden = false;  // from what sleeps and from what is static: asleep with nothing touching it
+    bool is_looked_at = false;  // asleep, but unfolded for somebody to look
+    int filter_group = 0, filter_mask = 0;  // of the broad phase, while it is hidden
     int index = 0;    // among the world's plants
     int number = -1;  // among those that take part in the running substep; -1: it does not
     Level level;
     std::shared_ptr<Hull> hull;
-    bool is_hidden = false;  // from what sleeps and from what is static: asleep with nothing touching it
-    int filter_group = 0, filter_mask = 0;  // of the broad phase, while it is hidden
-    bool is_looked_at = false;  // asleep, but unfolded for somebody to look
     std::shared_ptr<const Collider> collider;  // of its cage; null until other plants, or it itself, may touch it
     std::shared_ptr<const Sheath> sheath;      // likewise, where its chain moves by itself
     std::vector<Rigid*> fragment_bodies;  // the world's, one for each of plant->fragments
-    const std::vector<std::unique_ptr<btCapsuleShape>>& capsules;  // the hull's
 
     PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> plant);
     ~PlantBody() override;
     btCollisionShape*& shape() { return m_collisionShape; }
+    const std::vector<std::unique_ptr<btCapsuleShape>>& capsules() const { return hull->capsules; }
     btCompoundShape* compound() { return static_cast<btCompoundShape*>(getCollisionShape()); }
     // Of its cage or its sheath, whichever it is that others touch now.
     const Collider& touched_collider() const { return plant->follow ? sheath->collider : *collider; }

@@ -135,10 +135,10 @@ void finish(const World& world, PlantBody& body, const Surroundings& surrounding
     Plant& plant = *body.plant;
     accept_step(plant, surroundings, body.level.pending);
     const double ms = plant.ms_effects + plant.report.ms_assembly + plant.report.ms_solve;
-    body.level.ms += (body.level.ms > 0 ? LATELY : 1) * (ms - body.level.ms);
+    body.level.ms += float((body.level.ms > 0 ? LATELY : 1) * (ms - double(body.level.ms)));
     const Timer timer;
     if (!(plant.effects & world.effects & FROND_BREAKING)) move_capsules(body);
-    body.level.ms_capsules = timer.ms();
+    body.level.ms_capsules = float(timer.ms());
     if (world.sleep_distance > 0) watch(world, body, body.level.pending);
 }
 
@@ -153,7 +153,7 @@ void sway(const World& world, PlantBody& body, const Surroundings& surroundings,
     const Timer timer;
     pose(*body.plant);
     move_capsules(body);
-    body.level.ms_capsules = timer.ms();
+    body.level.ms_capsules = float(timer.ms());
 }
 
 // A plant's own part of the substep, which no other has anything to do with.
@@ -182,7 +182,7 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
         add_effect(report, FROND_BREAKING, timer.ms());
     }
     collision_world.updateSingleAabb(&body);
-    report.ms_capsules += timer.ms() + body.level.ms_capsules;
+    report.ms_capsules += timer.ms() + double(body.level.ms_capsules);
     body.level.pending = 0;
     if (!world.own) clear_user_force(*body.plant);
 }
