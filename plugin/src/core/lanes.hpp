@@ -53,7 +53,7 @@ FROND_INLINE S select(const Mask& mask, const S& yes, const S& no) {
 // value(lane) of each lane.
 template <class S, class Value>
 FROND_INLINE S gather(const Value& value) {
-    S out;
+    S out = {};
     for (int lane = 0; lane < LANES<S>; ++lane) out[lane] = value(lane);
     return out;
 }
