@@ -129,6 +129,10 @@ static const Stem STEMS[] = {
     {"nearly_level", {0, 0, 0}, {0.9, 0.3, 0.2}, 0.01, 0.01, 0.06},
     {"hollow", {0, 0, 0}, {0, 0.5, 0}, 0.01, 0.01, 0, 0.8},
     {"small", {0, 0, 0}, {0, 0.03, 0.01}, 0.0005, 0.0004},
+    {"cells_as_long_as_thick", {0, 0, 0}, {0, 1, 0}, 0.05, 0.05, 0.1},
+    {"cells_longer_than_thick", {0, 0, 0}, {0, 1, 0}, 0.04, 0.04, 0.13},
+    {"cells_twice_as_long", {0, 0, 0}, {0, 1, 0}, 0.025, 0.025, 0.1},
+    {"tilted_in_coarse_cells", {0.1, 0, 0}, {0.6, 0.7, 0.3}, 0.03, 0.03, 0.1},
 };
 
 struct EveryStem : testing::TestWithParam<Stem> {};

@@ -30,6 +30,7 @@ double bound_of(const std::string& name) {
         {"free_fall", 1e-6},
         {"sway", 0.11},           {"swing", 0.02},
         {"peers_swing", 0.02},    {"release", 0.02},
+        {"aspect", 0.05},         {"twig", 0.05},
         {"reconfiguration", 0.03},
         {"corn_drift", 1e-3},     {"cucumber_drift", 1e-3},
     };
@@ -158,6 +159,30 @@ TEST(Rods, BendAndTwistAndBuckleAsTheFormulasSay) {
         setup.plant.mechanics = FROND_ROD;
         setup.resolution = row.pieces;
         EXPECT_LT(problem.run(setup, session).error, row.error) << row.problem;
+    }
+}
+
+double deflection_at(const Outcome& outcome, const std::string& aspect) {
+    for (const Value& value : outcome.values)
+        if (value.name.find("aspect " + aspect + ":") == 0) return value.measured / value.known;
+    return NAN;
+}
+
+// Quadratic tets of the caller's, one cell across; four-node tets in fitted cages.
+TEST(Cells, BendAsTheFormulaSaysHoweverLong) {
+    Session session;
+    const Problem& problem = find_problem("aspect");
+    for (const frond_mechanics mechanics : {FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN}) {
+        Choice setup = problem.baseline();
+        setup.plant.mechanics = mechanics;
+        EXPECT_LT(problem.run(setup, session).error, 0.05) << frond_mechanics_name(mechanics);
+        setup.body = Body::MESH;
+        setup.resolution = 1;
+        setup.plant.root_height = 1e-4;
+        setup.plant.element_order = 2;
+        const Outcome quadratic = problem.run(setup, session);
+        for (const char* aspect : {"1", "2", "5"})
+            EXPECT_NEAR(deflection_at(quadratic, aspect), 1, 0.05) << frond_mechanics_name(mechanics) << " " << aspect;
     }
 }
 

@@ -58,7 +58,7 @@ const Path& converged_path(const ModelPtr& model, const Setup& setup, const Star
     if (known != session.references.end()) return known->second;
 
     const double agree = session.effort == Effort::FULL ? 2e-4 : 2e-3;
-    const int refinements = session.effort == Effort::FULL ? 6 : 1;
+    const int refinements = session.effort == Effort::FULL ? 6 : moves_chain(setup.plant.mechanics) ? 4 : 1;
     Path path;
     std::string differences;
     for (int i = 0; i <= refinements; i++, fine.dt /= 2) {

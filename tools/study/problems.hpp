@@ -9,12 +9,14 @@ Setup static_baseline();    // a stem of 10 pieces, material damping off
 Setup motion_baseline();    // the same at 1/240 s
 Setup free_baseline();      // held nowhere
 Setup peers_baseline();     // the beam of 1170 tets that other programs were tried on
+Setup twig_baseline();
 Setup wind_baseline();      // with the damping that lets it come to rest
 Setup standing_baseline();  // a plant from a file, as it is by default
 Setup agree_baseline();     // the same at 1/120 s
 
 Outcome run_cantilever_tip(const Setup& setup, Session& session);
 Outcome run_cantilever_weight(const Setup& setup, Session& session);
+Outcome run_aspect(const Setup& setup, Session& session);
 Outcome run_elastica_tip(const Setup& setup, Session& session);
 Outcome run_elastica_weight(const Setup& setup, Session& session);
 Outcome run_roll_up(const Setup& setup, Session& session);
@@ -33,6 +35,8 @@ Outcome run_sway(const Setup& setup, Session& session);
 Outcome run_swing(const Setup& setup, Session& session);
 Outcome run_peers_swing(const Setup& setup, Session& session);
 Outcome run_release(const Setup& setup, Session& session);
+
+Outcome run_twig(const Setup& setup, Session& session);
 
 Outcome run_reconfiguration(const Setup& setup, Session& session);
 

@@ -1,4 +1,4 @@
-// Beams that move: sway in known modes, fall, swing and are let go from a large bend. Where no formula is known, the
+// Beams that move: sway in known modes, fall, swing and are let go from a large bend; a twig does too. Where no formula is known, the
 // path of the end is compared with one that was refined in time until it no longer changed.
 #include <array>
 #include <cmath>
@@ -241,12 +241,14 @@ Outcome run_sway(const Setup& setup, Session& session) {
     return sway_of(LIMBER, setup, session);
 }
 
-static constexpr double SWING = 2;  // [s]
+static double swing_time(const Session& session) {
+    return session.effort == Effort::FULL ? 2 : 1;  // [s]
+}
 static const Where END = [](Trial& trial) { return trial.middle(Beam::LENGTH); };
 static const Start UNDER_WEIGHT = [](Trial& trial) { trial.set_gravity({9.81, 0, 0}); };
 
 Outcome run_swing(const Setup& setup, Session& session) {
-    return compare_path(make_beam(peers_beam(), setup), setup, UNDER_WEIGHT, END, SWING, session);
+    return compare_path(make_beam(peers_beam(), setup), setup, UNDER_WEIGHT, END, swing_time(session), session);
 }
 
 Outcome run_peers_swing(const Setup& setup, Session& session) {
@@ -256,7 +258,32 @@ Outcome run_peers_swing(const Setup& setup, Session& session) {
 Outcome run_release(const Setup& setup, Session& session) {
     const ModelPtr model = make_beam(LIMBER, setup);
     const Start start = [&](Trial& trial) { trial.start_from(*bend_far(model, LIMBER, setup)); };
-    return compare_path(model, setup, start, END, SWING, session);
+    return compare_path(model, setup, start, END, swing_time(session), session);
+}
+
+Setup twig_baseline() {
+    Setup setup = static_baseline();
+    setup.plant.mechanics = FROND_ROD;
+    return setup;
+}
+
+Outcome run_twig(const Setup& setup, Session& session) {
+    ModelPtr& model = session.models["twig"];
+    if (!model) {
+        const tools::Casting casting = tools::cast("twig");
+        tools::Play play(casting, tools::settings_of(casting, {}));
+        model = std::make_shared<const Model>(play.stage.models.back());
+        play.stage.models.clear();  // the model is ours from here on
+    }
+    const Start tilt = [](Trial& trial) { trial.set_gravity({0.98, -9.81, 0}); };
+    const Where tip = [](Trial& trial) {
+        frond_vec3 place;
+        must(frond_plant_get_tip(trial.plant, &place));
+        return place;
+    };
+    Outcome outcome = compare_path(model, setup, tilt, tip, swing_time(session), session);
+    outcome.values.push_back({"CPU ms a step", 1e3 * setup.dt * outcome.cpu_per_second, NAN});
+    return outcome;
 }
 
 }  // namespace frond::study

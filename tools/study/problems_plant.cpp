@@ -30,7 +30,7 @@ const LoadFunction WEIGHT = [](Trial& trial, double share) { trial.set_gravity({
 
 // Plants of linear tets, which grow as they turn, may never rest.
 int steps_to_rest(const Session& session) {
-    return session.effort == Effort::FULL ? 300 : 80;
+    return session.effort == Effort::FULL ? 300 : 40;
 }
 
 ModelPtr plant_model(const PlantCase& plant, const Setup& setup, frond_rest rest, Session& session) {

@@ -135,6 +135,28 @@ Outcome run_torsion(const Setup& setup, Session& session) {
                       bent.cpu_per_second);
 }
 
+// Cells of ever more slender beams, ten along each: tets lock the more the longer they are, unless they are fitted.
+Outcome run_aspect(const Setup& setup, Session& session) {
+    constexpr int CELLS = 10;
+    const bool mesh = setup.body == Body::MESH;
+    Outcome outcome;
+    double error = 0;
+    std::vector<Value> values;
+    for (int aspect : {1, 2, 5, 10}) {
+        Beam beam = SLENDER;
+        beam.width = Beam::LENGTH / (CELLS * aspect);
+        if (mesh) beam.cells[0] = {setup.resolution, CELLS * setup.resolution};
+        const ModelPtr model = make_beam(beam, setup);
+        const double P = 3 * SMALL * stiffness_of(beam, setup);
+        Bent bent(model, setup, session, 1, [=](Trial& t, double share) { t.push_end({P * share, 0, 0}, {0, 0, 0}); });
+        const double down = bent.trial().middle(Beam::LENGTH).x;
+        error = std::max(error, std::abs(down / SMALL - 1));
+        values.push_back({"aspect " + std::to_string(aspect) + ": deflection / formula", down / SMALL, 1});
+        outcome = outcome_of(bent.trial(), error, values, bent.cpu_per_second);
+    }
+    return outcome;
+}
+
 // Under a light push aside an upright column leans by d; weight takes 1/d down to zero where it buckles. The weight at
 // which it vanishes is found by the secant method.
 Outcome run_greenhill(const Setup& setup, Session& session) {

@@ -35,6 +35,7 @@ struct Bench {
         elements.mu[e] *= factor;
         elements.lambda[e] *= factor;
     }
+    bool is_blade() const { return rods(TIP_FORCE, TIP_FORCE) > 10 * rods(TIP_FORCE + 1, TIP_FORCE + 1); }
     std::vector<Compliance> measure() { return cage_compliances(lone, elements, stiffness, loads); }
 };
 
@@ -127,18 +128,23 @@ bool fit_places(Bench& bench, const Places& places) {
 
 // ---- tet by tet --------------------------------------------------------------------------------------------------
 
-// What all loads but twist and moments must come to, at the last; in the rounds before that they pull along.
-enum class Aim { EVERYTHING, BENDING };
+// What the fit is for: at first all loads pull along, then twist and moments hardly do; where that leaves bending far
+// off, as in cells as long as a stem is thick, neither does stretch, which fibres bear.
+enum class Aim { EVERYTHING, BENDING, BENDING_ONLY };
 
 bool is_moment(int load) {
     return load >= TIP_MOMENT && load < TIP_MOMENT + 3;
+}
+
+bool is_along(int load) {
+    return load % 3 == 2;
 }
 
 // How much a load counts.
 double weight_of(int load, Aim aim) {
     if (load == TIP_MOMENT + 2) return aim == Aim::EVERYTHING ? 0.5 : 1e-3;
     if (is_moment(load)) return aim == Aim::EVERYTHING ? 0.5 : 0.1;
-    return 1;
+    return is_along(load) && aim == Aim::BENDING_ONLY ? 0.1 : 1;
 }
 
 // A compliance much smaller than the largest of its kind is not told from nothing.
@@ -183,45 +189,79 @@ Errors errors_of(const std::vector<Compliance>& shares, const Compliance& rods, 
     return errors;
 }
 
-// The largest logarithm of the cage's compliance to forces and weight over the rods', small ones left out.
-double worst_error(Bench& bench) {
-    const std::vector<Compliance> shares = bench.measure();
-    if (shares.empty()) return INFINITY;
+// The largest logarithm of the cage's compliance to forces and weight over the rods', small ones left out: of all, and
+// of those across.
+struct WorstErrors {
+    double all = INFINITY, across = INFINITY;
+};
+WorstErrors worst_errors(const std::vector<Compliance>& shares, const Compliance& rods) {
+    if (shares.empty()) return {};
     const Compliance cage = sum_of(shares);
-    double worst = 0;
+    WorstErrors worst = {0, 0};
     for (int first : {TIP_FORCE, WEIGHT}) {
-        const double least = FLOOR * bench.rods.diagonal().segment<3>(first).maxCoeff();
-        for (int i = first; i < first + 3; i++)
-            if (bench.rods(i, i) > least) worst = std::max(worst, std::abs(std::log(cage(i, i) / bench.rods(i, i))));
+        const double least = FLOOR * rods.diagonal().segment<3>(first).maxCoeff();
+        for (int i = first; i < first + 3; i++) {
+            if (rods(i, i) <= least) continue;
+            const double error = std::abs(std::log(cage(i, i) / rods(i, i)));
+            worst.all = std::max(worst.all, error);
+            if (!is_along(i)) worst.across = std::max(worst.across, error);
+        }
     }
     return worst;
 }
 
-bool fit_tets(Bench& bench) {
+// How far a fit has come, and the best place that it passed: rounds may overshoot where tets are at their bounds.
+struct Progress {
+    VecX change;  // of the logarithms of the moduli
+    VecX best_change;
+    double best_error = INFINITY;  // the worst of all
+};
+
+void move_to(Bench& bench, Progress& progress, const VecX& change) {
+    for (size_t e = 0; e < bench.lone.tets.size(); e++)
+        bench.scale(e, std::exp(change[Eigen::Index(e)] - progress.change[Eigen::Index(e)]));
+    progress.change = change;
+}
+
+bool fit_rounds(Bench& bench, Aim aim, int rounds, Progress& progress) {
     constexpr double SOFTEST = 0.25, STIFFEST = 6;  // of a tet, over how it began [-]
     constexpr double LARGEST_STEP = 1;              // of a logarithm [-]
     constexpr double RIGID = 0.01;                  // what a change counts beside an error [-]
     constexpr double CLOSE = 2e-3;                  // an error that is none [-]
-    constexpr int MOST_ROUNDS = 5, LAST_ROUNDS = 3;
     const double softest = std::log(SOFTEST), stiffest = std::log(STIFFEST);
-    const std::vector<double> before = bench.lone.model.tet_young;
-    VecX change = VecX::Zero(Eigen::Index(bench.lone.tets.size()));
-    for (int round = 0; round < MOST_ROUNDS + LAST_ROUNDS; round++) {
+    for (int round = 0; round < rounds; round++) {
         const std::vector<Compliance> shares = bench.measure();
         if (shares.empty()) return false;
-        const bool last = round >= MOST_ROUNDS;
-        const Errors errors = errors_of(shares, bench.rods, last ? Aim::BENDING : Aim::EVERYTHING);
-        if (last && errors.value.lpNorm<Eigen::Infinity>() < CLOSE) break;
-        const VecX step = least_change(errors.slope, -errors.value, (softest - change.array()).max(-LARGEST_STEP),
-                                       (stiffest - change.array()).min(LARGEST_STEP), RIGID);
-        for (size_t e = 0; e < shares.size(); e++) bench.scale(e, std::exp(step[Eigen::Index(e)]));
-        change += step;
+        const Errors errors = errors_of(shares, bench.rods, aim);
+        if (aim != Aim::EVERYTHING && errors.value.lpNorm<Eigen::Infinity>() < CLOSE) break;
+        const double worst = worst_errors(shares, bench.rods).all;
+        if (worst < progress.best_error) {
+            progress.best_error = worst;
+            progress.best_change = progress.change;
+        }
+        const VecX step = least_change(errors.slope, -errors.value, (softest - progress.change.array()).max(-LARGEST_STEP),
+                                       (stiffest - progress.change.array()).min(LARGEST_STEP), RIGID);
+        move_to(bench, progress, progress.change + step);
+    }
+    return true;
+}
+
+bool fit_tets(Bench& bench) {
+    constexpr double BENDS = 0.05, MENDED = 0.2;  // of a logarithm [-]
+    const VecX before = VecX::Zero(Eigen::Index(bench.lone.tets.size()));
+    Progress progress = {before, before};
+    if (!fit_rounds(bench, Aim::EVERYTHING, 5, progress) || !fit_rounds(bench, Aim::BENDING, 3, progress)) return false;
+    WorstErrors worst = worst_errors(bench.measure(), bench.rods);
+    if (worst.all > MENDED && progress.best_error < MENDED && !bench.is_blade()) {
+        move_to(bench, progress, progress.best_change);
+        worst = worst_errors(bench.measure(), bench.rods);
     }
     // Where that is not to be had, as in blades one cell thick and many times as wide, tets are drawn apart in vain, and the
     // softest turn inside out when the plant is pulled.
-    constexpr double MENDED = 0.2;  // of a logarithm [-]
-    if (worst_error(bench) > MENDED)
-        for (size_t e = 0; e < before.size(); e++) bench.scale(e, before[e] / bench.lone.model.tet_young[e]);
+    if (worst.all > MENDED)
+        move_to(bench, progress, before);
+    else if (worst.across > BENDS && !bench.is_blade())
+        return fit_rounds(bench, Aim::BENDING_ONLY, 3, progress);
     return true;
 }
 
