@@ -78,10 +78,8 @@ struct PlantBody : btSoftBody {
     btCompoundShape* compound() { return static_cast<btCompoundShape*>(getCollisionShape()); }
     // Of its cage or its sheath, whichever it is that others touch now.
     const Collider& touched_collider() const { return plant->follow ? sheath->collider : *collider; }
-    // Bullet's broad phase pairs plants, but its narrow phase need not look at them.
-    bool checkCollideWithOverride(const btCollisionObject* other) const override {
-        return !of(other) && btSoftBody::checkCollideWithOverride(other);
-    }
+    // Bullet's broad phase pairs plants with each other and with infinite planes, but its narrow phase need not look at them.
+    bool checkCollideWithOverride(const btCollisionObject* other) const override;
     // The body that a collision object is; null if it is none.
     static PlantBody* of(btCollisionObject* object) { return dynamic_cast<PlantBody*>(object); }
     static const PlantBody* of(const btCollisionObject* object) { return dynamic_cast<const PlantBody*>(object); }

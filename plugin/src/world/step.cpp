@@ -6,6 +6,7 @@
 
 #include "core/timer.hpp"
 #include "world/convert.hpp"
+#include "world/detection.hpp"
 #include "world/fragments.hpp"
 #include "world/robot.hpp"
 #include "world/world.hpp"
@@ -246,6 +247,7 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     time += h;
     report.ms_step = step_timer.ms();
     learn_times(*this);
+    end_detection(*bullet);
     is_stepping = false;
 }
 
