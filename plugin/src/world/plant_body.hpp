@@ -65,6 +65,7 @@ struct PlantBody : btSoftBody {
     int filter_group = 0, filter_mask = 0;  // of the broad phase, while it is hidden
     int index = 0;    // among the world's plants
     int number = -1;  // among those that take part in the running substep; -1: it does not
+    int place = 0;    // among those of its island of contacts
     Level level;
     std::shared_ptr<Hull> hull;
     std::shared_ptr<const Collider> collider;  // of its cage; null until other plants, or it itself, may touch it
