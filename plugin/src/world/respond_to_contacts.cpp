@@ -118,6 +118,26 @@ void add_row(Bond& bond, double h, std::vector<Row>& rows) {
     rows.push_back(std::move(row));
 }
 
+// Whether no row would push anything: all are apart and come no nearer in the step than they may. Then nobody has to know how
+// plants answer.
+bool all_wait(const std::vector<Row>& rows, double h) {
+    const auto waits = [&](const Row& row) {
+        const Touch& touch = row.touch;
+        return !touch.is_bond && row.impulse->isZero(0) && touch.depth <= 0 && touch.least_shift <= 0 &&
+               touch.velocity.dot(touch.normal) >= std::max(touch.least_speed, touch.depth / h);
+    };
+    return std::all_of(rows.begin(), rows.end(), waits);
+}
+
+void find_answers(std::vector<Row>& rows) {
+    const auto has_none = [](Row& row) {
+        for (size_t k = 0; k < 2; k++)
+            if (row.plants[k] && !find_answer(*row.plants[k]->plant, row.touches[k])) return true;
+        return false;
+    };
+    rows.erase(std::remove_if(rows.begin(), rows.end(), has_none), rows.end());
+}
+
 // A plant's sides of rows: of a row's first plant, or with the opposite sign of its second.
 struct Sides {
     std::vector<int> rows;
@@ -244,6 +264,8 @@ std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& resp
     for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
     for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
     for (Bond* bond : island.bonds) add_row(*bond, h, rows);
+    if (all_wait(rows, h)) return {};
+    find_answers(rows);
     std::vector<Touch> touches;
     for (const Row& row : rows) touches.push_back(row.touch);
     ResponseSettings settings = world.response_settings;
