@@ -249,6 +249,79 @@ TEST_P(EveryBody, AFloorDrivenThroughAHeldFootDoesNotStretchThePlant) {
     }
 }
 
+// A branch that would hang below the ground lies on it.
+TEST_P(EveryBody, WhatHangsDownLiesOnAPlane) {
+    for (const bool has_plane : {false, true}) {
+        Scene scene;
+        scene.add_stems({{-1, {0, 0, 0}, {0, 0.3, 0}, 0.02, 0.02}, {0, {0, 0.3, 0}, {0.6, 0.3, 0}, 0.01, 0.01}}, 1e7,
+                        GetParam());
+        // Its tip is drawn down and sideways, the other way later.
+        const int count = frond_plant_get_node_count(scene.plant);
+        std::vector<double> x(3 * size_t(count));
+        ASSERT_EQ(frond_plant_get_state(scene.plant, x.data(), nullptr, count), FROND_OK);
+        int tip = 0;
+        for (int i = 0; i < count; i++)
+            if (x[3 * size_t(i)] > x[3 * size_t(tip)]) tip = i;
+        if (has_plane) scene.add(new btStaticPlaneShape(btVector3(0, 1, 0), 0), 0, btVector3(0, 0, 0));
+        double lowest = 1;
+        for (int i = 0; i < 90; i++) {
+            ASSERT_EQ(frond_plant_add_force(scene.plant, tip, {0, -0.8, i < 45 ? 0.1 : -0.1}), FROND_OK);
+            scene.steps(1);
+            std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(scene.plant)));
+            ASSERT_EQ(frond_plant_get_capsules(scene.plant, capsules.data(), int(capsules.size())), FROND_OK);
+            for (const frond_capsule& c : capsules)
+                if (c.begin.y > 0.05 || c.end.x > 0.1) lowest = std::min(lowest, c.end.y - c.radius);
+            EXPECT_EQ(scene.report().trouble & FROND_TROUBLE_REWOUND, 0u) << i;
+        }
+        if (has_plane)
+            EXPECT_GT(lowest, -0.01);  // nowhere up to its axis
+        else
+            EXPECT_LT(lowest, -0.02) << "the plane would have nothing to hold";
+    }
+}
+
+// Bullet's narrow phase does not look at a plane's pairs with plants in a step; its contact tests, which hosts ask, do.
+TEST(ContactWithPlanes, IsFoundByContactTestsButMakesNoManifolds) {
+    Scene scene;
+    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_ROD);
+    btRigidBody& plane = scene.add(new btStaticPlaneShape(btVector3(0, 1, 0), 0), 0, btVector3(0, 0, 0));
+    scene.steps(3);
+    EXPECT_EQ(scene.dispatcher.getNumManifolds(), 0);
+    struct Count : btCollisionWorld::ContactResultCallback {
+        int points = 0;
+        btScalar addSingleResult(btManifoldPoint&, const btCollisionObjectWrapper*, int, int,
+                                 const btCollisionObjectWrapper*, int, int) override {
+            points++;
+            return 0;
+        }
+    } pair, all;
+    for (int i = 0; i < scene.world.getNumCollisionObjects(); i++) {
+        btCollisionObject* object = scene.world.getCollisionObjectArray()[i];
+        if (object != &plane) scene.world.contactPairTest(object, &plane, pair);
+    }
+    EXPECT_GT(pair.points, 0);
+    scene.world.contactTest(&plane, all);
+    EXPECT_GT(all.points, 0);
+}
+
+// A host may let plants through its ground.
+TEST(ContactWithPlanes, IsNotWhereTheHostLetsThePlantThrough) {
+    for (const bool let_through : {false, true}) {
+        Scene scene;
+        scene.add_stem({0, 0.5, 0}, {0.6, 0.5, 0}, 0.01, 1e8, FROND_ROD, -1);
+        btRigidBody& plane = scene.add(new btStaticPlaneShape(btVector3(0, 1, 0), 0), 0, btVector3(0, 0, 0));
+        for (int i = 0; i < scene.world.getNumCollisionObjects(); i++) {
+            btCollisionObject* object = scene.world.getCollisionObjectArray()[i];
+            if (object != &plane && let_through) object->setIgnoreCollisionCheck(&plane, true);
+        }
+        scene.steps(60);
+        if (let_through)
+            EXPECT_LT(scene.tip().y, -1);
+        else
+            EXPECT_GT(scene.tip().y, 0);
+    }
+}
+
 TEST(ContactEffects, OffMeansThatNothingTouches) {
     Scene scene(0);
     scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_ROD);

@@ -76,6 +76,57 @@ TEST(OwnWorld, AMaskOnTheWorldSwitchesAnEffectOffForAllPlants) {
     for (size_t i = 0; i < before.size(); i++) EXPECT_NEAR(after[i], before[i], 1e-12);
 }
 
+// Two plants in each other's way, in wind, pulled and struck, so that there is something to do for most effects: each is
+// switched off and on again while they move, on the world and on a plant.
+TEST(OwnWorld, EveryEffectIsSwitchedWhileItRuns) {
+    // Those of the others are told together with what they are part of, or have nothing to do here.
+    constexpr frond_effects TOLD = FROND_GRAVITY | FROND_DAMPING | FROND_USER_FORCE | FROND_SURFACE | FROND_NORMALS |
+                                   FROND_RIGID_CONTACT | FROND_FRICTION | FROND_TWO_WAY | FROND_PLASTICITY |
+                                   FROND_PLANT_CONTACT | FROND_WIND | FROND_AIR_DRAG;
+    for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++) {
+        const frond_effects effect = 1u << bit;
+        frond_plant_def def = frond_default_plant_def();
+        def.effects = FROND_ALL_EFFECTS;
+        SmallWorld small(def, 0, FROND_REST_STANDS_AS_MODELLED);
+        def.position = {0.03, 0, 0};
+        frond_plant other = {};
+        ASSERT_EQ(frond_plant_create(small.world, small.model, &def, &other), FROND_OK);
+        frond_wind_def wind = frond_default_wind_def();
+        wind.velocity = {4, 0, 0};
+        ASSERT_EQ(frond_world_set_wind(small.world, &wind), FROND_OK);
+        frond_rigid_def box = frond_default_rigid_def();
+        box.mass = 0;
+        box.state.position = {0, 0.4, 0.11};
+        frond_rigid rigid = {};
+        ASSERT_EQ(frond_rigid_create(small.world, &box, &rigid), FROND_OK);
+        const auto run = [&] {
+            frond_effects seen = 0;
+            for (int i = 0; i < 4; i++) {
+                EXPECT_EQ(frond_plant_add_force(small.plant, frond_plant_get_node_count(small.plant) - 1, {0, 0, 2}), FROND_OK);
+                step(small.world, 1);
+                for (frond_plant plant : {small.plant, other}) {
+                    frond_surface_view view = {};
+                    EXPECT_EQ(frond_plant_get_surface(plant, &view), FROND_OK);
+                }
+                frond_report report = {};
+                EXPECT_EQ(frond_world_get_report(small.world, &report), FROND_OK);
+                EXPECT_EQ(report.trouble & FROND_TROUBLE_REWOUND, 0u) << frond_effect_name(effect);
+                seen |= report.effects_run;
+            }
+            return seen;
+        };
+        EXPECT_EQ(run() & effect & TOLD, effect & TOLD) << frond_effect_name(effect) << ", at first";
+        ASSERT_EQ(frond_world_set_effects(small.world, FROND_ALL_EFFECTS & ~effect), FROND_OK);
+        EXPECT_EQ(run() & effect, 0u) << frond_effect_name(effect) << ", off on the world";
+        ASSERT_EQ(frond_world_set_effects(small.world, FROND_ALL_EFFECTS), FROND_OK);
+        EXPECT_EQ(run() & effect & TOLD, effect & TOLD) << frond_effect_name(effect) << ", on again";
+        for (frond_plant plant : {small.plant, other})
+            ASSERT_EQ(frond_plant_set_effects(plant, FROND_ALL_EFFECTS & ~effect), FROND_OK);
+        const frond_effects world_tells = FROND_FRICTION | FROND_TWO_WAY;  // as soon as anything touches
+        EXPECT_EQ(run() & effect & ~world_tells, 0u) << frond_effect_name(effect) << ", off on the plants";
+    }
+}
+
 TEST(OwnWorld, AGrabbedPlantFollowsAndSwingsBackWhenLetGo) {
     frond_plant_def def = frond_default_plant_def();
     def.integrator = FROND_IMPLICIT_EULER;  // its own damping brings the plant to rest in time

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <set>
 #include <thread>
 #include <vector>
@@ -150,6 +151,79 @@ TEST(Threads, OfTheHostGoBeforeBulletsTaskScheduler) {
     hash_with(&team);
     EXPECT_GT(team.calls, 0);
     EXPECT_EQ(scheduler.team.calls, 0);
+}
+
+// Pairs of plants that lean on each other with a ball beside each, far apart: as many islands of contacts. Returns the bits of
+// plants and balls.
+std::vector<uint64_t> hash_of_islands(Team* team, frond_response response) {
+    constexpr int ISLANDS = 5;
+    frond_world_def def = frond_default_world_def();
+    def.response = response;
+    if (team) {
+        def.parallel_for = parallel_for;
+        def.parallel_user = team;
+    }
+    frond_world world = {};
+    EXPECT_EQ(frond_world_create(&def, &world), FROND_OK);
+    const frond_model model = make_small_model(0, FROND_REST_STANDS_AS_MODELLED);
+    std::vector<frond_rigid> balls;
+    for (int i = 0; i < ISLANDS; i++) {
+        for (int k = 0; k < 2; k++) {
+            frond_plant_def plant_def = frond_default_plant_def();
+            plant_def.mechanics = (i + k) % 3 ? FROND_ROD : FROND_TET_COROTATIONAL;
+            plant_def.effects |= FROND_SELF_CONTACT;
+            plant_def.position = {3.0 * i + 0.03 * k, 0, 0};
+            frond_plant plant = {};
+            EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plant), FROND_OK);
+        }
+        frond_rigid_def ball = frond_default_rigid_def();
+        ball.size = {0.05, 0, 0};
+        ball.mass = 0.2;
+        ball.state.position = {3.0 * i - 0.2, 0.4, 0};
+        ball.state.velocity = {2, 1, 0};
+        balls.push_back({});
+        EXPECT_EQ(frond_rigid_create(world, &ball, &balls.back()), FROND_OK);
+    }
+    int with_bodies = 0, with_plants = 0;
+    for (int i = 0; i < 40; i++) {
+        must(frond_world_step(world, H));
+        frond_report report = {};
+        must(frond_world_get_report(world, &report));
+        with_bodies += report.contact_count;
+        with_plants += report.plant_contact_count;
+    }
+    EXPECT_GT(with_bodies, ISLANDS);
+    EXPECT_GT(with_plants, ISLANDS);
+    std::vector<uint64_t> bits(1);
+    must(frond_world_get_state_hash(world, &bits[0]));
+    for (const frond_rigid ball : balls) {
+        frond_rigid_state state = {};
+        must(frond_rigid_get_state(ball, &state));
+        for (const double value : {state.position.x, state.position.y, state.position.z, state.velocity.x,
+                                   state.velocity.y, state.velocity.z}) {
+            bits.emplace_back();
+            std::memcpy(&bits.back(), &value, sizeof value);
+        }
+    }
+    frond_world_destroy(world);
+    frond_model_destroy(model);
+    return bits;
+}
+
+// Contacts too are found and answered by several, and bodies get the same impulses.
+TEST(Threads, GiveTheSameBitsToIslandsOfContacts) {
+    for (const frond_response response : {FROND_RESPONSE_IMPULSE, FROND_RESPONSE_PENALTY}) {
+        const std::vector<uint64_t> alone = hash_of_islands(nullptr, response);
+        int calls_of_two = 0;
+        for (const int size : {2, 3, 4}) {
+            Team team = {size};
+            EXPECT_EQ(hash_of_islands(&team, response), alone) << size << " threads";
+            // Search, steps, response and what remains of the steps.
+            EXPECT_GT(team.calls, 100);
+            if (size == 2) calls_of_two = team.calls;
+            EXPECT_EQ(team.calls, calls_of_two);
+        }
+    }
 }
 
 }  // namespace

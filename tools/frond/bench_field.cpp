@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <sstream>
 
 #include "bench.hpp"
@@ -112,9 +113,28 @@ struct StaticField {
     }
 };
 
+// What one more plant keeps that sleeps, of four kinds, where each kind has its model and what its plants share [kB].
+double memory_of_sleeper(const BenchOptions& options) {
+    constexpr int COUNT = 1000;
+    Play play(cast("field"), field_settings(options, {"patch_wind=0", "plants=4"}));
+    const std::vector<frond_model>& models = play.stage.models;
+    std::vector<frond_plant> plants;
+    const auto plant = [&](int i) {
+        frond_plant_def def = play.stage.settings.plant;
+        def.position = {0.7 * (i % 32), 0, 20 + 0.7 * (i / 32)};
+        frond_plant added = {};
+        must(frond_plant_create(play.stage.world, models[size_t(i) % models.size()], &def, &added));
+        plants.push_back(added);
+    };
+    for (size_t i = 0; i < models.size(); i++) plant(int(i));
+    plants.reserve(models.size() + COUNT);
+    const double before = memory();
+    for (int i = 0; i < COUNT; i++) plant(int(models.size()) + i);
+    return (memory() - before) / COUNT;
+}
+
 struct PathFigures {
     int plants;
-    double kb;                   // of one, beyond its model
     double whole, frond, still;  // medians: a step of the world, Frond's share of it, Bullet's with static bodies [ms]
     double awake;                // plants, mean
     double beyond() const { return whole - still; }
@@ -126,13 +146,7 @@ PathFigures measure_path(int count, const BenchOptions& options) {
     const Casting casting = cast("field");
     PathFigures figures = {};
     figures.plants = count;
-    // Without the models, which all share.
-    const double before_models = memory();
-    const Play models(casting, field_settings(options, {"patch_wind=0", "plants=4"}));
-    const double kb_models = memory() - before_models;
-    const double before = memory();
     Play play(casting, field_settings(options, {"patch_wind=0", "plants=" + std::to_string(count)}));
-    figures.kb = (memory() - before - kb_models) / count;
     StaticField still(play.stage);
     play.step();
     std::vector<double> whole, frond, bullet, awake;
@@ -159,9 +173,11 @@ PathFigures measure_path(int count, const BenchOptions& options) {
 void bench_wind(const BenchOptions& options) {
     constexpr int WARM_UP = 30, STEPS = 60, COUNT = 1000;
     const char* const PIECES = "capsule_height=0.23";  // [m]
-    std::printf("\n%d rod plants, all in a wind of 6 m/s at 10 m height, median [ms]; air, assembly and solve are sums of all "
-                "threads'\n%8s %9s %9s %9s %9s %9s %9s %9s %9s\n",
-                COUNT, "threads", "segments", "Frond", "world", "air", "assembly", "solve", "capsules", "collide");
+    const char* const columns[] = {"world", "Frond", "air", "assembly", "solve", "capsules", "collide", "respond"};
+    std::printf("\n%d rod plants, all in a wind of 6 m/s at 10 m height, median [ms]; air, assembly, solve and capsules are sums "
+                "of all threads'\n%8s %9s", COUNT, "threads", "segments");
+    for (const char* column : columns) std::printf(" %9s", column);
+    std::printf("\n");
     for (const int threads : {1, 2}) {
         Play play(cast("field"), field_settings(options, {"patch_wind=0", "detail=0", "wind=6,0,0", PIECES,
                                                           "plants=" + std::to_string(COUNT),
@@ -169,25 +185,21 @@ void bench_wind(const BenchOptions& options) {
         for (frond_plant plant : play.stage.plants) must(frond_plant_wake(plant));
         double segments = 0;
         for (frond_plant plant : play.stage.plants) segments += frond_plant_get_capsule_count(plant) / double(COUNT);
-        std::vector<double> step, world, air, assembly, solve, capsules, collide;
+        std::vector<std::vector<double>> times(std::size(columns));
         for (int i = 0; i < WARM_UP + STEPS; i++) {
             play.casting.scene->drive(play.stage);
             const double begin = now();
             must(frond_world_step(play.stage.world, play.stage.settings.dt));
             const double ms = now() - begin;
-            const frond_report report = report_of(play.stage);
             if (i < WARM_UP) continue;
-            step.push_back(report.ms_step);
-            world.push_back(ms);
-            air.push_back(report.ms_effects);
-            assembly.push_back(report.ms_assembly);
-            solve.push_back(report.ms_solve);
-            capsules.push_back(report.ms_capsules);
-            collide.push_back(report.ms_collide);
+            const frond_report r = report_of(play.stage);
+            const double parts[] = {ms, r.ms_step, r.ms_effects, r.ms_assembly, r.ms_solve, r.ms_capsules, r.ms_collide,
+                                    r.ms_response};
+            for (size_t k = 0; k < times.size(); k++) times[k].push_back(parts[k]);
         }
-        std::printf("%8d %9.0f %9.2f %9.2f %9.2f %9.2f %9.2f %9.2f %9.2f\n", threads, segments, share_of(step, 0.5),
-                    share_of(world, 0.5), share_of(air, 0.5), share_of(assembly, 0.5), share_of(solve, 0.5),
-                    share_of(capsules, 0.5), share_of(collide, 0.5));
+        std::printf("%8d %9.0f", threads, segments);
+        for (const std::vector<double>& column : times) std::printf(" %9.2f", share_of(column, 0.5));
+        std::printf("\n");
         std::fflush(stdout);
     }
 }
@@ -229,15 +241,14 @@ std::string plot_of(const std::vector<PathFigures>& path, const std::string& bas
 void bench_field(const BenchOptions& options) {
     std::printf("scene field; one core unless told\n%s, %s, frond %s %s\n", study::processor_name().c_str(), FROND_COMPILER,
                 frond_version_string(), FROND_COMMIT);
+    std::printf("one more plant that sleeps keeps %.2f kB beyond its model\n", memory_of_sleeper(options));
     std::printf("all asleep but a path on which one walks behind a ball, median [ms]\n");
-    std::printf("%8s %10s %8s %10s %10s %10s %10s\n", "plants", "each [kB]", "awake", "world",
-                "static", "beyond", "Frond");
+    std::printf("%8s %8s %10s %10s %10s %10s\n", "plants", "awake", "world", "static", "beyond", "Frond");
     std::vector<PathFigures> path;
     for (int count = 100; count <= options.most; count *= 10) {
         path.push_back(measure_path(count, options));
         const PathFigures& f = path.back();
-        std::printf("%8d %10.2f %8.1f %10.3f %10.3f %10.3f %10.3f\n", f.plants, f.kb, f.awake, f.whole,
-                    f.still, f.beyond(), f.frond);
+        std::printf("%8d %8.1f %10.3f %10.3f %10.3f %10.3f\n", f.plants, f.awake, f.whole, f.still, f.beyond(), f.frond);
         std::fflush(stdout);
     }
     bench_wind(options);

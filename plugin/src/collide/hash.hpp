@@ -32,15 +32,17 @@ struct HashMemory {
 // times.
 struct HashRow {
     const char* name;
-    // Drops boxes (0 in `kept`) near which there is none of another group, not all of them; null: drops none.
-    void (*cull)(const BoxSet& boxes, double cell_size, HashMemory& memory, std::vector<uint8_t>& kept);
+    // Drops boxes (0 in `kept`) near which there is none of another owner, not all of them; null: drops none.
+    void (*cull)(const BoxSet& boxes, const std::vector<int>& owner, double cell_size, HashMemory& memory,
+                 std::vector<uint8_t>& kept);
     void (*find)(const BoxSet& items, const BoxSet& queries, int table_size, double cell_size, HashMemory& memory,
                  std::vector<std::array<int, 2>>& out);
 };
 const HashRow& hash_row(frond_hash_layout layout);
 
 // The rows.
-void cull_by_grid(const BoxSet& boxes, double cell_size, HashMemory& memory, std::vector<uint8_t>& kept);
+void cull_by_grid(const BoxSet& boxes, const std::vector<int>& owner, double cell_size, HashMemory& memory,
+                  std::vector<uint8_t>& kept);
 void find_pairs_by_grid(const BoxSet& items, const BoxSet& queries, int table_size, double cell_size,
                         HashMemory& memory, std::vector<std::array<int, 2>>& out);
 void find_pairs_by_table(const BoxSet& items, const BoxSet& queries, int table_size, double cell_size,

@@ -79,21 +79,24 @@ static int cell_of_pair(const Grid& grid, const BoxSet::Bounds& a, const BoxSet:
                        grid.cell_at(std::max(a.lower[2], b.lower[2]), 2));
 }
 
-// Whose boxes are in each cell.
-static void find_owners(const Grid& grid, const BoxSet& set, std::vector<int>& owner) {
+// Whose boxes are in each cell; owner_of(number of a box).
+template <class OwnerOf>
+static void find_owners(const Grid& grid, const BoxSet& set, std::vector<int>& owner, OwnerOf&& owner_of) {
     owner.assign(size_t(grid.count()), NOBODY);
-    for (const BoxSet::Bounds& box : set.boxes)
-        visit_cells(grid, box, [&](int cell) {
+    for (size_t i = 0; i < set.boxes.size(); ++i)
+        visit_cells(grid, set.boxes[i], [&](int cell) {
             int& who = owner[size_t(cell)];
-            who = who == NOBODY || who == box.group ? box.group : SEVERAL;
+            who = who == NOBODY || who == owner_of(i) ? owner_of(i) : SEVERAL;
         });
 }
 
-void cull_by_grid(const BoxSet& boxes, double cell_size, HashMemory& memory, std::vector<uint8_t>& kept) {
+void cull_by_grid(const BoxSet& boxes, const std::vector<int>& owner, double cell_size, HashMemory& memory,
+                  std::vector<uint8_t>& kept) {
     kept.assign(boxes.boxes.size(), 0);
+    if (std::all_of(owner.begin(), owner.end(), [&](int who) { return who == owner[0]; })) return;
     Grid grid;
     if (!fit_grid(boxes, boxes, cell_size, grid)) return;
-    find_owners(grid, boxes, memory.owner);
+    find_owners(grid, boxes, memory.owner, [&](size_t i) { return owner[i]; });
     for (size_t i = 0; i < kept.size(); ++i)
         visit_cells(grid, boxes.boxes[i], [&](int cell) { kept[i] |= memory.owner[size_t(cell)] == SEVERAL; });
 }
@@ -104,7 +107,7 @@ void find_pairs_by_grid(const BoxSet& items, const BoxSet& queries, int, double 
     if (!fit_grid(items, queries, cell_size, grid)) return;
 
     std::vector<int>& owner = memory.owner;
-    find_owners(grid, queries, owner);
+    find_owners(grid, queries, owner, [&](size_t i) { return queries.boxes[i].group; });
 
     // Items enter the cells where a query of another group is, sorted by cell.
     memory.entries.clear();

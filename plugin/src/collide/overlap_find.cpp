@@ -86,12 +86,54 @@ static void fill_tets(OverlapScene& s, const std::vector<CollisionBody>& bodies)
     }
 }
 
+// Marks the tets of one body, those from first on, whose boxes meet one of a piece that is not near their own: as cells are
+// wider than pieces, nearly all of a plant would share one with such a piece.
+static void keep_parts_that_meet(OverlapSearch& search, size_t first, size_t last, std::vector<uint8_t>& kept) {
+    const OverlapScene& s = search.scene;
+    std::vector<BoxSet::Bounds>& boxes = search.queries.boxes;
+    const Collider& collider = *s.bodies[size_t(s.tet_body[first])].collider;
+    struct Part {
+        int piece;
+        BoxSet::Bounds whole;
+        std::vector<size_t> tets;
+    };
+    std::vector<Part> parts;
+    std::vector<int> part_of(size_t(collider.piece_count), -1);
+    for (size_t i = first; i < last; ++i) {
+        const int piece = collider.tet_piece[size_t(s.tet[i])];
+        int& part = part_of[size_t(piece)];
+        if (part < 0) {
+            part = int(parts.size());
+            parts.push_back({piece, boxes[i], {}});
+        }
+        Part& own = parts[size_t(part)];
+        for (int k = 0; k < 3; ++k) {
+            own.whole.lower[k] = std::min(own.whole.lower[k], boxes[i].lower[k]);
+            own.whole.upper[k] = std::max(own.whole.upper[k], boxes[i].upper[k]);
+        }
+        own.tets.push_back(i);
+    }
+    for (size_t a = 0; a < parts.size(); ++a)
+        for (size_t b = 0; b < a; ++b) {
+            if (!boxes_meet(parts[a].whole, parts[b].whole) || collider.are_near(parts[a].piece, parts[b].piece)) continue;
+            for (const size_t i : parts[a].tets) {
+                if (!boxes_meet(boxes[i], parts[b].whole)) continue;
+                for (const size_t j : parts[b].tets)
+                    if (boxes_meet(boxes[i], boxes[j])) kept[i] = kept[j] = 1;
+            }
+        }
+}
+
 // Leaves out tets that nothing is near, with their boxes.
 static void cull_tets(OverlapSearch& search, const HashRow& row, double cell_size) {
     if (!row.cull) return;
     OverlapScene& s = search.scene;
     std::vector<uint8_t>& kept = search.marks;
-    row.cull(search.queries, cell_size, search.hash, kept);
+    row.cull(search.queries, s.tet_body, cell_size, search.hash, kept);
+    for (size_t first = 0, last; first < s.tet.size(); first = last) {
+        for (last = first; last < s.tet.size() && s.tet_body[last] == s.tet_body[first];) ++last;
+        if (s.bodies[size_t(s.tet_body[first])].with_itself) keep_parts_that_meet(search, first, last, kept);
+    }
     size_t count = 0;
     for (size_t i = 0; i < s.tet.size(); ++i) {
         if (!kept[i]) continue;

@@ -38,12 +38,16 @@ Grip cage_grip(const ContactSide& side) {
     return grip;
 }
 
-bool make_touch(Plant& plant, const Grip& grip, PlantTouch& touch) {
+bool make_touch(const Plant& plant, const Grip& grip, PlantTouch& touch) {
     if (!plant.is_sound) return false;
     touch.grip = grip;
     touch.velocity = plant.rotation * grip_velocity(grip, plant.x_good, plant.motion.v);
+    return true;
+}
+
+bool find_answer(Plant& plant, PlantTouch& touch) {
     const Mat3 to_model = plant.rotation.conjugate().toRotationMatrix();
-    const GripDerivative derivative = derivative_at(grip, plant.x_good);
+    const GripDerivative derivative = derivative_at(touch.grip, plant.x_good);
     std::vector<NodeBlock> pushes;
     for (size_t k = 0; k < size_t(derivative.count); k++)
         pushes.push_back({derivative.node[k], derivative.by[k].transpose() * to_model});

@@ -25,8 +25,10 @@ struct PlantTouch {
     Vec3 velocity;  // at the end of the step, without contact, world frame [m/s]
     Answer answer;  // to impulses along the world's axes
 };
-// False if the step failed. Where all that the grip holds is pinned, answers are zero.
-bool make_touch(Plant& plant, const Grip& grip, PlantTouch& touch);
+// Without the answer, which takes longer by far. False if the step failed.
+bool make_touch(const Plant& plant, const Grip& grip, PlantTouch& touch);
+// False if there is none. Where all that the grip holds is pinned, it is zero.
+bool find_answer(Plant& plant, PlantTouch& touch);
 // An impulse at a touch [N s], world frame; it adds to plant.contact_impulse.
 void take_impulse(Plant& plant, const PlantTouch& touch, const Vec3& impulse);
 // The same, but it only moves the plant, and gives it no velocity; it adds to plant.contact_shift.

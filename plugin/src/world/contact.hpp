@@ -25,6 +25,13 @@ struct Contact {
 // From Bullet's manifolds, and from sweeps of bodies that are so fast that they would be through before Bullet sees them.
 std::vector<Contact> find_contacts(World& world, double h);
 
+// Triggers and the like push nothing; characters do though Bullet lets them through.
+bool pushes(const btCollisionObject& object);
+// Whether bodies may push it. Null: no.
+bool takes_part(const World& world, const PlantBody* body);
+// Of an infinite plane with the plants that Bullet's broad phase pairs with it: its narrow phase leaves them to this.
+void add_plane_contacts(World& world, btCollisionObject& plane, double h, std::vector<Contact>& contacts);
+
 // Between the two halves of all plants' steps: impulses for the world's contacts, of plants with bodies and with each
 // other, given to both sides.
 void respond_to_contacts(World& world, double h);

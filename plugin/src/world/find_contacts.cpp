@@ -7,6 +7,7 @@
 
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
+#include "world/piece.hpp"
 #include "world/plate.hpp"
 #include "world/pusher.hpp"
 #include "world/show.hpp"
@@ -15,9 +16,6 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-namespace {
-
-// Triggers and the like push nothing; characters do though Bullet lets them through.
 bool pushes(const btCollisionObject& object) {
     return object.hasContactResponse() || (object.getCollisionFlags() & btCollisionObject::CF_CHARACTER_OBJECT);
 }
@@ -26,39 +24,10 @@ bool takes_part(const World& world, const PlantBody* body) {
     return body && body->world == &world && (world.effects & body->plant->effects & FROND_RIGID_CONTACT);
 }
 
-// All of a piece is within `radius` of its core: a capsule's axis, or a flat one's rectangle.
-double radius_of(const PlantBody& body, int capsule) {
-    const Flat& flat = body.hull->flats[size_t(capsule)];
-    return flat.half_width > 0 ? flat.half_thickness : double(body.capsules()[size_t(capsule)]->getRadius());
-}
+namespace {
 
-// The point of a piece's core that is nearest to p.
-struct OnCore {
-    Vec3 point;
-    double along, across;  // as in Contact
-};
-OnCore nearest_on_core(const PlantBody& body, int capsule, const Vec3& p) {
-    const Plant& plant = *body.plant;
-    const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
-    const Vec3 a = plant.to_world(plant.chain_positions[size_t(begin)]);
-    const Vec3 axis = plant.to_world(plant.chain_positions[size_t(end)]) - a;
-    const double square = axis.squaredNorm();
-    const double along = square > 0 ? std::clamp((p - a).dot(axis) / square, 0.0, 1.0) : 0.0;
-    OnCore core = {a + along * axis, along, 0};
-    const Flat& flat = body.hull->flats[size_t(capsule)];
-    Mat3 frame;
-    if (flat.half_width == 0 || !piece_frame(plant, end, flat.wide, flat.spread, frame)) return core;
-    const Vec3 wide = plant.rotation * frame.col(2);
-    const double most = flat.half_width - flat.half_thickness;
-    core.across = std::clamp((p - core.point).dot(wide), -most, most);
-    core.point += core.across * wide;
-    return core;
-}
-
-double friction_of(const PlantBody& body, int capsule) {
-    const Model& model = *body.plant->model;
-    const int organ = model.chain.nodes[size_t(model.capsules[size_t(capsule)][1])].organ;
-    return organ >= 0 ? model.organs[size_t(organ)].material.friction : 0;
+bool is_plane(const btCollisionObject& object) {
+    return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
 
 // GImpact meshes do not say which of the compound's children they met.
@@ -73,21 +42,6 @@ int nearest_capsule(const PlantBody& body, const Vec3& p) {
         nearest = int(capsule);
     }
     return nearest;
-}
-
-// Whether a body would push a flat piece against its end, where the blade goes on with the next one.
-bool is_between_pieces(const PlantBody& body, int capsule, const Vec3& normal) {
-    constexpr double ALONG = 0.5;  // cosine
-    if (body.hull->flats[size_t(capsule)].half_width == 0) return false;
-    const Plant& plant = *body.plant;
-    const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
-    const Vec3 axis = plant.chain_positions[size_t(end)] - plant.chain_positions[size_t(begin)];
-    const double along = (plant.rotation * axis).dot(normal), least = ALONG * axis.norm();
-    if (std::abs(along) < least) return false;
-    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
-    const auto grows_on = [&](const ChainNode& node) { return node.parent == end; };
-    // From its tip a blade is pushed back.
-    return along > 0 || std::any_of(nodes.begin(), nodes.end(), grows_on);
 }
 
 // Bullet multiplies the coefficients of two bodies. An infinite gap: none.
@@ -111,7 +65,7 @@ Contact contact_at(PlantBody& body, int capsule, btCollisionObject& other, const
     contact.on_plant = core.point - radius * normal;
     contact.on_other = on_other;
     contact.normal = normal;
-    contact.friction = friction_of(body, capsule) * double(other.getFriction());
+    contact.friction = piece_friction(body, capsule) * double(other.getFriction());
     return contact;
 }
 
@@ -127,6 +81,7 @@ bool is_covered(const PlantBody& body, int child) {
     return child >= 0 && size_t(child) < body.capsules().size() && body.hull->flats[size_t(child)].half_width > 0;
 }
 
+// Those of planes were made for somebody who asked between steps.
 void add_manifold(World& world, const btPersistentManifold& manifold, std::vector<Contact>& contacts) {
     auto* first = const_cast<btCollisionObject*>(manifold.getBody0());
     auto* second = const_cast<btCollisionObject*>(manifold.getBody1());
@@ -134,7 +89,7 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
     const bool plant_first = body != nullptr;
     if (!body) body = PlantBody::of(second);
     btCollisionObject* other = plant_first ? second : first;
-    if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other)) return;
+    if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other) || is_plane(*other)) return;
     if (body->rest.asleep && !is_moving(*other)) return;
     // Those that sway are only asked whether they are touched: as they were put last is near enough.
     if (!body->plant->swing) look_at(*body);
@@ -213,8 +168,8 @@ void sweep_shape(World& world, btCollisionObject& object, const btCollisionShape
     world.bullet->convexSweepTest(static_cast<const btConvexShape*>(&shape), from, to, sweep);
 }
 
-// Bodies that go farther in a step than a stem is thick.
-void add_fast_bodies(World& world, double h, std::vector<Contact>& contacts) {
+// What Bullet's narrow phase does not tell: of bodies that go farther in a step than a stem is thick, and of planes.
+void add_fast_bodies_and_planes(World& world, double h, std::vector<Contact>& contacts) {
     constexpr double FAR = 0.005;  // in a step [m]
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     std::vector<const btCollisionObject*>& plants = world.plants_at;
@@ -227,6 +182,7 @@ void add_fast_bodies(World& world, double h, std::vector<Contact>& contacts) {
         }
         btCollisionObject& object = *objects[i];
         if (object.isKinematicObject() && pushes(object) && is_moving(object)) show_sleepers_to(world, object, h);
+        if (is_plane(object) && pushes(object)) add_plane_contacts(world, object, h, contacts);
         if (object.isStaticObject() || !object.isActive() || !pushes(object) || !object.getBroadphaseHandle()) continue;
         btVector3 velocity;
         if (const btRigidBody* rigid = btRigidBody::upcast(&object))
@@ -331,7 +287,7 @@ std::vector<Contact> find_contacts(World& world, double h) {
         const btPersistentManifold* manifold = dispatcher->getManifoldByIndexInternal(i);
         if (manifold->getNumContacts() > 0) add_manifold(world, *manifold, contacts);
     }
-    add_fast_bodies(world, h, contacts);
+    add_fast_bodies_and_planes(world, h, contacts);
     discount_grown_in(contacts);
     drop_what_draws_out(contacts);
     for (PlantBody* body : world.awake) body->new_for = std::max(body->new_for - 1, 0);

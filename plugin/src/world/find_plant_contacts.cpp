@@ -197,6 +197,39 @@ void keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_too_many), contacts.end());
 }
 
+// Of one island, and the time it took [ms].
+struct Found {
+    std::vector<PlantContact> contacts;
+    double ms_broad = 0, ms_hash = 0, ms_narrow = 0;
+};
+
+Found search_island(const World& world, const std::vector<PlantBody*>& island, double h, PlantSearch& memory) {
+    Found result;
+    Timer timer;
+    memory.shapes.resize(std::max(memory.shapes.size(), island.size()));
+    std::vector<CoveredBody> covered;
+    std::vector<CollisionBody> bodies;
+    for (size_t i = 0; i < island.size(); i++) {
+        place_shape(*island[i], h, memory.shapes[i]);
+        const bool with_itself = has(world, *island[i], FROND_SELF_CONTACT);
+        const Collider* collider = &island[i]->touched_collider();
+        covered.push_back({collider, &memory.shapes[i].covers, with_itself});
+        bodies.push_back({collider, memory.shapes[i].places.data(), {}, with_itself});
+    }
+    std::vector<std::vector<uint8_t>> pieces = find_meeting_pieces(covered, 0);
+    bool meet = false;
+    for (size_t i = 0; i < island.size(); i++) {
+        meet = meet || !pieces[i].empty();
+        bodies[i].pieces = std::move(pieces[i]);
+    }
+    result.ms_broad = timer.lap();
+    if (!meet) return result;
+    result.ms_hash = find_cage_contacts(*memory.search, bodies, world.hash, memory.found).ms_hash;
+    for (const CageContact& found : memory.found) result.contacts.push_back(contact_of(found, memory, island));
+    result.ms_narrow = timer.lap() - result.ms_hash;
+    return result;
+}
+
 }  // namespace
 
 std::vector<PlantContact> find_plant_contacts(World& world, double h) {
@@ -213,33 +246,17 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
         any = true;
     }
     if (!any) return contacts;
-    std::vector<std::vector<PlantBody*>> islands = find_islands(world);
-    if (!islands.empty() && !world.plant_search) world.plant_search = std::make_unique<PlantSearch>();
+    const std::vector<std::vector<PlantBody*>> islands = find_islands(world);
+    while (world.plant_searches.size() < islands.size()) world.plant_searches.push_back(std::make_unique<PlantSearch>());
     world.report.ms_broad += timer.lap();
-    for (std::vector<PlantBody*>& island : islands) {
-        PlantSearch& memory = *world.plant_search;
-        memory.shapes.resize(std::max(memory.shapes.size(), island.size()));
-        std::vector<CoveredBody> covered;
-        std::vector<CollisionBody> bodies;
-        for (size_t i = 0; i < island.size(); i++) {
-            place_shape(*island[i], h, memory.shapes[i]);
-            const bool with_itself = has(world, *island[i], FROND_SELF_CONTACT);
-            const Collider* collider = &island[i]->touched_collider();
-            covered.push_back({collider, &memory.shapes[i].covers, with_itself});
-            bodies.push_back({collider, memory.shapes[i].places.data(), {}, with_itself});
-        }
-        std::vector<std::vector<uint8_t>> pieces = find_meeting_pieces(covered, 0);
-        bool meet = false;
-        for (size_t i = 0; i < island.size(); i++) {
-            meet = meet || !pieces[i].empty();
-            bodies[i].pieces = std::move(pieces[i]);
-        }
-        world.report.ms_broad += timer.lap();
-        if (!meet) continue;
-        const SearchTimes times = find_cage_contacts(*memory.search, bodies, world.hash, memory.found);
-        for (const CageContact& found : memory.found) contacts.push_back(contact_of(found, memory, island));
-        world.report.ms_hash += times.ms_hash;
-        world.report.ms_narrow += timer.lap() - times.ms_hash;
+    std::vector<Found> found(islands.size());
+    run_jobs(world, islands.size(),
+             [&](size_t i) { found[i] = search_island(world, islands[i], h, *world.plant_searches[i]); });
+    for (const Found& of : found) {
+        contacts.insert(contacts.end(), of.contacts.begin(), of.contacts.end());
+        world.report.ms_broad += of.ms_broad;
+        world.report.ms_hash += of.ms_hash;
+        world.report.ms_narrow += of.ms_narrow;
     }
     keep_contacts(world, last, contacts);
     keep_deepest(world.taking_part.size(), contacts);

@@ -4,6 +4,7 @@
 
 #include "collide/cover.hpp"
 #include "world/convert.hpp"
+#include "world/detection.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -229,6 +230,11 @@ PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Pl
     setCollisionFlags(CF_KINEMATIC_OBJECT | CF_NO_CONTACT_RESPONSE);
     setActivationState(DISABLE_DEACTIVATION);
     m_checkCollideWith = true;  // ask checkCollideWithOverride
+}
+
+bool PlantBody::checkCollideWithOverride(const btCollisionObject* other) const {
+    const bool is_plane = other->getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
+    return !(is_plane && is_for_step(*world->bullet)) && !of(other) && btSoftBody::checkCollideWithOverride(other);
 }
 
 // Bullet deletes the shape that it finds.

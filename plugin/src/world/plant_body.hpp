@@ -65,6 +65,7 @@ struct PlantBody : btSoftBody {
     int filter_group = 0, filter_mask = 0;  // of the broad phase, while it is hidden
     int index = 0;    // among the world's plants
     int number = -1;  // among those that take part in the running substep; -1: it does not
+    int place = 0;    // among those of its island of contacts
     Level level;
     std::shared_ptr<Hull> hull;
     std::shared_ptr<const Collider> collider;  // of its cage; null until other plants, or it itself, may touch it
@@ -78,10 +79,8 @@ struct PlantBody : btSoftBody {
     btCompoundShape* compound() { return static_cast<btCompoundShape*>(getCollisionShape()); }
     // Of its cage or its sheath, whichever it is that others touch now.
     const Collider& touched_collider() const { return plant->follow ? sheath->collider : *collider; }
-    // Bullet's broad phase pairs plants, but its narrow phase need not look at them.
-    bool checkCollideWithOverride(const btCollisionObject* other) const override {
-        return !of(other) && btSoftBody::checkCollideWithOverride(other);
-    }
+    // Bullet's broad phase pairs plants with each other and with infinite planes, but its narrow phase need not look at them.
+    bool checkCollideWithOverride(const btCollisionObject* other) const override;
     // The body that a collision object is; null if it is none.
     static PlantBody* of(btCollisionObject* object) { return dynamic_cast<PlantBody*>(object); }
     static const PlantBody* of(const btCollisionObject* object) { return dynamic_cast<const PlantBody*>(object); }

@@ -7,6 +7,7 @@
 
 #include "model/union_find.hpp"
 #include "plant/touch.hpp"
+#include "world/contact_island.hpp"
 #include "world/pusher.hpp"
 #include "world/world.hpp"
 
@@ -117,6 +118,26 @@ void add_row(Bond& bond, double h, std::vector<Row>& rows) {
     rows.push_back(std::move(row));
 }
 
+// Whether no row would push anything: all are apart and come no nearer in the step than they may. Then nobody has to know how
+// plants answer.
+bool all_wait(const std::vector<Row>& rows, double h) {
+    const auto waits = [&](const Row& row) {
+        const Touch& touch = row.touch;
+        return !touch.is_bond && row.impulse->isZero(0) && touch.depth <= 0 && touch.least_shift <= 0 &&
+               touch.velocity.dot(touch.normal) >= std::max(touch.least_speed, touch.depth / h);
+    };
+    return std::all_of(rows.begin(), rows.end(), waits);
+}
+
+void find_answers(std::vector<Row>& rows) {
+    const auto has_none = [](Row& row) {
+        for (size_t k = 0; k < 2; k++)
+            if (row.plants[k] && !find_answer(*row.plants[k]->plant, row.touches[k])) return true;
+        return false;
+    };
+    rows.erase(std::remove_if(rows.begin(), rows.end(), has_none), rows.end());
+}
+
 // A plant's sides of rows: of a row's first plant, or with the opposite sign of its second.
 struct Sides {
     std::vector<int> rows;
@@ -124,12 +145,12 @@ struct Sides {
     std::vector<const Answer*> answers;
 };
 
-std::vector<Sides> sort_by_plant(const World& world, const std::vector<Row>& rows) {
-    std::vector<Sides> sides(world.taking_part.size());
+std::vector<Sides> sort_by_plant(size_t plant_count, const std::vector<Row>& rows) {
+    std::vector<Sides> sides(plant_count);
     for (size_t i = 0; i < rows.size(); i++)
         for (size_t k = 0; k < 2; k++) {
             if (!rows[i].plants[k]) continue;
-            Sides& of = sides[size_t(rows[i].plants[k]->number)];
+            Sides& of = sides[size_t(rows[i].plants[k]->place)];
             of.rows.push_back(int(i));
             of.signs.push_back(k == 0 ? 1 : -1);
             of.answers.push_back(&rows[i].touches[k].answer);
@@ -157,7 +178,7 @@ void couple_by_plants(Coupler& coupler, int by, std::vector<Coupling>& row) {
     for (size_t k = 0; k < 2; k++) {
         const PlantBody* plant = coupler.rows[size_t(by)].plants[k];
         if (!plant) continue;
-        const Sides& sides = coupler.plants[size_t(plant->number)];
+        const Sides& sides = coupler.plants[size_t(plant->place)];
         coupler.blocks.assign(sides.rows.size(), Mat3::Zero());
         add_answers(sides.answers, coupler.rows[size_t(by)].touches[k].answer, coupler.spread, coupler.blocks);
         const double sign = k == 0 ? 1 : -1;
@@ -201,7 +222,7 @@ const std::vector<Coupling>& share(Coupler& coupler, int by) {
         const Answer& answer = at.touches[k].answer;
         coupler.blocks.assign(1, Mat3::Zero());
         add_answers({&answer}, answer, coupler.spread, coupler.blocks);
-        row[0].block += double(coupler.plants[size_t(at.plants[k]->number)].rows.size()) * coupler.blocks[0];
+        row[0].block += double(coupler.plants[size_t(at.plants[k]->place)].rows.size()) * coupler.blocks[0];
     }
     const auto touched = std::count_if(coupler.rows.begin(), coupler.rows.end(),
                                        [&](const Row& other) { return are_one_body(at, other); });
@@ -209,8 +230,8 @@ const std::vector<Coupling>& share(Coupler& coupler, int by) {
     return row;
 }
 
-// Adds what the rows got to both sides.
-void give(World& world, std::vector<Row>& rows, const Pushes& pushes, double h) {
+// Adds what the rows got to both sides. Returns the rigid bodies among them.
+std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, std::vector<Row>& rows, const Pushes& pushes) {
     const auto to_plants = [&](const Row& row, const Vec3& impulse, auto take) {
         if (impulse.isZero(0)) return;
         take(*row.plants[0]->plant, row.touches[0], impulse);
@@ -222,7 +243,8 @@ void give(World& world, std::vector<Row>& rows, const Pushes& pushes, double h) 
                   [](Plant& p, const PlantTouch& touch, const Vec3& impulse) { take_impulse(p, touch, impulse); });
         if (!pushes.shifts.empty()) to_plants(rows[i], pushes.shifts[i], take_shift);
     }
-    for (PlantBody* body : world.awake) add_contacts(*body->plant, body->level.pending);
+    for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending);
+    std::vector<btRigidBody*> pushed;
     // A plant that cannot bear it is put back, and then pushes nothing.
     for (size_t i = 0; i < rows.size(); i++) {
         if (rows[i].plants[1] || pushes.impulses[i].isZero(0)) continue;
@@ -230,8 +252,35 @@ void give(World& world, std::vector<Row>& rows, const Pushes& pushes, double h) 
         const bool pushes_back = world.effects & plant.effects & FROND_TWO_WAY;
         if (!pushes_back || !plant.is_sound) continue;
         take_impulse(rows[i].pusher, -pushes.impulses[i]);
-        if (rows[i].pusher.rigid) give_gravity(world.gravity_ahead, *rows[i].pusher.rigid, h);
+        if (rows[i].pusher.rigid) pushed.push_back(rows[i].pusher.rigid);
     }
+    return pushed;
+}
+
+// Finds the impulses of an island and gives them. Returns the bodies that were pushed.
+std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& response, const ContactIsland& island,
+                                     double h) {
+    std::vector<Row> rows;
+    for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
+    for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
+    for (Bond* bond : island.bonds) add_row(*bond, h, rows);
+    if (all_wait(rows, h)) return {};
+    find_answers(rows);
+    std::vector<Touch> touches;
+    for (const Row& row : rows) touches.push_back(row.touch);
+    ResponseSettings settings = world.response_settings;
+    settings.h = h;
+    Pushes pushes;
+    for (const Row& row : rows) pushes.impulses.push_back(*row.impulse);
+    Coupler coupler = {
+        rows, sort_by_plant(island.plants.size(), rows), std::vector<std::vector<Coupling>>(rows.size()), {}, {}};
+    CouplingTable table;
+    table.row = [&](int row) -> const std::vector<Coupling>& {
+        return response.couples ? couple(coupler, row) : share(coupler, row);
+    };
+    table.islands = find_islands(coupler);
+    response.find(touches, table, settings, pushes);
+    return give(world, island, rows, pushes);
 }
 
 }  // namespace
@@ -239,25 +288,11 @@ void give(World& world, std::vector<Row>& rows, const Pushes& pushes, double h) 
 void respond_to_contacts(World& world, double h) {
     const ResponseRow& response = response_row(world.response);
     if (!response.find) return;
-    std::vector<Row> rows;
-    rows.reserve(world.contacts.size() + world.plant_contacts.size());
-    for (Contact& contact : world.contacts) add_row(world, contact, h, rows);
-    for (PlantContact& contact : world.plant_contacts) add_row(world, contact, h, rows);
-    for (Bond& bond : world.bonds) add_row(bond, h, rows);
-    std::vector<Touch> touches;
-    for (const Row& row : rows) touches.push_back(row.touch);
-    ResponseSettings settings = world.response_settings;
-    settings.h = h;
-    Pushes pushes;
-    for (const Row& row : rows) pushes.impulses.push_back(*row.impulse);
-    Coupler coupler = {rows, sort_by_plant(world, rows), std::vector<std::vector<Coupling>>(rows.size()), {}, {}};
-    CouplingTable table;
-    table.row = [&](int row) -> const std::vector<Coupling>& {
-        return response.couples ? couple(coupler, row) : share(coupler, row);
-    };
-    table.islands = find_islands(coupler);
-    response.find(touches, table, settings, pushes);
-    give(world, rows, pushes, h);
+    const std::vector<ContactIsland> islands = find_contact_islands(world);
+    std::vector<std::vector<btRigidBody*>> pushed(islands.size());
+    run_jobs(world, islands.size(), [&](size_t i) { pushed[i] = respond_in(world, response, islands[i], h); });
+    for (const std::vector<btRigidBody*>& bodies : pushed)
+        for (btRigidBody* body : bodies) give_gravity(world.gravity_ahead, *body, h);
 }
 
 }  // namespace FROND_BULLET_PRECISION

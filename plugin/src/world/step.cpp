@@ -6,6 +6,7 @@
 
 #include "core/timer.hpp"
 #include "world/convert.hpp"
+#include "world/detection.hpp"
 #include "world/fragments.hpp"
 #include "world/robot.hpp"
 #include "world/world.hpp"
@@ -142,14 +143,14 @@ void finish(const World& world, PlantBody& body, const Surroundings& surrounding
     if (world.sleep_distance > 0) watch(world, body, body.level.pending);
 }
 
-// Sways are told, and the capsules put where they are, in every so many substeps.
+// Sways are told, and more seldom the capsules put where they are, in every so many substeps.
 void sway(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
-    constexpr uint64_t TURNS = 4;
-    const bool is_turn = (world.substep + uint64_t(body.index)) % TURNS == 0;
-    keep_swinging(*body.plant, surroundings, h, is_turn);
-    body.level.is_due = is_turn;
+    constexpr uint64_t TURNS = 4, SEEN = 8;
+    const uint64_t turn = world.substep + uint64_t(body.index);
+    keep_swinging(*body.plant, surroundings, h, turn % TURNS == 0);
+    body.level.is_due = turn % SEEN == 0;
     if (world.sleep_distance > 0) watch(world, body, h);
-    if (!is_turn) return;
+    if (!body.level.is_due) return;
     const Timer timer;
     pose(*body.plant);
     move_capsules(body);
@@ -246,6 +247,7 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     time += h;
     report.ms_step = step_timer.ms();
     learn_times(*this);
+    end_detection(*bullet);
     is_stepping = false;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "world/detection.hpp"
 #include "world/fragments.hpp"
 #include "world/own_bullet.hpp"
 #include "world/robot.hpp"
@@ -28,6 +29,7 @@ World::World(std::unique_ptr<OwnBullet> given, btDynamicsWorld* bullet, const fr
     response_settings.stiffness = def.penalty_stiffness;
     soft_info.m_broadphase = bullet->getBroadphase();
     soft_info.m_dispatcher = bullet->getDispatcher();
+    end_detection(*bullet);
     bullet->addAction(this);
     gravity_before = gravity_of(*this);
     effects_before = effects;

@@ -56,7 +56,7 @@ struct World final : btActionInterface {
     std::vector<Contact> contacts;  // of the last substep, with bodies
     GravityAhead gravity_ahead;     // of those
     std::vector<PlantContact> plant_contacts;  // likewise, of plants with each other and themselves
-    std::unique_ptr<PlantSearch> plant_search;  // null until plants may touch
+    std::vector<std::unique_ptr<PlantSearch>> plant_searches;  // one an island of plants that may touch
     double time = 0;  // [s]
     frond_report report = {};
 

@@ -1,0 +1,84 @@
+// In: contacts and bonds of a world. Out: its islands of them, in the order in which their first contacts come. What nothing
+// can push joins nothing.
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include <unordered_map>
+
+#include "model/union_find.hpp"
+#include "world/contact_island.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+// What moves when the object is pushed: itself, or a multi-body with all its links. Null: nothing.
+const void* pushed_with(const btCollisionObject& object) {
+    if (const auto* link = btMultiBodyLinkCollider::upcast(&object)) return link->m_multiBody;
+    return object.isStaticOrKinematicObject() ? nullptr : &object;
+}
+
+// Plants by their numbers, then bodies as they come.
+struct Members {
+    UnionFind sets;
+    size_t count;
+    std::unordered_map<const void*, int> bodies;
+    Members(size_t plants, size_t most) : sets(plants + most), count(plants) {}
+    void join(int plant, const btCollisionObject& object) {
+        const void* body = pushed_with(object);
+        if (!body) return;
+        const auto [found, is_new] = bodies.insert({body, int(count)});
+        count += is_new;
+        sets.join(plant, found->second);
+    }
+};
+
+}  // namespace
+
+std::vector<ContactIsland> find_contact_islands(World& world) {
+    Members members(world.taking_part.size(), world.contacts.size() + world.bonds.size());
+    for (const Contact& contact : world.contacts) members.join(contact.plant->number, *contact.other);
+    for (const PlantContact& contact : world.plant_contacts)
+        members.sets.join(contact.plants[0]->number, contact.plants[1]->number);
+    for (const Bond& bond : world.bonds)
+        if (bond.body && !bond.plant->rest.asleep) members.join(bond.plant->number, *bond.body);
+
+    std::vector<ContactIsland> islands;
+    std::vector<int> island_of(members.sets.parent.size(), -1);
+    const auto island = [&](const PlantBody& body) -> ContactIsland& {
+        int& number = island_of[size_t(members.sets.find(body.number))];
+        if (number < 0) {
+            number = int(islands.size());
+            islands.emplace_back();
+        }
+        return islands[size_t(number)];
+    };
+    std::vector<uint8_t> is_in(world.taking_part.size(), 0);
+    const auto add = [&](ContactIsland& to, PlantBody& body) {
+        if (is_in[size_t(body.number)]) return;
+        is_in[size_t(body.number)] = 1;
+        body.place = int(to.plants.size());
+        to.plants.push_back(&body);
+    };
+    for (Contact& contact : world.contacts) {
+        ContactIsland& to = island(*contact.plant);
+        to.with_bodies.push_back(&contact);
+        add(to, *contact.plant);
+    }
+    for (PlantContact& contact : world.plant_contacts) {
+        ContactIsland& to = island(*contact.plants[0]);
+        to.with_plants.push_back(&contact);
+        for (PlantBody* body : contact.plants) add(to, *body);
+    }
+    for (Bond& bond : world.bonds) {
+        if (bond.plant->rest.asleep) continue;
+        ContactIsland& to = island(*bond.plant);
+        to.bonds.push_back(&bond);
+        add(to, *bond.plant);
+    }
+    return islands;
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

@@ -1,0 +1,128 @@
+// In: an infinite plane, and where plants are. Out: their contacts with it.
+//
+// Bullet gives a plane a box without end, so its narrow phase would look at every piece of each plant that is awake, and keep
+// an algorithm and a manifold for each. Here a piece that is not near it costs two products.
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+
+#include <algorithm>
+
+#include "world/convert.hpp"
+#include "world/fragments.hpp"
+#include "world/piece.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+// From which height on a piece is told of: one that rests, one over a plane that moves, and any [m].
+constexpr double NEAR = 0.004, MOVING = 0.05, FAR = 0.2;
+
+// A plane in a plant's own frame.
+struct Plane {
+    btCollisionObject& object;
+    Vec3 normal_in_world, normal;
+    double offset;  // [m]
+    bool moves;
+    double height(const Vec3& p) const { return normal.dot(p) + offset; }
+};
+
+Plane plane_for(const Plant& plant, btCollisionObject& object, bool moves) {
+    const auto& shape = static_cast<const btStaticPlaneShape&>(*object.getCollisionShape());
+    const btTransform& frame = object.getWorldTransform();
+    const Vec3 normal = from_bullet(frame.getBasis() * shape.getPlaneNormal());
+    const double offset = normal.dot(plant.position - from_bullet(frame.getOrigin())) - double(shape.getPlaneConstant());
+    return {object, normal, plant.rotation.conjugate() * normal, offset, moves};
+}
+
+// As Bullet asks before it looks closer, but for what a plant answers of planes.
+bool may_meet(const World& world, const PlantBody& body, const btCollisionObject& plane) {
+    btBroadphaseProxy *of_body = const_cast<btBroadphaseProxy*>(body.getBroadphaseHandle()),
+                      *of_plane = const_cast<btBroadphaseProxy*>(plane.getBroadphaseHandle());
+    return of_body && of_plane && world.bullet->getPairCache()->findPair(of_body, of_plane) &&
+           body.btSoftBody::checkCollideWithOverride(&plane) && plane.checkCollideWith(&body);
+}
+
+// Held nodes cannot be pushed.
+bool is_held(const Plant& plant, int node) {
+    return plant.follow && plant.motion.pinned[2 * size_t(node)];
+}
+
+// Below which height a chain's node is told of: where it may get within two steps.
+double reach_of(const Plant& plant, const Plane& plane, int node, double h) {
+    if (plane.moves || plant.swing) return MOVING;
+    const Motion& motion = plant.motion;
+    const Vec3 velocity =
+        plant.follow ? Vec3(point(motion.v, 2 * node)) : grip_velocity(chain_grip(plant, node), motion.x, motion.v);
+    return std::min(NEAR + 2 * h * std::max(0.0, -plane.normal.dot(velocity)), FAR);
+}
+
+// Of a piece at one of its nodes, the rim's two corners there where it is flat.
+void add_at_node(PlantBody& body, int capsule, double along, double reach, const Plane& plane,
+                 std::vector<Contact>& contacts) {
+    const Plant& plant = *body.plant;
+    const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
+    const Flat& flat = body.hull->flats[size_t(capsule)];
+    const double radius = radius_of(body, capsule);
+    Mat3 frame;
+    const bool is_flat = flat.half_width > 0 && piece_frame(plant, end, flat.wide, flat.spread, frame);
+    const double rim = is_flat ? flat.half_width - flat.half_thickness : 0;
+    const Vec3 node = plant.chain_positions[size_t(along > 0 ? end : begin)];
+    for (const double side : {-1.0, 1.0}) {
+        if (!is_flat && side > 0) break;
+        const double across = is_flat ? side * rim : 0.0;
+        const Vec3 there = is_flat ? Vec3(node + across * frame.col(2)) : node;
+        const double height = plane.height(there);
+        if (!(height - radius < reach)) continue;
+        const Vec3 p = plant.to_world(there);
+        Contact contact;
+        contact.plant = &body;
+        contact.capsule = capsule;
+        contact.along = along;
+        contact.across = across;
+        contact.other = &plane.object;
+        contact.normal = plane.normal_in_world;
+        contact.on_plant = p - radius * contact.normal;
+        contact.on_other = p - height * contact.normal;
+        contact.gap = height - radius;
+        contact.friction = piece_friction(body, capsule) * double(plane.object.getFriction());
+        contacts.push_back(contact);
+    }
+}
+
+// Each node with the piece that ends there, roots with those that begin there.
+void add_pieces(PlantBody& body, const Plane& plane, double h, std::vector<Contact>& contacts) {
+    const Plant& plant = *body.plant;
+    for (size_t i = 0; i < plant.model->capsules.size(); i++) {
+        const auto& [begin, end] = plant.model->capsules[i];
+        const double wide = std::max(body.hull->flats[i].half_width, double(body.capsules()[i]->getRadius()));
+        const bool is_root = plant.model->chain.nodes[size_t(begin)].parent < 0;
+        for (const double along : {0.0, 1.0}) {
+            const int node = along > 0 ? end : begin;
+            if (along == 0 && !is_root) continue;
+            if (plane.height(plant.chain_positions[size_t(node)]) - wide >= FAR || is_held(plant, node)) continue;
+            if (is_apart(body, int(i), plane.object) || is_between_pieces(body, int(i), plane.normal_in_world)) continue;
+            add_at_node(body, int(i), along, reach_of(plant, plane, node, h), plane, contacts);
+        }
+    }
+}
+
+}  // namespace
+
+void add_plane_contacts(World& world, btCollisionObject& object, double h, std::vector<Contact>& contacts) {
+    const bool moves = is_moving(object);
+    const auto add = [&](PlantBody& body) {
+        // Those that only sway are asked whether what moves touches them.
+        if (!takes_part(world, &body) || (body.plant->swing && !moves) || !may_meet(world, body, object)) return;
+        if (!body.plant->swing) look_at(body);
+        add_pieces(body, plane_for(*body.plant, object, moves), h, contacts);
+    };
+    if (!moves)
+        for (PlantBody* body : world.awake) add(*body);
+    else
+        for (const auto& body : world.bodies) add(*body);
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
