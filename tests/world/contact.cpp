@@ -345,10 +345,10 @@ TEST(ContactEffects, OneWayPushesThePlantOnly) {
 }
 
 // A link of a robot that swings into a stem is held back, and tells with what impulse.
-TEST(ContactEffects, AMultiBodyFeelsThePlant) {
+TEST_P(EveryBody, IsFeltByALinkOfAMultiBody) {
     const auto swing = [](bool with_plant, double& impulse) {
         Scene scene(0);
-        if (with_plant) scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e9, FROND_ROD);
+        if (with_plant) scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e9, GetParam());
         btBoxShape shape(btVector3(btScalar(0.2), btScalar(0.02), btScalar(0.02)));
         btMultiBody arm(1, 0, btVector3(0, 0, 0), true, false);
         arm.setBasePos(btVector3(btScalar(-0.5), btScalar(0.8), btScalar(-0.2)));

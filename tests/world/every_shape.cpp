@@ -8,6 +8,8 @@
 
 #include <iterator>
 #include <memory>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "frond/frond_bullet.hpp"
@@ -28,7 +30,7 @@ struct Scene {
     frond_model model = {};
     frond_plant plant = {};
 
-    Scene() {
+    explicit Scene(frond_mechanics mechanics) {
         btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher);
         world.setGravity(btVector3(0, 0, 0));
         EXPECT_EQ(frond::attach(&world, nullptr, &plants), FROND_OK) << frond_last_error();
@@ -44,7 +46,7 @@ struct Scene {
         def.rest = FROND_REST_WITHOUT_GRAVITY;
         EXPECT_EQ(frond_model_from_stems(&stem, 1, &def, &model), FROND_OK) << frond_last_error();
         frond_plant_def plant_def = frond_default_plant_def();
-        plant_def.mechanics = FROND_ROD;
+        plant_def.mechanics = mechanics;
         plant_def.root_height = -1;
         EXPECT_EQ(frond_plant_create(plants, model, &plant_def, &plant), FROND_OK) << frond_last_error();
         // It is held where it leaves the wall.
@@ -168,16 +170,21 @@ const Kind KINDS[] = {
          field.setLocalScaling(vec(0.2, 1, 0.2));
      }}};
 
-struct EveryBulletShape : testing::TestWithParam<size_t> {};
-INSTANTIATE_TEST_SUITE_P(Contact, EveryBulletShape, testing::Range(size_t(0), std::size(KINDS)),
-                         [](const auto& info) { return std::string(KINDS[info.param].name); });
+constexpr frond_mechanics MECHANICS[] = {FROND_ROD, FROND_TET_COROTATIONAL};
+struct EveryBulletShape : testing::TestWithParam<std::tuple<frond_mechanics, size_t>> {};
+INSTANTIATE_TEST_SUITE_P(Contact, EveryBulletShape,
+                         testing::Combine(testing::ValuesIn(MECHANICS), testing::Range(size_t(0), std::size(KINDS))),
+                         [](const auto& info) {
+                             return std::string(frond_mechanics_name(std::get<0>(info.param))) + "_" +
+                                    KINDS[std::get<1>(info.param)].name;
+                         });
 
 TEST_P(EveryBulletShape, LiftsAStem) {
     constexpr double BELOW = 0.03, UP = 0.15;  // how far it begins below the stem, and goes [m]
     constexpr int STEPS = 90;
     Shape shape;
-    KINDS[GetParam()].make(shape);
-    Scene scene;
+    KINDS[std::get<1>(GetParam())].make(shape);
+    Scene scene(std::get<0>(GetParam()));
     btRigidBody body(0, nullptr, shape.parts.back().get());
     btTransform frame = btTransform::getIdentity();
     frame.setOrigin(vec(0.5, STEM_AT - RADIUS - BELOW - shape.top, 0.001));
@@ -202,8 +209,11 @@ TEST_P(EveryBulletShape, LiftsAStem) {
 }
 
 // Bullet's character controller moves a ghost, which has no velocity and lets all bodies through but stops at them.
-TEST(Contact, ACharacterPushesAStemAside) {
-    Scene scene;
+struct EveryCharacter : testing::TestWithParam<frond_mechanics> {};
+INSTANTIATE_TEST_SUITE_P(Contact, EveryCharacter, testing::ValuesIn(MECHANICS),
+                         [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
+TEST_P(EveryCharacter, PushesAStemAside) {
+    Scene scene(GetParam());
     btGhostPairCallback pairs;
     scene.broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(&pairs);
     btCapsuleShape shape(btScalar(0.1), btScalar(0.8));

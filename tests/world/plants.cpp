@@ -167,11 +167,35 @@ TEST(CornPair, ComesApartWithinTwoSecondsAndStaysInEachOtherWithoutResponse) {
         }
         EXPECT_LT(with.surface_depth(), 0.001) << frond_mechanics_name(mechanics);
         if (SANITIZED) continue;
+        for (int i = 0; i < 120; i++) {
+            with.steps(1);
+            EXPECT_LT(with.contact_depth(), 0.001) << frond_mechanics_name(mechanics) << " later " << i;
+            if (i % 10 != 9) continue;
+            if (by_cages) {
+                EXPECT_LT(with.cage_depth(), 0.001) << i;
+            }
+            EXPECT_LT(with.surface_depth(), 0.001) << frond_mechanics_name(mechanics) << " later " << i;
+        }
         CornPair without(FROND_RESPONSE_NONE, mechanics);
         without.steps(120);
         EXPECT_GT(without.report().plant_contact_count, 0);
         EXPECT_GT(without.cage_depth(), 0.5 * cage_before) << frond_mechanics_name(mechanics);
         EXPECT_GT(without.surface_depth(), 0.5 * surface_before) << frond_mechanics_name(mechanics);
+    }
+}
+
+TEST(CornPair, SpringsPartItToo) {
+    if (SANITIZED) GTEST_SKIP() << "a figure";
+    for (const frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_ROD}) {
+        CornPair pair(FROND_RESPONSE_PENALTY, mechanics);
+        pair.steps(120);
+        EXPECT_EQ(pair.report().trouble & FROND_TROUBLE_REWOUND, 0u);
+        EXPECT_LT(pair.surface_depth(), 0.001) << frond_mechanics_name(mechanics);
+        if (mechanics == FROND_ROD) {
+            EXPECT_LT(pair.contact_depth(), 0.001);
+        } else {
+            EXPECT_LT(pair.cage_depth(), 0.005);
+        }
     }
 }
 

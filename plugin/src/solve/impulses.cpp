@@ -80,6 +80,13 @@ void add_impulse(Search& search, int k, const Vec3& change) {
         search.velocities.segment<3>(3 * search.place[size_t(c.other)]) += c.block.transpose() * change;
 }
 
+// A push and what holds across it, that no more than friction can.
+Vec3 in_cone(const Touch& touch, double push, Vec3 hold) {
+    const double most = touch.friction * push, size = hold.norm();
+    if (size > most) hold *= most / size;
+    return push * touch.normal + hold;
+}
+
 // What one touch should have in place of `before`, with all others as they are.
 Vec3 corrected(const Touch& touch, const Own& own, Vec3 velocity, const Vec3& before) {
     if (touch.is_bond) return before + own.inverse * (touch.wanted - velocity);
@@ -92,14 +99,11 @@ Vec3 corrected(const Touch& touch, const Own& own, Vec3 velocity, const Vec3& be
     // Across: against the sliding that the push leaves, no more than friction can.
     velocity += own.block * ((push - push_before) * touch.normal);
     const Vec3 sliding = velocity - velocity.dot(touch.normal) * touch.normal;
-    Vec3 hold = before - push_before * touch.normal - own.across * sliding;
-    const double most = touch.friction * push, size = hold.norm();
-    if (size > most) hold *= most / size;
-    return push * touch.normal + hold;
+    return in_cone(touch, push, before - push_before * touch.normal - own.across * sliding);
 }
 
-// A round over the touches.
-Change sweep(Search& search) {
+// A round over the touches. What is not felt is not passed on to the others, who are many.
+Change sweep(Search& search, double unfelt) {
     Change change;
     for (int k = 0; k < int(search.island.size()); k++) {
         const Touch& touch = search.touches[size_t(search.island[size_t(k)])];
@@ -108,25 +112,26 @@ Change sweep(Search& search) {
         if (waits) continue;
         const Own& own = own_of(search, k);
         const Vec3 by = corrected(touch, own, velocity, before) - before;
-        if (!by.isZero(0)) add_impulse(search, k, by);
+        const double speed = (own.block * by).norm();
         change.largest = std::max(change.largest, (before + by).norm());
+        if (speed <= unfelt) continue;
+        add_impulse(search, k, by);
         change.most = std::max(change.most, by.norm());
-        change.speed = std::max(change.speed, (own.block * by).norm());
+        change.speed = std::max(change.speed, speed);
     }
     return change;
 }
 
 // Rounds until they change nothing.
-int solve_island(Search& search, const ImpulseLimits& limits, double unfelt, bool onward, bool& converged) {
+int solve_island(Search& search, const ImpulseLimits& limits, double unfelt, bool& converged) {
     VecX way = VecX::Zero(search.impulses.size()), way_faster = way, from, from_velocities;
     double last = 0;  // square of the last round's change
     for (int iteration = 1;; iteration++) {
         from = search.impulses;
         from_velocities = search.velocities;
-        const Change change = sweep(search);
+        const Change change = sweep(search, unfelt);
         converged = change.most <= limits.tolerance * change.largest || change.speed <= unfelt;
         if (converged || iteration >= limits.iterations) return iteration;
-        if (!onward) continue;
         from = search.impulses - from;
         from_velocities = search.velocities - from_velocities;
         // On along the way so far by its share, unless rounds grow.
@@ -154,8 +159,7 @@ CouplingTable coupling_table(const std::vector<std::vector<Coupling>>& rows) {
 }
 
 ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTable& coupling,
-                            const ImpulseLimits& limits, std::vector<Vec3>& impulses, double unfelt,
-                            bool onward) {
+                            const ImpulseLimits& limits, std::vector<Vec3>& impulses, double unfelt) {
     impulses.resize(touches.size(), Vec3::Zero());
     std::vector<int> place(touches.size(), 0);
     ImpulseReport report;
@@ -171,10 +175,16 @@ ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTab
         for (size_t k = 0; k < island.size(); k++)
             if (!impulses[size_t(island[k])].isZero(0)) add_impulse(search, int(k), impulses[size_t(island[k])]);
         bool converged = false;
-        report.iterations = std::max(report.iterations, solve_island(search, limits, unfelt, onward, converged));
+        report.iterations = std::max(report.iterations, solve_island(search, limits, unfelt, converged));
         report.converged = report.converged && converged;
-        for (size_t k = 0; k < island.size(); k++)
-            impulses[size_t(island[k])] = search.impulses.segment<3>(3 * Eigen::Index(k));
+        for (size_t k = 0; k < island.size(); k++) {
+            Vec3& impulse = impulses[size_t(island[k])] = search.impulses.segment<3>(3 * Eigen::Index(k));
+            // What was not felt may be beside its cone.
+            const Touch& touch = touches[size_t(island[k])];
+            if (touch.is_bond) continue;
+            const double push = impulse.dot(touch.normal);
+            impulse = in_cone(touch, std::max(0.0, push), impulse - push * touch.normal);
+        }
     }
     return report;
 }

@@ -63,9 +63,6 @@ struct ResponseRow {
     // Null: nothing pushes. Empty shifts: none.
     void (*find)(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
                  Pushes& out);
-    // Whether it asks how touches answer to each other. If not, it gets one block a touch: what the touch answers to
-    // itself, times the number of touches at that body, so that all together never answer more than that.
-    bool couples;
 };
 const ResponseRow& response_row(frond_response which);
 void push_by_impulse(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
@@ -84,10 +81,8 @@ struct ImpulseReport {
 // The impulses [N s] for which, at every touch, either nothing pushes and the bodies part, or they push and move as fast
 // as they must along the normal, and across it friction stops the sliding or is at its limit against it. The search
 // begins with those that come in, if there are any, and ends where a round changes no touch's speed by more than
-// `unfelt` [m/s], or its limits are reached. Not `onward`: rounds do not go on along their way,
-// so that each one only comes nearer and none too far where the search ends early.
+// `unfelt` [m/s], or its limits are reached.
 ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTable& coupling,
-                            const ImpulseLimits& limits, std::vector<Vec3>& impulses, double unfelt = 0,
-                            bool onward = true);
+                            const ImpulseLimits& limits, std::vector<Vec3>& impulses, double unfelt = 0);
 
 }  // namespace frond

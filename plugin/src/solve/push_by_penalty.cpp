@@ -1,40 +1,81 @@
-// In: touches that overlap. Out: impulses of springs between them, one by one, at the cost of no system.
+// In: touches that come nearer or overlap. Out: impulses of springs between them, found in a few rounds.
 //
-// A spring of stiffness k that is h further along in time: p = h k (depth - h (v + W p)) for the velocity v along the
-// normal, W what the touch answers to p, or more. So no k is too stiff: without end it is p = (depth / h - v) / W, which
-// just stops and parts. Touches at one body share it (W times their number), so that all of them together never push
-// more than one would: x'Wx is at most n times the sum of x_i W_ii x_i.
+// A spring of stiffness k that is h further along in time: p = h k (depth - h v) for the velocity v along the normal that
+// all springs together leave, W p of them. That is a touch which gives by p / (h^2 k), so no k is too stiff: without end
+// the bodies just stop and part. Rounds go from touch to touch, each spring with what the others push by then, and end
+// early: what is left is for the next steps. Plants that overlap part by shifts, as with impulses.
 #include <algorithm>
+#include <cmath>
 
-#include "solve/impulses.hpp"
+#include "solve/shifts.hpp"
 
 namespace frond {
 
+namespace {
+
+struct Spring {
+    Mat3 own = Mat3::Zero();       // what the touch answers to itself [1/kg]
+    double along = 0, across = 0;  // of that; across no less than any direction's
+    bool known = false;
+};
+
+const Spring& spring_of(std::vector<Spring>& springs, const Touch& touch, const std::vector<Coupling>& row, int i) {
+    Spring& spring = springs[size_t(i)];
+    if (spring.known) return spring;
+    spring.known = true;
+    for (const Coupling& c : row)
+        if (c.other == i) spring.own += c.block;
+    spring.along = touch.normal.dot(spring.own * touch.normal);
+    spring.across = spring.own.trace() - spring.along;
+    return spring;
+}
+
+// How fast a spring without end wants them to part; plants that overlap only stop, as shifts part them.
+double wanted_speed(const Touch& touch, double h) {
+    constexpr double FASTEST = 0.3;  // that a spring lets overlapping bodies part [m/s]
+    return touch.least_shift == Touch::NO_SHIFT ? std::min(touch.depth / h, FASTEST) : std::min(touch.depth, 0.0) / h;
+}
+
+// What one spring pushes in place of `before`, with all others as they are.
+Vec3 pushed(const Touch& touch, const Spring& spring, Vec3 velocity, const Vec3& before, const ResponseSettings& settings) {
+    if (touch.is_bond) return before + firm_inverse(spring.own) * (touch.wanted - velocity);
+    const double give = 1 / (settings.h * settings.h * settings.stiffness);  // [1/kg]
+    const double push_before = before.dot(touch.normal);
+    const double lacking = wanted_speed(touch, settings.h) - velocity.dot(touch.normal) - give * push_before;
+    const double push = std::max(0.0, push_before + lacking / (spring.along + give));
+    // Friction stops the sliding that is left, as far as it can.
+    velocity += spring.own * ((push - push_before) * touch.normal);
+    const Vec3 sliding = velocity - velocity.dot(touch.normal) * touch.normal;
+    Vec3 hold = before - push_before * touch.normal;
+    if (spring.across > 0) hold -= sliding / spring.across;
+    const double most = touch.friction * push, size = hold.norm();
+    if (size > most) hold *= most / size;
+    return push * touch.normal + hold;
+}
+
+}  // namespace
+
 void push_by_penalty(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
                      Pushes& out) {
-    constexpr double FASTEST = 0.3;  // that a spring lets overlapping bodies part [m/s]
-    const double h = settings.h, k = settings.stiffness;
+    constexpr int ROUNDS = 8;
+    std::vector<Spring> springs(touches.size());
+    std::vector<Vec3> velocities;
+    for (const Touch& touch : touches) velocities.push_back(touch.velocity);
     out.impulses.assign(touches.size(), Vec3::Zero());
-    out.shifts.clear();
-    for (size_t i = 0; i < touches.size(); i++) {
-        const Touch& touch = touches[i];
-        const Mat3& own = coupling.row(int(i)).front().block;
-        if (touch.is_bond) {
-            out.impulses[i] = firm_inverse(own) * (touch.wanted - touch.velocity);
-            continue;
+    for (int round = 0; round < ROUNDS; round++)
+        for (size_t i = 0; i < touches.size(); i++) {
+            const Touch& touch = touches[i];
+            Vec3& impulse = out.impulses[i];
+            const bool waits = impulse.isZero(0) && velocities[i].dot(touch.normal) >= wanted_speed(touch, settings.h);
+            if (waits && !touch.is_bond) continue;
+            const std::vector<Coupling>& row = coupling.row(int(i));
+            const Spring& spring = spring_of(springs, touch, row, int(i));
+            const Vec3 by = pushed(touch, spring, velocities[i], impulse, settings) - impulse;
+            impulse += by;
+            for (const Coupling& c : row) velocities[size_t(c.other)] += c.block.transpose() * by;
         }
-        const double speed = touch.velocity.dot(touch.normal);
-        const double along = touch.normal.dot(own * touch.normal);
-        const double push = h * k * (std::min(touch.depth, FASTEST * h) - h * speed) / (1 + h * h * k * along);
-        if (!(push > 0)) continue;
-        // Friction stops the sliding, as far as it can.
-        const Vec3 sliding = touch.velocity - speed * touch.normal;
-        const double across = own.trace() - along;  // no less than any direction's
-        Vec3 hold = across > 0 ? Vec3(-sliding / across) : Vec3(Vec3::Zero());
-        const double most = touch.friction * push, size = hold.norm();
-        if (size > most) hold *= most / size;
-        out.impulses[i] = push * touch.normal + hold;
-    }
+    out.shifts.clear();
+    part_by_shifts(touches, coupling, settings, out.shifts);
 }
 
 }  // namespace frond

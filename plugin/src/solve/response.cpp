@@ -1,15 +1,13 @@
 // The table of responses: one row for each name in FROND_RESPONSES; what needs impulses alone stands here.
-#include <algorithm>
-
 #include "solve/shifts.hpp"
 
 namespace frond {
 
 const ResponseRow& response_row(frond_response which) {
     static const ResponseRow TABLE[] = {
-        {"impulse", push_by_impulse, true},
-        {"penalty", push_by_penalty, false},
-        {"none", nullptr, false},
+        {"impulse", push_by_impulse},
+        {"penalty", push_by_penalty},
+        {"none", nullptr},
     };
     static_assert(sizeof TABLE / sizeof TABLE[0] == FROND_RESPONSE_COUNT, "every response needs its row");
     return TABLE[which];
@@ -19,14 +17,9 @@ const ResponseRow& response_row(frond_response which) {
 void push_by_impulse(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
                      Pushes& out) {
     out.shifts.clear();
-    constexpr double MOVES = 1e-5, SHIFTS = 1e-3;  // what is not felt, nor seen [m/s]
+    constexpr double MOVES = 1e-5;  // what is not felt [m/s]
     find_impulses(touches, coupling, settings.limits, out.impulses, MOVES);
-    const auto overlaps = [](const Touch& touch) { return touch.least_shift > 0; };
-    if (std::none_of(touches.begin(), touches.end(), overlaps)) return;
-    // Leaves that are pressed from two sides may have no answer at all; what is left is for the next steps.
-    constexpr int ROUNDS = 40;
-    out.shifts = find_shifts(touches, coupling, std::min(settings.limits.iterations, ROUNDS), settings.limits.tolerance,
-                             SHIFTS);
+    part_by_shifts(touches, coupling, settings, out.shifts);
 }
 
 }  // namespace frond

@@ -65,16 +65,20 @@ bool sweep(Search& search, const std::vector<int>& island, double tolerance, dou
 
 }  // namespace
 
-std::vector<Vec3> find_shifts(const std::vector<Touch>& touches, const CouplingTable& coupling, int rounds,
-                              double tolerance, double unfelt) {
+void part_by_shifts(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
+                    std::vector<Vec3>& shifts) {
+    constexpr int MOST = 40;         // rounds
+    constexpr double UNSEEN = 1e-3;  // [m/s]
+    const auto overlaps = [](const Touch& touch) { return touch.least_shift > 0; };
+    if (std::none_of(touches.begin(), touches.end(), overlaps)) return;
     const size_t count = touches.size();
+    const int rounds = std::min(settings.limits.iterations, MOST);
     Search search = {touches, coupling, std::vector<double>(count, 0), std::vector<double>(count, 0),
                      std::vector<Row>(count)};
     for (const std::vector<int>& island : coupling.islands)
-        for (int round = 0; round < rounds && sweep(search, island, tolerance, unfelt); round++) {}
-    std::vector<Vec3> shifts(count);
+        for (int round = 0; round < rounds && sweep(search, island, settings.limits.tolerance, UNSEEN); round++) {}
+    shifts.resize(count);
     for (size_t i = 0; i < count; i++) shifts[i] = search.pushes[i] * touches[i].normal;
-    return shifts;
 }
 
 }  // namespace frond

@@ -127,6 +127,8 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     return contact;
 }
 
+constexpr double DRIFTED = 0.02;  // farther from where it was, a contact is another one [m]
+
 // The point that touches: its plant, the other one, and its nodes.
 std::tuple<int, int, std::array<int, 4>> key_of(const PlantContact& contact) {
     return {contact.plants[0]->number, contact.plants[1]->number, contact.sides[0].nodes};
@@ -144,20 +146,68 @@ bool is_by_the_same(const PlantContact& contact) {
     return true;
 }
 
+// A contact of the last substep, by what its points have moved since.
+PlantContact as_it_is_now(const PlantContact& before) {
+    PlantContact contact = before;
+    take_grips(contact);
+    contact.depth -= (contact.between - before.between).dot(contact.normal);
+    return contact;
+}
+
+bool are_one_pair(const PlantContact& a, const PlantContact& b) {
+    return a.plants == b.plants || (a.plants[0] == b.plants[1] && a.plants[1] == b.plants[0]);
+}
+
+// Nothing gets deeper into each other than it was and has moved since: where a search says so it has taken another way
+// out, as where a leaf slides off another one's tip. Then the way of the last substep stands, if there is one.
+void doubt_what_is_deeper(const std::vector<PlantContact>& last, std::vector<PlantContact>& contacts) {
+    constexpr double NEAR = 0.1, CALM = 0.005, SLACK = 0.002;  // [m]
+    std::multimap<std::tuple<int, int, std::array<int, 4>>, const PlantContact*> known;
+    for (const PlantContact& before : last) known.emplace(key_of(before), &before);
+    for (PlantContact& contact : contacts) {
+        if (contact.depth <= SLACK) continue;
+        bool is_new = true;
+        double deepest = 0;
+        for (const PlantContact& before : last) {
+            if (!are_one_pair(before, contact)) continue;
+            is_new = false;
+            if ((before.point - contact.point).norm() < NEAR) deepest = std::max(deepest, before.depth);
+        }
+        if (is_new || deepest > CALM) continue;
+        const auto [first, end] = known.equal_range(key_of(contact));
+        const PlantContact* nearest = nullptr;
+        for (auto k = first; k != end; ++k)
+            if ((k->second->point - contact.point).norm() < DRIFTED &&
+                (!nearest || k->second->depth > nearest->depth))
+                nearest = k->second;
+        if (nearest) {
+            const PlantContact now = as_it_is_now(*nearest);
+            if (contact.depth <= now.depth + SLACK) continue;
+            deepest = std::max(now.depth, 0.0);
+            if (now.depth > 0) contact.normal = now.normal;
+        }
+        contact.depth = std::min(contact.depth, deepest + SLACK);
+    }
+}
+
 // Contacts of the last substep that were not found again are kept as long as they push and both sides are beside each
 // other. Those that were begin with what they had to push.
 void keep_contacts(const World& world, const std::vector<PlantContact>& last, std::vector<PlantContact>& contacts) {
-    constexpr double APART = 0.01, DRIFTED = 0.02;  // [m]
+    constexpr double APART = 0.01, IN = 0.001;  // [m]
+    constexpr int LONG = 12;                    // [substeps]
     std::multimap<std::tuple<int, int, std::array<int, 4>>, size_t> found;
     for (size_t i = 0; i < contacts.size(); i++) found.emplace(key_of(contacts[i]), i);
-    // An edge may touch at several places.
+    // An edge may touch at several places: what is found at another one does not stand for this one.
     const auto find_again = [&](const PlantContact& before) -> PlantContact* {
         PlantContact* nearest = nullptr;
+        double least = DRIFTED;
         const auto [first, last] = found.equal_range(key_of(before));
         for (auto k = first; k != last; ++k) {
             PlantContact& contact = contacts[k->second];
-            if (!nearest || (contact.point - before.point).norm() < (nearest->point - before.point).norm())
-                nearest = &contact;
+            const double away = (contact.point - before.point).norm();
+            if (away >= least) continue;
+            least = away;
+            nearest = &contact;
         }
         return nearest;
     };
@@ -165,16 +215,15 @@ void keep_contacts(const World& world, const std::vector<PlantContact>& last, st
         const bool pushed = before.depth > 0 || !before.impulse.isZero(0);
         if (!pushed || !may_touch(world, before) || !is_by_the_same(before)) continue;
         if (PlantContact* again = find_again(before)) {
-            again->impulse = before.impulse;
+            again->impulse += before.impulse;
             continue;
         }
-        PlantContact contact = before;
-        take_grips(contact);
+        PlantContact contact = as_it_is_now(before);
         const Vec3 moved = contact.between - before.between;
-        const double away = moved.dot(contact.normal);
-        // Not in each other any more, whatever the depth was said to be.
-        contact.depth = std::min(contact.depth - away, 0.0);
-        if (contact.depth < -APART || (moved - away * contact.normal).norm() > DRIFTED) continue;
+        // Not in each other any more, whatever the depth was said to be; nor is there anything where it would be in by now.
+        if (contact.missed++ == 0) contact.depth = std::min(contact.depth, 0.0);
+        if (contact.missed > LONG || contact.depth > IN) continue;
+        if (contact.depth < -APART || (moved - moved.dot(contact.normal) * contact.normal).norm() > DRIFTED) continue;
         contacts.push_back(contact);
     }
 }
@@ -258,6 +307,7 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
         world.report.ms_hash += of.ms_hash;
         world.report.ms_narrow += of.ms_narrow;
     }
+    doubt_what_is_deeper(last, contacts);
     keep_contacts(world, last, contacts);
     keep_deepest(world.taking_part.size(), contacts);
     return contacts;

@@ -19,6 +19,7 @@ struct PlantContact {
     Vec3 normal;      // along which the first leaves the second
     double depth;     // by which it has to [m]; below zero they are apart
     double friction;  // of both together [-]
+    int missed = 0;   // substeps since the search saw it
     Vec3 impulse = Vec3::Zero();  // on the first; that of the last substep until this one's is known [N s]
 };
 

@@ -16,18 +16,17 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-constexpr double SLOP = 0.0005;  // overlap that is let be [m]
-
-// How fast two that overlap must part: a share of the overlap a step, no faster than that [m/s].
-double parting_speed(double depth, double h, double share, double fastest) {
-    return std::min(share * std::max(0.0, depth - SLOP) / h, fastest);
+// How fast two that overlap must part: a share of the overlap a step but for the slop, no faster than that [m/s].
+double parting_speed(double depth, double slop, double h, double share, double fastest) {
+    return std::min(share * std::max(0.0, depth - slop) / h, fastest);
 }
 
 // A contact as both sides see it.
 struct Row {
     std::array<PlantBody*, 2> plants = {};  // the second is null where a body is on the other side
     std::array<PlantTouch, 2> touches;
-    Pusher pusher;  // then
+    std::array<size_t, 2> sides = {};  // their places among all sides of that plant
+    Pusher pusher;                     // of what is no plant
     Touch touch;
     Vec3* impulse;  // where the contact keeps it
 };
@@ -43,7 +42,7 @@ Grip grip_of(const Contact& contact) {
 
 // With bodies, which have moved already, velocities see to it that overlaps go.
 void add_row(const World& world, Contact& contact, double h, std::vector<Row>& rows) {
-    constexpr double SHARE = 0.2, FASTEST = 1;
+    constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 1;  // [m], [-], [m/s]
     Plant& plant = *contact.plant->plant;
     Row row;
     row.plants[0] = contact.plant;
@@ -52,7 +51,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
     row.pusher = make_pusher(*contact.other, contact.on_other, h);
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.pusher.velocity;
-    row.touch.least_speed = contact.gap >= 0 ? -contact.gap / h : parting_speed(-contact.gap, h, SHARE, FASTEST);
+    row.touch.least_speed = contact.gap >= 0 ? -contact.gap / h : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;
     row.impulse = &contact.impulse;
@@ -71,7 +70,7 @@ bool drop_levers(double way, Grip& grip) {
 
 // Plants part by being moved: cages may have been in each other by half a leaf when they were made, and would fly.
 void add_row(const World& world, PlantContact& contact, double h, std::vector<Row>& rows) {
-    constexpr double SHARE = 0.4, FASTEST = 0.5;
+    constexpr double SLOP = 0.0002, SHARE = 0.4, FASTEST = 0.5;  // [m], [-], [m/s]
     Row row;
     row.plants = contact.plants;
     for (size_t k = 0; k < 2; k++)
@@ -86,7 +85,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
             !make_touch(*contact.plants[k]->plant, contact.grips[k], row.touches[k]))
             return;
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
-    row.touch.least_shift = room > 0 ? -room : parting_speed(contact.depth, h, SHARE, FASTEST);
+    row.touch.least_shift = room > 0 ? -room : parting_speed(contact.depth, SLOP, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
     row.touch.depth = contact.depth;
     row.impulse = &contact.impulse;
@@ -143,18 +142,21 @@ struct Sides {
     std::vector<int> rows;
     std::vector<double> signs;
     std::vector<const Answer*> answers;
+    std::vector<std::vector<Mat3>> known;  // how all of them answer to one of them, empty until somebody asks
 };
 
-std::vector<Sides> sort_by_plant(size_t plant_count, const std::vector<Row>& rows) {
+std::vector<Sides> sort_by_plant(size_t plant_count, std::vector<Row>& rows) {
     std::vector<Sides> sides(plant_count);
     for (size_t i = 0; i < rows.size(); i++)
         for (size_t k = 0; k < 2; k++) {
             if (!rows[i].plants[k]) continue;
             Sides& of = sides[size_t(rows[i].plants[k]->place)];
+            rows[i].sides[k] = of.rows.size();
             of.rows.push_back(int(i));
             of.signs.push_back(k == 0 ? 1 : -1);
             of.answers.push_back(&rows[i].touches[k].answer);
         }
+    for (Sides& of : sides) of.known.resize(of.rows.size());
     return sides;
 }
 
@@ -170,21 +172,36 @@ struct Coupler {
     std::vector<Sides> plants;
     std::vector<std::vector<Coupling>> known;
     Eigen::Matrix3Xd spread;
+    std::vector<const Answer*> asked;
     std::vector<Mat3> blocks;
 };
 
+// How all sides of a plant answer to one. Who has been asked how this one answers to it needs not be asked again, as A^-1
+// is symmetric.
+const std::vector<Mat3>& answers_to(Coupler& coupler, Sides& sides, size_t by) {
+    std::vector<Mat3>& answers = sides.known[by];
+    if (!answers.empty()) return answers;
+    coupler.asked.clear();
+    for (size_t i = 0; i < sides.rows.size(); i++)
+        if (sides.known[i].empty()) coupler.asked.push_back(sides.answers[i]);
+    coupler.blocks.assign(coupler.asked.size(), Mat3::Zero());
+    add_answers(coupler.asked, *sides.answers[by], coupler.spread, coupler.blocks);
+    std::vector<Mat3> found(sides.rows.size());
+    for (size_t i = 0, next = 0; i < found.size(); i++)
+        found[i] = sides.known[i].empty() ? coupler.blocks[next++] : Mat3(sides.known[i][by].transpose());
+    return answers = std::move(found);
+}
+
 // What the plants of a row pass on to their other rows.
 void couple_by_plants(Coupler& coupler, int by, std::vector<Coupling>& row) {
+    const Row& at = coupler.rows[size_t(by)];
     for (size_t k = 0; k < 2; k++) {
-        const PlantBody* plant = coupler.rows[size_t(by)].plants[k];
-        if (!plant) continue;
-        const Sides& sides = coupler.plants[size_t(plant->place)];
-        coupler.blocks.assign(sides.rows.size(), Mat3::Zero());
-        add_answers(sides.answers, coupler.rows[size_t(by)].touches[k].answer, coupler.spread, coupler.blocks);
+        if (!at.plants[k]) continue;
+        Sides& sides = coupler.plants[size_t(at.plants[k]->place)];
+        const std::vector<Mat3>& answers = answers_to(coupler, sides, at.sides[k]);
         const double sign = k == 0 ? 1 : -1;
         for (size_t i = 0; i < sides.rows.size(); i++)
-            if (!coupler.blocks[i].isZero(0))
-                row.push_back({sides.rows[i], sign * sides.signs[i] * coupler.blocks[i].transpose()});
+            if (!answers[i].isZero(0)) row.push_back({sides.rows[i], sign * sides.signs[i] * answers[i].transpose()});
     }
 }
 
@@ -209,25 +226,6 @@ std::vector<std::vector<int>> find_islands(const Coupler& coupler) {
         for (size_t j = 0; j < i; j++)
             if (are_one_body(coupler.rows[i], coupler.rows[j])) sets.join(int(i), int(j));
     return sets.sets();
-}
-
-// How a touch answers to itself, as many times as there are touches at that plant or body.
-const std::vector<Coupling>& share(Coupler& coupler, int by) {
-    std::vector<Coupling>& row = coupler.known[size_t(by)];
-    if (!row.empty()) return row;
-    const Row& at = coupler.rows[size_t(by)];
-    row.push_back({by, Mat3::Zero()});
-    for (size_t k = 0; k < 2; k++) {
-        if (!at.plants[k]) continue;
-        const Answer& answer = at.touches[k].answer;
-        coupler.blocks.assign(1, Mat3::Zero());
-        add_answers({&answer}, answer, coupler.spread, coupler.blocks);
-        row[0].block += double(coupler.plants[size_t(at.plants[k]->place)].rows.size()) * coupler.blocks[0];
-    }
-    const auto touched = std::count_if(coupler.rows.begin(), coupler.rows.end(),
-                                       [&](const Row& other) { return are_one_body(at, other); });
-    if (touched > 0) row[0].block += double(touched) * answer_between(at.pusher, at.pusher);
-    return row;
 }
 
 // Adds what the rows got to both sides. Returns the rigid bodies among them.
@@ -273,11 +271,9 @@ std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& resp
     Pushes pushes;
     for (const Row& row : rows) pushes.impulses.push_back(*row.impulse);
     Coupler coupler = {
-        rows, sort_by_plant(island.plants.size(), rows), std::vector<std::vector<Coupling>>(rows.size()), {}, {}};
+        rows, sort_by_plant(island.plants.size(), rows), std::vector<std::vector<Coupling>>(rows.size()), {}, {}, {}};
     CouplingTable table;
-    table.row = [&](int row) -> const std::vector<Coupling>& {
-        return response.couples ? couple(coupler, row) : share(coupler, row);
-    };
+    table.row = [&](int row) -> const std::vector<Coupling>& { return couple(coupler, row); };
     table.islands = find_islands(coupler);
     response.find(touches, table, settings, pushes);
     return give(world, island, rows, pushes);
