@@ -190,6 +190,10 @@ void add_bench(CLI::App& app) {
     CLI::App* effects = bench->add_subcommand("effects", "instructions that each effect costs, counted by valgrind");
     effects->add_flag("--csv", effects_options->csv, "print CSV");
     effects->add_flag("--inside", *inside, "steps all cases, for valgrind to count")->group("");
+    auto inside_guard = std::make_shared<bool>(false);
+    CLI::App* guard = bench->add_subcommand("guard", "instructions of the looks for steps gone wrong, counted by valgrind");
+    guard->add_flag("--inside", *inside_guard, "steps all cases, for valgrind to count")->group("");
+    guard->callback([inside_guard] { *inside_guard ? step_for_guard() : bench_guard(); });
     effects->callback([effects_options, inside] { *inside ? step_all_effects() : bench_effects(*effects_options); });
     contact->callback([contact_options] { bench_contact(*contact_options); });
 }

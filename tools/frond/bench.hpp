@@ -19,6 +19,8 @@ struct BenchOptions {
 
 void bench_field(const BenchOptions& options);
 void bench_effects(const BenchOptions& options);
+void bench_guard();
+void step_for_guard();  // for valgrind to count
 // What the latter has counted.
 void step_all_effects();
 

@@ -11,5 +11,6 @@ void add_grow(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_study(CLI::App& app);
 void add_export(CLI::App& app);
+void add_stability(CLI::App& app);
 
 }  // namespace frond::tools

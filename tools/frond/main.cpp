@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     frond::tools::add_bench(app);
     frond::tools::add_study(app);
     frond::tools::add_export(app);
+    frond::tools::add_stability(app);
     try {
         app.parse(argc, argv);
         return 0;

@@ -10,6 +10,14 @@ using namespace frond;
 
 constexpr int LARGEST_COUNT = 20'000'000;  // of vertices or triangles that a caller may pass
 
+// Names and paths that no file system and no mesh has.
+static void check_text(const char* text, const char* name) {
+    constexpr size_t LONGEST = 4096;
+    check_pointer(text, name);
+    if (strnlen(text, LONGEST + 1) > LONGEST)
+        fail(FROND_BAD_ARGUMENT, "%s has more than %zu characters; pass a shorter one", name, LONGEST);
+}
+
 static void check_model_def(const frond_model_def* def) {
     check_def(def, MODEL_DEF_COOKIE, "model");
     check_vec(def->up, "def.up");
@@ -23,7 +31,7 @@ static void check_model_def(const frond_model_def* def) {
         fail(FROND_BAD_ARGUMENT, "def.rest is %d; use FROND_REST_*", number_of(def->rest));
     check_range(def->organ_count, 0, 10000, "def.organ_count");
     if (def->organ_count > 0) check_pointer(def->organs, "def.organs");
-    for (int i = 0; i < def->organ_count; i++) check_pointer(def->organs[i].organ, "def.organs[].organ");
+    for (int i = 0; i < def->organ_count; i++) check_text(def->organs[i].organ, "def.organs[].organ");
 }
 
 // Runs a build and gives its model a handle.
@@ -129,7 +137,7 @@ frond_model_def frond_default_model_def(void) {
 
 frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out) {
     return open_model(def, out, [&] {
-        check_pointer(path, "path");
+        check_text(path, "path");
         return build_from_file(path, *def);
     });
 }

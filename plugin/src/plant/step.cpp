@@ -1,7 +1,9 @@
 // One step of a plant: effects -> solve -> (contact response) -> accept, with what becomes lasting, or rewind -> chain.
 #include <algorithm>
+#include <cmath>
 
 #include "core/timer.hpp"
+#include "plant/guard.hpp"
 #include "plant/plant.hpp"
 #include "solve/integrator.hpp"
 
@@ -34,6 +36,7 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
 // Whether all places, not the rotations of a chain, are nearer than that to `from`.
 static bool are_near(const Plant& plant, const VecX& from, double distance) {
     const VecX& x = plant.motion.x;
+    if ((x - from).squaredNorm() < distance * distance) return true;  // all together even
     const int next = plant.follow ? 2 : 1;
     for (int i = 0; i < x.size() / 3; i += next)
         if (!((point(x, i) - point(from, i)).squaredNorm() < distance * distance)) return false;
@@ -52,35 +55,65 @@ static void keep_sets(Plant& plant, double h) {
     row.flow(*plant.own_elements, plant.motion.x, h);
 }
 
-// No node has gone much farther than the plant is long.
-static bool is_plausible(const Plant& plant) {
-    constexpr double FARTHEST = 4;  // in a step, over the plant's size [-]
-    return are_near(plant, plant.x_good, FARTHEST * plant.size);
+// A node has gone much farther than the plant is long, or than it has to come back.
+static bool has_run_away(const Plant& plant) {
+    constexpr double FARTHEST = 4, BACK = 2;  // in a step
+    const double size = double(plant.size);
+    return !are_near(plant, plant.x_good, FARTHEST * size) &&
+           !are_near(plant, plant.x_good, FARTHEST * size + BACK * reach_at_start(plant));
+}
+
+// And none has gone elsewhere than it was heading by energy that came from nowhere.
+static bool is_plausible(Plant& plant, double h) {
+    plant.is_off_course = ends_off_course(plant, h);
+    return !has_run_away(plant) && !(plant.is_off_course && has_gained_energy(plant, h));
 }
 
 // Whether what was found can be the plant's next state.
 static bool is_sound(const Plant& plant) {
     constexpr double FARTHEST = 100;  // a plant stretched to so many times its size has run away [-]
     const Motion& motion = plant.motion;
-    return plant.report.ok && motion.x.allFinite() && motion.v.allFinite() && is_plausible(plant) &&
-           are_near(plant, elements_of(*plant.system).modelled, FARTHEST * plant.size);
+    return plant.report.ok && motion.x.allFinite() && motion.v.allFinite() &&
+           !has_run_away(plant) && are_near(plant, elements_of(*plant.system).modelled, FARTHEST * plant.size);
 }
 
-// Again from the start, by what cannot overshoot.
+// From the start of the step in equal parts, pinned nodes moving evenly.
+static void solve_in_equal_parts(Plant& plant, const SolveSettings& settings, int parts, double h) {
+    Motion& motion = plant.motion;
+    const VecX target = motion.pin_target;
+    motion.x = plant.x_good;
+    motion.v = plant.v_good;
+    motion.history.valid = false;
+    for (int part = 1; part <= parts && (part == 1 || plant.report.ok); part++) {
+        if (part < parts) motion.pin_target = plant.x_good + (target - plant.x_good) * (double(part) / parts);
+        const SolveReport before = plant.report;
+        plant.report = solve_step(*plant.workspace, settings, plant.loads, h / parts, motion);
+        plant.report.add_cost(before);
+        motion.pin_target = target;
+    }
+    motion.history.shaken = true;
+}
+
+// By what cannot overshoot; where a whole step is too long for that too, several short ones.
 static void solve_carefully(Plant& plant, double h) {
-    constexpr int ITERATIONS = 30;
+    constexpr int ITERATIONS = 30, PARTS = 4;
     SolveSettings settings = plant.step_settings;
-    plant.motion.x = plant.x_good;
-    plant.motion.v = plant.v_good;
-    plant.motion.history.valid = false;
     settings.integrator = FROND_IMPLICIT_EULER;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
-    const SolveReport first = plant.report;
     plant.trouble |= FROND_TROUBLE_RETRIED;
-    plant.report = solve_step(*plant.workspace, settings, plant.loads, h, plant.motion);
-    plant.motion.history.shaken = true;
-    plant.report.add_cost(first);
+    solve_in_equal_parts(plant, settings, 1, h);
+    if (plant.report.ok && is_plausible(plant, h)) return;
+    solve_in_equal_parts(plant, settings, PARTS, h);
+    plant.report.ok = plant.report.ok && is_plausible(plant, h);
+}
+
+// In steps that are short enough to come back within some dozens of them. Bodies answer to whole ones.
+static void solve_recovering(Plant& plant, double h) {
+    constexpr double LONGEST = 1.0 / 60;  // [s]
+    const int parts = plant.is_touched ? 1 : std::max(1, int(std::ceil(h / LONGEST - 1e-6)));
+    plant.report = {};
+    solve_in_equal_parts(plant, plant.step_settings, parts, h);
 }
 
 // Whether the air has turned something by more than twice what one solve can tell well.
@@ -135,20 +168,25 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     lend_workspace(plant);
     Timer timer;
     apply_pins(plant);
+    jump_with_pins(plant);
     gather_loads(plant, surroundings, effects);
     plant.ms_user_force = timer.lap();
     gather_air(plant, surroundings, effects, h);
     plant.ms_air = timer.lap();
     SolveSettings& settings = plant.step_settings = plant.settings;
     if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
+    damp_recovering(plant, settings);
     plant.ms_effects = plant.ms_user_force + plant.ms_air;
     plant.ms_fibres = plant.ms_plasticity = 0;
 
     // Solve.
     motion.history.shaken |= plant.is_touched;
-    plant.report = solve_in_substeps(plant, h);
+    if (plant.recovers_for > 0)
+        solve_recovering(plant, h);
+    else
+        plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
-    if (!plant.report.ok || !is_plausible(plant)) solve_carefully(plant, h);
+    if (!plant.report.ok || !is_plausible(plant, h)) solve_carefully(plant, h);
     hold_what_is_drawn_out(plant, effects, h);
     plant.is_sound = is_sound(plant);
 }
@@ -193,16 +231,21 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     Motion& motion = plant.motion;
     if (!plant.report.converged) plant.trouble |= FROND_TROUBLE_NOT_CONVERGED;
     if (plant.report.inverted > 0) plant.trouble |= FROND_TROUBLE_INVERTED;
-    // Accept, or go back to the last good state and stand still there.
+    // Accept, or go back to the last good state and stand still there; from where that leads nowhere, to the modelled one.
     if (!plant.is_sound) {
+        const bool is_stuck = plant.v_good.isZero(0);
         motion.x = plant.x_good;
         motion.v.setZero();
         motion.history.valid = false;
         plant.trouble |= FROND_TROUBLE_REWOUND;
-    } else if (effects & FROND_PLASTICITY) {
-        const Timer timer;
-        keep_sets(plant, h);
-        plant.ms_plasticity = timer.ms();
+        if (is_stuck) start_from_modelled(plant);
+    } else {
+        watch_recovery(plant, h);
+        if (effects & FROND_PLASTICITY && plant.recovers_for <= 0) {
+            const Timer timer;
+            keep_sets(plant, h);
+            plant.ms_plasticity = timer.ms();
+        }
     }
     carry_stumps(plant);
     pass_time(plant.fade, h);

@@ -205,7 +205,8 @@ void discount_grown_in(std::vector<Contact>& contacts) {
         std::unique_ptr<GrownIn>& grown_in = contact.plant->grown_in;
         const btBroadphaseProxy* proxy = contact.other->getBroadphaseHandle();
         const GrownIn::key_type key(contact.capsule, contact.other, proxy ? proxy->m_uniqueId : 0);
-        if (contact.plant->new_for > 0 && contact.other->isStaticObject() && contact.gap < 0) {
+        const bool stands = contact.other->isStaticOrKinematicObject() && !is_moving(*contact.other);
+        if (contact.plant->new_for > 0 && stands && contact.gap < 0) {
             if (!grown_in) grown_in = std::make_unique<GrownIn>();
             (*grown_in)[key] = std::max((*grown_in)[key], -contact.gap);
         }

@@ -1,0 +1,47 @@
+// Guard: what is noticed of a step that no plant can have taken, and what is done about it. A healthy step pays for the
+// looks at how far its nodes went, nothing else.
+#pragma once
+
+#include "core/types.hpp"
+
+namespace frond {
+
+struct Plant;
+struct SolveSettings;
+
+// Farthest way of a place in the running step [m]; infinite where it is no number.
+double farthest_way(const Plant& plant);
+// Whether something ended a step of h [s] far from where it was heading when the step began: a place by more than 0.02 of
+// the plant's size, the rotation of a chain's node by more than 0.2.
+bool ends_off_course(const Plant& plant, double h);
+// How far a place was from where it is modelled when the step began [m].
+double reach_at_start(const Plant& plant);
+
+struct StepEnergy {
+    double own;     // kinetic and elastic [J]
+    double loaded;  // with that of weight, forces and springs, which do not change within a step
+};
+// Under the loads of the running step. Springs that hold pins are as stiff as what cannot move.
+enum class Held { BY_GRABS, BY_PINS_TOO };
+StepEnergy energy_at(const Plant& plant, const VecX& x, const VecX& v, Held held);
+// After a solve over h [s] from x_good and v_good: whether the plant has more energy than it had, and than forces, springs
+// and pins that move can have given it. Not told, false, in the air and in touch with bodies, which may give any: what is
+// pressed springs far in the solve that knows of no contact.
+bool has_gained_energy(const Plant& plant, double h);
+
+// Before a solve: a plant whose pins are put farther away than it is long goes along with them, as it is.
+void jump_with_pins(Plant& plant);
+
+// In a step: stronger damping, while the plant recovers.
+void damp_recovering(const Plant& plant, SolveSettings& settings);
+// After a step of h [s]: begins, keeps up and ends recovery from shapes to which nothing can have bent the plant.
+void watch_recovery(Plant& plant, double h);
+
+// Whether tets are; never where a chain moves.
+bool is_inside_out(const Plant& plant);
+// After a step: whether the plant rests with tets inside out.
+bool is_caught_inside_out(const Plant& plant, double h);
+// Puts it into its modelled shape, at rest, if that has less potential energy; false if not.
+bool start_from_modelled(Plant& plant);
+
+}  // namespace frond

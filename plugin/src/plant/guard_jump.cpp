@@ -1,0 +1,30 @@
+// In: a plant whose pins were moved. Out: the plant carried along, if they were put somewhere else altogether.
+//
+// No step of elastic mechanics leads there: it was rewound in every step, and the plant stayed behind for ever.
+#include "plant/guard.hpp"
+#include "plant/plant.hpp"
+
+namespace frond {
+
+void jump_with_pins(Plant& plant) {
+    constexpr double JUMP = 1;  // of what holds it, within a step, in sizes of the plant [-]
+    Motion& motion = plant.motion;
+    Vec3 sum = Vec3::Zero();
+    double count = 0;
+    const auto add = [&](const Vec3& way) {
+        sum += way;
+        count++;
+    };
+    const int next = plant.follow ? 2 : 1;
+    for (int i = 0; i < int(motion.pinned.size()); i += next)
+        if (motion.pinned[size_t(i)]) add(point(motion.pin_target, i) - point(motion.x, i));
+    for (const Spring& spring : plant.pin_springs) add(spring.target - grip_place(spring.grip, motion.x));
+    if (count == 0 || !(sum.norm() > JUMP * double(plant.size) * count)) return;
+    const Vec3 way = sum / count;
+    for (int i = 0; i < motion.x.size() / 3; i += next) point(motion.x, i) += way;
+    motion.history.valid = false;
+    plant.x_good = motion.x;
+    update_chain(plant);
+}
+
+}  // namespace frond

@@ -1,0 +1,118 @@
+// Snapshot: all that steps change in a world, apart from the objects that it belongs to. Things name each other by their
+// place: plants in the world, bodies among Bullet's collision objects.
+#pragma once
+
+#include "world/archive.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+struct SavedContact {
+    int plant, capsule, other;
+    double along, across, gap, friction;
+    Vec3 on_plant, on_other, normal, impulse;
+};
+struct SavedPlantContact {
+    std::array<int, 2> plants;
+    PlantContact contact;  // its plants are not told
+};
+struct SavedTouches {
+    std::vector<SavedContact> with_bodies;
+    std::vector<SavedPlantContact> with_plants;
+};
+
+struct SavedGrownIn {
+    int capsule, other;
+    double depth;
+};
+struct SavedFragment {
+    int node;
+    Mat3 turn;
+    Vec3 shift, centre, velocity, spin;
+};
+struct SavedSwing {
+    std::array<double, 2> place, speed, rest, damping;
+    double since;
+    bool comes_to_rest, fresh;
+    Fade fade;
+};
+
+struct SavedPlant {
+    uint64_t kind;  // of its model, place and settings: those of the plant that it fits
+    frond_mechanics which;
+    Motion motion;
+    Trend trend;
+    Fade fade;
+    double lead;
+    std::vector<SavedSwing> swing;  // none or one
+    bool has_own_elements;
+    std::vector<double> lasting, fibre_give;
+    std::vector<uint8_t> pinned;
+    VecX pin_target;
+    std::vector<int> anchor;
+    bool pins_changed, pins_are_own, has_user_force, is_touched, is_entangled;
+    VecX user_force;
+    int substeps;
+    float recovers_for;
+    std::vector<Vec3> grab_targets;
+    std::vector<SavedFragment> fragments;
+    // Of its body.
+    int new_for;
+    bool asleep;
+    double still;
+    VecX places;
+    Vec3 air;
+    Level level;
+    std::vector<SavedGrownIn> grown_in;
+    SavedTouches asleep_with;
+};
+
+struct SavedRigid {
+    bool is_plane, is_fragment;
+    std::array<btScalar, 12> frame, frame_before;  // basis by rows, origin
+    std::array<btScalar, 3> velocity, spin, velocity_before, spin_before, force, torque;
+    int activation;
+    btScalar still;
+};
+struct SavedAhead {
+    int body;
+    std::array<btScalar, 3> force;
+};
+struct SavedBond {
+    int vertex;
+    Vec3 impulse;
+    double length;
+};
+
+struct Snapshot {
+    double time, travelled;
+    uint64_t turn, substep;
+    Vec3 gravity_before;
+    frond_effects effects_before;
+    bool is_held;
+    std::vector<SavedPlant> plants;
+    std::vector<SavedRigid> rigids;
+    std::vector<SavedBond> bonds;
+    std::vector<SavedAhead> ahead;
+    SavedTouches touches;
+};
+
+// What the world is now. Sleeping plants are looked at.
+Snapshot take_snapshot(World& world);
+// Throws BAD_ARGUMENT or FILE_FORMAT, with nothing changed, if it does not fit the world.
+void check_snapshot(World& world, const Snapshot& snapshot);
+void put_snapshot(World& world, Snapshot snapshot);
+// Of a plant's model, place and settings.
+uint64_t kind_of(const Plant& plant);
+
+// With a head that tells version and precision, and a checksum.
+std::vector<uint8_t> bytes_of(Snapshot& snapshot);
+Snapshot snapshot_from(const uint8_t* bytes, size_t count);
+
+// Bullet forgets which pairs and points it knows, so that what follows depends on where things are and on nothing else.
+// In a world of Frond's own only.
+void find_contacts_anew(World& world);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

@@ -1,0 +1,159 @@
+// In: a snapshot, or bytes that were one. Out: the other. Layout: magic word, version, precision, length and checksum of
+// what follows; then everything in the order below, in the machine's own byte order.
+#include <cstring>
+
+#include "core/error.hpp"
+#include "world/snapshot.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+static void visit(Archive& a, SavedContact& c) {
+    a(c.plant), a(c.capsule), a(c.other), a(c.along), a(c.across), a(c.gap), a(c.friction);
+    a(c.on_plant), a(c.on_other), a(c.normal), a(c.impulse);
+}
+
+static void visit_side(Archive& a, ContactSide& side) {
+    a(side.body), a(side.organ), a(side.piece), a(side.node_count), a(side.nodes), a(side.weights);
+}
+
+static void visit_grip(Archive& a, Grip& grip) {
+    a(grip.count), a(grip.turns), a(grip.node), a(grip.weight), a(grip.arm);
+}
+
+static void visit(Archive& a, SavedPlantContact& saved) {
+    PlantContact& c = saved.contact;
+    a(saved.plants);
+    for (ContactSide& side : c.sides) visit_side(a, side);
+    for (Grip& grip : c.grips) visit_grip(a, grip);
+    a(c.by_sheath), a(c.between), a(c.point), a(c.normal), a(c.depth), a(c.friction), a(c.impulse);
+}
+
+static void visit_touches(Archive& a, SavedTouches& touches) {
+    a(touches.with_bodies), a(touches.with_plants);
+}
+
+static void visit(Archive& a, SavedGrownIn& grown_in) {
+    a(grown_in.capsule), a(grown_in.other), a(grown_in.depth);
+}
+
+static void visit(Archive& a, SavedFragment& fragment) {
+    a(fragment.node), a(fragment.turn), a(fragment.shift), a(fragment.centre), a(fragment.velocity), a(fragment.spin);
+}
+
+static void visit_fade(Archive& a, Fade& fade) {
+    a(fade.offset), a(fade.rate), a(fade.time);
+}
+
+static void visit(Archive& a, SavedSwing& swing) {
+    a(swing.place), a(swing.speed), a(swing.rest), a(swing.damping), a(swing.since), a(swing.comes_to_rest), a(swing.fresh);
+    visit_fade(a, swing.fade);
+}
+
+static void visit_motion(Archive& a, Motion& motion) {
+    History& history = motion.history;
+    a(motion.x), a(motion.v), a(motion.pinned), a(motion.pin_target);
+    a(history.valid), a(history.shaken), a.one_of(history.integrator, FROND_INTEGRATOR_COUNT), a(history.h), a(history.x_end), a(history.v_end);
+    a(history.pinned), a(history.x_prev), a(history.v_prev), a(history.x_rate), a(history.v_rate);
+}
+
+static void visit_level(Archive& a, Level& level) {
+    a.one_of(level.now, FROND_DETAIL_COUNT), a.one_of(level.own, FROND_MECHANICS_COUNT), a(level.every), a(level.pending), a(level.is_due), a(level.distance), a(level.touched);
+}
+
+static void visit(Archive& a, SavedPlant& plant) {
+    a(plant.kind), a.one_of(plant.which, FROND_MECHANICS_COUNT);
+    visit_motion(a, plant.motion);
+    a(plant.trend.v_end), a(plant.trend.rate);
+    visit_fade(a, plant.fade);
+    a(plant.lead), a(plant.swing), a(plant.has_own_elements), a(plant.lasting), a(plant.fibre_give);
+    a(plant.pinned), a(plant.pin_target), a(plant.anchor);
+    a(plant.pins_changed), a(plant.pins_are_own), a(plant.has_user_force), a(plant.is_touched), a(plant.is_entangled);
+    a(plant.user_force), a(plant.substeps), a(plant.recovers_for), a(plant.grab_targets), a(plant.fragments);
+    a(plant.new_for), a(plant.asleep), a(plant.still), a(plant.places), a(plant.air);
+    visit_level(a, plant.level);
+    a(plant.grown_in);
+    visit_touches(a, plant.asleep_with);
+}
+
+static void visit(Archive& a, SavedRigid& rigid) {
+    a(rigid.is_plane), a(rigid.is_fragment), a(rigid.frame), a(rigid.frame_before), a(rigid.velocity), a(rigid.spin);
+    a(rigid.velocity_before), a(rigid.spin_before), a(rigid.force), a(rigid.torque), a(rigid.activation), a(rigid.still);
+}
+
+static void visit(Archive& a, SavedAhead& ahead) {
+    a(ahead.body), a(ahead.force);
+}
+
+static void visit(Archive& a, SavedBond& bond) {
+    a(bond.vertex), a(bond.impulse), a(bond.length);
+}
+
+static void visit_all(Archive& a, Snapshot& s) {
+    a(s.time), a(s.travelled), a(s.turn), a(s.substep), a(s.gravity_before), a(s.effects_before), a(s.is_held);
+    a(s.plants), a(s.rigids), a(s.bonds), a(s.ahead);
+    visit_touches(a, s.touches);
+}
+
+namespace {
+
+constexpr char MAGIC[8] = {'F', 'R', 'O', 'N', 'D', 'S', 'N', 'P'};
+constexpr uint32_t LAYOUT = 1;  // to be raised with every change above
+
+struct Head {
+    char magic[8];
+    char version[16];  // of Frond: what steps do may change with it
+    uint32_t layout, precision;
+    uint64_t length, checksum;
+};
+
+Head head_of(const uint8_t* bytes, size_t count) {
+    Head head = {};
+    std::memcpy(head.magic, MAGIC, sizeof MAGIC);
+    std::strncpy(head.version, FROND_VERSION, sizeof head.version - 1);
+    head.layout = LAYOUT;
+    head.precision = sizeof(btScalar);
+    head.length = count;
+    head.checksum = checksum_of(bytes, count);
+    return head;
+}
+
+}  // namespace
+
+std::vector<uint8_t> bytes_of(Snapshot& snapshot) {
+    Archive archive;
+    visit_all(archive, snapshot);
+    const Head head = head_of(archive.out.data(), archive.out.size());
+    const auto* first = reinterpret_cast<const uint8_t*>(&head);
+    archive.out.insert(archive.out.begin(), first, first + sizeof head);
+    return std::move(archive.out);
+}
+
+Snapshot snapshot_from(const uint8_t* bytes, size_t count) {
+    Head head;
+    if (count < sizeof head)
+        fail(FROND_FILE_FORMAT, "the snapshot has %zu bytes, less than its head; pass all of it", count);
+    std::memcpy(&head, bytes, sizeof head);
+    bytes += sizeof head;
+    count -= sizeof head;
+    if (std::memcmp(head.magic, MAGIC, sizeof MAGIC) != 0)
+        fail(FROND_FILE_FORMAT, "this is no snapshot; pass what frond_world_save wrote");
+    if (head.length != count)
+        fail(FROND_FILE_FORMAT, "the snapshot says %llu bytes and has %zu; pass all of it and no more",
+             static_cast<unsigned long long>(head.length), count);
+    const Head own = head_of(bytes, count);
+    if (std::memcmp(head.version, own.version, sizeof own.version) != 0 || head.layout != own.layout)
+        fail(FROND_FILE_FORMAT, "the snapshot is of another version of Frond than " FROND_VERSION "; save it anew with this one");
+    if (head.precision != own.precision)
+        fail(FROND_FILE_FORMAT, "the snapshot is of a Bullet of %u bytes a number, this one has %u", head.precision,
+             own.precision);
+    if (head.checksum != own.checksum) fail(FROND_FILE_FORMAT, "the snapshot is damaged; its checksum differs");
+    Archive archive(bytes, count);
+    Snapshot snapshot;
+    visit_all(archive, snapshot);
+    if (!archive.is_at_end()) fail(FROND_FILE_FORMAT, "the snapshot is longer than what it holds; it is damaged");
+    return snapshot;
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

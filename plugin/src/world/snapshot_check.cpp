@@ -1,0 +1,207 @@
+// In: a snapshot that was read, and a world. Out: nothing, or an Error if the one does not fit the other. After this
+// nothing of the snapshot can lead outside what the world has.
+#include <cmath>
+
+#include "core/error.hpp"
+#include "world/is_in.hpp"
+#include "world/snapshot.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+[[noreturn]] void damaged(const char* what) {
+    fail(FROND_FILE_FORMAT, "the snapshot's %s cannot be; it is damaged", what);
+}
+
+void check_count(size_t saved, size_t own, const char* what) {
+    if (saved != own)
+        fail(FROND_BAD_ARGUMENT, "the snapshot has %zu %s, this world %zu; restore into a world with the same ones", saved, what,
+             own);
+}
+
+void check_size(const VecX& numbers, Eigen::Index size, const char* what, bool may_be_empty = false) {
+    if (numbers.size() != size && !(may_be_empty && numbers.size() == 0)) damaged(what);
+    if (!numbers.allFinite()) damaged(what);
+}
+
+template <class List>
+void check_finite(const List& numbers, const char* what) {
+    for (const auto& value : numbers)
+        if (!std::isfinite(double(value))) damaged(what);
+}
+
+void check_index(int index, size_t count, const char* what) {
+    if (index < 0 || size_t(index) >= count) damaged(what);
+}
+
+// The mechanics that a plant is to have, which need not be those that it has.
+struct Becomes {
+    std::shared_ptr<const System> system;
+    const Mechanics* row;
+    Eigen::Index numbers;  // of places
+};
+Becomes becomes(const Plant& plant, frond_mechanics which) {
+    const auto system = which == plant.which ? plant.system : make_system(plant.model, which, plant.mass, plant.nodes->order);
+    return {system, &mechanics(which, plant.nodes->order), 3 * Eigen::Index(elements_of(*system).node_count)};
+}
+
+void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& touches) {
+    const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
+    for (const SavedContact& c : touches.with_bodies) {
+        check_index(c.plant, world.bodies.size(), "contacts");
+        check_index(c.capsule, world.bodies[size_t(c.plant)]->capsules().size(), "contacts");
+        check_index(c.other, size_t(objects.size()), "contacts");
+        if (PlantBody::of(objects[c.other])) damaged("contacts");
+        for (const Vec3& v : {c.on_plant, c.on_other, c.normal, c.impulse}) check_finite(std::array{v.x(), v.y(), v.z()}, "contacts");
+        check_finite(std::array{c.along, c.across, c.gap, c.friction}, "contacts");
+    }
+    for (const SavedPlantContact& saved : touches.with_plants) {
+        const PlantContact& c = saved.contact;
+        for (size_t k = 0; k < 2; k++) {
+            check_index(saved.plants[k], world.bodies.size(), "contacts of plants");
+            const Plant& plant = *world.bodies[size_t(saved.plants[k])]->plant;
+            const ContactSide& side = c.sides[k];
+            if (side.node_count < 0 || side.node_count > 4) damaged("contacts of plants");
+            const size_t nodes = c.by_sheath[k] ? size_t(sheath_of(plant)->collider.node_count) : plant.model->cage.nodes.size();
+            for (int i = 0; i < side.node_count; i++) check_index(side.nodes[size_t(i)], nodes, "contacts of plants");
+            check_index(side.piece, plant.model->capsules.size(), "contacts of plants");
+            const frond_mechanics which = snapshot.plants[size_t(saved.plants[k])].which;
+            if (!is_sound(c.grips[k], int(becomes(plant, which).numbers / 3))) damaged("contacts of plants");
+            check_finite(side.weights, "contacts of plants");
+        }
+        for (const Vec3& v : {c.between, c.point, c.normal, c.impulse}) check_finite(std::array{v.x(), v.y(), v.z()}, "contacts");
+        check_finite(std::array{c.depth, c.friction}, "contacts of plants");
+    }
+}
+
+void check_motion(const SavedPlant& saved, const Becomes& becomes) {
+    const Motion& motion = saved.motion;
+    const History& history = motion.history;
+    for (const VecX* numbers : {&motion.x, &motion.v, &motion.pin_target}) check_size(*numbers, becomes.numbers, "motion");
+    if (motion.pinned.size() * 3 != size_t(becomes.numbers)) damaged("motion");
+    // What a step does not look back on may be of other mechanics.
+    for (const VecX* numbers : {&history.x_end, &history.v_end, &history.x_prev, &history.v_prev})
+        check_size(*numbers, history.valid ? becomes.numbers : numbers->size(), "history");
+    const bool has_rates = history.valid && history.integrator == FROND_GENERALIZED_ALPHA;
+    for (const VecX* numbers : {&history.x_rate, &history.v_rate})
+        check_size(*numbers, has_rates ? becomes.numbers : numbers->size(), "history");
+    if (history.valid && !(history.h > 0 && std::isfinite(history.h))) damaged("history");
+    check_size(saved.trend.v_end, saved.trend.v_end.size(), "trend");
+    check_size(saved.trend.rate, saved.trend.v_end.size(), "trend");
+    check_size(saved.places, saved.places.size(), "rest");
+}
+
+void check_fade(const Fade& fade, Eigen::Index numbers) {
+    check_size(fade.offset, numbers, "fade", true);
+    check_size(fade.rate, fade.offset.size(), "fade");
+    check_finite(std::array{fade.time}, "fade");
+}
+
+void check_fragments(const SavedPlant& saved, const PlantBody& body) {
+    const Plant& plant = *body.plant;
+    bool alike = saved.fragments.size() == plant.fragments.size();
+    for (size_t i = 0; alike && i < saved.fragments.size(); i++) alike = saved.fragments[i].node == plant.fragments[i].node;
+    if (!alike)
+        fail(FROND_BAD_ARGUMENT, "plant %d is not broken at the capsules at which it was; call frond_plant_mend and "
+             "frond_plant_break first", body.index);
+    for (const SavedFragment& f : saved.fragments) {
+        check_finite(std::vector<double>(f.turn.data(), f.turn.data() + 9), "fragments");
+        for (const Vec3& v : {f.shift, f.centre, f.velocity, f.spin}) check_finite(std::array{v.x(), v.y(), v.z()}, "fragments");
+    }
+    if (!plant.fragments.empty() && (saved.which != plant.which || !saved.swing.empty()))
+        fail(FROND_BAD_ARGUMENT, "plant %d is broken and had other mechanics; call frond_plant_set_mechanics first", body.index);
+}
+
+void check_lasting(const SavedPlant& saved, const Becomes& becomes) {
+    check_finite(saved.lasting, "lasting shape");
+    if (saved.lasting.empty()) return;
+    const auto own = becomes.row->copy(elements_of(*becomes.system));
+    if (!saved.has_own_elements || becomes.row->get_lasting(*own).size() != saved.lasting.size()) damaged("lasting shape");
+}
+
+void check_pins(const SavedPlant& saved, const Plant& plant) {
+    const size_t nodes = size_t(node_count_of(plant));
+    check_size(saved.pin_target, 3 * Eigen::Index(nodes), "pins");
+    if (saved.pinned.size() != nodes || saved.anchor.size() != nodes) damaged("pins");
+    for (int anchor : saved.anchor) check_index(anchor, plant.model->chain.nodes.size(), "pins");
+    check_size(saved.user_force, 3 * Eigen::Index(nodes), "forces", !saved.has_user_force);
+}
+
+void check_plant(const World& world, const SavedPlant& saved, const PlantBody& body) {
+    const Plant& plant = *body.plant;
+    const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
+    if (saved.kind != kind_of(plant))
+        fail(FROND_BAD_ARGUMENT, "plant %d is of another model, place or setting than in the snapshot; make the same plants in "
+             "the same order", body.index);
+    check_count(saved.grab_targets.size(), plant.grabs.size(), "grabs on a plant");
+    check_fragments(saved, body);
+    const Becomes become = becomes(plant, saved.which);
+    check_motion(saved, become);
+    check_lasting(saved, become);
+    check_pins(saved, plant);
+    check_fade(saved.fade, 3 * Eigen::Index(node_count_of(plant)));
+    check_finite(saved.fibre_give, "fibres");
+    if (saved.swing.size() > 1 || (!saved.swing.empty() && !mechanics(saved.which, plant.nodes->order).moves_chain))
+        damaged("sway");
+    for (const SavedSwing& swing : saved.swing) {
+        for (const auto* pair : {&swing.place, &swing.speed, &swing.rest, &swing.damping}) check_finite(*pair, "sway");
+        check_finite(std::array{swing.since}, "sway");
+        check_fade(swing.fade, become.numbers);
+    }
+    for (const Vec3& target : saved.grab_targets) check_finite(std::array{target.x(), target.y(), target.z()}, "grabs");
+    if (saved.substeps < 1 || saved.substeps > plant.max_substeps) damaged("substeps");
+    if (saved.level.every < 1 || saved.level.every > 64) damaged("detail");
+    check_finite(std::array{saved.lead, double(saved.recovers_for), saved.still, saved.air.x(), saved.air.y(), saved.air.z(),
+                            saved.level.pending, saved.level.distance, saved.level.touched}, "plants");
+    for (const SavedGrownIn& grown_in : saved.grown_in) {
+        check_index(grown_in.capsule, body.capsules().size(), "ground");
+        check_index(grown_in.other, size_t(objects.size()), "ground");
+        if (!(grown_in.depth >= 0)) damaged("ground");
+    }
+}
+
+void check_rigid(const SavedRigid& saved, const Rigid& own) {
+    if (saved.is_plane != own.is_plane || saved.is_fragment != (own.grown_on != nullptr))
+        fail(FROND_BAD_ARGUMENT, "the rigid bodies are others than in the snapshot; make the same ones in the same order");
+    for (const auto* frame : {&saved.frame, &saved.frame_before}) check_finite(*frame, "rigid bodies");
+    for (const auto* v : {&saved.velocity, &saved.spin, &saved.velocity_before, &saved.spin_before, &saved.force, &saved.torque})
+        check_finite(*v, "rigid bodies");
+    if (saved.activation < ACTIVE_TAG || saved.activation > DISABLE_SIMULATION || !std::isfinite(double(saved.still)))
+        damaged("rigid bodies");
+}
+
+}  // namespace
+
+void check_snapshot(World& world, const Snapshot& snapshot) {
+    check_count(snapshot.plants.size(), world.bodies.size(), "plants");
+    check_count(snapshot.rigids.size(), world.rigids.size(), "rigid bodies");
+    check_count(snapshot.bonds.size(), world.bonds.size(), "bonds");
+    check_finite(std::array{snapshot.time, snapshot.travelled, snapshot.gravity_before.x(), snapshot.gravity_before.y(),
+                            snapshot.gravity_before.z()}, "time");
+    for (size_t i = 0; i < snapshot.plants.size(); i++) {
+        check_plant(world, snapshot.plants[i], look_at(*world.bodies[i]));
+        check_touches(world, snapshot, snapshot.plants[i].asleep_with);
+    }
+    fold_looked_at(world);
+    check_touches(world, snapshot, snapshot.touches);
+    for (size_t i = 0; i < snapshot.rigids.size(); i++) check_rigid(snapshot.rigids[i], *world.rigids[i]);
+    size_t i = 0;
+    for (const Bond& bond : world.bonds) {
+        const SavedBond& saved = snapshot.bonds[i++];
+        if (saved.vertex != bond.vertex)
+            fail(FROND_BAD_ARGUMENT, "a bond holds another point than in the snapshot; make the same bonds in the same order");
+        check_finite(std::array{saved.impulse.x(), saved.impulse.y(), saved.impulse.z(), saved.length}, "bonds");
+        if (!(saved.length > 0)) damaged("bonds");
+    }
+    const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
+    for (const SavedAhead& ahead : snapshot.ahead) {
+        check_index(ahead.body, size_t(objects.size()), "gravity");
+        if (!btRigidBody::upcast(objects[ahead.body])) damaged("gravity");
+        check_finite(ahead.force, "gravity");
+    }
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

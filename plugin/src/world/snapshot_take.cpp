@@ -1,0 +1,162 @@
+// In: a world. Out: a snapshot of it.
+#include <algorithm>
+
+#include "world/snapshot.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+// Where a body is among Bullet's objects; -1: it has gone.
+int place_of(const World& world, const btCollisionObject* object) {
+    const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
+    for (int i = 0; i < objects.size(); i++)
+        if (objects[i] == object) return i;
+    return -1;
+}
+
+std::array<btScalar, 3> numbers_of(const btVector3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+std::array<btScalar, 12> numbers_of(const btTransform& frame) {
+    std::array<btScalar, 12> numbers;
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) numbers[size_t(3 * row + column)] = frame.getBasis()[row][column];
+    for (int i = 0; i < 3; i++) numbers[size_t(9 + i)] = frame.getOrigin()[i];
+    return numbers;
+}
+
+SavedTouches take_touches(const World& world, const std::vector<Contact>& with_bodies,
+                          const std::vector<PlantContact>& with_plants) {
+    SavedTouches touches;
+    for (const Contact& c : with_bodies) {
+        const int other = place_of(world, c.other);
+        if (other < 0) continue;
+        touches.with_bodies.push_back({c.plant->index, c.capsule, other, c.along, c.across, c.gap, c.friction, c.on_plant,
+                                       c.on_other, c.normal, c.impulse});
+    }
+    for (const PlantContact& c : with_plants) touches.with_plants.push_back({{c.plants[0]->index, c.plants[1]->index}, c});
+    return touches;
+}
+
+void take_swing(const Swing& swing, SavedPlant& saved) {
+    saved.swing.push_back({swing.place, swing.speed, swing.rest, swing.damping, swing.since, swing.comes_to_rest, swing.fresh,
+                           swing.fade});
+}
+
+SavedPlant take_plant(const World& world, const PlantBody& body) {
+    const Plant& plant = *body.plant;
+    SavedPlant saved = {};
+    saved.kind = kind_of(plant);
+    saved.which = plant.which;
+    saved.motion = plant.motion;
+    saved.trend = plant.trend;
+    saved.fade = plant.fade;
+    saved.lead = plant.lead;
+    if (plant.swing) take_swing(*plant.swing, saved);
+    saved.has_own_elements = plant.own_elements != nullptr;
+    saved.lasting = lasting_of(plant);
+    saved.fibre_give = plant.fibre_give;
+    saved.pinned = plant.pinned;
+    saved.pin_target = plant.pin_target;
+    saved.anchor = plant.anchor;
+    saved.pins_changed = plant.pins_changed;
+    saved.pins_are_own = plant.pins_are_own;
+    saved.has_user_force = plant.has_user_force;
+    saved.user_force = plant.user_force;
+    saved.is_touched = plant.is_touched;
+    saved.is_entangled = plant.is_entangled;
+    saved.substeps = plant.substeps;
+    saved.recovers_for = plant.recovers_for;
+    for (const Grab& grab : plant.grabs) saved.grab_targets.push_back(grab.target);
+    for (const Fragment& f : plant.fragments)
+        saved.fragments.push_back({f.node, f.turn, f.shift, f.centre, f.velocity, f.spin});
+
+    saved.new_for = body.new_for;
+    saved.asleep = body.rest.asleep;
+    saved.still = body.rest.still;
+    saved.places = body.rest.places;
+    saved.air = body.rest.air;
+    saved.level = body.level;
+    if (body.rest.contacts)
+        saved.asleep_with = take_touches(world, body.rest.contacts->with_bodies, body.rest.contacts->with_plants);
+    if (!body.grown_in) return saved;
+    for (const auto& [key, depth] : *body.grown_in) {
+        const auto& [capsule, object, number] = key;
+        const int other = place_of(world, object);
+        if (other >= 0 && object->getBroadphaseHandle() && object->getBroadphaseHandle()->m_uniqueId == number)
+            saved.grown_in.push_back({capsule, other, depth});
+    }
+    // The map is ordered by addresses, which differ from run to run.
+    std::sort(saved.grown_in.begin(), saved.grown_in.end(), [](const SavedGrownIn& a, const SavedGrownIn& b) {
+        return std::make_pair(a.capsule, a.other) < std::make_pair(b.capsule, b.other);
+    });
+    return saved;
+}
+
+SavedRigid take_rigid(const Rigid& rigid) {
+    const btRigidBody& body = *rigid.body;
+    return {rigid.is_plane,
+            rigid.grown_on != nullptr,
+            numbers_of(body.getWorldTransform()),
+            numbers_of(body.getInterpolationWorldTransform()),
+            numbers_of(body.getLinearVelocity()),
+            numbers_of(body.getAngularVelocity()),
+            numbers_of(body.getInterpolationLinearVelocity()),
+            numbers_of(body.getInterpolationAngularVelocity()),
+            numbers_of(body.getTotalForce()),
+            numbers_of(body.getTotalTorque()),
+            body.getActivationState(),
+            body.getDeactivationTime()};
+}
+
+}  // namespace
+
+uint64_t kind_of(const Plant& plant) {
+    uint64_t hash = 0;
+    const auto add = [&](const void* bytes, size_t size) {
+        hash = hash * 31 + checksum_of(static_cast<const uint8_t*>(bytes), size);
+    };
+    const Model& model = *plant.model;
+    const SolveSettings& s = plant.settings;
+    add(model.cage.nodes.data(), model.cage.nodes.size() * sizeof(Vec3));
+    add(model.cage.tets.data(), model.cage.tets.size() * sizeof(Tet));
+    for (const ChainNode& node : model.chain.nodes) add(node.position.data(), sizeof(Vec3));
+    const double mass = model.mass();
+    add(&mass, sizeof mass);
+    add(plant.position.data(), sizeof(Vec3));
+    add(plant.rotation.coeffs().data(), 4 * sizeof(double));
+    const int choices[] = {int(s.integrator), int(s.linear_solver), int(plant.mass), plant.nodes->order, s.newton_iterations,
+                           s.max_iterations, plant.max_substeps};
+    add(choices, sizeof choices);
+    const double numbers[] = {s.newton_tolerance,  s.tolerance,           s.mass_damping,      s.stiffness_damping,
+                              s.spectral_radius, plant.material_damping, plant.substep_tolerance};
+    add(numbers, sizeof numbers);
+    return hash;
+}
+
+Snapshot take_snapshot(World& world) {
+    Snapshot snapshot = {};
+    snapshot.time = world.time;
+    snapshot.travelled = world.wind ? world.wind->travelled : 0;
+    snapshot.turn = world.turn;
+    snapshot.substep = world.substep;
+    snapshot.gravity_before = world.gravity_before;
+    snapshot.effects_before = world.effects_before;
+    snapshot.is_held = world.gravity_ahead.is_held;
+    for (const auto& body : world.bodies) snapshot.plants.push_back(take_plant(world, look_at(*body)));
+    fold_looked_at(world);
+    for (const auto& rigid : world.rigids) snapshot.rigids.push_back(take_rigid(*rigid));
+    for (const Bond& bond : world.bonds) snapshot.bonds.push_back({bond.vertex, bond.impulse, bond.length});
+    for (const GravityAhead::Held& held : world.gravity_ahead.bodies) {
+        const int body = place_of(world, held.body);
+        if (body >= 0) snapshot.ahead.push_back({body, numbers_of(held.force)});
+    }
+    snapshot.touches = take_touches(world, world.contacts, world.plant_contacts);
+    return snapshot;
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

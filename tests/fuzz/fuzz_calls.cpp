@@ -1,0 +1,227 @@
+// Target: calls of the C API in any order with any arguments.
+#include "fuzz/input.hpp"
+
+using namespace frond::fuzz;
+
+namespace {
+
+// Handles that are good, gone and made up.
+struct Stage {
+    Input& input;
+    frond_model model = {};
+    frond_world world = {};
+    std::vector<frond_plant> plants;
+    std::vector<frond_grab> grabs;
+    std::vector<frond_rigid> rigids;
+    std::vector<frond_bond> bonds;
+    std::vector<uint8_t> snapshot;
+
+    template <class Handle>
+    Handle any(const std::vector<Handle>& list) {
+        if (list.empty() || input.byte() >= 250) return {input.raw<uint64_t>()};
+        return list[size_t(input.below(int(list.size())))];
+    }
+    frond_plant plant() { return any(plants); }
+    int node() { return input.integer(); }
+};
+
+frond_model shared_model() {
+    static const frond_model model = [] {
+        frond_set_log(nullptr, nullptr);
+        const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.3, 0}, 0.02, 0.015}, {0, {0, 0.3, 0}, {0.15, 0.5, 0}, 0.012, 0.006}};
+        frond_model_def def = frond_default_model_def();
+        def.cage_size = 0.1;
+        frond_model made = {};
+        require(frond_model_from_stems(stems, 2, &def, &made) == FROND_OK, "no model");
+        return made;
+    }();
+    return model;
+}
+
+void create_plant(Stage& s) {
+    frond_plant_def def = frond_default_plant_def();
+    def.position = {0.1 * s.input.below(5), 0, 0.1 * s.input.below(3)};
+    def.mechanics = frond_mechanics(s.input.below(FROND_MECHANICS_COUNT));
+    def.integrator = frond_integrator(s.input.below(FROND_INTEGRATOR_COUNT));
+    def.linear_solver = frond_linear_solver(s.input.below(FROND_LINEAR_SOLVER_COUNT));
+    def.starts_asleep = s.input.below(4) == 0;
+    if (s.input.below(4) == 0) def.root_height = -1;
+    if (s.input.below(8) == 0) def.position = s.input.vec();
+    if (s.input.below(8) == 0) def.max_substeps = s.input.integer();
+    if (s.input.below(8) == 0) def.effects = s.input.raw<uint32_t>();
+    if (s.input.below(8) == 0) def.mass_damping = s.input.number();
+    if (s.plants.size() >= 4) return;
+    frond_plant plant = {};
+    if (frond_plant_create(s.world, s.model, &def, &plant) == FROND_OK) s.plants.push_back(plant);
+}
+
+void create_rigid(Stage& s) {
+    frond_rigid_def def = frond_default_rigid_def();
+    def.shape = frond_shape(s.input.below(FROND_SHAPE_COUNT));
+    def.mass = s.input.number();
+    def.state.position = s.input.vec();
+    def.state.velocity = s.input.vec();
+    def.size = {std::fabs(s.input.number()), 0.1, 0.1};
+    if (s.rigids.size() >= 6) return;
+    frond_rigid rigid = {};
+    if (frond_rigid_create(s.world, &def, &rigid) == FROND_OK) s.rigids.push_back(rigid);
+}
+
+void set_rigid(Stage& s) {
+    frond_rigid_state state = {};
+    const frond_rigid rigid = s.any(s.rigids);
+    frond_rigid_get_state(rigid, &state);
+    state.position = s.input.vec();
+    state.velocity = s.input.vec();
+    frond_rigid_set_state(rigid, &state);
+}
+
+void set_state(Stage& s) {
+    const frond_plant plant = s.plant();
+    const int count = frond_plant_get_node_count(plant);
+    std::vector<double> x(3 * size_t(count) + 3), v(x.size());
+    frond_plant_get_state(plant, x.data(), v.data(), count);
+    for (double& value : s.input.below(2) ? x : v)
+        if (s.input.below(3) == 0) value += s.input.number();
+    frond_plant_set_state(plant, x.data(), v.data(), s.input.byte() < 250 ? count : s.input.integer());
+}
+
+void set_wind(Stage& s) {
+    frond_wind_def wind = frond_default_wind_def();
+    wind.velocity = s.input.vec();
+    wind.turbulence = s.input.number();
+    wind.profile = frond_wind_profile(s.input.below(FROND_WIND_PROFILE_COUNT));
+    frond_world_set_wind(s.world, s.input.below(4) ? &wind : nullptr);
+}
+
+void set_detail(Stage& s) {
+    frond_detail_def def = frond_default_detail_def();
+    def.rod_from = s.input.number();
+    def.by_size = s.input.below(2) != 0;
+    if (s.input.below(2)) frond_world_set_detail(s.world, s.input.below(3) ? &def : nullptr);
+    frond_world_set_viewer(s.world, s.input.vec());
+}
+
+void save_or_restore(Stage& s) {
+    if (s.snapshot.empty() || s.input.below(2)) {
+        s.snapshot.resize(frond_world_get_snapshot_size(s.world));
+        require(frond_world_save(s.world, s.snapshot.data(), s.snapshot.size()) == FROND_OK, "not saved");
+        require(frond_world_restore(s.world, s.snapshot.data(), s.snapshot.size()) == FROND_OK, "not restored");
+        return;
+    }
+    frond_world_restore(s.world, s.snapshot.data(), s.snapshot.size());
+}
+
+void set_lasting(Stage& s) {
+    const frond_plant plant = s.plant();
+    std::vector<double> values(size_t(frond_plant_get_lasting_count(plant)));
+    frond_plant_get_lasting(plant, values.data(), int(values.size()));
+    for (double& value : values)
+        if (s.input.below(4) == 0) value = s.input.number();
+    frond_plant_set_lasting(plant, values.data(), s.input.byte() < 200 ? int(values.size()) : 0);
+}
+
+void look(Stage& s) {
+    const frond_plant plant = s.plant();
+    frond_surface_view view;
+    frond_energy energy;
+    frond_vec3 vec;
+    frond_ray_hit hit;
+    frond_plant_get_surface(plant, &view);
+    frond_plant_get_energy(plant, &energy);
+    frond_plant_get_tip(plant, &vec);
+    frond_plant_get_air_force(plant, &vec);
+    std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
+    frond_plant_get_contacts(plant, contacts.data(), int(contacts.size()));
+    std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
+    frond_plant_get_capsules(plant, capsules.data(), int(capsules.size()));
+    frond_world_cast_ray(s.world, s.input.vec(), s.input.vec(), s.input.number(), &hit);
+    frond_grab_get(s.any(s.grabs), &vec, nullptr, nullptr);
+    frond_bond_get(s.any(s.bonds), &vec, &vec);
+}
+
+void hold(Stage& s) {
+    frond_grab grab = {};
+    frond_bond bond = {};
+    switch (s.input.below(8)) {
+        case 0:
+            if (frond_grab_create(s.plant(), s.input.vec(), s.input.number() * 100, &grab) == FROND_OK) s.grabs.push_back(grab);
+            break;
+        case 1:
+            frond_grab_move(s.any(s.grabs), s.input.vec());
+            break;
+        case 2:
+            frond_grab_destroy(s.any(s.grabs));
+            break;
+        case 3:
+            if (frond_bond_create(s.plant(), s.input.vec(), s.any(s.rigids), &bond) == FROND_OK) s.bonds.push_back(bond);
+            break;
+        case 4:
+            frond_bond_destroy(s.any(s.bonds));
+            break;
+        case 5:
+            frond_plant_pin(s.plant(), s.node());
+            break;
+        case 6:
+            frond_plant_unpin(s.plant(), s.node());
+            break;
+        default:
+            frond_plant_move_pin(s.plant(), s.node(), s.input.vec());
+    }
+}
+
+void change(Stage& s) {
+    switch (s.input.below(9)) {
+        case 0:
+            frond_plant_set_effects(s.plant(), s.input.raw<uint32_t>() & FROND_ALL_EFFECTS);
+            break;
+        case 1:
+            frond_plant_set_mechanics(s.plant(), frond_mechanics(s.input.below(FROND_MECHANICS_COUNT)));
+            break;
+        case 2:
+            frond_plant_break(s.plant(), s.input.integer());
+            break;
+        case 3:
+            frond_plant_mend(s.plant());
+            break;
+        case 4:
+            frond_plant_wake(s.plant());
+            break;
+        case 5:
+            frond_world_set_gravity(s.world, s.input.vec());
+            break;
+        case 6:
+            frond_world_set_effects(s.world, s.input.raw<uint32_t>());
+            break;
+        case 7:
+            frond_plant_destroy(s.plant());
+            break;
+        default:
+            frond_rigid_destroy(s.any(s.rigids));
+    }
+}
+
+void step(Stage& s) {
+    frond_world_step(s.world, s.input.byte() < 220 ? 1.0 / 60 : s.input.number());
+    for (frond_plant plant : s.plants) require_finite(plant);
+}
+
+using Call = void (*)(Stage&);
+constexpr Call CALLS[] = {create_plant, create_rigid, set_rigid, set_state, set_wind, set_detail, save_or_restore, set_lasting, look,
+                          hold, hold, change, change, step, step, step};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    constexpr int MOST = 60;  // calls
+    Input input = {data, size};
+    Stage stage = {input, shared_model(), {}, {}, {}, {}, {}, {}};
+    frond_world_def def = frond_default_world_def();
+    def.response = frond_response(input.below(FROND_RESPONSE_COUNT));
+    require(frond_world_create(&def, &stage.world) == FROND_OK, "no world");
+    create_plant(stage);
+    for (int i = 0; i < MOST && !input.is_empty(); i++)
+        CALLS[size_t(input.below(int(sizeof CALLS / sizeof *CALLS)))](stage);
+    frond_world_destroy(stage.world);
+    return 0;
+}

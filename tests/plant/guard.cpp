@@ -1,0 +1,152 @@
+// Guards: what no plant can have come to is noticed, and led back from; what it can have come to is left alone.
+#include "plant/guard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "plant/plant.hpp"
+#include "support/materials.hpp"
+#include "support/model_def.hpp"
+
+namespace frond::test {
+namespace {
+
+constexpr double H = 1.0 / 60;
+
+std::shared_ptr<const Model> stem_model() {
+    static const std::shared_ptr<const Model> model = [] {
+        const frond_stem stem = {-1, {0, 0, 0}, {0, 0.6, 0}, 0.012, 0.01};
+        frond_material material = plain_material(800, 5e7, 0.3, 1e-3);
+        material.yield_strain = 0.02;
+        const frond_organ_material organ = {"stem", material};
+        frond_model_def def = model_def();
+        def.cage_size = 0.08;
+        def.organs = &organ;
+        def.organ_count = 1;
+        return build_from_stems(&stem, 1, def);
+    }();
+    return model;
+}
+
+std::unique_ptr<Plant> stem(frond_mechanics which) {
+    frond_plant_def def = plant_def(which);
+    def.integrator = FROND_BDF2;
+    return create_plant(stem_model(), def);
+}
+
+Surroundings earth() {
+    Surroundings surroundings;
+    surroundings.gravity = {0, -GRAVITY, 0};
+    return surroundings;
+}
+
+// How far the farthest place is from where it is modelled, in sizes of the plant.
+double away(const Plant& plant) {
+    const VecX& x = plant.motion.x;
+    double most = 0;
+    for (int i = 0; i < x.size() / 3; i += plant.follow ? 2 : 1)
+        most = std::max(most, (point(x, i) - point(elements_of(*plant.system).modelled, i)).norm());
+    return most / double(plant.size);
+}
+
+// Every node of the cage that is free at a random place, by the same call as a host's.
+void scramble(Plant& plant, double far) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(-far, far);
+    std::vector<double> places;
+    for (int i = 0; i < node_count_of(plant); i++) {
+        const Vec3 p = node_place(plant, i);
+        for (int axis = 0; axis < 3; axis++) places.push_back(p[axis] + (p.y() > 0.05 ? number(random) : 0));
+    }
+    set_state(plant, places.data(), nullptr);
+}
+
+struct EveryShape : testing::TestWithParam<frond_mechanics> {};
+INSTANTIATE_TEST_SUITE_P(Guard, EveryShape, testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD),
+                         [](const auto& info) { return std::string(mechanics(info.param, 1).name); });
+
+TEST_P(EveryShape, ScrambledComesBackWithinTwoSecondsAndKeepsNoSet) {
+    const auto plant = stem(GetParam());
+    scramble(*plant, 0.4);
+    EXPECT_GT(away(*plant), 0.3);
+    uint32_t trouble = 0;
+    for (int i = 0; i < 120; i++) {
+        step_plant(*plant, earth(), H);
+        trouble |= plant->trouble;
+    }
+    EXPECT_TRUE(trouble & FROND_TROUBLE_RETRIED);
+    EXPECT_LT(away(*plant), 0.02);
+    EXPECT_EQ(plant->report.inverted, 0);
+    EXPECT_TRUE(lasting_of(*plant).empty());
+    for (int i = 0; i < 120; i++) step_plant(*plant, earth(), H);
+    EXPECT_LE(plant->recovers_for, 0);
+}
+
+// Bent as far as a hand bends it: none of the guards takes part.
+TEST_P(EveryShape, FarBentIsLeftAlone) {
+    const auto plant = stem(GetParam());
+    Surroundings surroundings = earth();
+    for (int i = 0; i < 60; i++) {
+        surroundings.gravity = i < 30 ? Vec3(std::min(1.0, i / 10.0) * 5 * GRAVITY, -GRAVITY, 0) : Vec3(0, -GRAVITY, 0);
+        step_plant(*plant, surroundings, H);
+        EXPECT_EQ(plant->trouble & (FROND_TROUBLE_RETRIED | FROND_TROUBLE_REWOUND), 0u) << i;
+        EXPECT_EQ(plant->recovers_for, 0);
+        if (i == 29) {
+            EXPECT_GT(away(*plant), 0.1);
+        }
+    }
+}
+
+TEST_P(EveryShape, EnergyOutOfNothingIsTold) {
+    const auto plant = stem(GetParam());
+    step_plant(*plant, earth(), H);
+    plant->x_good = plant->motion.x;
+    plant->v_good = plant->motion.v;
+    EXPECT_FALSE(has_gained_energy(*plant, H));
+    plant->motion.v.setConstant(3);
+    EXPECT_TRUE(has_gained_energy(*plant, H));
+    plant->motion.v = plant->v_good;
+    for (int i = 0; i < plant->motion.x.size() / 3; i += plant->follow ? 2 : 1) point(plant->motion.x, i) *= 1.2;
+    EXPECT_TRUE(has_gained_energy(*plant, H));
+}
+
+TEST_P(EveryShape, GoesAlongWithAFootThatIsPutElsewhere) {
+    const auto plant = stem(GetParam());
+    const Vec3 way(7, 1, -2);
+    for (int i = 0; i < node_count_of(*plant); i++)
+        if (plant->pinned[size_t(i)]) move_pin(*plant, i, point(plant->pin_target, i) + way);
+    step_plant(*plant, earth(), H);
+    for (int i = 0; i < plant->motion.x.size() / 3; i += plant->follow ? 2 : 1)
+        EXPECT_LT((point(plant->motion.x, i) - point(elements_of(*plant->system).modelled, i) - way).norm(), 0.02);
+}
+
+// Upside down beside its foot, with its cells mirrored: no step leads out of that.
+TEST(Guard, WhatIsCaughtInsideOutStartsFromTheModelledShape) {
+    const auto plant = stem(FROND_TET_COROTATIONAL);
+    VecX& x = plant->motion.x;
+    for (int i = 0; i < x.size() / 3; i++)
+        if (!plant->motion.pinned[size_t(i)]) point(x, i).x() *= -1;
+    plant->motion.v.setZero();
+    plant->report.inverted = 1;
+    ASSERT_TRUE(start_from_modelled(*plant));
+    EXPECT_LT(away(*plant), 1e-12);
+    EXPECT_FALSE(start_from_modelled(*plant));  // nothing is to be had by it any more
+}
+
+TEST(Guard, WhatIsHeldBentDoesNotStartFromTheModelledShape) {
+    const auto plant = stem(FROND_TET_COROTATIONAL);
+    int top = 0;
+    for (int i = 0; i < node_count_of(*plant); i++)
+        if (node_place(*plant, i).y() > node_place(*plant, top).y()) top = i;
+    pin_node(*plant, top);
+    for (int i = 0; i < 240; i++) {
+        move_pin(*plant, top, plant->nodes->modelled.segment<3>(3 * top) + Vec3(0.15 * std::min(1.0, i / 120.0), -0.05, 0));
+        step_plant(*plant, earth(), H);
+    }
+    EXPECT_GT(away(*plant), 0.15);
+    EXPECT_FALSE(start_from_modelled(*plant));
+}
+
+}  // namespace
+}  // namespace frond::test

@@ -1,0 +1,85 @@
+// frond stability: hard cases, as a table of green and red.
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+#include "commands.hpp"
+#include "scenes/scene.hpp"
+#include "stability/stability.hpp"
+#include "studio.hpp"
+
+namespace frond::tools {
+namespace {
+
+struct StabilityOptions {
+    stability::Scope scope;
+    stability::Limits limits;
+    std::string mechanics, json, html;
+    bool list = false, bullet = false;
+};
+
+int mechanics_called(const std::string& name) {
+    std::string names;
+    for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
+        if (name == frond_mechanics_name(frond_mechanics(m))) return m;
+        names += (m ? ", " : "") + std::string(frond_mechanics_name(frond_mechanics(m)));
+    }
+    throw SceneError("there are no mechanics \"" + name + "\"; there are " + names);
+}
+
+void write_to(const std::string& file, const std::string& text) {
+    if (file.empty()) return;
+    std::ofstream stream(file);
+    stream << text;
+    if (!stream.flush()) throw SceneError(file + " cannot be written; name a file in a folder that exists");
+}
+
+void run_stability(StabilityOptions& options) {
+    if (options.list) {
+        for (const stability::Case& one : stability::cases())
+            std::printf("%-20s %s\n%-20s passes: %s\n", one.name, one.does, "", one.passes);
+        return;
+    }
+    if (options.bullet) {
+        std::unique_ptr<Progress> progress;
+        const std::string table = stability::bullet_table(options.scope.quick, options.limits, [&](int done, int all) {
+            if (!progress) progress = std::make_unique<Progress>("cell", all);
+            progress->at(done);
+        });
+        std::printf("%s", table.c_str());
+        return;
+    }
+    if (!options.mechanics.empty()) options.scope.mechanics = mechanics_called(options.mechanics);
+    std::vector<stability::Result> results = stability::cells_of(options.scope);
+    Progress progress("cell", int(results.size()));
+    stability::run_cells(results, options.limits, [&](int done) { progress.at(done); });
+    std::printf("%s", stability::text_of(results).c_str());
+    write_to(options.json, stability::json_of(results));
+    write_to(options.html, stability::html_of(results));
+    const int red = stability::unexplained(results, false), of_default = stability::unexplained(results, true);
+    std::printf("%d cells; unexplained red ones: %d with the default integrator, %d in all\n", int(results.size()), of_default,
+                red);
+    if (of_default > 0) throw SceneError("the table has red cells with the default integrator");
+}
+
+}  // namespace
+
+void add_stability(CLI::App& app) {
+    auto options = std::make_shared<StabilityOptions>();
+    CLI::App* command = app.add_subcommand("stability", "hard cases over mechanics, integrators and time steps: what holds");
+    command->add_option("--case", options->scope.name, "one case only");
+    command->add_option("--mechanics", options->mechanics, "one mechanics only");
+    command->add_flag("--quick", options->scope.quick, "the default integrator at 1/60 s only, without the slow cases");
+    command->add_flag("--default", options->scope.of_default, "the default integrator only, at all time steps");
+    command->add_flag("--list", options->list, "the cases and their criteria; runs nothing");
+    command->add_flag("--bullet", options->bullet, "Bullet's own soft bodies in the cases that they can be put through, beside Frond");
+    command->add_option("--json", options->json, "write all cells to this file");
+    command->add_option("--html", options->html, "write the table as a page");
+    command->add_option("--seconds", options->limits.seconds, "CPU time after which a cell is red, default 120")
+        ->check(CLI::Range(1, 100000));
+    command->add_option("--processes", options->limits.processes, "at once; default: one a processor")
+        ->check(CLI::Range(1, 1024));
+    command->callback([options] { run_stability(*options); });
+}
+
+}  // namespace frond::tools

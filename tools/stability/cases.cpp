@@ -1,0 +1,57 @@
+// The table of cases, and what of it some methods cannot pass.
+#include "stability/bench.hpp"
+
+namespace frond::stability {
+
+const std::vector<Case>& cases() {
+    static const std::vector<Case> all = [] {
+        std::vector<Case> table;
+        for (const auto& family : {shape_cases(), matter_cases(), root_cases(), contact_cases(), crowd_cases(), time_cases()})
+            table.insert(table.end(), family.begin(), family.end());
+        return table;
+    }();
+    return all;
+}
+
+const Case& find_case(const std::string& name) {
+    std::string names;
+    for (const Case& one : cases()) {
+        if (name == one.name) return one;
+        names += (names.empty() ? "" : ", ") + std::string(one.name);
+    }
+    throw tools::SceneError("there is no case \"" + name + "\"; there are " + names);
+}
+
+std::string text_of(const Cell& cell) {
+    const int per_second = int(1 / cell.dt + 0.5);
+    return std::string(frond_mechanics_name(cell.mechanics)) + ", " + frond_integrator_name(cell.integrator) + ", 1/" +
+           std::to_string(per_second) + " s";
+}
+
+std::vector<Result> cells_of(const Scope& scope) {
+    const double steps[] = {1.0 / 240, 1.0 / 60, 1.0 / 30, 1.0 / 10};
+    if (!scope.name.empty()) find_case(scope.name);
+    std::vector<Result> cells;
+    for (const Case& one : cases()) {
+        if (!scope.name.empty() ? scope.name != one.name : scope.quick && one.is_slow) continue;
+        for (int mechanics = 0; mechanics < FROND_MECHANICS_COUNT; mechanics++)
+            for (int integrator = 0; integrator < FROND_SYMPLECTIC_EULER; integrator++)
+                for (double dt : steps) {
+                    if (scope.mechanics >= 0 && scope.mechanics != mechanics) continue;
+                    if ((scope.of_default || scope.quick) && integrator != FROND_BDF2) continue;
+                    if (scope.quick && dt != 1.0 / 60) continue;
+                    cells.push_back({&one, {frond_mechanics(mechanics), frond_integrator(integrator), dt}, {}});
+                }
+    }
+    return cells;
+}
+
+int unexplained(const std::vector<Result>& results, bool default_only) {
+    int count = 0;
+    for (const Result& result : results)
+        count += result.verdict.color == Color::RED && !known_limit(result.of->name, result.cell.mechanics) &&
+                 (!default_only || result.cell.integrator == FROND_BDF2);
+    return count;
+}
+
+}  // namespace frond::stability
