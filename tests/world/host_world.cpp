@@ -107,6 +107,35 @@ TEST_P(HostWorld, StepsItsPlantsInEachSubstep) {
     frond_model_destroy(model);
 }
 
+// Two stems that nothing holds over a ground plane: one has it in its mask, the other has not.
+TEST_P(HostWorld, ItsFilterTellsWhatAPlantMeets) {
+    Host host(GetParam());
+    frond_world plants;
+    ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK);
+    const frond_model model = make_small_model();
+    frond_plant_def def = frond_default_plant_def();
+    EXPECT_EQ(def.group, 1);
+    EXPECT_EQ(def.mask, -1);
+    def.root_height = -1;
+    frond_vec3 tips[2];
+    for (int mask : {-1, ~int(btBroadphaseProxy::StaticFilter)}) {
+        const int i = mask == -1 ? 0 : 1;
+        def.mask = mask;
+        def.position = {-2.0 + i, 0.1, 0};
+        frond_plant plant;
+        ASSERT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK) << frond_last_error();
+        for (int k = 0; k < 60; k++) host.world->stepSimulation(btScalar(1.0 / 60), 1, btScalar(1.0 / 60));
+        ASSERT_EQ(frond_plant_get_tip(plant, &tips[i]), FROND_OK);
+        const btBroadphaseProxy* proxy = frond::bullet_object(plant)->getBroadphaseHandle();
+        EXPECT_EQ(proxy->m_collisionFilterGroup, 1);
+        EXPECT_EQ(proxy->m_collisionFilterMask, mask);
+    }
+    EXPECT_GT(tips[0].y, -0.02);
+    EXPECT_LT(tips[1].y, -3);
+    frond_world_destroy(plants);
+    frond_model_destroy(model);
+}
+
 TEST_P(HostWorld, ItsRayTestsFindTheCapsulesAndItsBodiesAreUndisturbed) {
     Host alone(GetParam()), host(GetParam());
     frond_world plants;

@@ -498,8 +498,9 @@ typedef struct frond_chain_view {
 } frond_chain_view;
 
 FROND_API frond_model_def frond_default_model_def(void);
-/* Mesh files that assimp reads (.obj .ply .glb .gltf .fbx .dae .stl) and tet meshes (.msh .vtk). Reading runs in a
- * process of its own with limits on time and memory, so that a damaged file cannot bring down the program. */
+/* Mesh files that assimp reads (.obj .ply .glb .gltf .fbx .dae .stl), tet meshes (.msh .vtk) and plants as links and
+ * joints (.urdf). Reading runs in a process of its own with limits on time and memory, so that a damaged file cannot
+ * bring down the program. */
 FROND_API frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out);
 /* xyz: vertex_count*3. indices: triangle_count*3, each in 0..vertex_count-1. The triangles may be a soup. */
 FROND_API frond_result frond_model_from_triangles(const float* xyz, int vertex_count, const int32_t* indices,
@@ -560,6 +561,9 @@ typedef struct frond_plant_def {
     /* Begins asleep, as modelled, as if it had come to rest so: a field of thousands then costs no steps until
      * something moves them. Default false. */
     bool starts_asleep;
+    /* Of Bullet's collision filter: the plant meets what has a group in its mask and has its group in the own mask, plants
+     * too. Default 1 and -1 (all). */
+    int group, mask;
     void* user;
     uint32_t cookie; /* do not set */
 } frond_plant_def;
@@ -618,7 +622,8 @@ FROND_API frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechan
 FROND_API int frond_plant_get_node_count(frond_plant plant);
 FROND_API int frond_plant_get_capsule_count(frond_plant plant);
 /* node_count must be the plant's. Either array may be null. positions [m], velocities [m/s], node_count*3, in the
- * world's frame. Setting moves pinned nodes too: they stay where they are put. */
+ * world's frame. Setting moves pinned nodes too: they stay where they are put. Rods and springs take a shape of the cage as
+ * near as they can; frond_snapshot.h keeps theirs to the bit. */
 FROND_API frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count);
 FROND_API frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
                                              int node_count);

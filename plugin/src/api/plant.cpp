@@ -108,6 +108,8 @@ frond_plant_def frond_default_plant_def(void) {
     def.material_damping = 1;
     def.spectral_radius = 0.8;
     def.effects = FROND_DEFAULT_EFFECTS;
+    def.group = 1;
+    def.mask = -1;
     def.cookie = PLANT_DEF_COOKIE;
     return def;
 }
@@ -119,7 +121,7 @@ frond_result frond_plant_create(frond_world world, frond_model model, const fron
         World& w = get(world);
         const std::shared_ptr<const Model> m = get(model);
         check_plant_def(def);
-        PlantBody* body = add_plant(w, create_plant(m, *def), def->starts_asleep);
+        PlantBody* body = add_plant(w, create_plant(m, *def), def->group, def->mask, def->starts_asleep);
         body->handle.id = plant_slots().insert(body);
         if (!body->handle.id) {
             remove_plant(w, body);

@@ -61,12 +61,11 @@ std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def
     return std::make_unique<World>(std::move(own), bullet, def);
 }
 
-PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, bool asleep) {
+PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, int group, int mask, bool asleep) {
     world.bodies.push_back(std::make_unique<PlantBody>(&world.soft_info, &world, std::move(plant)));
     PlantBody* body = world.bodies.back().get();
     body->index = int(world.bodies.size()) - 1;
-    // The default filter of a kinematic object would meet nothing that is static.
-    world.bullet->addCollisionObject(body, btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter);
+    world.bullet->addCollisionObject(body, group, mask);
     if (asleep) {
         body->new_for = 2;
         fall_asleep(world, *body);

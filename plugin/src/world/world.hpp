@@ -75,7 +75,8 @@ int number_of(World& world, PlantBody& body);
 PlantBody& look_at(PlantBody& body);
 // Without `bullet` the world makes its own. Throws BAD_ARGUMENT when `bullet` has plants already.
 std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def& def);
-PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, bool asleep);
+// With a group and a mask of Bullet's collision filter.
+PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, int group, int mask, bool asleep);
 void remove_plant(World& world, PlantBody* body);
 // Steps a world of Frond's own by exactly dt.
 void advance(World& world, double dt);
