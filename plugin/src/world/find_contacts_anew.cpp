@@ -14,13 +14,14 @@ namespace {
 
 struct Filter {
     int group, mask, number;
+    bool is_in;  // the broad phase
 };
 
 Filter leave(World& world, btCollisionObject& object) {
     btBroadphaseProxy* proxy = object.getBroadphaseHandle();
-    if (!proxy) return {0, 0, 0};
+    if (!proxy) return {0, 0, 0, false};
     btDbvtBroadphase& broad = world.own->broadphase;
-    const Filter filter = {proxy->m_collisionFilterGroup, proxy->m_collisionFilterMask, proxy->m_uniqueId};
+    const Filter filter = {proxy->m_collisionFilterGroup, proxy->m_collisionFilterMask, proxy->m_uniqueId, true};
     broad.getOverlappingPairCache()->cleanProxyFromPairs(proxy, &world.own->dispatcher);
     broad.destroyProxy(proxy, &world.own->dispatcher);
     object.setBroadphaseHandle(nullptr);
@@ -56,7 +57,7 @@ void find_contacts_anew(World& world) {
     for (const auto& body : world.bodies) renew_shape(*body);
     for (int i = 0; i < objects.size(); i++) {
         const Filter& filter = filters[size_t(i)];
-        if (filter.group == 0 && filter.mask == 0) continue;
+        if (!filter.is_in) continue;
         come_back(world, *objects[i], filter);
         numbers[objects[i]] = {filter.number, objects[i]->getBroadphaseHandle()->m_uniqueId};
     }
