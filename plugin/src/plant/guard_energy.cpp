@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/rotation.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
 
@@ -20,6 +21,11 @@ static double farthest(const VecX& x, const VecX& from, int first, int next) {
     return std::sqrt(most);
 }
 
+// Of a chain's node, whose rotation vector turns back by 2 pi where it has turned by more than pi [rad].
+static Vec3 turn_of(const VecX& x, const VecX& from, int node) {
+    return rotation_vector<double>(rotation_of<double>(point(x, node)) * rotation_of<double>(point(from, node)).transpose());
+}
+
 double farthest_way(const Plant& plant) {
     return farthest(plant.motion.x, plant.x_good, 0, plant.follow ? 2 : 1);
 }
@@ -32,7 +38,9 @@ bool ends_off_course(const Plant& plant, double h) {
     if ((x - x_good - h * v_good).squaredNorm() < std::min(far, turned_far)) return false;  // all together even
     for (int i = 0; i < x.size() / 3; i++) {
         const double off = (point(x, i) - point(x_good, i) - h * point(v_good, i)).squaredNorm();
-        if (!(off < (i % 2 ? turned_far : far))) return true;
+        if (off < (i % 2 ? turned_far : far)) continue;
+        const bool turns = plant.follow && i % 2;
+        if (!turns || !((turn_of(x, x_good, i) - h * point(v_good, i)).squaredNorm() < turned_far)) return true;
     }
     return false;
 }
@@ -74,7 +82,10 @@ bool has_gained_energy(const Plant& plant, double h) {
     const StepEnergy before = energy_at(plant, plant.x_good, plant.v_good, Held::BY_GRABS);
     const StepEnergy after = energy_at(plant, plant.motion.x, plant.motion.v, Held::BY_GRABS);
     const double mass = node_mass_of(*plant.system).sum(), speed = CARRIED * way_of_pins(plant) / h;
-    const double given = 0.5 * mass * speed * speed + LIFT * mass * GRAVITY * double(plant.size);
+    double given = 0.5 * mass * speed * speed + LIFT * mass * GRAVITY * double(plant.size);
+    for (int i = 1; plant.follow && i < plant.motion.x.size() / 3; i += 2)
+        given += point(plant.loads.force, i)
+                     .dot(turn_of(plant.motion.x, plant.x_good, i) - (point(plant.motion.x, i) - point(plant.x_good, i)));
     return !(after.loaded <= before.loaded + SHARE * before.own + given);
 }
 

@@ -129,9 +129,9 @@ struct Plant {
 
     // Of the last step.
     SolveReport report;
-    double ms_effects = 0, ms_surface = 0, ms_normals = 0;
+    float ms_effects = 0, ms_surface = 0, ms_normals = 0;
     // Of ms_effects and of what is beside it [ms].
-    double ms_user_force = 0, ms_air = 0, ms_fibres = 0, ms_plasticity = 0;
+    float ms_user_force = 0, ms_air = 0, ms_fibres = 0, ms_plasticity = 0;
 
     Vec3 to_world(const Vec3& p) const { return rotation * p + position; }
     Vec3 to_model(const Vec3& p) const { return rotation.conjugate() * (p - position); }

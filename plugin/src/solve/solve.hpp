@@ -83,7 +83,7 @@ struct SolveReport {
     int iterations = 0;   // of the linear solver
     int inverted = 0;     // tets
     double residual = 0;  // relative, of the last linear solve
-    double ms_assembly = 0, ms_solve = 0;
+    float ms_assembly = 0, ms_solve = 0;
 
     // What another solve took is in this report too.
     void add_cost(const SolveReport& other) {
