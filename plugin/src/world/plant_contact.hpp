@@ -12,7 +12,7 @@ inline namespace FROND_BULLET_PRECISION {
 struct PlantContact {
     std::array<PlantBody*, 2> plants;  // the same one twice where it touches itself
     std::array<ContactSide, 2> sides;  // of cages or sheaths
-    std::array<bool, 2> by_sheath;
+    std::array<bool, 2> by_sheath = {};
     std::array<Grip, 2> grips;         // what holds those points
     Vec3 between;     // of the grips' places, the first's less the second's, world frame [m]
     Vec3 point;       // on the first, world frame [m]
