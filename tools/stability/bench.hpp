@@ -4,6 +4,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "scenes/lattice.hpp"
 #include "scenes/scene.hpp"
 #include "stability/stability.hpp"
 
@@ -99,13 +100,9 @@ frond_model beam();  // of 200 tets, upright, 1 m x 0.1 m x 0.1 m, 10 MPa, 800 k
 frond_model herb();  // of stems: 0.6 m high, a branch and a leaf stalk, standing as modelled, in Frond's own cage
 constexpr double FOOT = 0.01;  // [m]
 
-struct Lattice {
-    std::vector<double> nodes;
-    std::vector<int32_t> tets;
-};
-// Bricks of five tets each along y; `heights` of their layers, `across` of them in each direction.
-Lattice make_lattice(double width, int across, const std::vector<double>& heights);
-std::vector<double> even_heights(double length, int count);
+using tools::Lattice;
+using tools::even_heights;
+using tools::make_lattice;
 frond_material plain_material();  // 10 MPa, 800 kg/m^3, Poisson's ratio 0.3
 frond_model model_of(const Lattice& lattice, const frond_material& material);
 

@@ -7,25 +7,16 @@
 namespace frond::stability {
 namespace {
 
-// How deep the plant is in others [m].
-double depth_of(frond_plant plant) {
-    std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
-    must(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())));
-    double depth = 0;
-    for (const frond_contact& contact : contacts) depth = std::max(depth, -contact.gap);
-    return depth;
-}
-
 // Two at the same place, or nearly: they come apart without flying.
 void together(Bench& bench, const frond_vec3& second) {
     constexpr double CALM = 5;  // [m/s]
     const frond_plant first = bench.add(herb());
     bench.add(herb(), second);
     bench.step(bench.cell.dt);
-    const double at_first = depth_of(first);
+    const double at_first = tools::contact_depth(first);
     bench.run(3, [&](double) { bench.expect(bench.fastest() <= CALM, "speed [m/s]", bench.fastest(), CALM); });
     const double allowed = std::max(at_first, 0.005);
-    bench.expect(depth_of(first) <= allowed, "depth in each other [m]", depth_of(first), allowed);
+    bench.expect(tools::contact_depth(first) <= allowed, "depth in each other [m]", tools::contact_depth(first), allowed);
 }
 
 void same_place(Bench& bench) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "scenes/lattice.hpp"
 #include "study/known.hpp"
 #include "study/trial.hpp"
 
@@ -27,33 +28,12 @@ frond_model_info Model::info() const {
     return info;
 }
 
-struct Box {
-    std::vector<double> nodes;
-    std::vector<int32_t> tets;
-};
-
-// Cubes of five tets, in every other one mirrored so that neighbours fit; the axis of the beam is the y axis.
-static Box make_box(const Beam& beam, int across) {
-    const double width = beam.width, length = Beam::LENGTH;
-    int along = int(std::lround(length / width * across));
+// Bricks are cubes where nothing else is said.
+static tools::Lattice make_box(const Beam& beam, int across) {
+    int along = int(std::lround(Beam::LENGTH / beam.width * across));
     for (const Beam::Cells& cells : beam.cells)
         if (cells.across == across) along = cells.along;
-    const auto node = [&](int i, int j, int k) { return (j * (across + 1) + k) * (across + 1) + i; };
-    Box box;
-    for (int j = 0; j <= along; j++)
-        for (int k = 0; k <= across; k++)
-            for (int i = 0; i <= across; i++)
-                for (double value :
-                     {width * (double(i) / across - 0.5), length * j / along, width * (double(k) / across - 0.5)})
-                    box.nodes.push_back(value);
-    static constexpr int EVEN[5][4] = {{1, 2, 4, 7}, {0, 1, 2, 4}, {3, 1, 2, 7}, {5, 1, 4, 7}, {6, 2, 4, 7}};
-    static constexpr int ODD[5][4] = {{0, 3, 5, 6}, {1, 0, 3, 5}, {2, 0, 3, 6}, {4, 0, 5, 6}, {7, 3, 5, 6}};
-    for (int j = 0; j < along; j++)
-        for (int k = 0; k < across; k++)
-            for (int i = 0; i < across; i++)
-                for (const auto& tet : (i + j + k) % 2 ? ODD : EVEN)
-                    for (int c : tet) box.tets.push_back(node(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1)));
-    return box;
+    return tools::make_lattice(beam.width, across, tools::even_heights(Beam::LENGTH, along));
 }
 
 ModelPtr make_beam(const Beam& beam, const Setup& setup) {
@@ -72,7 +52,7 @@ ModelPtr make_beam(const Beam& beam, const Setup& setup) {
     def.organ_count = 1;
     frond_model model = {};
     if (setup.body == Body::MESH) {
-        const Box box = make_box(beam, setup.resolution);
+        const tools::Lattice box = make_box(beam, setup.resolution);
         must(frond_model_from_tets(box.nodes.data(), int(box.nodes.size() / 3), box.tets.data(),
                                    int(box.tets.size() / 4), &def, &model));
     } else {

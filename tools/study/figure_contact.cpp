@@ -46,15 +46,6 @@ const std::vector<Case>& cases() {
     return list;
 }
 
-// The deepest contact of the last step [m].
-double depth_of(frond_plant plant) {
-    std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
-    must(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())));
-    double depth = 0;
-    for (const frond_contact& contact : contacts) depth = std::max(depth, -contact.gap);
-    return depth;
-}
-
 FigurePanel come_apart(const Case& one) {
     constexpr double DURATION = 2, CLEAR = 0.001, LEAST = 1e-5;  // [s], [m]: apart; what is drawn as nothing
     const tools::Casting casting = tools::cast("corn_pair");
@@ -67,7 +58,7 @@ FigurePanel come_apart(const Case& one) {
     int steps = 0;
     while (play.stage.time < DURATION - 0.5 * play.stage.settings.dt) {
         play.step();
-        depth = depth_of(play.stage.plants[0]);
+        depth = tools::contact_depth(play.stage.plants[0]);
         if (steps++ == 0) first = depth;
         if (depth > CLEAR) clear_since = play.stage.time;
         frond_report report;

@@ -29,6 +29,8 @@ std::vector<Contact> find_contacts(World& world, double h);
 bool pushes(const btCollisionObject& object);
 // Whether bodies may push it. Null: no.
 bool takes_part(const World& world, const PlantBody* body);
+// Whether it has no end.
+bool is_plane(const btCollisionObject& object);
 // Of an infinite plane with the plants that Bullet's broad phase pairs with it: its narrow phase leaves them to this.
 void add_plane_contacts(World& world, btCollisionObject& plane, double h, std::vector<Contact>& contacts);
 

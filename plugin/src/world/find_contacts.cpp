@@ -24,11 +24,11 @@ bool takes_part(const World& world, const PlantBody* body) {
     return body && body->world == &world && (world.effects & body->plant->effects & FROND_RIGID_CONTACT);
 }
 
-namespace {
-
 bool is_plane(const btCollisionObject& object) {
     return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
+
+namespace {
 
 // GImpact meshes do not say which of the compound's children they met.
 int nearest_capsule(const PlantBody& body, const Vec3& p) {

@@ -233,8 +233,7 @@ PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Pl
 }
 
 bool PlantBody::checkCollideWithOverride(const btCollisionObject* other) const {
-    const bool is_plane = other->getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
-    return !(is_plane && is_for_step(*world->bullet)) && !of(other) && btSoftBody::checkCollideWithOverride(other);
+    return !(is_plane(*other) && is_for_step(*world->bullet)) && !of(other) && btSoftBody::checkCollideWithOverride(other);
 }
 
 // Bullet deletes the shape that it finds.
