@@ -31,7 +31,7 @@ TEST(Header, EveryEnumHasANameAndOutOfRangeHasOneToo) {
     EXPECT_STREQ(frond_mechanics_name(FROND_TET_COROTATIONAL), "tet_corotational");
     EXPECT_STREQ(frond_mechanics_name(frond_mechanics(99)), "?");
     EXPECT_STREQ(frond_integrator_name(frond_integrator(-5)), "?");
-    EXPECT_STREQ(frond_linear_solver_name(FROND_DIRECT), "direct");
+    EXPECT_STREQ(frond_linear_solver_name(FROND_BLOCK), "block");
     EXPECT_STREQ(frond_mass_name(FROND_CONSISTENT), "consistent");
     EXPECT_STREQ(frond_hash_layout_name(FROND_HASH_PAPER), "paper");
     EXPECT_STREQ(frond_hash_layout_name(frond_hash_layout(-1)), "?");

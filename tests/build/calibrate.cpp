@@ -86,7 +86,7 @@ struct Cantilever {
     void solve_load() {
         for (size_t i = 0; i < model.root.size(); i++)
             if (model.root[i]) point(load, int(i)).setZero();
-        solve(*stiffness.factor, load, moved);
+        solve(stiffness.factor, load, moved);
     }
 };
 

@@ -297,6 +297,33 @@ TEST_P(EveryMechanics, OnePassGivesTheSameAsTwo) {
     }
 }
 
+// The damping of a solve is that of all elements and each one's own beside it.
+TEST_P(EveryMechanics, OnePassAheadIsMadeOfTheRest) {
+    if (!row.add_ahead) GTEST_SKIP() << "goes the long way";
+    Dice dice(7);
+    const TetElements elements = elements_of(box_model(2, 2, 1, {1, 1, 0.5}));
+    const Eigen::Index n = elements.rest_positions.size();
+    const VecX x = elements.rest_positions + dice.vector(n, 0.2), way = dice.vector(n, 0.3), v = dice.vector(n, 2);
+    const double step = 0.013, damping = 0.02;
+    std::vector<double> own;
+    for (size_t e = 0; e < elements.tets.size(); ++e) own.push_back(dice.uniform(0, 0.1));
+    for (const std::vector<double>& each : {std::vector<double>(), own}) {
+        BlockMatrix A, K, D;
+        for (BlockMatrix* matrix : {&A, &K, &D}) {
+            matrix->set_pattern(elements.pattern);
+            matrix->set_zero();
+        }
+        VecX f = VecX::Zero(n), expected = f;
+        const int inverted = row.add_ahead(elements, x, {way, v, step, damping, each}, f, A);
+        EXPECT_EQ(inverted, each.empty() ? row.add_force_and_stiffness(elements, x, Tangent::positive, expected, K)
+                                         : row.add_force_stiffness_and_damping(elements, x, each, expected, K, D));
+        const Eigen::MatrixXd damps = damping * dense(K) + dense(D);
+        expected -= dense(K) * way + damps * v;
+        EXPECT_LT((f - expected).norm(), 1e-12 * expected.norm());
+        EXPECT_LT((dense(A) - step * step * dense(K) - step * damps).norm(), 1e-12 * dense(A).norm());
+    }
+}
+
 TEST_P(EveryMechanics, CountsTetsThatAreInsideOut) {
     const TetElements elements = elements_of(single_tet_model());
     VecX x = elements.rest_positions, f = VecX::Zero(x.size());

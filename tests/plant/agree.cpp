@@ -35,7 +35,7 @@ std::array<double, 2> frequencies(const std::shared_ptr<const Model>& model, fro
     const std::vector<uint8_t> still = still_nodes(*model, elements, mechanics(which).moves_chain);
     StaticStiffness stiffness(elements.pattern);
     if (!stiffness.set(elements, still, mechanics(which, order), Tangent::exact, elements.modelled)) return {};
-    const auto sways = first_sways(*stiffness.factor, node_mass_of(*system), still);
+    const auto sways = first_sways(stiffness.factor, node_mass_of(*system), still);
     return {std::sqrt(sways[0].square) / (2 * M_PI), std::sqrt(sways[1].square) / (2 * M_PI)};
 }
 

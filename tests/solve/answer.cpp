@@ -31,7 +31,12 @@ TEST(Answer, IsThatOfWholeSolvesForEverySolverAndIntegrator) {
 
             // Pushes of one node, of four, of one given twice, of a held one alone.
             std::vector<std::vector<NodeBlock>> pushes(4);
-            const auto any_node = [&] { return int(dice.uniform(0, rig.node_count() - 1e-9)); };
+            const auto any_node = [&] {
+                int node = 0;
+                do node = int(dice.uniform(0, rig.node_count() - 1e-9));
+                while (rig.motion.pinned[size_t(node)]);
+                return node;
+            };
             const auto random_block = [&] { return Mat3(dice.rotation() * dice.uniform(0.1, 1)); };
             int held = 0;
             while (!rig.motion.pinned[size_t(held)]) ++held;

@@ -21,7 +21,7 @@ struct RigSettings : SolveSettings {
 };
 
 inline RigSettings plain_settings(frond_mechanics mechanics = FROND_TET_COROTATIONAL,
-                                    frond_linear_solver solver = FROND_DIRECT) {
+                                    frond_linear_solver solver = FROND_BLOCK) {
     RigSettings s = {};
     s.mechanics = mechanics;
     s.integrator = FROND_IMPLICIT_EULER;
@@ -100,9 +100,9 @@ inline std::vector<Combination> every_combination() {
         for (int i = 0; i < FROND_INTEGRATOR_COUNT; ++i)
             for (int l = 0; l < FROND_LINEAR_SOLVER_COUNT; ++l)
                 for (int k = 0; k < FROND_MASS_COUNT; ++k)
-                    if (l == FROND_DIRECT || i == FROND_IMPLICIT_EULER) all.push_back({m, 1, i, l, k});
+                    if (l == FROND_BLOCK || i == FROND_IMPLICIT_EULER) all.push_back({m, 1, i, l, k});
     for (int m = 0; m < TET_MECHANICS; ++m)
-        for (int i = 0; i < FROND_INTEGRATOR_COUNT; ++i) all.push_back({m, 2, i, FROND_DIRECT, (m + i) % 2});
+        for (int i = 0; i < FROND_INTEGRATOR_COUNT; ++i) all.push_back({m, 2, i, FROND_BLOCK, (m + i) % 2});
     return all;
 }
 struct EveryCombination : testing::TestWithParam<Combination> {

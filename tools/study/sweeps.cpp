@@ -24,7 +24,9 @@ std::vector<double> time_steps(Effort effort) {
                       {1.0 / 15, 1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480});
 }
 
-std::vector<double> tolerances(Effort effort) {
+// What is solved directly has none.
+std::vector<double> tolerances(int linear_solver, Effort effort) {
+    if (linear_solver == FROND_DIRECT) return {1e-4};
     return by<double>(effort, {1e-4}, {1e-4}, {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8});
 }
 
@@ -176,7 +178,7 @@ void sweep_linear(const Problem& problem, Effort effort, std::vector<Sweep>& swe
     for (int s = 0; s < FROND_LINEAR_SOLVER_COUNT; s++) {
         if (s == base.plant.linear_solver) continue;
         Sweep sweep = {frond_linear_solver_name(frond_linear_solver(s)), {}, false};
-        for (double tolerance : tolerances(effort)) {
+        for (double tolerance : tolerances(s, effort)) {
             Setup setup = base;
             setup.plant.linear_solver = frond_linear_solver(s);
             setup.plant.tolerance = tolerance;
@@ -257,8 +259,8 @@ std::vector<Setup> changes_of(const Problem& problem, Effort effort) {
     }
     if (problem.axes & LINEAR && has_time_to_iterate(changes.base, effort))
         for (int k = 0; k < FROND_LINEAR_SOLVER_COUNT; k++)
-            for (double tolerance : tolerances(effort)) {
-                if (k == FROND_DIRECT) continue;
+            for (double tolerance : tolerances(k, effort)) {
+                if (k == FROND_BLOCK) continue;
                 changes.add([&](Setup& s) {
                     s.plant.linear_solver = frond_linear_solver(k);
                     s.plant.tolerance = tolerance;

@@ -151,7 +151,8 @@ FROND_API const char* frond_effect_name(frond_effects effect);
     X(SYMPLECTIC_EULER, "symplectic_euler")   /* explicit: no solve, unstable but for tiny steps */
 /* How a linear system is solved. */
 #define FROND_LINEAR_SOLVERS(X)                                                                                        \
-    X(DIRECT, "direct")                     /* sparse LDLT, the symbolic part kept: exact and, for plants, quickest */ \
+    X(BLOCK, "block")                       /* Frond's own LDLT by dense fronts: exact and, for plants, quickest */    \
+    X(DIRECT, "direct")                     /* sparse LDLT by Eigen: as exact; here for comparison */                  \
     X(PCG_JACOBI, "pcg_jacobi")             /* the paper's conjugate gradients, preconditioned by the diagonal */      \
     X(PCG_BLOCK_JACOBI, "pcg_block_jacobi") /* by the 3x3 blocks of the diagonal */                                    \
     X(PCG_INCOMPLETE_CHOLESKY, "pcg_incomplete_cholesky") /* by factors without fill: fewest iterations */
@@ -240,7 +241,7 @@ typedef struct frond_world_def {
 /* What the last substep did and cost. Each bit of `trouble` has a cause, an effect and a remedy. */
 enum {
     /* Cause: the linear solver or Newton hit its limit. Effect: the step is less accurate.
-     * Remedy: raise max_iterations or newton_iterations, or use FROND_DIRECT. */
+     * Remedy: raise max_iterations or newton_iterations, or use FROND_BLOCK. */
     FROND_TROUBLE_NOT_CONVERGED = 1 << 0,
     /* Cause: a plant's state became non-finite or its system could not be solved. Effect: it was put back to its
      * last good state and brought to rest. Remedy: smaller steps, weaker forces. */
@@ -536,7 +537,7 @@ typedef struct frond_plant_def {
      * first asks for order 2, which takes some seconds. Chain mechanics move alike with both. */
     int element_order;
     frond_integrator integrator;       /* default FROND_BDF2 */
-    frond_linear_solver linear_solver; /* default FROND_DIRECT */
+    frond_linear_solver linear_solver; /* default FROND_BLOCK */
     frond_mass mass;                   /* default FROND_LUMPED */
     int newton_iterations;             /* solves per step at most, 1..100, default 1 */
     double newton_tolerance;  /* stop when the residual force is below this share of the first one [-], default 1e-6 */

@@ -95,7 +95,7 @@ frond_plant_def frond_default_plant_def(void) {
     def.mechanics = FROND_TET_COROTATIONAL;
     def.element_order = 1;
     def.integrator = FROND_BDF2;
-    def.linear_solver = FROND_DIRECT;
+    def.linear_solver = FROND_BLOCK;
     def.mass = FROND_LUMPED;
     def.newton_iterations = 1;
     def.newton_tolerance = 1e-6;

@@ -65,7 +65,7 @@ void calibrate_together(Model& model, const std::vector<char>& alone, int order)
             load.setZero();
             for (size_t i = 0; i < held.size(); i++)
                 if (!held[i]) load[3 * Eigen::Index(i) + axis] = GRAVITY * masses[Eigen::Index(i)];
-            solve(*stiffness.factor, load, moved);
+            solve(stiffness.factor, load, moved);
             cage += cage_energy(model, elements, moved, alone);
         }
         if (!(rods > 0 && cage > 0)) return;

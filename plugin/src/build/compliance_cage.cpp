@@ -99,7 +99,7 @@ std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElement
     std::array<VecX, LOAD_COUNT> moves;
     for (int l = 0; l < LOAD_COUNT; l++) {
         moves[size_t(l)].resize(loads.rows());
-        solve(*stiffness.factor, loads.col(l), moves[size_t(l)]);
+        solve(stiffness.factor, loads.col(l), moves[size_t(l)]);
     }
     return products_of_tets<LOAD_COUNT>(elements, moves);
 }

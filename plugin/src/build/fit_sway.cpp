@@ -55,7 +55,7 @@ RodSways find_sways(const Model& model, const RodElements& elements, frond_mecha
     const std::vector<uint8_t> still = still_nodes(model, elements, true);
     StaticStiffness stiffness(elements.pattern);
     if (!stiffness.set(elements, still, row, Tangent::exact, elements.modelled)) return sways;
-    const std::array<Sway, 2> found = first_sways(*stiffness.factor, row.masses(elements, FROND_LUMPED).node, still);
+    const std::array<Sway, 2> found = first_sways(stiffness.factor, row.masses(elements, FROND_LUMPED).node, still);
     for (size_t i = 0; i < found.size(); i++) {
         if (found[i].shape.size() == 0) continue;
         sways.square[i] = found[i].square;
@@ -86,7 +86,7 @@ static VecX energies_of(const TetElements& elements, frond_mechanics which, cons
 }
 
 SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanics which, const VecX& x,
-                 DirectFactor& stiffness, const std::vector<uint8_t>& still, const RodSways& rods, const VecX& done) {
+                 BlockFactor& stiffness, const std::vector<uint8_t>& still, const RodSways& rods, const VecX& done) {
     constexpr double FARTHEST = 1.8;      // in all, of a logarithm [-]
     constexpr double LARGEST_STEP = 0.7;  // of a logarithm [-]
     constexpr double RIGID = 0.01;        // what a change counts beside an error [-]

@@ -21,6 +21,6 @@ struct SwayGap {
 };
 // Of a cage at x, whose exact stiffness is factorized; within bounds, `done` being what was changed before.
 SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanics which, const VecX& x,
-                 DirectFactor& stiffness, const std::vector<uint8_t>& still, const RodSways& rods, const VecX& done);
+                 BlockFactor& stiffness, const std::vector<uint8_t>& still, const RodSways& rods, const VecX& done);
 
 }  // namespace frond

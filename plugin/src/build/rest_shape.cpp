@@ -215,7 +215,7 @@ VecX fit_sway(Search& search, const RodSways& rods) {
     const auto find = [&] {
         if (!search.stiffness.set(search.elements, search.held, search.row, Tangent::exact, search.x))
             return SwayGap{INFINITY, {}};
-        return find_gap(search.model, search.elements, search.which, search.x, *search.stiffness.factor, search.held, rods,
+        return find_gap(search.model, search.elements, search.which, search.x, search.stiffness.factor, search.held, rods,
                         done);
     };
     SwayGap gap = find();
@@ -245,7 +245,7 @@ std::vector<double> organ_strains(const Model& model, int order) {
     const VecX force = unbalanced_force(elements, search.held, FROND_TET_LINEAR, search.x, GRAVITY);
     if (!search.stiffness.set(elements, search.held, search.row, Tangent::positive, search.x)) return {};
     VecX u(force.size());
-    solve(*search.stiffness.factor, force, u);
+    solve(search.stiffness.factor, force, u);
     std::vector<double> strains(model.organs.size(), 0.0);
     for (size_t e = 0; e < elements.tets.size(); e++) {
         double& strain = strains[size_t(model.cage.tet_organ[e])];

@@ -18,10 +18,10 @@ static void hold(const std::vector<uint8_t>& held, BlockMatrix& K) {
     }
 }
 
-StaticStiffness::StaticStiffness(const BlockPattern& pattern) : plan(make_direct_plan(pattern)) {
+StaticStiffness::StaticStiffness(const BlockPattern& pattern) : plan(make_block_plan(pattern)) {
     K.pattern = &pattern;
     K.values.resize(9 * pattern.row.size());
-    factor = make_direct_factor(plan);
+    factor.plan = &plan;
 }
 
 bool StaticStiffness::set(const Elements& elements, const std::vector<uint8_t>& held, frond_mechanics which,
@@ -34,7 +34,7 @@ bool StaticStiffness::set(const Elements& elements, const std::vector<uint8_t>& 
     K.set_zero();
     row.add_stiffness(elements, x, tangent, 1, K);
     hold(held, K);
-    return factorize(*factor, K);
+    return factorize(factor, K);
 }
 
 }  // namespace frond

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "mechanics/mechanics.hpp"
-#include "solve/direct.hpp"
+#include "solve/block_factor.hpp"
 
 namespace frond {
 
 struct StaticStiffness {
     BlockMatrix K;
-    DirectPlan plan;
-    DirectFactorPtr factor;
+    BlockPlan plan;
+    BlockFactor factor;
     explicit StaticStiffness(const BlockPattern& pattern);
     // Fills and factorizes it at x; false if it is not positive definite, so that x is not stable.
     bool set(const Elements& elements, const std::vector<uint8_t>& held, frond_mechanics which, Tangent tangent,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mechanics/mechanics.hpp"
-#include "solve/direct.hpp"
+#include "solve/block_factor.hpp"
 
 namespace frond {
 
@@ -17,6 +17,6 @@ struct Sway {
 // The sways that are seen when the body is drawn aside by its own weight, in the horizontal direction in which that
 // moves it farthest and across, and let go: of its modes the ones with the largest part in that, those of nearly one
 // frequency together; the slower sway first. By a body's stiffness, factorized, and the masses of its nodes [kg].
-std::array<Sway, 2> first_sways(DirectFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still);
+std::array<Sway, 2> first_sways(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still);
 
 }  // namespace frond

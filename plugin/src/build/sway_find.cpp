@@ -39,7 +39,7 @@ static VecX move_along(const Vec3& direction, const std::vector<uint8_t>& still)
     return x;
 }
 
-static Sway first_sway(DirectFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still,
+static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still,
                        const Vec3& direction) {
     constexpr int MOST_STEPS = 12;
     constexpr double CLOSE = 0.3;  // of logarithms of frequencies' squares: modes that sway together [-]
@@ -91,7 +91,7 @@ static Sway first_sway(DirectFactor& stiffness, const VecX& node_mass, const std
     return sway;
 }
 
-std::array<Sway, 2> first_sways(DirectFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still) {
+std::array<Sway, 2> first_sways(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still) {
     const VecX load_x = times_mass(node_mass, still, move_along(Vec3::UnitX(), still));
     const VecX load_z = times_mass(node_mass, still, move_along(Vec3::UnitZ(), still));
     VecX move_x, move_z;

@@ -28,7 +28,7 @@ Bent find_sway(const System& system, StaticStiffness& stiffness, const std::vect
         for (int i = 0; i < elements.node_count; i++)
             if (!still[size_t(i)]) point(load, i)[axis] = mass[i];
         Bent sway;
-        solve(*stiffness.factor, load, sway.shape);
+        solve(stiffness.factor, load, sway.shape);
         for (int i = 0; i < elements.node_count; i++) sway.mass += mass[i] * point(sway.shape, i).squaredNorm();
         sway.stiffness = load.dot(sway.shape);
         if (sway.mass > 0 && (slowest.mass == 0 || sway.square() < slowest.square())) slowest = sway;

@@ -28,7 +28,7 @@ Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, con
         VecX mode(size);
         for (Eigen::Index i = 0; i < size; i++) product[i] = std::sin(double(i + 1));
         hold(held, product);
-        solve(*resisting.factor, product, mode);
+        solve(resisting.factor, product, mode);
         double value = 0, before = INFINITY;
         for (int round = 0; round < ROUNDS; round++) {
             mode.normalize();
@@ -40,7 +40,7 @@ Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, con
             if (!std::isfinite(value)) return {};
             if (std::abs(value - before) < CLOSE * std::abs(value)) break;
             before = value;
-            solve(*resisting.factor, product, solution);
+            solve(resisting.factor, product, solution);
             mode = solution + shift * mode;
         }
         if (value >= 0 || shift > 0) return {mode, value};
@@ -55,7 +55,7 @@ std::vector<double> find_shares(const Toppling& toppling, StaticStiffness& resis
     VecX product(toppling.mode.size()), smooth(toppling.mode.size());
     taken.multiply(toppling.mode, product);
     hold(held, product);
-    solve(*resisting.factor, product, smooth);
+    solve(resisting.factor, product, smooth);
     const double whole = smooth.dot(product);
     std::vector<double> shares;
     BlockMatrix own;

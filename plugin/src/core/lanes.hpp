@@ -7,6 +7,7 @@
 #endif
 
 #include <cmath>
+#include <type_traits>
 
 // How lanes are handed to functions depends on the processor that is compiled for; none is handed to any, see below.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -32,13 +33,50 @@ template <class Job>
 void run_in_two_lanes(const Job& job) {
     job.template run<TwoLanes>();
 }
+// Whether four lanes are taken; tests turn them off.
+inline bool& takes_four_lanes() {
+#if defined(__x86_64__)
+    static bool takes = __builtin_cpu_supports("avx2");
+#else
+    static bool takes = false;
+#endif
+    return takes;
+}
 template <class Job>
 void run_in_lanes(const Job& job) {
 #if defined(__x86_64__)
-    static const bool has_four = __builtin_cpu_supports("avx2");
-    if (has_four) return run_in_four_lanes(job);
+    if (takes_four_lanes()) return run_in_four_lanes(job);
 #endif
     run_in_two_lanes(job);
+}
+
+// One lane; a plain number is all there is of itself.
+FROND_INLINE double lane_of(double a, int) {
+    return a;
+}
+FROND_INLINE void set_lane(double& a, int, double value) {
+    a = value;
+}
+template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
+FROND_INLINE auto lane_of(const S& a, int lane) {
+    return a[lane];
+}
+template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
+FROND_INLINE void set_lane(S& a, int lane, double value) {
+    a[lane] = value;
+}
+// Of what a comparison gives.
+FROND_INLINE bool any(int mask) {
+    return mask != 0;
+}
+template <class Mask>
+FROND_INLINE std::enable_if_t<!std::is_arithmetic_v<Mask>, bool> any(const Mask& mask) {
+    auto all = mask[0];
+    for (size_t lane = 1; lane < sizeof mask / sizeof mask[0]; ++lane) all |= mask[lane];
+    return all != 0;
+}
+FROND_INLINE bool lane_of(int mask, int) {
+    return mask != 0;
 }
 
 // A constant in all lanes.
@@ -58,6 +96,9 @@ FROND_INLINE S gather(const Value& value) {
     return out;
 }
 
+FROND_INLINE double sqrt(double a) {
+    return std::sqrt(a);
+}
 FROND_INLINE TwoLanes sqrt(const TwoLanes& a) {
 #if defined(__SSE2__)
     return _mm_sqrt_pd(a);
@@ -191,6 +232,41 @@ FROND_INLINE Lanes3<S> transposed_times(const Lanes33<S>& a, const Lanes3<S>& b)
 template <class S>
 FROND_INLINE Lanes33<S> transposed_times(const Lanes33<S>& a, const Lanes33<S>& b) {
     return transposed(a) * b;
+}
+template <class S>
+FROND_INLINE Lanes33<S> operator*(const S& a, const Lanes33<S>& b) {
+    return {{a * b.r[0], a * b.r[1], a * b.r[2]}};
+}
+// The sum of all products, one by one.
+template <class S>
+FROND_INLINE S dot(const Lanes33<S>& a, const Lanes33<S>& b) {
+    return dot(a.r[0], b.r[0]) + dot(a.r[1], b.r[1]) + dot(a.r[2], b.r[2]);
+}
+template <class S>
+FROND_INLINE S trace(const Lanes33<S>& a) {
+    return a.r[0].x + a.r[1].y + a.r[2].z;
+}
+template <class S>
+FROND_INLINE void add_to_diagonal(const S& a, Lanes33<S>& to) {
+    to.r[0].x += a, to.r[1].y += a, to.r[2].z += a;
+}
+// a b^T.
+template <class S>
+FROND_INLINE Lanes33<S> outer(const Lanes3<S>& a, const Lanes3<S>& b) {
+    return {{a.x * b, a.y * b, a.z * b}};
+}
+// The determinant times the inverse, transposed.
+template <class S>
+FROND_INLINE Lanes33<S> cofactor(const Lanes33<S>& a) {
+    return {{cross(a.r[1], a.r[2]), cross(a.r[2], a.r[0]), cross(a.r[0], a.r[1])}};
+}
+template <class Mask, class S>
+FROND_INLINE Lanes3<S> select(const Mask& mask, const Lanes3<S>& yes, const Lanes3<S>& no) {
+    return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+template <class Mask, class S>
+FROND_INLINE Lanes33<S> select(const Mask& mask, const Lanes33<S>& yes, const Lanes33<S>& no) {
+    return {{select(mask, yes.r[0], no.r[0]), select(mask, yes.r[1], no.r[1]), select(mask, yes.r[2], no.r[2])}};
 }
 // I + a [v] + b [v]^2.
 template <class S>

@@ -100,8 +100,8 @@ struct Mechanics {
     int (*add_force_stiffness_and_damping)(const Elements& elements, const VecX& x, const std::vector<double>& damping,
                                            VecX& f, BlockMatrix& K, BlockMatrix& D);
     // With K the positive stiffness at x and D what it damps by: adds the force at x less K way and D v to f, and
-    // step^2 K + step D to A. Null: the functions above do as well.
-    void (*add_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A);
+    // step^2 K + step D to A; the number of inverted tets is returned. Null: the functions above do as well.
+    int (*add_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A);
     // Rotary inertia of each pair of nodes, place and rotation, by the rate of the rotation vector at x [kg m^2]; null
     // where no node turns.
     void (*rotary_inertia)(const Elements& elements, const VecX& x, std::vector<Mat3>& out);

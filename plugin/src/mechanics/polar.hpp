@@ -14,5 +14,7 @@ struct Polar {
     double determinant;  // of F; negative when turned inside out
 };
 Polar polar_decomposition(const Mat3& F);
+// Slow, and right also where F is turned inside out so far that the rotation is about to jump, or flattened to a line.
+Polar polar_by_values(const Mat3& F);
 
 }  // namespace frond

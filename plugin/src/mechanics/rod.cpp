@@ -322,13 +322,14 @@ int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double
     return 0;
 }
 
-void rod_add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
+int rod_add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
     Assemble job = {as_rods(body), x};
     job.f = &f;
     job.K = &A;
     job.damping = ahead.element_damping.empty() ? nullptr : &ahead.element_damping;
     job.ahead = &ahead;
     run_in_lanes(job);
+    return 0;
 }
 
 void rod_inertia(const Elements& body, const VecX& x, std::vector<Mat3>& out) {

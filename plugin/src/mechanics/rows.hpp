@@ -28,7 +28,7 @@ void rod_add_stiffness(const Elements&, const VecX& x, Tangent, double scale, Bl
 int rod_add_both(const Elements&, const VecX& x, Tangent, VecX& f, BlockMatrix& K);
 int rod_add_damped(const Elements&, const VecX& x, const std::vector<double>& damping, VecX& f, BlockMatrix& K,
                    BlockMatrix& D);
-void rod_add_ahead(const Elements&, const VecX& x, const Ahead&, VecX& f, BlockMatrix& A);
+int rod_add_ahead(const Elements&, const VecX& x, const Ahead&, VecX& f, BlockMatrix& A);
 void rod_inertia(const Elements&, const VecX& x, std::vector<Mat3>& out);
 bool rods_yield(const Elements&, const VecX& x);
 std::unique_ptr<Elements> copy_rods(const Elements&);

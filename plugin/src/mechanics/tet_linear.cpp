@@ -1,6 +1,6 @@
 // In: the gradient of deformation at a point. Out: energy, stress and stiffness of linear elasticity with displacements
 // u = x - x0, equation (1) of the paper: right for small deflections, and a large turn makes the body swell.
-#include "mechanics/tet_row.hpp"
+#include "mechanics/tet_lanes.hpp"
 #include "mechanics/warped_stiffness.hpp"
 
 namespace frond {
@@ -8,37 +8,61 @@ namespace frond {
 namespace {
 
 struct Linear {
+    template <class S>
     struct Strain {
-        Mat3 F;
-        Mat3 small() const { return 0.5 * (F + F.transpose()) - Mat3::Identity(); }
+        Lanes33<S> F, small;
     };
-    static Strain strain(const TetShare&, const Mat3& F) { return {F}; }
 
-    static double energy(const TetShare& tet, const Strain& s) {
-        const Mat3 small = s.small();
-        const double trace = small.trace();
-        return tet.mu * small.squaredNorm() + 0.5 * tet.lambda * trace * trace;
+    template <class S>
+    FROND_INLINE static Strain<S> strain(const Lanes33<S>& F) {
+        Strain<S> s = {F, constant<S>(0.5) * (F + transposed(F))};
+        add_to_diagonal(constant<S>(-1), s.small);
+        return s;
     }
 
-    static Mat3 stress(const TetShare& tet, const Strain& s) {
-        const Mat3 small = s.small();
-        Mat3 stress = 2 * tet.mu * small;
-        stress.diagonal().array() += tet.lambda * small.trace();
+    template <class S>
+    FROND_INLINE static S energy(const TetShareLanes<S>& tet, const Strain<S>& s) {
+        const S swell = trace(s.small);
+        return tet.mu * dot(s.small, s.small) + 0.5 * tet.lambda * swell * swell;
+    }
+
+    template <class S>
+    FROND_INLINE static Lanes33<S> stress(const TetShareLanes<S>& tet, const Strain<S>& s) {
+        Lanes33<S> stress = (2.0 * tet.mu) * s.small;
+        add_to_diagonal(S(tet.lambda * trace(s.small)), stress);
         return stress;
     }
 
-    // Constant, so that the two tangents are one.
-    static TetStiffness stiffness(const TetShare& tet, const Strain&, Tangent, double scale) {
-        return warped_stiffness(tet, Mat3::Identity(), scale);
+    template <class S>
+    FROND_INLINE static Lanes33<S> identity() {
+        Lanes33<S> one = {};
+        add_to_diagonal(constant<S>(1), one);
+        return one;
     }
 
-    static bool inverted(const Strain& s) { return s.F.determinant() < 0; }
+    template <class S>
+    FROND_INLINE static Lanes33<S> stress_of_change(const TetShareLanes<S>& tet, const Strain<S>&,
+                                                    const Lanes33<S>& dF) {
+        return warped_stress(tet, identity<S>(), dF);
+    }
+
+    // Constant, so that the two tangents are one.
+    template <class S>
+    FROND_INLINE static TetStiffnessLanes<S> stiffness(const TetShareLanes<S>& tet, const Strain<S>&, Tangent,
+                                                       const S& scale) {
+        return warped_stiffness(tet, identity<S>(), scale);
+    }
+
+    template <class S>
+    FROND_INLINE static auto inverted(const Strain<S>& s) {
+        return dot(s.F.r[0], cross(s.F.r[1], s.F.r[2])) < 0.0;
+    }
 };
 
 }  // namespace
 
 Mechanics tet_linear(int order) {
-    Mechanics row = tet_row<Linear>("tet_linear", order, false);
+    Mechanics row = tet_row_in_lanes<Linear>("tet_linear", order);
     row.turns = false;
     return row;
 }

@@ -2,7 +2,7 @@
 // Gauss-Newton on the sum of squared distances.
 #include "mechanics/rotation.hpp"
 #include "plant/follow.hpp"
-#include "solve/direct.hpp"
+#include "solve/block_factor.hpp"
 
 namespace frond {
 
@@ -11,8 +11,8 @@ namespace {
 // Normal equations of the grips, with a pull towards no change for nodes that no cage node tells enough of.
 struct Normal {
     BlockPattern pattern;
-    DirectPlan plan;
-    DirectFactorPtr factor;
+    BlockPlan plan;
+    BlockFactor factor;
     BlockMatrix A;
     std::vector<double> weight;  // of no change, one a node of the mechanics
 
@@ -25,8 +25,8 @@ struct Normal {
             reach = std::max(reach, grip.arm[0].norm());
         }
         pattern = make_block_pattern(int(size / 3), pairs);
-        plan = make_direct_plan(pattern);
-        factor = make_direct_factor(plan);
+        plan = make_block_plan(pattern);
+        factor.plan = &plan;
         A.set_pattern(pattern);
         constexpr double WEAK = 1e-9;
         for (int i = 0; i < pattern.node_count; i++) weight.push_back(i % 2 ? WEAK * reach * reach + 1e-30 : WEAK);
@@ -37,7 +37,7 @@ struct Normal {
         for (const Grip& grip : follow.grips) add_grip_stiffness(grip, x, 1, A);
         for (int i = 0; i < pattern.node_count; i++)
             A.block(pattern.start[size_t(i)]).diagonal().array() += weight[size_t(i)];
-        return factorize(*factor, A);
+        return factorize(factor, A);
     }
 };
 
@@ -86,7 +86,7 @@ void fit_chain(const Follow& follow, const Model& model, const VecX& cage_x, Vec
         VecX pull = VecX::Zero(x.size()), move;
         for (size_t n = 0; n < follow.grips.size(); n++)
             add_grip_force(follow.grips[n], x, point(cage_x, int(n)) - point(places, int(n)), pull);
-        solve(*normal.factor, pull, move);
+        solve(normal.factor, pull, move);
         if (!move.allFinite()) break;
         x += move;
     }
@@ -100,7 +100,7 @@ void fit_velocities(const Follow& follow, const VecX& x, const VecX& cage_v, Vec
     VecX pull = VecX::Zero(x.size());
     for (size_t n = 0; n < follow.grips.size(); n++)
         add_grip_force(follow.grips[n], x, point(cage_v, int(n)), pull);
-    solve(*normal.factor, pull, v);
+    solve(normal.factor, pull, v);
 }
 
 }  // namespace frond

@@ -72,7 +72,7 @@ SwingModes make_swing_modes(const System& rods, const AirPieces& pieces) {
     if (!stiffness.set(elements, still, FROND_ROD, Tangent::exact, elements.modelled) &&
         !stiffness.set(elements, still, FROND_ROD, Tangent::positive, elements.modelled))
         return all;
-    const std::array<Sway, 2> sways = first_sways(*stiffness.factor, node_mass_of(rods), still);
+    const std::array<Sway, 2> sways = first_sways(stiffness.factor, node_mass_of(rods), still);
     for (size_t k = 0; k < 2; k++) {
         if (sways[k].shape.size() == 0) continue;
         all.modes[k].shape = sways[k].shape;

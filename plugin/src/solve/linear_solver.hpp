@@ -3,6 +3,7 @@
 
 #include "frond/frond.h"
 #include "mechanics/block_matrix.hpp"
+#include "solve/block_factor.hpp"
 #include "solve/direct.hpp"
 
 namespace frond {
@@ -21,7 +22,8 @@ struct LinearResult {
 
 // Kept from solve to solve; each solver uses its own part.
 struct LinearScratch {
-    DirectFactorPtr factor;
+    BlockFactor block;
+    DirectFactorPtr direct;  // made when it is first asked for
     VecX product, residual, direction, preconditioned, inverse_diagonal;
     std::vector<double> inverse_blocks;  // of the diagonal, 9 a node
     std::vector<double> incomplete;      // factor on the matrix's own pattern, 9 a block
@@ -40,9 +42,11 @@ struct LinearSolver {
 const LinearSolver& linear_solver(frond_linear_solver which);
 
 // The rows.
+LinearResult solve_block(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
+LinearResult solve_block_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
+void half_solve_block(LinearScratch&, const std::vector<NodeBlock>& right_side, Answer& answer);
 LinearResult solve_direct(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_direct_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
-void half_solve_direct(LinearScratch&, const std::vector<NodeBlock>& right_side, Answer& answer);
 LinearResult solve_pcg_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_block_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_incomplete_cholesky(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&,
@@ -50,5 +54,7 @@ LinearResult solve_pcg_incomplete_cholesky(const BlockMatrix&, const VecX& b, co
 
 // |b - A x| / |b|; leaves b - A x in `residual`. Zero for b = 0 and x = 0.
 double relative_residual(const BlockMatrix& A, const VecX& b, const VecX& x, VecX& residual);
+// What a direct solve came to.
+LinearResult checked_once(const BlockMatrix& A, const VecX& b, const VecX& x, LinearScratch& scratch);
 
 }  // namespace frond

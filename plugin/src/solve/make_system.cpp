@@ -39,7 +39,7 @@ std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, fr
     const Mechanics& row = *(system->row = &mechanics(which, order));
     system->elements = row.make(*system->model, which);
     finish(*system, mass);
-    system->plan = make_direct_plan(system->elements->pattern);
+    system->plan = make_block_plan(system->elements->pattern);
     return system;
 }
 

@@ -92,7 +92,8 @@ void linearize_at_start(Newton& n) {
         w.A.set_zero();
         move(n, w.v);
         w.dv = w.x - from;
-        n.body.add_ahead(*w.elements, from, {w.dv, w.v, n.stage.step, n.apart ? 0 : n.rayleigh, w.element_damping},
+        n.report.inverted =
+            n.body.add_ahead(*w.elements, from, {w.dv, w.v, n.stage.step, n.apart ? 0 : n.rayleigh, w.element_damping},
                          w.elastic, w.A);
         return start_residual(n, w.v, w.rhs);
     }
@@ -147,6 +148,15 @@ double potential_at(const Newton& n, const VecX& v) {
     return potential;
 }
 
+void add_mass(const Masses& masses, double scale, BlockMatrix& A) {
+    const auto add = [&](int slot) { A.block(slot).diagonal().array() += scale * masses.slot[size_t(slot)]; };
+    const BlockPattern& pattern = *A.pattern;
+    if (masses.lumped)
+        for (int i = 0; i < pattern.node_count; ++i) add(pattern.start[size_t(i)]);
+    else
+        for (int k = 0; k < pattern.block_count(); ++k) add(k);
+}
+
 // A = (1 + step a) M + step^2 K + step b K_damping + springs + drags. `first`: K is the one at the start of the step, of which
 // the damping is a multiple unless elements damp each in its own way.
 void form_matrix(Newton& n, bool first) {
@@ -158,10 +168,7 @@ void form_matrix(Newton& n, bool first) {
         for (double& value : A.values) value *= scale;
     if (!n.at_once && !alike && n.keep_damping)
         for (size_t k = 0; k < A.values.size(); ++k) A.values[k] += step * n.rayleigh * n.w.damping.values[k];
-    for (size_t k = 0; k < n.system.masses.slot.size(); ++k) {
-        const double m = mass * n.system.masses.slot[k];
-        for (size_t c = 0; c < 9; c += 4) A.values[9 * k + c] += m;
-    }
+    add_mass(n.system.masses, mass, A);
     add_inertia(n.w, mass);
     add_spring_stiffness(n.input.loads.springs, n.w.x, step * step, A);
     add_drag_damping(n.input.loads.drags, n.w.x, step, A);

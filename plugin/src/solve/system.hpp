@@ -1,7 +1,7 @@
 // System: what all plants of one model share for solving. Read-only once made.
 #pragma once
 
-#include "solve/direct.hpp"
+#include "solve/block_factor.hpp"
 #include "solve/solve.hpp"
 
 namespace frond {
@@ -14,7 +14,7 @@ struct System {
     bool damps_alike = true;        // all elements have the same damping ratio
     std::vector<uint8_t> loose;     // one a node: no element holds it
     double size = 0;                // longest side of the box around the nodes at rest [m]
-    DirectPlan plan;
+    BlockPlan plan;
 };
 
 // y = M v, with the rotary inertia of nodes that turn, if there are any.

@@ -36,7 +36,7 @@ struct TreeFactor {
 bool factorize(const TreePlan& plan, const BlockMatrix& A, TreeFactor& factor);
 // x = A^-1 b with the matrix factorized last.
 void solve(const TreePlan& plan, const TreeFactor& factor, const VecX& b, VecX& x);
-// As half_solve() in direct.hpp.
+// As half_solve() in block_factor.hpp.
 void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer);
 
 }  // namespace frond

@@ -1,4 +1,4 @@
-// Making and freeing a plant's workspace; the symbolic part of its factor is done here, once.
+// Making and freeing a plant's workspace.
 #include "solve/workspace.hpp"
 
 #include "core/error.hpp"
@@ -9,7 +9,7 @@ WorkspacePtr make_workspace(std::shared_ptr<const System> system) {
     if (!system) fail(FROND_INTERNAL, "a workspace was asked for without a system");
     WorkspacePtr workspace(new Workspace);
     workspace->A.set_pattern(system->elements->pattern);
-    workspace->linear.factor = make_direct_factor(system->plan);
+    workspace->linear.block.plan = &system->plan;
     workspace->elements = system->elements.get();
     workspace->system = std::move(system);
     return workspace;

@@ -1,0 +1,44 @@
+// Nine: the numbers of a 3x3 block, by columns, of one lane.
+#pragma once
+
+#include "core/lanes.hpp"
+
+namespace frond {
+
+struct Nine {
+    FourLanes low, high;
+    double last;
+};
+FROND_INLINE Nine operator+(const Nine& a, const Nine& b) {
+    return {a.low + b.low, a.high + b.high, a.last + b.last};
+}
+FROND_INLINE Nine operator*(double a, const Nine& b) {
+    return {a * b.low, a * b.high, a * b.last};
+}
+FROND_INLINE void add_to(double* block, const Nine& a) {
+    store(FourLanes(load<FourLanes>(block) + a.low), block);
+    store(FourLanes(load<FourLanes>(block + 4) + a.high), block + 4);
+    block[8] += a.last;
+}
+
+// Four by four turned over.
+FROND_INLINE void turn_over(const FourLanes& v0, const FourLanes& v1, const FourLanes& v2, const FourLanes& v3,
+                            FourLanes (&out)[4]) {
+    using Places = long long __attribute__((vector_size(32)));
+    const FourLanes a = __builtin_shuffle(v0, v1, Places{0, 4, 2, 6}), b = __builtin_shuffle(v0, v1, Places{1, 5, 3, 7});
+    const FourLanes c = __builtin_shuffle(v2, v3, Places{0, 4, 2, 6}), d = __builtin_shuffle(v2, v3, Places{1, 5, 3, 7});
+    out[0] = __builtin_shuffle(a, c, Places{0, 1, 4, 5});
+    out[1] = __builtin_shuffle(b, d, Places{0, 1, 4, 5});
+    out[2] = __builtin_shuffle(a, c, Places{2, 3, 6, 7});
+    out[3] = __builtin_shuffle(b, d, Places{2, 3, 6, 7});
+}
+
+// Blocks of four lanes, lane by lane.
+FROND_INLINE void lane_by_lane(const Lanes33<FourLanes>& k, Nine (&out)[4]) {
+    FourLanes low[4], high[4];
+    turn_over(k.r[0].x, k.r[1].x, k.r[2].x, k.r[0].y, low);
+    turn_over(k.r[1].y, k.r[2].y, k.r[0].z, k.r[1].z, high);
+    for (int l = 0; l < 4; ++l) out[l] = {low[l], high[l], k.r[2].z[l]};
+}
+
+}  // namespace frond

@@ -1,0 +1,126 @@
+// Rows of the table of mechanics from a material that is written for lanes. Beside what tet_row.hpp asks for, such a
+// material ("law") says
+//   Lanes33<S> stress_of_change(share, strain, dF)   the positive stiffness times a change of F [Pa]
+// Four points of integration are taken at once: of four tets with straight edges, or of one quadratic tet. Each comes out
+// as if it were alone, and they are added up in the order of tets.
+#pragma once
+
+#include "mechanics/four_points.hpp"
+#include "mechanics/four_tets.hpp"
+#include "mechanics/tet_row.hpp"
+
+namespace frond {
+
+// What one pass over the tets adds up; what is null is left out.
+template <class Law, class Group>
+struct TetPass {
+    const TetElements& elements;
+    const VecX& x;
+    int& inverted;  // how many
+    VecX* f = nullptr;
+    BlockMatrix* K = nullptr;
+    Tangent tangent = Tangent::positive;
+    double scale = 1;                              // of the stiffness
+    const std::vector<double>* damping = nullptr;  // one an element [s]
+    BlockMatrix* D = nullptr;                      // takes damping times the stiffness
+    const Ahead* ahead = nullptr;                  // K is then that of Mechanics::add_ahead
+
+    // Four lanes also where the processor has two.
+    template <class>
+    FROND_INLINE void run() const {
+        using S = FourLanes;
+        inverted = 0;
+        for (size_t first = 0; first < elements.tets.size(); first += Group::TETS) {
+            const Group tets(elements, first);
+            const TetShareLanes<S> share = tets.share();
+            const auto strain = Law::strain(tets.edges(x) * share.rest_inverse);
+            inverted += tets.count_tets(Law::inverted(strain));
+            S by = constant<S>(scale), damped = constant<S>(0);
+            if (damping) damped = tets.of_tets(*damping);
+            if (ahead) {
+                damped += ahead->damping;
+                by = ahead->step * (ahead->step + damped);
+            }
+            if (f) {
+                Lanes33<S> P = Law::stress(share, strain);
+                if (ahead) {
+                    const Lanes33<S> change = tets.edges(ahead->way) + damped * tets.edges(ahead->v);
+                    P = P + Law::stress_of_change(share, strain, change * share.rest_inverse);
+                }
+                tets.add_force(share, P, *f);
+            }
+            if (!K) continue;
+            const TetStiffnessLanes<S> stiffness = Law::stiffness(share, strain, tangent, by);
+            tets.add_stiffness(stiffness, *K);
+            if (D) tets.add_stiffness(damped * stiffness, *D);
+        }
+    }
+};
+
+template <class Law, class Group>
+struct TetRowInLanes {
+    static int add_force(const Elements& body, const VecX& x, VecX& f) {
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.f = &f;
+        run_in_lanes(pass);
+        return inverted;
+    }
+    static void add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale, BlockMatrix& K) {
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.K = &K;
+        pass.tangent = tangent;
+        pass.scale = scale;
+        run_in_lanes(pass);
+    }
+    static int add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.f = &f;
+        pass.K = &K;
+        pass.tangent = tangent;
+        run_in_lanes(pass);
+        return inverted;
+    }
+    static int add_damped(const Elements& body, const VecX& x, const std::vector<double>& damping, VecX& f,
+                          BlockMatrix& K, BlockMatrix& D) {
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.f = &f;
+        pass.K = &K;
+        pass.damping = &damping;
+        pass.D = &D;
+        run_in_lanes(pass);
+        return inverted;
+    }
+    static int add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.f = &f;
+        pass.K = &A;
+        pass.damping = ahead.element_damping.empty() ? nullptr : &ahead.element_damping;
+        pass.ahead = &ahead;
+        run_in_lanes(pass);
+        return inverted;
+    }
+};
+
+template <class Law>
+Mechanics tet_row_in_lanes(const char* name, int order) {
+    Mechanics row = tet_row<PointByPoint<Law>>(name, order, false);
+    const auto take = [&](auto rows) {
+        row.add_force = rows.add_force;
+        row.add_stiffness = rows.add_stiffness;
+        row.add_force_and_stiffness = rows.add_both;
+        row.add_force_stiffness_and_damping = rows.add_damped;
+        row.add_ahead = rows.add_ahead;
+    };
+    if (order == 1)
+        take(TetRowInLanes<Law, FourTets>());
+    else
+        take(TetRowInLanes<Law, FourPoints>());
+    return row;
+}
+
+}  // namespace frond

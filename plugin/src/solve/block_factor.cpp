@@ -1,0 +1,49 @@
+// In: a symmetric matrix of 3x3 blocks. Out: its factors L D L^T and solutions, in whichever way its pattern asks for.
+#include "solve/block_factor.hpp"
+
+#include <cmath>
+
+#include "solve/linear_solver.hpp"
+
+namespace frond {
+
+BlockPlan make_block_plan(const BlockPattern& pattern) {
+    BlockPlan plan;
+    plan.tree = make_tree_plan(pattern);
+    if (!plan.tree) plan.fronts = make_front_plan(pattern);
+    return plan;
+}
+
+bool factorize(BlockFactor& factor, const BlockMatrix& A) {
+    const BlockPlan& plan = *factor.plan;
+    return plan.tree ? factorize(*plan.tree, A, factor.tree) : factorize(plan.fronts, A, factor.fronts);
+}
+
+void solve(BlockFactor& factor, const VecX& b, VecX& x) {
+    const BlockPlan& plan = *factor.plan;
+    return plan.tree ? solve(*plan.tree, factor.tree, b, x) : solve(plan.fronts, factor.fronts, b, x);
+}
+
+void half_solve(BlockFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer) {
+    const BlockPlan& plan = *factor.plan;
+    return plan.tree ? half_solve(*plan.tree, factor.tree, right_side, answer)
+                     : half_solve(plan.fronts, factor.fronts, right_side, answer);
+}
+
+void half_solve_block(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, Answer& answer) {
+    half_solve(scratch.block, right_side, answer);
+}
+
+LinearResult solve_block(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
+                         VecX& x) {
+    if (!factorize(scratch.block, A)) return {};
+    return solve_block_again(A, b, limits, scratch, x);
+}
+
+LinearResult solve_block_again(const BlockMatrix& A, const VecX& b, const LinearLimits&, LinearScratch& scratch,
+                               VecX& x) {
+    solve(scratch.block, b, x);
+    return checked_once(A, b, x, scratch);
+}
+
+}  // namespace frond

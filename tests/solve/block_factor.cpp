@@ -1,0 +1,154 @@
+// Frond's own factors, of trees of pairs and of any pattern, against dense algebra.
+#include "solve/block_factor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mechanics/mechanics.hpp"
+#include "support/dense.hpp"
+#include "support/meshes.hpp"
+
+namespace frond::test {
+namespace {
+
+// Pairs under earlier ones, chosen at random, some of them roots; a pair of nodes may be without a block.
+BlockPattern random_tree(int pairs, Dice& dice) {
+    std::vector<Tet> elements;
+    for (int i = 0; i < pairs; ++i) {
+        const int parent = i > 0 ? int(dice.uniform(0, i - 1e-9)) : 0, kind = int(dice.uniform(0, 7));
+        if (kind != 0) elements.push_back({2 * i, 2 * i + 1, 2 * i, 2 * i + 1});
+        if (i == 0 || kind == 1) continue;
+        if (kind == 2)
+            elements.push_back({2 * i + 1, 2 * parent, 2 * i + 1, 2 * parent});
+        else
+            elements.push_back({2 * i, 2 * i + 1, 2 * parent, 2 * parent + 1});
+    }
+    return make_block_pattern(2 * pairs, elements);
+}
+
+// Chains, trees, clouds and what hangs together in no way at all.
+BlockPattern random_graph(int nodes, Dice& dice) {
+    std::vector<Tet> elements;
+    const double reach = dice.uniform(0, 1) < 0.5 ? 6 : nodes;
+    const int count = int(dice.uniform(0, 2) * nodes);
+    for (int e = 0; e < count; ++e) {
+        Tet tet;
+        const double from = dice.uniform(0, nodes - 1e-9);
+        for (int& node : tet) node = std::min(int(from + dice.uniform(0, reach)), nodes - 1);
+        elements.push_back(tet);
+    }
+    return make_block_pattern(nodes, elements);
+}
+
+BlockPattern random_pattern(uint64_t seed, Dice& dice) {
+    return seed % 2 ? random_tree(1 + int(seed), dice) : random_graph(1 + int(seed) * 3, dice);
+}
+
+BlockMatrix random_matrix(const BlockPattern& pattern, Dice& dice, double shift) {
+    BlockMatrix A;
+    A.set_pattern(pattern);
+    for (double& value : A.values) value = dice.uniform(-1, 1);
+    for (int j = 0; j < pattern.node_count; ++j) {
+        auto own = A.block(pattern.start[size_t(j)]);
+        own = Mat3(own + own.transpose());
+        own.diagonal().array() += shift;
+    }
+    return A;
+}
+
+struct Factored {
+    BlockPlan plan;
+    BlockFactor factor;
+    explicit Factored(const BlockPattern& pattern) : plan(make_block_plan(pattern)) { factor.plan = &plan; }
+};
+
+TEST(BlockFactor, SolvesAsDenseAlgebraDoes) {
+    for (uint64_t seed = 1; seed < 60; ++seed) {
+        Dice dice(seed);
+        const BlockPattern pattern = random_pattern(seed, dice);
+        Factored own(pattern);
+        EXPECT_EQ(own.plan.tree.has_value(), seed % 2 == 1);
+        // One factor for several matrices.
+        for (int round = 0; round < 3; ++round) {
+            const BlockMatrix A = random_matrix(pattern, dice, 60);
+            ASSERT_TRUE(factorize(own.factor, A));
+            const VecX b = dice.vector(3 * pattern.node_count, 1);
+            VecX x;
+            solve(own.factor, b, x);
+            EXPECT_LT((dense(A) * x - b).norm(), 1e-13 * b.norm()) << seed;
+        }
+    }
+}
+
+TEST(BlockFactor, HalvesOfASolveAreThoseOfTheWhole) {
+    for (uint64_t seed = 11; seed < 31; ++seed) {
+        Dice dice(seed);
+        const BlockPattern pattern = random_pattern(seed, dice);
+        const BlockMatrix A = random_matrix(pattern, dice, 60);
+        const Eigen::MatrixXd inverse = dense(A).inverse();
+        Factored own(pattern);
+        ASSERT_TRUE(factorize(own.factor, A));
+        const auto push = [&] {
+            std::vector<NodeBlock> blocks;
+            for (int k = 0; k < 3; ++k)
+                blocks.push_back({int(dice.uniform(0, pattern.node_count - 1e-9)), Mat3(dice.rotation())});
+            return blocks;
+        };
+        for (int round = 0; round < 5; ++round) {
+            const std::vector<NodeBlock> at = push(), by = push();
+            Answer first, second;
+            half_solve(own.factor, at, first);
+            half_solve(own.factor, by, second);
+            EXPECT_TRUE(std::is_sorted(first.rows.begin(), first.rows.end()));
+            EXPECT_LT(second.rows.back(), 3 * pattern.node_count);
+            Eigen::Matrix3Xd spread;
+            std::vector<Mat3> blocks(1, Mat3::Zero());
+            add_answers({&first}, second, spread, blocks);
+            Mat3 expected = Mat3::Zero();
+            for (const NodeBlock& a : at)
+                for (const NodeBlock& b : by)
+                    expected += a.block.transpose() * inverse.block<3, 3>(3 * a.node, 3 * b.node) * b.block;
+            EXPECT_LT((blocks[0] - expected).norm(), 1e-13 * expected.norm() + 1e-15);
+        }
+    }
+}
+
+TEST(BlockFactor, SaysSoWhenTheMatrixIsNotPositive) {
+    for (uint64_t seed = 8; seed < 12; ++seed) {
+        Dice dice(seed);
+        const BlockPattern pattern = random_pattern(seed, dice);
+        Factored own(pattern);
+        EXPECT_FALSE(factorize(own.factor, random_matrix(pattern, dice, -1)));
+        BlockMatrix A = random_matrix(pattern, dice, 60);
+        EXPECT_TRUE(factorize(own.factor, A));
+        A.values[28] = std::nan("");
+        EXPECT_FALSE(factorize(own.factor, A));
+        A = random_matrix(pattern, dice, INFINITY);
+        EXPECT_FALSE(factorize(own.factor, A));
+    }
+}
+
+// A chain of a hundred thousand nodes is deeper than any stack of calls, and one front of all nodes is as wide as the
+// matrix.
+TEST(BlockFactor, TakesTheLongestAndTheWidest) {
+    std::vector<Tet> chain;
+    for (int i = 0; i + 3 < 100000; ++i) chain.push_back({i, i + 1, i + 2, i + 3});
+    std::vector<Tet> cloud;
+    for (int i = 0; i < 120; ++i)
+        for (int j = 0; j < i; ++j) cloud.push_back({i, j, i, j});
+    for (const BlockPattern& pattern : {make_block_pattern(100000, chain), make_block_pattern(120, cloud)}) {
+        Dice dice(5);
+        const BlockMatrix A = random_matrix(pattern, dice, 400);
+        Factored own(pattern);
+        ASSERT_TRUE(factorize(own.factor, A));
+        const VecX b = dice.vector(3 * pattern.node_count, 1);
+        VecX x, product;
+        solve(own.factor, b, x);
+        A.multiply(x, product);
+        EXPECT_LT((product - b).norm(), 1e-13 * b.norm());
+    }
+}
+
+}  // namespace
+}  // namespace frond::test
