@@ -123,6 +123,29 @@ FROND_INLINE void store(const S& value, double* to) {
     __builtin_memcpy(to, &value, sizeof(S));
 }
 
+// Four numbers where they are read and written at once.
+struct alignas(32) Quad {
+    double at[4];
+};
+FROND_INLINE FourLanes load(const Quad& from) {
+    return load<FourLanes>(from.at);
+}
+FROND_INLINE void store(const FourLanes& value, Quad& to) {
+    store(value, to.at);
+}
+
+// Four by four turned over.
+FROND_INLINE void turn_over(const FourLanes& v0, const FourLanes& v1, const FourLanes& v2, const FourLanes& v3,
+                            FourLanes (&out)[4]) {
+    using Places = long long __attribute__((vector_size(32)));
+    const FourLanes a = __builtin_shuffle(v0, v1, Places{0, 4, 2, 6}), b = __builtin_shuffle(v0, v1, Places{1, 5, 3, 7});
+    const FourLanes c = __builtin_shuffle(v2, v3, Places{0, 4, 2, 6}), d = __builtin_shuffle(v2, v3, Places{1, 5, 3, 7});
+    out[0] = __builtin_shuffle(a, c, Places{0, 1, 4, 5});
+    out[1] = __builtin_shuffle(b, d, Places{0, 1, 4, 5});
+    out[2] = __builtin_shuffle(a, c, Places{2, 3, 6, 7});
+    out[3] = __builtin_shuffle(b, d, Places{2, 3, 6, 7});
+}
+
 // To the nearest whole number, of numbers below 2^51: adding this leaves no digits behind the point.
 template <class S>
 FROND_INLINE S whole(const S& a) {

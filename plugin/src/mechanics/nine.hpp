@@ -21,18 +21,6 @@ FROND_INLINE void add_to(double* block, const Nine& a) {
     block[8] += a.last;
 }
 
-// Four by four turned over.
-FROND_INLINE void turn_over(const FourLanes& v0, const FourLanes& v1, const FourLanes& v2, const FourLanes& v3,
-                            FourLanes (&out)[4]) {
-    using Places = long long __attribute__((vector_size(32)));
-    const FourLanes a = __builtin_shuffle(v0, v1, Places{0, 4, 2, 6}), b = __builtin_shuffle(v0, v1, Places{1, 5, 3, 7});
-    const FourLanes c = __builtin_shuffle(v2, v3, Places{0, 4, 2, 6}), d = __builtin_shuffle(v2, v3, Places{1, 5, 3, 7});
-    out[0] = __builtin_shuffle(a, c, Places{0, 1, 4, 5});
-    out[1] = __builtin_shuffle(b, d, Places{0, 1, 4, 5});
-    out[2] = __builtin_shuffle(a, c, Places{2, 3, 6, 7});
-    out[3] = __builtin_shuffle(b, d, Places{2, 3, 6, 7});
-}
-
 // Blocks of four lanes, lane by lane.
 FROND_INLINE void lane_by_lane(const Lanes33<FourLanes>& k, Nine (&out)[4]) {
     FourLanes low[4], high[4];

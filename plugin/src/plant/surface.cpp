@@ -1,48 +1,18 @@
-// What follows the cage: the surface with its normals, and the chain.
+// In: where a cage is. Out: the surface that it carries along, and its normals.
+//
+// A vertex is a sum of its tet's nodes. Normals turn with the cofactor of the deformation gradient F = E M^-1 from the
+// modelled shape, M a tet's edges and E those of now. One matrix a node, the volume-weighted mean over its tets, is
+// interpolated like the positions, so that shading stays smooth across tets and hard edges stay hard. Times the volume
+// det(M) / 6 the cofactor is cof(E) M^T / 6; of quadratic tets that at the node.
 #include <algorithm>
 
+#include "core/lanes.hpp"
 #include "core/timer.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {
 
-// Along the shape functions of the plant's elements, whatever they move.
-static TetPlace bound_place(const Plant& plant, const Embedding& embedding, size_t i) {
-    return place_in_tet(*plant.nodes, plant.model->cage.tets, embedding.tet[i], embedding.weights[i]);
-}
-
-static Vec3 bound_point(const Plant& plant, const Embedding& embedding, size_t i, const VecX& x) {
-    const TetPlace place = bound_place(plant, embedding, i);
-    Vec3 p = Vec3::Zero();
-    for (size_t k = 0; k < size_t(place.count); k++) p += place.weight[k] * point(x, place.node[k]);
-    return p;
-}
-
-static Mat3 edges_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    Mat3 edges;
-    edges.col(0) = b - a;
-    edges.col(1) = c - a;
-    edges.col(2) = d - a;
-    return edges;
-}
-
-// Edges of the linear tet as which a quadratic one is seen at its corner c (mechanics/tet_element.hpp).
-static Mat3 edges_at_corner(const QuadraticTet& nodes, size_t c, const VecX& x) {
-    const auto y = [&](size_t k) {
-        if (k == c) return Vec3(3 * point(x, nodes[c]));
-        return Vec3(4 * point(x, nodes[size_t(TET_BETWEEN[k][c])]) - point(x, nodes[k]));
-    };
-    return edges_of(y(0), y(1), y(2), y(3));
-}
-
-// cof(E) M^T, whichever way round the corners run.
-static Mat3 weighted_cofactor(const Mat3& E, const Mat3& M) {
-    Mat3 C;
-    C.col(0) = E.col(1).cross(E.col(2));
-    C.col(1) = E.col(2).cross(E.col(0));
-    C.col(2) = E.col(0).cross(E.col(1));
-    return (M.determinant() < 0 ? -1 : 1) * C * M.transpose();
-}
+namespace {
 
 // What is drawn as one: the plant, or a fragment that came off it.
 struct Drawn {
@@ -51,57 +21,201 @@ struct Drawn {
     Mat3 turn;
     Vec3 shift;
 };
-static bool belongs(const std::vector<int>& of, size_t i, const Drawn& drawn) {
+bool belongs(const std::vector<int>& of, size_t i, const Drawn& drawn) {
     return (of.empty() ? -1 : of[i]) == drawn.fragment;
 }
 
-// Normals turn with the cofactor of the deformation gradient F = E M^-1 from the modelled shape, M its edges and E
-// those of now. One matrix a node, the volume-weighted mean over its tets, is interpolated like the positions, so that
-// shading stays smooth across tets and hard edges stay hard. Times the volume det(M) / 6 the cofactor is cof(E) M^T
-// / 6; of quadratic tets that at the node.
-static void update_normals(Plant& plant, const Drawn& drawn) {
-    const Model& model = *plant.model;
-    const std::vector<Vec3>& modelled = model.cage.nodes;
-    const VecX& x = drawn.x;
-    std::vector<Mat3> cofactor(modelled.size(), Mat3::Zero());
-    const auto modelled_edges = [&](const auto& tet) {
-        return edges_of(modelled[size_t(tet[0])], modelled[size_t(tet[1])], modelled[size_t(tet[2])],
-                        modelled[size_t(tet[3])]);
-    };
-    if (plant.nodes->order == 1) {
-        for (size_t e = 0; e < model.cage.tets.size(); e++) {
-            if (!belongs(plant.parting->of_tet, e, drawn)) continue;
-            const Tet& tet = model.cage.tets[e];
-            const Mat3 E = edges_of(point(x, tet[0]), point(x, tet[1]), point(x, tet[2]), point(x, tet[3]));
-            const Mat3 weighted = weighted_cofactor(E, modelled_edges(tet));
-            for (int corner : tet) cofactor[size_t(corner)] += weighted;
-        }
-    } else {
-        for (size_t e = 0; e < model.cage.tets.size(); e++) {
-            if (!belongs(plant.parting->of_tet, e, drawn)) continue;
-            const QuadraticTet& tet = plant.nodes->of_tet[e];
-            const Mat3 M = modelled_edges(tet);
-            for (size_t c = 0; c < 4; c++) cofactor[size_t(tet[c])] += weighted_cofactor(edges_at_corner(tet, c, x), M);
-        }
-    }
-    for (Mat3& C : cofactor) C = drawn.turn * C;
+// Of a matrix, by columns.
+struct Columns {
+    Quad column[3];
+};
 
-    for (size_t v = 0; v < model.surface.normals.size(); v++) {
-        if (!belongs(plant.parting->of_vertex, v, drawn)) continue;
-        const Tet& tet = model.cage.tets[size_t(model.embedding.tet[v])];
-        const std::array<double, 4>& w = model.embedding.weights[v];
-        const Vec3 rest = model.surface.normals[v].cast<double>();
-        Vec3 normal = Vec3::Zero();
-        for (size_t k = 0; k < 4; k++) normal += w[k] * (cofactor[size_t(tet[k])] * rest);
-        const double length = normal.norm();
-        normal = length > 0 ? Vec3(normal / length) : Vec3(drawn.turn * rest);
-        for (int axis = 0; axis < 3; axis++) plant.surface_normals[3 * v + size_t(axis)] = float(normal[axis]);
-    }
+FROND_INLINE void put(const FourLanes& value, float* to) {
+    using FourFloats = float __attribute__((vector_size(16)));
+    const FourFloats narrow = __builtin_convertvector(value, FourFloats);
+    __builtin_memcpy(to, &narrow, 3 * sizeof(float));
 }
 
+// Nodes of the cage in the world.
+struct PlaceNodes {
+    const Drawn& drawn;
+    std::vector<Quad>& nodes;
+    template <class>
+    FROND_INLINE void run() const {
+        const auto lanes = [](const auto& v) __attribute__((always_inline)) { return FourLanes{v[0], v[1], v[2], 0}; };
+        const FourLanes x = lanes(drawn.turn.col(0)), y = lanes(drawn.turn.col(1)), z = lanes(drawn.turn.col(2));
+        const FourLanes shift = lanes(drawn.shift);
+        const double* from = drawn.x.data();
+        for (Quad& node : nodes) {
+            store(FourLanes(shift + (x * from[0] + y * from[1] + z * from[2])), node);
+            from += 3;
+        }
+    }
+};
+
+struct PlaceVertices {
+    const Plant& plant;
+    const Drawn& drawn;
+    const std::vector<Quad>& nodes;
+    float* positions;
+    template <class>
+    FROND_INLINE void run() const {
+        const Embedding& embedding = plant.model->embedding;
+        const std::vector<Tet>& tets = plant.model->cage.tets;
+        for (size_t v = 0; v < embedding.tet.size(); v++) {
+            if (!belongs(plant.parting->of_vertex, v, drawn)) continue;
+            FourLanes sum = {};
+            const auto add = [&](int node, double weight) __attribute__((always_inline)) {
+                sum += weight * load(nodes[size_t(node)]);
+            };
+            if (plant.nodes->order == 1) {
+                const Tet& tet = tets[size_t(embedding.tet[v])];
+                for (size_t k = 0; k < 4; k++) add(tet[k], embedding.weights[v][k]);
+            } else {
+                const TetPlace place = place_in_tet(*plant.nodes, tets, embedding.tet[v], embedding.weights[v]);
+                for (size_t k = 0; k < size_t(place.count); k++) add(place.node[k], place.weight[k]);
+            }
+            put(sum, positions + 3 * v);
+        }
+    }
+};
+
+// cof(E) M^T of four tets, each whichever way round its corners run. edges(lane, a) gives edge a of now, modelled(lane, a)
+// that at rest.
+template <class Edges, class Modelled>
+FROND_INLINE Lanes33<FourLanes> weighted_cofactors(const Edges& edges, const Modelled& modelled) {
+    Lanes33<FourLanes> E, M;  // a row an edge
+    for (int a = 0; a < 3; a++) {
+        FourLanes now[4], then[4];
+        turn_over(edges(0, a), edges(1, a), edges(2, a), edges(3, a), now);
+        turn_over(modelled(0, a), modelled(1, a), modelled(2, a), modelled(3, a), then);
+        E.r[a] = {now[0], now[1], now[2]};
+        M.r[a] = {then[0], then[1], then[2]};
+    }
+    const FourLanes volume = dot(M.r[0], cross(M.r[1], M.r[2]));
+    const FourLanes sign = select(volume < 0.0, constant<FourLanes>(-1), constant<FourLanes>(1));
+    return sign * transposed_times(cofactor(E), M);
+}
+
+// A matrix a node.
+struct AddCofactors {
+    const Plant& plant;
+    const Drawn& drawn;
+    const std::vector<Quad>& nodes;
+    std::vector<Columns>& cofactors;
+
+    FROND_INLINE FourLanes modelled(int node) const {
+        const Vec3& p = plant.model->cage.nodes[size_t(node)];
+        return FourLanes{p[0], p[1], p[2], 0};
+    }
+    FROND_INLINE FourLanes now(int node) const { return load(nodes[size_t(node)]); }
+
+    // Corner by corner of the tets, or the same for all of them.
+    FROND_INLINE void add(const Lanes33<FourLanes>& weighted, const int (&corner)[4], int lanes) const {
+        FourLanes columns[3][4];
+        const FourLanes none = {};
+        turn_over(weighted.r[0].x, weighted.r[1].x, weighted.r[2].x, none, columns[0]);
+        turn_over(weighted.r[0].y, weighted.r[1].y, weighted.r[2].y, none, columns[1]);
+        turn_over(weighted.r[0].z, weighted.r[1].z, weighted.r[2].z, none, columns[2]);
+        for (int lane = 0; lane < lanes; lane++) {
+            Columns& to = cofactors[size_t(corner[lane])];
+            for (int c = 0; c < 3; c++) store(FourLanes(load(to.column[c]) + columns[c][lane]), to.column[c]);
+        }
+    }
+
+    // Four at once; past the last one it is taken again, and not added.
+    FROND_INLINE void add_linear(const int (&tet)[4], int count) const {
+        const std::vector<Tet>& tets = plant.model->cage.tets;
+        const auto edge = [&](const auto& place) __attribute__((always_inline)) {
+            return [&, place](int lane, int a) __attribute__((always_inline)) {
+                const Tet& corners = tets[size_t(tet[lane])];
+                return FourLanes(place(corners[size_t(a) + 1]) - place(corners[0]));
+            };
+        };
+        const Lanes33<FourLanes> weighted =
+            weighted_cofactors(edge([&](int n) __attribute__((always_inline)) { return now(n); }),
+                               edge([&](int n) __attribute__((always_inline)) { return modelled(n); }));
+        for (size_t k = 0; k < 4; k++) {
+            const auto corner = [&](int lane) { return tets[size_t(tet[lane])][k]; };
+            add(weighted, {corner(0), corner(1), corner(2), corner(3)}, count);
+        }
+    }
+
+    // One tet at its four corners: edges are those of the linear tet as which a quadratic one is seen there
+    // (mechanics/tet_element.hpp).
+    FROND_INLINE void add_quadratic(size_t e) const {
+        const QuadraticTet& tet = plant.nodes->of_tet[e];
+        const auto seen = [&](int k, int from) __attribute__((always_inline)) {
+            const FourLanes own = now(tet[size_t(k)]);
+            if (k == from) return FourLanes(3.0 * own);
+            return FourLanes(4.0 * now(tet[size_t(TET_BETWEEN[k][from])]) - own);
+        };
+        add(weighted_cofactors(
+                [&](int lane, int a) __attribute__((always_inline)) {
+                    return FourLanes(seen(a + 1, lane) - seen(0, lane));
+                },
+                [&](int, int a) __attribute__((always_inline)) {
+                    return FourLanes(modelled(tet[size_t(a) + 1]) - modelled(tet[0]));
+                }),
+            {tet[0], tet[1], tet[2], tet[3]}, 4);
+    }
+
+    template <class>
+    FROND_INLINE void run() const {
+        int group[4], count = 0;
+        const size_t tets = plant.model->cage.tets.size();
+        for (size_t e = 0; e < tets; e++) {
+            if (!belongs(plant.parting->of_tet, e, drawn)) continue;
+            if (plant.nodes->order == 2) {
+                add_quadratic(e);
+                continue;
+            }
+            group[count++] = int(e);
+            if (count < 4) continue;
+            add_linear(group, 4);
+            count = 0;
+        }
+        if (count == 0) return;
+        std::fill(group + count, group + 4, group[0]);
+        add_linear(group, count);
+    }
+};
+
+struct TurnNormals {
+    const Plant& plant;
+    const Drawn& drawn;
+    const std::vector<Columns>& cofactors;
+    float* normals;
+    template <class>
+    FROND_INLINE void run() const {
+        const Model& model = *plant.model;
+        for (size_t v = 0; v < model.surface.normals.size(); v++) {
+            if (!belongs(plant.parting->of_vertex, v, drawn)) continue;
+            const Tet& tet = model.cage.tets[size_t(model.embedding.tet[v])];
+            const Vec3f& rest = model.surface.normals[v];
+            FourLanes columns[3] = {};
+            for (size_t k = 0; k < 4; k++) {
+                const Columns& of = cofactors[size_t(tet[k])];
+                const double weight = model.embedding.weights[v][k];
+                for (int c = 0; c < 3; c++) columns[c] += weight * load(of.column[c]);
+            }
+            FourLanes normal = columns[0] * double(rest[0]) + columns[1] * double(rest[1]) + columns[2] * double(rest[2]);
+            const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+            if (length > 0) {
+                normal *= 1 / length;
+            } else {
+                const Vec3 turned = drawn.turn * rest.cast<double>();
+                normal = FourLanes{turned[0], turned[1], turned[2], 0};
+            }
+            put(normal, normals + 3 * v);
+        }
+    }
+};
+
+}  // namespace
+
 void update_surface(Plant& plant, frond_effects effects) {
-    const Model& model = *plant.model;
-    const size_t vertex_count = model.surface.positions.size();
+    const size_t vertex_count = plant.model->surface.positions.size();
     Timer timer;
     plant.ms_normals = 0;
     plant.surface_positions.resize(3 * vertex_count);
@@ -109,87 +223,20 @@ void update_surface(Plant& plant, frond_effects effects) {
     std::vector<Drawn> list = {{-1, cage_places(plant), plant.rotation.toRotationMatrix(), plant.position}};
     for (const Fragment& fragment : plant.fragments)
         list.push_back({int(list.size()) - 1, fragment.cage_x, fragment.turn, fragment.shift});
+    std::vector<Quad> nodes(size_t(list.front().x.size() / 3));
+    std::vector<Columns> cofactors;
     for (const Drawn& drawn : list) {
-        for (size_t v = 0; v < vertex_count; v++) {
-            if (!belongs(plant.parting->of_vertex, v, drawn)) continue;
-            const Vec3 p = drawn.turn * bound_point(plant, model.embedding, v, drawn.x) + drawn.shift;
-            for (int axis = 0; axis < 3; axis++) plant.surface_positions[3 * v + size_t(axis)] = float(p[axis]);
-        }
+        run_in_lanes(PlaceNodes{drawn, nodes});
+        run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.surface_positions.data()});
+        if (!(effects & FROND_NORMALS)) continue;
         const Timer normals_timer;
-        if (effects & FROND_NORMALS) update_normals(plant, drawn);
+        cofactors.assign(plant.model->cage.nodes.size(), Columns());
+        run_in_lanes(AddCofactors{plant, drawn, nodes, cofactors});
+        run_in_lanes(TurnNormals{plant, drawn, cofactors, plant.surface_normals.data()});
         plant.ms_normals += normals_timer.ms();
     }
     plant.surface_stale = false;
     plant.ms_surface = timer.ms();
-}
-
-Vec3 vertex_position(const Plant& plant, int vertex) {
-    const Fragment* fragment = fragment_of_vertex(plant, size_t(vertex));
-    const auto bound = [&](const VecX& x) { return bound_point(plant, plant.model->embedding, size_t(vertex), x); };
-    return fragment ? fragment->place(bound(fragment->cage_x)) : plant.to_world(bound(cage_places(plant)));
-}
-
-int nearest_vertex(const Plant& plant, const Vec3& point) {
-    int nearest = 0;
-    double best = INFINITY;
-    for (size_t v = 0; v < plant.model->surface.positions.size(); v++) {
-        const double distance = (vertex_position(plant, int(v)) - point).squaredNorm();
-        if (distance < best) {
-            best = distance;
-            nearest = int(v);
-        }
-    }
-    return nearest;
-}
-
-// Of a cage. A node whose tet is gone goes with its parent.
-static Vec3 chain_point(const Plant& plant, size_t i) {
-    const Embedding& embedding = plant.model->chain_embedding;
-    const int parent = plant.model->chain.nodes[i].parent;
-    const std::vector<int>& of_tet = plant.parting->of_tet;
-    const int fragment = of_tet.empty() ? -1 : of_tet[size_t(embedding.tet[i])];
-    if (fragment < 0 || parent < 0) return bound_point(plant, embedding, i, plant.motion.x);
-    const std::vector<Vec3>& then = plant.fragments[size_t(fragment)].chain_x;
-    return plant.chain_positions[size_t(parent)] + then[i] - then[size_t(parent)];
-}
-
-void update_chain(Plant& plant) {
-    const size_t count = plant.model->chain.nodes.size();
-    plant.chain_positions.resize(count);
-    const VecX& x = plant.motion.x;
-    for (size_t i = 0; i < count; i++) {
-        const Fragment* fragment = fragment_of_chain_node(plant, i);
-        plant.chain_positions[i] = fragment          ? plant.to_model(fragment->place(fragment->chain_x[i]))
-                                   : plant.follow ? Vec3(point(x, int(2 * i)))
-                                                  : chain_point(plant, i);
-    }
-}
-
-// One that came off begins where it broke.
-std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule) {
-    const auto& [begin, end] = plant.model->capsules[capsule];
-    const Fragment* fragment = fragment_of_chain_node(plant, size_t(end));
-    return {fragment ? plant.to_model(fragment->place(fragment->chain_x[size_t(begin)]))
-                     : plant.chain_positions[size_t(begin)],
-            plant.chain_positions[size_t(end)]};
-}
-
-Grip chain_grip(const Plant& plant, int node) {
-    return tet_grip(bound_place(plant, plant.model->chain_embedding, size_t(node)));
-}
-
-// Of a chain: the corner of the vertex's tet that it is nearest to stands for it, and a rigid arm reaches the rest.
-Grip vertex_grip(const Plant& plant, int vertex) {
-    const Embedding& embedding = plant.model->embedding;
-    const Tet& tet = plant.model->cage.tets[size_t(embedding.tet[size_t(vertex)])];
-    const std::array<double, 4>& weights = embedding.weights[size_t(vertex)];
-    if (!plant.follow) return tet_grip(bound_place(plant, embedding, size_t(vertex)));
-    const size_t most = size_t(std::max_element(weights.begin(), weights.end()) - weights.begin());
-    Grip grip = plant.follow->grips[size_t(tet[most])];
-    Vec3 reach = -plant.model->cage.nodes[size_t(tet[most])];
-    for (size_t k = 0; k < 4; k++) reach += weights[k] * plant.model->cage.nodes[size_t(tet[k])];
-    for (size_t k = 0; k < size_t(grip.count); k++) grip.arm[k] += grip.weight[k] * reach;
-    return grip;
 }
 
 }  // namespace frond

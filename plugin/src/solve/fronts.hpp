@@ -2,6 +2,7 @@
 // solution of indefinite sparse symmetric linear equations").
 #pragma once
 
+#include "core/lanes.hpp"
 #include "mechanics/block_matrix.hpp"
 #include "solve/answer.hpp"
 
@@ -49,9 +50,6 @@ inline int stride_of(const Front& front) {
     return padded(front.own) + padded(front.rows);
 }
 
-struct alignas(32) Quad {
-    double at[4];
-};
 struct FrontFactor {
     std::vector<Quad> columns;  // L below its diagonal of ones, zero elsewhere
     VecX pivot, inverse;        // D and 1/D, in the order of elimination

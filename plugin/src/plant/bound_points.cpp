@@ -1,0 +1,89 @@
+// What follows the cage, point by point: vertices of the surface, the chain and its capsules, and where one can hold on.
+#include <algorithm>
+
+#include "plant/plant.hpp"
+
+namespace frond {
+
+// Along the shape functions of the plant's elements, whatever they move.
+static TetPlace bound_place(const Plant& plant, const Embedding& embedding, size_t i) {
+    return place_in_tet(*plant.nodes, plant.model->cage.tets, embedding.tet[i], embedding.weights[i]);
+}
+
+static Vec3 bound_point(const Plant& plant, const Embedding& embedding, size_t i, const VecX& x) {
+    const TetPlace place = bound_place(plant, embedding, i);
+    Vec3 p = Vec3::Zero();
+    for (size_t k = 0; k < size_t(place.count); k++) p += place.weight[k] * point(x, place.node[k]);
+    return p;
+}
+
+Vec3 vertex_position(const Plant& plant, int vertex) {
+    const Fragment* fragment = fragment_of_vertex(plant, size_t(vertex));
+    const auto bound = [&](const VecX& x) { return bound_point(plant, plant.model->embedding, size_t(vertex), x); };
+    return fragment ? fragment->place(bound(fragment->cage_x)) : plant.to_world(bound(cage_places(plant)));
+}
+
+int nearest_vertex(const Plant& plant, const Vec3& point) {
+    int nearest = 0;
+    double best = INFINITY;
+    for (size_t v = 0; v < plant.model->surface.positions.size(); v++) {
+        const double distance = (vertex_position(plant, int(v)) - point).squaredNorm();
+        if (distance < best) {
+            best = distance;
+            nearest = int(v);
+        }
+    }
+    return nearest;
+}
+
+// Of a cage. A node whose tet is gone goes with its parent.
+static Vec3 chain_point(const Plant& plant, size_t i) {
+    const Embedding& embedding = plant.model->chain_embedding;
+    const int parent = plant.model->chain.nodes[i].parent;
+    const std::vector<int>& of_tet = plant.parting->of_tet;
+    const int fragment = of_tet.empty() ? -1 : of_tet[size_t(embedding.tet[i])];
+    if (fragment < 0 || parent < 0) return bound_point(plant, embedding, i, plant.motion.x);
+    const std::vector<Vec3>& then = plant.fragments[size_t(fragment)].chain_x;
+    return plant.chain_positions[size_t(parent)] + then[i] - then[size_t(parent)];
+}
+
+void update_chain(Plant& plant) {
+    const size_t count = plant.model->chain.nodes.size();
+    plant.chain_positions.resize(count);
+    const VecX& x = plant.motion.x;
+    for (size_t i = 0; i < count; i++) {
+        const Fragment* fragment = fragment_of_chain_node(plant, i);
+        plant.chain_positions[i] = fragment          ? plant.to_model(fragment->place(fragment->chain_x[i]))
+                                   : plant.follow ? Vec3(point(x, int(2 * i)))
+                                                  : chain_point(plant, i);
+    }
+}
+
+// One that came off begins where it broke.
+std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule) {
+    const auto& [begin, end] = plant.model->capsules[capsule];
+    const Fragment* fragment = fragment_of_chain_node(plant, size_t(end));
+    return {fragment ? plant.to_model(fragment->place(fragment->chain_x[size_t(begin)]))
+                     : plant.chain_positions[size_t(begin)],
+            plant.chain_positions[size_t(end)]};
+}
+
+Grip chain_grip(const Plant& plant, int node) {
+    return tet_grip(bound_place(plant, plant.model->chain_embedding, size_t(node)));
+}
+
+// Of a chain: the corner of the vertex's tet that it is nearest to stands for it, and a rigid arm reaches the rest.
+Grip vertex_grip(const Plant& plant, int vertex) {
+    const Embedding& embedding = plant.model->embedding;
+    const Tet& tet = plant.model->cage.tets[size_t(embedding.tet[size_t(vertex)])];
+    const std::array<double, 4>& weights = embedding.weights[size_t(vertex)];
+    if (!plant.follow) return tet_grip(bound_place(plant, embedding, size_t(vertex)));
+    const size_t most = size_t(std::max_element(weights.begin(), weights.end()) - weights.begin());
+    Grip grip = plant.follow->grips[size_t(tet[most])];
+    Vec3 reach = -plant.model->cage.nodes[size_t(tet[most])];
+    for (size_t k = 0; k < 4; k++) reach += weights[k] * plant.model->cage.nodes[size_t(tet[k])];
+    for (size_t k = 0; k < size_t(grip.count); k++) grip.arm[k] += grip.weight[k] * reach;
+    return grip;
+}
+
+}  // namespace frond
