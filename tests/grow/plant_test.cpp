@@ -157,6 +157,7 @@ TEST(GrownPlants, SettingsAndSeedsMoveVerticesButKeepTheCounts) {
     for (const GrownKind& kind : grown_kinds()) {
         const GrownPlant plain = grow_plant(kind.name);
         for (const GrownParameter& parameter : kind.parameters) {
+            if (parameter.name == std::string("leaves")) continue;
             for (double value : {parameter.low, parameter.high}) {
                 const GrownPlant other = grow_plant(kind.name, {{parameter.name, value}}, 5);
                 EXPECT_EQ(other.positions.size(), plain.positions.size()) << kind.name << " " << parameter.name;
@@ -166,6 +167,16 @@ TEST(GrownPlants, SettingsAndSeedsMoveVerticesButKeepTheCounts) {
                 for (const Point& p : other.positions) ASSERT_TRUE(std::isfinite(p[0] + p[1] + p[2]));
             }
         }
+    }
+}
+
+// The size of the largest in the literature on simulated trees (Zhao, Barbič 2013).
+TEST(GrownTree, HasAsManyLeavesAsItIsAskedFor) {
+    for (int leaves : {100, 1800, 18000}) {
+        const GrownPlant tree = grow_plant("tree", {{"leaves", leaves}});
+        const auto is_leaf = [](const GrownOrgan& organ) { return organ.name.rfind("leaf_", 0) == 0; };
+        EXPECT_EQ(std::count_if(tree.organs.begin(), tree.organs.end(), is_leaf), leaves);
+        EXPECT_NEAR(double(tree.triangles.size()), 16.0 * leaves, 2.0 * leaves + 2000);
     }
 }
 
@@ -238,7 +249,7 @@ TEST(GrownPlants, EveryOrganHangsOnTheStem) {
         const GrownPlant plant = rounded(grow_plant(kind.name));
         const auto pairs = crossings(plant);
         // Spread from the stem over organs that touch.
-        std::set<std::string> held{"stem"};
+        std::set<std::string> held{kind.name == std::string("tree") ? "trunk" : "stem"};
         for (size_t before = 0; before != held.size();) {
             before = held.size();
             for (const auto& [a, b] : pairs)

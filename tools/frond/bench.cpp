@@ -178,6 +178,13 @@ void add_bench(CLI::App& app) {
     contact->add_option("--most", contact_options->most, "plants, default 17")->check(CLI::Range(4, 17));
     contact->add_flag("--csv", contact_options->csv, "print CSV");
     contact->add_option("--set", contact_options->assignments, "key=value, may be repeated; see frond run --help");
+    auto solver_options = std::make_shared<BenchOptions>();
+    solver_options->most = 20000;
+    CLI::App* solver = bench->add_subcommand("solver", "a step by linear solver, of plants from small to very large");
+    solver->add_option("--rounds", solver_options->rounds, "steps, default 20")->check(CLI::Range(1, 100000));
+    solver->add_option("--most", solver_options->most, "leaves of the trees, default 20000")->check(CLI::Range(0, 20000));
+    solver->add_flag("--csv", solver_options->csv, "print CSV");
+    solver->callback([solver_options] { bench_solver(*solver_options); });
     auto field_options = std::make_shared<BenchOptions>();
     field_options->most = 10000;
     CLI::App* field = bench->add_subcommand("field", "a field: asleep but a path, in wind, with a crowd in it");

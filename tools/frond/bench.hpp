@@ -11,12 +11,13 @@ namespace frond::tools {
 struct BenchOptions {
     std::string what = "drag";
     int rounds = 20;
-    int most = 17;  // plants
+    int most = 17;  // plants, or leaves
     bool csv = false;
     std::string out;  // folder for diagrams; empty: none
     std::vector<std::string> assignments;
 };
 
+void bench_solver(const BenchOptions& options);
 void bench_field(const BenchOptions& options);
 void bench_effects(const BenchOptions& options);
 void bench_guard();

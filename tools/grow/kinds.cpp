@@ -42,6 +42,12 @@ const std::vector<Row>& rows() {
            {"nod", 0.7, 0, 1, "0 looks up .. 1 hangs over"},
            {"azimuth", 60, -360, 360, "that the head faces [degree]"}}},
          grow_sunflower},
+        {{"tree",
+          "broad-leaved tree, a twig to ten leaves; 18000 leaves are 288,000 triangles",
+          {{"leaves", 1800, 100, 20000, "in all; the one parameter that changes how many vertices there are"},
+           {"height", 6, 2, 15, "of the whole tree [m]"},
+           {"leaf_size", 1, 0.4, 1.6, "factor on all leaves"}}},
+         grow_tree},
     };
     return table;
 }

@@ -71,5 +71,6 @@ GrownPlant grow_corn(const GrownSettings& value, uint64_t seed);
 GrownPlant grow_cucumber(const GrownSettings& value, uint64_t seed);
 GrownPlant grow_wheat(const GrownSettings& value, uint64_t seed);
 GrownPlant grow_sunflower(const GrownSettings& value, uint64_t seed);
+GrownPlant grow_tree(const GrownSettings& value, uint64_t seed);
 
 }  // namespace frond::grow

@@ -161,6 +161,23 @@ TetElements take_organ(const TetElements& all, const std::vector<int>& tet_organ
     return one;
 }
 
+// Adds move' K move of each organ's own stiffness K.
+void add_work_of_tets(Search& search, const VecX& move, std::vector<double>& work) {
+    const std::vector<int>& tet_organ = search.model.cage.tet_organ;
+    std::vector<uint8_t> has_tets(work.size(), 0);
+    for (const int organ : tet_organ) has_tets[size_t(organ)] = 1;
+    BlockMatrix own;
+    own.set_pattern(search.elements.pattern);
+    VecX product;
+    for (size_t organ = 0; organ < work.size(); organ++) {
+        if (!has_tets[organ]) continue;
+        own.set_zero();
+        search.row.add_stiffness(take_organ(search.elements, tet_organ, int(organ)), search.x, Tangent::positive, 1, own);
+        own.multiply(move, product);
+        work[organ] += move.dot(product);
+    }
+}
+
 // How an unstable plant topples, and which organs give way.
 Outcome find_outcome(Search& search) {
     BlockMatrix taken;
@@ -173,11 +190,8 @@ Outcome find_outcome(Search& search) {
     outcome.overload = toppling.overload;
 
     outcome.shares = find_shares(toppling, search.stiffness, taken, search.held, search.model.organs.size(),
-                                 [&](size_t organ, BlockMatrix& resists) {
-                                     const auto& tet_organ = search.model.cage.tet_organ;
-                                     search.row.add_stiffness(
-                                         take_organ(search.elements, tet_organ, int(organ)), search.x,
-                                                        Tangent::positive, 1, resists);
+                                 [&](const VecX& move, std::vector<double>& work) {
+                                     add_work_of_tets(search, move, work);
                                  });
     return outcome;
 }

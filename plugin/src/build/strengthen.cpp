@@ -80,13 +80,34 @@ struct Standing {
     }
 };
 
-// The rods of one organ, with the same nodes.
-RodElements take_organ(const Model& model, const RodElements& all, size_t organ) {
-    RodElements one = all;
-    one.segments.clear();
-    for (const RodSegment& segment : all.segments)
-        if (model.chain.nodes[size_t(segment.b)].organ == int(organ)) one.segments.push_back(segment);
-    return one;
+// Adds move' K move of each rod's own stiffness K to its organ's.
+void add_work_of_rods(const Model& model, const RodElements& all, frond_mechanics which, const VecX& move,
+                      std::vector<double>& work) {
+    RodElements one;
+    one.node_count = 4;
+    one.pattern = make_block_pattern(4, std::vector<Tet>{{0, 1, 2, 3}});
+    one.segments.resize(1);
+    BlockMatrix K;
+    K.set_pattern(one.pattern);
+    VecX product;
+    for (const RodSegment& segment : all.segments) {
+        const auto ends = [&](const VecX& of) {
+            VecX both(12);
+            both << of.segment<6>(6 * segment.a), of.segment<6>(6 * segment.b);
+            return both;
+        };
+        RodSegment& rod = one.segments.front();
+        rod = segment;
+        rod.a = 0;
+        rod.b = 1;
+        for (int r = 0; r < 4; r++)
+            for (int c = 0; c < 4; c++) rod.slots[size_t(4 * r + c)] = one.pattern.slot(r, c);
+        K.set_zero();
+        mechanics(which).add_stiffness(one, ends(all.modelled), Tangent::positive, 1, K);
+        const VecX own = ends(move);
+        K.multiply(own, product);
+        work[size_t(model.chain.nodes[size_t(segment.b)].organ)] += own.dot(product);
+    }
 }
 
 std::vector<double> organ_masses(const Model& model) {
@@ -108,9 +129,8 @@ void strengthen_rods(const Model& model, frond_mechanics which, const std::funct
         if (!(toppling.overload > 1)) break;
         const std::vector<double> shares = find_shares(
             toppling, standing.resisting, standing.taken, standing.held, stiffer.size(),
-            [&](size_t organ, BlockMatrix& K) {
-                const RodElements one = take_organ(model, standing.weaker, organ);
-                mechanics(which).add_stiffness(one, one.modelled, Tangent::positive, 1, K);
+            [&](const VecX& move, std::vector<double>& work) {
+                add_work_of_rods(model, standing.weaker, which, move, work);
             });
         const std::vector<double> factors = stiffer_by(shares, toppling.overload);
         for (size_t o = 0; o < stiffer.size(); o++) stiffer[o] *= factors[o];

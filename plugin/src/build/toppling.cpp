@@ -50,22 +50,16 @@ Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, con
 
 std::vector<double> find_shares(const Toppling& toppling, StaticStiffness& resisting, const BlockMatrix& taken,
                                 const std::vector<uint8_t>& held, size_t organ_count,
-                                const std::function<void(size_t organ, BlockMatrix& K)>& add_organ) {
+                                const std::function<void(const VecX& move, std::vector<double>& work)>& add_work) {
     // What weight takes in the motion bends the body in it once more, now without the noise that stiff organs feel most.
     VecX product(toppling.mode.size()), smooth(toppling.mode.size());
     taken.multiply(toppling.mode, product);
     hold(held, product);
     solve(resisting.factor, product, smooth);
+    std::vector<double> shares(organ_count, 0.0);
+    add_work(smooth, shares);
     const double whole = smooth.dot(product);
-    std::vector<double> shares;
-    BlockMatrix own;
-    own.set_pattern(*taken.pattern);
-    for (size_t organ = 0; organ < organ_count; organ++) {
-        own.set_zero();
-        add_organ(organ, own);
-        own.multiply(smooth, product);
-        shares.push_back(smooth.dot(product) / whole);
-    }
+    for (double& share : shares) share /= whole;
     return shares;
 }
 

@@ -23,10 +23,10 @@ void hold(const std::vector<uint8_t>& held, VecX& x);
 Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, const std::vector<uint8_t>& held);
 
 // Organs' shares in the elastic energy of the motion: to first order, by how much, relatively, the load that the body
-// bears grows with an organ's modulus [-]. `add_organ` adds the stiffness of one organ.
+// bears grows with an organ's modulus [-]. `add_work` adds move' K move of each organ's own stiffness K.
 std::vector<double> find_shares(const Toppling& toppling, StaticStiffness& resisting, const BlockMatrix& taken,
                                 const std::vector<uint8_t>& held, size_t organ_count,
-                                const std::function<void(size_t organ, BlockMatrix& K)>& add_organ);
+                                const std::function<void(const VecX& move, std::vector<double>& work)>& add_work);
 // How many times stiffer each organ should be so that the body bears its load: those that have most share in it alike,
 // the others not at all. At most 8 at once, since shares change.
 std::vector<double> stiffer_by(const std::vector<double>& shares, double overload);

@@ -1,0 +1,147 @@
+// frond bench solver: a step of plants from small to very large in a breeze, by linear solver, and how it grows.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "bench.hpp"
+#include "grow/grow.hpp"
+#include "scenes/scene.hpp"
+#include "study/report.hpp"
+
+namespace frond::tools {
+
+namespace {
+
+struct SolverCase {
+    const char* name;
+    frond_mechanics mechanics;
+    int order, plants;
+    int leaves;         // of a grown tree, 0: the corn
+    double cage, chain;  // sizes of cells and capsules [m], 0: Frond's choice
+};
+// The trees of tets grow by their leaves, their cells being alike.
+constexpr SolverCase CASES[] = {
+    {"corn", FROND_TET_COROTATIONAL, 1, 1, 0, 0, 0},
+    {"17 corn plants", FROND_TET_COROTATIONAL, 1, 17, 0, 0, 0},
+    {"corn, 10-node tets", FROND_TET_COROTATIONAL, 2, 1, 0, 0, 0},
+    {"tree", FROND_TET_COROTATIONAL, 1, 1, 400, 0.1, 0},
+    {"tree", FROND_TET_COROTATIONAL, 1, 1, 1600, 0.1, 0},
+    {"tree", FROND_TET_COROTATIONAL, 1, 1, 6400, 0.1, 0},
+    {"tree, rods", FROND_ROD, 1, 1, 18000, 0, 0.2},
+};
+
+frond_model load(const SolverCase& one) {
+    frond_model_def def = frond_default_model_def();
+    def.cage_size = one.cage;
+    def.capsule_height = one.chain;
+    std::string path = model_path("corn/corn.obj");
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "frond_bench_tree";
+    if (one.leaves > 0) path = grow::write_obj(grow::grow_plant("tree", {{"leaves", one.leaves}}), folder.string());
+    frond_model model = {};
+    const frond_result loaded = frond_model_load(path.c_str(), &def, &model);
+    std::filesystem::remove_all(folder);
+    must(loaded);
+    return model;
+}
+
+struct SolverFigures {
+    frond_report report;  // of the last step
+    int capsules;
+    double assembly, solve, step, surface;  // medians [ms]
+};
+
+double median(std::vector<double>& values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+SolverFigures measure(const SolverCase& one, frond_model model, frond_linear_solver solver, int steps) {
+    constexpr int WARM_UP = 5;
+    constexpr double APART = 50;  // [m], so that none touch
+    frond_world_def world_def = frond_default_world_def();
+    world_def.sleep_distance = 0;
+    frond_world world = {};
+    must(frond_world_create(&world_def, &world));
+    frond_wind_def wind = frond_default_wind_def();
+    wind.velocity.x = 4;
+    must(frond_world_set_wind(world, &wind));
+    std::vector<frond_plant> plants(size_t(one.plants));
+    for (size_t i = 0; i < plants.size(); i++) {
+        frond_plant_def def = frond_default_plant_def();
+        def.mechanics = one.mechanics;
+        def.element_order = one.order;
+        def.linear_solver = solver;
+        def.position.x = APART * double(i);
+        must(frond_plant_create(world, model, &def, &plants[i]));
+    }
+    SolverFigures figures = {};
+    std::vector<double> assembly, solve, step, surface;
+    for (int i = 0; i < WARM_UP + steps; i++) {
+        must(frond_world_step(world, 1.0 / 60));
+        frond_surface_view view;
+        for (const frond_plant plant : plants) must(frond_plant_get_surface(plant, &view));
+        must(frond_world_get_report(world, &figures.report));
+        if (i < WARM_UP) continue;
+        assembly.push_back(figures.report.ms_assembly);
+        solve.push_back(figures.report.ms_solve);
+        step.push_back(figures.report.ms_step);
+        surface.push_back(figures.report.ms_surface);
+    }
+    figures.capsules = frond_plant_get_capsule_count(plants.front()) * one.plants;
+    frond_world_destroy(world);
+    figures.assembly = median(assembly);
+    figures.solve = median(solve);
+    figures.step = median(step);
+    figures.surface = median(surface);
+    return figures;
+}
+
+// Conjugate gradients take minutes for what is large.
+bool is_worth_it(frond_linear_solver solver, const frond_report& report) {
+    constexpr int LARGE = 2000;
+    return solver <= FROND_DIRECT || report.node_count < LARGE;
+}
+
+void print_row(const SolverCase& one, frond_linear_solver solver, const SolverFigures& f, const BenchOptions& options) {
+    const frond_report& r = f.report;
+    const int pieces = one.mechanics == FROND_ROD ? f.capsules : r.tet_count;
+    if (options.csv)
+        std::printf("\"%s\",%s,%d,%d,%s,%.4f,%.4f,%.4f,%.4f,%.2e,\"%s\",\"%s\",%s,%s\n", one.name,
+                    frond_mechanics_name(one.mechanics), one.order, pieces, frond_linear_solver_name(solver), f.assembly,
+                    f.solve, f.step, f.surface, r.residual, study::processor_name().c_str(), FROND_COMPILER,
+                    frond_version_string(), FROND_COMMIT);
+    else
+        std::printf("%-20s %8d %-24s %9.3f %9.3f %9.3f %9.3f %9.1e\n", one.name, pieces, frond_linear_solver_name(solver),
+                    f.assembly, f.solve, f.step, f.surface, r.residual);
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+void bench_solver(const BenchOptions& options) {
+    if (options.csv)
+        std::printf("plant,mechanics,order,pieces,solver,assembly_ms,solve_ms,step_ms,surface_ms,residual,processor,compiler,version,"
+                    "commit\n");
+    else
+        std::printf("plants in a breeze, median of %d steps [ms], one core; pieces are tets or rods\n%s, %s, frond %s "
+                    "%s\n%-20s %8s %-24s %9s %9s %9s %9s %9s\n",
+                    options.rounds, study::processor_name().c_str(), FROND_COMPILER, frond_version_string(),
+                    FROND_COMMIT, "plant", "pieces", "solver", "assembly", "solve", "step", "surface", "residual");
+    for (const SolverCase& one : CASES) {
+        if (one.leaves > options.most) continue;
+        const frond_model model = load(one);
+        frond_report report = {};
+        for (int s = 0; s < FROND_LINEAR_SOLVER_COUNT; s++) {
+            const frond_linear_solver solver = frond_linear_solver(s);
+            if (s > 0 && !is_worth_it(solver, report)) continue;
+            const SolverFigures figures = measure(one, model, solver, options.rounds);
+            report = figures.report;
+            print_row(one, solver, figures, options);
+        }
+        frond_model_destroy(model);
+    }
+}
+
+}  // namespace frond::tools
