@@ -1,4 +1,4 @@
-// frond bench solver: a step of plants from small to very large in a breeze, by linear solver, and how it grows.
+// frond bench solver: a step of plants from small to very large in light air, by linear solver, and how it grows.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -65,7 +65,7 @@ SolverFigures measure(const SolverCase& one, frond_model model, frond_linear_sol
     frond_world world = {};
     must(frond_world_create(&world_def, &world));
     frond_wind_def wind = frond_default_wind_def();
-    wind.velocity.x = 4;
+    wind.velocity.x = 2;
     must(frond_world_set_wind(world, &wind));
     std::vector<frond_plant> plants(size_t(one.plants));
     for (size_t i = 0; i < plants.size(); i++) {
@@ -125,7 +125,7 @@ void bench_solver(const BenchOptions& options) {
         std::printf("plant,mechanics,order,pieces,solver,assembly_ms,solve_ms,step_ms,surface_ms,residual,processor,compiler,version,"
                     "commit\n");
     else
-        std::printf("plants in a breeze, median of %d steps [ms], one core; pieces are tets or rods\n%s, %s, frond %s "
+        std::printf("plants in light air (2 m/s), median of %d steps [ms], one core; pieces are tets or rods\n%s, %s, frond %s "
                     "%s\n%-20s %8s %-24s %9s %9s %9s %9s %9s\n",
                     options.rounds, study::processor_name().c_str(), FROND_COMPILER, frond_version_string(),
                     FROND_COMMIT, "plant", "pieces", "solver", "assembly", "solve", "step", "surface", "residual");

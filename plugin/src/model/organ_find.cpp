@@ -1,6 +1,7 @@
 // Organ finding: in, a surface with parts, its topology and the caller's materials; out, organs with names, kinds and
 // materials, every part belonging to one of them.
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -11,8 +12,26 @@ namespace frond {
 
 constexpr double TREE_HEIGHT = 3;  // what stands higher is held by wood [m]
 
+// A tube ends in nothing or in rings; a sheet has a border at least as long as itself.
+static bool has_border(const Topology& topology, const Part& part) {
+    std::map<std::array<int, 2>, int> uses;
+    Vec3 lower = Vec3::Constant(INFINITY), upper = -lower;
+    for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
+        for (size_t k = 0; k < 3; k++) {
+            const int a = topology.triangles[size_t(t)][k], b = topology.triangles[size_t(t)][(k + 1) % 3];
+            uses[{std::min(a, b), std::max(a, b)}]++;
+            lower = lower.cwiseMin(topology.points[size_t(a)]);
+            upper = upper.cwiseMax(topology.points[size_t(a)]);
+        }
+    double border = 0;
+    for (const auto& [edge, count] : uses)
+        if (count == 1) border += (topology.points[size_t(edge[1])] - topology.points[size_t(edge[0])]).norm();
+    return border >= (upper - lower).norm();
+}
+
 // Twigs drawn as cards with leaves on them: called branches, beside wood that is none, and nearly all sheets.
-static void find_cards(const Surface& surface, const std::vector<char>& sheets, std::vector<std::string>& named) {
+static void find_cards(const Surface& surface, const Topology& topology, const std::vector<char>& sheets,
+                       std::vector<std::string>& named) {
     constexpr double NEARLY_ALL = 0.9;
     std::vector<char> is_card(named.size(), 0);
     bool has_wood = false;
@@ -20,7 +39,8 @@ static void find_cards(const Surface& surface, const std::vector<char>& sheets, 
         const Part& part = surface.parts[i];
         if (named[i] != "branch" || part.triangle_count == 0) continue;
         const auto first = sheets.begin() + part.first_triangle;
-        is_card[i] = std::count(first, first + part.triangle_count, 1) >= NEARLY_ALL * part.triangle_count;
+        is_card[i] = std::count(first, first + part.triangle_count, 1) >= NEARLY_ALL * part.triangle_count &&
+                     has_border(topology, part);
         has_wood = has_wood || !is_card[i];
     }
     for (size_t i = 0; i < named.size(); i++)
@@ -49,7 +69,7 @@ static std::vector<std::string> kinds_of_triangles(const Surface& surface, const
     std::vector<char> sheets;
     if (std::any_of(named.begin(), named.end(), is_open)) {
         sheets = find_sheets(topology);
-        find_cards(surface, sheets, named);
+        find_cards(surface, topology, sheets, named);
         find_foliage(surface, named);
     }
     const bool is_bush = std::any_of(surface.parts.begin(), surface.parts.end(), [](const Part& part) {
