@@ -10,16 +10,16 @@ namespace frond {
 
 namespace {
 
-// A chain node as a point of the mechanics.
-Grip chain_grip(const Plant& plant, size_t node) {
-    const Embedding& embedding = plant.model->chain_embedding;
-    if (!plant.follow)
-        return tet_grip(place_in_tet(*plant.nodes, plant.model->cage.tets, embedding.tet[node], embedding.weights[node]));
-    Grip grip;
+// A chain node as a point of the mechanics, in a grip that may have been another one.
+void take_hold(const Plant& plant, size_t node, Grip& grip) {
+    if (!plant.follow) {
+        grip = chain_grip(plant, int(node));
+        return;
+    }
     grip.count = 1;
+    grip.turns = false;
     grip.node[0] = int(2 * node);
     grip.weight[0] = 1;
-    return grip;
 }
 
 // Where the wide sides of pieces in a cage lie now.
@@ -150,7 +150,7 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
     for (size_t i = 0; i < count; i++) {
         if (effects & FROND_AIR_DRAG)
             air.velocities[i] = plant.follow ? Vec3(point(plant.motion.v, int(2 * i)))
-                                             : grip_velocity(chain_grip(plant, i), plant.motion.x, plant.motion.v);
+                                             : grip_velocity(chain_grip(plant, int(i)), plant.motion.x, plant.motion.v);
         air.passing[i] = to_world.transpose() * Vec3(air.wind[i].x, air.wind[i].y, air.wind[i].z) - air.velocities[i];
     }
 }
@@ -159,8 +159,7 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
 
 void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
     std::vector<Drag>& drags = plant.loads.drags;
-    drags.clear();
-    if (!surroundings.wind || !(effects & (FROND_WIND | FROND_AIR_DRAG))) return;
+    if (!surroundings.wind || !(effects & (FROND_WIND | FROND_AIR_DRAG))) return drags.clear();
     if (!plant.air) {
         plant.air = std::make_unique<AirState>();
         plant.air->pieces = air_pieces_of(plant);
@@ -174,13 +173,19 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
     if (!plant.follow) look_at_cage(plant, air);
     run_in_lanes(GatherPieces{plant, air, surroundings.wind->def.density, h});
 
+    // Drags of the step before are written over, since most of what they have room for is not used.
+    drags.resize(air.resistance.size());
+    size_t count = 0;
     for (size_t i = 0; i < air.resistance.size(); i++) {
         if (air.resistance[i] == SixOf{}) continue;
+        Drag& drag = drags[count++];
         const Mat3 resistance = matrix_of(air.resistance[i]);
-        const Vec3 wind = air.passing[i] + air.velocities[i];
-        drags.push_back({chain_grip(plant, i), resistance * wind,
-                         effects & FROND_AIR_DRAG ? Mat3(resistance + matrix_of(air.lag[i])) : Mat3(Mat3::Zero())});
+        take_hold(plant, i, drag.grip);
+        drag.force = resistance * (air.passing[i] + air.velocities[i]);
+        drag.damping.setZero();
+        if (effects & FROND_AIR_DRAG) drag.damping = resistance + matrix_of(air.lag[i]);
     }
+    drags.resize(count);
 }
 
 Vec3 air_force(const Plant& plant) {
