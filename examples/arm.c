@@ -51,20 +51,6 @@ static frond_vec3 felt(frond_robot arm) {
     return sum;
 }
 
-static void draw_arm(frond_picture* picture, frond_robot arm) {
-    frond_surface_view view;
-    frond_picture_part part = {0, 0, {0.80f, 0.32f, 0.04f, 1}, -1, 0, 0.2f};
-    frond_picture_mesh mesh = {0};
-    check(frond_robot_get_surface(arm, &view));
-    part.triangle_count = mesh.triangle_count = view.triangle_count;
-    mesh.positions = view.positions;
-    mesh.indices = view.indices;
-    mesh.vertex_count = view.vertex_count;
-    mesh.parts = &part;
-    mesh.part_count = 1;
-    check_picture(frond_picture_draw_mesh(picture, &mesh));
-}
-
 int main(int argc, char** argv) {
     const char* models = argc > 1 ? argv[1] : "models";
     const char* folder = argc > 2 ? argv[2] : "arm_frames";
@@ -82,6 +68,7 @@ int main(int argc, char** argv) {
     frond_picture* picture;
     frond_film* film;
     frond_vec3 standing, pushed, felt_last;
+    const frond_color orange = {0.80f, 0.32f, 0.04f, 1};
     char path[1024];
 
     /* Three plants in a row, and the arm at its end, turned away. */
@@ -117,7 +104,7 @@ int main(int argc, char** argv) {
         check_picture(frond_picture_begin(picture, &scene));
         for (int i = 0; i < PLANTS; i++)
             check_picture(frond_picture_draw_plant(picture, plants[i], corn, FROND_PICTURE_SURFACE));
-        draw_arm(picture, arm);
+        check_picture(frond_picture_draw_robot(picture, arm, orange));
         check_picture(frond_picture_end(picture));
         check_picture(frond_film_add(film, frond_picture_get_pixels(picture)));
         snprintf(path, sizeof path, "%s/frame_%03d.png", folder, step / STEPS_A_FRAME);

@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
     frond_plant plant;
     frond_grab grab = {0};
     frond_vec3 tip = {0, 0, 0}, start = {0, 0, 0}, pulled = {0, 0, 0};
+    double farthest = 0;
     frond_picture* picture;
     frond_film* film;
     char path[1024];
@@ -70,6 +71,8 @@ int main(int argc, char** argv) {
         }
         if (step == LET_GO) frond_grab_destroy(grab);
         check(frond_world_step(world, 1.0 / 60));
+        check(frond_plant_get_tip(plant, &tip));
+        if (tip.x - start.x > farthest) farthest = tip.x - start.x;
 
         if (step % STEPS_A_FRAME) continue;
         check_picture(frond_picture_begin(picture, &scene));
@@ -85,12 +88,12 @@ int main(int argc, char** argv) {
     check_picture(frond_film_write_sheet(film, path, 6, 2));
     snprintf(path, sizeof path, "%s/drag.webp", folder);
     check_picture(frond_film_write_webp(film, path));
-    check(frond_plant_get_tip(plant, &tip));
-    printf("the tip began at %.3f m and ends at %.3f m; pictures are in %s/\n", start.y, tip.y, folder);
+    printf("the tip was drawn aside by %.3f m and ends %.3f m from where it began; pictures are in %s/\n", farthest,
+           tip.x - start.x, folder);
 
     frond_film_destroy(film);
     frond_picture_destroy(picture);
     frond_world_destroy(world);
     frond_model_destroy(model);
-    return 0;
+    return !(farthest > 0.15 && tip.x - start.x < 0.7 * farthest); /* it was drawn aside, and went back */
 }

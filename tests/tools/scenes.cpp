@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "frond/studio.hpp"
+#include "studio/studio.hpp"
 #include "support/sanitized.hpp"
 
 using namespace frond::tools;

@@ -7,7 +7,7 @@
 
 #include "bench.hpp"
 #include "commands.hpp"
-#include "studio.hpp"
+#include "studio/studio.hpp"
 #include "study/report.hpp"
 
 namespace frond::tools {

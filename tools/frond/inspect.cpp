@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "studio.hpp"
+#include "studio/studio.hpp"
 
 namespace frond::tools {
 namespace {

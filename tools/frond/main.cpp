@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
     app.failure_message(CLI::FailureMessage::help);
     frond::tools::add_inspect(app);
     frond::tools::add_run(app);
+    frond::tools::add_view(app);
     frond::tools::add_grow(app);
     frond::tools::add_bench(app);
     frond::tools::add_study(app);

@@ -6,7 +6,7 @@
 #include "commands.hpp"
 #include "scenes/scene.hpp"
 #include "stability/stability.hpp"
-#include "studio.hpp"
+#include "studio/studio.hpp"
 
 namespace frond::tools {
 namespace {

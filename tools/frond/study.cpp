@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "studio.hpp"
+#include "studio/studio.hpp"
 #include "study/figures.hpp"
 #include "study/report.hpp"
 

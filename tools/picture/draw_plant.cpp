@@ -96,6 +96,21 @@ bool frond_picture_draw_plant(frond_picture* picture, frond_plant plant, frond_m
     });
 }
 
+bool frond_picture_draw_robot(frond_picture* picture, frond_robot robot, frond_color color) {
+    return guarded([&] {
+        int width = 0;
+        require(frond_picture_get_size(picture, &width, nullptr));
+        frond_surface_view view;
+        require(frond_robot_get_surface(robot, &view), "the robot's surface");
+        const frond_picture_part part = {0, view.triangle_count, color, -1, 0, 0.2f};
+        frond_picture_mesh mesh{};
+        mesh.positions = view.positions, mesh.indices = view.indices;
+        mesh.vertex_count = view.vertex_count, mesh.triangle_count = view.triangle_count;
+        mesh.parts = &part, mesh.part_count = 1;
+        require(frond_picture_draw_mesh(picture, &mesh));
+    });
+}
+
 bool frond_picture_draw_grab(frond_picture* picture, frond_grab grab) {
     return guarded([&] {
         frond_vec3 point, target;

@@ -15,7 +15,9 @@
 #ifndef FROND_PICTURE_H
 #define FROND_PICTURE_H
 
-#include "frond/frond.h" /* its types; only frond_picture_draw_plant and _draw_grab need the library */
+/* Their types; only what is drawn of plants, bodies and robots needs the library. */
+#include "frond/frond.h"
+#include "frond/frond_robot.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -168,6 +170,8 @@ enum {
 bool frond_picture_draw_plant(frond_picture* picture, frond_plant plant, frond_model model, uint32_t what);
 /* A body that Frond made, as it is now; a plane is left to the scene's ground. */
 bool frond_picture_draw_rigid(frond_picture* picture, const frond_rigid_def* def, frond_rigid rigid, frond_color color);
+/* The links of a robot, as they collide. */
+bool frond_picture_draw_robot(frond_picture* picture, frond_robot robot, frond_color color);
 /* A red arrow from the held point to where it is pulled. */
 bool frond_picture_draw_grab(frond_picture* picture, frond_grab grab);
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "frond/frond.h"
+#include "frond/frond_robot.h"
 
 namespace frond::tools {
 
@@ -74,6 +74,7 @@ struct Stage {
     std::vector<frond_grab> grabs;
     std::vector<frond_rigid_def> rigid_defs;  // as they were made
     std::vector<frond_rigid> rigids;
+    std::vector<frond_robot> robots;
     frond_vec3 lower = {}, upper = {};  // box of all plants at the start [m]
     bool has_view = false;              // pictures show the box below, and what stands in it, instead of all plants
     frond_vec3 view_lower = {}, view_upper = {};

@@ -349,6 +349,31 @@ void pick(Stage& stage) {
     pull_off(stage, end_of_fruit, {-0.06, 0.02, 0});
 }
 
+// ---- robots ---------------------------------------------------------------------------------------------------
+
+void arm_defaults(Settings& settings) {
+    settings.plant.mechanics = FROND_ROD;
+}
+// Three corn plants in a row, and an arm at its end that is turned away.
+void build_arm(Stage& stage) {
+    const frond_model model = stage.load(model_path("corn/corn.obj"));
+    for (int i = 0; i < 3; i++) stage.plant(model, {0.7 + 0.35 * i, 0, 0});
+    const frond_robot_def def = frond_default_robot_def();
+    frond_robot arm = {};
+    must(frond_robot_load(stage.world, model_path("arm/arm.urdf").c_str(), &def, &arm));
+    stage.robots.push_back(arm);
+    must(frond_robot_set_joint(arm, frond_robot_find_link(arm, "turn"), -1.5));
+    must(frond_robot_set_joint(arm, frond_robot_find_link(arm, "lift"), 1.4));
+    stage.has_view = true;
+    stage.view_lower = {-0.4, 0, -0.8};
+    stage.view_upper = {2.0, 2.2, 0.9};
+}
+// It turns into the row within three seconds and stays there.
+void reach_in(Stage& stage) {
+    const frond_robot arm = stage.robots.front();
+    must(frond_robot_drive_to(arm, frond_robot_find_link(arm, "turn"), 0.12, 0.6, 0));
+}
+
 // ---- wind -----------------------------------------------------------------------------------------------------
 
 // A fresh breeze: 12 m/s where weather stations measure, some 8 among the leaves.
@@ -418,6 +443,7 @@ const std::vector<Scene>& scenes() {
         {"twig", "a twig of 60 rods is pulled aside and let go", 5, twig_defaults, build_twig, drag},
         {"snap", "a corn stalk is bent over until it snaps", 7, snap_defaults, build_snap, snap},
         {"pick", "a cucumber is pulled off its peduncle", 4, pick_defaults, build_pick, pick},
+        {"arm", "a robot arm reaches into a row of three corn plants", 6, arm_defaults, build_arm, reach_in},
         {"wind", "a stand of corn in a gusty wind", 8, wind_defaults, build_wind, rest},
         {"field", "10,000 plants of four kinds: one walks a path through them, a ball rolls ahead, wind on a patch", 8,
          field_defaults, build_field, drive_field},

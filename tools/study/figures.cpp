@@ -5,7 +5,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "frond/studio.hpp"
+#include "studio/studio.hpp"
 #include "study/plants.hpp"
 #include "study/report.hpp"
 

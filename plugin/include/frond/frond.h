@@ -296,6 +296,12 @@ FROND_API bool frond_world_is_valid(frond_world world);
 FROND_API frond_result frond_world_step(frond_world world, double dt);
 FROND_API frond_result frond_world_set_gravity(frond_world world, frond_vec3 gravity);
 FROND_API frond_result frond_world_set_effects(frond_world world, frond_effects effects);
+/* For pictures that are drawn between steps of a fixed length, so that what moves evenly looks so. frond_plant_get_surface
+ * then shows plants where they were between the last two substeps: fraction 1 (default) at the end of the last one, 0 at
+ * its beginning, straight between and as far beyond, up to 2. FROND_AS_MOTION_STATES: whenever it is asked, where the
+ * motion states of a Bullet world have its bodies. Everything else, frond_rigid_get_state too, tells of the last one's end. */
+#define FROND_AS_MOTION_STATES (-1.0)
+FROND_API frond_result frond_world_set_interpolation(frond_world world, double fraction);
 FROND_API frond_result frond_world_get_report(frond_world world, frond_report* out);
 /* Equal for two worlds that simulated identically with the same binary. */
 FROND_API frond_result frond_world_get_state_hash(frond_world world, uint64_t* out);
@@ -618,6 +624,8 @@ FROND_API frond_result frond_plant_set_effects(frond_plant plant, frond_effects 
 /* Goes on with other mechanics, from the same shape and velocities: exactly between tets; between cage and chain as
  * near as the one can take the other's shape. What the plant stands on and is held by stays. */
 FROND_API frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics mechanics);
+/* Goes on with another integrator, from the same shape and velocities. */
+FROND_API frond_result frond_plant_set_integrator(frond_plant plant, frond_integrator integrator);
 /* Of the cage, whatever moves: the nodes of frond_cage_view first, as they stand there; with element_order 2 one in the
  * middle of each edge follows, ordered by the edge's lower and then its higher node. 0 for an invalid handle. */
 FROND_API int frond_plant_get_node_count(frond_plant plant);
@@ -647,6 +655,10 @@ FROND_API frond_result frond_plant_get_energy(frond_plant plant, frond_energy* o
 FROND_API frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out);
 /* capsule_count must be the plant's; out: capsule_count. */
 FROND_API frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int capsule_count);
+/* How much the outermost fibre of each capsule's organ is drawn out or pressed by bending and pulling [-], against the
+ * shape that it has without any load: what FROND_BREAKING compares with strength / young. 0 of what came off.
+ * capsule_count must be the plant's; out: capsule_count. */
+FROND_API frond_result frond_plant_get_strains(frond_plant plant, double* out, int capsule_count);
 /* Number of contacts of the last substep; 0 for an invalid handle. */
 FROND_API int frond_plant_get_contact_count(frond_plant plant);
 /* contact_count must be the plant's; out: contact_count. */

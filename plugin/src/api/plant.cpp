@@ -188,6 +188,14 @@ frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics which)
     });
 }
 
+frond_result frond_plant_set_integrator(frond_plant plant, frond_integrator integrator) {
+    return call([&] {
+        PlantBody& body = get_awake(plant);
+        check_row(number_of(integrator), FROND_INTEGRATOR_COUNT, "integrator");
+        body.plant->settings.integrator = integrator;
+    });
+}
+
 int frond_plant_get_node_count(frond_plant plant) {
     const PlantBody* body = plant_slots().find(plant.id);
     return body ? node_count_of(*body->plant) : 0;
@@ -299,8 +307,10 @@ frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out)
         *out = {};
         PlantBody& body = get(plant);
         Plant& p = *body.plant;
-        if (p.surface_positions.empty()) update_surface(*look_at(body).plant, FROND_ALL_EFFECTS);
-        if (p.surface_stale && effects_of(body) & FROND_SURFACE) update_surface(*look_at(body).plant, effects_of(body));
+        const double back = body.rest.asleep ? 0 : surfaces_back(*body.world);
+        if (p.surface_positions.empty()) update_surface(*look_at(body).plant, FROND_ALL_EFFECTS, back);
+        if ((p.surface_stale || p.surface_back != float(back)) && effects_of(body) & FROND_SURFACE)
+            update_surface(*look_at(body).plant, effects_of(body), back);
         const Surface& surface = p.model->surface;
         out->positions = p.surface_positions.data();
         out->normals = p.surface_normals.data();
@@ -324,6 +334,16 @@ frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int
             out[i].end = from_vec(p.to_world(end));
             out[i].radius = double(body.capsules()[i]->getRadius());
         }
+    });
+}
+
+frond_result frond_plant_get_strains(frond_plant plant, double* out, int capsule_count) {
+    return call([&] {
+        check_pointer(out, "out");
+        const PlantBody& body = look_at(get(plant));
+        check_count(capsule_count, int(body.capsules().size()), "capsule_count");
+        const std::vector<double> strains = capsule_strains(*body.plant);
+        std::copy(strains.begin(), strains.end(), out);
     });
 }
 

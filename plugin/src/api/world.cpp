@@ -116,6 +116,14 @@ frond_result frond_world_set_effects(frond_world world, frond_effects effects) {
     });
 }
 
+frond_result frond_world_set_interpolation(frond_world world, double fraction) {
+    return call([&] {
+        World& w = get(world);
+        if (fraction != FROND_AS_MOTION_STATES) check_range(fraction, 0, 2, "fraction");
+        w.interpolation = fraction;
+    });
+}
+
 frond_result frond_world_get_report(frond_world world, frond_report* out) {
     return call([&] {
         check_pointer(out, "out");

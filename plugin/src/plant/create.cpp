@@ -119,7 +119,7 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.follow = nullptr;
     plant.swing = nullptr;
     plant.fade = {};
-    plant.lead = 0;
+    plant.lead = plant.stepped_by = 0;
     plant.fibres = nullptr;
     plant.fibre_give.clear();
     if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = fibres_of(plant);

@@ -31,7 +31,7 @@ void fold(Plant& plant, double tolerance, bool keep_surface) {
     if (plant.folded || !plant.fragments.empty()) return;
     end_swing(plant);
     plant.fade = {};
-    plant.lead = 0;
+    plant.lead = plant.stepped_by = 0;
     const VecX& modelled = elements_of(*plant.system).modelled;
     const VecX moves = plant.motion.x - modelled;
     if (plant.own_elements || !(moves.lpNorm<Eigen::Infinity>() <= tolerance)) {

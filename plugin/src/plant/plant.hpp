@@ -82,6 +82,7 @@ struct Plant {
     std::unique_ptr<Swing> swing;          // of a chain that only sways; else null
     Fade fade;                             // of the cage, beside where the mechanics have it
     double lead = 0;                       // for which the cage is drawn to go on, until the plant is stepped again [s]
+    double stepped_by = 0;                 // the last step, from x_good to here; 0: it was put here since [s]
     std::shared_ptr<const Fibres> fibres;  // null where none pulls
     std::vector<double> fibre_give;        // lengths at which they pull, over their own, after an entanglement; else empty [-]
     std::vector<uint8_t> pinned;           // one a cage node
@@ -120,6 +121,7 @@ struct Plant {
     bool pins_are_own = false;     // the host has changed them
     bool stands_on_roots = false;  // the model's own root holds it
     bool surface_stale = true;
+    float surface_back = 0;        // for which the surface is drawn before the end of the last substep [s]
     mutable bool cage_stale = true;
     bool folded = false;
     bool is_sound = true;          // what was found can be the next state
@@ -171,8 +173,9 @@ std::shared_ptr<const SwingModes> swing_modes_of(const Plant& plant);
 Vec3 air_force(const Plant& plant);  // of the last step, world frame [N]
 // Forces given by frond_plant_add_force end.
 void clear_user_force(Plant& plant);
-// Writes surface_positions and surface_normals as far as the effects ask for them.
-void update_surface(Plant& plant, frond_effects effects);
+// Writes surface_positions and surface_normals as far as the effects ask for them, as they were `back` before the end of
+// the last substep; below zero: as they will be if all goes on so [s].
+void update_surface(Plant& plant, frond_effects effects, double back = 0);
 frond_energy energy_of(const Plant& plant, const Vec3& gravity);
 // The surface vertex nearest to a point of the world.
 int nearest_vertex(const Plant& plant, const Vec3& point);
@@ -184,6 +187,8 @@ void set_state(Plant& plant, const double* positions, const double* velocities);
 std::vector<double> lasting_of(const Plant& plant);
 void set_lasting(Plant& plant, const std::vector<double>& values);
 void update_chain(Plant& plant);
+// Of the outermost fibre of each capsule of Model::capsules [-].
+std::vector<double> capsule_strains(const Plant& plant);
 // Of a capsule of Model::capsules, model frame [m].
 std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule);
 // After the motion was changed: the chain now, cage and surface when somebody looks.

@@ -40,7 +40,7 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
     }
     motion.history.valid = motion.history.shaken = false;
     plant.fade = {};
-    plant.lead = 0;
+    plant.lead = plant.stepped_by = 0;
     plant.pins_changed = true;
     apply_pins(plant);
     moved(plant);
@@ -64,6 +64,13 @@ void set_lasting(Plant& plant, const std::vector<double>& values) {
 
 const Elements& elements_of(const Plant& plant) {
     return plant.own_elements ? *plant.own_elements : elements_of(*plant.system);
+}
+
+std::vector<double> capsule_strains(const Plant& plant) {
+    std::vector<double> of_node, strains;
+    mechanics(plant.which, plant.nodes->order).section_strains(elements_of(plant), plant.motion.x, of_node);
+    for (const auto& [begin, end] : plant.model->capsules) strains.push_back(of_node[size_t(end)]);
+    return strains;
 }
 
 int node_count_of(const Plant& plant) {

@@ -247,6 +247,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
             plant.ms_plasticity = timer.ms();
         }
     }
+    plant.stepped_by = h;
     carry_stumps(plant);
     pass_time(plant.fade, h);
     moved(plant);

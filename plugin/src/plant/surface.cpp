@@ -8,6 +8,7 @@
 
 #include "core/lanes.hpp"
 #include "core/timer.hpp"
+#include "mechanics/rotation.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {
@@ -212,17 +213,45 @@ struct TurnNormals {
     }
 };
 
+VecX cage_of(const Plant& plant, const VecX& x) {
+    if (!plant.follow) return x;
+    VecX cage;
+    follow_places(*plant.follow, x, cage);
+    return cage;
+}
+
+// Of the cage nodes: the way that the last step took, over its time. What is not stepped in each substep goes on as it
+// moves; what was put somewhere stands there [m/s].
+VecX way_of(const Plant& plant) {
+    if (plant.lead > 0 || plant.swing) return cage_velocities(plant);
+    const VecX now = cage_of(plant, plant.motion.x);
+    if (plant.stepped_by == 0) return VecX::Zero(now.size());
+    VecX way = (now - cage_of(plant, plant.x_good)) / plant.stepped_by;
+    add_rate(plant.fade, way);
+    return way;
+}
+
+// A fragment goes as a free body does.
+Drawn draw_fragment(const Fragment& fragment, int number, double back) {
+    if (back == 0) return {number, fragment.cage_x, fragment.turn, fragment.shift};
+    const Mat3 turned = rotation_of<double>(Vec3(-back * fragment.spin));
+    const Vec3 centre = fragment.centre - back * fragment.velocity;
+    return {number, fragment.cage_x, turned * fragment.turn, turned * (fragment.shift - fragment.centre) + centre};
+}
+
 }  // namespace
 
-void update_surface(Plant& plant, frond_effects effects) {
+void update_surface(Plant& plant, frond_effects effects, double back) {
     const size_t vertex_count = plant.model->surface.positions.size();
     Timer timer;
     plant.ms_normals = 0;
     plant.surface_positions.resize(3 * vertex_count);
     plant.surface_normals.resize(3 * vertex_count);
-    std::vector<Drawn> list = {{-1, cage_places(plant), plant.rotation.toRotationMatrix(), plant.position}};
+    const VecX cage_then = back == 0 ? VecX() : VecX(cage_places(plant) - back * way_of(plant));
+    const VecX& cage = back == 0 ? cage_places(plant) : cage_then;
+    std::vector<Drawn> list = {{-1, cage, plant.rotation.toRotationMatrix(), plant.position}};
     for (const Fragment& fragment : plant.fragments)
-        list.push_back({int(list.size()) - 1, fragment.cage_x, fragment.turn, fragment.shift});
+        list.push_back(draw_fragment(fragment, int(list.size()) - 1, back));
     std::vector<Quad> nodes(size_t(list.front().x.size() / 3));
     std::vector<Columns> cofactors;
     for (const Drawn& drawn : list) {
@@ -236,6 +265,7 @@ void update_surface(Plant& plant, frond_effects effects) {
         plant.ms_normals += normals_timer.ms();
     }
     plant.surface_stale = false;
+    plant.surface_back = float(back);
     plant.ms_surface = timer.ms();
 }
 

@@ -72,6 +72,7 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     plant.trend = std::move(saved.trend);
     plant.fade = std::move(saved.fade);
     plant.lead = saved.lead;
+    plant.stepped_by = 0;
     if (saved.has_own_elements || plant.own_elements) set_lasting(plant, saved.lasting);
     const size_t fibres = plant.fibres ? plant.fibres->list.size() : 0;
     plant.fibre_give = saved.fibre_give.size() == fibres ? std::move(saved.fibre_give) : std::vector<double>();

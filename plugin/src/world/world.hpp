@@ -48,6 +48,7 @@ struct World final : btActionInterface {
     size_t turn = 0;                // of asking sleeping plants about the air
     uint64_t substep = 0;
     double substep_length = 0;      // of the last one [s]
+    double interpolation = 1;       // where surfaces are shown between the last two [-], or FROND_AS_MOTION_STATES
     std::unique_ptr<Detail> detail;  // null: all plants are simulated in full
     Vec3 gravity_before = Vec3::Zero();  // in the last substep [m/s^2]
     frond_effects effects_before = 0;    // likewise
@@ -81,6 +82,8 @@ void remove_plant(World& world, PlantBody* body);
 // Steps a world of Frond's own by exactly dt.
 void advance(World& world, double dt);
 Vec3 gravity_of(const World& world);
+// How long before the end of the last substep surfaces are shown [s].
+double surfaces_back(const World& world);
 uint64_t state_hash(World& world);
 
 struct RayHit {

@@ -30,6 +30,10 @@ private:
     View view;
     frond_picture* picture = nullptr;
 };
+// Light, ground and a camera that sees the stage. azimuth, elevation [rad]; aspect: width over height of the picture.
+frond_picture_scene frame_stage(const Stage& stage, double azimuth, double elevation, double aspect);
+// All that is on it, into a frame that was begun; of plants what the bits FROND_PICTURE_* say.
+void draw_stage(frond_picture* picture, const Stage& stage, uint32_t what);
 // Throws a SceneError with frond_picture_last_error() when a call failed.
 void must(bool ok);
 

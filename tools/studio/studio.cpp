@@ -1,4 +1,4 @@
-#include "studio.hpp"
+#include "studio/studio.hpp"
 
 #include <unistd.h>
 
@@ -27,7 +27,7 @@ Studio::~Studio() {
     frond_picture_destroy(picture);
 }
 
-const uint8_t* Studio::shoot(const Stage& stage) {
+frond_picture_scene frame_stage(const Stage& stage, double azimuth, double elevation, double aspect) {
     frond_picture_scene scene = frond_default_picture_scene();
     // A margin on all sides, since plants move.
     const double margin = 0.08 * (stage.upper.y - stage.lower.y);
@@ -37,14 +37,28 @@ const uint8_t* Studio::shoot(const Stage& stage) {
         lower = stage.view_lower;
         upper = stage.view_upper;
     }
-    scene.camera =
-        frond_picture_frame(lower, upper, {0, 1, 0}, view.azimuth, view.elevation, double(view.width) / view.height);
+    scene.camera = frond_picture_frame(lower, upper, {0, 1, 0}, azimuth, elevation, aspect);
     // The ground is at zero for what reaches a little below it with its roots, else where the lowest point is.
     constexpr double DEEPEST_ROOT = 0.15;
     const double depth = -stage.lower.y, height = stage.upper.y - stage.lower.y;
     scene.ground_height = depth > 0 && depth < DEEPEST_ROOT * height ? 0.0 : stage.lower.y;
-    must(frond_picture_begin(picture, &scene));
+    return scene;
+}
 
+void draw_stage(frond_picture* picture, const Stage& stage, uint32_t what) {
+    const frond_color clay = {0.55f, 0.16f, 0.07f, 1}, orange = {0.80f, 0.32f, 0.04f, 1};
+    for (size_t i = 0; i < stage.plants.size(); i++)
+        if (stage.sees(i)) must(frond_picture_draw_plant(picture, stage.plants[i], stage.plant_models[i], what));
+    for (size_t i = 0; i < stage.rigids.size(); i++)
+        must(frond_picture_draw_rigid(picture, &stage.rigid_defs[i], stage.rigids[i], clay));
+    for (frond_robot robot : stage.robots) must(frond_picture_draw_robot(picture, robot, orange));
+    for (frond_grab grab : stage.grabs) must(frond_picture_draw_grab(picture, grab));
+}
+
+const uint8_t* Studio::shoot(const Stage& stage) {
+    const frond_picture_scene scene =
+        frame_stage(stage, view.azimuth, view.elevation, double(view.width) / view.height);
+    must(frond_picture_begin(picture, &scene));
     const auto wants = [&](const char* overlay) {
         return std::find(view.overlays.begin(), view.overlays.end(), overlay) != view.overlays.end();
     };
@@ -53,13 +67,7 @@ const uint8_t* Studio::shoot(const Stage& stage) {
     if (wants("faces")) what |= FROND_PICTURE_CAGE_FACES;
     if (wants("capsules")) what |= FROND_PICTURE_CAPSULES;
     if (wants("contacts")) what |= FROND_PICTURE_CONTACTS;
-    for (size_t i = 0; i < stage.plants.size(); i++)
-        if (stage.sees(i))
-            must(frond_picture_draw_plant(picture, stage.plants[i], stage.plant_models[i], what));
-    const frond_color clay = {0.55f, 0.16f, 0.07f, 1};
-    for (size_t i = 0; i < stage.rigids.size(); i++)
-        must(frond_picture_draw_rigid(picture, &stage.rigid_defs[i], stage.rigids[i], clay));
-    for (frond_grab grab : stage.grabs) must(frond_picture_draw_grab(picture, grab));
+    draw_stage(picture, stage, what);
     must(frond_picture_end(picture));
     return frond_picture_get_pixels(picture);
 }

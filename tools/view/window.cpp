@@ -1,0 +1,154 @@
+// GLFW gives the window, its EGL context and what the user does; tools/picture draws into that context.
+#include "view/window.hpp"
+
+#include "studio/studio.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+namespace frond::tools {
+
+namespace {
+
+[[noreturn]] void fail_with_glfw(const char* what) {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    throw SceneError(std::string(what) + ": " + (text ? text : "GLFW does not say why") +
+                     "; frond run SCENE --shot FILE makes pictures without a window");
+}
+
+Viewer& viewer_of(GLFWwindow* window) {
+    return *static_cast<Viewer*>(glfwGetWindowUserPointer(window));
+}
+
+// What a listener throws may not go through GLFW; the next frame would only fail likewise.
+template <class Action>
+void tell(GLFWwindow* window, const Action& action) {
+    try {
+        action(viewer_of(window));
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "frond: %s\n", error.what());
+        glfwSetWindowShouldClose(window, GLFW_TRUE);
+    }
+}
+
+void on_button(GLFWwindow* window, int button, int action, int) {
+    const Button known[] = {Button::LEFT, Button::RIGHT, Button::MIDDLE};  // as GLFW counts them
+    if (button > 2) return;
+    tell(window, [&](Viewer& viewer) {
+        if (action == GLFW_PRESS) press_button(viewer, known[button]);
+        if (action == GLFW_RELEASE) release_button(viewer, known[button]);
+    });
+}
+
+// The cursor is told in the screen's coordinates, of which a pixel may be a part.
+void on_move(GLFWwindow* window, double x, double y) {
+    int wide = 1, high = 1;
+    glfwGetWindowSize(window, &wide, &high);
+    tell(window, [&](Viewer& viewer) { move_mouse(viewer, x * viewer.width / wide, y * viewer.height / high); });
+}
+
+void on_character(GLFWwindow* window, unsigned code) {
+    if (code < 128) tell(window, [&](Viewer& viewer) { press(viewer, char(code)); });
+}
+
+void on_key(GLFWwindow* window, int key, int, int action, int) {
+    if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS) glfwSetWindowShouldClose(window, GLFW_TRUE);
+}
+
+void on_wheel(GLFWwindow* window, double, double clicks) {
+    tell(window, [&](Viewer& viewer) { turn_wheel(viewer, clicks); });
+}
+
+}  // namespace
+
+Window::Window(Viewer& viewer, const char* title) : viewer(viewer) {
+    if (!glfwInit()) fail_with_glfw("there is no display to open a window on");
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    window = glfwCreateWindow(viewer.width, viewer.height, title, nullptr, nullptr);
+    try {
+        if (!window) fail_with_glfw("no window with OpenGL 3.3 can be made");
+        glfwMakeContextCurrent(window);
+        glfwSwapInterval(1);
+        listen();
+        make_picture();
+    } catch (...) {
+        glfwTerminate();
+        throw;
+    }
+    last = std::chrono::steady_clock::now();
+}
+
+Window::~Window() {
+    frond_picture_destroy(picture);
+    glfwTerminate();
+}
+
+void Window::listen() {
+    glfwSetWindowUserPointer(window, &viewer);
+    glfwSetMouseButtonCallback(window, on_button);
+    glfwSetCursorPosCallback(window, on_move);
+    glfwSetCharCallback(window, on_character);
+    glfwSetKeyCallback(window, on_key);
+    glfwSetScrollCallback(window, on_wheel);
+}
+
+void Window::make_picture() {
+    frond_picture_destroy(picture);
+    picture = nullptr;
+    glfwGetFramebufferSize(window, &viewer.width, &viewer.height);
+    frond_picture_def def = frond_default_picture_def();
+    def.platform = FROND_PICTURE_CURRENT;
+    def.width = viewer.width;
+    def.height = viewer.height;
+    if (is_quick) {
+        def.samples = 1;
+        def.sky_samples = 0;
+        def.shadow_size = 1024;
+    }
+    must(frond_picture_create(&def, &picture));
+}
+
+bool Window::is_open() const {
+    return !glfwWindowShouldClose(window);
+}
+
+void Window::frame() {
+    constexpr double SLOW = 0.05;  // [s]
+    using clock = std::chrono::steady_clock;
+    const auto seconds = [](clock::duration time) { return std::chrono::duration<double>(time).count(); };
+    glfwPollEvents();
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window, &width, &height);
+    const bool is_hidden = width == 0 || height == 0;
+    if (!is_hidden && (width != viewer.width || height != viewer.height)) make_picture();
+    const clock::time_point now = clock::now();
+    advance(viewer, seconds(now - last));
+    last = now;
+    if (is_hidden) return;
+    const clock::time_point start = clock::now();
+    draw(viewer, picture);
+    must(frond_picture_present(picture, 0, viewer.width, viewer.height));
+    glfwSwapBuffers(window);
+    if (is_quick || seconds(clock::now() - start) < SLOW) return;
+    is_quick = true;
+    make_picture();
+}
+
+const uint8_t* Window::pixels() const {
+    return frond_picture_get_pixels(picture);
+}
+
+void Window::write(const std::string& png_path) const {
+    must(frond_picture_write(picture, png_path.c_str()));
+}
+
+void Window::get_place(int& x, int& y) const {
+    glfwGetWindowPos(window, &x, &y);
+}
+
+}  // namespace frond::tools
