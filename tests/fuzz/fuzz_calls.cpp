@@ -1,4 +1,4 @@
-// Target: calls of the C API in any order with any arguments.
+// Target: calls of the C API in any order with any arguments. Those that read files, and robots, are fuzz_urdf's.
 #include "fuzz/input.hpp"
 
 using namespace frond::fuzz;
@@ -86,7 +86,17 @@ void set_state(Stage& s) {
     frond_plant_set_state(plant, x.data(), v.data(), s.input.byte() < 250 ? count : s.input.integer());
 }
 
+// What a game may write there.
+void blow(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user) {
+    for (int i = 0; i < count; i++) velocities[i] = {*static_cast<double*>(user) * points[i].y, std::sin(time), 0};
+}
+
 void set_wind(Stage& s) {
+    static double strength;
+    if (s.input.below(4) == 0) {
+        strength = s.input.number();
+        frond_world_set_wind_field(s.world, s.input.below(4) ? blow : nullptr, &strength);
+    }
     frond_wind_def wind = frond_default_wind_def();
     wind.velocity = s.input.vec();
     wind.turbulence = s.input.number();
@@ -98,6 +108,8 @@ void set_detail(Stage& s) {
     frond_detail_def def = frond_default_detail_def();
     def.rod_from = s.input.number();
     def.by_size = s.input.below(2) != 0;
+    if (s.input.below(4) == 0) def.sway_from = def.still_from = s.input.number();
+    if (s.input.below(4) == 0) def.distance = [](frond_plant, double distance, void*) { return -distance; };
     if (s.input.below(2)) frond_world_set_detail(s.world, s.input.below(3) ? &def : nullptr);
     frond_world_set_viewer(s.world, s.input.vec());
 }
@@ -121,29 +133,83 @@ void set_lasting(Stage& s) {
     frond_plant_set_lasting(plant, values.data(), s.input.byte() < 200 ? int(values.size()) : 0);
 }
 
-void look(Stage& s) {
+void look_at_plant(Stage& s) {
     const frond_plant plant = s.plant();
     frond_surface_view view;
     frond_energy energy;
-    frond_vec3 vec;
-    frond_ray_hit hit;
+    frond_vec3 vec, moment;
+    frond_detail detail;
+    frond_broken broken;
     frond_plant_get_surface(plant, &view);
     frond_plant_get_energy(plant, &energy);
     frond_plant_get_tip(plant, &vec);
     frond_plant_get_air_force(plant, &vec);
+    frond_plant_get_momentum(plant, &vec);
+    frond_plant_get_root_force(plant, s.input.vec(), &vec, &moment);
+    frond_plant_get_detail(plant, &detail);
+    if (frond_plant_get_broken_count(plant) > 0) frond_plant_get_broken(plant, s.input.integer(), &broken);
     std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
     frond_plant_get_contacts(plant, contacts.data(), int(contacts.size()));
     std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
     frond_plant_get_capsules(plant, capsules.data(), int(capsules.size()));
+    require(frond_plant_is_valid(plant) || !frond_plant_is_awake(plant), "a plant that is not there is awake");
+    require(frond_plant_get_user(plant) == nullptr, "a user's pointer from nowhere");
+}
+
+void look_at_world(Stage& s) {
+    frond_ray_hit hit;
+    frond_report report;
+    frond_vec3 vec;
+    frond_rigid_state state;
+    uint64_t hash;
+    require(frond_world_is_valid(s.world) && frond_world_get_report(s.world, &report) == FROND_OK, "no report");
+    require(frond_world_get_state_hash(s.world, &hash) == FROND_OK, "no hash");
     frond_world_cast_ray(s.world, s.input.vec(), s.input.vec(), s.input.number(), &hit);
-    frond_grab_get(s.any(s.grabs), &vec, nullptr, nullptr);
-    frond_bond_get(s.any(s.bonds), &vec, &vec);
+    if (frond_world_get_wind_at(s.world, s.input.vec(), &vec) == FROND_OK)
+        require(std::isfinite(vec.x) && std::isfinite(vec.y) && std::isfinite(vec.z), "wind is not finite");
+    const frond_grab grab = s.any(s.grabs);
+    const frond_bond bond = s.any(s.bonds);
+    const frond_rigid rigid = s.any(s.rigids);
+    require((frond_grab_get(grab, &vec, nullptr, nullptr) == FROND_OK) == frond_grab_is_valid(grab), "a grab is and is not");
+    require((frond_bond_get(bond, &vec, &vec) == FROND_OK) == frond_bond_is_valid(bond), "a bond is and is not");
+    require((frond_rigid_get_body(rigid) != nullptr) == frond_rigid_is_valid(rigid), "a body is and is not");
+    if (frond_rigid_get_state(rigid, &state) == FROND_OK)
+        require(std::isfinite(state.position.x + state.rotation.w + state.velocity.y + state.spin.z), "a body is not finite");
+}
+
+void look_at_model(Stage& s) {
+    const frond_model model = s.input.byte() < 200 ? s.model : frond_model{s.input.raw<uint64_t>()};
+    frond_model_info info;
+    frond_part part;
+    frond_organ organ;
+    frond_texture_view texture;
+    frond_cage_view cage;
+    frond_chain_view chain;
+    frond_advice advice;
+    require((frond_model_get_info(model, &info) == FROND_OK) == frond_model_is_valid(model), "a model is and is not");
+    frond_model_get_part(model, s.input.integer(), &part);
+    frond_model_get_organ(model, s.input.integer(), &organ);
+    frond_model_get_texture(model, s.input.integer(), &texture);
+    frond_model_get_cage(model, &cage);
+    frond_model_get_chain(model, &chain);
+    frond_recommend(model, s.input.number(), s.input.number(), &advice);
+    const int number = s.input.integer();
+    for (const char* name :
+         {frond_result_name(frond_result(number)), frond_effect_name(frond_effects(number)),
+          frond_mechanics_name(frond_mechanics(number)), frond_integrator_name(frond_integrator(number)),
+          frond_linear_solver_name(frond_linear_solver(number)), frond_mass_name(frond_mass(number)),
+          frond_hash_layout_name(frond_hash_layout(number)), frond_response_name(frond_response(number)),
+          frond_detail_name(frond_detail(number)), frond_shape_name(frond_shape(number)), frond_version_string()})
+        require(name && name[0], "something has no name");
+    frond_material material;
+    const char kind[] = {char(s.input.byte()), char(s.input.byte()), 0};
+    require(frond_material_preset(kind, &material) != FROND_OK, "a material that nobody knows");
 }
 
 void hold(Stage& s) {
     frond_grab grab = {};
     frond_bond bond = {};
-    switch (s.input.below(8)) {
+    switch (s.input.below(9)) {
         case 0:
             if (frond_grab_create(s.plant(), s.input.vec(), s.input.number() * 100, &grab) == FROND_OK) s.grabs.push_back(grab);
             break;
@@ -164,6 +230,9 @@ void hold(Stage& s) {
             break;
         case 6:
             frond_plant_unpin(s.plant(), s.node());
+            break;
+        case 7:
+            frond_plant_add_force(s.plant(), s.node(), s.input.vec());
             break;
         default:
             frond_plant_move_pin(s.plant(), s.node(), s.input.vec());
@@ -207,8 +276,8 @@ void step(Stage& s) {
 }
 
 using Call = void (*)(Stage&);
-constexpr Call CALLS[] = {create_plant, create_rigid, set_rigid, set_state, set_wind, set_detail, save_or_restore, set_lasting, look,
-                          hold, hold, change, change, step, step, step};
+constexpr Call CALLS[] = {create_plant, create_rigid, set_rigid, set_state, set_wind, set_detail, save_or_restore, set_lasting,
+                          look_at_plant, look_at_world, look_at_model, hold, hold, change, change, step, step, step};
 
 }  // namespace
 
@@ -218,6 +287,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     Stage stage = {input, shared_model(), {}, {}, {}, {}, {}, {}};
     frond_world_def def = frond_default_world_def();
     def.response = frond_response(input.below(FROND_RESPONSE_COUNT));
+    def.hash_layout = frond_hash_layout(input.below(FROND_HASH_LAYOUT_COUNT));
+    def.parallel_for = [](int count, frond_job_fn* job, void* job_data, void*) {
+        for (int i = count - 1; i >= 0; i--) job(job_data, i);
+    };
     require(frond_world_create(&def, &stage.world) == FROND_OK, "no world");
     create_plant(stage);
     for (int i = 0; i < MOST && !input.is_empty(); i++)

@@ -33,11 +33,35 @@ void try_model(frond_result result, frond_model model) {
     frond_model_destroy(model);
 }
 
+// The default one in most fields.
+struct RandomDef {
+    frond_organ_material organ = {};
+    frond_model_def def = frond_default_model_def();
+    explicit RandomDef(Input& input) {
+        const auto change = [&](double& value) {
+            if (input.below(8) == 0) value = input.number();
+        };
+        for (double* value : {&def.scale, &def.capsule_height, &def.capsule_radius, &def.cage_size, &def.cage_offset,
+                              &def.cage_smoothness})
+            change(*value);
+        if (input.below(8) == 0) def.up = input.vec();
+        if (input.below(8) == 0) def.rest = frond_rest(input.integer());
+        if (input.below(4) != 0) return;
+        static const char* const KINDS[] = {"stem", "blade", "fruit", "no_such_kind"};
+        organ.organ = KINDS[input.below(4)];
+        frond_material_preset("stem", &organ.material);
+        for (size_t at = 0; at < sizeof organ.material / sizeof(double); at++) change((&organ.material.density)[at]);
+        def.organs = &organ;
+        def.organ_count = 1;
+    }
+};
+
 void try_file(Input& input) {
     static const char* const ENDS[] = {"obj", "ply", "stl", "gltf", "glb", "dae", "fbx", "msh", "vtk"};
     static const std::string base =
         (std::filesystem::temp_directory_path() / ("frond_fuzz_" + std::to_string(getpid()) + ".")).string();
     const std::string path = base + ENDS[input.below(9)];
+    // The def is the default one: all bytes are the file's.
     std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(input.data), long(input.left));
     const frond_model_def def = frond_default_model_def();
     frond_model model = {};
@@ -52,9 +76,10 @@ void try_triangles(Input& input) {
     std::vector<int32_t> indices(3 * size_t(triangles));
     for (float& value : xyz) value = float(input.number());
     for (int32_t& index : indices) index = input.byte() < 250 ? input.below(vertices) : input.integer();
-    const frond_model_def def = frond_default_model_def();
+    const RandomDef random(input);
     frond_model model = {};
-    const frond_result result = frond_model_from_triangles(xyz.data(), vertices, indices.data(), triangles, &def, &model);
+    const frond_result result =
+        frond_model_from_triangles(xyz.data(), vertices, indices.data(), triangles, &random.def, &model);
     try_model(result, model);
 }
 
@@ -64,9 +89,9 @@ void try_tets(Input& input) {
     std::vector<int32_t> corners(4 * size_t(tets));
     for (double& value : xyz) value = input.number();
     for (int32_t& corner : corners) corner = input.byte() < 250 ? input.below(nodes) : input.integer();
-    const frond_model_def def = frond_default_model_def();
+    const RandomDef random(input);
     frond_model model = {};
-    const frond_result result = frond_model_from_tets(xyz.data(), nodes, corners.data(), tets, &def, &model);
+    const frond_result result = frond_model_from_tets(xyz.data(), nodes, corners.data(), tets, &random.def, &model);
     try_model(result, model);
 }
 
@@ -79,11 +104,9 @@ void try_stems(Input& input) {
         stems[i].radius_begin = input.number();
         stems[i].radius_end = input.number();
     }
-    frond_model_def def = frond_default_model_def();
-    if (input.below(2)) def.cage_size = input.number();
-    if (input.below(2)) def.capsule_height = input.number();
+    const RandomDef random(input);
     frond_model model = {};
-    const frond_result result = frond_model_from_stems(stems.data(), int(stems.size()), &def, &model);
+    const frond_result result = frond_model_from_stems(stems.data(), int(stems.size()), &random.def, &model);
     try_model(result, model);
 }
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <vector>
 
+#include "frond/frond_robot.h"
 #include "frond/frond_snapshot.h"
 
 namespace frond::fuzz {

@@ -45,8 +45,8 @@ struct Counted {
 
 // "cfn=(12) name" names a function that is called, later only by its number; the line after "calls=" has what it took.
 Counted read_part(const std::filesystem::path& path) {
-    static const char* const GUARD[] = {"farthest_way",      "ends_off_course", "reach_at_start", "has_gained_energy",
-                                        "watch_recovery",    "damp_recovering", "jump_with_pins"};
+    static const char* const GUARD[] = {"farthest_way",   "ends_off_course", "reach_at_start", "look_at_energy", "are_near",
+                                        "watch_recovery", "damp_recovering", "jump_with_pins"};
     const std::string trigger = "desc: Trigger: Client Request: ";
     Counted counted;
     std::map<std::string, bool> is_guard;

@@ -12,22 +12,23 @@ struct SolveSettings;
 // Farthest way of a place in the running step [m]; infinite where it is no number.
 double farthest_way(const Plant& plant);
 // Whether something ended a step of h [s] far from where it was heading when the step began: a place by more than 0.02 of
-// the plant's size, the rotation of a chain's node by more than 0.2.
+// the plant's size, the rotation of a chain's node by more than 0.35 rad.
 bool ends_off_course(const Plant& plant, double h);
 // How far a place was from where it is modelled when the step began [m].
 double reach_at_start(const Plant& plant);
 
-struct StepEnergy {
-    double own;     // kinetic and elastic [J]
-    double loaded;  // with that of weight, forces and springs, which do not change within a step
+// Elastic and that of weight, forces and springs, those of pins too, which do not change within a step [J].
+double potential_energy(const Plant& plant, const VecX& x);
+// What lifts it by its own size [J].
+double lifting_energy(const Plant& plant);
+
+struct EnergyLook {
+    bool comes_from_nowhere = false;  // it has more than it had and than forces, springs and pins that move can have given
+    bool was_small = false;           // it had less than lifts it by its size when the step began
 };
-// Under the loads of the running step. Springs that hold pins are as stiff as what cannot move.
-enum class Held { BY_GRABS, BY_PINS_TOO };
-StepEnergy energy_at(const Plant& plant, const VecX& x, const VecX& v, Held held);
-// After a solve over h [s] from x_good and v_good: whether the plant has more energy than it had, and than forces, springs
-// and pins that move can have given it. Not told, false, in the air and in touch with bodies, which may give any: what is
-// pressed springs far in the solve that knows of no contact.
-bool has_gained_energy(const Plant& plant, double h);
+// After a solve over h [s] from x_good and v_good. Not told, both false, in the air and in touch with bodies, which may give
+// any: what is pressed springs far in the solve that knows of no contact.
+EnergyLook look_at_energy(const Plant& plant, double h);
 
 // Before a solve: a plant whose pins are put farther away than it is long goes along with them, as it is.
 void jump_with_pins(Plant& plant);

@@ -8,6 +8,7 @@
 #include "mechanics/rotation.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
+#include "solve/workspace.hpp"
 
 namespace frond {
 
@@ -32,7 +33,7 @@ double farthest_way(const Plant& plant) {
 
 bool ends_off_course(const Plant& plant, double h) {
     constexpr double FAR = 0.02;        // over the plant's size [-]
-    constexpr double TURNED_FAR = 0.2;  // [rad]
+    constexpr double TURNED_FAR = 0.35;  // [rad], as much as one solve can tell well
     const VecX &x = plant.motion.x, &x_good = plant.x_good, &v_good = plant.v_good;
     const double far = std::pow(FAR * double(plant.size), 2), turned_far = plant.follow ? TURNED_FAR * TURNED_FAR : far;
     if ((x - x_good - h * v_good).squaredNorm() < std::min(far, turned_far)) return false;  // all together even
@@ -49,17 +50,45 @@ double reach_at_start(const Plant& plant) {
     return farthest(plant.x_good, elements_of(*plant.system).modelled, 0, plant.follow ? 2 : 1);
 }
 
-StepEnergy energy_at(const Plant& plant, const VecX& x, const VecX& v, Held held) {
-    const System& system = *plant.system;
-    const Loads& loads = plant.loads;
-    const VecX& mass = node_mass_of(system);
-    const double own = kinetic_energy(system, x, v) + mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
-    double loaded = own - loads.force.dot(x);
-    for (int i = 0; i < mass.size(); i++) loaded -= mass[i] * loads.gravity.dot(point(x, i));
-    // Those of pins come first.
-    for (size_t k = held == Held::BY_PINS_TOO ? 0 : plant.pin_springs.size(); k < loads.springs.size(); k++)
-        loaded += 0.5 * loads.springs[k].stiffness * (grip_place(loads.springs[k].grip, x) - loads.springs[k].target).squaredNorm();
-    return {own, loaded};
+// With each node's own mass, and the rotary inertia that the step began with: to work it out anew costs as much as all
+// strains do [J].
+static double kinetic_in_step(const Plant& plant, const VecX& v) {
+    const std::vector<Mat3>& inertia = plant.workspace->inertia;
+    const VecX& mass = node_mass_of(*plant.system);
+    double twice = 0;
+    for (int i = 0; i < mass.size(); i++) twice += mass[i] * point(v, i).squaredNorm();
+    for (size_t i = 0; i < inertia.size(); i++) {
+        const Vec3 rate = point(v, int(2 * i + 1));
+        twice += rate.dot(inertia[i] * rate);
+    }
+    return 0.5 * twice;
+}
+
+static double elastic_energy(const Plant& plant, const VecX& x) {
+    return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
+}
+
+// What weight and forces do along a way [J].
+static double work_along(const Plant& plant, const VecX& way) {
+    const VecX& mass = node_mass_of(*plant.system);
+    Vec3 moved = Vec3::Zero();
+    for (int i = 0; i < mass.size(); i++) moved += mass[i] * point(way, i);
+    return plant.loads.force.dot(way) + plant.loads.gravity.dot(moved);
+}
+
+// Springs that hold pins are as stiff as what cannot move.
+enum class Held { BY_GRABS, BY_PINS_TOO };
+// Those of pins come first.
+static double spring_energy(const Plant& plant, const VecX& x, Held held) {
+    const std::vector<Spring>& springs = plant.loads.springs;
+    double energy = 0;
+    for (size_t k = held == Held::BY_PINS_TOO ? 0 : plant.pin_springs.size(); k < springs.size(); k++)
+        energy += 0.5 * springs[k].stiffness * (grip_place(springs[k].grip, x) - springs[k].target).squaredNorm();
+    return energy;
+}
+
+double potential_energy(const Plant& plant, const VecX& x) {
+    return elastic_energy(plant, x) - work_along(plant, x) + spring_energy(plant, x, Held::BY_PINS_TOO);
 }
 
 // The farthest way of what holds the plant [m].
@@ -74,19 +103,29 @@ static double way_of_pins(const Plant& plant) {
     return most;
 }
 
-bool has_gained_energy(const Plant& plant, double h) {
+double lifting_energy(const Plant& plant) {
+    return node_mass_of(*plant.system).sum() * GRAVITY * double(plant.size);
+}
+
+EnergyLook look_at_energy(const Plant& plant, double h) {
     constexpr double SHARE = 0.05;  // of what moves and strains it [-]
     constexpr double LIFT = 0.01;   // and what lifts it so far, in its sizes [-]
     constexpr double CARRIED = 2;   // and what carries all of it so many times as fast as what holds it [-]
-    if (!plant.loads.drags.empty() || plant.is_touched) return false;
-    const StepEnergy before = energy_at(plant, plant.x_good, plant.v_good, Held::BY_GRABS);
-    const StepEnergy after = energy_at(plant, plant.motion.x, plant.motion.v, Held::BY_GRABS);
-    const double mass = node_mass_of(*plant.system).sum(), speed = CARRIED * way_of_pins(plant) / h;
-    double given = 0.5 * mass * speed * speed + LIFT * mass * GRAVITY * double(plant.size);
-    for (int i = 1; plant.follow && i < plant.motion.x.size() / 3; i += 2)
-        given += point(plant.loads.force, i)
-                     .dot(turn_of(plant.motion.x, plant.x_good, i) - (point(plant.motion.x, i) - point(plant.x_good, i)));
-    return !(after.loaded <= before.loaded + SHARE * before.own + given);
+    EnergyLook look;
+    if (!plant.loads.drags.empty() || plant.is_touched) return look;
+    const VecX &x = plant.motion.x, &x_good = plant.x_good;
+    const double before = kinetic_in_step(plant, plant.v_good) + elastic_energy(plant, x_good);
+    const double after = kinetic_in_step(plant, plant.motion.v) + elastic_energy(plant, x);
+    const double speed = CARRIED * way_of_pins(plant) / h, lifting = lifting_energy(plant);
+    double given = work_along(plant, x - x_good) + spring_energy(plant, x_good, Held::BY_GRABS) -
+                   spring_energy(plant, x, Held::BY_GRABS) + 0.5 * node_mass_of(*plant.system).sum() * speed * speed;
+    // The work of moments, which few nodes have, is done along the turn, not along rotation vectors.
+    for (int i = 1; plant.follow && i < x.size() / 3; i += 2)
+        if (point(plant.loads.force, i) != Vec3::Zero())
+            given += point(plant.loads.force, i).dot(turn_of(x, x_good, i) - (point(x, i) - point(x_good, i)));
+    look.comes_from_nowhere = !(after <= before + given + SHARE * before + LIFT * lifting);
+    look.was_small = before < lifting;
+    return look;
 }
 
 }  // namespace frond

@@ -60,12 +60,11 @@ bool start_from_modelled(Plant& plant) {
     Vec3 shift;
     Motion& motion = plant.motion;
     if (!find_frame(plant, rotation, shift)) return false;
-    const VecX still = VecX::Zero(motion.x.size()), x = modelled_in(plant, rotation, shift);
-    if (!(energy_at(plant, x, still, Held::BY_PINS_TOO).loaded <
-          energy_at(plant, motion.x, still, Held::BY_PINS_TOO).loaded)) return false;
+    const VecX x = modelled_in(plant, rotation, shift);
+    if (!(potential_energy(plant, x) < potential_energy(plant, motion.x))) return false;
     const VecX places = cage_places(plant);
     motion.x = x;
-    motion.v = still;
+    motion.v.setZero();
     motion.history.valid = false;
     plant.cage_stale = true;
     begin_fade(plant.fade, places - cage_places(plant), VecX::Zero(places.size()));

@@ -19,10 +19,9 @@ constexpr double FOLDED = 0.1;  // and so far none stays that nothing holds [-]
 // More elastic energy than if all of it were drawn out so far along its longest side, and as much narrower as keeps its
 // volume.
 bool holds_more_than(const Plant& plant, const VecX& x, double strain) {
-    constexpr double LIFTS = 1;  // weight bends it by less than lifts it so many times its size [-]
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
-    const double own = row.energy(elements_of(plant), x), weight = node_mass_of(*plant.system).sum() * GRAVITY;
-    if (own < LIFTS * weight * double(plant.size)) return false;
+    const double own = row.energy(elements_of(plant), x);
+    if (own < lifting_energy(plant)) return false;  // so far weight bends it
     const VecX& modelled = elements_of(*plant.system).modelled;
     const int next = plant.follow ? 2 : 1;
     Vec3 low = point(modelled, 0), high = low;

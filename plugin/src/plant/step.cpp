@@ -66,15 +66,20 @@ static bool has_run_away(const Plant& plant) {
 // And none has gone elsewhere than it was heading by energy that came from nowhere.
 static bool is_plausible(Plant& plant, double h) {
     plant.is_off_course = ends_off_course(plant, h);
-    return !has_run_away(plant) && !(plant.is_off_course && has_gained_energy(plant, h));
+    const EnergyLook look = plant.is_off_course ? look_at_energy(plant, h) : EnergyLook();
+    plant.is_off_course &= !look.was_small;  // too weak to be torn
+    return !look.comes_from_nowhere && !has_run_away(plant);
 }
 
-// Whether what was found can be the plant's next state.
+// Stretched to many times its size.
+static bool is_far_out(const Plant& plant) {
+    constexpr double FARTHEST = 100;
+    return !are_near(plant, elements_of(*plant.system).modelled, FARTHEST * double(plant.size));
+}
+
+// Whether what was found can be the plant's next state, as far as each step asks.
 static bool is_sound(const Plant& plant) {
-    constexpr double FARTHEST = 100;  // a plant stretched to so many times its size has run away [-]
-    const Motion& motion = plant.motion;
-    return plant.report.ok && motion.x.allFinite() && motion.v.allFinite() &&
-           !has_run_away(plant) && are_near(plant, elements_of(*plant.system).modelled, FARTHEST * plant.size);
+    return plant.report.ok && plant.motion.x.allFinite() && plant.motion.v.allFinite();
 }
 
 // From the start of the step in equal parts, pinned nodes moving evenly.
@@ -188,7 +193,9 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
     if (!plant.report.ok || !is_plausible(plant, h)) solve_carefully(plant, h);
     hold_what_is_drawn_out(plant, effects, h);
-    plant.is_sound = is_sound(plant);
+    // Chains have no fibres: nothing of them has moved since they were found plausible. What goes on as it was heading is
+    // not being stretched.
+    plant.is_sound = is_sound(plant) && (plant.follow || !has_run_away(plant)) && !(plant.is_off_course && is_far_out(plant));
 }
 
 // Shifts as far as nothing is bent much, and as the work that it does on the plant stays small: contacts that want it in
@@ -223,7 +230,7 @@ void add_contacts(Plant& plant, double h) {
         solve_carefully(plant, h);
     }
     if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
-    plant.is_sound = is_sound(plant);
+    plant.is_sound = is_sound(plant) && !has_run_away(plant) && !is_far_out(plant);
 }
 
 void accept_step(Plant& plant, const Surroundings& surroundings, double h) {

@@ -45,7 +45,7 @@ bool is_between_pieces(const PlantBody& body, int capsule, const Vec3& normal) {
     const double along = (plant.rotation * axis).dot(normal), least = ALONG * axis.norm();
     if (std::abs(along) < least) return false;
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
-    const auto grows_on = [&](const ChainNode& node) { return node.parent == end; };
+    const auto grows_on = [tip = end](const ChainNode& node) { return node.parent == tip; };
     // From its tip a blade is pushed back.
     return along > 0 || std::any_of(nodes.begin(), nodes.end(), grows_on);
 }
