@@ -45,7 +45,7 @@ struct RandomDef {
                               &def.cage_smoothness})
             change(*value);
         if (input.below(8) == 0) def.up = input.vec();
-        if (input.below(8) == 0) def.rest = frond_rest(input.integer());
+        if (input.below(8) == 0) def.rest = frond_rest(input.below(FROND_REST_COUNT + 1));
         if (input.below(4) != 0) return;
         static const char* const KINDS[] = {"stem", "blade", "fruit", "no_such_kind"};
         organ.organ = KINDS[input.below(4)];

@@ -44,7 +44,7 @@ const char* frond_version_string(void) {
     return FROND_VERSION;
 }
 const char* frond_result_name(frond_result result) {
-    return row_name(RESULT_TEXTS, int(result), "unknown result");
+    return row_name(RESULT_TEXTS, number_of(result), "unknown result");
 }
 const char* frond_last_error(void) {
     return last_error;
@@ -54,28 +54,28 @@ void frond_set_log(frond_log_fn* log, void* user) {
 }
 
 const char* frond_mechanics_name(frond_mechanics mechanics) {
-    return row_name(MECHANICS_NAMES, int(mechanics), "?");
+    return row_name(MECHANICS_NAMES, number_of(mechanics), "?");
 }
 const char* frond_integrator_name(frond_integrator integrator) {
-    return row_name(INTEGRATOR_NAMES, int(integrator), "?");
+    return row_name(INTEGRATOR_NAMES, number_of(integrator), "?");
 }
 const char* frond_linear_solver_name(frond_linear_solver solver) {
-    return row_name(LINEAR_SOLVER_NAMES, int(solver), "?");
+    return row_name(LINEAR_SOLVER_NAMES, number_of(solver), "?");
 }
 const char* frond_shape_name(frond_shape shape) {
-    return row_name(SHAPE_NAMES, int(shape), "?");
+    return row_name(SHAPE_NAMES, number_of(shape), "?");
 }
 const char* frond_mass_name(frond_mass mass) {
-    return row_name(MASS_NAMES, int(mass), "?");
+    return row_name(MASS_NAMES, number_of(mass), "?");
 }
 const char* frond_hash_layout_name(frond_hash_layout layout) {
-    return row_name(HASH_LAYOUT_NAMES, int(layout), "?");
+    return row_name(HASH_LAYOUT_NAMES, number_of(layout), "?");
 }
 const char* frond_response_name(frond_response response) {
-    return row_name(RESPONSE_NAMES, int(response), "?");
+    return row_name(RESPONSE_NAMES, number_of(response), "?");
 }
 const char* frond_detail_name(frond_detail detail) {
-    return row_name(DETAIL_NAMES, int(detail), "?");
+    return row_name(DETAIL_NAMES, number_of(detail), "?");
 }
 const char* frond_effect_name(frond_effects effect) {
     for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++)

@@ -23,14 +23,14 @@ public:
     }
     template <class T>
     void one_of(T& value, int values) {
-        int32_t number = int32_t(value);
+        int32_t number = is_reading ? 0 : int32_t(value);
         copy(&number, sizeof number);
         check_row(number, values);
         value = T(number);
     }
     // Any byte but zero is true.
     void operator()(bool& value) {
-        uint8_t byte = value;
+        uint8_t byte = !is_reading && value;
         copy(&byte, 1);
         value = byte != 0;
     }
