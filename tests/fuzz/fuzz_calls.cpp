@@ -152,6 +152,8 @@ void look_at_plant(Stage& s) {
     frond_plant_get_contacts(plant, contacts.data(), int(contacts.size()));
     std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
     frond_plant_get_capsules(plant, capsules.data(), int(capsules.size()));
+    std::vector<double> strains(capsules.size());
+    frond_plant_get_strains(plant, strains.data(), int(strains.size()));
     require(frond_plant_is_valid(plant) || !frond_plant_is_awake(plant), "a plant that is not there is awake");
     require(frond_plant_get_user(plant) == nullptr, "a user's pointer from nowhere");
 }
@@ -240,7 +242,7 @@ void hold(Stage& s) {
 }
 
 void change(Stage& s) {
-    switch (s.input.below(9)) {
+    switch (s.input.below(11)) {
         case 0:
             frond_plant_set_effects(s.plant(), s.input.raw<uint32_t>() & FROND_ALL_EFFECTS);
             break;
@@ -264,6 +266,12 @@ void change(Stage& s) {
             break;
         case 7:
             frond_plant_destroy(s.plant());
+            break;
+        case 8:
+            frond_world_set_interpolation(s.world, s.input.number());
+            break;
+        case 9:
+            frond_plant_set_integrator(s.plant(), frond_integrator(s.input.below(FROND_INTEGRATOR_COUNT)));
             break;
         default:
             frond_rigid_destroy(s.any(s.rigids));
