@@ -47,15 +47,20 @@ void field_of_wind(const frond_vec3* points, int count, double time, frond_vec3*
     for (int i = 0; i < count; i++) velocities[i] = {3 + points[i].x + time, 0, points[i].y};
 }
 
-// Twelve plants in every mechanics, some in each other, in wind; a ball is thrown among them.
-uint64_t hash_with(Team* team) {
-    frond_world_def def = frond_default_world_def();
+// With the threads of a team, if there is one.
+frond_world make_world(frond_world_def def, Team* team) {
     if (team) {
         def.parallel_for = parallel_for;
         def.parallel_user = team;
     }
     frond_world world = {};
     EXPECT_EQ(frond_world_create(&def, &world), FROND_OK);
+    return world;
+}
+
+// Twelve plants in every mechanics, some in each other, in wind; a ball is thrown among them.
+uint64_t hash_with(Team* team) {
+    const frond_world world = make_world(frond_default_world_def(), team);
     const frond_model model = make_small_model(0, FROND_REST_STANDS_AS_MODELLED);
     for (int i = 0; i < 12; i++) {
         frond_plant_def plant_def = frond_default_plant_def();
@@ -159,12 +164,7 @@ std::vector<uint64_t> hash_of_islands(Team* team, frond_response response) {
     constexpr int ISLANDS = 5;
     frond_world_def def = frond_default_world_def();
     def.response = response;
-    if (team) {
-        def.parallel_for = parallel_for;
-        def.parallel_user = team;
-    }
-    frond_world world = {};
-    EXPECT_EQ(frond_world_create(&def, &world), FROND_OK);
+    const frond_world world = make_world(def, team);
     const frond_model model = make_small_model(0, FROND_REST_STANDS_AS_MODELLED);
     std::vector<frond_rigid> balls;
     for (int i = 0; i < ISLANDS; i++) {

@@ -4,8 +4,8 @@
 // what a stem can bear within the step it bears. Bodies have moved already when plants step, so an impulse changes how
 // they move next; both sides of a contact are advanced from the places at which it was found.
 #include <algorithm>
+#include <numeric>
 
-#include "model/union_find.hpp"
 #include "plant/touch.hpp"
 #include "world/contact_island.hpp"
 #include "world/pusher.hpp"
@@ -217,17 +217,6 @@ const std::vector<Coupling>& couple(Coupler& coupler, int by) {
     return row;
 }
 
-// Rows of one plant or body belong together.
-std::vector<std::vector<int>> find_islands(const Coupler& coupler) {
-    UnionFind sets(coupler.rows.size());
-    for (const Sides& sides : coupler.plants)
-        for (const int row : sides.rows) sets.join(sides.rows[0], row);
-    for (size_t i = 0; i < coupler.rows.size(); i++)
-        for (size_t j = 0; j < i; j++)
-            if (are_one_body(coupler.rows[i], coupler.rows[j])) sets.join(int(i), int(j));
-    return sets.sets();
-}
-
 // Adds what the rows got to both sides. Returns the rigid bodies among them.
 std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, std::vector<Row>& rows, const Pushes& pushes) {
     const auto to_plants = [&](const Row& row, const Vec3& impulse, auto take) {
@@ -274,7 +263,8 @@ std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& resp
         rows, sort_by_plant(island.plants.size(), rows), std::vector<std::vector<Coupling>>(rows.size()), {}, {}, {}};
     CouplingTable table;
     table.row = [&](int row) -> const std::vector<Coupling>& { return couple(coupler, row); };
-    table.islands = find_islands(coupler);
+    table.islands.emplace_back(rows.size());
+    std::iota(table.islands[0].begin(), table.islands[0].end(), 0);
     response.find(touches, table, settings, pushes);
     return give(world, island, rows, pushes);
 }
