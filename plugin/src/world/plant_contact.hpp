@@ -14,10 +14,12 @@ struct PlantContact {
     std::array<ContactSide, 2> sides;  // of cages or sheaths
     std::array<bool, 2> by_sheath = {};
     std::array<Grip, 2> grips;         // what holds those points
+    Vec3 between;     // of the grips' places, the first's less the second's, world frame [m]
     Vec3 point;       // on the first, world frame [m]
     Vec3 normal;      // along which the first leaves the second
     double depth;     // by which it has to [m]; below zero they are apart
     double friction;  // of both together [-]
+    int missed = 0;   // substeps since the search saw it
     Vec3 impulse = Vec3::Zero();  // on the first; that of the last substep until this one's is known [N s]
 };
 
@@ -43,8 +45,8 @@ struct PlantSearch {
 
 // Bullet's broad phase says which plants may meet, capsules around pieces of their cages which organs do, a spatial hash
 // which nodes, edges and tets of those (section 3.3 of the paper).
-// Contacts of the last substep that pushed and are not seen are followed to where the two are nearest now and kept, so that what
-// rests on another plant does not sink into it again and again; those that will meet within the step of h, as they move now, are found before.
+// Contacts of the last substep whose points have only just parted are kept, so that what rests on another plant does not
+// sink into it again and again; those that will meet within the step of h, as they move now, are found before.
 std::vector<PlantContact> find_plant_contacts(World& world, double h);
 
 }  // namespace FROND_BULLET_PRECISION

@@ -26,7 +26,7 @@ static void visit(Archive& a, SavedPlantContact& saved) {
     a(saved.plants);
     for (ContactSide& side : c.sides) visit_side(a, side);
     for (Grip& grip : c.grips) visit_grip(a, grip);
-    a(c.by_sheath), a(c.point), a(c.normal), a(c.depth), a(c.friction), a(c.impulse);
+    a(c.by_sheath), a(c.between), a(c.point), a(c.normal), a(c.depth), a(c.friction), a(c.missed), a(c.impulse);
 }
 
 static void visit_touches(Archive& a, SavedTouches& touches) {

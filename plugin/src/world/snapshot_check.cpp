@@ -71,7 +71,7 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
             if (!is_sound(c.grips[k], int(becomes(plant, which).numbers / 3))) damaged("contacts of plants");
             check_finite(side.weights, "contacts of plants");
         }
-        for (const Vec3& v : {c.point, c.normal, c.impulse}) check_finite(std::array{v.x(), v.y(), v.z()}, "contacts");
+        for (const Vec3& v : {c.between, c.point, c.normal, c.impulse}) check_finite(std::array{v.x(), v.y(), v.z()}, "contacts");
         check_finite(std::array{c.depth, c.friction}, "contacts of plants");
     }
 }
