@@ -71,5 +71,15 @@ TEST(Hash, BoxesThatTouchAreAPairAndThoseOfAGroupAreNot) {
     }
 }
 
+// Places as far apart as numbers reach.
+TEST(Hash, TheGridTakesBoxesWhoseWayApartIsNoNumber) {
+    const double far = 1.7e308;
+    const BoxSet items = {{{{-far, 0, 0}, {far, 1, 1}, 0}, {{0, 0, 0}, {1, 1, 1}, 1}}};
+    const BoxSet queries = {{{{-far, 0, 0}, {far, 1, 1}, 5}, {{0, 5, 0}, {1, 6, 1}, 6}}};
+    const Pairs expected = pairs_of(FROND_HASH_BRUTE_FORCE, items, queries, 0, 0.25);
+    EXPECT_EQ(pairs_of(FROND_HASH_GRID, items, queries, 0, 0.25), expected);
+    EXPECT_EQ(expected.size(), 2u);
+}
+
 }  // namespace
 }  // namespace frond::test

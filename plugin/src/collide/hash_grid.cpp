@@ -14,10 +14,11 @@ static constexpr int NOBODY = -1, SEVERAL = -2;  // who is in a cell, besides a 
 struct Grid {
     double lower[3], upper[3], cells_per_metre;
     int size[3];
-    // Rounding is monotone: a point within a box is in a cell within the box's cells.
+    // Rounding is monotone: a point within a box is in a cell within the box's cells. Ways too long for a number end in
+    // the last one.
     int cell_at(double place, int axis) const {
-        return std::clamp(int((std::clamp(place, lower[axis], upper[axis]) - lower[axis]) * cells_per_metre), 0,
-                          size[axis] - 1);
+        const double cell = (std::clamp(place, lower[axis], upper[axis]) - lower[axis]) * cells_per_metre;
+        return cell < size[axis] - 1 ? int(cell) : size[axis] - 1;
     }
     int number(int x, int y, int z) const { return (z * size[1] + y) * size[0] + x; }
     int count() const { return size[0] * size[1] * size[2]; }
@@ -45,6 +46,12 @@ static bool fit_grid(const BoxSet& items, const BoxSet& queries, double cell_siz
         grid.lower[k] = std::max(grid.lower[k], lower[k]);
         grid.upper[k] = std::min(grid.upper[k], upper[k]);
         if (!(grid.lower[k] <= grid.upper[k])) return false;
+    }
+    const auto is_endless = [&](int k) { return !std::isfinite(grid.upper[k] - grid.lower[k]); };
+    if (is_endless(0) || is_endless(1) || is_endless(2)) {
+        grid.cells_per_metre = 0;
+        grid.size[0] = grid.size[1] = grid.size[2] = 1;
+        return true;
     }
     for (double count = MOST_CELLS + 1; count > MOST_CELLS; cell_size *= 1.25) {
         count = 1;
