@@ -7,10 +7,6 @@
 
 namespace frond::stability {
 
-double length(const frond_vec3& a) {
-    return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
-}
-
 static bool is_finite(const frond_vec3& a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }

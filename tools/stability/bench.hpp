@@ -6,6 +6,7 @@
 
 #include "scenes/lattice.hpp"
 #include "scenes/scene.hpp"
+#include "scenes/vector.hpp"
 #include "stability/stability.hpp"
 
 namespace frond::stability {
@@ -19,16 +20,10 @@ struct DoesNotApply : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-inline frond_vec3 operator+(const frond_vec3& a, const frond_vec3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline frond_vec3 operator-(const frond_vec3& a, const frond_vec3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline frond_vec3 operator*(double s, const frond_vec3& a) {
-    return {s * a.x, s * a.y, s * a.z};
-}
-double length(const frond_vec3& a);
+using tools::length;
+using tools::operator+;
+using tools::operator-;
+using tools::operator*;
 
 using Places = std::vector<frond_vec3>;
 

@@ -5,20 +5,15 @@
 #include <cmath>
 #include <ctime>
 
+#include "scenes/vector.hpp"
 #include "study/known.hpp"
 
 namespace frond::study {
 namespace {
 
-frond_vec3 operator-(const frond_vec3& a, const frond_vec3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-frond_vec3 cross(const frond_vec3& a, const frond_vec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double dot(const frond_vec3& a, const frond_vec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+using tools::cross;
+using tools::dot;
+using tools::operator-;
 
 // Solves a symmetric 3x3 system by Cramer's rule; rows are vectors.
 frond_vec3 solve(const std::array<frond_vec3, 3>& rows, const frond_vec3& right) {

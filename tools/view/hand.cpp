@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "view/vector.hpp"
+#include "scenes/vector.hpp"
 #include "view/viewer.hpp"
 
 namespace frond::tools {

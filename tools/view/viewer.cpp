@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "studio/studio.hpp"
-#include "view/vector.hpp"
+#include "scenes/vector.hpp"
 
 namespace frond::tools {
 

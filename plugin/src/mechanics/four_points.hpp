@@ -83,11 +83,10 @@ struct FourPoints {
     };
     FROND_INLINE void add_stiffness(const TetStiffnessLanes<S>& s, BlockMatrix& K) const {
         Between of[4][4];
-        const Lanes33<S> k10 = -(s.k11 + transposed(s.k21) + transposed(s.k31));
-        const Lanes33<S> k20 = -(s.k21 + s.k22 + transposed(s.k32));
-        const Lanes33<S> k30 = -(s.k31 + s.k32 + s.k33);
-        const Lanes33<S>* below[] = {&k10, &s.k11, &k20, &s.k21, &s.k22, &k30, &s.k31, &s.k32, &s.k33};
-        of[0][0] = Between(-(k10 + k20 + k30));
+        const FirstCorner<S> first = first_corner(s);
+        const Lanes33<S>* below[] = {&first.k10, &s.k11,       &first.k20, &s.k21, &s.k22,
+                                     &first.k30, &s.k31, &s.k32, &s.k33};
+        of[0][0] = Between(first.k00);
 #pragma GCC unroll 1
         for (int i = 1, n = 0; i < 4; ++i)
 #pragma GCC unroll 1

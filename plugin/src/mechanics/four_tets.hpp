@@ -69,16 +69,14 @@ struct FourTets {
             add_to(K.values.data() + 9 * size_t(elements.slots[tet[l]][slot]), blocks[l]);
     }
     FROND_INLINE void add_stiffness(const TetStiffnessLanes<S>& k, BlockMatrix& K) const {
-        const Lanes33<S> k10 = -(k.k11 + transposed(k.k21) + transposed(k.k31));
-        const Lanes33<S> k20 = -(k.k21 + k.k22 + transposed(k.k32));
-        const Lanes33<S> k30 = -(k.k31 + k.k32 + k.k33);
-        add_block(0, -(k10 + k20 + k30), K);
-        add_block(1, k10, K);
+        const FirstCorner<S> first = first_corner(k);
+        add_block(0, first.k00, K);
+        add_block(1, first.k10, K);
         add_block(2, k.k11, K);
-        add_block(3, k20, K);
+        add_block(3, first.k20, K);
         add_block(4, k.k21, K);
         add_block(5, k.k22, K);
-        add_block(6, k30, K);
+        add_block(6, first.k30, K);
         add_block(7, k.k31, K);
         add_block(8, k.k32, K);
         add_block(9, k.k33, K);

@@ -24,6 +24,19 @@ FROND_INLINE TetStiffnessLanes<S> operator*(const S& by, const TetStiffnessLanes
     return {by * k.k11, by * k.k21, by * k.k31, by * k.k22, by * k.k32, by * k.k33};
 }
 
+// Its blocks with corner 0, which follow from the others since moving all corners alike gives no force.
+template <class S>
+struct FirstCorner {
+    Lanes33<S> k00, k10, k20, k30;
+};
+template <class S>
+FROND_INLINE FirstCorner<S> first_corner(const TetStiffnessLanes<S>& k) {
+    const Lanes33<S> k10 = -(k.k11 + transposed(k.k21) + transposed(k.k31));
+    const Lanes33<S> k20 = -(k.k21 + k.k22 + transposed(k.k32));
+    const Lanes33<S> k30 = -(k.k31 + k.k32 + k.k33);
+    return {-(k10 + k20 + k30), k10, k20, k30};
+}
+
 template <class S>
 FROND_INLINE Mat3 lane_of(const Lanes33<S>& a, int lane) {
     Mat3 out;

@@ -1,4 +1,4 @@
-// What the viewer needs of vectors.
+// Arithmetic of the vectors of the C API.
 #pragma once
 
 #include <cmath>
