@@ -1,5 +1,5 @@
-// frond bench step: time of a step by stage. frond bench contact: of contact, by the number of plants that touch. Nothing
-// sleeps meanwhile.
+// frond bench step: time of a step by stage. frond bench contact: of contact, by the number of plants that touch.
+// Nothing sleeps meanwhile.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,14 +19,9 @@ struct Stages {
     static constexpr int COUNT = 8;
     std::vector<double> ms[COUNT];
     void add(const frond_report& report) {
-        const double values[COUNT] = {report.ms_effects,
-                                      report.ms_assembly,
-                                      report.ms_solve,
-                                      report.ms_collide + report.ms_response,
-                                      report.ms_capsules,
-                                      report.ms_step,
-                                      report.ms_surface,
-                                      report.ms_step + report.ms_surface};
+        const double values[COUNT] = {
+            report.ms_effects,  report.ms_assembly, report.ms_solve,   report.ms_collide + report.ms_response,
+            report.ms_capsules, report.ms_step,     report.ms_surface, report.ms_step + report.ms_surface};
         for (int i = 0; i < COUNT; i++) ms[i].push_back(values[i]);
     }
 };
@@ -65,8 +60,8 @@ void bench_step(const BenchOptions& options) {
                     frond_mechanics_name(play.stage.settings.plant.mechanics),
                     frond_integrator_name(play.stage.settings.plant.integrator),
                     frond_linear_solver_name(play.stage.settings.plant.linear_solver), options.rounds * STEPS,
-                    study::processor_name().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT, "stage", "min ms",
-                    "median ms");
+                    study::processor_name().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT, "stage",
+                    "min ms", "median ms");
     else
         std::printf("scene,nodes,tets,stage,min_ms,median_ms,processor,compiler,version,commit\n");
     for (int i = 0; i < Stages::COUNT; i++) {
@@ -74,8 +69,8 @@ void bench_step(const BenchOptions& options) {
         std::sort(ms.begin(), ms.end());
         if (options.csv)
             std::printf("%s,%d,%d,%s,%.6f,%.6f,\"%s\",\"%s\",%s,%s\n", options.what.c_str(), report.node_count,
-                        report.tet_count, Stages::NAMES[i], ms.front(), ms[ms.size() / 2], study::processor_name().c_str(),
-                        FROND_COMPILER, frond_version_string(), FROND_COMMIT);
+                        report.tet_count, Stages::NAMES[i], ms.front(), ms[ms.size() / 2],
+                        study::processor_name().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT);
         else
             std::printf("%-10s %10.4f %10.4f\n", Stages::NAMES[i], ms.front(), ms[ms.size() / 2]);
     }
@@ -154,7 +149,8 @@ void bench_contact(const BenchOptions& options) {
     // Time goes as the number of plants to this power, from two plants to all.
     const ContactFigures &few = all[1], &many = all.back();
     const double ratio = std::log(double(many.plants) / few.plants);
-    std::printf("\n%-8s %8s %8.2f", "growth", "", std::log(std::max(many.contacts, 1) / std::max(double(few.contacts), 1.0)) / ratio);
+    std::printf("\n%-8s %8s %8.2f", "growth", "",
+                std::log(std::max(many.contacts, 1) / std::max(double(few.contacts), 1.0)) / ratio);
     for (size_t k = 0; k < CONTACT_STAGE_COUNT; k++)
         std::printf(" %9.2f", few.ms[k] > 0 ? std::log(many.ms[k] / few.ms[k]) / ratio : 0.0);
     std::printf("\n");
@@ -182,9 +178,18 @@ void add_bench(CLI::App& app) {
     solver_options->most = 20000;
     CLI::App* solver = bench->add_subcommand("solver", "a step by linear solver, of plants from small to very large");
     solver->add_option("--rounds", solver_options->rounds, "steps, default 20")->check(CLI::Range(1, 100000));
-    solver->add_option("--most", solver_options->most, "leaves of the trees, default 20000")->check(CLI::Range(0, 20000));
+    solver->add_option("--most", solver_options->most, "leaves of the trees, default 20000")
+        ->check(CLI::Range(0, 20000));
     solver->add_flag("--csv", solver_options->csv, "print CSV");
+    solver->add_option("--out", solver_options->out, "folder for CSV and a diagram");
     solver->callback([solver_options] { bench_solver(*solver_options); });
+    auto bullet_options = std::make_shared<BenchOptions>();
+    bullet_options->most = 30000;
+    CLI::App* bullet =
+        bench->add_subcommand("versus-bullet", "Bullet's own soft bodies beside Frond, of the same tets");
+    bullet->add_option("--most", bullet_options->most, "tets, default 30000")->check(CLI::Range(200, 30000));
+    bullet->add_flag("--csv", bullet_options->csv, "print CSV");
+    bullet->callback([bullet_options] { bench_versus_bullet(*bullet_options); });
     auto field_options = std::make_shared<BenchOptions>();
     field_options->most = 10000;
     CLI::App* field = bench->add_subcommand("field", "a field: asleep but a path, in wind, with a crowd in it");
@@ -198,7 +203,8 @@ void add_bench(CLI::App& app) {
     effects->add_flag("--csv", effects_options->csv, "print CSV");
     effects->add_flag("--inside", *inside, "steps all cases, for valgrind to count")->group("");
     auto inside_guard = std::make_shared<bool>(false);
-    CLI::App* guard = bench->add_subcommand("guard", "instructions of the looks for steps gone wrong, counted by valgrind");
+    CLI::App* guard =
+        bench->add_subcommand("guard", "instructions of the looks for steps gone wrong, counted by valgrind");
     guard->add_flag("--inside", *inside_guard, "steps all cases, for valgrind to count")->group("");
     guard->callback([inside_guard] { *inside_guard ? step_for_guard() : bench_guard(); });
     effects->callback([effects_options, inside] { *inside ? step_all_effects() : bench_effects(*effects_options); });

@@ -18,6 +18,7 @@ struct BenchOptions {
 };
 
 void bench_solver(const BenchOptions& options);
+void bench_versus_bullet(const BenchOptions& options);
 void bench_field(const BenchOptions& options);
 void bench_effects(const BenchOptions& options);
 void bench_guard();

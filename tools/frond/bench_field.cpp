@@ -226,7 +226,7 @@ void bench_crowd(const BenchOptions& options, double budget) {
 std::string plot_of(const std::vector<PathFigures>& path, const std::string& base) {
     std::ostringstream plot;
     plot << "set xlabel 'plants in the field'\nset ylabel 'ms a step, median'\nset logscale xy\nset grid\n"
-         << "set key left top\nset yrange [0.005:20]\n$data << EOD\n";
+         << "set key left top\nset yrange [0.001:20]\n$data << EOD\n";
     for (const PathFigures& f : path)
         plot << f.plants << ' ' << f.whole << ' ' << f.still << ' ' << std::max(f.beyond(), 1e-3) << ' ' << f.frond << '\n';
     plot << "EOD\nplot $data using 1:2 with linespoints lw 2 pt 7 title 'the whole Bullet world', "
@@ -245,7 +245,7 @@ void bench_field(const BenchOptions& options) {
     std::printf("all asleep but a path on which one walks behind a ball, median [ms]\n");
     std::printf("%8s %8s %10s %10s %10s %10s\n", "plants", "awake", "world", "static", "beyond", "Frond");
     std::vector<PathFigures> path;
-    for (int count = 100; count <= options.most; count *= 10) {
+    for (int count = 1; count <= options.most; count *= 10) {
         path.push_back(measure_path(count, options));
         const PathFigures& f = path.back();
         std::printf("%8d %8.1f %10.3f %10.3f %10.3f %10.3f\n", f.plants, f.awake, f.whole, f.still, f.beyond(), f.frond);

@@ -18,7 +18,7 @@ struct SolverCase {
     const char* name;
     frond_mechanics mechanics;
     int order, plants;
-    int leaves;         // of a grown tree, 0: the corn
+    int leaves;          // of a grown tree, 0: the corn
     double cage, chain;  // sizes of cells and capsules [m], 0: Frond's choice
 };
 // The trees of tets grow by their leaves, their cells being alike.
@@ -26,9 +26,11 @@ constexpr SolverCase CASES[] = {
     {"corn", FROND_TET_COROTATIONAL, 1, 1, 0, 0, 0},
     {"17 corn plants", FROND_TET_COROTATIONAL, 1, 17, 0, 0, 0},
     {"corn, 10-node tets", FROND_TET_COROTATIONAL, 2, 1, 0, 0, 0},
+    {"corn, 10-node tets", FROND_TET_COROTATIONAL, 2, 1, 0, 0.18, 0},
     {"tree", FROND_TET_COROTATIONAL, 1, 1, 400, 0.1, 0},
     {"tree", FROND_TET_COROTATIONAL, 1, 1, 1600, 0.1, 0},
     {"tree", FROND_TET_COROTATIONAL, 1, 1, 6400, 0.1, 0},
+    {"tree", FROND_TET_COROTATIONAL, 1, 1, 12000, 0.1, 0},
     {"tree, rods", FROND_ROD, 1, 1, 18000, 0, 0.2},
 };
 
@@ -105,30 +107,66 @@ bool is_worth_it(frond_linear_solver solver, int pieces) {
     return solver <= FROND_DIRECT || pieces < LARGE;
 }
 
-void print_row(const SolverCase& one, frond_linear_solver solver, const SolverFigures& f, const BenchOptions& options) {
-    const frond_report& r = f.report;
-    if (options.csv)
-        std::printf("\"%s\",%s,%d,%d,%s,%.4f,%.4f,%.4f,%.4f,%.2e,\"%s\",\"%s\",%s,%s\n", one.name,
-                    frond_mechanics_name(one.mechanics), one.order, f.pieces, frond_linear_solver_name(solver), f.assembly,
-                    f.solve, f.step, f.surface, r.residual, study::processor_name().c_str(), FROND_COMPILER,
-                    frond_version_string(), FROND_COMMIT);
-    else
-        std::printf("%-20s %8d %-24s %9.3f %9.3f %9.3f %9.3f %9.1e\n", one.name, f.pieces, frond_linear_solver_name(solver),
-                    f.assembly, f.solve, f.step, f.surface, r.residual);
+struct SolverRow {
+    const SolverCase* of;
+    frond_linear_solver solver;
+    SolverFigures figures;
+};
+
+std::string csv_of(const std::vector<SolverRow>& rows) {
+    std::string out =
+        "plant,mechanics,order,pieces,solver,assembly_ms,solve_ms,step_ms,surface_ms,residual,processor,compiler,"
+        "version,commit\n";
+    for (const auto& [of, solver, f] : rows) {
+        char numbers[200];
+        std::snprintf(numbers, sizeof numbers, "%d,%d,%s,%.4f,%.4f,%.4f,%.4f,%.2e", of->order, f.pieces,
+                      frond_linear_solver_name(solver), f.assembly, f.solve, f.step, f.surface, f.report.residual);
+        out += std::string(of->name) + "," + frond_mechanics_name(of->mechanics) + "," + numbers + "," +
+               study::csv_field(study::processor_name()) + "," + study::csv_field(FROND_COMPILER) + "," +
+               frond_version_string() + "," + FROND_COMMIT + "\n";
+    }
+    return out;
+}
+
+void print_row(const SolverRow& row) {
+    const SolverFigures& f = row.figures;
+    std::printf("%-20s %8d %-24s %9.3f %9.3f %9.3f %9.3f %9.1e\n", row.of->name, f.pieces,
+                frond_linear_solver_name(row.solver), f.assembly, f.solve, f.step, f.surface, f.report.residual);
     std::fflush(stdout);
+}
+
+// A step of single plants of linear elements over their tets, a line a solver that can do them all.
+std::string plot_of(const std::vector<SolverRow>& rows, const std::string& base) {
+    std::string data, lines;
+    for (const frond_linear_solver solver : {FROND_BLOCK, FROND_DIRECT}) {
+        const std::string name = frond_linear_solver_name(solver);
+        data += "$" + name + " << EOD\n";
+        for (const SolverRow& row : rows)
+            if (row.solver == solver && row.of->mechanics == FROND_TET_COROTATIONAL && row.of->order == 1 &&
+                row.of->plants == 1)
+                data += std::to_string(row.figures.pieces) + " " + std::to_string(row.figures.solve) + " " +
+                        std::to_string(row.figures.step) + "\n";
+        data += "EOD\n";
+        lines += "$" + name + " using 1:3 with linespoints lw 2 title 'a step, " + name + "', $" + name +
+                 " using 1:2 with linespoints lw 2 dt 2 title 'of it the solve', ";
+    }
+    return study::drawn_twice(
+        "set xlabel 'tets of a plant'\nset ylabel 'ms'\nset logscale xy\nset grid\nset key left top\n" + data +
+            "plot " + lines + "x * 4e-4 with lines dt 3 lc 'gray' title '0.4 microseconds a tet'\n",
+        base);
 }
 
 }  // namespace
 
 void bench_solver(const BenchOptions& options) {
-    if (options.csv)
-        std::printf("plant,mechanics,order,pieces,solver,assembly_ms,solve_ms,step_ms,surface_ms,residual,processor,compiler,version,"
-                    "commit\n");
-    else
-        std::printf("plants in light air (2 m/s), median of %d steps [ms], one core; pieces are tets or rods\n%s, %s, frond %s "
-                    "%s\n%-20s %8s %-24s %9s %9s %9s %9s %9s\n",
-                    options.rounds, study::processor_name().c_str(), FROND_COMPILER, frond_version_string(),
-                    FROND_COMMIT, "plant", "pieces", "solver", "assembly", "solve", "step", "surface", "residual");
+    if (!options.out.empty()) study::require_gnuplot();
+    if (!options.csv)
+        std::printf(
+            "plants in light air (2 m/s), median of %d steps [ms], one core; pieces are tets or rods\n%s, %s, frond %s "
+            "%s\n%-20s %8s %-24s %9s %9s %9s %9s %9s\n",
+            options.rounds, study::processor_name().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT,
+            "plant", "pieces", "solver", "assembly", "solve", "step", "surface", "residual");
+    std::vector<SolverRow> rows;
     for (const SolverCase& one : CASES) {
         if (one.leaves > options.most) continue;
         const frond_model model = load(one);
@@ -136,12 +174,18 @@ void bench_solver(const BenchOptions& options) {
         for (int s = 0; s < FROND_LINEAR_SOLVER_COUNT; s++) {
             const frond_linear_solver solver = frond_linear_solver(s);
             if (s > 0 && !is_worth_it(solver, pieces)) continue;
-            const SolverFigures figures = measure(one, model, solver, options.rounds);
-            pieces = figures.pieces;
-            print_row(one, solver, figures, options);
+            rows.push_back({&one, solver, measure(one, model, solver, options.rounds)});
+            pieces = rows.back().figures.pieces;
+            if (!options.csv) print_row(rows.back());
         }
         frond_model_destroy(model);
     }
+    if (options.csv) std::printf("%s", csv_of(rows).c_str());
+    if (options.out.empty()) return;
+    study::prepare_folder(options.out);
+    study::write_file(options.out + "/solver.csv", csv_of(rows));
+    study::write_file(options.out + "/solver.gp", plot_of(rows, options.out + "/solver"));
+    study::run_gnuplot(options.out + "/solver.gp");
 }
 
 }  // namespace frond::tools

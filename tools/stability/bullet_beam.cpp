@@ -164,6 +164,10 @@ void BulletBeam::move(size_t node, const frond_vec3& to) {
     n.m_v = n.m_vn = btVector3(0, 0, 0);
 }
 
+frond_vec3 BulletBeam::place(size_t node) const {
+    return from_bullet(body->m_nodes[int(node)].m_x);
+}
+
 void BulletBeam::set_gravity(const frond_vec3& gravity) {
     world->setGravity(to_bullet(gravity));
     if (is_classic)

@@ -42,6 +42,8 @@ public:
     btRigidBody& add(btCollisionShape* shape, double mass, const frond_vec3& place, const frond_vec3& velocity);
     void remove(btRigidBody& body);
 
+    frond_vec3 place(size_t node) const;
+
     // Steps; after each all nodes are finite and in the box.
     void run(double seconds, const std::function<void(double time)>& before_each = [](double) {});
     void step(double length);

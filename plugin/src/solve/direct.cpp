@@ -94,23 +94,29 @@ int64_t fill_of(const DirectFactor& factor) {
     return factor.ldlt.fill();
 }
 
+bool factorize(DirectFactor& factor, const BlockMatrix& A) {
+    double* values = factor.ordered.valuePtr();
+    for (size_t k = 0; k < factor.source.size(); ++k) values[k] = A.values[size_t(factor.source[k])];
+    return factor.ldlt.refactor(factor.ordered);
+}
+
+void solve(DirectFactor& factor, const VecX& b, VecX& x) {
+    for (size_t k = 0; k < factor.order.size(); ++k) point(factor.solution, int(k)) = point(b, factor.order[k]);
+    factor.ldlt.solve_in_place(factor.solution);
+    x.resize(b.size());
+    for (size_t k = 0; k < factor.order.size(); ++k) point(x, factor.order[k]) = point(factor.solution, int(k));
+}
+
 LinearResult solve_direct(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
                           VecX& x) {
     if (!scratch.direct) scratch.direct = make_direct_factor(*A.pattern);
-    DirectFactor& factor = *scratch.direct;
-    double* values = factor.ordered.valuePtr();
-    for (size_t k = 0; k < factor.source.size(); ++k) values[k] = A.values[size_t(factor.source[k])];
-    if (!factor.ldlt.refactor(factor.ordered)) return {};
+    if (!factorize(*scratch.direct, A)) return {};
     return solve_direct_again(A, b, limits, scratch, x);
 }
 
 LinearResult solve_direct_again(const BlockMatrix& A, const VecX& b, const LinearLimits&, LinearScratch& scratch,
                                 VecX& x) {
-    DirectFactor& factor = *scratch.direct;
-    for (size_t k = 0; k < factor.order.size(); ++k) point(factor.solution, int(k)) = point(b, factor.order[k]);
-    factor.ldlt.solve_in_place(factor.solution);
-    x.resize(b.size());
-    for (size_t k = 0; k < factor.order.size(); ++k) point(x, factor.order[k]) = point(factor.solution, int(k));
+    solve(*scratch.direct, b, x);
     return checked_once(A, b, x, scratch);
 }
 

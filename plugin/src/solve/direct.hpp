@@ -13,6 +13,10 @@ struct DirectFactorDeleter {
 };
 using DirectFactorPtr = std::unique_ptr<DirectFactor, DirectFactorDeleter>;
 DirectFactorPtr make_direct_factor(const BlockPattern& pattern);
+// False if a pivot is not above zero: A is not positive definite.
+bool factorize(DirectFactor& factor, const BlockMatrix& A);
+// x = A^-1 b with the matrix factorized last.
+void solve(DirectFactor& factor, const VecX& b, VecX& x);
 // Numbers below the diagonal of the factor.
 int64_t fill_of(const DirectFactor& factor);
 

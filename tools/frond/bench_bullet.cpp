@@ -1,0 +1,185 @@
+// frond bench versus-bullet: Frond and Bullet's own soft bodies, of the same tets and the same material, under the same
+// load.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "bench.hpp"
+#include "stability/bullet_beam.hpp"
+#include "study/report.hpp"
+
+namespace frond::tools {
+
+namespace {
+
+using stability::BulletBeam;
+using stability::BulletMethod;
+using stability::FOOT;
+using stability::Lattice;
+using stability::Places;
+
+// Upright as modelled without weight, then pulled sideways, undamped, for a second.
+constexpr frond_vec3 PULL = {3, 0, 0};  // [m/s^2]
+constexpr int FRAMES = 60;              // a second
+constexpr int FINE = 16;                // steps a frame of the motion that errors are told from
+
+struct Body {
+    const char* name;
+    Lattice (*make)();
+};
+
+Lattice corn_cage() {
+    const frond_model_def def = frond_default_model_def();
+    frond_model model = {};
+    must(frond_model_load(model_path("corn/corn.obj").c_str(), &def, &model));
+    frond_cage_view cage;
+    must(frond_model_get_cage(model, &cage));
+    Lattice lattice;
+    lattice.nodes.assign(cage.nodes, cage.nodes + 3 * cage.node_count);
+    lattice.tets.assign(cage.tets, cage.tets + 4 * cage.tet_count);
+    frond_model_destroy(model);
+    return lattice;
+}
+
+constexpr Body BODIES[] = {
+    {"beam", [] { return make_lattice(0.1, 2, even_heights(1, 10)); }},
+    {"the corn's cage", corn_cage},
+    {"beam", [] { return make_lattice(0.1, 8, even_heights(1, 64)); }},
+};
+
+// Where the top is after each frame, and what a frame takes.
+struct Run {
+    Places top;
+    double frame = 0;  // median [s]
+};
+
+Run run(const std::function<void()>& frame, const std::function<frond_vec3()>& top) {
+    Run made;
+    std::vector<double> seconds;
+    for (int i = 0; i < FRAMES; i++) {
+        const auto start = std::chrono::steady_clock::now();
+        frame();
+        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        made.top.push_back(top());
+    }
+    std::nth_element(seconds.begin(), seconds.begin() + FRAMES / 2, seconds.end());
+    made.frame = seconds[FRAMES / 2];
+    return made;
+}
+
+Run run_frond(const Lattice& lattice, frond_mechanics mechanics, int steps) {
+    const frond_model model = stability::model_of(lattice, stability::plain_material());
+    frond_world_def world_def = frond_default_world_def();
+    world_def.gravity = PULL;
+    world_def.sleep_distance = 0;
+    world_def.max_substep = 1.0 / (FRAMES * steps);
+    frond_world world = {};
+    must(frond_world_create(&world_def, &world));
+    frond_plant_def def = frond_default_plant_def();
+    def.mechanics = mechanics;
+    def.root_height = FOOT;
+    def.mass_damping = def.stiffness_damping = def.material_damping = 0;
+    frond_plant plant = {};
+    must(frond_plant_create(world, model, &def, &plant));
+    size_t top = 0;
+    for (size_t i = 0; 3 * i < lattice.nodes.size(); i++)
+        if (lattice.nodes[3 * i + 1] > lattice.nodes[3 * top + 1]) top = i;
+    const int nodes = frond_plant_get_node_count(plant);
+    Places x(size_t(nodes), frond_vec3{});
+    const Run made = run(
+        [&] {
+            for (int i = 0; i < steps; i++) must(frond_world_step(world, world_def.max_substep));
+        },
+        [&] {
+            must(frond_plant_get_state(plant, &x[0].x, nullptr, nodes));
+            return x[top];
+        });
+    frond_world_destroy(world);
+    frond_model_destroy(model);
+    return made;
+}
+
+Run run_bullet(const Lattice& lattice, BulletMethod method, int steps) {
+    BulletBeam body(method, 1.0 / (FRAMES * steps), lattice, stability::plain_material());
+    body.set_gravity(PULL);
+    return run([&] { body.run(1.0 / FRAMES); }, [&] { return body.place(body.top); });
+}
+
+// Root of the mean square of how far the top is from where it should be, over that of its way.
+double error_of(const Run& made, const Run& exact) {
+    double error = 0, way = 0;
+    const frond_vec3 start = exact.top.front();
+    for (size_t i = 0; i < made.top.size(); i++) {
+        error += std::pow(length(made.top[i] - exact.top[i]), 2);
+        way += std::pow(length(exact.top[i] - start), 2);
+    }
+    return std::sqrt(error / way);
+}
+
+// In a process of its own, as Bullet's world may not come back from a step: how long a frame takes and, as text, the
+// error.
+stability::Verdict measure(const std::function<Run()>& make, const Run& exact) {
+    const stability::Limits limits = {20, 1};
+    const auto job = [&](size_t) {
+        stability::Verdict verdict;
+        try {
+            const Run made = make();
+            char text[20];
+            std::snprintf(text, sizeof text, "%.2g", error_of(made, exact));
+            verdict = {stability::Color::GREEN, text, 0, made.frame};
+        } catch (const stability::Broken&) {
+            verdict.text = "blows up";
+        }
+        return verdict;
+    };
+    stability::Verdict verdict = stability::run_apart(1, limits, job, [](int) {}).front();
+    if (verdict.color != stability::Color::GREEN && verdict.text != "blows up") verdict.text = "no end";
+    return verdict;
+}
+
+void print_row(const Body& body, int tets, const char* program, const char* method, int steps,
+               const stability::Verdict& verdict, bool csv) {
+    const double ms = 1e3 * verdict.seconds;
+    if (csv)
+        std::printf("%s,%d,%s,%s,%d,%.4f,%s,%s,%s,%s,%s\n", body.name, tets, program, method, FRAMES * steps, ms,
+                    verdict.text.c_str(), study::csv_field(study::processor_name()).c_str(),
+                    study::csv_field(FROND_COMPILER).c_str(), frond_version_string(), FROND_COMMIT);
+    else
+        std::printf("%-16s %7d %-7s %-16s %5s%-4d %10.3f %9s\n", body.name, tets, program, method, "1/", FRAMES * steps,
+                    ms, verdict.text.c_str());
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+void bench_versus_bullet(const BenchOptions& options) {
+    constexpr frond_mechanics FROND_ROWS[] = {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN};
+    if (options.csv)
+        std::printf("body,tets,program,method,steps_a_second,frame_ms,error,processor,compiler,version,commit\n");
+    else
+        std::printf(
+            "a second of a body that is held at its foot and pulled sideways, by steps [s]: what 1/60 s takes [ms, "
+            "median], one "
+            "core, and how far the top is from\nwhere steps of 1/%d s have it, over its way\n%s, %s, frond %s %s\n"
+            "%-16s %7s %-7s %-16s %9s %10s %9s\n",
+            FRAMES * FINE, study::processor_name().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT,
+            "body", "tets", "program", "method", "step", "frame", "error");
+    for (const Body& body : BODIES) {
+        const Lattice lattice = body.make();
+        if (int(lattice.tets.size() / 4) > options.most) continue;
+        const int tets = int(lattice.tets.size() / 4);
+        const Run exact = run_frond(lattice, FROND_TET_NEOHOOKEAN, FINE);
+        for (const int steps : {1, 4}) {
+            for (const frond_mechanics mechanics : FROND_ROWS)
+                print_row(body, tets, "frond", frond_mechanics_name(mechanics), steps,
+                          measure([&] { return run_frond(lattice, mechanics, steps); }, exact), options.csv);
+            for (int m = 0; m < int(BulletMethod::COUNT); m++)
+                print_row(body, tets, "bullet", name_of(BulletMethod(m)), steps,
+                          measure([&] { return run_bullet(lattice, BulletMethod(m), steps); }, exact), options.csv);
+        }
+    }
+}
+
+}  // namespace frond::tools

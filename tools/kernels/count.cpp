@@ -1,0 +1,135 @@
+// In: this program. Out: what its kernels do, instruction by instruction.
+//
+// Callgrind counts how often the instruction at each address ran, objdump says which it is: how many numbers it works
+// on, and how many bytes of memory it names.
+#include <unistd.h>
+#include <valgrind/callgrind.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <unordered_map>
+
+#include "kernels/kernels.hpp"
+
+namespace frond::kernels {
+
+namespace {
+
+struct Instruction {
+    double flops = 0, bytes = 0;
+};
+
+bool begins_with(const std::string& text, const char* word) {
+    return text.rfind(word, 0) == 0;
+}
+
+// As objdump writes it in Intel's way: "vmulpd ymm0,ymm1,YMMWORD PTR [rax]".
+Instruction read_instruction(const std::string& text) {
+    static const std::pair<const char*, int> SIZES[] = {{"YMMWORD PTR", 32}, {"XMMWORD PTR", 16}, {"QWORD PTR", 8},
+                                                        {"DWORD PTR", 4},    {"WORD PTR", 2},     {"BYTE PTR", 1}};
+    Instruction out;
+    for (const auto& [word, bytes] : SIZES)
+        if (text.find(word) != std::string::npos) {
+            out.bytes = bytes;
+            break;
+        }
+    const std::string name = text.substr(text[0] == 'v' ? 1 : 0, text.find(' ') - (text[0] == 'v' ? 1 : 0));
+    for (const char* word : {"addsub", "add", "sub", "mul", "div", "sqrt", "hadd"}) {
+        if (!begins_with(name, word)) continue;
+        const std::string kind = name.substr(std::strlen(word));
+        const bool is_wide = text.find("ymm") != std::string::npos;
+        if (kind == "pd") out.flops = is_wide ? 4 : 2;
+        if (kind == "ps") out.flops = is_wide ? 8 : 4;
+        if (kind == "sd" || kind == "ss") out.flops = 1;
+        break;
+    }
+    return out;
+}
+
+// By address.
+std::unordered_map<unsigned long, Instruction> disassemble(const std::string& program) {
+    std::unordered_map<unsigned long, Instruction> all;
+    const std::string command = "objdump -d -M intel --no-show-raw-insn '" + program + "' 2> /dev/null";
+    FILE* pipe = popen(command.c_str(), "r");
+    if (!pipe) return all;
+    std::array<char, 4096> line;
+    while (std::fgets(line.data(), int(line.size()), pipe)) {
+        char* end = nullptr;
+        const unsigned long address = std::strtoul(line.data(), &end, 16);
+        if (end == line.data() || std::strncmp(end, ":\t", 2) != 0) continue;
+        const Instruction instruction = read_instruction(end + 2);
+        if (instruction.flops > 0 || instruction.bytes > 0) all[address] = instruction;
+    }
+    pclose(pipe);
+    return all;
+}
+
+// Lines are "0xaddress line count"; the one after "calls=" has what the call took, which is counted where it ran.
+Work read_part(const std::filesystem::path& path, const std::string& program,
+               const std::unordered_map<unsigned long, Instruction>& instructions, std::string& name) {
+    const std::string trigger = "desc: Trigger: Client Request: ";
+    Work work;
+    std::ifstream file(path);
+    bool is_own = false, is_call = false;
+    for (std::string line; std::getline(file, line);) {
+        if (begins_with(line, trigger.c_str())) name = line.substr(trigger.size());
+        if (begins_with(line, "ob=")) is_own = line.substr(3) == program;
+        if (begins_with(line, "calls=")) {
+            is_call = true;
+            continue;
+        }
+        if (!begins_with(line, "0x")) continue;
+        const bool is_counted = !is_call;
+        is_call = false;
+        if (!is_counted) continue;
+        char* end = nullptr;
+        const unsigned long address = std::strtoul(line.c_str(), &end, 16);
+        std::strtol(end, &end, 10);
+        const double count = std::strtod(end, nullptr);
+        work.instructions += count;
+        const auto found = is_own ? instructions.find(address) : instructions.end();
+        if (found == instructions.end()) continue;
+        work.flops += count * found->second.flops;
+        work.bytes += count * found->second.bytes;
+    }
+    return work;
+}
+
+}  // namespace
+
+void run_to_be_counted(const std::vector<Kernel>& kernels) {
+    for (const Kernel& kernel : kernels) {
+        kernel.run();
+        CALLGRIND_START_INSTRUMENTATION;
+        kernel.run();
+        CALLGRIND_STOP_INSTRUMENTATION;
+        CALLGRIND_DUMP_STATS_AT(kernel.name.c_str());
+    }
+}
+
+std::map<std::string, Work> count_work() {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("frond_kernels_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+    const std::string command =
+        "valgrind --tool=callgrind -q --instr-atstart=no --dump-instr=yes --compress-pos=no --compress-strings=no "
+        "--callgrind-out-file='" +
+        (folder / "part").string() + "' '" + self + "' --inside > /dev/null 2>&1";
+    std::map<std::string, Work> all;
+    const std::unordered_map<unsigned long, Instruction> instructions = disassemble(self);
+    if (!instructions.empty() && std::system(command.c_str()) == 0)
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            std::string name;
+            const Work work = read_part(entry.path(), self, instructions, name);
+            if (!name.empty()) all[name] = work;
+        }
+    std::filesystem::remove_all(folder);
+    return all;
+}
+
+}  // namespace frond::kernels
