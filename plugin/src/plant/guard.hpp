@@ -12,7 +12,7 @@ struct SolveSettings;
 // Farthest way of a place in the running step [m]; infinite where it is no number.
 double farthest_way(const Plant& plant);
 // Whether something ended a step of h [s] far from where it was heading when the step began: a place by more than 0.02 of
-// the plant's size, the rotation of a chain's node by more than 0.35 rad.
+// the plant's size, the rotation of a chain's node by more than 0.35 rad; steps longer than 1/60 s are never trusted that far.
 bool ends_off_course(const Plant& plant, double h);
 // How far a place was from where it is modelled when the step began [m].
 double reach_at_start(const Plant& plant);

@@ -34,6 +34,9 @@ double farthest_way(const Plant& plant) {
 bool ends_off_course(const Plant& plant, double h) {
     constexpr double FAR = 0.02;        // over the plant's size [-]
     constexpr double TURNED_FAR = 0.35;  // [rad], as much as one solve can tell well
+    // What is stiff is strained much by little: the error of one solve grows over what moves as the square of the step [s].
+    constexpr double LONG = 1.001 / 60;
+    if (h > LONG) return true;
     const VecX &x = plant.motion.x, &x_good = plant.x_good, &v_good = plant.v_good;
     const double far = std::pow(FAR * double(plant.size), 2), turned_far = plant.follow ? TURNED_FAR * TURNED_FAR : far;
     if ((x - x_good - h * v_good).squaredNorm() < std::min(far, turned_far)) return false;  // all together even
