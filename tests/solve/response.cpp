@@ -90,6 +90,16 @@ TEST(Response, PartsTwoBodiesThatOverlapAtRest) {
     EXPECT_EQ(response_row(FROND_RESPONSE_NONE).find, nullptr);
 }
 
+TEST(Response, WhatCannotPartDoesNotPushWithoutEnd) {
+    std::vector<Touch> touches(2, Touch{Vec3::UnitY(), Vec3::Zero(), 0, 0});
+    for (Touch& touch : touches) touch.depth = 0.01, touch.least_shift = 0.12, touch.most_shift = 0.1;
+    const std::vector<std::vector<Coupling>> own = {{{0, 1e-3 * Mat3::Identity()}}, {{1, 2 * Mat3::Identity()}}};
+    Pushes pushes;
+    response_row(FROND_RESPONSE_IMPULSE).find(touches, coupling_table(own), {}, pushes);
+    EXPECT_NEAR(pushes.shifts[0].y(), 0.1, 1e-12);
+    EXPECT_NEAR(pushes.shifts[1].y(), 0.06, 1e-9);
+}
+
 TEST(Impulses, OfBodiesThatHaveNothingToDoWithEachOtherAreFoundApart) {
     Dice dice(9);
     const Bodies first(dice, 3, 0), second(dice, 4, 0);

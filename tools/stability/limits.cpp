@@ -14,8 +14,12 @@ struct Limit {
 };
 
 constexpr Limit LIMITS[] = {
-    {FROND_TET_LINEAR, "stiffness_ratio", "soft tets that share cells with stiff ones turn far, and what turns far grows"},
-    {FROND_TET_LINEAR, "dropped", "a plant that turns as a whole is strained by turning: linear mechanics know no rotation"},
+    {FROND_TET_LINEAR, "stiffness_ratio",
+     "soft tets that share cells with stiff ones turn far, and what turns far grows"},
+    {FROND_TET_LINEAR, "dropped",
+     "a plant that turns as a whole is strained by turning: linear mechanics know no rotation"},
+    {FROND_TET_LINEAR, "above_buckling",
+     "what is strained along bends no more easily for that: linear mechanics know no buckling"},
     {FROND_TET_LINEAR, "broken_in_contact", "what a ball turns over is strained by turning"},
 };
 

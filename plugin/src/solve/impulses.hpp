@@ -20,6 +20,7 @@ struct Touch {
     // Along the normal, how fast places must part, or may still approach, besides what velocities do [m/s].
     double least_shift = NO_SHIFT;
     static constexpr double NO_SHIFT = -1e30;  // velocities see to that
+    double most_shift = 1e30;                  // by an impulse of at most [N s]
     // Of a bond, which holds both ways and across: how fast a shall move against b. What stands above then does not count.
     bool is_bond = false;
     Vec3 wanted = Vec3::Zero();  // [m/s]

@@ -1,4 +1,5 @@
-// In: touches that overlap and how they are coupled. Out: impulses of places, by projected Gauss-Seidel along the normals.
+// In: touches that overlap and how they are coupled. Out: impulses of places, by projected Gauss-Seidel along the
+// normals.
 #include "solve/shifts.hpp"
 
 #include <algorithm>
@@ -52,7 +53,8 @@ bool sweep(Search& search, const std::vector<int>& island, double tolerance, dou
         const double lacking = search.touches[size_t(i)].least_shift - search.speeds[size_t(i)];
         if (push == 0 && lacking <= 0) continue;
         const Row& row = row_of(search, i);
-        const double by = row.own > IMMOVABLE ? std::max(-push, lacking / row.own) : 0;
+        const double all = row.own > IMMOVABLE ? push + lacking / row.own : push;
+        const double by = std::clamp(all, 0.0, search.touches[size_t(i)].most_shift) - push;
         push += by;
         if (by != 0)
             for (const Along& along : row.others) search.speeds[size_t(along.other)] += along.answer * by;
@@ -76,7 +78,8 @@ void part_by_shifts(const std::vector<Touch>& touches, const CouplingTable& coup
     Search search = {touches, coupling, std::vector<double>(count, 0), std::vector<double>(count, 0),
                      std::vector<Row>(count)};
     for (const std::vector<int>& island : coupling.islands)
-        for (int round = 0; round < rounds && sweep(search, island, settings.limits.tolerance, UNSEEN); round++) {}
+        for (int round = 0; round < rounds && sweep(search, island, settings.limits.tolerance, UNSEEN); round++) {
+        }
     shifts.resize(count);
     for (size_t i = 0; i < count; i++) shifts[i] = search.pushes[i] * touches[i].normal;
 }

@@ -35,6 +35,10 @@ bool rubs(const World& world, const PlantBody& body) {
     return world.effects & body.plant->effects & FROND_FRICTION;
 }
 
+double mass_of(const PlantBody* body) {
+    return node_mass_of(*body->plant->system).sum();
+}
+
 Grip grip_of(const Contact& contact) {
     const Flat& flat = contact.plant->hull->flats[size_t(contact.capsule)];
     return flat_grip(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
@@ -71,6 +75,9 @@ bool drop_levers(double way, Grip& grip) {
 // Plants part by being moved: cages may have been in each other by half a leaf when they were made, and would fly.
 void add_row(const World& world, PlantContact& contact, double h, std::vector<Row>& rows) {
     constexpr double SLOP = 0.0002, SHARE = 0.4, FASTEST = 0.5;  // [m], [-], [m/s]
+    // Of the lighter one's weight: feet that cannot part would use up all work that shifts may do, and nothing else
+    // would part.
+    constexpr double STRONG = 0.1;
     Row row;
     row.plants = contact.plants;
     for (size_t k = 0; k < 2; k++)
@@ -85,6 +92,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
             !make_touch(*contact.plants[k]->plant, contact.grips[k], row.touches[k]))
             return;
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
+    row.touch.most_shift = h * STRONG * GRAVITY * std::min(mass_of(contact.plants[0]), mass_of(contact.plants[1]));
     row.touch.least_shift = room > 0 ? -room : parting_speed(contact.depth, SLOP, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
     row.touch.depth = contact.depth;
@@ -117,8 +125,8 @@ void add_row(Bond& bond, double h, std::vector<Row>& rows) {
     rows.push_back(std::move(row));
 }
 
-// Whether no row would push anything: all are apart and come no nearer in the step than they may. Then nobody has to know how
-// plants answer.
+// Whether no row would push anything: all are apart and come no nearer in the step than they may. Then nobody has to
+// know how plants answer.
 bool all_wait(const std::vector<Row>& rows, double h) {
     const auto waits = [&](const Row& row) {
         const Touch& touch = row.touch;
@@ -176,8 +184,8 @@ struct Coupler {
     std::vector<Mat3> blocks;
 };
 
-// How all sides of a plant answer to one. Who has been asked how this one answers to it needs not be asked again, as A^-1
-// is symmetric.
+// How all sides of a plant answer to one. Who has been asked how this one answers to it needs not be asked again, as
+// A^-1 is symmetric.
 const std::vector<Mat3>& answers_to(Coupler& coupler, Sides& sides, size_t by) {
     std::vector<Mat3>& answers = sides.known[by];
     if (!answers.empty()) return answers;
@@ -218,7 +226,8 @@ const std::vector<Coupling>& couple(Coupler& coupler, int by) {
 }
 
 // Adds what the rows got to both sides. Returns the rigid bodies among them.
-std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, std::vector<Row>& rows, const Pushes& pushes) {
+std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, std::vector<Row>& rows,
+                               const Pushes& pushes) {
     const auto to_plants = [&](const Row& row, const Vec3& impulse, auto take) {
         if (impulse.isZero(0)) return;
         take(*row.plants[0]->plant, row.touches[0], impulse);

@@ -1,0 +1,41 @@
+// Plants made where another stands already: they part, but for their feet.
+#include <algorithm>
+#include <vector>
+
+#include "support/stems.hpp"
+
+namespace {
+
+struct OnePlace : testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Plants, OnePlace, testing::Range(0, int(FROND_MECHANICS_COUNT)), [](const auto& info) {
+    return std::string(frond_mechanics_name(frond_mechanics(info.param)));
+});
+
+// Of what is higher than that [m].
+double depth_above(frond_plant plant, double height) {
+    std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
+    EXPECT_EQ(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())), FROND_OK);
+    double depth = 0;
+    for (const frond_contact& contact : contacts)
+        if (contact.point.y > height) depth = std::max(depth, -contact.gap);
+    return depth;
+}
+
+TEST_P(OnePlace, LetsPlantsPartAboveTheirFeet) {
+    constexpr double FEET = 0.2, DEPTH = 0.005;  // [m]
+    frond_plant_def def = frond_default_plant_def();
+    def.mechanics = frond_mechanics(GetParam());
+    SmallWorld small(def, 0, FROND_REST_STANDS_AS_MODELLED);
+    def.position = {0.01, 0, 0.003};
+    frond_plant second = {};
+    ASSERT_EQ(frond_plant_create(small.world, small.model, &def, &second), FROND_OK) << frond_last_error();
+    ASSERT_EQ(frond_world_step(small.world, 1.0 / 60), FROND_OK);
+    EXPECT_GT(depth_above(small.plant, FEET), 2 * DEPTH);
+    for (int i = 0; i < 180; i++) ASSERT_EQ(frond_world_step(small.world, 1.0 / 60), FROND_OK);
+    EXPECT_LT(depth_above(small.plant, FEET), DEPTH);
+    frond_report report;
+    ASSERT_EQ(frond_world_get_report(small.world, &report), FROND_OK);
+    EXPECT_EQ(report.trouble & FROND_TROUBLE_REWOUND, 0u);
+}
+
+}  // namespace
