@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+
 #include "support/meshes.hpp"
 
 namespace frond::test {
@@ -71,14 +74,44 @@ TEST(Hash, BoxesThatTouchAreAPairAndThoseOfAGroupAreNot) {
     }
 }
 
-// Places as far apart as numbers reach.
-TEST(Hash, TheGridTakesBoxesWhoseWayApartIsNoNumber) {
+// Places as far apart as numbers reach, and some beyond.
+TEST(Hash, EveryLayoutTakesBoxesWhoseWayApartIsNoNumber) {
     const double far = 1.7e308;
-    const BoxSet items = {{{{-far, 0, 0}, {far, 1, 1}, 0}, {{0, 0, 0}, {1, 1, 1}, 1}}};
-    const BoxSet queries = {{{{-far, 0, 0}, {far, 1, 1}, 5}, {{0, 5, 0}, {1, 6, 1}, 6}}};
-    const Pairs expected = pairs_of(FROND_HASH_BRUTE_FORCE, items, queries, 0, 0.25);
-    EXPECT_EQ(pairs_of(FROND_HASH_GRID, items, queries, 0, 0.25), expected);
-    EXPECT_EQ(expected.size(), 2u);
+    for (const double farthest : {1e18, far, double(INFINITY)}) {
+        const BoxSet items = {{{{-farthest, 0, 0}, {farthest, 1, 1}, 0}, {{0, 0, 0}, {1, 1, 1}, 1}}};
+        const BoxSet queries = {{{{-farthest, 0, 0}, {farthest, 1, 1}, 5}, {{0, 5, 0}, {1, 6, 1}, 6}}};
+        const Pairs expected = pairs_of(FROND_HASH_BRUTE_FORCE, items, queries, 0, 0.25);
+        EXPECT_EQ(pairs_of(FROND_HASH_GRID, items, queries, 0, 0.25), expected);
+        EXPECT_EQ(pairs_of(FROND_HASH_PAPER, items, queries, 0, 0.25), expected);
+        EXPECT_EQ(expected.size(), 2u);
+    }
+}
+
+// Cells are then made larger: boxes that are thousands of them wide would take minutes.
+TEST(Hash, BoxesOfAPlantThatIsDrawnOutToAThousandTimesItsSizeAreFoundInAWhile) {
+    Dice dice(2);
+    const BoxSet items = random_boxes(dice, 1500, 1e3, 1e3, 2), queries = random_boxes(dice, 1500, 1e3, 1e3, 2);
+    const Pairs expected = pairs_of(FROND_HASH_BRUTE_FORCE, items, queries, 0, 0.1);
+    EXPECT_GT(expected.size(), 10000u);
+    for (const frond_hash_layout layout : {FROND_HASH_GRID, FROND_HASH_PAPER}) {
+        const auto start = std::chrono::steady_clock::now();
+        EXPECT_EQ(pairs_of(layout, items, queries, 0, 0.1), expected);
+        EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10)
+            << hash_row(layout).name;
+    }
+}
+
+// A pair is told once, however many cells and buckets its boxes share.
+TEST(Hash, ATableOfOneBucketTellsEachPairOnce) {
+    Dice dice(3);
+    const BoxSet items = random_boxes(dice, 50, 1, 1, 2), queries = random_boxes(dice, 50, 1, 1, 2);
+    const Pairs expected = pairs_of(FROND_HASH_BRUTE_FORCE, items, queries, 0, 0.3);
+    for (const int table_size : {1, 7, 1009}) {
+        HashMemory memory;
+        Pairs pairs;
+        find_pairs_by_table(items, queries, table_size, 0.3, memory, pairs);
+        EXPECT_EQ(pairs.size(), expected.size()) << table_size;
+    }
 }
 
 }  // namespace

@@ -123,6 +123,26 @@ TEST_P(EveryShape, GoesAlongWithAFootThatIsPutElsewhere) {
         EXPECT_LT((point(plant->motion.x, i) - point(elements_of(*plant->system).modelled, i) - way).norm(), 0.02);
 }
 
+// No step leads anywhere in a pull of 1e5 times its weight, and searches for one end sooner and sooner.
+TEST_P(EveryShape, StepsThatLeadNowhereTakeLittleWorkAndTheFirstCalmOneAllThatItNeeds) {
+    constexpr int MOST = 1200, MEAN = 400;  // in evaluations of the forces
+    const auto plant = stem(GetParam());
+    Surroundings surroundings;
+    surroundings.gravity = {0, -1e5 * GRAVITY, 1e5 * GRAVITY};
+    int most = 0, sum = 0;
+    for (int i = 0; i < 30; i++) {
+        step_plant(*plant, surroundings, H);
+        most = std::max(most, plant->report.work);
+        sum += plant->report.work;
+    }
+    EXPECT_LT(plant->patience, 1);
+    EXPECT_LE(most, MOST);
+    EXPECT_LE(sum, 30 * MEAN);
+    for (int i = 0; i < 240; i++) step_plant(*plant, earth(), H);
+    EXPECT_EQ(plant->patience, 1);
+    EXPECT_LT(away(*plant), 0.02);
+}
+
 // Upside down beside its foot, with its cells mirrored: no step leads out of that.
 TEST(Guard, WhatIsCaughtInsideOutStartsFromTheModelledShape) {
     const auto plant = stem(FROND_TET_COROTATIONAL);

@@ -143,6 +143,42 @@ struct Stand {
     }
 };
 
+// Contacts are found before detail is chosen: what holds their points is of the mechanics that the plants had then.
+TEST(Detail, OfPlantsThatTouchChangesInEveryStep) {
+    frond_world world = {};
+    frond_model model = {};
+    frond_plant plants[2] = {};
+    const frond_world_def def = frond_default_world_def();
+    must(frond_world_create(&def, &world));
+    const frond_model_def model_def = frond_default_model_def();
+    must(frond_model_load((std::string(FROND_SOURCE_DIR) + "/models/corn/corn.obj").c_str(), &model_def, &model));
+    frond_plant_def plant_def = frond_default_plant_def();
+    for (frond_plant& plant : plants) {
+        must(frond_plant_create(world, model, &plant_def, &plant));
+        plant_def.position = {0.3, 0, 0.02};
+    }
+    const State rest(plants[0]);
+    const frond_detail_def detail = frond_default_detail_def();
+    int touches = 0;
+    for (int step = 0; step < 60; step++) {
+        must(frond_world_set_viewer(world, {step / 3 % 2 ? 2 * detail.rod_from : 1.0, 0, 0}));
+        must(frond_world_step(world, H));
+        const int count = frond_plant_get_contact_count(plants[0]);
+        std::vector<frond_contact> contacts(static_cast<size_t>(count));
+        if (count > 0) must(frond_plant_get_contacts(plants[0], contacts.data(), count));
+        for (const frond_contact& contact : contacts) {
+            ASSERT_TRUE(std::isfinite(contact.point.x + contact.normal.y + contact.impulse.z + contact.gap)) << step;
+            ASSERT_LT(distance(contact.impulse, {}), 10) << step;
+        }
+        touches += count;
+        const State now(plants[0]);
+        for (size_t i = 0; i < rest.x.size(); i++) ASSERT_LT(std::abs(now.x[i] - rest.x[i]), 0.5) << step;
+    }
+    EXPECT_GT(touches, 100);
+    frond_world_destroy(world);
+    frond_model_destroy(model);
+}
+
 TEST(Detail, HasHysteresis) {
     Stand stand(1, 1);
     const frond_detail_def def = frond_default_detail_def();

@@ -13,6 +13,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -239,6 +240,29 @@ TEST(Attach, IsRefusedTwiceAndAllowedAgainAfterDestroy) {
     EXPECT_EQ(frond::bullet_world(first), nullptr);
     ASSERT_EQ(frond::attach(host.world.get(), nullptr, &second), FROND_OK);
     frond_world_destroy(second);
+}
+
+// What a clock that failed says.
+TEST(Attach, StepsThatAreNoTimeMoveNoPlant) {
+    Host host(0);
+    frond_world world = {};
+    ASSERT_EQ(frond::attach(host.world.get(), nullptr, &world), FROND_OK);
+    host.world->removeRigidBody(&host.ball);
+    const frond_model model = make_small_model();
+    const frond_plant_def def = frond_default_plant_def();
+    frond_plant plant = {};
+    ASSERT_EQ(frond_plant_create(world, model, &def, &plant), FROND_OK);
+    for (const btScalar length : {btScalar(-1), btScalar(0), btScalar(NAN), btScalar(INFINITY)}) {
+        host.world->stepSimulation(length, 0);
+        frond_vec3 tip = {};
+        frond_surface_view surface = {};
+        ASSERT_EQ(frond_plant_get_tip(plant, &tip), FROND_OK);
+        ASSERT_EQ(frond_plant_get_surface(plant, &surface), FROND_OK);
+        EXPECT_TRUE(std::isfinite(tip.x + tip.y + tip.z)) << length;
+        for (int i = 0; i < 3 * surface.vertex_count; i++) ASSERT_TRUE(std::isfinite(surface.positions[i])) << length;
+    }
+    frond_world_destroy(world);
+    frond_model_destroy(model);
 }
 
 TEST(Attach, LeavesTheHostsOwnSoftBodiesAlone) {

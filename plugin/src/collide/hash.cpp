@@ -1,7 +1,28 @@
-// The table of layouts: one row for each frond_hash_layout; the twin that tries every pair is short enough to stand here.
+// The table of layouts: one row for each frond_hash_layout; the twin that tries every pair is short enough to stand
+// here.
 #include "collide/hash.hpp"
 
+#include <cmath>
+
 namespace frond {
+
+static double cells_of(const BoxSet& set, double cells_per_metre) {
+    double sum = 0;
+    for (const BoxSet::Bounds& box : set.boxes) {
+        double cells = 1;
+        for (int k = 0; k < 3; ++k) cells *= (box.upper[k] - box.lower[k]) * cells_per_metre + 1;
+        sum += cells;
+    }
+    return sum;
+}
+
+double bearable_cell_size(const BoxSet& items, const BoxSet& queries, double cell_size) {
+    constexpr double MOST = 128, LARGER = 2;
+    const double most = MOST * double(items.boxes.size() + queries.boxes.size());
+    while (std::isfinite(cell_size) && !(cells_of(items, 1 / cell_size) + cells_of(queries, 1 / cell_size) <= most))
+        cell_size *= LARGER;
+    return cell_size;
+}
 
 const HashRow& hash_row(frond_hash_layout layout) {
     static const HashRow TABLE[] = {

@@ -28,8 +28,7 @@ struct HashMemory {
     std::vector<int> owner, start, items, next;
 };
 
-// Adds pairs (item, query) of boxes that overlap or touch and are of different groups, in any order, perhaps several
-// times.
+// Adds pairs (item, query) of boxes that overlap or touch and are of different groups, each once, in any order.
 struct HashRow {
     const char* name;
     // Drops boxes (0 in `kept`) near which there is none of another owner, not all of them; null: drops none.
@@ -39,6 +38,9 @@ struct HashRow {
                  std::vector<std::array<int, 2>>& out);
 };
 const HashRow& hash_row(frond_hash_layout layout);
+
+// Cells so large that boxes, on average, touch little more than a hundred of them; infinite for boxes without end.
+double bearable_cell_size(const BoxSet& items, const BoxSet& queries, double cell_size);
 
 // The rows.
 void cull_by_grid(const BoxSet& boxes, const std::vector<int>& owner, double cell_size, HashMemory& memory,

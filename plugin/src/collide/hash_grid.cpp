@@ -47,6 +47,7 @@ static bool fit_grid(const BoxSet& items, const BoxSet& queries, double cell_siz
         grid.upper[k] = std::min(grid.upper[k], upper[k]);
         if (!(grid.lower[k] <= grid.upper[k])) return false;
     }
+    cell_size = bearable_cell_size(items, queries, cell_size);
     const auto is_endless = [&](int k) { return !std::isfinite(grid.upper[k] - grid.lower[k]); };
     if (is_endless(0) || is_endless(1) || is_endless(2)) {
         grid.cells_per_metre = 0;

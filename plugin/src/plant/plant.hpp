@@ -126,6 +126,7 @@ struct Plant {
     bool folded = false;
     bool is_sound = true;          // what was found can be the next state
     bool is_off_course = false;    // in the running step something went elsewhere than it was heading
+    float patience = 1;            // share of the work that searches are given [-]
     float recovers_for = 0;        // from a shape to which nothing can have bent it [s]
     float size;                    // of the modelled surface, from corner to corner [m]
 

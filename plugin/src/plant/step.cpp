@@ -99,26 +99,52 @@ static void solve_in_equal_parts(Plant& plant, const SolveSettings& settings, in
     motion.history.shaken = true;
 }
 
+// Searches that did not end will hardly do better the next time: less and less is given to them, until a step is calm
+// again.
+static void lose_patience(Plant& plant) {
+    constexpr float LESS = 0.5, LEAST = 0.25;
+    plant.patience = std::max(LEAST, LESS * plant.patience);
+}
+static void gain_patience(Plant& plant) {
+    constexpr float MORE = 1.25;
+    plant.patience = std::min(1.0f, MORE * plant.patience);
+}
+static int work_allowed(const Plant& plant) {
+    constexpr float WORK = 300;
+    return int(plant.patience * WORK);
+}
+
 // By what cannot overshoot; where a whole step is too long for that too, several short ones.
 static void solve_carefully(Plant& plant, double h) {
     constexpr int ITERATIONS = 30, PARTS = 4;
+    constexpr float LEAST_FOR_PARTS = 0.5;
     SolveSettings settings = plant.step_settings;
     settings.integrator = FROND_IMPLICIT_EULER;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
+    settings.most_work = work_allowed(plant);
     plant.trouble |= FROND_TROUBLE_RETRIED;
     solve_in_equal_parts(plant, settings, 1, h);
-    if (plant.report.ok && is_plausible(plant, h)) return;
-    solve_in_equal_parts(plant, settings, PARTS, h);
-    plant.report.ok = plant.report.ok && is_plausible(plant, h);
+    bool is_good = plant.report.ok && is_plausible(plant, h);
+    const bool has_time = plant.patience >= LEAST_FOR_PARTS;
+    if (!is_good || !plant.report.converged) lose_patience(plant);
+    if (!is_good && has_time) {
+        settings.most_work /= PARTS;
+        solve_in_equal_parts(plant, settings, PARTS, h);
+        is_good = plant.report.ok && is_plausible(plant, h);
+    }
+    plant.report.ok = is_good;
 }
 
 // In steps that are short enough to come back within some dozens of them. Bodies answer to whole ones.
 static void solve_recovering(Plant& plant, double h) {
     constexpr double LONGEST = 1.0 / 60;  // [s]
+    constexpr int LEAST = 36;             // work
     const int parts = plant.is_touched ? 1 : std::max(1, int(std::ceil(h / LONGEST - 1e-6)));
     plant.report = {};
-    solve_in_equal_parts(plant, plant.step_settings, parts, h);
+    SolveSettings settings = plant.step_settings;
+    settings.most_work = std::max(settings.most_work / parts, LEAST);
+    solve_in_equal_parts(plant, settings, parts, h);
 }
 
 // Whether the air has turned something by more than twice what one solve can tell well.
@@ -181,6 +207,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     SolveSettings& settings = plant.step_settings = plant.settings;
     if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
+    settings.most_work = work_allowed(plant);
     plant.ms_effects = plant.ms_user_force + plant.ms_air;
     plant.ms_fibres = plant.ms_plasticity = 0;
 
@@ -191,7 +218,12 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     else
         plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
-    if (!plant.report.ok || !is_plausible(plant, h)) solve_carefully(plant, h);
+    const bool is_spent = plant.report.work >= settings.most_work;
+    if (is_spent) lose_patience(plant);
+    if (!plant.report.ok || !is_plausible(plant, h))
+        solve_carefully(plant, h);
+    else if (!is_spent)
+        gain_patience(plant);
     hold_what_is_drawn_out(plant, effects, h);
     // Chains have no fibres: nothing of them has moved since they were found plausible. What goes on as it was heading is
     // not being stretched.

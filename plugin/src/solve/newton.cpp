@@ -38,7 +38,14 @@ struct Newton {
     bool exact;         // the first solve takes the exact stiffness, the damping still the positive one
     bool skipped;       // the first solve was left to the line search
     bool at_once;       // the mechanics give right side and matrix of the only solve in one pass
+    int most_work;      // in report.work; 0: any
 };
+
+// A factor takes as long as so many evaluations of the forces, about.
+constexpr int WORK_OF_FACTOR = 4;
+bool is_spent(const Newton& n) {
+    return n.most_work > 0 && n.report.work >= n.most_work;
+}
 
 // Where the stage ends with velocities v.
 void move(const Newton& n, const VecX& v) {
@@ -116,6 +123,7 @@ void linearize_at_start(Newton& n) {
 // The residual at the end of the stage with velocities v; leaves its elastic force and positions in the workspace.
 double residual_at(Newton& n, const VecX& v, VecX& rhs) {
     Workspace& w = n.w;
+    n.report.work++;
     move(n, v);
     w.elastic.setZero(v.size());
     n.report.inverted = n.body.add_force(*n.w.elements, w.x, w.elastic);
@@ -131,6 +139,7 @@ double residual_at(Newton& n, const VecX& v, VecX& rhs) {
 double potential_at(const Newton& n, const VecX& v) {
     Workspace& w = n.w;
     const double step = n.stage.step, a = n.input.settings.mass_damping;
+    n.report.work++;
     move(n, v);
     double potential = n.body.energy(*n.w.elements, w.x) + spring_energy(n.input.loads.springs, w.x) -
                        step * w.external.dot(v);
@@ -205,6 +214,7 @@ bool solve_linear(Newton& n) {
 bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
     for (;;) {
         Timer timer;
+        n.report.work += WORK_OF_FACTOR;
         n.w.rhs = rhs;
         n.w.A.set_zero();
         move(n, n.w.v);
@@ -249,12 +259,27 @@ bool search_line(Newton& n, VecX& rhs, double& norm) {
     return false;
 }
 
+// A search that may end early starts where it has least to undo: at the velocities so far, or standing still.
+void stand_still_if_better(Newton& n) {
+    Workspace& w = n.w;
+    const double moving = potential_at(n, w.v);
+    w.v_trial = w.v;
+    for (int i = 0; i < n.system.elements->node_count; ++i)
+        if (!w.held[size_t(i)]) point(w.v_trial, i).setZero();
+    if (!(moving <= potential_at(n, w.v_trial))) std::swap(w.v, w.v_trial);
+}
+
 // Leaves the first solve to the line search. Returns the norm of the residual, negative on failure.
 double skip_first(Newton& n) {
-    constexpr int SEARCHED_ITERATIONS = 20;
+    constexpr int SEARCHED_ITERATIONS = 20, SEARCHED_WORK = 300;
     Timer timer;
-    n.iterations = std::max(n.iterations, SEARCHED_ITERATIONS);
+    if (n.iterations < SEARCHED_ITERATIONS) {
+        n.iterations = SEARCHED_ITERATIONS;
+        const int most = n.input.settings.most_work;
+        n.most_work = n.report.work + (most > 0 ? most : SEARCHED_WORK);
+    }
     n.skipped = true;
+    if (n.input.settings.careful) stand_still_if_better(n);
     const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
     n.report.ms_assembly += timer.lap();
     return std::isfinite(norm) ? norm : -1;
@@ -308,7 +333,7 @@ bool iterate(Newton& n, double first) {
     Tangent tangent = Tangent::exact;
     for (int iteration = 1;; ++iteration) {
         n.report.converged = norm <= s.newton_tolerance * first || change <= TINY * n.system.size;
-        if (n.report.converged || iteration == n.iterations) return std::isfinite(norm);
+        if (n.report.converged || iteration == n.iterations || is_spent(n)) return std::isfinite(norm);
         if (!find_direction(n, tangent, rhs)) return false;
         timer.lap();
         change = w.dv.cwiseAbs().maxCoeff() * n.stage.step;
@@ -350,7 +375,8 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
                 is_long,
                 is_long,
                 false,
-                workspace.system->row->add_ahead && iterations == 1 && !is_long && !input.settings.careful};
+                workspace.system->row->add_ahead && iterations == 1 && !is_long && !input.settings.careful,
+                input.settings.careful && input.settings.most_work > 0 ? report.work + input.settings.most_work : 0};
     workspace.v = workspace.v_start;
     workspace.reach = stage.step;
     const bool converged_before = report.converged;

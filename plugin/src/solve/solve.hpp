@@ -46,6 +46,7 @@ struct SolveSettings {
     double full_damping = 0;
     double spectral_radius = 0.8;            // of generalized_alpha at infinite frequency, 0..1 [-]
     bool careful = false;                    // every solve goes no farther than a line search says
+    int most_work = 0;                       // after which a stage that searches ends where it is; 0: as it sees fit
 };
 
 // What a method that looks back keeps of its last step. It holds only for the motion that this step left: where
@@ -81,6 +82,7 @@ struct SolveReport {
     bool ok = false;  // false: the system could not be solved; motion is unchanged
     bool converged = true;
     int iterations = 0;   // of the linear solver
+    int work = 0;         // of line searches and what leads to them, in evaluations of all forces
     int inverted = 0;     // tets
     double residual = 0;  // relative, of the last linear solve
     float ms_assembly = 0, ms_solve = 0;
@@ -88,6 +90,7 @@ struct SolveReport {
     // What another solve took is in this report too.
     void add_cost(const SolveReport& other) {
         iterations += other.iterations;
+        work += other.work;
         ms_assembly += other.ms_assembly;
         ms_solve += other.ms_solve;
     }

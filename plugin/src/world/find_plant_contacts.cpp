@@ -139,13 +139,6 @@ bool may_touch(const World& world, const PlantContact& contact) {
     return has(world, *contact.plants[0], FROND_PLANT_CONTACT) && has(world, *contact.plants[1], FROND_PLANT_CONTACT);
 }
 
-// Whether both sides still are touched by what they were touched by then.
-bool is_by_the_same(const PlantContact& contact) {
-    for (size_t k = 0; k < 2; k++)
-        if (contact.by_sheath[k] != (contact.plants[k]->plant->follow != nullptr)) return false;
-    return true;
-}
-
 // A contact of the last substep, by what its points have moved since.
 PlantContact as_it_is_now(const PlantContact& before) {
     PlantContact contact = before;
@@ -163,7 +156,8 @@ bool are_one_pair(const PlantContact& a, const PlantContact& b) {
 void doubt_what_is_deeper(const std::vector<PlantContact>& last, std::vector<PlantContact>& contacts) {
     constexpr double NEAR = 0.1, CALM = 0.005, SLACK = 0.002;  // [m]
     std::multimap<std::tuple<int, int, std::array<int, 4>>, const PlantContact*> known;
-    for (const PlantContact& before : last) known.emplace(key_of(before), &before);
+    for (const PlantContact& before : last)
+        if (is_by_the_same(before)) known.emplace(key_of(before), &before);
     for (PlantContact& contact : contacts) {
         if (contact.depth <= SLACK) continue;
         bool is_new = true;
@@ -280,6 +274,12 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island, d
 }
 
 }  // namespace
+
+bool is_by_the_same(const PlantContact& contact) {
+    for (size_t k = 0; k < 2; k++)
+        if (contact.by_sheath[k] != (contact.plants[k]->plant->follow != nullptr)) return false;
+    return true;
+}
 
 std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     std::vector<PlantContact> contacts;

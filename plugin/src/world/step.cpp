@@ -105,16 +105,18 @@ void note_touches(World& world) {
         if (contact.gap < NEAR && is_moving(*contact.other)) contact.plant->level.touched = world.time + WHILE;
 }
 
-// Contacts of plants that only sway push nothing; those that push are stepped now.
+// Contacts of plants that only sway push nothing, nor do those of what has gone over to another detail since they were
+// found; those that push are stepped now.
 void mark_touched(World& world) {
     const auto sways = [](const PlantBody* body) { return body->plant->swing != nullptr; };
     world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(),
                                         [&](const Contact& contact) { return sways(contact.plant); }),
                          world.contacts.end());
-    world.plant_contacts.erase(
-        std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(),
-                       [&](const PlantContact& c) { return sways(c.plants[0]) || sways(c.plants[1]); }),
-        world.plant_contacts.end());
+    world.plant_contacts.erase(std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(),
+                                              [&](const PlantContact& c) {
+                                                  return sways(c.plants[0]) || sways(c.plants[1]) || !is_by_the_same(c);
+                                              }),
+                               world.plant_contacts.end());
     for (PlantBody* body : world.awake) {
         body->plant->is_touched = body->plant->is_entangled = false;
         body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;
@@ -192,7 +194,7 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
 
 void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     const double h = double(step);
-    if (!(h > 0)) return;
+    if (!(h > 0) || !std::isfinite(h)) return;
     BT_PROFILE("frond");
     const Timer step_timer;
     is_stepping = true;
