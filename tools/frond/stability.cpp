@@ -75,11 +75,17 @@ void add_stability(CLI::App& app) {
     command->add_flag("--bullet", options->bullet, "Bullet's own soft bodies in the cases that they can be put through, beside Frond");
     command->add_option("--json", options->json, "write all cells to this file");
     command->add_option("--html", options->html, "write the table as a page");
-    command->add_option("--seconds", options->limits.seconds, "CPU time after which a cell is red, default 120")
-        ->check(CLI::Range(1, 100000));
+    // The soft bodies' table shows what a game could wait for: about as long as what it simulates takes.
+    constexpr int WITH_BULLET = 6;
+    const CLI::Option* seconds =
+        command->add_option("--seconds", options->limits.seconds, "CPU time after which a cell is red, default 120, with --bullet 6")
+            ->check(CLI::Range(1, 100000));
     command->add_option("--processes", options->limits.processes, "at once; default: one a processor")
         ->check(CLI::Range(1, 1024));
-    command->callback([options] { run_stability(*options); });
+    command->callback([options, seconds] {
+        if (options->bullet && seconds->count() == 0) options->limits.seconds = WITH_BULLET;
+        run_stability(*options);
+    });
 }
 
 }  // namespace frond::tools

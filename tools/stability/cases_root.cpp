@@ -86,6 +86,9 @@ void gravity_for(Bench& bench, const std::function<frond_vec3(double)>& gravity)
 void gravity_100(Bench& bench) {
     gravity_for(bench, [](double) { return frond_vec3{0, -981, 0}; });
 }
+void gravity_100000(Bench& bench) {
+    gravity_for(bench, [](double) { return frond_vec3{0, -981e3, 0}; });
+}
 void gravity_up(Bench& bench) {
     gravity_for(bench, [](double) { return frond_vec3{0, 9.81, 0}; });
 }
@@ -143,6 +146,7 @@ std::vector<Case> root_cases() {
         {"shaken", "the foot of a herb shaken at 60 and 47 Hz by 5 cm for a second", back, shake},
         {"somersault", "the foot of a herb turned over once in a second", back, somersault},
         {"gravity_100_g", "100 times gravity for 2 s", back, gravity_100},
+        {"gravity_1e5_g", "100,000 times gravity for 2 s", back, gravity_100000},
         {"gravity_reversed", "gravity upwards for 2 s", back, gravity_up},
         {"gravity_tumbling", "up to 10 times gravity in another direction in each step", back, gravity_tumbling},
         {"gravity_off", "gravity taken away", "no energy out of nothing in 3 s", gravity_off},

@@ -140,6 +140,28 @@ void tie_knot(Bench& bench) {
     bench.expect_shape(plant, rest, 0.3);
 }
 
+// The ends of two branches, by pins that go ten sizes of the plant apart.
+void tear_apart(Bench& bench) {
+    constexpr double WAY = 8;  // [m]
+    bench.box = 3 * WAY;
+    const frond_plant plant = bench.add(herb());
+    const Places rest = bench.places(plant);
+    size_t ends[2] = {};
+    for (size_t i = 0; i < rest.size(); i++) {
+        if (rest[i].x < rest[ends[0]].x) ends[0] = i;
+        if (rest[i].x > rest[ends[1]].x) ends[1] = i;
+    }
+    for (size_t end : ends) must(frond_plant_pin(plant, int(end)));
+    bench.run(1.5, [&](double time) {
+        const double way = WAY * std::min(1.0, time + bench.cell.dt);
+        for (int k = 0; k < 2; k++)
+            must(frond_plant_move_pin(plant, int(ends[k]), rest[ends[k]] + frond_vec3{(2 * k - 1) * way, 0, 0}));
+    });
+    for (size_t end : ends) must(frond_plant_unpin(plant, int(end)));
+    bench.run(BACK);
+    bench.expect_shape(plant, rest, 0.25);
+}
+
 }  // namespace
 
 std::vector<Case> shape_cases() {
@@ -161,6 +183,8 @@ std::vector<Case> shape_cases() {
          "finite; after 10 s back within 0.15 of its size, no tet inside out", stretch},
         {"knotted", "the tip of a herb led around its stem and through by a pin, let go",
          "finite; after 4 s no tet inside out, nodes within 0.3 of its size", tie_knot},
+        {"torn_by_pins", "the ends of two branches drawn apart by ten sizes of the herb, let go",
+         "finite; after 4 s no tet inside out, nodes within 0.25 of its size", tear_apart},
     };
 }
 
