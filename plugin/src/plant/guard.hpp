@@ -14,6 +14,11 @@ double farthest_way(const Plant& plant);
 // Whether something ended a step of h [s] far from where it was heading when the step began: a place by more than 0.02 of
 // the plant's size, the rotation of a chain's node by more than 0.35 rad.
 bool ends_off_course(const Plant& plant, double h);
+constexpr double OFF_COURSE = 0.02, TURNED_OFF_COURSE = 0.35;  // over the plant's size [-], [rad]
+// Stretched to many times its size.
+bool is_far_out(const Plant& plant);
+// A step's way, over the plant's size, that is not asked about [-].
+constexpr double FARTHEST_WAY = 4;
 // How far a place was from where it is modelled when the step began [m].
 double reach_at_start(const Plant& plant);
 
