@@ -7,6 +7,7 @@
 #endif
 
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 
 // How lanes are handed to functions depends on the processor that is compiled for; none is handed to any, see below.
@@ -187,6 +188,18 @@ template <class S>
 struct Lanes33 {
     Lanes3<S> r[3];
 };
+
+// Of numbers of plants side by side, those from the i-th on.
+template <class S>
+FROND_INLINE Lanes3<S> load3(const double* from, int i) {
+    const double* at = from + LANES<S> * size_t(i);
+    return {load<S>(at), load<S>(at + LANES<S>), load<S>(at + 2 * LANES<S>)};
+}
+template <class S>
+FROND_INLINE void store3(const Lanes3<S>& v, double* to, int i) {
+    double* at = to + LANES<S> * size_t(i);
+    store(v.x, at), store(v.y, at + LANES<S>), store(v.z, at + 2 * LANES<S>);
+}
 
 template <class S>
 FROND_INLINE Lanes3<S> operator+(const Lanes3<S>& a, const Lanes3<S>& b) {

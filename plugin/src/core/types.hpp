@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace frond {
@@ -25,6 +26,16 @@ inline auto point(VecX& x, int i) {
 }
 inline auto point(const VecX& x, int i) {
     return x.segment<3>(3 * Eigen::Index(i));
+}
+
+// Eigen's own goes number by number.
+inline bool are_finite(const VecX& x) {
+    return (x - x).sum() == 0;
+}
+// To the last bit first.
+inline bool are_same(const VecX& a, const VecX& b) {
+    if (a.size() != b.size() || a.size() == 0) return a.size() == b.size();
+    return std::memcmp(a.data(), b.data(), size_t(a.size()) * sizeof(double)) == 0 || a == b;
 }
 
 }  // namespace frond

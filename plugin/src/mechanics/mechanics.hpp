@@ -82,6 +82,17 @@ struct Ahead {
     const std::vector<double>& element_damping;  // and beside that of each; empty: none [s]
 };
 
+// What can be worked out for several plants abreast: each number of a vector or a matrix is there once a lane
+// (core/lanes.hpp), and comes out as if its plant were alone.
+struct MechanicsAbreast {
+    // As in Mechanics.
+    void (*add_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A);
+    void (*rotary_inertia)(const Elements& elements, const VecX& x, VecX& out);  // row by row
+    // Which lanes are not as is_calm() and as yields() ask, or so near to that that they have to be asked themselves; a bit each.
+    unsigned (*not_calm)(const Elements& elements, const VecX& from, const VecX& to);
+    unsigned (*may_yield)(const Elements& elements, const VecX& x);
+};
+
 // x is in the frame of the rest positions: a plant that is placed turned in a world is not bent by that.
 struct Mechanics {
     const char* name;
@@ -130,6 +141,7 @@ struct Mechanics {
     bool moves_chain;
     // Turning strains nothing. What is linear grows when it turns far.
     bool turns = true;
+    const MechanicsAbreast* abreast = nullptr;  // null: plants go one by one
 };
 // With elements of order 1 .. HIGHEST_ORDER; what moves the chain is the same in both.
 const Mechanics& mechanics(frond_mechanics which, int order = 1);

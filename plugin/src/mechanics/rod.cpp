@@ -9,60 +9,12 @@
 #include <algorithm>
 
 #include "mechanics/dual.hpp"
-#include "mechanics/rod_elements.hpp"
-#include "mechanics/rod_piece.hpp"
+#include "mechanics/rod_assemble.hpp"
 #include "mechanics/rows.hpp"
 
 namespace frond {
 
 namespace {
-
-// As many pieces as there are lanes; past the last one it is taken again.
-template <class S>
-struct Group {
-    const RodSegment* rod[LANES<S>];
-    int count;
-    FROND_INLINE Group(const std::vector<RodSegment>& rods, size_t first)
-        : count(int(std::min(size_t(LANES<S>), rods.size() - first))) {
-        for (int lane = 0; lane < LANES<S>; ++lane) rod[lane] = &rods[first + size_t(std::min(lane, count - 1))];
-    }
-    FROND_INLINE Lanes3<S> vector(Vec3 RodSegment::*of) const {
-        return {gather<S>([&](int l) { return (rod[l]->*of)[0]; }), gather<S>([&](int l) { return (rod[l]->*of)[1]; }),
-                gather<S>([&](int l) { return (rod[l]->*of)[2]; })};
-    }
-    FROND_INLINE S element(int row, int column) const {
-        return gather<S>([&](int l) { return rod[l]->frame.data()[row + 3 * column]; });
-    }
-    FROND_INLINE RodPiece<S> piece() const {
-        RodPiece<S> out;
-        out.length = gather<S>([&](int l) { return rod[l]->length; });
-        for (int r = 0; r < 3; ++r) out.frame.r[r] = {element(r, 0), element(r, 1), element(r, 2)};
-        out.stretch = vector(&RodSegment::stretch);
-        out.bend = vector(&RodSegment::bend);
-        out.rest_strain = vector(&RodSegment::rest_strain);
-        out.rest_curvature = vector(&RodSegment::rest_curvature);
-        return out;
-    }
-    // Three of the six numbers of one of its ends.
-    FROND_INLINE Lanes3<S> point(const double* x, int RodSegment::*end, int first) const {
-        const auto at = [&](int l, int c) { return x[6 * (rod[l]->*end) + first + c]; };
-        return {gather<S>([&](int l) { return at(l, 0); }), gather<S>([&](int l) { return at(l, 1); }),
-                gather<S>([&](int l) { return at(l, 2); })};
-    }
-    FROND_INLINE RodEnd<S> end(const double* x, int RodSegment::*which) const {
-        return rod_end(point(x, which, 0), point(x, which, 3));
-    }
-};
-
-template <class S>
-struct Placed {
-    RodPiece<S> piece;
-    RodEnd<S> a, b;
-    RodBent<S> bent;
-    FROND_INLINE Placed(const Group<S>& group, const VecX& x)
-        : piece(group.piece()), a(group.end(x.data(), &RodSegment::a)), b(group.end(x.data(), &RodSegment::b)),
-          bent(bend_between(piece, a, b)) {}
-};
 
 template <class S>
 FROND_INLINE void store(const Lanes3<S>& v, double* first, int stride, int lane) {
@@ -79,9 +31,9 @@ struct FindStrains {
     FROND_INLINE void run() const {
         out.resize(elements.segments.size());
         for (size_t s = 0; s < elements.segments.size(); s += size_t(LANES<S>)) {
-            const Group<S> group(elements.segments, s);
-            const Placed<S> at(group, x);
-            for (int lane = 0; lane < group.count; ++lane) {
+            const PiecesOfOne<S> pieces(elements.segments, s);
+            const Placed<S> at(pieces, x);
+            for (int lane = 0; lane < pieces.count; ++lane) {
                 store(at.bent.strain, out[s + size_t(lane)].strain.data(), 1, lane);
                 store(at.bent.curvature, out[s + size_t(lane)].curvature.data(), 1, lane);
             }
@@ -96,103 +48,12 @@ struct FindEnergy {
     template <class S>
     FROND_INLINE void run() const {
         for (size_t s = 0; s < elements.segments.size(); s += size_t(LANES<S>)) {
-            const Group<S> group(elements.segments, s);
-            const Placed<S> at(group, x);
+            const PiecesOfOne<S> pieces(elements.segments, s);
+            const Placed<S> at(pieces, x);
             const S energy = 0.5 * at.piece.length *
                              (dot(at.piece.stretch, scaled(at.bent.strain, at.bent.strain)) +
                               dot(at.piece.bend, scaled(at.bent.curvature, at.bent.curvature)));
-            for (int lane = 0; lane < group.count; ++lane) sum += energy[lane];
-        }
-    }
-};
-
-// Force, and the positive stiffness; what is null is left out.
-struct Assemble {
-    const RodElements& elements;
-    const VecX& x;
-    VecX* f = nullptr;
-    BlockMatrix* K = nullptr;
-    double scale = 1;                               // of K
-    const std::vector<double>* damping = nullptr;   // of each piece, times its stiffness into D
-    BlockMatrix* D = nullptr;
-    const Ahead* ahead = nullptr;
-
-    template <class S>
-    FROND_INLINE Lanes3<S> move(const Group<S>& group, int RodSegment::*end, int first, const S& c) const {
-        return group.point(ahead->way.data(), end, first) + c * group.point(ahead->v.data(), end, first);
-    }
-    // Forces of what the stiffness says of the way ahead, on the ends' six numbers each, are taken off.
-    template <class S>
-    FROND_INLINE void look_ahead(const Group<S>& group, const Placed<S>& at, const RodChange<S>& change, const S& c,
-                                 RodGradient<S>& g) const {
-        const S per_length = 1.0 / at.piece.length;
-        const Lanes3<S> turn_a = move(group, &RodSegment::a, 3, c), turn_b = move(group, &RodSegment::b, 3, c);
-        const Lanes3<S> chord = move(group, &RodSegment::b, 0, c) - move(group, &RodSegment::a, 0, c);
-        const Lanes3<S> force =
-            per_length * scaled(at.piece.stretch, transposed_times(at.bent.middle, chord) + change.strain_a * turn_a +
-                                                      change.strain_b * turn_b);
-        const Lanes3<S> moment =
-            per_length * scaled(at.piece.bend, change.bend_b * turn_b - change.bend_a * turn_a);
-        const Lanes3<S> on_b = at.bent.middle * force;
-        g.place_a = g.place_a - on_b;
-        g.place_b = g.place_b + on_b;
-        g.turn_a = g.turn_a + transposed_times(change.strain_a, force) - transposed_times(change.bend_a, moment);
-        g.turn_b = g.turn_b + transposed_times(change.strain_b, force) + transposed_times(change.bend_b, moment);
-    }
-    template <class S>
-    FROND_INLINE void take_force(const Group<S>& group, const RodGradient<S>& g) const {
-        for (int lane = 0; lane < group.count; ++lane) {
-            double *a = f->data() + 6 * group.rod[lane]->a, *b = f->data() + 6 * group.rod[lane]->b;
-            const Lanes3<S>* parts[4] = {&g.place_a, &g.turn_a, &g.place_b, &g.turn_b};
-            for (int k = 0; k < 4; ++k) {
-                double* to = (k < 2 ? a : b) + 3 * (k % 2);
-                to[0] -= parts[k]->x[lane];
-                to[1] -= parts[k]->y[lane];
-                to[2] -= parts[k]->z[lane];
-            }
-        }
-    }
-    // Blocks lie by columns.
-    template <class S>
-    FROND_INLINE static void add_blocks(const Group<S>& group, const Lanes33<S> (&blocks)[10], const S& by, BlockMatrix& A) {
-        S values[90];
-        for (int k = 0; k < 10; ++k)
-            for (int r = 0; r < 3; ++r) {
-                values[9 * k + r] = by * blocks[k].r[r].x;
-                values[9 * k + r + 3] = by * blocks[k].r[r].y;
-                values[9 * k + r + 6] = by * blocks[k].r[r].z;
-            }
-        const double* from = reinterpret_cast<const double*>(values);
-        for (int lane = 0; lane < group.count; ++lane)
-            for (int r = 0, k = 0; r < 4; ++r)
-                for (int c = 0; c <= r; ++c, ++k) {
-                    double* to = A.values.data() + 9 * size_t(group.rod[lane]->slots[size_t(4 * r + c)]);
-                    for (int i = 0; i < 9; ++i) to[i] += from[LANES<S> * (9 * k + i) + lane];
-                }
-    }
-    template <class S>
-    FROND_INLINE void run() const {
-        const std::vector<RodSegment>& rods = elements.segments;
-        for (size_t s = 0; s < rods.size(); s += size_t(LANES<S>)) {
-            const Group<S> group(rods, s);
-            const Placed<S> at(group, x);
-            const Lanes33<S> rotation_a = rotation_of(at.a.w, at.a.p), rate_a = rate_of(at.a), rate_b = rate_of(at.b);
-            RodGradient<S> g;
-            if (f) g = gradient_of(at.piece, rotation_a, rate_a, rate_b, at.bent);
-            if (K) {
-                const S c = gather<S>([&](int lane) {
-                    return damping ? (*damping)[s + size_t(std::min(lane, group.count - 1))] : 0.0;
-                });
-                const RodChange<S> change = change_of(at.piece, rotation_a, rate_a, rate_b, at.bent);
-                Lanes33<S> blocks[10];
-                positive_stiffness(at.piece, at.bent, change, blocks);
-                const double step = ahead ? ahead->step : 1;
-                const S alike = c + (ahead ? ahead->damping : 0.0);
-                if (ahead) look_ahead(group, at, change, alike, g);
-                add_blocks(group, blocks, ahead ? S(step * step + step * alike) : constant<S>(scale), *K);
-                if (D) add_blocks(group, blocks, c, *D);
-            }
-            if (f) take_force(group, g);
+            for (int lane = 0; lane < pieces.count; ++lane) sum += energy[lane];
         }
     }
 };
@@ -214,12 +75,9 @@ struct FindInertia {
     template <class S>
     FROND_INLINE void run() const {
         for (size_t i = 0; i < elements.inertia.size(); i += size_t(LANES<S>)) {
-            // To the rate in the node's own frame: R(v)^T T(v) = T(-v).
-            const Lanes3<S> v = {turn<S>(i, 0), turn<S>(i, 1), turn<S>(i, 2)};
-            const Lanes33<S> rate = rate_of(rod_end(Lanes3<S>{}, -v));
             Lanes33<S> inertia;
             for (int r = 0; r < 3; ++r) inertia.r[r] = {entry<S>(i, r, 0), entry<S>(i, r, 1), entry<S>(i, r, 2)};
-            const Lanes33<S> seen = transposed_times(rate, inertia * rate);
+            const Lanes33<S> seen = inertia_by_rate({turn<S>(i, 0), turn<S>(i, 1), turn<S>(i, 2)}, inertia);
             for (int lane = 0; lane < LANES<S> && i + size_t(lane) < elements.inertia.size(); ++lane)
                 for (int r = 0; r < 3; ++r) store(seen.r[r], out[i + size_t(lane)].data() + r, 3, lane);
         }
@@ -286,7 +144,7 @@ double rod_energy(const Elements& body, const VecX& x) {
 }
 
 int rod_add_force(const Elements& body, const VecX& x, VecX& f) {
-    Assemble job = {as_rods(body), x};
+    Assemble<PiecesOfOne> job = {as_rods(body), x};
     job.f = &f;
     run_in_lanes(job);
     return 0;
@@ -294,14 +152,14 @@ int rod_add_force(const Elements& body, const VecX& x, VecX& f) {
 
 void rod_add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale, BlockMatrix& K) {
     if (tangent == Tangent::exact) return add_exact_stiffness(as_rods(body), x, scale, K);
-    Assemble job = {as_rods(body), x};
+    Assemble<PiecesOfOne> job = {as_rods(body), x};
     job.K = &K;
     job.scale = scale;
     run_in_lanes(job);
 }
 
 int rod_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
-    Assemble job = {as_rods(body), x};
+    Assemble<PiecesOfOne> job = {as_rods(body), x};
     job.f = &f;
     if (tangent == Tangent::exact)
         add_exact_stiffness(as_rods(body), x, 1, K);
@@ -313,7 +171,7 @@ int rod_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, 
 
 int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double>& damping, VecX& f, BlockMatrix& K,
                    BlockMatrix& D) {
-    Assemble job = {as_rods(body), x};
+    Assemble<PiecesOfOne> job = {as_rods(body), x};
     job.f = &f;
     job.K = &K;
     job.damping = &damping;
@@ -323,7 +181,7 @@ int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double
 }
 
 int rod_add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
-    Assemble job = {as_rods(body), x};
+    Assemble<PiecesOfOne> job = {as_rods(body), x};
     job.f = &f;
     job.K = &A;
     job.damping = ahead.element_damping.empty() ? nullptr : &ahead.element_damping;
@@ -338,8 +196,6 @@ void rod_inertia(const Elements& body, const VecX& x, std::vector<Mat3>& out) {
 }
 
 bool rods_are_calm(const Elements& body, const VecX& from, const VecX& to) {
-    constexpr double LARGEST_TURN = 0.35;     // of a node [rad]
-    constexpr double LARGEST_STRETCH = 0.5;  // change of a piece's ends over its length [-]
     const RodElements& elements = as_rods(body);
     for (int i = 1; i < elements.node_count; i += 2)
         if (!((point(to, i) - point(from, i)).squaredNorm() < LARGEST_TURN * LARGEST_TURN)) return false;

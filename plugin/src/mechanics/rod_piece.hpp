@@ -58,6 +58,13 @@ FROND_INLINE Lanes33<S> rate_of(const RodEnd<S>& end) {
     return turning<S>(end.turn, 2.0 * end.half * end.half, second);
 }
 
+// Rotary inertia of a node by the rate of its rotation vector. To that in its own frame: R(v)^T T(v) = T(-v).
+template <class S>
+FROND_INLINE Lanes33<S> inertia_by_rate(const Lanes3<S>& turn, const Lanes33<S>& inertia) {
+    const Lanes33<S> rate = rate_of(rod_end(Lanes3<S>{}, -turn));
+    return transposed_times(rate, inertia * rate);
+}
+
 // What follows from the places of the two ends.
 template <class S>
 struct RodBent {

@@ -38,5 +38,8 @@ void set_lasting_of_rods(Elements& own, const std::vector<double>& values);
 void rod_section_strains(const Elements&, const VecX& x, std::vector<double>& out);
 std::unique_ptr<Elements> without_rods(const Elements&, const std::vector<uint8_t>& gone);
 bool rods_are_calm(const Elements&, const VecX& from, const VecX& to);
+// Beyond which rods are not calm: the turn of a node [rad], and the change of a piece's ends over its length [-].
+constexpr double LARGEST_TURN = 0.35, LARGEST_STRETCH = 0.5;
+const MechanicsAbreast& rods_abreast();
 
 }  // namespace frond

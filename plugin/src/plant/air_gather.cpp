@@ -2,8 +2,8 @@
 //
 // The resistance is that of the air's speed past the plant at the start of the step; the velocity that it is multiplied
 // with is the one at the end, so that still air takes energy at any time step, and what stands in a wind feels exactly its force.
-#include "mechanics/rod_piece.hpp"
-#include "plant/air_resistance.hpp"
+#include "core/product.hpp"
+#include "plant/air_push.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {
@@ -68,8 +68,7 @@ struct GatherPieces {
         const Lanes3<S> turn = {gather<S>([&](int l) { return x[6 * (group.piece[l]->*end) + 3]; }),
                                 gather<S>([&](int l) { return x[6 * (group.piece[l]->*end) + 4]; }),
                                 gather<S>([&](int l) { return x[6 * (group.piece[l]->*end) + 5]; })};
-        const RodEnd<S> at = rod_end(Lanes3<S>{}, turn);
-        return rotation_of(at.w, at.p) * v;
+        return turned_by(turn, v);
     }
     template <class S>
     FROND_INLINE Lanes3<S> wide_of(const Group<S>& group) const {
@@ -80,41 +79,23 @@ struct GatherPieces {
                              gather<S>([&](int l) { return wide(l)[2]; })};
         return plant.follow ? turned(group, v, &AirPiece::parent) + turned(group, v, &AirPiece::node) : v;
     }
-    // Axis, thin, wide as rows; nothing where the piece has lost its shape.
     template <class S>
     FROND_INLINE Lanes33<S> frame_of(const Group<S>& group) const {
-        constexpr double LEAST = 1e-9;  // [m], [-]
-        const Lanes3<S> chord = vector(group, plant.chain_positions, &AirPiece::node) -
-                                vector(group, plant.chain_positions, &AirPiece::parent);
-        const S length = sqrt(dot(chord, chord));
-        const auto is_long = length > LEAST;
-        const Lanes3<S> axis = (1.0 / select(is_long, length, constant<S>(1))) * chord;
-        const Lanes3<S> wide = wide_of(group), across = wide - dot(axis, wide) * axis;
-        const S size = sqrt(dot(across, across));
-        const auto is_wide = size > LEAST;
-        const S over = select(is_wide, S(1.0 / select(is_wide, size, constant<S>(1))), S{});
-        const Lanes3<S> along = select(is_long, over * size, S{}) * axis, beside = select(is_long, over, S{}) * across;
-        return {{along, cross(beside, along), beside}};
+        return air_frame(vector(group, plant.chain_positions, &AirPiece::node) -
+                             vector(group, plant.chain_positions, &AirPiece::parent),
+                         wide_of(group));
     }
     template <class S>
-    FROND_INLINE void add_at(const Group<S>& group, const AirLanes<S>& piece, const Lanes33<S>& frame,
-                             int AirPiece::*end) const {
-        const Lanes3<S> passing = vector(group, air.passing, end);
-        const Lanes3<S> d = air_resistance(piece, group.piece[0]->shape, frame * passing, density);
-        const Lanes33<S> by = scaled_rows(constant<S>(0.5) * d, frame), half = transposed_times(frame, by);
-        const S six[6] = {half.r[0].x, half.r[0].y, half.r[0].z, half.r[1].y, half.r[1].z, half.r[2].z};
-        // Pressure is along the normal of the step's start. What a wind could carry past itself within a step is held back
-        // from turning by more than that allows: of no effect on what rests, and of first order in the step [-].
-        constexpr double MANY = 2;
-        const Lanes3<S> wind = passing + vector(group, air.velocities, end);
-        const S lag = MANY * h * sqrt(dot(wind, wind)) / piece.chord_along;
-        for (int lane = 0; lane < group.count; lane++) {
-            SixOf& resistance = air.resistance[size_t(group.piece[lane]->*end)];
-            SixOf& held_back = air.lag[size_t(group.piece[lane]->*end)];
-            for (size_t k = 0; k < 6; k++) {
-                resistance[k] += six[k][lane];
-                held_back[k] += lag[lane] * six[k][lane];
-            }
+    FROND_INLINE AirPush<S> push_at(const Group<S>& group, const AirLanes<S>& piece, const Lanes33<S>& frame,
+                                    int AirPiece::*end) const {
+        return air_push(piece, group.piece[0]->shape, frame, vector(group, air.passing, end),
+                        vector(group, air.velocities, end), density, h);
+    }
+    template <class S>
+    FROND_INLINE void add(const AirPush<S>& push, int lane, int node) const {
+        for (size_t k = 0; k < 6; k++) {
+            air.resistance[size_t(node)][k] += push.resistance[k][lane];
+            air.lag[size_t(node)][k] += push.lag[lane] * push.resistance[k][lane];
         }
     }
     template <class S>
@@ -123,8 +104,13 @@ struct GatherPieces {
             const Group<S> group = group_at<S>(i);
             const AirLanes<S> piece([&](int lane) -> const AirPiece& { return *group.piece[lane]; });
             const Lanes33<S> frame = frame_of(group);
-            add_at(group, piece, frame, &AirPiece::parent);
-            add_at(group, piece, frame, &AirPiece::node);
+            const AirPush<S> at_parent = push_at(group, piece, frame, &AirPiece::parent),
+                             at_node = push_at(group, piece, frame, &AirPiece::node);
+            // Piece by piece: where three meet, sums in another order would be others.
+            for (int lane = 0; lane < group.count; lane++) {
+                add(at_parent, lane, group.piece[lane]->parent);
+                add(at_node, lane, group.piece[lane]->node);
+            }
             i += size_t(group.count);
         }
     }
@@ -134,14 +120,14 @@ struct GatherPieces {
 void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects effects) {
     AirState& air = *plant.air;
     const size_t count = plant.chain_positions.size();
-    const Mat3 to_world = plant.rotation.toRotationMatrix();
+    const Mat3 to_world = plant.rotation.toRotationMatrix(), to_model = to_world.transpose();
     air.points.resize(count);
     air.wind.assign(count, frond_vec3{0, 0, 0});
     air.velocities.assign(count, Vec3::Zero());
     air.passing.resize(count);
     if (effects & FROND_WIND) {
         for (size_t i = 0; i < count; i++) {
-            const Vec3 p = to_world * plant.chain_positions[i] + plant.position;
+            const Vec3 p = product(to_world, plant.chain_positions[i]) + plant.position;
             air.points[i] = {p.x(), p.y(), p.z()};
         }
         if (!wind_velocities(*surroundings.wind, up_of(surroundings.gravity), surroundings.time, air.points, air.wind))
@@ -151,7 +137,7 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
         if (effects & FROND_AIR_DRAG)
             air.velocities[i] = plant.follow ? Vec3(point(plant.motion.v, int(2 * i)))
                                              : grip_velocity(chain_grip(plant, int(i)), plant.motion.x, plant.motion.v);
-        air.passing[i] = to_world.transpose() * Vec3(air.wind[i].x, air.wind[i].y, air.wind[i].z) - air.velocities[i];
+        air.passing[i] = product(to_model, Vec3(air.wind[i].x, air.wind[i].y, air.wind[i].z)) - air.velocities[i];
     }
 }
 
@@ -159,6 +145,7 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
 
 void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
     std::vector<Drag>& drags = plant.loads.drags;
+    plant.blown.setZero();
     if (!surroundings.wind || !(effects & (FROND_WIND | FROND_AIR_DRAG))) return drags.clear();
     if (!plant.air) {
         plant.air = std::make_unique<AirState>();
@@ -181,7 +168,7 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
         Drag& drag = drags[count++];
         const Mat3 resistance = matrix_of(air.resistance[i]);
         take_hold(plant, i, drag.grip);
-        drag.force = resistance * (air.passing[i] + air.velocities[i]);
+        drag.force = product(resistance, air.passing[i] + air.velocities[i]);
         drag.damping.setZero();
         if (effects & FROND_AIR_DRAG) drag.damping = resistance + matrix_of(air.lag[i]);
     }
@@ -189,9 +176,9 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
 }
 
 Vec3 air_force(const Plant& plant) {
-    Vec3 sum = Vec3::Zero();
+    Vec3 sum = plant.blown;
     for (const Drag& drag : plant.loads.drags)
-        sum += drag.force - drag.damping * grip_velocity(drag.grip, plant.motion.x, plant.motion.v);
+        sum += drag.force - product(drag.damping, grip_velocity(drag.grip, plant.motion.x, plant.motion.v));
     return plant.rotation * sum;
 }
 

@@ -43,11 +43,13 @@ template <class S>
 FROND_INLINE S air_pressure(const AirLanes<S>& piece, AirShape shape, const Lanes3<S>& local, double density) {
     constexpr double STILL = 1e-9;  // [m/s]
     const S speed = sqrt(dot(local, local));
-    const S coefficient = gather<S>([&](int lane) {
-        if (piece.coefficient[lane] != 0 || !(speed[lane] > STILL)) return double(piece.coefficient[lane]);
-        const double Re = speed[lane] * piece.size[lane] / VISCOSITY;
-        return shape == AirShape::COMPACT ? sphere_coefficient(Re) : cylinder_coefficient(Re);
-    });
+    double coefficients[LANES<S>], speeds[LANES<S>], numbers[LANES<S>];
+    store(piece.coefficient, coefficients), store(speed, speeds), store(S(speed * piece.size / VISCOSITY), numbers);
+    for (int lane = 0; lane < LANES<S>; lane++)
+        if (coefficients[lane] == 0 && speeds[lane] > STILL)
+            coefficients[lane] = shape == AirShape::COMPACT ? sphere_coefficient(numbers[lane])
+                                                            : cylinder_coefficient(numbers[lane]);
+    const S coefficient = load<S>(coefficients);
     const Lanes3<S> seen = scaled(piece.area, local);
     return select(speed > STILL, S(0.5 * density * coefficient * sqrt(dot(seen, seen))), S{});
 }

@@ -51,6 +51,10 @@ void update_chain(Plant& plant) {
     const size_t count = plant.model->chain.nodes.size();
     plant.chain_positions.resize(count);
     const VecX& x = plant.motion.x;
+    if (plant.follow && plant.fragments.empty()) {
+        for (size_t i = 0; i < count; i++) plant.chain_positions[i] = point(x, int(2 * i));
+        return;
+    }
     for (size_t i = 0; i < count; i++) {
         const Fragment* fragment = fragment_of_chain_node(plant, i);
         plant.chain_positions[i] = fragment          ? plant.to_model(fragment->place(fragment->chain_x[i]))

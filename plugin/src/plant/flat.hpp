@@ -24,6 +24,11 @@ Vec3 wide_now(const Plant& plant, int node, const Vec3& modelled, const TetSprea
 // are of the modelled shape. False where the capsule has lost its shape.
 bool piece_frame(const Plant& plant, int node, const Vec3& wide, const TetSpread& spread, Mat3& frame);
 
+struct Flat;
+// The same of several capsules of Model::capsules, each with its own of `flats`; zero where one has lost its shape.
+void piece_frames(const Plant& plant, const std::vector<int>& capsules, const std::vector<Flat>& flats,
+                  std::vector<Mat3>& frames);
+
 // Of a capsule; half_width 0 where it is not flat. Sizes are those of the rectangle with the section's second moments,
 // so that a bowed blade is as high as it is bowed.
 struct Flat {

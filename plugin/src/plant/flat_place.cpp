@@ -1,5 +1,8 @@
 // In: a plant as it is. Out: how its flat pieces lie, and how to take hold of them.
+#include <algorithm>
+
 #include "mechanics/rotation.hpp"
+#include "plant/air_push.hpp"
 #include "plant/flat.hpp"
 #include "plant/touch.hpp"
 
@@ -32,6 +35,54 @@ bool piece_frame(const Plant& plant, int node, const Vec3& wide, const TetSpread
     frame.col(2) = across.normalized();
     frame.col(1) = frame.col(2).cross(axis);
     return true;
+}
+
+namespace {
+
+// Several pieces of a chain at once; past the last one it is taken again.
+struct FindFrames {
+    const Plant& plant;
+    const std::vector<int>& capsules;
+    const std::vector<Flat>& flats;
+    std::vector<Mat3>& frames;
+    template <class S>
+    FROND_INLINE void run() const {
+        const double* x = plant.motion.x.data();
+        for (size_t i = 0; i < capsules.size(); i += size_t(LANES<S>)) {
+            const auto at = [&](int lane) { return std::min(i + size_t(lane), capsules.size() - 1); };
+            const auto capsule = [&](int lane) { return size_t(capsules[at(lane)]); };
+            const auto three = [&](const auto& value) -> Lanes3<S> {
+                return {gather<S>([&](int l) { return value(l, 0); }), gather<S>([&](int l) { return value(l, 1); }),
+                        gather<S>([&](int l) { return value(l, 2); })};
+            };
+            const auto place = [&](size_t end) {
+                return three([&](int l, int c) { return plant.chain_positions[size_t(plant.model->capsules[capsule(l)][end])][c]; });
+            };
+            const auto turn = [&](size_t end) {
+                return three([&](int l, int c) { return x[6 * plant.model->capsules[capsule(l)][end] + 3 + c]; });
+            };
+            const Lanes3<S> wide = three([&](int l, int c) { return flats[capsule(l)].wide[c]; });
+            const Lanes33<S> rows =
+                air_frame<S>(place(1) - place(0), turned_by(turn(0), wide) + turned_by(turn(1), wide));
+            double numbers[9 * LANES<S>];
+            for (int r = 0; r < 3; r++) store3(rows.r[r], numbers, 3 * r);
+            for (int lane = 0; lane < LANES<S> && i + size_t(lane) < capsules.size(); lane++)
+                for (int k = 0; k < 9; k++) frames[i + size_t(lane)].data()[k] = numbers[LANES<S> * k + lane];
+        }
+    }
+};
+
+}  // namespace
+
+void piece_frames(const Plant& plant, const std::vector<int>& capsules, const std::vector<Flat>& flats,
+                  std::vector<Mat3>& frames) {
+    frames.resize(capsules.size());
+    if (plant.follow && plant.fragments.empty()) return run_in_lanes(FindFrames{plant, capsules, flats, frames});
+    for (size_t i = 0; i < capsules.size(); i++) {
+        const Flat& flat = flats[size_t(capsules[i])];
+        if (!piece_frame(plant, plant.model->capsules[size_t(capsules[i])][1], flat.wide, flat.spread, frames[i]))
+            frames[i].setZero();
+    }
 }
 
 Grip flat_grip(const Plant& plant, int capsule, const Flat& flat, double along, double across) {

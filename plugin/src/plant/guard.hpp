@@ -14,6 +14,13 @@ double farthest_way(const Plant& plant);
 // Whether something ended a step of h [s] far from where it was heading when the step began: a place by more than 0.02 of
 // the plant's size, the rotation of a chain's node by more than 0.35 rad; steps longer than 1/60 s are never trusted that far.
 bool ends_off_course(const Plant& plant, double h);
+constexpr double OFF_COURSE = 0.02, TURNED_OFF_COURSE = 0.35;  // over the plant's size [-], [rad]
+// What is stiff is strained much by little: the error of one solve grows over what moves as the square of the step [s].
+constexpr double TRUSTED = 1.001 / 60;
+// Stretched to many times its size.
+bool is_far_out(const Plant& plant);
+// A step's way, over the plant's size, that is not asked about [-].
+constexpr double FARTHEST_WAY = 4;
 // How far a place was from where it is modelled when the step began [m].
 double reach_at_start(const Plant& plant);
 

@@ -32,13 +32,10 @@ double farthest_way(const Plant& plant) {
 }
 
 bool ends_off_course(const Plant& plant, double h) {
-    constexpr double FAR = 0.02;        // over the plant's size [-]
-    constexpr double TURNED_FAR = 0.35;  // [rad], as much as one solve can tell well
-    // What is stiff is strained much by little: the error of one solve grows over what moves as the square of the step [s].
-    constexpr double LONG = 1.001 / 60;
-    if (h > LONG) return true;
+    if (h > TRUSTED) return true;
     const VecX &x = plant.motion.x, &x_good = plant.x_good, &v_good = plant.v_good;
-    const double far = std::pow(FAR * double(plant.size), 2), turned_far = plant.follow ? TURNED_FAR * TURNED_FAR : far;
+    const double far = std::pow(OFF_COURSE * double(plant.size), 2);
+    const double turned_far = plant.follow ? TURNED_OFF_COURSE * TURNED_OFF_COURSE : far;
     if ((x - x_good - h * v_good).squaredNorm() < std::min(far, turned_far)) return false;  // all together even
     for (int i = 0; i < x.size() / 3; i++) {
         const double off = (point(x, i) - point(x_good, i) - h * point(v_good, i)).squaredNorm();

@@ -15,6 +15,7 @@ void PoolSeat::leave() {
     std::lock_guard<std::mutex> lock(pool->mutex);
     pool->seats--;
     while (pool->free.size() > pool->seats) pool->free.pop_back();
+    while (pool->abreast.size() > pool->seats) pool->abreast.pop_back();
     is_taken = false;
 }
 

@@ -94,8 +94,8 @@ static void pin_chain(Plant& plant) {
     }
 }
 
-// Whether the nodes of a chain that are held are where they shall be, on the same side of the half turn.
-static bool is_where_held(const Motion& motion) {
+// On the same side of the half turn.
+bool is_where_held(const Motion& motion) {
     for (size_t i = 0; i < motion.pinned.size(); i++)
         if (motion.pinned[i] && point(motion.x, int(i)) != point(motion.pin_target, int(i))) return false;
     return true;

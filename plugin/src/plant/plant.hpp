@@ -34,9 +34,11 @@ struct Trend {
 };
 
 // Workspaces that the plants of one system lend from each other: one has its own only between the halves of a step.
+struct PlantsAbreast;
 struct WorkspacePool {
     std::mutex mutex;
     std::vector<WorkspacePtr> free;
+    std::vector<std::shared_ptr<PlantsAbreast>> abreast;  // likewise, of several plants at once
     size_t seats = 0;  // plants that may ask for one: those that are awake
 };
 // A plant's right to one. Without as many seats, free workspaces go.
@@ -95,6 +97,7 @@ struct Plant {
     VecX contact_shift;    // likewise, of those that move the plant and give it no velocity
     Loads loads;          // of the running step, kept to reuse its memory
     std::unique_ptr<AirState> air;  // null until the plant is in air
+    Vec3 blown = Vec3::Zero();      // force of the last step's air, where no drags tell of it [N]
     VecX user_force;      // on cage nodes, until the end of the host's step, world frame [N]; empty: none yet
     std::list<Grab> grabs;
 
@@ -127,6 +130,7 @@ struct Plant {
     bool is_sound = true;          // what was found can be the next state
     bool is_off_course = false;    // in the running step something went elsewhere than it was heading
     float patience = 1;            // share of the work that searches are given [-]
+    bool may_yield = true;         // in the running step, for all that is known
     float recovers_for = 0;        // from a shape to which nothing can have bent it [s]
     float size;                    // of the modelled surface, from corner to corner [m]
 
@@ -155,6 +159,9 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
 // The middle of the first half: plant.motion goes on by h under plant.loads.
 SolveReport solve_in_substeps(Plant& plant, double h);
+// Of the running step; gravity in the model's frame [m/s^2].
+Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effects effects);
+SolveSettings settings_for(const Plant& plant, frond_effects effects);
 // Takes contact_impulse and contact_shift into the step that was solved.
 void add_contacts(Plant& plant, double h);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
@@ -216,6 +223,8 @@ void unpin_node(Plant& plant, int node);
 void move_pin(Plant& plant, int node, const Vec3& target);
 // What the pins are for the nodes of the mechanics.
 void apply_pins(Plant& plant);
+// Whether the nodes of a chain that are held are where they shall be.
+bool is_where_held(const Motion& motion);
 
 // Lets go of what would snap back at once.
 void relax(Plant& plant);

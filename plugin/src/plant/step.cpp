@@ -9,11 +9,15 @@
 
 namespace frond {
 
+Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effects effects) {
+    return effects & FROND_GRAVITY ? Vec3(plant.rotation.conjugate() * surroundings.gravity) : Vec3(Vec3::Zero());
+}
+
 // Force per node, gravity and springs of this step, in the model's frame.
 static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_effects effects) {
     const Quat to_model = plant.rotation.conjugate();
     Loads& loads = plant.loads;
-    loads.gravity = effects & FROND_GRAVITY ? Vec3(to_model * surroundings.gravity) : Vec3(Vec3::Zero());
+    loads.gravity = gravity_in(plant, surroundings, effects);
     loads.springs = plant.pin_springs;
     loads.force.setZero();
     if (!(effects & FROND_USER_FORCE)) return;
@@ -49,7 +53,7 @@ static void keep_sets(Plant& plant, double h) {
     const Elements& shared = elements_of(*plant.system);
     if (shared.yields.empty()) return;
     if (!plant.own_elements) {
-        if (!row.yields(shared, plant.motion.x)) return;
+        if (!plant.may_yield || !row.yields(shared, plant.motion.x)) return;
         plant.own_elements = row.copy(shared);
     }
     row.flow(*plant.own_elements, plant.motion.x, h);
@@ -57,10 +61,10 @@ static void keep_sets(Plant& plant, double h) {
 
 // A node has gone much farther than the plant is long, or than it has to come back.
 static bool has_run_away(const Plant& plant) {
-    constexpr double FARTHEST = 4, BACK = 2;  // in a step
+    constexpr double BACK = 2;  // in a step
     const double size = double(plant.size);
-    return !are_near(plant, plant.x_good, FARTHEST * size) &&
-           !are_near(plant, plant.x_good, FARTHEST * size + BACK * reach_at_start(plant));
+    return !are_near(plant, plant.x_good, FARTHEST_WAY * size) &&
+           !are_near(plant, plant.x_good, FARTHEST_WAY * size + BACK * reach_at_start(plant));
 }
 
 // And none has gone elsewhere than it was heading by energy that came from nowhere.
@@ -71,15 +75,14 @@ static bool is_plausible(Plant& plant, double h) {
     return !look.comes_from_nowhere && !has_run_away(plant);
 }
 
-// Stretched to many times its size.
-static bool is_far_out(const Plant& plant) {
+bool is_far_out(const Plant& plant) {
     constexpr double FARTHEST = 100;
     return !are_near(plant, elements_of(*plant.system).modelled, FARTHEST * double(plant.size));
 }
 
 // Whether what was found can be the plant's next state, as far as each step asks.
 static bool is_sound(const Plant& plant) {
-    return plant.report.ok && plant.motion.x.allFinite() && plant.motion.v.allFinite();
+    return plant.report.ok && are_finite(plant.motion.x) && are_finite(plant.motion.v);
 }
 
 // From the start of the step in equal parts, pinned nodes moving evenly.
@@ -162,29 +165,45 @@ static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h
     plant.report.ms_solve += timer.ms();
 }
 
+// So that none of it is blown about in its share of the way; no more than eight.
+static int parts_to_be_calm(const Plant& plant) {
+    int parts = 2;
+    const VecX way = plant.motion.x - plant.x_good;
+    while (parts < 8 && !is_calm(*plant.system, plant.x_good, plant.x_good + way / (2 * parts))) parts *= 2;
+    return parts;
+}
+
 // Again from the start in shorter steps, each in the air as it is then: a gale turns a leaf by more in a step than one
 // solve can tell.
 static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
-    constexpr int PARTS = 8;
+    const int parts = parts_to_be_calm(plant);
     const VecX x_start = plant.x_good, v_start = plant.v_good;
     plant.trouble |= FROND_TROUBLE_RETRIED;
     SolveReport spent = plant.report;
     plant.motion.x = x_start;
     plant.motion.v = v_start;
     plant.motion.history.valid = false;
-    for (int part = 0; part < PARTS && plant.report.ok; part++) {
+    for (int part = 0; part < parts && plant.report.ok; part++) {
         plant.x_good = plant.motion.x;
         plant.v_good = plant.motion.v;
         update_chain(plant);
-        gather_air(plant, surroundings, effects, h / PARTS);
-        plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / PARTS, plant.motion);
-        if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x)) solve_carefully(plant, h / PARTS);
-        hold_what_is_drawn_out(plant, effects, h / PARTS);
+        gather_air(plant, surroundings, effects, h / parts);
+        plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / parts, plant.motion);
+        if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x)) solve_carefully(plant, h / parts);
+        hold_what_is_drawn_out(plant, effects, h / parts);
         plant.report.add_cost(spent);
         spent = plant.report;
     }
     plant.x_good = x_start;
     plant.v_good = v_start;
+}
+
+SolveSettings settings_for(const Plant& plant, frond_effects effects) {
+    SolveSettings settings = plant.settings;
+    if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
+    damp_recovering(plant, settings);
+    settings.most_work = work_allowed(plant);
+    return settings;
 }
 
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
@@ -194,6 +213,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.v_good = motion.v;
     plant.trouble = 0;
     plant.lead = 0;
+    plant.may_yield = true;
 
     // Effects.
     lend_workspace(plant);
@@ -204,10 +224,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.ms_user_force = timer.lap();
     gather_air(plant, surroundings, effects, h);
     plant.ms_air = timer.lap();
-    SolveSettings& settings = plant.step_settings = plant.settings;
-    if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
-    damp_recovering(plant, settings);
-    settings.most_work = work_allowed(plant);
+    plant.step_settings = settings_for(plant, effects);
     plant.ms_effects = plant.ms_user_force + plant.ms_air;
     plant.ms_fibres = plant.ms_plasticity = 0;
 

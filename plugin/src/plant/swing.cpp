@@ -129,6 +129,7 @@ void begin_swing(Plant& plant) {
     plant.report = {};
     plant.report.ok = true;
     plant.loads.drags.clear();
+    plant.blown.setZero();
 }
 
 void keep_only_swing(Plant& plant) {

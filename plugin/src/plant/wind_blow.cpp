@@ -45,11 +45,11 @@ struct AddGusts {
 
     static constexpr int BLOCK = 16;  // points that stay in registers and cache
     template <class S>
-    FROND_INLINE static void add(const Gust& gust, double travelled, const S (&along)[BLOCK / LANES<S>],
+    FROND_INLINE static void add(const Gust& gust, double travelled, int groups, const S (&along)[BLOCK / LANES<S>],
                                  const S (&across)[BLOCK / LANES<S>], const S (&above)[BLOCK / LANES<S>],
                                  S (&sum)[BLOCK / LANES<S>]) {
         const S now = constant<S>(gust.waves[0] * travelled + gust.phase);
-        for (int i = 0; i < BLOCK / LANES<S>; i++)
+        for (int i = 0; i < groups; i++)
             sum[i] += gust.size * cosine_of_turns<S>(now - gust.waves[0] * along[i] - gust.waves[1] * across[i] -
                                                      gust.waves[2] * above[i]);
     }
@@ -66,7 +66,7 @@ struct AddGusts {
             }
             for (size_t c = 0; c < 3; c++)
                 for (const Gust& gust : wind.gusts[c])
-                    add<S>(gust, wind.travelled, place[0], place[1], place[2], sum[c]);
+                    add<S>(gust, wind.travelled, (count + LANES<S> - 1) / LANES<S>, place[0], place[1], place[2], sum[c]);
             for (int i = 0; i < count; i++) {
                 const auto at = [&](int c) { return sum[c][i / LANES<S>][i % LANES<S>]; };
                 frond_vec3& v = out[begin + size_t(i)];

@@ -24,6 +24,11 @@ static bool step_first(Workspace& w, const StepInput& input, SolveReport& report
     return step_implicit_euler(w, input, report);
 }
 
+Bdf2 bdf2_after(double h_before, double h) {
+    const double ratio = h / h_before;
+    return {ratio * ratio / (1 + 2 * ratio), h * (1 + ratio) / (1 + 2 * ratio)};
+}
+
 bool step_bdf2(Workspace& workspace, const StepInput& input, SolveReport& report) {
     const Motion& motion = input.motion;
     if (!motion.history.valid) return step_first(workspace, input, report);
@@ -43,8 +48,7 @@ bool step_bdf2(Workspace& workspace, const StepInput& input, SolveReport& report
         point(w.v_prev, int(i)) = point(w.v_start, int(i));
     }
 
-    const double ratio = input.h / motion.history.h;
-    const double back = ratio * ratio / (1 + 2 * ratio), step = input.h * (1 + ratio) / (1 + 2 * ratio);
+    const auto [back, step] = bdf2_after(motion.history.h, input.h);
     w.x_base = motion.x + back * (motion.x - w.x_prev);
     w.v_base = w.v_start + back * (w.v_start - w.v_prev);
     return solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from}, report);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/product.hpp"
+
 namespace frond {
 
 bool drags_are_sound(const System& system, const std::vector<Drag>& drags) {
@@ -25,7 +27,7 @@ double drag_potential(const std::vector<Drag>& drags, const VecX& x, const VecX&
 
 void add_drag_force(const std::vector<Drag>& drags, const VecX& x, const VecX& v, VecX& f) {
     for (const Drag& drag : drags)
-        add_grip_force(drag.grip, x, drag.force - drag.damping * grip_velocity(drag.grip, x, v), f);
+        add_grip_force(drag.grip, x, drag.force - product(drag.damping, grip_velocity(drag.grip, x, v)), f);
 }
 
 void add_drag_damping(const std::vector<Drag>& drags, const VecX& x, double scale, BlockMatrix& A) {

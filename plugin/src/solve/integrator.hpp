@@ -23,6 +23,17 @@ struct Stage {
     int iterations = 0;             // of Newton at most; 0: as the settings say
 };
 
+// Longer than what hangs takes to swing.
+bool is_long_stage(const System& system, double step);
+// What stiffness-proportional damping is times the stiffness [s]; `of_element` has each element's own unless all damp alike.
+double damping_of(const System& system, const SolveSettings& settings, std::vector<double>& of_element);
+
+// What bdf2 takes of the step before, and the step of its stage [s].
+struct Bdf2 {
+    double back, step;
+};
+Bdf2 bdf2_after(double h_before, double h);
+
 // Leaves the stage's solution in workspace.x and .v; held nodes keep the velocity of workspace.v_start. False if it
 // cannot be solved.
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report);

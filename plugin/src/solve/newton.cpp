@@ -355,12 +355,16 @@ void add_inertia(Workspace& w, double scale) {
         if (!w.held[2 * i + 1]) w.A.block(w.A.pattern->start[2 * i + 1]) += scale * w.inertia[i];
 }
 
+bool is_long_stage(const System& system, double step) {
+    constexpr double LONG = 0.04;  // [s]
+    return system.row->moves_chain && step > LONG;
+}
+
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report) {
     const int iterations = stage.iterations > 0 ? stage.iterations : input.settings.newton_iterations;
     const double b = workspace.damping_scale;
     const bool apart = !workspace.element_damping.empty();
-    constexpr double LONG = 0.04;  // of a stage [s]
-    const bool is_long = workspace.system->row->moves_chain && stage.step > LONG && iterations == 1;
+    const bool is_long = is_long_stage(*workspace.system, stage.step) && iterations == 1;
     Newton n = {workspace,
                 input,
                 stage,

@@ -107,6 +107,12 @@ WorkspacePtr make_workspace(std::shared_ptr<const System> system);
 // Steps of this workspace take a plant's own elements, which must live as long; null: the system's again.
 void use_elements(Workspace& workspace, const Elements* own);
 
+// Numbers that a step can be taken with.
+bool settings_are_sound(const SolveSettings& settings);
+bool are_alike(const SolveSettings& a, const SolveSettings& b);
+// A method that looks back may do so only from the state that it left itself, and not over a jump of the time step.
+bool history_holds(const Motion& motion, frond_integrator integrator, double h);
+
 // Advances motion by h [s].
 SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, const Loads& loads, double h,
                        Motion& motion);

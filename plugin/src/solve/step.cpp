@@ -1,5 +1,6 @@
 // In: a plant's motion, what acts on it and a time h. Out: its motion h later, or the same motion and ok = false.
 #include <cmath>
+#include <tuple>
 
 #include "solve/drags.hpp"
 #include "solve/integrator.hpp"
@@ -14,18 +15,11 @@ bool input_is_sound(const System& system, const StepInput& input) {
     const SolveSettings& s = input.settings;
     const Eigen::Index n = 3 * Eigen::Index(system.elements->node_count);
     const Motion& motion = input.motion;
-    if (s.integrator < 0 || s.integrator >= FROND_INTEGRATOR_COUNT || s.linear_solver < 0 ||
-        s.linear_solver >= FROND_LINEAR_SOLVER_COUNT)
-        return false;
-    if (!(input.h > 0) || !std::isfinite(input.h) || !(s.mass_damping >= 0) || !std::isfinite(s.mass_damping) ||
-        !(s.stiffness_damping >= 0) || !std::isfinite(s.stiffness_damping))
-        return false;
-    if (!(s.full_damping >= 0) || !std::isfinite(s.full_damping)) return false;
+    if (!(input.h > 0) || !std::isfinite(input.h) || !settings_are_sound(s)) return false;
     if (motion.x.size() != n || motion.v.size() != n || input.loads.force.size() != n) return false;
     if (!motion.pinned.empty() && (motion.pinned.size() * 3 != size_t(n) || motion.pin_target.size() != n))
         return false;
-    if (!(s.spectral_radius >= 0 && s.spectral_radius <= 1)) return false;
-    return motion.x.allFinite() && motion.v.allFinite() && input.loads.force.allFinite() &&
+    return are_finite(motion.x) && are_finite(motion.v) && are_finite(input.loads.force) &&
            input.loads.gravity.allFinite() && springs_are_sound(system, input.loads.springs) &&
            drags_are_sound(system, input.loads.drags);
 }
@@ -52,28 +46,8 @@ void prepare(Workspace& workspace, const StepInput& input) {
 // Stiffness-proportional damping: the same for all elements, or each its own in a matrix apart.
 void prepare_damping(Workspace& workspace, const SolveSettings& settings) {
     const System& system = *workspace.system;
-    const std::vector<double>& ratio = system.elements->damping_ratio;
-    workspace.element_damping.clear();
-    workspace.damping_scale = settings.stiffness_damping;
-    if (settings.full_damping == 0 || ratio.empty()) return;
-    if (system.damps_alike) {
-        workspace.damping_scale += settings.full_damping * ratio.front();
-        return;
-    }
-    workspace.damping_scale = 1;
-    workspace.damping.set_pattern(system.elements->pattern);
-    for (double share : ratio)
-        workspace.element_damping.push_back(settings.stiffness_damping + settings.full_damping * share);
-}
-
-// A method that looks back may do so only from the state that it left itself, and not over a jump of the time step.
-bool history_holds(const StepInput& input) {
-    // Bdf2 is stable while steps grow by less than 1 + sqrt 2 and however they shrink.
-    constexpr double LARGEST_GROWTH = 2, LARGEST_FALL = 8;
-    const History& history = input.motion.history;
-    return history.valid && history.integrator == input.settings.integrator && input.h <= LARGEST_GROWTH * history.h &&
-           history.h <= LARGEST_FALL * input.h && history.x_end.size() == input.motion.x.size() &&
-           history.pinned == input.motion.pinned && history.x_end == input.motion.x && history.v_end == input.motion.v;
+    workspace.damping_scale = damping_of(system, settings, workspace.element_damping);
+    if (!workspace.element_damping.empty()) workspace.damping.set_pattern(system.elements->pattern);
 }
 
 // Pinned nodes are where they were told to be, to the last bit, with the velocity that took them there.
@@ -105,6 +79,40 @@ void keep_history(Workspace& workspace, const StepInput& input, Motion& motion) 
 
 }  // namespace
 
+bool settings_are_sound(const SolveSettings& s) {
+    const auto is_damping = [](double value) { return value >= 0 && std::isfinite(value); };
+    return s.integrator >= 0 && s.integrator < FROND_INTEGRATOR_COUNT && s.linear_solver >= 0 &&
+           s.linear_solver < FROND_LINEAR_SOLVER_COUNT && is_damping(s.mass_damping) &&
+           is_damping(s.stiffness_damping) && is_damping(s.full_damping) && s.spectral_radius >= 0 &&
+           s.spectral_radius <= 1;
+}
+
+bool are_alike(const SolveSettings& a, const SolveSettings& b) {
+    const auto all = [](const SolveSettings& s) {
+        return std::tie(s.integrator, s.linear_solver, s.newton_iterations, s.max_iterations, s.newton_tolerance,
+                        s.tolerance, s.mass_damping, s.stiffness_damping, s.full_damping, s.spectral_radius, s.careful);
+    };
+    return all(a) == all(b);
+}
+
+double damping_of(const System& system, const SolveSettings& settings, std::vector<double>& of_element) {
+    const std::vector<double>& ratio = system.elements->damping_ratio;
+    of_element.clear();
+    if (settings.full_damping == 0 || ratio.empty()) return settings.stiffness_damping;
+    if (system.damps_alike) return settings.stiffness_damping + settings.full_damping * ratio.front();
+    for (double share : ratio) of_element.push_back(settings.stiffness_damping + settings.full_damping * share);
+    return 1;
+}
+
+bool history_holds(const Motion& motion, frond_integrator integrator, double h) {
+    // Bdf2 is stable while steps grow by less than 1 + sqrt 2 and however they shrink.
+    constexpr double LARGEST_GROWTH = 2, LARGEST_FALL = 8;
+    const History& history = motion.history;
+    return history.valid && history.integrator == integrator && h <= LARGEST_GROWTH * history.h &&
+           history.h <= LARGEST_FALL * h && history.pinned == motion.pinned && are_same(history.x_end, motion.x) &&
+           are_same(history.v_end, motion.v);
+}
+
 SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, const Loads& loads, double h,
                        Motion& motion) {
     SolveReport report;
@@ -113,10 +121,10 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     prepare(workspace, input);
     prepare_damping(workspace, settings);
     const Integrator& method = integrator(settings.integrator);
-    motion.history.valid = method.looks_back && history_holds(input);
+    motion.history.valid = method.looks_back && history_holds(motion, settings.integrator, h);
     if (!method.step(workspace, input, report)) return report;
     finish_pins(workspace, motion);
-    if (!workspace.x.allFinite() || !workspace.v.allFinite()) return report;
+    if (!are_finite(workspace.x) || !are_finite(workspace.v)) return report;
     keep_history(workspace, input, motion);
     motion.x = workspace.x;
     motion.v = workspace.v;

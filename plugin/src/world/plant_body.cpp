@@ -68,10 +68,9 @@ void place_child(btCompoundShape& shape, size_t number, const btTransform& frame
     shape.getDynamicAabbTree()->update(child.m_node, room);
 }
 
-// Each capsule between ends(capsule), its two ends; each plate in frame_of(its capsule, frame), which may be false: then it
-// stays as it was.
-template <class Ends, class FrameOf>
-void place_pieces(PlantShape& shape, const Hull& hull, const Ends& ends, const FrameOf& frame_of) {
+// Each capsule between ends(capsule), its two ends; each plate in its frame, unless that is zero: then it stays as it was.
+template <class Ends>
+void place_pieces(PlantShape& shape, const Hull& hull, const Ends& ends, const std::vector<Mat3>& frames) {
     btVector3 lower(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT), upper = -lower;
     for (size_t i = 0; i < hull.capsules.size(); i++) {
         const std::array<Vec3, 2> at = ends(i);
@@ -84,9 +83,8 @@ void place_pieces(PlantShape& shape, const Hull& hull, const Ends& ends, const F
     for (size_t i = 0; i < hull.plates.size(); i++) {
         const size_t capsule = size_t(hull.plate_capsule[i]), child = hull.capsules.size() + i;
         const std::array<Vec3, 2> at = ends(capsule);
-        Mat3 axes;
         btTransform frame = shape.getChildTransform(int(child));
-        if (frame_of(capsule, axes)) frame = plate_frame(axes, 0.5 * (at[0] + at[1]));
+        if (!frames[i].col(0).isZero(0)) frame = plate_frame(frames[i], 0.5 * (at[0] + at[1]));
         const btMatrix3x3& basis = frame.getBasis();
         const btConvexHullShape& plate = *hull.plates[i];
         const btVector3& corner = plate.getUnscaledPoints()[plate.getNumPoints() - 1];  // of a rectangle: +x, +y
@@ -156,13 +154,16 @@ static std::shared_ptr<Hull> hull_of(World& world, const Model& model) {
         const auto& [begin, end] = model.capsules[i];
         return std::array<Vec3, 2>{nodes[size_t(begin)].position, nodes[size_t(end)].position};
     };
-    place_pieces(*rest, *hull, ends, [&](size_t i, Mat3& axes) {
-        const std::array<Vec3, 2> at = ends(i);
+    std::vector<Mat3> frames;
+    for (const int i : hull->plate_capsule) {
+        const std::array<Vec3, 2> at = ends(size_t(i));
+        Mat3 axes;
         axes.col(0) = (at[1] - at[0]).normalized();
-        axes.col(2) = hull->flats[i].wide;
+        axes.col(2) = hull->flats[size_t(i)].wide;
         axes.col(1) = axes.col(2).cross(axes.col(0));
-        return true;
-    });
+        frames.push_back(axes);
+    }
+    place_pieces(*rest, *hull, ends, frames);
     hull->rest = std::move(rest);
     return hull;
 }
@@ -244,12 +245,15 @@ PlantBody::~PlantBody() {
 void move_capsules(PlantBody& body) {
     const Plant& plant = *body.plant;
     const Hull& hull = *body.hull;
-    place_pieces(
-        static_cast<PlantShape&>(*body.compound()), hull, [&](size_t i) { return capsule_ends(plant, i); },
-        [&](size_t i, Mat3& axes) {
-            const Flat& flat = hull.flats[i];
-            return piece_frame(plant, plant.model->capsules[i][1], flat.wide, flat.spread, axes);
-        });
+    std::vector<Mat3> frames;
+    piece_frames(plant, hull.plate_capsule, hull.flats, frames);
+    auto& shape = static_cast<PlantShape&>(*body.compound());
+    if (plant.fragments.empty())
+        return place_pieces(shape, hull, [&](size_t i) {
+            const auto& [begin, end] = plant.model->capsules[i];
+            return std::array<Vec3, 2>{plant.chain_positions[size_t(begin)], plant.chain_positions[size_t(end)]};
+        }, frames);
+    place_pieces(shape, hull, [&](size_t i) { return capsule_ends(plant, i); }, frames);
 }
 
 // By how much capsules around the pieces of a collider at rest are wider than those of the chain, at most [m].

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/timer.hpp"
+#include "plant/abreast.hpp"
 #include "world/convert.hpp"
 #include "world/detection.hpp"
 #include "world/fragments.hpp"
@@ -162,7 +163,6 @@ void sway(const World& world, PlantBody& body, const Surroundings& surroundings,
 // A plant's own part of the substep, which no other has anything to do with.
 void step_alone(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
     if (body.plant->swing) return sway(world, body, surroundings, h);
-    body.level.pending += h;
     if (!body.level.is_due) {
         body.plant->lead = body.level.pending;
         body.plant->cage_stale = body.plant->surface_stale = true;
@@ -170,6 +170,53 @@ void step_alone(const World& world, PlantBody& body, const Surroundings& surroun
     }
     solve_plant(*body.plant, surroundings, body.level.pending);
     if (!body.plant->is_touched) finish(world, body, surroundings);
+}
+
+// Plants that are stepped by one job: one, or several that go abreast.
+struct StepJob {
+    std::array<PlantBody*, 4> bodies;
+    int count = 0;
+};
+
+void run_job(const World& world, const StepJob& job, const Surroundings& surroundings, double h) {
+    if (job.count == 1) return step_alone(world, *job.bodies[0], surroundings, h);
+    std::array<Plant*, 4> plants;
+    for (int i = 0; i < job.count; i++) plants[size_t(i)] = job.bodies[size_t(i)]->plant.get();
+    solve_abreast(plants.data(), job.count, surroundings, job.bodies[0]->level.pending);
+    for (int i = 0; i < job.count; i++) finish(world, *job.bodies[size_t(i)], surroundings);
+}
+
+// Whether a plant can be stepped with those of a job.
+bool goes_with(const StepJob& job, const PlantBody& body) {
+    return job.bodies[0]->level.pending == body.level.pending && go_alike(*job.bodies[0]->plant, *body.plant);
+}
+
+// All that is awake; those that may go abreast with the next ones that go alike.
+std::vector<StepJob> share_out(const World& world, const Surroundings& surroundings, double h) {
+    constexpr size_t MOST_OPEN = 8;  // or plants that all differ would each be compared with all before it
+    const int most = most_abreast();
+    std::vector<StepJob> jobs;
+    std::vector<size_t> open;  // of those, that have room
+    for (PlantBody* body : world.awake) {
+        if (!body->plant->swing) body->level.pending += h;
+        const bool is_due = !body->plant->swing && body->level.is_due;
+        auto found = open.end();
+        if (is_due && may_go_abreast(*body->plant, surroundings, body->level.pending)) {
+            found = std::find_if(open.begin(), open.end(), [&](size_t i) { return goes_with(jobs[i], *body); });
+            if (found == open.end()) {
+                if (open.size() == MOST_OPEN) open.erase(open.begin());
+                open.push_back(jobs.size());
+                found = open.end() - 1;
+                jobs.emplace_back();
+            }
+        } else {
+            jobs.emplace_back();
+        }
+        StepJob& job = found == open.end() ? jobs.back() : jobs[*found];
+        job.bodies[size_t(job.count++)] = body;
+        if (found != open.end() && job.count == most) open.erase(found);
+    }
+    return jobs;
 }
 
 // What has to be done by one thread, plant by plant.
@@ -222,7 +269,8 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
 
     {
         BT_PROFILE("frond solve");
-        run_jobs(*this, awake.size(), [&](size_t i) { step_alone(*this, *awake[i], surroundings, h); });
+        const std::vector<StepJob> jobs = share_out(*this, surroundings, h);
+        run_jobs(*this, jobs.size(), [&](size_t i) { run_job(*this, jobs[i], surroundings, h); });
     }
     const Timer response_timer;
     let_go_of_gone(*this);

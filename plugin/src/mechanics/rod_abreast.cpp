@@ -1,0 +1,111 @@
+// In: rods of several plants, one a lane, and where their nodes are. Out: what rod.cpp tells of one plant.
+#include "mechanics/rod_assemble.hpp"
+#include "mechanics/rows.hpp"
+
+namespace frond {
+
+namespace {
+
+// Looks that are nearly as far as they may go are left to the plant alone, which knows to the last bit.
+constexpr double NEARLY = 1 - 1e-9;
+
+template <class Mask>
+FROND_INLINE unsigned bits_of(const Mask& mask, int lanes) {
+    unsigned bits = 0;
+    for (int lane = 0; lane < lanes; ++lane) bits |= unsigned(mask[lane] != 0) << lane;
+    return bits;
+}
+
+struct FindInertia {
+    const RodElements& elements;
+    const VecX& x;
+    VecX& out;
+    template <class S>
+    FROND_INLINE void run() const {
+        for (int i = 0; i < int(elements.inertia.size()); ++i) {
+            const Mat3& own = elements.inertia[size_t(i)];
+            Lanes33<S> inertia;
+            for (int r = 0; r < 3; ++r)
+                inertia.r[r] = {constant<S>(own(r, 0)), constant<S>(own(r, 1)), constant<S>(own(r, 2))};
+            const Lanes33<S> seen = inertia_by_rate(load3<S>(x.data(), 6 * i + 3), inertia);
+            for (int r = 0; r < 3; ++r) store3(seen.r[r], out.data(), 9 * i + 3 * r);
+        }
+    }
+};
+
+struct FindWild {
+    const RodElements& elements;
+    const VecX &from, &to;
+    unsigned& wild;
+    template <class S>
+    FROND_INLINE Lanes3<S> way(int i) const {
+        return load3<S>(to.data(), i) - load3<S>(from.data(), i);
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        S calm = constant<S>(1);
+        const auto look = [&](const Lanes3<S>& change, double most) {
+            calm = select(dot(change, change) < most * most * NEARLY, calm, S{});
+        };
+        for (int i = 3; i < 3 * elements.node_count; i += 6) look(way<S>(i), LARGEST_TURN);
+        for (const RodSegment& rod : elements.segments)
+            look(way<S>(6 * rod.b) - way<S>(6 * rod.a), LARGEST_STRETCH * rod.length);
+        wild = bits_of(calm == 0.0, LANES<S>);
+    }
+};
+
+struct FindYielding {
+    const RodElements& elements;
+    const VecX& x;
+    unsigned& yielding;
+    template <class S>
+    FROND_INLINE void run() const {
+        S within = constant<S>(1);
+        for (size_t s = 0; s < elements.segments.size(); ++s) {
+            if (!(elements.yields[s].strain > 0)) continue;
+            const PieceOfSeveral<S> pieces(elements.segments, s);
+            const Placed<S> at(pieces, x);
+            const S wide = pieces.rod.reach_wide * at.bent.curvature.y,
+                    thin = pieces.rod.reach_thin * at.bent.curvature.z;
+            const S pull = select(at.bent.strain.x < 0.0, S(-at.bent.strain.x), at.bent.strain.x);
+            const S most = pull + sqrt(S(wide * wide + thin * thin));
+            within = select(most < elements.yields[s].strain * NEARLY, within, S{});
+        }
+        yielding = bits_of(within == 0.0, LANES<S>);
+    }
+};
+
+void add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
+    Assemble<PieceOfSeveral> job = {as_rods(body), x};
+    job.f = &f;
+    job.K = &A;
+    job.damping = ahead.element_damping.empty() ? nullptr : &ahead.element_damping;
+    job.ahead = &ahead;
+    run_in_lanes(job);
+}
+
+void rotary_inertia(const Elements& body, const VecX& x, VecX& out) {
+    out.resize(x.size() / 6 * 9);
+    run_in_lanes(FindInertia{as_rods(body), x, out});
+}
+
+unsigned not_calm(const Elements& body, const VecX& from, const VecX& to) {
+    unsigned wild = 0;
+    run_in_lanes(FindWild{as_rods(body), from, to, wild});
+    return wild;
+}
+
+unsigned may_yield(const Elements& body, const VecX& x) {
+    unsigned yielding = 0;
+    run_in_lanes(FindYielding{as_rods(body), x, yielding});
+    return yielding;
+}
+
+}  // namespace
+
+const MechanicsAbreast& rods_abreast() {
+    static const MechanicsAbreast ROW = {add_ahead, rotary_inertia, not_calm, may_yield};
+    return ROW;
+}
+
+}  // namespace frond

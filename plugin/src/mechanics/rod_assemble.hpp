@@ -1,0 +1,66 @@
+// In: rods and where their nodes are. Out: force and positive stiffness, alone or with what these do to the way ahead.
+#pragma once
+
+#include "mechanics/rod_groups.hpp"
+
+namespace frond {
+
+// What is null is left out.
+template <template <class> class Pieces>
+struct Assemble {
+    const RodElements& elements;
+    const VecX& x;
+    VecX* f = nullptr;
+    BlockMatrix* K = nullptr;
+    double scale = 1;                              // of K
+    const std::vector<double>* damping = nullptr;  // of each piece, times its stiffness into D
+    BlockMatrix* D = nullptr;
+    const Ahead* ahead = nullptr;
+
+    template <class S>
+    FROND_INLINE Lanes3<S> move(const Pieces<S>& pieces, int RodSegment::*end, int first, const S& c) const {
+        return pieces.point(ahead->way.data(), end, first) + c * pieces.point(ahead->v.data(), end, first);
+    }
+    // Forces of what the stiffness says of the way ahead, on the ends' six numbers each, are taken off.
+    template <class S>
+    FROND_INLINE void look_ahead(const Pieces<S>& pieces, const Placed<S>& at, const RodChange<S>& change, const S& c,
+                                 RodGradient<S>& g) const {
+        const S per_length = 1.0 / at.piece.length;
+        const Lanes3<S> turn_a = move(pieces, &RodSegment::a, 3, c), turn_b = move(pieces, &RodSegment::b, 3, c);
+        const Lanes3<S> chord = move(pieces, &RodSegment::b, 0, c) - move(pieces, &RodSegment::a, 0, c);
+        const Lanes3<S> force =
+            per_length * scaled(at.piece.stretch, transposed_times(at.bent.middle, chord) + change.strain_a * turn_a +
+                                                      change.strain_b * turn_b);
+        const Lanes3<S> moment = per_length * scaled(at.piece.bend, change.bend_b * turn_b - change.bend_a * turn_a);
+        const Lanes3<S> on_b = at.bent.middle * force;
+        g.place_a = g.place_a - on_b;
+        g.place_b = g.place_b + on_b;
+        g.turn_a = g.turn_a + transposed_times(change.strain_a, force) - transposed_times(change.bend_a, moment);
+        g.turn_b = g.turn_b + transposed_times(change.strain_b, force) + transposed_times(change.bend_b, moment);
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        const std::vector<RodSegment>& rods = elements.segments;
+        for (size_t s = 0; s < rods.size(); s += size_t(Pieces<S>::MANY)) {
+            const Pieces<S> pieces(rods, s);
+            const Placed<S> at(pieces, x);
+            const Lanes33<S> rotation_a = rotation_of(at.a.w, at.a.p), rate_a = rate_of(at.a), rate_b = rate_of(at.b);
+            RodGradient<S> g;
+            if (f) g = gradient_of(at.piece, rotation_a, rate_a, rate_b, at.bent);
+            if (K) {
+                const S c = damping ? pieces.own(*damping) : S{};
+                const RodChange<S> change = change_of(at.piece, rotation_a, rate_a, rate_b, at.bent);
+                Lanes33<S> blocks[10];
+                positive_stiffness(at.piece, at.bent, change, blocks);
+                const double step = ahead ? ahead->step : 1;
+                const S alike = c + (ahead ? ahead->damping : 0.0);
+                if (ahead) look_ahead(pieces, at, change, alike, g);
+                pieces.add_blocks(blocks, ahead ? S(step * step + step * alike) : constant<S>(scale), K->values);
+                if (D) pieces.add_blocks(blocks, c, D->values);
+            }
+            if (f) pieces.take_off(f->data(), g);
+        }
+    }
+};
+
+}  // namespace frond

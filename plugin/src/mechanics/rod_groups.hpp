@@ -1,0 +1,146 @@
+// Pieces of rods that are worked on at once, a lane each: several of one plant, or the same one of several plants.
+// Where numbers of plants lie side by side, the i-th of them all begins at [i * LANES].
+#pragma once
+
+#include <algorithm>
+
+#include "mechanics/rod_elements.hpp"
+#include "mechanics/rod_piece.hpp"
+
+namespace frond {
+
+// As many pieces of one plant as there are lanes; past the last one it is taken again.
+template <class S>
+struct PiecesOfOne {
+    static constexpr int MANY = LANES<S>;
+    const RodSegment* rod[LANES<S>];
+    size_t first;
+    int count;
+    FROND_INLINE PiecesOfOne(const std::vector<RodSegment>& rods, size_t first)
+        : first(first), count(int(std::min(size_t(MANY), rods.size() - first))) {
+        for (int lane = 0; lane < MANY; ++lane) rod[lane] = &rods[first + size_t(std::min(lane, count - 1))];
+    }
+    FROND_INLINE Lanes3<S> vector(Vec3 RodSegment::*of) const {
+        return {gather<S>([&](int l) { return (rod[l]->*of)[0]; }), gather<S>([&](int l) { return (rod[l]->*of)[1]; }),
+                gather<S>([&](int l) { return (rod[l]->*of)[2]; })};
+    }
+    FROND_INLINE S element(int row, int column) const {
+        return gather<S>([&](int l) { return rod[l]->frame.data()[row + 3 * column]; });
+    }
+    FROND_INLINE S length() const {
+        return gather<S>([&](int l) { return rod[l]->length; });
+    }
+    // Of what each piece has one.
+    FROND_INLINE S own(const std::vector<double>& of) const {
+        return gather<S>([&](int lane) { return of[first + size_t(std::min(lane, count - 1))]; });
+    }
+    // Three of the six numbers of one of its ends.
+    FROND_INLINE Lanes3<S> point(const double* x, int RodSegment::*end, int from) const {
+        const auto at = [&](int l, int c) { return x[6 * (rod[l]->*end) + from + c]; };
+        return {gather<S>([&](int l) { return at(l, 0); }), gather<S>([&](int l) { return at(l, 1); }),
+                gather<S>([&](int l) { return at(l, 2); })};
+    }
+    // Lane by lane, since pieces share their ends.
+    FROND_INLINE void take_off(double* f, const RodGradient<S>& g) const {
+        for (int lane = 0; lane < count; ++lane) {
+            double *a = f + 6 * rod[lane]->a, *b = f + 6 * rod[lane]->b;
+            const Lanes3<S>* parts[4] = {&g.place_a, &g.turn_a, &g.place_b, &g.turn_b};
+            for (int k = 0; k < 4; ++k) {
+                double* to = (k < 2 ? a : b) + 3 * (k % 2);
+                to[0] -= parts[k]->x[lane];
+                to[1] -= parts[k]->y[lane];
+                to[2] -= parts[k]->z[lane];
+            }
+        }
+    }
+    // Blocks of a BlockMatrix lie by columns.
+    FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, std::vector<double>& A) const {
+        S values[90];
+        for (int k = 0; k < 10; ++k)
+            for (int r = 0; r < 3; ++r) {
+                values[9 * k + r] = by * blocks[k].r[r].x;
+                values[9 * k + r + 3] = by * blocks[k].r[r].y;
+                values[9 * k + r + 6] = by * blocks[k].r[r].z;
+            }
+        const double* from = reinterpret_cast<const double*>(values);
+        for (int lane = 0; lane < count; ++lane)
+            for (int r = 0, k = 0; r < 4; ++r)
+                for (int c = 0; c <= r; ++c, ++k) {
+                    double* to = A.data() + 9 * size_t(rod[lane]->slots[size_t(4 * r + c)]);
+                    for (int i = 0; i < 9; ++i) to[i] += from[LANES<S> * (9 * k + i) + lane];
+                }
+    }
+};
+
+// One piece of as many plants as there are lanes.
+template <class S>
+struct PieceOfSeveral {
+    static constexpr int MANY = 1;
+    const RodSegment& rod;
+    size_t first;
+    FROND_INLINE PieceOfSeveral(const std::vector<RodSegment>& rods, size_t first) : rod(rods[first]), first(first) {}
+    FROND_INLINE Lanes3<S> vector(Vec3 RodSegment::*of) const {
+        const Vec3& v = rod.*of;
+        return {constant<S>(v[0]), constant<S>(v[1]), constant<S>(v[2])};
+    }
+    FROND_INLINE S element(int row, int column) const { return constant<S>(rod.frame.data()[row + 3 * column]); }
+    FROND_INLINE S length() const { return constant<S>(rod.length); }
+    FROND_INLINE S own(const std::vector<double>& of) const { return constant<S>(of[first]); }
+    FROND_INLINE Lanes3<S> point(const double* x, int RodSegment::*end, int from) const {
+        return load3<S>(x, 6 * (rod.*end) + from);
+    }
+    FROND_INLINE void take_off(double* f, const RodGradient<S>& g) const {
+        const auto from = [&](int at, const Lanes3<S>& part) { store3(load3<S>(f, at) - part, f, at); };
+        from(6 * rod.a, g.place_a), from(6 * rod.a + 3, g.turn_a);
+        from(6 * rod.b, g.place_b), from(6 * rod.b + 3, g.turn_b);
+    }
+    FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, std::vector<double>& A) const {
+        for (int r = 0, k = 0; r < 4; ++r)
+            for (int c = 0; c <= r; ++c, ++k) {
+                double* to = A.data() + LANES<S> * 9 * size_t(rod.slots[size_t(4 * r + c)]);
+                const auto add = [&](int i, const S& value) {
+                    store(S(load<S>(to + LANES<S> * i) + by * value), to + LANES<S> * i);
+                };
+                for (int i = 0; i < 3; ++i) {
+                    add(i, blocks[k].r[i].x);
+                    add(i + 3, blocks[k].r[i].y);
+                    add(i + 6, blocks[k].r[i].z);
+                }
+            }
+    }
+};
+
+template <class Pieces>
+using LanesOf = decltype(std::declval<const Pieces&>().length());
+
+template <class Pieces, class S = LanesOf<Pieces>>
+FROND_INLINE RodPiece<S> piece_of(const Pieces& pieces) {
+    RodPiece<S> out;
+    out.length = pieces.length();
+    for (int r = 0; r < 3; ++r) out.frame.r[r] = {pieces.element(r, 0), pieces.element(r, 1), pieces.element(r, 2)};
+    out.stretch = pieces.vector(&RodSegment::stretch);
+    out.bend = pieces.vector(&RodSegment::bend);
+    out.rest_strain = pieces.vector(&RodSegment::rest_strain);
+    out.rest_curvature = pieces.vector(&RodSegment::rest_curvature);
+    return out;
+}
+
+// Pieces where they are.
+template <class S>
+struct Placed {
+    RodPiece<S> piece;
+    RodEnd<S> a, b;
+    RodBent<S> bent;
+    template <class Pieces>
+    FROND_INLINE Placed(const Pieces& pieces, const VecX& x)
+        : piece(piece_of(pieces)),
+          a(end_of(pieces, x, &RodSegment::a)),
+          b(end_of(pieces, x, &RodSegment::b)),
+          bent(bend_between(piece, a, b)) {}
+    template <class Pieces>
+    FROND_INLINE static RodEnd<S> end_of(const Pieces& pieces, const VecX& x, int RodSegment::*which) {
+        return rod_end(pieces.point(x.data(), which, 0), pieces.point(x.data(), which, 3));
+    }
+};
+
+}  // namespace frond

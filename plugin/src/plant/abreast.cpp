@@ -1,0 +1,220 @@
+// In: plants that go alike and a time h. Out: what solve_plant() finds for each. Gathered into lanes, solved, looked
+// at, and handed out again; nothing of a plant is changed before all looks at its lane are done.
+#include "plant/abreast.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/lanes.hpp"
+#include "core/timer.hpp"
+#include "plant/air_abreast.hpp"
+#include "plant/guard.hpp"
+#include "solve/system.hpp"
+
+namespace frond {
+
+struct PlantsAbreast {
+    Abreast step;
+    AirAbreast air;
+    VecX half, forces;
+    std::array<VecX, 4> x, v;  // each plant's at the end of the step
+};
+
+namespace {
+
+// Of every lane's plant, the numbers that `of` gives.
+template <class Of>
+struct Gather {
+    const Of& of;
+    VecX& to;
+    template <class S>
+    FROND_INLINE void run() const {
+        const double* from[LANES<S>];
+        for (int lane = 0; lane < LANES<S>; lane++) from[lane] = of(lane).data();
+        const Eigen::Index count = of(0).size();
+        for (Eigen::Index i = 0; i < count; i++)
+            store(gather<S>([&](int lane) { return from[lane][i]; }), to.data() + LANES<S> * i);
+    }
+};
+
+// The other way round.
+struct HandOut {
+    const VecX& from;
+    std::array<VecX, 4>& plants;
+    template <class S>
+    FROND_INLINE void run() const {
+        double* to[LANES<S>];
+        for (int lane = 0; lane < LANES<S>; lane++) {
+            plants[size_t(lane)].resize(from.size() / LANES<S>);
+            to[lane] = plants[size_t(lane)].data();
+        }
+        for (Eigen::Index i = 0; i < from.size() / LANES<S>; i++) {
+            const S numbers = load<S>(from.data() + LANES<S> * i);
+            for (int lane = 0; lane < LANES<S>; lane++) to[lane][i] = numbers[lane];
+        }
+    }
+};
+
+// Which lanes went where a healthy step does not lead, and which ended off their course, or nearly so.
+struct LookAtWays {
+    const Abreast& step;
+    double size, h;  // of the plants [m], of the step [s]
+    unsigned &far_away, &off_course;
+    template <class S>
+    FROND_INLINE void run() const {
+        constexpr double NEARLY = 1 - 1e-9;
+        const double far = std::pow(OFF_COURSE * size, 2) * NEARLY;
+        const double turned = TURNED_OFF_COURSE * TURNED_OFF_COURSE * NEARLY;
+        S near = constant<S>(1), on_course = near;
+        for (int i = 0; i < step.system->elements->node_count; i++) {
+            const Lanes3<S> way = load3<S>(step.x_end.data(), 3 * i) - load3<S>(step.x.data(), 3 * i);
+            const Lanes3<S> off = way - constant<S>(h) * load3<S>(step.v.data(), 3 * i);
+            on_course = select(dot(off, off) < (i % 2 ? turned : far), on_course, S{});
+            if (i % 2 == 0) near = select(dot(way, way) < std::pow(FARTHEST_WAY * size, 2) * NEARLY, near, S{});
+        }
+        far_away = off_course = 0;
+        for (int lane = 0; lane < LANES<S>; lane++) {
+            far_away |= unsigned(near[lane] == 0) << lane;
+            off_course |= unsigned(on_course[lane] == 0) << lane;
+        }
+    }
+};
+
+std::shared_ptr<PlantsAbreast> lend(WorkspacePool& pool) {
+    std::lock_guard<std::mutex> lock(pool.mutex);
+    if (pool.abreast.empty()) return std::make_shared<PlantsAbreast>();
+    std::shared_ptr<PlantsAbreast> space = std::move(pool.abreast.back());
+    pool.abreast.pop_back();
+    return space;
+}
+
+void give_back(WorkspacePool& pool, std::shared_ptr<PlantsAbreast> space) {
+    std::lock_guard<std::mutex> lock(pool.mutex);
+    pool.abreast.push_back(std::move(space));
+}
+
+void gather_motions(Abreast& step, Plant* const* plants, int count, const Surroundings& surroundings,
+                    frond_effects effects) {
+    const auto at = [&](int lane) -> Plant& { return *plants[std::min(lane, count - 1)]; };
+    const auto gather_from = [&](const auto& of, VecX& to) { run_in_lanes(Gather<decltype(of)>{of, to}); };
+    gather_from([&](int lane) -> const VecX& { return at(lane).motion.x; }, step.x);
+    gather_from([&](int lane) -> const VecX& { return at(lane).motion.v; }, step.v);
+    gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.x_prev; }, step.x_prev);
+    gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.v_prev; }, step.v_prev);
+    for (int lane = 0; lane < step.lanes; lane++) {
+        const Vec3 gravity = gravity_in(at(lane), surroundings, effects);
+        for (int c = 0; c < 3; c++) step.gravity[c * step.lanes + lane] = gravity[c];
+    }
+}
+
+// All that solve_plant() leaves of a healthy step. False, with the motion as it was: the plant has to be stepped alone.
+bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings& settings, bool may_be_off, double h) {
+    const Abreast& step = space.step;
+    Motion& motion = plant.motion;
+    plant.x_good.swap(motion.x);
+    plant.v_good.swap(motion.v);
+    motion.x.swap(space.x[size_t(lane)]);
+    motion.v.swap(space.v[size_t(lane)]);
+    plant.is_off_course = may_be_off && ends_off_course(plant, h);
+    if (plant.is_off_course && is_far_out(plant)) {
+        plant.x_good.swap(motion.x);
+        plant.v_good.swap(motion.v);
+        return false;
+    }
+    History& history = motion.history;
+    history.shaken = false;
+    history.h = h;
+    history.x_prev = plant.x_good;
+    history.v_prev = plant.v_good;
+    history.x_end = motion.x;
+    history.v_end = motion.v;
+    plant.lead = 0;
+    plant.is_sound = true;
+    plant.step_settings = settings;
+    plant.loads.drags.clear();
+    for (int c = 0; c < 3; c++) plant.blown[c] = space.forces[c * step.lanes + lane];
+    return true;
+}
+
+}  // namespace
+
+bool may_go_abreast(const Plant& plant, const Surroundings& surroundings, double h) {
+    const Motion& motion = plant.motion;
+    const History& history = motion.history;
+    return plant.follow && !plant.swing && !plant.own_elements && !plant.workspace && !plant.is_touched &&
+           !plant.has_user_force && plant.grabs.empty() && plant.fragments.empty() && plant.pin_springs.empty() &&
+           !plant.pins_changed && plant.recovers_for <= 0 && plant.patience == 1 && plant.max_substeps <= 1 && history.valid &&
+           h > 0 && h <= TRUSTED &&
+           frond::may_go_abreast(*plant.system, settings_for(plant, plant.effects & surroundings.effects), h);
+}
+
+bool go_alike(const Plant& a, const Plant& b) {
+    return a.system == b.system && a.effects == b.effects && a.size == b.size &&
+           a.motion.history.h == b.motion.history.h && are_alike(a.settings, b.settings) &&
+           a.motion.pinned == b.motion.pinned;
+}
+
+int most_abreast() {
+    return lanes_abreast();
+}
+
+void solve_abreast(Plant* const* given, int given_count, const Surroundings& surroundings, double h) {
+    std::array<Plant*, 4> plants;
+    int count = 0;
+    for (int i = 0; i < given_count; i++) {
+        Plant& plant = *given[i];
+        if (history_holds(plant.motion, plant.settings.integrator, h) && is_where_held(plant.motion))
+            plants[size_t(count++)] = &plant;
+        else
+            solve_plant(plant, surroundings, h);
+    }
+    if (count < 2) {
+        if (count == 1) solve_plant(*plants[0], surroundings, h);
+        return;
+    }
+    const std::shared_ptr<WorkspacePool> pool = plants[0]->seat.pool;
+    const std::shared_ptr<PlantsAbreast> space = lend(*pool);
+    Abreast& step = space->step;
+    const System& system = *plants[0]->system;
+    const frond_effects effects = plants[0]->effects & surroundings.effects;
+    const SolveSettings settings = settings_for(*plants[0], effects);
+    make_room(step, plants[0]->system);
+    Timer timer;
+    gather_motions(step, plants.data(), count, surroundings, effects);
+    const unsigned bad_wind = gather_air(space->air, step, plants.data(), count, surroundings, effects, h);
+    const double ms_air = timer.lap();
+
+    const double h_before = plants[0]->motion.history.h;
+    unsigned alone = step_abreast(step, settings, plants[0]->motion.pinned, h, h_before), far_away, off_course;
+    space->half = 0.5 * (step.x + step.x_end);
+    alone |= system.row->abreast->not_calm(*system.elements, step.x, space->half);
+    run_in_lanes(LookAtWays{step, double(plants[0]->size), h, far_away, off_course});
+    // Without air the energy of what left its course is looked at.
+    alone |= far_away | (off_course & ~air_forces(step, space->forces));
+    const bool has_yields = (effects & FROND_PLASTICITY) && !system.elements->yields.empty();
+    const unsigned may_yield = has_yields ? system.row->abreast->may_yield(*system.elements, step.x_end) : 0;
+    run_in_lanes(HandOut{step.x_end, space->x});
+    run_in_lanes(HandOut{step.v_end, space->v});
+    const double ms_solve = timer.lap();
+
+    for (int lane = 0; lane < count; lane++) {
+        Plant& plant = *plants[size_t(lane)];
+        const auto is_in = [&](unsigned bits) { return (bits >> lane & 1) != 0; };
+        if (is_in(alone) || !take_step(plant, *space, lane, settings, is_in(off_course), h)) {
+            solve_plant(plant, surroundings, h);
+            continue;
+        }
+        plant.trouble = is_in(bad_wind) ? FROND_TROUBLE_BAD_WIND : 0;
+        plant.may_yield = is_in(may_yield);
+        plant.report = {};
+        plant.report.ok = true;
+        plant.report.iterations = 1;
+        plant.report.residual = step.residual[size_t(lane)];
+        plant.report.ms_solve = float(ms_solve / count);
+        plant.ms_air = plant.ms_effects = float(ms_air / count);
+        plant.ms_user_force = plant.ms_fibres = plant.ms_plasticity = 0;
+    }
+    give_back(*pool, space);
+}
+
+}  // namespace frond

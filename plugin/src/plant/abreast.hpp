@@ -1,0 +1,18 @@
+// Plants abreast: steps of plants of one model that are worked on side by side (solve/abreast.hpp), to the last bit as
+// those of each alone.
+#pragma once
+
+#include "plant/plant.hpp"
+
+namespace frond {
+
+// What goes on in a step of h [s] is what goes on in every healthy one, as far as that is known before it.
+bool may_go_abreast(const Plant& plant, const Surroundings& surroundings, double h);
+// Both of them may: whether they may with each other, in steps of a length.
+bool go_alike(const Plant& a, const Plant& b);
+// As many as go at once on this processor.
+int most_abreast();
+// solve_plant() for up to so many plants that go alike. Those that turn out to need more are stepped alone.
+void solve_abreast(Plant* const* plants, int count, const Surroundings& surroundings, double h);
+
+}  // namespace frond

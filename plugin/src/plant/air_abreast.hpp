@@ -1,0 +1,25 @@
+// Air around plants that are stepped abreast.
+#pragma once
+
+#include "plant/plant.hpp"
+#include "solve/abreast.hpp"
+
+namespace frond {
+
+// Room for it: of each vector every number is there once a lane.
+struct AirAbreast {
+    std::shared_ptr<const AirPieces> pieces;
+    VecX wind, passing, velocities;  // at chain nodes, and of the air past them, model frame [m/s]
+    VecX resistance, lag;            // six numbers a chain node [N s/m]
+    VecX to_world;                   // nine numbers, row by row
+    std::vector<frond_vec3> points, wind_at;
+};
+
+// Sets the drags of `step`, whose x and v are set, as gather_air() does; lanes beyond the plants take the last one
+// again. Plants whose wind was unsound are told of, a bit each.
+unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int plant_count,
+                    const Surroundings& surroundings, frond_effects effects, double h);
+// Force of the drags at the end of the step, model frames, three numbers [N]; lanes in which there are any, a bit each.
+unsigned air_forces(const Abreast& step, VecX& out);
+
+}  // namespace frond

@@ -1,0 +1,210 @@
+// In: the motions of several plants, a lane each. Out: their motions a step of bdf2 with one solve later: what
+// step_bdf2() and solve_stage() do to each, in the same order.
+#include "solve/abreast.hpp"
+
+#include <cmath>
+
+#include "core/lanes.hpp"
+#include "solve/integrator.hpp"
+
+namespace frond {
+
+namespace {
+
+// Where the step comes from and where it is heading.
+struct LookBack {
+    Abreast& a;
+    const std::vector<uint8_t>& pinned;
+    double h, h_before;
+    Bdf2 method;
+    template <class S>
+    FROND_INLINE void run() const {
+        for (int i = 0; i < a.system->elements->node_count; ++i) {
+            const int at = 3 * i;
+            const Lanes3<S> x = load3<S>(a.x.data(), at),
+                            v = pinned[size_t(i)] ? Lanes3<S>{} : load3<S>(a.v.data(), at);
+            Lanes3<S> x_prev = load3<S>(a.x_prev.data(), at), v_prev = load3<S>(a.v_prev.data(), at);
+            if (a.held[size_t(i)]) {
+                x_prev = x - constant<S>(h_before) * v;
+                v_prev = v;
+            }
+            const Lanes3<S> x_from = x + constant<S>(h) * v;
+            const Lanes3<S> x_base = x + constant<S>(method.back) * (x - x_prev);
+            const Lanes3<S> end = x_base + constant<S>(method.step) * v;
+            store3(v, a.v_start.data(), at);
+            store3(x_from, a.x_from.data(), at);
+            store3(x_base, a.x_base.data(), at);
+            store3(v + constant<S>(method.back) * (v - v_prev), a.v_base.data(), at);
+            store3(end - x_from, a.way.data(), at);
+        }
+    }
+};
+
+// From elastic forces and stiffness to the linear system.
+struct FormSystem {
+    Abreast& a;
+    double step, mass;  // of the stage [s], and what masses count [-]
+
+    template <class S>
+    FROND_INLINE Lanes33<S> damping_of(int pair) const {
+        const Lanes3<S> first = load3<S>(a.drag_damping.data(), 6 * pair),
+                        rest = load3<S>(a.drag_damping.data(), 6 * pair + 3);
+        return {{first, {first.y, rest.x, rest.y}, {first.z, rest.y, rest.z}}};
+    }
+    // To add nothing would still change the sign of zeros.
+    template <class S>
+    FROND_INLINE static auto is_dragged(const Lanes3<S>& push, const Lanes33<S>& damping) {
+        return dot(push, push) + dot(damping, damping) > 0.0;
+    }
+    template <class S>
+    FROND_INLINE void form_right_side(int i) const {
+        const Masses& masses = a.system->masses;
+        const Lanes3<S> v = load3<S>(a.v_start.data(), 3 * i);
+        const S own = constant<S>(masses.node[i]);
+        Lanes3<S> rhs = Lanes3<S>{} + own * load3<S>(a.gravity.data(), 0) + load3<S>(a.elastic.data(), 3 * i);
+        if (i % 2 == 0) {
+            const Lanes33<S> damping = damping_of<S>(i / 2);
+            const Lanes3<S> push = load3<S>(a.drag_force.data(), 3 * (i / 2));
+            rhs = select(is_dragged(push, damping), rhs + (push - damping * v), rhs);
+        }
+        rhs = constant<S>(step) * rhs;
+        const Lanes3<S> dv = load3<S>(a.v_base.data(), 3 * i) - constant<S>(mass) * v;
+        Lanes3<S> momentum = own * dv;
+        if (i % 2) momentum = momentum + inertia_of<S>(i / 2) * dv;
+        store3(rhs + momentum, a.rhs.data(), 3 * i);
+    }
+    template <class S>
+    FROND_INLINE Lanes33<S> inertia_of(int pair) const {
+        const double* from = a.inertia.data();
+        return {{load3<S>(from, 9 * pair), load3<S>(from, 9 * pair + 3), load3<S>(from, 9 * pair + 6)}};
+    }
+    // The diagonal block of node i, which lies by columns.
+    template <class S>
+    FROND_INLINE void form_block(int i) const {
+        const int slot = a.A.pattern->start[size_t(i)];
+        double* block = a.A.values.data();
+        Lanes33<S> over = {{load3<S>(block, 9 * slot), load3<S>(block, 9 * slot + 3), load3<S>(block, 9 * slot + 6)}};
+        add_to_diagonal(constant<S>(mass * a.system->masses.slot[size_t(slot)]), over);
+        if (i % 2 && !a.held[size_t(i)]) over = over + transposed(constant<S>(mass) * inertia_of<S>(i / 2));
+        if (i % 2 == 0) {
+            const Lanes33<S> damping = damping_of<S>(i / 2);
+            const Lanes3<S> push = load3<S>(a.drag_force.data(), 3 * (i / 2));
+            over = select(is_dragged(push, damping), over + constant<S>(step) * damping, over);
+        }
+        for (int r = 0; r < 3; ++r) store3(over.r[r], block, 9 * slot + 3 * r);
+    }
+    // As hold() in newton.cpp.
+    template <class S>
+    FROND_INLINE void hold() const {
+        const BlockPattern& pattern = *a.A.pattern;
+        for (int j = 0; j < pattern.node_count; ++j) {
+            for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
+                const int i = pattern.row[size_t(k)];
+                if (!a.held[size_t(i)] && !a.held[size_t(j)]) continue;
+                for (int n = 0; n < 9; ++n)
+                    store(constant<S>(i == j && n % 4 == 0 ? 1 : 0), a.A.values.data() + LANES<S> * size_t(9 * k + n));
+            }
+            if (a.held[size_t(j)]) store3(Lanes3<S>{}, a.rhs.data(), 3 * j);
+        }
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        for (int i = 0; i < a.system->elements->node_count; ++i) {
+            form_right_side<S>(i);
+            form_block<S>(i);
+        }
+        hold<S>();
+    }
+};
+
+// Where the step ends, unless a rotation vector is longer than half a turn there, or something no number.
+struct Finish {
+    Abreast& a;
+    const std::vector<uint8_t>& pinned;
+    double step;
+    unsigned& lost;
+    template <class S>
+    FROND_INLINE void run() const {
+        constexpr double NEARLY = 1 - 1e-9;
+        S sound = constant<S>(1);
+        for (int i = 0; i < a.system->elements->node_count; ++i) {
+            Lanes3<S> v = load3<S>(a.v_start.data(), 3 * i) + load3<S>(a.dv.data(), 3 * i);
+            Lanes3<S> x = load3<S>(a.x_base.data(), 3 * i) + constant<S>(step) * v;
+            if (pinned[size_t(i)]) {
+                x = load3<S>(a.x.data(), 3 * i);
+                v = load3<S>(a.v_start.data(), 3 * i);
+            }
+            const S most = constant<S>(i % 2 ? M_PI * M_PI * NEARLY : 1e300);
+            sound = select(dot(x, x) <= most, select(dot(v, v) <= 1e300, sound, S{}), S{});
+            store3(x, a.x_end.data(), 3 * i);
+            store3(v, a.v_end.data(), 3 * i);
+        }
+        for (int lane = 0; lane < LANES<S>; ++lane) lost |= unsigned(sound[lane] == 0) << lane;
+    }
+};
+
+struct CountLanes {
+    int& lanes;
+    template <class S>
+    FROND_INLINE void run() const {
+        lanes = LANES<S>;
+    }
+};
+
+}  // namespace
+
+bool may_go_abreast(const System& system, const SolveSettings& settings, double h) {
+    return system.row->abreast && system.plan.tree && system.masses.lumped && settings.integrator == FROND_BDF2 &&
+           settings.linear_solver == FROND_BLOCK && settings.newton_iterations == 1 && !settings.careful &&
+           !is_long_stage(system, h) && settings_are_sound(settings);
+}
+
+int lanes_abreast() {
+    int lanes = 0;
+    run_in_lanes(CountLanes{lanes});
+    return lanes;
+}
+
+void make_room(Abreast& a, std::shared_ptr<const System> system) {
+    const int lanes = lanes_abreast();
+    if (a.system == system && a.lanes == lanes) return;
+    a.lanes = lanes;
+    a.system = std::move(system);
+    const BlockPattern& pattern = a.system->elements->pattern;
+    const Eigen::Index n = 3 * lanes * Eigen::Index(pattern.node_count);
+    for (VecX* numbers : {&a.x, &a.v, &a.x_prev, &a.v_prev, &a.x_end, &a.v_end, &a.v_start, &a.x_from, &a.x_base,
+                          &a.v_base, &a.way, &a.elastic, &a.rhs, &a.dv, &a.drag_damping})
+        numbers->setZero(n);
+    a.gravity.setZero(3 * lanes);
+    a.drag_force.setZero(n / 2);
+    a.A.pattern = &pattern;
+    a.A.values.resize(9 * size_t(lanes) * pattern.row.size());
+}
+
+unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,
+                      double h_before) {
+    const System& system = *a.system;
+    const Elements& elements = *system.elements;
+    const Bdf2 method = bdf2_after(h_before, h);
+    a.held = system.loose;
+    for (size_t i = 0; i < pinned.size(); ++i) a.held[i] |= pinned[i];
+    run_in_lanes(LookBack{a, pinned, h, h_before, method});
+    unsigned lost = system.row->abreast->not_calm(elements, a.x, a.x_from);
+
+    system.row->abreast->rotary_inertia(elements, a.x, a.inertia);
+    a.elastic.setZero();
+    a.A.set_zero();
+    const double damping = damping_of(system, settings, a.element_damping);
+    system.row->abreast->add_ahead(
+        elements, a.x_from, {a.way, a.v_start, method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
+        a.elastic, a.A);
+    run_in_lanes(FormSystem{a, method.step, 1 + method.step * settings.mass_damping});
+
+    lost |= factorize(*system.plan.tree, a.A, a.factor);
+    solve(*system.plan.tree, a.factor, a.rhs, a.dv);
+    relative_residuals(a.A, a.rhs, a.dv, a.residual.data());
+    run_in_lanes(Finish{a, pinned, method.step, lost});
+    return lost;
+}
+
+}  // namespace frond

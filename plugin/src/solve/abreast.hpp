@@ -1,0 +1,43 @@
+// Abreast: plants of one system that take a step side by side, a plant a lane of the processor (core/lanes.hpp). Of
+// each vector every number is there once a lane. Only what every healthy step goes through is done so; a lane that
+// needs more is told of, and left as it was.
+#pragma once
+
+#include "solve/linear_solver.hpp"
+#include "solve/solve.hpp"
+#include "solve/tree_abreast.hpp"
+
+namespace frond {
+
+struct Abreast {
+    std::shared_ptr<const System> system;
+    int lanes = 0;
+    // In: of each plant.
+    VecX x, v, x_prev, v_prev;  // as in Motion and History
+    VecX gravity;               // [m/s^2]
+    // Drags of places at rest with the air, one a pair of nodes; zero: there is none there.
+    VecX drag_force, drag_damping;  // three numbers [N], and xx, xy, xz, yy, yz, zz [N s/m]
+    // Out.
+    VecX x_end, v_end;
+    std::array<double, 4> residual;
+
+    // Room for the step.
+    VecX v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia;
+    std::vector<uint8_t> held;
+    std::vector<double> element_damping;
+    BlockMatrix A;
+    TreeAbreast factor;
+};
+
+// Whether plants of such a system, with such settings, can go abreast in steps of h [s].
+bool may_go_abreast(const System& system, const SolveSettings& settings, double h);
+// As many plants as go abreast on this processor.
+int lanes_abreast();
+// For so many of a system.
+void make_room(Abreast& abreast, std::shared_ptr<const System> system);
+// A step of h [s] after one of h_before by bdf2, whose history holds in all lanes and whose pinned nodes stay where
+// they are. Returns the lanes that have to be stepped alone, a bit each.
+unsigned step_abreast(Abreast& abreast, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,
+                      double h_before);
+
+}  // namespace frond

@@ -1,0 +1,252 @@
+// In: matrices of a tree's pattern, one a lane. Out: factors and solutions. tree_factor.cpp adds up rows in lanes of
+// their own; here the same numbers are added in the same order.
+#include "solve/tree_abreast.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "core/lanes.hpp"
+
+namespace frond {
+
+namespace {
+
+constexpr int SIX = 6, OWN = 0, TO_PARENT = 36, INVERSE = 72, NUMBERS = 78;  // of a pair
+
+template <class S>
+FROND_INLINE S entry(const BlockMatrix& A, int slot, int i) {
+    return slot < 0 ? S{} : load<S>(A.values.data() + LANES<S> * size_t(9 * slot + i));
+}
+
+// a . b as lanes within a row add it up.
+template <class S>
+FROND_INLINE S dot_of_six(const S* a, const S* b) {
+    const S even = (a[0] * b[0] + a[2] * b[2]) + a[4] * b[4], odd = (a[1] * b[1] + a[3] * b[3]) + a[5] * b[5];
+    return even + odd;
+}
+
+// Unrolled by hand, as it were: six numbers stay in registers only if loops over them are gone.
+struct Factorize {
+    const TreePlan& plan;
+    const BlockMatrix& A;
+    double* numbers;
+    unsigned& failed;
+
+    template <class S>
+    FROND_INLINE double* of(size_t pair, int first) const {
+        return numbers + LANES<S> * (NUMBERS * pair + size_t(first));
+    }
+    // Only what is right of the diagonal counts.
+    template <class S>
+    FROND_INLINE void take_own(size_t i) const {
+        const std::array<int, 3>& slots = plan.pairs[i].own;
+        double* own = of<S>(i, OWN);
+#pragma GCC unroll 3
+        for (int r = 0; r < 3; ++r)
+#pragma GCC unroll 3
+            for (int c = 0; c < 3; ++c) {
+                store(entry<S>(A, slots[0], r + 3 * c), own + LANES<S> * (SIX * r + c));
+                store(entry<S>(A, slots[1], 3 * r + c), own + LANES<S> * (SIX * r + c + 3));
+                store(entry<S>(A, slots[2], r + 3 * c), own + LANES<S> * (SIX * (r + 3) + c + 3));
+            }
+    }
+    // Becomes L', its inverse pivots beside it. Returns what was sound, and is no more where a pivot is none.
+    template <class S>
+    FROND_INLINE S factorize_own(size_t i, S (&own)[SIX][SIX], S (&inverse)[SIX], const S& before) const {
+        S sound = before;
+        double* at = of<S>(i, OWN);
+#pragma GCC unroll 6
+        for (int r = 0; r < SIX; ++r)
+#pragma GCC unroll 6
+            for (int c = r; c < SIX; ++c) own[r][c] = load<S>(at + LANES<S> * (SIX * r + c));
+#pragma GCC unroll 6
+        for (int k = 0; k < SIX; ++k) {
+            const S d = own[k][k];
+            sound = select(d > 0.0, select(d < std::numeric_limits<double>::infinity(), sound, S{}), S{});
+            inverse[k] = 1.0 / d;
+#pragma GCC unroll 6
+            for (int r = k + 1; r < SIX; ++r) {
+                const S times = own[k][r] * inverse[k];
+#pragma GCC unroll 6
+                for (int c = r; c < SIX; ++c) own[r][c] -= times * own[k][c];
+            }
+#pragma GCC unroll 6
+            for (int c = 0; c < SIX; ++c) {
+                own[k][c] = c > k ? S(own[k][c] * inverse[k]) : S{};
+                store(own[k][c], at + LANES<S> * (SIX * k + c));
+            }
+            store(inverse[k], of<S>(i, INVERSE + k));
+        }
+        return sound;
+    }
+    // Column by column of its block with the parent.
+    template <class S>
+    FROND_INLINE void eliminate(size_t i, const S (&own)[SIX][SIX], const S (&inverse)[SIX]) const {
+        const TreePlan::Pair& place = plan.pairs[i];
+        S C[SIX][SIX], over[SIX][SIX];
+#pragma GCC unroll 6
+        for (int c = 0; c < SIX; ++c) {
+            S y[SIX];
+#pragma GCC unroll 6
+            for (int r = 0; r < SIX; ++r) y[r] = entry<S>(A, place.link[size_t(r / 3 + c / 3 * 2)], r % 3 + c % 3 * 3);
+#pragma GCC unroll 6
+            for (int k = 0; k < SIX; ++k) {
+#pragma GCC unroll 6
+                for (int r = k + 1; r < SIX; ++r) y[r] -= own[k][r] * y[k];
+                C[k][c] = y[k];
+                over[k][c] = y[k] * inverse[k];
+                store(over[k][c], of<S>(i, TO_PARENT + SIX * k + c));
+            }
+        }
+        double* parent = of<S>(size_t(place.parent), OWN);
+#pragma GCC unroll 6
+        for (int r = 0; r < SIX; ++r)
+#pragma GCC unroll 6
+            for (int c = r; c < SIX; ++c) {
+                double* to = parent + LANES<S> * (SIX * r + c);
+                S sum = load<S>(to);
+#pragma GCC unroll 6
+                for (int k = 0; k < SIX; ++k) sum -= over[k][r] * C[k][c];
+                store(sum, to);
+            }
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        S sound = constant<S>(1);
+        for (size_t i = 0; i < plan.pairs.size(); ++i) take_own<S>(i);
+        for (size_t i = plan.pairs.size(); i-- > 0;) {
+            S own[SIX][SIX];
+            S inverse[SIX];
+            sound = factorize_own(i, own, inverse, sound);
+            if (plan.pairs[i].parent >= 0) eliminate(i, own, inverse);
+        }
+        failed = 0;
+        for (int lane = 0; lane < LANES<S>; ++lane) failed |= unsigned(sound[lane] == 0) << lane;
+    }
+};
+
+struct Solve {
+    const TreePlan& plan;
+    const double* numbers;
+    double* y;
+
+    template <class S>
+    FROND_INLINE S at(size_t pair, int i) const {
+        return load<S>(numbers + LANES<S> * (NUMBERS * pair + size_t(i)));
+    }
+    template <class S>
+    struct Six {
+        S at[SIX];
+        FROND_INLINE explicit Six(const double* from) {
+            for (int k = 0; k < SIX; ++k) at[k] = load<S>(from + LANES<S> * k);
+        }
+        FROND_INLINE void put(double* to) const {
+            for (int k = 0; k < SIX; ++k) store(at[k], to + LANES<S> * k);
+        }
+    };
+    template <class S>
+    FROND_INLINE double* of(size_t pair) const {
+        return y + LANES<S> * SIX * pair;
+    }
+    template <class S>
+    FROND_INLINE void down() const {
+        for (size_t i = plan.pairs.size(); i-- > 0;) {
+            Six<S> own(of<S>(i));
+#pragma GCC unroll 6
+            for (int k = 0; k + 1 < SIX; ++k)
+#pragma GCC unroll 6
+                for (int c = 0; c < SIX; ++c)
+                    if (c != k) own.at[c] -= own.at[k] * at<S>(i, OWN + SIX * k + c);
+            own.put(of<S>(i));
+            if (plan.pairs[i].parent < 0) continue;
+            double* to = of<S>(size_t(plan.pairs[i].parent));
+            Six<S> sum(to);
+#pragma GCC unroll 6
+            for (int k = 0; k < SIX; ++k)
+#pragma GCC unroll 6
+                for (int c = 0; c < SIX; ++c) sum.at[c] -= own.at[k] * at<S>(i, TO_PARENT + SIX * k + c);
+            sum.put(to);
+        }
+    }
+    template <class S>
+    FROND_INLINE void up() const {
+        for (size_t i = 0; i < plan.pairs.size(); ++i) {
+            Six<S> own(of<S>(i));
+            for (int k = 0; k < SIX; ++k) own.at[k] *= at<S>(i, INVERSE + k);
+            if (plan.pairs[i].parent >= 0) {
+                const Six<S> parent(of<S>(size_t(plan.pairs[i].parent)));
+#pragma GCC unroll 6
+                for (int k = 0; k < SIX; ++k) {
+                    const Six<S> row(numbers + LANES<S> * (NUMBERS * i + size_t(TO_PARENT + SIX * k)));
+                    own.at[k] -= dot_of_six(parent.at, row.at);
+                }
+            }
+#pragma GCC unroll 6
+            for (int k = SIX - 2; k >= 0; --k) {
+                const Six<S> row(numbers + LANES<S> * (NUMBERS * i + size_t(OWN + SIX * k)));
+                own.at[k] -= dot_of_six(own.at, row.at);
+            }
+            own.put(of<S>(i));
+        }
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        down<S>();
+        up<S>();
+    }
+};
+
+struct FindResiduals {
+    const BlockMatrix& A;
+    const VecX &b, &x;
+    VecX& left;
+    double* out;
+    template <class S>
+    FROND_INLINE void run() const {
+        const BlockPattern& pattern = *A.pattern;
+        left = b;
+        for (int j = 0; j < pattern.node_count; ++j)
+            for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
+                const int i = pattern.row[size_t(k)];
+                const double* a = A.values.data() + LANES<S> * 9 * size_t(k);
+                // By columns: what is read as rows is the block turned over.
+                const Lanes33<S> over = {{load3<S>(a, 0), load3<S>(a, 3), load3<S>(a, 6)}};
+                store3(load3<S>(left.data(), 3 * i) - transposed_times(over, load3<S>(x.data(), 3 * j)), left.data(),
+                       3 * i);
+                if (i == j) continue;
+                store3(load3<S>(left.data(), 3 * j) - over * load3<S>(x.data(), 3 * i), left.data(), 3 * j);
+            }
+        S rest = {}, all = {};
+        for (int i = 0; i < pattern.node_count; ++i) {
+            const Lanes3<S> of_rest = load3<S>(left.data(), 3 * i), of_all = load3<S>(b.data(), 3 * i);
+            rest += dot(of_rest, of_rest);
+            all += dot(of_all, of_all);
+        }
+        for (int lane = 0; lane < LANES<S>; ++lane)
+            out[lane] = all[lane] > 0     ? std::sqrt(rest[lane] / all[lane])
+                        : rest[lane] == 0 ? 0
+                                          : std::numeric_limits<double>::infinity();
+    }
+};
+
+}  // namespace
+
+unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeAbreast& factor) {
+    const size_t lanes = A.values.size() / (9 * size_t(A.pattern->block_count()));
+    factor.numbers.resize(lanes * NUMBERS * plan.pairs.size());
+    unsigned failed = 0;
+    run_in_lanes(Factorize{plan, A, factor.numbers.data(), failed});
+    return failed;
+}
+
+void solve(const TreePlan& plan, const TreeAbreast& factor, const VecX& b, VecX& x) {
+    x = b;
+    run_in_lanes(Solve{plan, factor.numbers.data(), x.data()});
+}
+
+void relative_residuals(const BlockMatrix& A, const VecX& b, const VecX& x, double* out) {
+    VecX left;
+    run_in_lanes(FindResiduals{A, b, x, left, out});
+}
+
+}  // namespace frond

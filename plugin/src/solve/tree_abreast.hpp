@@ -1,0 +1,20 @@
+// TreeAbreast: factors of the matrices of several plants abreast, of the pattern of one tree (tree_factor.hpp), to the last
+// bit as of each alone.
+#pragma once
+
+#include "solve/tree_factor.hpp"
+
+namespace frond {
+
+struct TreeAbreast {
+    std::vector<double> numbers;  // of a pair: L' of its own, row by row, L' to its parent, and 1 / D
+};
+
+// Returns the lanes whose matrix is not positive definite, a bit each.
+unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeAbreast& factor);
+// x = A^-1 b
+void solve(const TreePlan& plan, const TreeAbreast& factor, const VecX& b, VecX& x);
+// |b - A x| / |b| of each lane.
+void relative_residuals(const BlockMatrix& A, const VecX& b, const VecX& x, double* out);
+
+}  // namespace frond

@@ -1,0 +1,167 @@
+// Plants that are stepped side by side go as each alone does, to the last bit, in lanes of any width, whatever happens
+// to one of them.
+#include "plant/abreast.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "build/build.hpp"
+#include "core/lanes.hpp"
+#include "support/materials.hpp"
+#include "support/model_def.hpp"
+#include "support/soups.hpp"
+
+namespace frond::test {
+namespace {
+
+constexpr double H = 1.0 / 60;
+
+// A stem with branches whose organs damp differently, or a blade.
+std::shared_ptr<const Model> model_of(bool is_blade) {
+    frond_model_def def = model_def();
+    def.capsule_height = 0.08;
+    def.cage_size = 0.1;
+    Material material = plain_material(900, 2e7, 0.3, 0.02);
+    if (is_blade) {
+        Surface surface;
+        add_sheet(surface, 2, 20, [](double s, double t) { return Vec3(0.1 * t * t, 0.6 * t, 0.06 * (s - 0.5)); });
+        surface.parts[0].name = "blade";
+        const frond_organ_material organ = {"blade", material};
+        def.organs = &organ;
+        def.organ_count = 1;
+        return build_from_surface(std::move(surface), def);
+    }
+    const frond_stem stems[] = {
+        {-1, {0, 0, 0}, {0, 0.4, 0}, 0.008, 0.006},       {0, {0, 0.4, 0}, {0.02, 0.8, 0}, 0.006, 0.003},
+        {0, {0, 0.4, 0}, {0.3, 0.6, 0.1}, 0.004, 0.002},  {1, {0.02, 0.8, 0}, {-0.2, 0.95, 0.05}, 0.003, 0.002},
+        {0, {0, 0.4, 0}, {-0.1, 0.6, 0.2}, 0.004, 0.002}, {0, {0, 0.4, 0}, {-0.1, 0.6, -0.2}, 0.004, 0.002}};
+    const frond_organ_material organ = {"stem_1", material};
+    def.organs = &organ;
+    def.organ_count = 1;
+    return build_from_stems(stems, 6, def);
+}
+
+struct Width {
+    const bool before = takes_four_lanes();
+    explicit Width(bool narrow) { takes_four_lanes() = before && !narrow; }
+    ~Width() { takes_four_lanes() = before; }
+};
+
+// Plants of a model, here and there, turned this way and that, in gusts.
+struct Field {
+    std::vector<std::unique_ptr<Plant>> plants;
+    std::unique_ptr<Wind> wind;
+    Surroundings surroundings;
+    int abreast = 0, alone = 0;  // steps taken; who goes alone is lent a workspace of its own
+
+    Field(const std::shared_ptr<const Model>& model, int count, double speed) {
+        for (int i = 0; i < count; i++) {
+            frond_plant_def def = plant_def(FROND_ROD);
+            def.position = {1.3 * i, 0, 0.7 * i * i};
+            const double angle = 0.3 + 0.8 * i;
+            def.rotation = {0.1 * i, std::sin(angle), 0, std::cos(angle)};
+            def.mass_damping = 0.1;
+            def.stiffness_damping = 0.001;
+            def.material_damping = 1;
+            plants.push_back(create_plant(model, def));
+        }
+        surroundings.gravity = Vec3(0, -9.81, 0);
+        if (speed == 0) return;
+        frond_wind_def def = {};
+        def.velocity = {speed, 0, 0.3 * speed};
+        def.turbulence = 0.3;
+        def.length_scale = 10;
+        def.seed = 5;
+        def.profile = FROND_WIND_LOG;
+        def.reference_height = 2;
+        def.roughness = 0.01;
+        def.density = 1.2;
+        wind = make_wind(def);
+        surroundings.wind = wind.get();
+    }
+    void step(bool side_by_side) {
+        if (wind) pass_time(*wind, H);
+        surroundings.time += H;
+        std::vector<Plant*> together;
+        for (const auto& plant : plants) {
+            if (side_by_side && may_go_abreast(*plant, surroundings, H) &&
+                (together.empty() || go_alike(*together[0], *plant)))
+                together.push_back(plant.get());
+            else
+                solve_plant(*plant, surroundings, H);
+        }
+        const size_t most = size_t(most_abreast());
+        for (size_t i = 0; i < together.size(); i += most)
+            solve_abreast(together.data() + i, int(std::min(most, together.size() - i)), surroundings, H);
+        for (const auto& plant : plants) {
+            ++(plant->workspace ? alone : abreast);
+            accept_step(*plant, surroundings, H);
+            clear_user_force(*plant);
+        }
+    }
+};
+
+// What hosts do to single plants meanwhile.
+void disturb(Field& field, int step) {
+    Plant& third = *field.plants[2];
+    if (step == 60) pin_node(third, node_count_of(third) - 1);
+    if (step == 90) unpin_node(third, node_count_of(third) - 1);
+    if (step >= 100 && step < 110) {
+        field.plants[0]->user_force = VecX::Constant(3 * node_count_of(*field.plants[0]), 0.02);
+        field.plants[0]->has_user_force = true;
+    }
+    if (step == 120) {
+        const VecX x = 1.01 * cage_places(*field.plants[1]);
+        std::vector<double> world;
+        for (int i = 0; i < node_count_of(*field.plants[1]); i++)
+            for (int c = 0; c < 3; c++) world.push_back(field.plants[1]->to_world(point(x, i))[c]);
+        set_state(*field.plants[1], world.data(), nullptr);
+    }
+}
+
+// Zeros have the same sign too.
+bool are_same_bits(const VecX& a, const VecX& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), size_t(a.size()) * sizeof(double)) == 0;
+}
+
+void expect_same(const Plant& a, const Plant& b) {
+    ASSERT_EQ(a.motion.x, b.motion.x);
+    ASSERT_EQ(a.motion.v, b.motion.v);
+    ASSERT_TRUE(are_same_bits(a.motion.x, b.motion.x));
+    ASSERT_TRUE(are_same_bits(a.motion.v, b.motion.v));
+    ASSERT_EQ(a.x_good, b.x_good);
+    ASSERT_EQ(air_force(a), air_force(b));
+    ASSERT_EQ(a.trouble, b.trouble);
+    ASSERT_EQ(a.is_off_course, b.is_off_course);
+    ASSERT_EQ(lasting_of(a), lasting_of(b));
+    ASSERT_NEAR(a.report.residual, b.report.residual, 1e-12);
+}
+
+// (blade, wind [m/s], narrow lanes)
+struct Abreast : testing::TestWithParam<std::tuple<bool, double, bool>> {};
+INSTANTIATE_TEST_SUITE_P(Plants, Abreast,
+                         testing::Combine(testing::Bool(), testing::Values(0.0, 3.0, 25.0), testing::Bool()));
+
+TEST_P(Abreast, GoAsAlone) {
+    const auto [is_blade, speed, narrow] = GetParam();
+    const Width width(narrow);
+    const auto model = model_of(is_blade);
+    Field together(model, 7, speed), apart(model, 7, speed);
+    for (int step = 0; step < 240; ++step) {
+        for (Field* field : {&together, &apart}) disturb(*field, step);
+        together.step(true);
+        apart.step(false);
+        for (size_t i = 0; i < together.plants.size(); i++) {
+            expect_same(*together.plants[i], *apart.plants[i]);
+            if (HasFatalFailure()) FAIL() << "plant " << i << " in step " << step;
+        }
+    }
+    EXPECT_GT(together.abreast, speed > 10 ? 40 : 240 * 5);  // a gale takes most out
+    EXPECT_GT(together.alone, 7);
+    EXPECT_EQ(apart.abreast, 0);
+}
+
+}  // namespace
+}  // namespace frond::test

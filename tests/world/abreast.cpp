@@ -1,0 +1,109 @@
+// Plants of a world, which are stepped side by side where they can be, go as each does in a world of its own, to the
+// last bit, on any number of threads; while they are woken one by one, and one is hit.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include "frond/frond.h"
+#include "support/stems.hpp"
+
+namespace {
+
+constexpr double H = 1.0 / 60;
+constexpr int COUNT = 7, HIT = 3, STEPS = 200;
+
+void parallel_for(int count, frond_job_fn* job, void* data, void* user) {
+    std::atomic<int> next{0};
+    const auto work = [&] {
+        for (int i = next++; i < count; i = next++) job(data, i);
+    };
+    std::vector<std::thread> others;
+    for (int i = 1; i < *static_cast<int*>(user); i++) others.emplace_back(work);
+    work();
+    for (std::thread& other : others) other.join();
+}
+
+// Some of the plants, always the same at the same place, and the ball that hits one of them if that is there.
+struct Garden {
+    frond_world world = {};
+    std::vector<frond_plant> plants;
+    std::vector<int> which;
+    int contacts = 0;
+
+    Garden(frond_model model, const std::vector<int>& of, int* threads) : which(of) {
+        frond_world_def def = frond_default_world_def();
+        if (threads) {
+            def.parallel_for = parallel_for;
+            def.parallel_user = threads;
+        }
+        EXPECT_EQ(frond_world_create(&def, &world), FROND_OK);
+        for (const int i : of) {
+            frond_plant_def plant_def = frond_default_plant_def();
+            plant_def.mechanics = FROND_ROD;
+            plant_def.position = {3.0 * i, 0, 0.5 * i};
+            plant_def.rotation = {0, std::sin(0.4 * i), 0, std::cos(0.4 * i)};
+            plant_def.starts_asleep = true;
+            plants.emplace_back();
+            EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plants.back()), FROND_OK);
+            if (i == HIT) add_ball();
+        }
+    }
+    ~Garden() { frond_world_destroy(world); }
+    void add_ball() {
+        frond_rigid_def ball = frond_default_rigid_def();
+        ball.size = {0.05, 0, 0};
+        ball.mass = 0.1;
+        ball.state.position = {3.0 * HIT - 2.5, 1.2, 0.5 * HIT};
+        ball.state.velocity = {3, 3, 0};
+        frond_rigid rigid = {};
+        EXPECT_EQ(frond_rigid_create(world, &ball, &rigid), FROND_OK);
+    }
+    void step(int number) {
+        for (size_t i = 0; i < plants.size(); i++)
+            if (number == 5 * which[i]) {
+                EXPECT_EQ(frond_plant_wake(plants[i]), FROND_OK);
+            }
+        // Sleepers would feel it in turns that depend on how many there are.
+        if (number == 5 * COUNT) {
+            frond_wind_def wind = frond_default_wind_def();
+            wind.velocity = {4, 0, 1};
+            EXPECT_EQ(frond_world_set_wind(world, &wind), FROND_OK);
+        }
+        EXPECT_EQ(frond_world_step(world, H), FROND_OK) << frond_last_error();
+        frond_report report = {};
+        EXPECT_EQ(frond_world_get_report(world, &report), FROND_OK);
+        contacts += report.contact_count;
+    }
+    std::vector<double> state(size_t i) const {
+        const int nodes = frond_plant_get_node_count(plants[i]);
+        std::vector<double> x(size_t(3 * nodes)), v(x.size());
+        EXPECT_EQ(frond_plant_get_state(plants[i], x.data(), v.data(), nodes), FROND_OK);
+        x.insert(x.end(), v.begin(), v.end());
+        return x;
+    }
+};
+
+TEST(Abreast, PlantsOfAWorldGoAsEachAlone) {
+    const frond_model model = make_small_model(2e6, FROND_REST_STANDS_AS_MODELLED);
+    std::vector<std::vector<double>> alone;
+    for (int i = 0; i < COUNT; i++) {
+        Garden garden(model, {i}, nullptr);
+        for (int k = 0; k < STEPS; k++) garden.step(k);
+        alone.push_back(garden.state(0));
+        EXPECT_EQ(garden.contacts > 0, i == HIT);
+    }
+    std::vector<int> all;
+    for (int i = 0; i < COUNT; i++) all.push_back(i);
+    for (int threads : {1, 2, 3, 4}) {
+        Garden garden(model, all, &threads);
+        for (int k = 0; k < STEPS; k++) garden.step(k);
+        for (size_t i = 0; i < COUNT; i++)
+            EXPECT_EQ(garden.state(i), alone[i]) << "plant " << i << ", threads " << threads;
+    }
+    frond_model_destroy(model);
+}
+
+}  // namespace
