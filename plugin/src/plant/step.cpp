@@ -235,7 +235,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     else
         plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
-    const bool is_spent = plant.report.work >= settings.most_work;
+    const bool is_spent = plant.report.work >= plant.step_settings.most_work;
     if (is_spent) lose_patience(plant);
     if (!plant.report.ok || !is_plausible(plant, h))
         solve_carefully(plant, h);
