@@ -67,11 +67,24 @@ static bool has_run_away(const Plant& plant) {
            !are_near(plant, plant.x_good, FARTHEST_WAY * size + BACK * reach_at_start(plant));
 }
 
-// And none has gone elsewhere than it was heading by energy that came from nowhere.
-static bool is_plausible(Plant& plant, double h) {
-    plant.is_off_course = ends_off_course(plant, h);
-    const EnergyLook look = plant.is_off_course ? look_at_energy(plant, h) : EnergyLook();
-    plant.is_off_course &= !look.was_small;  // too weak to be torn
+// What is pressed springs far in a solve that knows of no contact yet: then its energy tells nothing.
+enum class Contacts { TO_COME, DONE };
+
+// Of a step that was only solved yet.
+static Contacts contacts_of(const Plant& plant) {
+    return plant.is_touched ? Contacts::TO_COME : Contacts::DONE;
+}
+
+// And none has gone elsewhere than it was heading by energy that came from nowhere; `work` was done by contacts [J].
+static bool is_plausible(Plant& plant, double h, Contacts contacts, double work = 0) {
+    bool is_off_course = ends_off_course(plant, h);
+    // A push that turns a chain's piece a little, in a straight line, draws it out by more than its sway has.
+    const bool is_asked = is_off_course || (plant.is_touched && plant.follow);
+    const bool is_told = is_asked && contacts == Contacts::DONE;
+    const EnergyLook look = is_told ? look_at_energy(plant, h, work) : EnergyLook();
+    is_off_course &= !look.was_small;  // too weak to be torn
+    // By itself: contacts tear nothing.
+    if (!plant.is_touched || contacts == Contacts::TO_COME) plant.is_off_course = is_off_course;
     return !look.comes_from_nowhere && !has_run_away(plant);
 }
 
@@ -118,7 +131,7 @@ static int work_allowed(const Plant& plant) {
 }
 
 // By what cannot overshoot; where a whole step is too long for that too, several short ones.
-static void solve_carefully(Plant& plant, double h) {
+static void solve_carefully(Plant& plant, double h, Contacts contacts) {
     constexpr int ITERATIONS = 30, PARTS = 4;
     constexpr float LEAST_FOR_PARTS = 0.5;
     SolveSettings settings = plant.step_settings;
@@ -128,13 +141,13 @@ static void solve_carefully(Plant& plant, double h) {
     settings.most_work = work_allowed(plant);
     plant.trouble |= FROND_TROUBLE_RETRIED;
     solve_in_equal_parts(plant, settings, 1, h);
-    bool is_good = plant.report.ok && is_plausible(plant, h);
+    bool is_good = plant.report.ok && is_plausible(plant, h, contacts);
     const bool has_time = plant.patience >= LEAST_FOR_PARTS;
     if (!is_good || !plant.report.converged) lose_patience(plant);
     if (!is_good && has_time) {
         settings.most_work /= PARTS;
         solve_in_equal_parts(plant, settings, PARTS, h);
-        is_good = plant.report.ok && is_plausible(plant, h);
+        is_good = plant.report.ok && is_plausible(plant, h, contacts);
     }
     plant.report.ok = is_good;
 }
@@ -189,7 +202,8 @@ static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond
         update_chain(plant);
         gather_air(plant, surroundings, effects, h / parts);
         plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / parts, plant.motion);
-        if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x)) solve_carefully(plant, h / parts);
+        if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x))
+            solve_carefully(plant, h / parts, contacts_of(plant));
         hold_what_is_drawn_out(plant, effects, h / parts);
         plant.report.add_cost(spent);
         spent = plant.report;
@@ -237,8 +251,8 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
     const bool is_spent = plant.report.work >= plant.step_settings.most_work;
     if (is_spent) lose_patience(plant);
-    if (!plant.report.ok || !is_plausible(plant, h))
-        solve_carefully(plant, h);
+    if (!plant.report.ok || !is_plausible(plant, h, contacts_of(plant)))
+        solve_carefully(plant, h, contacts_of(plant));
     else if (!is_spent)
         gain_patience(plant);
     hold_what_is_drawn_out(plant, effects, h);
@@ -264,19 +278,24 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
 }
 
 void add_contacts(Plant& plant, double h) {
-    if (plant.contact_impulse.size() == 0 && plant.contact_shift.size() == 0) return;
-    VecX dv;
-    const VecX impulse = std::move(plant.contact_impulse), shift = std::move(plant.contact_shift);
+    if (!plant.is_sound) return;
+    const bool is_pushed = plant.contact_impulse.size() > 0;
+    const VecX impulse = is_pushed ? std::move(plant.contact_impulse) : VecX(VecX::Zero(plant.motion.v.size()));
+    const VecX shift = std::move(plant.contact_shift);
     plant.contact_impulse.resize(0);
     plant.contact_shift.resize(0);
     // A wind turns rods far within a step, which no contact has to answer for.
     const VecX before = plant.follow ? plant.motion.x : plant.x_good;
-    if (impulse.size() > 0 && respond(*plant.workspace, plant.settings, impulse, dv))
+    VecX dv;
+    if (is_pushed && respond(*plant.workspace, plant.settings, impulse, dv))
         add_response(*plant.workspace, dv, plant.motion);
-    if (!is_calm(*plant.system, before, plant.motion.x)) {
+    // What pushes goes along with what it pushed.
+    const double work = std::max(0.0, impulse.dot(plant.motion.v));
+    const bool is_bent = is_pushed && !is_calm(*plant.system, before, plant.motion.x);
+    if (is_bent || !is_plausible(plant, h, Contacts::DONE, work)) {
         // Too much for a linear answer: the same push, along the plant's own curve.
-        if (impulse.size() > 0) plant.loads.force += impulse / h;
-        solve_carefully(plant, h);
+        plant.loads.force += impulse / h;
+        solve_carefully(plant, h, Contacts::DONE);
     }
     if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
     plant.is_sound = is_sound(plant) && !has_run_away(plant) && !is_far_out(plant);

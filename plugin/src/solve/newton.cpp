@@ -259,7 +259,8 @@ bool search_line(Newton& n, VecX& rhs, double& norm) {
     return false;
 }
 
-// A search that may end early starts where it has least to undo: at the velocities so far, or standing still.
+// Where a way straight on would wind pieces up, a search from there ends in another valley than where the plant is, or not at all: then it
+// begins at rest, and ends with no more energy than the step began with and was given.
 void stand_still_if_better(Newton& n) {
     Workspace& w = n.w;
     const double moving = potential_at(n, w.v);

@@ -225,6 +225,11 @@ const std::vector<Coupling>& couple(Coupler& coupler, int by) {
     return row;
 }
 
+// Also of plants that nothing pushes: what they came to without contacts stands now.
+void end_steps(const ContactIsland& island) {
+    for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending);
+}
+
 // Adds what the rows got to both sides. Returns the rigid bodies among them.
 std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, std::vector<Row>& rows,
                                const Pushes& pushes) {
@@ -239,7 +244,7 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
                   [](Plant& p, const PlantTouch& touch, const Vec3& impulse) { take_impulse(p, touch, impulse); });
         if (!pushes.shifts.empty()) to_plants(rows[i], pushes.shifts[i], take_shift);
     }
-    for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending);
+    end_steps(island);
     std::vector<btRigidBody*> pushed;
     // A plant that cannot bear it is put back, and then pushes nothing.
     for (size_t i = 0; i < rows.size(); i++) {
@@ -260,7 +265,10 @@ std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& resp
     for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
     for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
     for (Bond* bond : island.bonds) add_row(*bond, h, rows);
-    if (all_wait(rows, h)) return {};
+    if (all_wait(rows, h)) {
+        end_steps(island);
+        return {};
+    }
     find_answers(rows);
     std::vector<Touch> touches;
     for (const Row& row : rows) touches.push_back(row.touch);

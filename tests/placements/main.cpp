@@ -1,0 +1,82 @@
+// placements: how many pairs of corn plants that were made in each other are out of each other from 2 to 4 s, by FCL. Two of
+// the placements are those of the scene corn_pair and of examples/pair.c, the others random.
+//     placements [COUNT [STEPS_A_SECOND [MECHANICS [AT_LEAST]]]]
+// Fails if fewer than AT_LEAST of them are less than 1 mm in each other.
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <string>
+
+#include "support/stand.hpp"
+
+namespace frond::test {
+namespace {
+
+constexpr double APART = 0.001;  // [m]
+
+// From the generator's bits, so that all libraries draw alike.
+double between(std::mt19937& random, double low, double high) {
+    return low + (high - low) * double(random()) / double(std::mt19937::max());
+}
+
+// Plants 0.8 to 1 m from each other, turned anyhow, whose cages are in each other by 1 cm or more.
+Placement draw_placement(std::mt19937& random) {
+    constexpr double NEAREST = 0.8, FARTHEST = 1, IN = 0.01;  // [m]
+    for (;;) {
+        const double away = between(random, NEAREST, FARTHEST), angle = between(random, 0, 2 * M_PI);
+        const double first = between(random, 0, 2 * M_PI), second = between(random, 0, 2 * M_PI);
+        const Placement placement = {{away * std::cos(angle), 0, away * std::sin(angle)}, {first, second}};
+        if (CornPair(FROND_RESPONSE_NONE, FROND_TET_COROTATIONAL, H, placement).cage_depth() > IN) return placement;
+    }
+}
+
+struct Deepest {
+    double cages = 0, surfaces = 0;  // [m]
+    int late = 0;                    // steps with more than allowed
+};
+
+// Of all steps from 2 to 4 s. Rods do not touch by their cages.
+Deepest play(const Placement& placement, frond_mechanics mechanics, int steps_a_second) {
+    CornPair pair(FROND_RESPONSE_IMPULSE, mechanics, 1.0 / steps_a_second, placement);
+    const bool by_cages = mechanics != FROND_ROD && mechanics != FROND_SPRING_CHAIN;
+    Deepest deepest;
+    pair.steps(2 * steps_a_second - 1);
+    for (int i = 0; i <= 2 * steps_a_second; i++) {
+        pair.steps(1);
+        const double cages = by_cages ? pair.cage_depth() : 0, surfaces = pair.surface_depth();
+        deepest.cages = std::max(deepest.cages, cages);
+        deepest.surfaces = std::max(deepest.surfaces, surfaces);
+        deepest.late += std::max(cages, surfaces) >= APART;
+    }
+    return deepest;
+}
+
+int run(int count, int steps_a_second, frond_mechanics mechanics, int at_least) {
+    std::mt19937 random(1);
+    int apart = 0;
+    std::printf("%s, 1/%d s; deepest from 2 to 4 s [mm]\n%-3s %7s %7s %7s %7s %9s %9s %7s\n", frond_mechanics_name(mechanics),
+                steps_a_second, "", "x", "z", "turn", "turn", "cages", "surfaces", "steps");
+    for (int i = 0; i < count; i++) {
+        const Placement placement = i == 0 ? AS_IN_SCENE : i == 1 ? AS_IN_EXAMPLE : draw_placement(random);
+        const Deepest deepest = play(placement, mechanics, steps_a_second);
+        apart += deepest.late == 0;
+        std::printf("%-3d %7.3f %7.3f %7.3f %7.3f %9.2f %9.2f %7d\n", i, placement.place.x, placement.place.z, placement.turns[0],
+                    placement.turns[1], 1000 * deepest.cages, 1000 * deepest.surfaces, deepest.late);
+        std::fflush(stdout);
+    }
+    std::printf("%d of %d less than 1 mm in each other\n", apart, count);
+    return apart < at_least;
+}
+
+}  // namespace
+}  // namespace frond::test
+
+int main(int argc, char** argv) {
+    const auto number = [&](int k, int otherwise) { return argc > k ? std::atoi(argv[k]) : otherwise; };
+    const std::string wanted = argc > 3 ? argv[3] : frond_mechanics_name(FROND_TET_COROTATIONAL);
+    for (int which = 0; which < FROND_MECHANICS_COUNT; which++)
+        if (wanted == frond_mechanics_name(frond_mechanics(which)))
+            return frond::test::run(number(1, 30), std::max(1, number(2, 60)), frond_mechanics(which), number(4, 0));
+    std::fprintf(stderr, "there are no mechanics %s\n", wanted.c_str());
+    return 2;
+}
