@@ -163,8 +163,8 @@ SolveReport solve_in_substeps(Plant& plant, double h);
 Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effects effects);
 SolveSettings settings_for(const Plant& plant, frond_effects effects);
 // Takes contact_impulse and contact_shift, if there are any, into the step that was solved, of a plant in touch: only now its
-// energy tells whether the step went wrong.
-void add_contacts(Plant& plant, double h);
+// energy tells whether the step went wrong. `lost`: by bodies that push it [J].
+void add_contacts(Plant& plant, double h, double lost);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Both.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);

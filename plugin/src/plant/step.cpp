@@ -77,14 +77,11 @@ static Contacts contacts_of(const Plant& plant) {
 
 // And none has gone elsewhere than it was heading by energy that came from nowhere; `work` was done by contacts [J].
 static bool is_plausible(Plant& plant, double h, Contacts contacts, double work = 0) {
-    bool is_off_course = ends_off_course(plant, h);
-    // A push that turns a chain's piece a little, in a straight line, draws it out by more than its sway has.
-    const bool is_asked = is_off_course || (plant.is_touched && plant.follow);
-    const bool is_told = is_asked && contacts == Contacts::DONE;
+    plant.is_off_course = ends_off_course(plant, h);
+    // A push that turns a chain's piece a little, in a straight line, draws it out by more than its sway has. Cages are soft.
+    const bool is_told = plant.is_touched ? contacts == Contacts::DONE && plant.follow : plant.is_off_course;
     const EnergyLook look = is_told ? look_at_energy(plant, h, work) : EnergyLook();
-    is_off_course &= !look.was_small;  // too weak to be torn
-    // By itself: contacts tear nothing.
-    if (!plant.is_touched || contacts == Contacts::TO_COME) plant.is_off_course = is_off_course;
+    plant.is_off_course &= !look.was_small;  // too weak to be torn
     return !look.comes_from_nowhere && !has_run_away(plant);
 }
 
@@ -138,6 +135,8 @@ static void solve_carefully(Plant& plant, double h, Contacts contacts) {
     settings.integrator = FROND_IMPLICIT_EULER;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
+    // Where entangled rods are bent by their leaves' tips, all would stand still and never part.
+    settings.from_rest = !plant.is_entangled;
     settings.most_work = work_allowed(plant);
     plant.trouble |= FROND_TROUBLE_RETRIED;
     solve_in_equal_parts(plant, settings, 1, h);
@@ -277,7 +276,7 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
     }
 }
 
-void add_contacts(Plant& plant, double h) {
+void add_contacts(Plant& plant, double h, double lost) {
     if (!plant.is_sound) return;
     const bool is_pushed = plant.contact_impulse.size() > 0;
     const VecX impulse = is_pushed ? std::move(plant.contact_impulse) : VecX(VecX::Zero(plant.motion.v.size()));
@@ -289,8 +288,8 @@ void add_contacts(Plant& plant, double h) {
     VecX dv;
     if (is_pushed && respond(*plant.workspace, plant.settings, impulse, dv))
         add_response(*plant.workspace, dv, plant.motion);
-    // What pushes goes along with what it pushed.
-    const double work = std::max(0.0, impulse.dot(plant.motion.v));
+    // Bodies lose more than what they push gets where they are slowed by it; other plants go along with what they pushed.
+    const double work = std::max({0.0, lost, impulse.dot(plant.motion.v)});
     const bool is_bent = is_pushed && !is_calm(*plant.system, before, plant.motion.x);
     if (is_bent || !is_plausible(plant, h, Contacts::DONE, work)) {
         // Too much for a linear answer: the same push, along the plant's own curve.

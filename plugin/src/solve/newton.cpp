@@ -280,7 +280,7 @@ double skip_first(Newton& n) {
         n.most_work = n.report.work + (most > 0 ? most : SEARCHED_WORK);
     }
     n.skipped = true;
-    if (n.input.settings.careful) stand_still_if_better(n);
+    if (n.input.settings.from_rest) stand_still_if_better(n);
     const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
     n.report.ms_assembly += timer.lap();
     return std::isfinite(norm) ? norm : -1;

@@ -26,6 +26,10 @@ struct PlantContact {
 // Whether both sides still are touched by what they were touched by then: what holds its points is of the mechanics that
 // they had.
 bool is_by_the_same(const PlantContact& contact);
+// Takes hold of the points on both sides as they are now.
+void take_grips(PlantContact& contact);
+// Whether the effects that let its plants touch are on.
+bool may_touch(const World& world, const PlantContact& contact);
 
 // Of one plant, with bodies and with plants.
 struct LastContacts {
@@ -49,8 +53,8 @@ struct PlantSearch {
 
 // Bullet's broad phase says which plants may meet, capsules around pieces of their cages which organs do, a spatial hash
 // which nodes, edges and tets of those (section 3.3 of the paper).
-// Contacts of the last substep whose points have only just parted are kept, so that what rests on another plant does not
-// sink into it again and again; those that will meet within the step of h, as they move now, are found before.
+// Contacts of the last substep that the search does not see go on (remember_contacts.hpp), so that what rests on another plant does
+// not sink into it again and again; those that will meet within the step of h, as they move now, are found before.
 std::vector<PlantContact> find_plant_contacts(World& world, double h);
 
 }  // namespace FROND_BULLET_PRECISION
