@@ -26,9 +26,8 @@ struct EnergyLook {
     bool comes_from_nowhere = false;  // it has more than it had and than forces, springs and pins that move can have given
     bool was_small = false;           // it had less than lifts it by its size when the step began
 };
-// After a solve over h [s] from x_good and v_good. Not told, both false, in the air and in touch with bodies, which may give
-// any: what is pressed springs far in the solve that knows of no contact.
-EnergyLook look_at_energy(const Plant& plant, double h);
+// After a solve over h [s] from x_good and v_good; contacts did `work` [J]. Not told, both false, in the air, which may give any.
+EnergyLook look_at_energy(const Plant& plant, double h, double work = 0);
 
 // Before a solve: a plant whose pins are put farther away than it is long goes along with them, as it is.
 void jump_with_pins(Plant& plant);

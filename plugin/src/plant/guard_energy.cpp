@@ -107,17 +107,17 @@ double lifting_energy(const Plant& plant) {
     return node_mass_of(*plant.system).sum() * GRAVITY * double(plant.size);
 }
 
-EnergyLook look_at_energy(const Plant& plant, double h) {
+EnergyLook look_at_energy(const Plant& plant, double h, double work) {
     constexpr double SHARE = 0.05;  // of what moves and strains it [-]
     constexpr double LIFT = 0.01;   // and what lifts it so far, in its sizes [-]
     constexpr double CARRIED = 2;   // and what carries all of it so many times as fast as what holds it [-]
     EnergyLook look;
-    if (!plant.loads.drags.empty() || plant.is_touched) return look;
+    if (!plant.loads.drags.empty()) return look;
     const VecX &x = plant.motion.x, &x_good = plant.x_good;
     const double before = kinetic_in_step(plant, plant.v_good) + elastic_energy(plant, x_good);
     const double after = kinetic_in_step(plant, plant.motion.v) + elastic_energy(plant, x);
     const double speed = CARRIED * way_of_pins(plant) / h, lifting = lifting_energy(plant);
-    double given = work_along(plant, x - x_good) + spring_energy(plant, x_good, Held::BY_GRABS) -
+    double given = work + work_along(plant, x - x_good) + spring_energy(plant, x_good, Held::BY_GRABS) -
                    spring_energy(plant, x, Held::BY_GRABS) + 0.5 * node_mass_of(*plant.system).sum() * speed * speed;
     // The work of moments, which few nodes have, is done along the turn, not along rotation vectors.
     for (int i = 1; plant.follow && i < x.size() / 3; i += 2)

@@ -154,8 +154,9 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
 // The middle of the first half: plant.motion goes on by h under plant.loads.
 SolveReport solve_in_substeps(Plant& plant, double h);
-// Takes contact_impulse and contact_shift into the step that was solved.
-void add_contacts(Plant& plant, double h);
+// Takes contact_impulse and contact_shift, if there are any, into the step that was solved, of a plant in touch: only now its
+// energy tells whether the step went wrong. `lost`: by bodies that push it [J].
+void add_contacts(Plant& plant, double h, double lost);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Both.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);

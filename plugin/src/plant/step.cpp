@@ -63,10 +63,20 @@ static bool has_run_away(const Plant& plant) {
            !are_near(plant, plant.x_good, FARTHEST * size + BACK * reach_at_start(plant));
 }
 
-// And none has gone elsewhere than it was heading by energy that came from nowhere.
-static bool is_plausible(Plant& plant, double h) {
+// What is pressed springs far in a solve that knows of no contact yet: then its energy tells nothing.
+enum class Contacts { TO_COME, DONE };
+
+// Of a step that was only solved yet.
+static Contacts contacts_of(const Plant& plant) {
+    return plant.is_touched ? Contacts::TO_COME : Contacts::DONE;
+}
+
+// And none has gone elsewhere than it was heading by energy that came from nowhere; `work` was done by contacts [J].
+static bool is_plausible(Plant& plant, double h, Contacts contacts, double work = 0) {
     plant.is_off_course = ends_off_course(plant, h);
-    const EnergyLook look = plant.is_off_course ? look_at_energy(plant, h) : EnergyLook();
+    // A push that turns a chain's piece a little, in a straight line, draws it out by more than its sway has. Cages are soft.
+    const bool is_told = plant.is_touched ? contacts == Contacts::DONE && plant.follow : plant.is_off_course;
+    const EnergyLook look = is_told ? look_at_energy(plant, h, work) : EnergyLook();
     plant.is_off_course &= !look.was_small;  // too weak to be torn
     return !look.comes_from_nowhere && !has_run_away(plant);
 }
@@ -100,17 +110,19 @@ static void solve_in_equal_parts(Plant& plant, const SolveSettings& settings, in
 }
 
 // By what cannot overshoot; where a whole step is too long for that too, several short ones.
-static void solve_carefully(Plant& plant, double h) {
+static void solve_carefully(Plant& plant, double h, Contacts contacts) {
     constexpr int ITERATIONS = 30, PARTS = 4;
     SolveSettings settings = plant.step_settings;
     settings.integrator = FROND_IMPLICIT_EULER;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
+    // Where entangled rods are bent by their leaves' tips, all would stand still and never part.
+    settings.from_rest = !plant.is_entangled;
     plant.trouble |= FROND_TROUBLE_RETRIED;
     solve_in_equal_parts(plant, settings, 1, h);
-    if (plant.report.ok && is_plausible(plant, h)) return;
+    if (plant.report.ok && is_plausible(plant, h, contacts)) return;
     solve_in_equal_parts(plant, settings, PARTS, h);
-    plant.report.ok = plant.report.ok && is_plausible(plant, h);
+    plant.report.ok = plant.report.ok && is_plausible(plant, h, contacts);
 }
 
 // In steps that are short enough to come back within some dozens of them. Bodies answer to whole ones.
@@ -152,7 +164,8 @@ static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond
         update_chain(plant);
         gather_air(plant, surroundings, effects, h / PARTS);
         plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / PARTS, plant.motion);
-        if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x)) solve_carefully(plant, h / PARTS);
+        if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x))
+            solve_carefully(plant, h / PARTS, contacts_of(plant));
         hold_what_is_drawn_out(plant, effects, h / PARTS);
         plant.report.add_cost(spent);
         spent = plant.report;
@@ -191,7 +204,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     else
         plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
-    if (!plant.report.ok || !is_plausible(plant, h)) solve_carefully(plant, h);
+    if (!plant.report.ok || !is_plausible(plant, h, contacts_of(plant))) solve_carefully(plant, h, contacts_of(plant));
     hold_what_is_drawn_out(plant, effects, h);
     // Chains have no fibres: nothing of them has moved since they were found plausible. What goes on as it was heading is
     // not being stretched.
@@ -214,20 +227,25 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
     }
 }
 
-void add_contacts(Plant& plant, double h) {
-    if (plant.contact_impulse.size() == 0 && plant.contact_shift.size() == 0) return;
-    VecX dv;
-    const VecX impulse = std::move(plant.contact_impulse), shift = std::move(plant.contact_shift);
+void add_contacts(Plant& plant, double h, double lost) {
+    if (!plant.is_sound) return;
+    const bool is_pushed = plant.contact_impulse.size() > 0;
+    const VecX impulse = is_pushed ? std::move(plant.contact_impulse) : VecX(VecX::Zero(plant.motion.v.size()));
+    const VecX shift = std::move(plant.contact_shift);
     plant.contact_impulse.resize(0);
     plant.contact_shift.resize(0);
     // A wind turns rods far within a step, which no contact has to answer for.
     const VecX before = plant.follow ? plant.motion.x : plant.x_good;
-    if (impulse.size() > 0 && respond(*plant.workspace, plant.settings, impulse, dv))
+    VecX dv;
+    if (is_pushed && respond(*plant.workspace, plant.settings, impulse, dv))
         add_response(*plant.workspace, dv, plant.motion);
-    if (!is_calm(*plant.system, before, plant.motion.x)) {
+    // Bodies lose more than what they push gets where they are slowed by it; other plants go along with what they pushed.
+    const double work = std::max({0.0, lost, impulse.dot(plant.motion.v)});
+    const bool is_bent = is_pushed && !is_calm(*plant.system, before, plant.motion.x);
+    if (is_bent || !is_plausible(plant, h, Contacts::DONE, work)) {
         // Too much for a linear answer: the same push, along the plant's own curve.
-        if (impulse.size() > 0) plant.loads.force += impulse / h;
-        solve_carefully(plant, h);
+        plant.loads.force += impulse / h;
+        solve_carefully(plant, h, Contacts::DONE);
     }
     if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
     plant.is_sound = is_sound(plant) && !has_run_away(plant) && !is_far_out(plant);

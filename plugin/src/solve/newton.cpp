@@ -249,12 +249,23 @@ bool search_line(Newton& n, VecX& rhs, double& norm) {
     return false;
 }
 
+// Where a way straight on would wind pieces up, a search from there ends in another valley than where the plant is: then it
+// begins at rest, and ends with no more energy than the step began with and was given.
+void begin_lower(Newton& n) {
+    Workspace& w = n.w;
+    w.v_trial = w.v;
+    for (int i = 0; i < n.system.elements->node_count; ++i)
+        if (!w.held[size_t(i)]) point(w.v_trial, i).setZero();
+    if (potential_at(n, w.v_trial) < potential_at(n, w.v)) std::swap(w.v, w.v_trial);
+}
+
 // Leaves the first solve to the line search. Returns the norm of the residual, negative on failure.
 double skip_first(Newton& n) {
     constexpr int SEARCHED_ITERATIONS = 20;
     Timer timer;
     n.iterations = std::max(n.iterations, SEARCHED_ITERATIONS);
     n.skipped = true;
+    if (n.input.settings.from_rest) begin_lower(n);
     const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
     n.report.ms_assembly += timer.lap();
     return std::isfinite(norm) ? norm : -1;

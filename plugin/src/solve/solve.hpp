@@ -46,6 +46,7 @@ struct SolveSettings {
     double full_damping = 0;
     double spectral_radius = 0.8;            // of generalized_alpha at infinite frequency, 0..1 [-]
     bool careful = false;                    // every solve goes no farther than a line search says
+    bool from_rest = false;                  // and a careful one may begin at rest, where the potential is less there
 };
 
 // What a method that looks back keeps of its last step. It holds only for the motion that this step left: where

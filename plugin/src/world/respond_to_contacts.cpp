@@ -217,6 +217,24 @@ const std::vector<Coupling>& couple(Coupler& coupler, int by) {
     return row;
 }
 
+// Of each plant, what the bodies that push it lose by that [J].
+std::vector<double> losses_of_bodies(size_t plant_count, const std::vector<Row>& rows, const std::vector<Vec3>& impulses) {
+    std::vector<double> losses(plant_count, 0);
+    for (size_t i = 0; i < rows.size(); i++) {
+        if (rows[i].plants[1] || impulses[i].isZero(0)) continue;
+        Vec3 change = Vec3::Zero();
+        for (size_t k = 0; k < rows.size(); k++)
+            if (are_one_body(rows[i], rows[k])) change -= answer_between(rows[i].pusher, rows[k].pusher) * impulses[k];
+        losses[size_t(rows[i].plants[0]->place)] += impulses[i].dot(rows[i].pusher.velocity + 0.5 * change);
+    }
+    return losses;
+}
+
+// Also of plants that nothing pushes: what they came to without contacts stands now. `losses`: of bodies, one a plant [J].
+void end_steps(const ContactIsland& island, const std::vector<double>& losses) {
+    for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending, losses[size_t(body->place)]);
+}
+
 // Adds what the rows got to both sides. Returns the rigid bodies among them.
 std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, std::vector<Row>& rows, const Pushes& pushes) {
     const auto to_plants = [&](const Row& row, const Vec3& impulse, auto take) {
@@ -230,7 +248,7 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
                   [](Plant& p, const PlantTouch& touch, const Vec3& impulse) { take_impulse(p, touch, impulse); });
         if (!pushes.shifts.empty()) to_plants(rows[i], pushes.shifts[i], take_shift);
     }
-    for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending);
+    end_steps(island, losses_of_bodies(island.plants.size(), rows, pushes.impulses));
     std::vector<btRigidBody*> pushed;
     // A plant that cannot bear it is put back, and then pushes nothing.
     for (size_t i = 0; i < rows.size(); i++) {
@@ -251,7 +269,10 @@ std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& resp
     for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
     for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
     for (Bond* bond : island.bonds) add_row(*bond, h, rows);
-    if (all_wait(rows, h)) return {};
+    if (all_wait(rows, h)) {
+        end_steps(island, std::vector<double>(island.plants.size(), 0));
+        return {};
+    }
     find_answers(rows);
     std::vector<Touch> touches;
     for (const Row& row : rows) touches.push_back(row.touch);
