@@ -13,6 +13,7 @@ struct CollisionBody {
     const Vec3* places;           // of the nodes, finite, in a frame that all bodies share [m]
     std::vector<uint8_t> pieces;  // 1: takes part; empty: none does, which costs nothing
     bool with_itself = false;     // its parts collide with each other too
+    bool is_slim = false;         // so thin everywhere that the nearest way out says little
 };
 
 // All bodies in one numbering; what takes no part, or is near nothing, is left out, except that nodes are numbered

@@ -82,6 +82,18 @@ static void leave_nearest(const OverlapScene& scene, int body, WayOut& way) {
     }
 }
 
+// A node with few others inside, as a leaf's tip, needs not agree with many: edges that go along a blade would have it leave
+// lengthwise. No node does where that is very far.
+static void leave_shortly(const OverlapScene& scene, int body, size_t neighbours, WayOut& way) {
+    constexpr double SHORTER = 0.25, FAR_SHORTER = 0.125;
+    constexpr size_t FEW = 2;
+    if (scene.bodies[size_t(body)].is_slim) return;
+    WayOut nearest;
+    nearest.point = way.point;
+    leave_nearest(scene, body, nearest);
+    if (nearest.known && nearest.depth < (neighbours <= FEW ? SHORTER : FAR_SHORTER) * way.depth) way = nearest;
+}
+
 std::vector<WayOut> find_node_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
                                        std::vector<CageContact>& out) {
     const OverlapScene& scene = search.scene;
@@ -112,6 +124,7 @@ std::vector<WayOut> find_node_contacts(const OverlapSearch& search, const BodyPa
         const NodeOverlap& overlap = search.nodes[size_t(pair.nodes[i])];
         const int node = scene.node[size_t(overlap.node)], tet = scene.tet[size_t(overlap.tet)];
         WayOut& way = ways[i];
+        if (way.known) leave_shortly(scene, pair.b, neighbours[i].size(), way);
         if (!way.known || !(way.depth > 0)) leave_nearest(scene, pair.b, way);
         if (!way.known || !(way.depth > 0)) continue;
         const double whole = 1;

@@ -1,10 +1,9 @@
 // In: where plants are, and which of them Bullet's broad phase saw together. Out: contacts of their cages and sheaths.
 #include <algorithm>
-#include <map>
-#include <tuple>
 
 #include "core/timer.hpp"
 #include "model/union_find.hpp"
+#include "world/remember_contacts.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -89,18 +88,6 @@ double friction_of(const PlantBody& body, int organ) {
     return organ >= 0 ? body.plant->model->organs[size_t(organ)].material.friction : 0;
 }
 
-// Takes hold of the points on both sides as they are now.
-void take_grips(PlantContact& contact) {
-    std::array<Vec3, 2> places;
-    for (size_t k = 0; k < 2; k++) {
-        const Plant& plant = *contact.plants[k]->plant;
-        const ContactSide& side = contact.sides[k];
-        contact.grips[k] = plant.follow ? sheath_grip(*contact.plants[k]->sheath, side) : cage_grip(side);
-        places[k] = plant.to_world(grip_place(contact.grips[k], plant.motion.x));
-    }
-    contact.between = places[0] - places[1];
-}
-
 // How a point goes on in the step.
 Vec3 way_of(const PlantSearch::Shape& shape, const ContactSide& side) {
     Vec3 way = Vec3::Zero();
@@ -127,107 +114,6 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     return contact;
 }
 
-constexpr double DRIFTED = 0.02;  // farther from where it was, a contact is another one [m]
-
-// The point that touches: its plant, the other one, and its nodes.
-std::tuple<int, int, std::array<int, 4>> key_of(const PlantContact& contact) {
-    return {contact.plants[0]->number, contact.plants[1]->number, contact.sides[0].nodes};
-}
-
-bool may_touch(const World& world, const PlantContact& contact) {
-    if (contact.plants[0] == contact.plants[1]) return has(world, *contact.plants[0], FROND_SELF_CONTACT);
-    return has(world, *contact.plants[0], FROND_PLANT_CONTACT) && has(world, *contact.plants[1], FROND_PLANT_CONTACT);
-}
-
-// Whether both sides still are touched by what they were touched by then.
-bool is_by_the_same(const PlantContact& contact) {
-    for (size_t k = 0; k < 2; k++)
-        if (contact.by_sheath[k] != (contact.plants[k]->plant->follow != nullptr)) return false;
-    return true;
-}
-
-// A contact of the last substep, by what its points have moved since.
-PlantContact as_it_is_now(const PlantContact& before) {
-    PlantContact contact = before;
-    take_grips(contact);
-    contact.depth -= (contact.between - before.between).dot(contact.normal);
-    return contact;
-}
-
-bool are_one_pair(const PlantContact& a, const PlantContact& b) {
-    return a.plants == b.plants || (a.plants[0] == b.plants[1] && a.plants[1] == b.plants[0]);
-}
-
-// Nothing gets deeper into each other than it was and has moved since: where a search says so it has taken another way
-// out, as where a leaf slides off another one's tip. Then the way of the last substep stands, if there is one.
-void doubt_what_is_deeper(const std::vector<PlantContact>& last, std::vector<PlantContact>& contacts) {
-    constexpr double NEAR = 0.1, CALM = 0.005, SLACK = 0.002;  // [m]
-    std::multimap<std::tuple<int, int, std::array<int, 4>>, const PlantContact*> known;
-    for (const PlantContact& before : last) known.emplace(key_of(before), &before);
-    for (PlantContact& contact : contacts) {
-        if (contact.depth <= SLACK) continue;
-        bool is_new = true;
-        double deepest = 0;
-        for (const PlantContact& before : last) {
-            if (!are_one_pair(before, contact)) continue;
-            is_new = false;
-            if ((before.point - contact.point).norm() < NEAR) deepest = std::max(deepest, before.depth);
-        }
-        if (is_new || deepest > CALM) continue;
-        const auto [first, end] = known.equal_range(key_of(contact));
-        const PlantContact* nearest = nullptr;
-        for (auto k = first; k != end; ++k)
-            if ((k->second->point - contact.point).norm() < DRIFTED &&
-                (!nearest || k->second->depth > nearest->depth))
-                nearest = k->second;
-        if (nearest) {
-            const PlantContact now = as_it_is_now(*nearest);
-            if (contact.depth <= now.depth + SLACK) continue;
-            deepest = std::max(now.depth, 0.0);
-            if (now.depth > 0) contact.normal = now.normal;
-        }
-        contact.depth = std::min(contact.depth, deepest + SLACK);
-    }
-}
-
-// Contacts of the last substep that were not found again are kept as long as they push and both sides are beside each
-// other. Those that were begin with what they had to push.
-void keep_contacts(const World& world, const std::vector<PlantContact>& last, std::vector<PlantContact>& contacts) {
-    constexpr double APART = 0.01, IN = 0.001;  // [m]
-    constexpr int LONG = 12;                    // [substeps]
-    std::multimap<std::tuple<int, int, std::array<int, 4>>, size_t> found;
-    for (size_t i = 0; i < contacts.size(); i++) found.emplace(key_of(contacts[i]), i);
-    // An edge may touch at several places: what is found at another one does not stand for this one.
-    const auto find_again = [&](const PlantContact& before) -> PlantContact* {
-        PlantContact* nearest = nullptr;
-        double least = DRIFTED;
-        const auto [first, last] = found.equal_range(key_of(before));
-        for (auto k = first; k != last; ++k) {
-            PlantContact& contact = contacts[k->second];
-            const double away = (contact.point - before.point).norm();
-            if (away >= least) continue;
-            least = away;
-            nearest = &contact;
-        }
-        return nearest;
-    };
-    for (const PlantContact& before : last) {
-        const bool pushed = before.depth > 0 || !before.impulse.isZero(0);
-        if (!pushed || !may_touch(world, before) || !is_by_the_same(before)) continue;
-        if (PlantContact* again = find_again(before)) {
-            again->impulse += before.impulse;
-            continue;
-        }
-        PlantContact contact = as_it_is_now(before);
-        const Vec3 moved = contact.between - before.between;
-        // Not in each other any more, whatever the depth was said to be; nor is there anything where it would be in by now.
-        if (contact.missed++ == 0) contact.depth = std::min(contact.depth, 0.0);
-        if (contact.missed > LONG || contact.depth > IN) continue;
-        if (contact.depth < -APART || (moved - moved.dot(contact.normal) * contact.normal).norm() > DRIFTED) continue;
-        contacts.push_back(contact);
-    }
-}
-
 // Where plants stand in each other with all they have, the deepest contacts say enough: each is coupled with all others
 // of its plants, so that cost grows with the square of their number.
 void keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
@@ -252,7 +138,20 @@ struct Found {
     double ms_broad = 0, ms_hash = 0, ms_narrow = 0;
 };
 
-Found search_island(const World& world, const std::vector<PlantBody*>& island, double h, PlantSearch& memory) {
+// The same bodies where they are now, not where they will be.
+PlacedIsland placed_now(const World& world, const std::vector<PlantBody*>& island, const std::vector<CollisionBody>& bodies,
+                        PlantSearch& memory) {
+    PlacedIsland placed = {world, island, bodies};
+    for (size_t i = 0; i < island.size(); i++) {
+        PlantSearch::Shape& shape = memory.shapes[i];
+        for (size_t n = 0; n < shape.places.size(); n++) shape.places[n] -= shape.ways[n];
+        placed.bodies[i].places = shape.places.data();
+    }
+    return placed;
+}
+
+Found search_island(const World& world, const std::vector<PlantBody*>& island,
+                    const std::vector<const PlantContact*>& last, double h, PlantSearch& memory) {
     Found result;
     Timer timer;
     memory.shapes.resize(std::max(memory.shapes.size(), island.size()));
@@ -263,7 +162,7 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island, d
         const bool with_itself = has(world, *island[i], FROND_SELF_CONTACT);
         const Collider* collider = &island[i]->touched_collider();
         covered.push_back({collider, &memory.shapes[i].covers, with_itself});
-        bodies.push_back({collider, memory.shapes[i].places.data(), {}, with_itself});
+        bodies.push_back({collider, memory.shapes[i].places.data(), {}, with_itself, island[i]->plant->follow != nullptr});
     }
     std::vector<std::vector<uint8_t>> pieces = find_meeting_pieces(covered, 0);
     bool meet = false;
@@ -272,14 +171,48 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island, d
         bodies[i].pieces = std::move(pieces[i]);
     }
     result.ms_broad = timer.lap();
-    if (!meet) return result;
-    result.ms_hash = find_cage_contacts(*memory.search, bodies, world.hash, memory.found).ms_hash;
-    for (const CageContact& found : memory.found) result.contacts.push_back(contact_of(found, memory, island));
+    if (meet) {
+        result.ms_hash = find_cage_contacts(*memory.search, bodies, world.hash, memory.found).ms_hash;
+        for (const CageContact& found : memory.found) result.contacts.push_back(contact_of(found, memory, island));
+    }
+    if (!last.empty()) remember_contacts(placed_now(world, island, bodies, memory), last, result.contacts);
     result.ms_narrow = timer.lap() - result.ms_hash;
     return result;
 }
 
+// Where boxes do not meet any more nothing touches.
+std::vector<std::vector<const PlantContact*>> sort_by_island(const World& world,
+                                                             const std::vector<std::vector<PlantBody*>>& islands,
+                                                             const std::vector<PlantContact>& contacts) {
+    std::vector<int> island_of(world.taking_part.size(), -1);
+    for (size_t i = 0; i < islands.size(); i++)
+        for (const PlantBody* body : islands[i]) island_of[size_t(body->number)] = int(i);
+    std::vector<std::vector<const PlantContact*>> sorted(islands.size());
+    for (const PlantContact& contact : contacts) {
+        const int first = contact.plants[0]->number, second = contact.plants[1]->number;
+        if (first < 0 || second < 0 || island_of[size_t(first)] < 0) continue;
+        if (island_of[size_t(first)] == island_of[size_t(second)]) sorted[size_t(island_of[size_t(first)])].push_back(&contact);
+    }
+    return sorted;
+}
+
 }  // namespace
+
+void take_grips(PlantContact& contact) {
+    std::array<Vec3, 2> places;
+    for (size_t k = 0; k < 2; k++) {
+        const Plant& plant = *contact.plants[k]->plant;
+        const ContactSide& side = contact.sides[k];
+        contact.grips[k] = plant.follow ? sheath_grip(*contact.plants[k]->sheath, side) : cage_grip(side);
+        places[k] = plant.to_world(grip_place(contact.grips[k], plant.motion.x));
+    }
+    contact.between = places[0] - places[1];
+}
+
+bool may_touch(const World& world, const PlantContact& contact) {
+    if (contact.plants[0] == contact.plants[1]) return has(world, *contact.plants[0], FROND_SELF_CONTACT);
+    return has(world, *contact.plants[0], FROND_PLANT_CONTACT) && has(world, *contact.plants[1], FROND_PLANT_CONTACT);
+}
 
 std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     std::vector<PlantContact> contacts;
@@ -298,17 +231,16 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     const std::vector<std::vector<PlantBody*>> islands = find_islands(world);
     while (world.plant_searches.size() < islands.size()) world.plant_searches.push_back(std::make_unique<PlantSearch>());
     world.report.ms_broad += timer.lap();
+    const std::vector<std::vector<const PlantContact*>> known = sort_by_island(world, islands, last);
     std::vector<Found> found(islands.size());
     run_jobs(world, islands.size(),
-             [&](size_t i) { found[i] = search_island(world, islands[i], h, *world.plant_searches[i]); });
+             [&](size_t i) { found[i] = search_island(world, islands[i], known[i], h, *world.plant_searches[i]); });
     for (const Found& of : found) {
         contacts.insert(contacts.end(), of.contacts.begin(), of.contacts.end());
         world.report.ms_broad += of.ms_broad;
         world.report.ms_hash += of.ms_hash;
         world.report.ms_narrow += of.ms_narrow;
     }
-    doubt_what_is_deeper(last, contacts);
-    keep_contacts(world, last, contacts);
     keep_deepest(world.taking_part.size(), contacts);
     return contacts;
 }

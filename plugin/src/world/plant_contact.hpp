@@ -23,6 +23,11 @@ struct PlantContact {
     Vec3 impulse = Vec3::Zero();  // on the first; that of the last substep until this one's is known [N s]
 };
 
+// Takes hold of the points on both sides as they are now.
+void take_grips(PlantContact& contact);
+// Whether the effects that let its plants touch are on.
+bool may_touch(const World& world, const PlantContact& contact);
+
 // Of one plant, with bodies and with plants.
 struct LastContacts {
     std::vector<Contact> with_bodies;
@@ -45,8 +50,8 @@ struct PlantSearch {
 
 // Bullet's broad phase says which plants may meet, capsules around pieces of their cages which organs do, a spatial hash
 // which nodes, edges and tets of those (section 3.3 of the paper).
-// Contacts of the last substep whose points have only just parted are kept, so that what rests on another plant does not
-// sink into it again and again; those that will meet within the step of h, as they move now, are found before.
+// Contacts of the last substep that the search does not see go on (remember_contacts.hpp), so that what rests on another plant does
+// not sink into it again and again; those that will meet within the step of h, as they move now, are found before.
 std::vector<PlantContact> find_plant_contacts(World& world, double h);
 
 }  // namespace FROND_BULLET_PRECISION

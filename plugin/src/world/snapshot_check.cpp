@@ -63,7 +63,7 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
             check_index(saved.plants[k], world.bodies.size(), "contacts of plants");
             const Plant& plant = *world.bodies[size_t(saved.plants[k])]->plant;
             const ContactSide& side = c.sides[k];
-            if (side.node_count < 0 || side.node_count > 4) damaged("contacts of plants");
+            if (side.node_count < 1 || side.node_count > 4) damaged("contacts of plants");
             const size_t nodes = c.by_sheath[k] ? size_t(sheath_of(plant)->collider.node_count) : plant.model->cage.nodes.size();
             for (int i = 0; i < side.node_count; i++) check_index(side.nodes[size_t(i)], nodes, "contacts of plants");
             check_index(side.piece, plant.model->capsules.size(), "contacts of plants");

@@ -1,0 +1,157 @@
+// In: contacts of the last substep, and those that were found now. Out: what is known of both.
+#include "world/remember_contacts.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "collide/contact_gap.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+constexpr double DRIFTED = 0.02;  // farther from where it was, a contact is another one [m]
+constexpr double APART = 0.01;    // farther apart nothing touches any more [m]
+
+// The point that touches: its plant, the other one, and its nodes.
+using Key = std::tuple<int, int, std::array<int, 4>>;
+Key key_of(const PlantContact& contact) {
+    return {contact.plants[0]->number, contact.plants[1]->number, contact.sides[0].nodes};
+}
+
+// Whether both sides still are touched by what they were touched by then.
+bool is_by_the_same(const PlantContact& contact) {
+    for (size_t k = 0; k < 2; k++)
+        if (contact.by_sheath[k] != (contact.plants[k]->plant->follow != nullptr)) return false;
+    return true;
+}
+
+// By what its points have moved since.
+PlantContact moved_on(const PlantContact& before) {
+    PlantContact contact = before;
+    take_grips(contact);
+    contact.depth -= (contact.between - before.between).dot(contact.normal);
+    return contact;
+}
+
+// Where the two are nearest now. False: they are apart, or lie another way round.
+bool follow(const PlacedIsland& island, PlantContact& contact) {
+    constexpr double IN = 0.005;  // [m]
+    if (contact.depth > IN) return false;  // a way out of something deep that is gone
+    const auto body_of = [&](const PlantBody* body) -> const CollisionBody& {
+        return island.bodies[size_t(std::find(island.plants.begin(), island.plants.end(), body) - island.plants.begin())];
+    };
+    CageContact now = {CONTACT_NODE_IN_TET, contact.sides[0], contact.sides[1], contact.point, contact.normal, contact.depth};
+    if (!follow_contact(body_of(contact.plants[0]), body_of(contact.plants[1]), APART, now) || now.depth > IN) return false;
+    contact.sides = {now.a, now.b};
+    contact.point = now.point;
+    contact.normal = now.normal;
+    contact.depth = now.depth;
+    take_grips(contact);
+    return true;
+}
+
+bool move_on(const PlacedIsland&, PlantContact& contact) {
+    constexpr double IN = 0.001;  // [m]
+    constexpr int LONG = 12;      // [substeps]
+    const Vec3 between = contact.between;
+    contact = moved_on(contact);
+    const Vec3 moved = contact.between - between;
+    // Not in each other any more, whatever the depth was said to be; nor is there anything where it would be in by now.
+    if (contact.missed++ == 0) contact.depth = std::min(contact.depth, 0.0);
+    if (contact.missed > LONG || contact.depth > IN || contact.depth < -APART) return false;
+    return (moved - moved.dot(contact.normal) * contact.normal).norm() <= DRIFTED;
+}
+
+// How contacts of two plants are remembered.
+struct Memory {
+    bool (*go_on)(const PlacedIsland&, PlantContact&);  // as a contact that was not found stands now; false: it ends
+    double alike;  // cosine between two ways out, for one contact: a tip may leave in several
+    bool doubts;   // of what is deeper than it was
+};
+constexpr Memory OF_CAGES = {follow, 0.5, false}, OF_SHEATHS = {move_on, -1, true};
+
+const Memory& memory_of(const PlantContact& contact) {
+    return contact.by_sheath[0] || contact.by_sheath[1] ? OF_SHEATHS : OF_CAGES;
+}
+
+bool are_one_pair(const PlantContact& a, const PlantContact& b) {
+    return a.plants == b.plants || (a.plants[0] == b.plants[1] && a.plants[1] == b.plants[0]);
+}
+
+// Nothing gets deeper into each other than it was and has moved since: where a search says so it has taken another way
+// out, as where a leaf slides off another one's tip. Then the way of the last substep stands, if there is one.
+void doubt_what_is_deeper(const std::vector<const PlantContact*>& last, std::vector<PlantContact>& contacts) {
+    constexpr double NEAR = 0.1, CALM = 0.005, SLACK = 0.002;  // [m]
+    std::multimap<Key, const PlantContact*> known;
+    for (const PlantContact* before : last) known.emplace(key_of(*before), before);
+    for (PlantContact& contact : contacts) {
+        if (!memory_of(contact).doubts || contact.depth <= SLACK) continue;
+        bool is_new = true;
+        double deepest = 0;
+        for (const PlantContact* before : last) {
+            if (!are_one_pair(*before, contact)) continue;
+            is_new = false;
+            if ((before->point - contact.point).norm() < NEAR) deepest = std::max(deepest, before->depth);
+        }
+        if (is_new || deepest > CALM) continue;
+        const auto [first, end] = known.equal_range(key_of(contact));
+        const PlantContact* nearest = nullptr;
+        for (auto k = first; k != end; ++k)
+            if ((k->second->point - contact.point).norm() < DRIFTED &&
+                (!nearest || k->second->depth > nearest->depth))
+                nearest = k->second;
+        if (nearest) {
+            const PlantContact now = moved_on(*nearest);
+            if (contact.depth <= now.depth + SLACK) continue;
+            deepest = std::max(now.depth, 0.0);
+            if (now.depth > 0) contact.normal = now.normal;
+        }
+        contact.depth = std::min(contact.depth, deepest + SLACK);
+    }
+}
+
+// Those that pushed and were not found again.
+void keep_what_pushes(const PlacedIsland& island, const std::vector<const PlantContact*>& last,
+                      std::vector<PlantContact>& contacts) {
+    std::multimap<Key, size_t> found;
+    for (size_t i = 0; i < contacts.size(); i++) found.emplace(key_of(contacts[i]), i);
+    // An edge may touch at several places: what is found at another one does not stand for this one.
+    const auto find_again = [&](const PlantContact& before) -> PlantContact* {
+        PlantContact* nearest = nullptr;
+        double least = DRIFTED;
+        const auto [first, end] = found.equal_range(key_of(before));
+        for (auto k = first; k != end; ++k) {
+            PlantContact& contact = contacts[k->second];
+            const double away = (contact.point - before.point).norm();
+            if (away >= least || contact.normal.dot(before.normal) < memory_of(before).alike) continue;
+            least = away;
+            nearest = &contact;
+        }
+        return nearest;
+    };
+    for (const PlantContact* before : last) {
+        const bool pushed = before->depth > 0 || !before->impulse.isZero(0);
+        if (!pushed || !may_touch(island.world, *before) || !is_by_the_same(*before)) continue;
+        if (PlantContact* again = find_again(*before)) {
+            again->impulse += before->impulse;
+            continue;
+        }
+        PlantContact contact = *before;
+        if (memory_of(contact).go_on(island, contact)) contacts.push_back(contact);
+    }
+}
+
+}  // namespace
+
+void remember_contacts(const PlacedIsland& island, const std::vector<const PlantContact*>& last,
+                       std::vector<PlantContact>& contacts) {
+    doubt_what_is_deeper(last, contacts);
+    keep_what_pushes(island, last, contacts);
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
