@@ -99,7 +99,7 @@ static void solve_in_equal_parts(Plant& plant, const SolveSettings& settings, in
     motion.history.shaken = true;
 }
 
-// Searches that did not end will hardly do better the next time: less and less is given to them, until a step is calm
+// Searches that led nowhere will hardly do better the next time: less and less is given to them, until a step is calm
 // again.
 static void lose_patience(Plant& plant) {
     constexpr float LESS = 0.5, LEAST = 0.25;
@@ -109,30 +109,30 @@ static void gain_patience(Plant& plant) {
     constexpr float MORE = 1.25;
     plant.patience = std::min(1.0f, MORE * plant.patience);
 }
+constexpr float WORK = 400;  // about the most that a search needs
+// Of a stage; with all patience any.
 static int work_allowed(const Plant& plant) {
-    constexpr float WORK = 300;
-    return int(plant.patience * WORK);
+    return plant.patience < 1 ? int(plant.patience * WORK) : 0;
 }
 
 // By what cannot overshoot; where a whole step is too long for that too, several short ones.
-static void solve_carefully(Plant& plant, double h) {
+static void solve_carefully(Plant& plant, double h, int most_work) {
     constexpr int ITERATIONS = 30, PARTS = 4;
     constexpr float LEAST_FOR_PARTS = 0.5;
     SolveSettings settings = plant.step_settings;
     settings.integrator = FROND_IMPLICIT_EULER;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
-    settings.most_work = work_allowed(plant);
+    settings.most_work = most_work;
     plant.trouble |= FROND_TROUBLE_RETRIED;
     solve_in_equal_parts(plant, settings, 1, h);
     bool is_good = plant.report.ok && is_plausible(plant, h);
-    const bool has_time = plant.patience >= LEAST_FOR_PARTS;
-    if (!is_good || !plant.report.converged) lose_patience(plant);
-    if (!is_good && has_time) {
-        settings.most_work /= PARTS;
+    if (!is_good && plant.patience >= LEAST_FOR_PARTS) {
+        settings.most_work /= 2;
         solve_in_equal_parts(plant, settings, PARTS, h);
         is_good = plant.report.ok && is_plausible(plant, h);
     }
+    if (!is_good) lose_patience(plant);
     plant.report.ok = is_good;
 }
 
@@ -143,7 +143,7 @@ static void solve_recovering(Plant& plant, double h) {
     const int parts = plant.is_touched ? 1 : std::max(1, int(std::ceil(h / LONGEST - 1e-6)));
     plant.report = {};
     SolveSettings settings = plant.step_settings;
-    settings.most_work = std::max(settings.most_work / parts, LEAST);
+    settings.most_work = std::max(int(plant.patience * WORK) / parts, LEAST);
     solve_in_equal_parts(plant, settings, parts, h);
 }
 
@@ -165,7 +165,7 @@ static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h
 // Again from the start in shorter steps, each in the air as it is then: a gale turns a leaf by more in a step than one
 // solve can tell.
 static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
-    constexpr int PARTS = 8;
+    constexpr int PARTS = 8, MOST_WORK = 100;
     const VecX x_start = plant.x_good, v_start = plant.v_good;
     plant.trouble |= FROND_TROUBLE_RETRIED;
     SolveReport spent = plant.report;
@@ -178,7 +178,8 @@ static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond
         update_chain(plant);
         gather_air(plant, surroundings, effects, h / PARTS);
         plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / PARTS, plant.motion);
-        if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x)) solve_carefully(plant, h / PARTS);
+        if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x))
+            solve_carefully(plant, h / PARTS, MOST_WORK);
         hold_what_is_drawn_out(plant, effects, h / PARTS);
         plant.report.add_cost(spent);
         spent = plant.report;
@@ -218,11 +219,9 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     else
         plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
-    const bool is_spent = plant.report.work >= settings.most_work;
-    if (is_spent) lose_patience(plant);
     if (!plant.report.ok || !is_plausible(plant, h))
-        solve_carefully(plant, h);
-    else if (!is_spent)
+        solve_carefully(plant, h, work_allowed(plant));
+    else
         gain_patience(plant);
     hold_what_is_drawn_out(plant, effects, h);
     // Chains have no fibres: nothing of them has moved since they were found plausible. What goes on as it was heading is
@@ -259,7 +258,7 @@ void add_contacts(Plant& plant, double h) {
     if (!is_calm(*plant.system, before, plant.motion.x)) {
         // Too much for a linear answer: the same push, along the plant's own curve.
         if (impulse.size() > 0) plant.loads.force += impulse / h;
-        solve_carefully(plant, h);
+        solve_carefully(plant, h, work_allowed(plant));
     }
     if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
     plant.is_sound = is_sound(plant) && !has_run_away(plant) && !is_far_out(plant);

@@ -259,27 +259,16 @@ bool search_line(Newton& n, VecX& rhs, double& norm) {
     return false;
 }
 
-// A search that may end early starts where it has least to undo: at the velocities so far, or standing still.
-void stand_still_if_better(Newton& n) {
-    Workspace& w = n.w;
-    const double moving = potential_at(n, w.v);
-    w.v_trial = w.v;
-    for (int i = 0; i < n.system.elements->node_count; ++i)
-        if (!w.held[size_t(i)]) point(w.v_trial, i).setZero();
-    if (!(moving <= potential_at(n, w.v_trial))) std::swap(w.v, w.v_trial);
-}
-
 // Leaves the first solve to the line search. Returns the norm of the residual, negative on failure.
 double skip_first(Newton& n) {
-    constexpr int SEARCHED_ITERATIONS = 20, SEARCHED_WORK = 300;
+    constexpr int SEARCHED_ITERATIONS = 20;
     Timer timer;
     if (n.iterations < SEARCHED_ITERATIONS) {
         n.iterations = SEARCHED_ITERATIONS;
         const int most = n.input.settings.most_work;
-        n.most_work = n.report.work + (most > 0 ? most : SEARCHED_WORK);
+        n.most_work = most > 0 ? n.report.work + most : 0;
     }
     n.skipped = true;
-    if (n.input.settings.careful) stand_still_if_better(n);
     const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
     n.report.ms_assembly += timer.lap();
     return std::isfinite(norm) ? norm : -1;
