@@ -125,14 +125,14 @@ TEST_P(EveryShape, GoesAlongWithAFootThatIsPutElsewhere) {
 
 // No step leads anywhere in a pull of 1e5 times its weight, and searches for one end sooner and sooner.
 TEST_P(EveryShape, StepsThatLeadNowhereTakeLittleWorkAndTheFirstCalmOneAllThatItNeeds) {
-    constexpr int MOST = 1200, MEAN = 400;  // in evaluations of the forces
+    constexpr int MOST = 400, MEAN = 400;  // after the first three steps, and of all [evaluations of the forces]
     const auto plant = stem(GetParam());
     Surroundings surroundings;
     surroundings.gravity = {0, -1e5 * GRAVITY, 1e5 * GRAVITY};
     int most = 0, sum = 0;
     for (int i = 0; i < 30; i++) {
         step_plant(*plant, surroundings, H);
-        most = std::max(most, plant->report.work);
+        if (i >= 3) most = std::max(most, plant->report.work);
         sum += plant->report.work;
     }
     EXPECT_LT(plant->patience, 1);

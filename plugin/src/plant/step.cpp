@@ -78,7 +78,8 @@ static Contacts contacts_of(const Plant& plant) {
 // And none has gone elsewhere than it was heading by energy that came from nowhere; `work` was done by contacts [J].
 static bool is_plausible(Plant& plant, double h, Contacts contacts, double work = 0) {
     plant.is_off_course = ends_off_course(plant, h);
-    // A push that turns a chain's piece a little, in a straight line, draws it out by more than its sway has. Cages are soft.
+    // A push that turns a chain's piece a little, in a straight line, draws it out by more than its sway has. Cages are
+    // soft.
     const bool is_told = plant.is_touched ? contacts == Contacts::DONE && plant.follow : plant.is_off_course;
     const EnergyLook look = is_told ? look_at_energy(plant, h, work) : EnergyLook();
     plant.is_off_course &= !look.was_small;  // too weak to be torn
@@ -112,7 +113,7 @@ static void solve_in_equal_parts(Plant& plant, const SolveSettings& settings, in
     motion.history.shaken = true;
 }
 
-// Searches that did not end will hardly do better the next time: less and less is given to them, until a step is calm
+// Searches that led nowhere will hardly do better the next time: less and less is given to them, until a step is calm
 // again.
 static void lose_patience(Plant& plant) {
     constexpr float LESS = 0.5, LEAST = 0.25;
@@ -122,13 +123,14 @@ static void gain_patience(Plant& plant) {
     constexpr float MORE = 1.25;
     plant.patience = std::min(1.0f, MORE * plant.patience);
 }
+constexpr float WORK = 400;  // about the most that a search needs
+// Of a stage; with all patience any.
 static int work_allowed(const Plant& plant) {
-    constexpr float WORK = 300;
-    return int(plant.patience * WORK);
+    return plant.patience < 1 ? int(plant.patience * WORK) : 0;
 }
 
 // By what cannot overshoot; where a whole step is too long for that too, several short ones.
-static void solve_carefully(Plant& plant, double h, Contacts contacts) {
+static void solve_carefully(Plant& plant, double h, Contacts contacts, int most_work) {
     constexpr int ITERATIONS = 30, PARTS = 4;
     constexpr float LEAST_FOR_PARTS = 0.5;
     SolveSettings settings = plant.step_settings;
@@ -137,17 +139,16 @@ static void solve_carefully(Plant& plant, double h, Contacts contacts) {
     settings.careful = true;
     // Where entangled rods are bent by their leaves' tips, all would stand still and never part.
     settings.from_rest = !plant.is_entangled;
-    settings.most_work = work_allowed(plant);
+    settings.most_work = most_work;
     plant.trouble |= FROND_TROUBLE_RETRIED;
     solve_in_equal_parts(plant, settings, 1, h);
     bool is_good = plant.report.ok && is_plausible(plant, h, contacts);
-    const bool has_time = plant.patience >= LEAST_FOR_PARTS;
-    if (!is_good || !plant.report.converged) lose_patience(plant);
-    if (!is_good && has_time) {
-        settings.most_work /= PARTS;
+    if (!is_good && plant.patience >= LEAST_FOR_PARTS) {
+        settings.most_work /= 2;
         solve_in_equal_parts(plant, settings, PARTS, h);
         is_good = plant.report.ok && is_plausible(plant, h, contacts);
     }
+    if (!is_good) lose_patience(plant);
     plant.report.ok = is_good;
 }
 
@@ -158,7 +159,7 @@ static void solve_recovering(Plant& plant, double h) {
     const int parts = plant.is_touched ? 1 : std::max(1, int(std::ceil(h / LONGEST - 1e-6)));
     plant.report = {};
     SolveSettings settings = plant.step_settings;
-    settings.most_work = std::max(settings.most_work / parts, LEAST);
+    settings.most_work = std::max(int(plant.patience * WORK) / parts, LEAST);
     solve_in_equal_parts(plant, settings, parts, h);
 }
 
@@ -188,6 +189,7 @@ static int parts_to_be_calm(const Plant& plant) {
 // Again from the start in shorter steps, each in the air as it is then: a gale turns a leaf by more in a step than one
 // solve can tell.
 static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
+    constexpr int MOST_WORK = 100;
     const int parts = parts_to_be_calm(plant);
     const VecX x_start = plant.x_good, v_start = plant.v_good;
     plant.trouble |= FROND_TROUBLE_RETRIED;
@@ -202,7 +204,7 @@ static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond
         gather_air(plant, surroundings, effects, h / parts);
         plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / parts, plant.motion);
         if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x))
-            solve_carefully(plant, h / parts, contacts_of(plant));
+            solve_carefully(plant, h / parts, contacts_of(plant), MOST_WORK);
         hold_what_is_drawn_out(plant, effects, h / parts);
         plant.report.add_cost(spent);
         spent = plant.report;
@@ -248,20 +250,19 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     else
         plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
-    const bool is_spent = plant.report.work >= plant.step_settings.most_work;
-    if (is_spent) lose_patience(plant);
     if (!plant.report.ok || !is_plausible(plant, h, contacts_of(plant)))
-        solve_carefully(plant, h, contacts_of(plant));
-    else if (!is_spent)
+        solve_carefully(plant, h, contacts_of(plant), work_allowed(plant));
+    else
         gain_patience(plant);
     hold_what_is_drawn_out(plant, effects, h);
-    // Chains have no fibres: nothing of them has moved since they were found plausible. What goes on as it was heading is
-    // not being stretched.
-    plant.is_sound = is_sound(plant) && (plant.follow || !has_run_away(plant)) && !(plant.is_off_course && is_far_out(plant));
+    // Chains have no fibres: nothing of them has moved since they were found plausible. What goes on as it was heading
+    // is not being stretched.
+    plant.is_sound =
+        is_sound(plant) && (plant.follow || !has_run_away(plant)) && !(plant.is_off_course && is_far_out(plant));
 }
 
-// Shifts as far as nothing is bent much, and as the work that it does on the plant stays small: contacts that want it in
-// different places at once would press it like a spring. What is left is for the next steps.
+// Shifts as far as nothing is bent much, and as the work that it does on the plant stays small: contacts that want it
+// in different places at once would press it like a spring. What is left is for the next steps.
 static void move_by(Plant& plant, const VecX& dv, double h) {
     constexpr double LEAST = 0.05, LIFT = 0.5;  // the work is that of lifting the plant so fast, by its weight [m/s]
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
@@ -288,13 +289,14 @@ void add_contacts(Plant& plant, double h, double lost) {
     VecX dv;
     if (is_pushed && respond(*plant.workspace, plant.settings, impulse, dv))
         add_response(*plant.workspace, dv, plant.motion);
-    // Bodies lose more than what they push gets where they are slowed by it; other plants go along with what they pushed.
+    // Bodies lose more than what they push gets where they are slowed by it; other plants go along with what they
+    // pushed.
     const double work = std::max({0.0, lost, impulse.dot(plant.motion.v)});
     const bool is_bent = is_pushed && !is_calm(*plant.system, before, plant.motion.x);
     if (is_bent || !is_plausible(plant, h, Contacts::DONE, work)) {
         // Too much for a linear answer: the same push, along the plant's own curve.
         plant.loads.force += impulse / h;
-        solve_carefully(plant, h, Contacts::DONE);
+        solve_carefully(plant, h, Contacts::DONE, work_allowed(plant));
     }
     if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
     plant.is_sound = is_sound(plant) && !has_run_away(plant) && !is_far_out(plant);
@@ -305,7 +307,8 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     Motion& motion = plant.motion;
     if (!plant.report.converged) plant.trouble |= FROND_TROUBLE_NOT_CONVERGED;
     if (plant.report.inverted > 0) plant.trouble |= FROND_TROUBLE_INVERTED;
-    // Accept, or go back to the last good state and stand still there; from where that leads nowhere, to the modelled one.
+    // Accept, or go back to the last good state and stand still there; from where that leads nowhere, to the modelled
+    // one.
     if (!plant.is_sound) {
         const bool is_stuck = plant.v_good.isZero(0);
         motion.x = plant.x_good;

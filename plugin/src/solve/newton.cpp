@@ -9,8 +9,8 @@
 // takes to swing. The one solve of such a step takes the exact stiffness, and goes no farther than pieces turn little;
 // where that has no factor and the positive one leads far, the line search finds the way.
 //
-// D = mass_damping M + stiffness_damping K, K being the positive stiffness at the start of the step, and an element's own
-// damping times its part of K: it never feeds energy and does not resist turning as a whole.
+// D = mass_damping M + stiffness_damping K, K being the positive stiffness at the start of the step, and an element's
+// own damping times its part of K: it never feeds energy and does not resist turning as a whole.
 #include <algorithm>
 #include <cmath>
 
@@ -87,9 +87,9 @@ void linearize_at_start(Newton& n) {
         w.A.set_zero();
         if (n.apart) w.damping.set_zero();
         n.report.inverted =
-            n.apart ? n.body.add_force_stiffness_and_damping(*n.w.elements, x, w.element_damping, w.elastic, w.A,
-                                                             w.damping)
-                    : n.body.add_force_and_stiffness(*n.w.elements, x, Tangent::positive, w.elastic, w.A);
+            n.apart
+                ? n.body.add_force_stiffness_and_damping(*n.w.elements, x, w.element_damping, w.elastic, w.A, w.damping)
+                : n.body.add_force_and_stiffness(*n.w.elements, x, Tangent::positive, w.elastic, w.A);
         move(n, w.v);
         w.dv = w.x - x;
     };
@@ -99,9 +99,8 @@ void linearize_at_start(Newton& n) {
         w.A.set_zero();
         move(n, w.v);
         w.dv = w.x - from;
-        n.report.inverted =
-            n.body.add_ahead(*w.elements, from, {w.dv, w.v, n.stage.step, n.apart ? 0 : n.rayleigh, w.element_damping},
-                         w.elastic, w.A);
+        n.report.inverted = n.body.add_ahead(
+            *w.elements, from, {w.dv, w.v, n.stage.step, n.apart ? 0 : n.rayleigh, w.element_damping}, w.elastic, w.A);
         return start_residual(n, w.v, w.rhs);
     }
     assemble(from);
@@ -141,8 +140,8 @@ double potential_at(const Newton& n, const VecX& v) {
     const double step = n.stage.step, a = n.input.settings.mass_damping;
     n.report.work++;
     move(n, v);
-    double potential = n.body.energy(*n.w.elements, w.x) + spring_energy(n.input.loads.springs, w.x) -
-                       step * w.external.dot(v);
+    double potential =
+        n.body.energy(*n.w.elements, w.x) + spring_energy(n.input.loads.springs, w.x) - step * w.external.dot(v);
     w.dv = v - n.stage.v_base;
     multiply_mass(n.system, w.inertia, w.dv, w.momentum);
     potential += 0.5 * w.dv.dot(w.momentum);
@@ -166,8 +165,8 @@ void add_mass(const Masses& masses, double scale, BlockMatrix& A) {
         for (int k = 0; k < pattern.block_count(); ++k) add(k);
 }
 
-// A = (1 + step a) M + step^2 K + step b K_damping + springs + drags. `first`: K is the one at the start of the step, of which
-// the damping is a multiple unless elements damp each in its own way.
+// A = (1 + step a) M + step^2 K + step b K_damping + springs + drags. `first`: K is the one at the start of the step,
+// of which the damping is a multiple unless elements damp each in its own way.
 void form_matrix(Newton& n, bool first) {
     BlockMatrix& A = n.w.A;
     const double step = n.stage.step, mass = 1 + step * n.input.settings.mass_damping;
@@ -259,8 +258,8 @@ bool search_line(Newton& n, VecX& rhs, double& norm) {
     return false;
 }
 
-// Where a way straight on would wind pieces up, a search from there ends in another valley than where the plant is, or not at all: then it
-// begins at rest, and ends with no more energy than the step began with and was given.
+// Where a way straight on would wind pieces up, a search from there ends in another valley than where the plant is, or
+// not at all: then it begins at rest, and ends with no more energy than the step began with and was given.
 void stand_still_if_better(Newton& n) {
     Workspace& w = n.w;
     const double moving = potential_at(n, w.v);
@@ -272,12 +271,12 @@ void stand_still_if_better(Newton& n) {
 
 // Leaves the first solve to the line search. Returns the norm of the residual, negative on failure.
 double skip_first(Newton& n) {
-    constexpr int SEARCHED_ITERATIONS = 20, SEARCHED_WORK = 300;
+    constexpr int SEARCHED_ITERATIONS = 20;
     Timer timer;
     if (n.iterations < SEARCHED_ITERATIONS) {
         n.iterations = SEARCHED_ITERATIONS;
         const int most = n.input.settings.most_work;
-        n.most_work = n.report.work + (most > 0 ? most : SEARCHED_WORK);
+        n.most_work = most > 0 ? n.report.work + most : 0;
     }
     n.skipped = true;
     if (n.input.settings.from_rest) stand_still_if_better(n);
@@ -375,8 +374,8 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
                 b,
                 iterations,
                 apart,
-                apart || (b > 0 && (iterations > 1 || is_long || workspace.system->row->needs_search ||
-                                    input.settings.careful)),
+                apart || (b > 0 &&
+                          (iterations > 1 || is_long || workspace.system->row->needs_search || input.settings.careful)),
                 is_long,
                 is_long,
                 false,

@@ -47,7 +47,7 @@ struct SolveSettings {
     double spectral_radius = 0.8;            // of generalized_alpha at infinite frequency, 0..1 [-]
     bool careful = false;                    // every solve goes no farther than a line search says
     bool from_rest = false;                  // and may begin at rest, where the potential is less there
-    int most_work = 0;                       // after which a stage that searches ends where it is; 0: as it sees fit
+    int most_work = 0;                       // after which a stage that searches ends where it is; 0: never
 };
 
 // What a method that looks back keeps of its last step. It holds only for the motion that this step left: where
