@@ -165,7 +165,7 @@ TEST_P(EveryPlasticity, AStepThatIsRewoundLeavesNothing) {
     Bending bending(stem_model(0.02), which);
     bending.rest(7);
     const std::vector<double> lasting = lasting_of(*bending.plant);
-    bending.plant->motion.v.setConstant(1e150);
+    bending.plant->motion.v.setConstant(std::numeric_limits<double>::quiet_NaN());
     step_plant(*bending.plant, bending.surroundings, H);
     EXPECT_TRUE(bending.plant->trouble & FROND_TROUBLE_REWOUND);
     EXPECT_EQ(lasting_of(*bending.plant), lasting);

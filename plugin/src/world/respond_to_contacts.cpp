@@ -77,7 +77,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
     constexpr double SLOP = 0.0002, SHARE = 0.4, FASTEST = 0.5;  // [m], [-], [m/s]
     // Of the lighter one's weight: feet that cannot part would use up all work that shifts may do, and nothing else
     // would part.
-    constexpr double STRONG = 0.1;
+    constexpr double STRONG = 0.4;
     Row row;
     row.plants = contact.plants;
     for (size_t k = 0; k < 2; k++)
