@@ -92,7 +92,9 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
             !make_touch(*contact.plants[k]->plant, contact.grips[k], row.touches[k]))
             return;
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
-    row.touch.most_shift = h * STRONG * GRAVITY * std::min(mass_of(contact.plants[0]), mass_of(contact.plants[1]));
+    // Springs leave nearly all of the parting to shifts.
+    if (world.response != FROND_RESPONSE_PENALTY)
+        row.touch.most_shift = h * STRONG * GRAVITY * std::min(mass_of(contact.plants[0]), mass_of(contact.plants[1]));
     row.touch.least_shift = room > 0 ? -room : parting_speed(contact.depth, SLOP, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
     row.touch.depth = contact.depth;
