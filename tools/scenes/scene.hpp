@@ -128,8 +128,8 @@ struct Play {
 };
 Settings settings_of(const Casting& casting, const std::vector<std::string>& assignments);
 
-// Of the plant's deepest contact of the last step [m]; 0: none is.
-double contact_depth(frond_plant plant);
+// Of the plant's deepest contact of the last step, of those above a height [m]; 0: none is.
+double contact_depth(frond_plant plant, double above = -1e30);
 // A point of the main axis at a share of the plant's height [m].
 frond_vec3 point_on_axis(frond_model model, double share);
 

@@ -7,23 +7,14 @@
 namespace frond::stability {
 namespace {
 
-// Of what is higher than that [m].
-double depth_above(frond_plant plant, double height) {
-    std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
-    must(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())));
-    double depth = 0;
-    for (const frond_contact& contact : contacts)
-        if (contact.point.y > height) depth = std::max(depth, -contact.gap);
-    return depth;
-}
-
 // Two at the same place, or nearly: they come apart without flying. Their feet cannot.
 void together(Bench& bench, const frond_vec3& second) {
     constexpr double CALM = 5, DEPTH = 0.005, FEET = 0.2;  // [m/s], [m], [m]
     const frond_plant first = bench.add(herb());
     bench.add(herb(), second);
     bench.run(3, [&](double) { bench.expect(bench.fastest() <= CALM, "speed [m/s]", bench.fastest(), CALM); });
-    bench.expect(depth_above(first, FEET) <= DEPTH, "depth in each other [m]", depth_above(first, FEET), DEPTH);
+    const double depth = tools::contact_depth(first, FEET);
+    bench.expect(depth <= DEPTH, "depth in each other [m]", depth, DEPTH);
 }
 
 void same_place(Bench& bench) {

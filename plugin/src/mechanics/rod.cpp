@@ -181,12 +181,7 @@ int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double
 }
 
 int rod_add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
-    Assemble<PiecesOfOne> job = {as_rods(body), x};
-    job.f = &f;
-    job.K = &A;
-    job.damping = ahead.element_damping.empty() ? nullptr : &ahead.element_damping;
-    job.ahead = &ahead;
-    run_in_lanes(job);
+    assemble_ahead<PiecesOfOne>(as_rods(body), x, ahead, f, A);
     return 0;
 }
 

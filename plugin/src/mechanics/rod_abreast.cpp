@@ -76,12 +76,7 @@ struct FindYielding {
 };
 
 void add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
-    Assemble<PieceOfSeveral> job = {as_rods(body), x};
-    job.f = &f;
-    job.K = &A;
-    job.damping = ahead.element_damping.empty() ? nullptr : &ahead.element_damping;
-    job.ahead = &ahead;
-    run_in_lanes(job);
+    assemble_ahead<PieceOfSeveral>(as_rods(body), x, ahead, f, A);
 }
 
 void rotary_inertia(const Elements& body, const VecX& x, VecX& out) {
