@@ -1,6 +1,7 @@
 // frond stability: hard cases, as a table of green and red.
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <memory>
 
 #include "commands.hpp"
@@ -14,17 +15,18 @@ namespace {
 struct StabilityOptions {
     stability::Scope scope;
     stability::Limits limits;
-    std::string mechanics, json, html;
+    std::string mechanics, integrator, json, html;
     bool list = false, bullet = false;
 };
 
-int mechanics_called(const std::string& name) {
+// The row of a table that has that name.
+int row_called(const std::string& name, const char* kind, int count, const std::function<const char*(int)>& name_of) {
     std::string names;
-    for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
-        if (name == frond_mechanics_name(frond_mechanics(m))) return m;
-        names += (m ? ", " : "") + std::string(frond_mechanics_name(frond_mechanics(m)));
+    for (int row = 0; row < count; row++) {
+        if (name == name_of(row)) return row;
+        names += (row ? ", " : "") + std::string(name_of(row));
     }
-    throw SceneError("there are no mechanics \"" + name + "\"; there are " + names);
+    throw SceneError("there is no " + std::string(kind) + " \"" + name + "\"; there are " + names);
 }
 
 void write_to(const std::string& file, const std::string& text) {
@@ -49,7 +51,12 @@ void run_stability(StabilityOptions& options) {
         std::printf("%s", table.c_str());
         return;
     }
-    if (!options.mechanics.empty()) options.scope.mechanics = mechanics_called(options.mechanics);
+    if (!options.mechanics.empty())
+        options.scope.mechanics = row_called(options.mechanics, "kind of mechanics", FROND_MECHANICS_COUNT,
+                                             [](int row) { return frond_mechanics_name(frond_mechanics(row)); });
+    if (!options.integrator.empty())
+        options.scope.integrator = row_called(options.integrator, "implicit integrator", FROND_SYMPLECTIC_EULER,
+                                              [](int row) { return frond_integrator_name(frond_integrator(row)); });
     std::vector<stability::Result> results = stability::cells_of(options.scope);
     Progress progress("cell", int(results.size()));
     stability::run_cells(results, options.limits, [&](int done) { progress.at(done); });
@@ -67,10 +74,12 @@ void run_stability(StabilityOptions& options) {
 void add_stability(CLI::App& app) {
     auto options = std::make_shared<StabilityOptions>();
     CLI::App* command = app.add_subcommand("stability", "hard cases over mechanics, integrators and time steps: what holds");
-    command->add_option("--case", options->scope.name, "one case only");
+    command->add_option("--case", options->scope.names, "these cases only");
     command->add_option("--mechanics", options->mechanics, "one mechanics only");
+    command->add_option("--integrator", options->integrator, "one integrator only");
     command->add_flag("--quick", options->scope.quick, "the default integrator at 1/60 s only, without the slow cases");
-    command->add_flag("--default", options->scope.of_default, "the default integrator only, at all time steps");
+    command->add_flag_callback("--default", [options] { options->integrator = frond_integrator_name(FROND_BDF2); },
+                               "the default integrator only, at all time steps");
     command->add_flag("--list", options->list, "the cases and their criteria; runs nothing");
     command->add_flag("--bullet", options->bullet, "Bullet's own soft bodies in the cases that they can be put through, beside Frond");
     command->add_option("--json", options->json, "write all cells to this file");

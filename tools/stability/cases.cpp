@@ -1,4 +1,6 @@
 // The table of cases, and what of it some methods cannot pass.
+#include <algorithm>
+
 #include "stability/bench.hpp"
 
 namespace frond::stability {
@@ -30,15 +32,17 @@ std::string text_of(const Cell& cell) {
 
 std::vector<Result> cells_of(const Scope& scope) {
     const double steps[] = {1.0 / 240, 1.0 / 60, 1.0 / 30, 1.0 / 10};
-    if (!scope.name.empty()) find_case(scope.name);
+    for (const std::string& name : scope.names) find_case(name);
+    const int only = scope.quick ? FROND_BDF2 : scope.integrator;
     std::vector<Result> cells;
     for (const Case& one : cases()) {
-        if (!scope.name.empty() ? scope.name != one.name : scope.quick && one.is_slow) continue;
+        const bool is_named = std::find(scope.names.begin(), scope.names.end(), one.name) != scope.names.end();
+        if (scope.names.empty() ? scope.quick && one.is_slow : !is_named) continue;
         for (int mechanics = 0; mechanics < FROND_MECHANICS_COUNT; mechanics++)
             for (int integrator = 0; integrator < FROND_SYMPLECTIC_EULER; integrator++)
                 for (double dt : steps) {
                     if (scope.mechanics >= 0 && scope.mechanics != mechanics) continue;
-                    if ((scope.of_default || scope.quick) && integrator != FROND_BDF2) continue;
+                    if (only >= 0 && only != integrator) continue;
                     if (scope.quick && dt != 1.0 / 60) continue;
                     cells.push_back({&one, {frond_mechanics(mechanics), frond_integrator(integrator), dt}, {}});
                 }

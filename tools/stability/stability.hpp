@@ -56,10 +56,10 @@ struct Result {
 
 // The cells of a table: all of them, or those that a test has time for.
 struct Scope {
-    std::string name;    // of a case; empty: all
-    int mechanics = -1;  // -1: all
-    bool of_default = false;  // the default integrator only
-    bool quick = false;       // and at 1/60 s only, without the slow cases
+    std::vector<std::string> names;  // of cases; empty: all
+    int mechanics = -1;              // -1: all
+    int integrator = -1;             // -1: all
+    bool quick = false;              // the default integrator at 1/60 s only, without the slow cases
 };
 std::vector<Result> cells_of(const Scope& scope);
 

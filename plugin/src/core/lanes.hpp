@@ -135,16 +135,26 @@ FROND_INLINE void store(const FourLanes& value, Quad& to) {
     store(value, to.at);
 }
 
+// Lanes of two taken together: 0 to 3 are the first's, 4 to 7 the second's.
+template <int A, int B, int C, int D>
+FROND_INLINE FourLanes choose(const FourLanes& v, const FourLanes& w) {
+#ifdef __clang__
+    return __builtin_shufflevector(v, w, A, B, C, D);
+#else
+    using Places = long long __attribute__((vector_size(32)));
+    return __builtin_shuffle(v, w, Places{A, B, C, D});
+#endif
+}
+
 // Four by four turned over.
 FROND_INLINE void turn_over(const FourLanes& v0, const FourLanes& v1, const FourLanes& v2, const FourLanes& v3,
                             FourLanes (&out)[4]) {
-    using Places = long long __attribute__((vector_size(32)));
-    const FourLanes a = __builtin_shuffle(v0, v1, Places{0, 4, 2, 6}), b = __builtin_shuffle(v0, v1, Places{1, 5, 3, 7});
-    const FourLanes c = __builtin_shuffle(v2, v3, Places{0, 4, 2, 6}), d = __builtin_shuffle(v2, v3, Places{1, 5, 3, 7});
-    out[0] = __builtin_shuffle(a, c, Places{0, 1, 4, 5});
-    out[1] = __builtin_shuffle(b, d, Places{0, 1, 4, 5});
-    out[2] = __builtin_shuffle(a, c, Places{2, 3, 6, 7});
-    out[3] = __builtin_shuffle(b, d, Places{2, 3, 6, 7});
+    const FourLanes a = choose<0, 4, 2, 6>(v0, v1), b = choose<1, 5, 3, 7>(v0, v1);
+    const FourLanes c = choose<0, 4, 2, 6>(v2, v3), d = choose<1, 5, 3, 7>(v2, v3);
+    out[0] = choose<0, 1, 4, 5>(a, c);
+    out[1] = choose<0, 1, 4, 5>(b, d);
+    out[2] = choose<2, 3, 6, 7>(a, c);
+    out[3] = choose<2, 3, 6, 7>(b, d);
 }
 
 // To the nearest whole number, of numbers below 2^51: adding this leaves no digits behind the point.

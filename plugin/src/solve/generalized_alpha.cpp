@@ -3,7 +3,7 @@
 //   r_m = f(y_f),  r_m = r + m (r' - r),  y_f = y + a (y' - y),  y' = y + h (r + g (r' - r)),
 //   m = (3 - s) / (2 (1 + s)),  a = 1 / (1 + s),  g = 1/2 + m - a,
 // s the spectral radius at infinite frequency. Always solved to convergence: with one solve it blows up. The first
-// step, and each after something else moved the plant, is SDIRK2.
+// step is SDIRK2, and each after something else moved the plant implicit Euler.
 #include <algorithm>
 #include <cmath>
 
@@ -15,12 +15,14 @@ namespace {
 
 constexpr int LEAST_ITERATIONS = 30;
 
-// Rates at the end of a first step: the velocity, and what the second stage of SDIRK2 found.
+// Rates at the end of a first step: the velocity, and what the second stage of SDIRK2 found, or the step if there is one.
 bool start(Workspace& w, const StepInput& input, SolveReport& report) {
     if (!step_sdirk2(w, input, report)) return false;
-    const double step = input.h * (1 - std::sqrt(0.5));
     w.x_rate = w.v;
-    w.v_rate = (w.v - w.v_base) / step;
+    if (is_pushed(input))
+        w.v_rate = (w.v - w.v_start) / input.h;
+    else
+        w.v_rate = (w.v - w.v_base) / (input.h * (1 - std::sqrt(0.5)));
     return true;
 }
 

@@ -1,6 +1,6 @@
 // SDIRK2 (Alexander 1977, "Diagonally implicit Runge-Kutta methods for stiff ODEs"): two implicit stages with
 // g = 1 - 1/sqrt 2, the second one at the end of the step; stable at any step (L-stable). Each stage has its own
-// factor.
+// factor. What is pushed by contacts goes by implicit Euler.
 #include <cmath>
 
 #include "solve/integrator.hpp"
@@ -8,6 +8,7 @@
 namespace frond {
 
 bool step_sdirk2(Workspace& workspace, const StepInput& input, SolveReport& report) {
+    if (is_pushed(input)) return step_implicit_euler(workspace, input, report);
     Workspace& w = workspace;
     const VecX &x = input.motion.x, &v = w.v_start;
     const double g = 1 - std::sqrt(0.5), step = g * input.h;
