@@ -320,6 +320,9 @@ double solve_first(Newton& n) {
 
 // A change of the nodes' places that counts as none, as a share of the plant's size: what follows it is smaller still.
 constexpr double TINY = 1e-11;
+// A change that is more than what is left over by rounding: where not even a small part of it makes anything better,
+// there is no way.
+constexpr double FAR = 0.01;
 
 // Further solves until the residual is small against the first one, or steps are at the end of what double resolves.
 bool iterate(Newton& n, double first) {
@@ -331,6 +334,7 @@ bool iterate(Newton& n, double first) {
     double norm = residual_at(n, w.v, rhs);
     n.report.ms_assembly += timer.lap();
     Tangent tangent = Tangent::exact;
+    bool has_moved = !n.skipped;
     for (int iteration = 1;; ++iteration) {
         n.report.converged = norm <= s.newton_tolerance * first || change <= TINY * n.system.size;
         if (n.report.converged || iteration == n.iterations || is_spent(n)) return std::isfinite(norm);
@@ -342,8 +346,9 @@ bool iterate(Newton& n, double first) {
         // The exact stiffness may lead to a place where nothing gets better; the positive one goes downhill.
         if (!better && tangent == Tangent::positive) {
             n.report.converged = change <= TINY * n.system.size;
-            return true;
+            return has_moved || change <= FAR * n.system.size;
         }
+        has_moved |= better;
         tangent = better ? Tangent::exact : Tangent::positive;
     }
 }
