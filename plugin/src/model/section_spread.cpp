@@ -67,6 +67,9 @@ struct Sharer {
 // A triangle's share goes to capsules of its own organ that begin or end where its corners are bound.
 std::vector<std::vector<Patch>> collect_patches(const Surface& surface, const Chain& chain) {
     constexpr double SMALL = 1.0 / 16;  // of a capsule
+    // No triangle falls into more than some hundreds of pieces, and all together not into many millions.
+    constexpr double MOST_PIECES = 8e6, FINEST = 24;
+    const double fineness = std::clamp(std::sqrt(MOST_PIECES / double(surface.triangles.size())), 1.0, FINEST);
     std::vector<std::vector<Patch>> patches(chain.nodes.size());
     std::vector<std::vector<int>> touching(chain.nodes.size());  // capsules at a node
     for (size_t i = 0; i < chain.nodes.size(); i++) {
@@ -93,8 +96,7 @@ std::vector<std::vector<Patch>> collect_patches(const Surface& surface, const Ch
             const Vec3& c = surface.positions[size_t(triangle[2])];
             const double longest = std::sqrt(
                 std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-            // No triangle falls into more than some hundreds of pieces.
-            sharer.small = std::max(SMALL * length / double(sharer.capsules.size()), longest / 24);
+            sharer.small = std::max(SMALL * length / double(sharer.capsules.size()), longest / fineness);
             sharer.share(a, b, c);
         }
     return patches;

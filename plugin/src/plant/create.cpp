@@ -218,6 +218,10 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (which == plant.which) return;
     end_swing(plant);
     const VecX places = cage_places(plant), velocities = cage_velocities(plant);
+    // What still fades over from an earlier change is no part of the shape: taken for one, it would never fade.
+    if (smoothly) plant.fade = {};
+    plant.cage_stale = true;
+    const VecX own = cage_places(plant), own_rate = cage_velocities(plant);
     if (smoothly && plant.follow) keep_only_swing(plant);
     const VecX smooth = cage_places(plant), smooth_rate = cage_velocities(plant);
     // Tets have their points in common, rods their pieces.
@@ -225,8 +229,8 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     const std::vector<double> lasting = keeps ? lasting_of(plant) : std::vector<double>();
     take_mechanics(plant, which);
     if (plant.follow) {
-        fit_chain(*plant.follow, *plant.model, places, plant.motion.x);
-        fit_velocities(*plant.follow, plant.motion.x, velocities, plant.motion.v);
+        fit_chain(*plant.follow, *plant.model, own, plant.motion.x);
+        fit_velocities(*plant.follow, plant.motion.x, own_rate, plant.motion.v);
         if (smoothly) keep_only_swing(plant);
     } else {
         plant.motion.x = smooth;
