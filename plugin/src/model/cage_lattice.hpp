@@ -117,6 +117,6 @@ struct Cover {
 Cover make_cover(const Topology& topology, const Lattice& lattice, double offset);
 
 // More cells than this are refused: they are too small. So are more entries, for each triangle and in all.
-constexpr size_t MAX_CELLS = 200000, MAX_ENTRIES = 4000000, MAX_ENTRIES_PER_TRIANGLE = 32;
+constexpr size_t MAX_CELLS = 200000, MAX_ENTRIES = 4000000, MAX_ENTRIES_PER_TRIANGLE = 8;
 
 }  // namespace frond
