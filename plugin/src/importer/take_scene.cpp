@@ -14,7 +14,7 @@ namespace frond {
 
 using Mat4 = Eigen::Matrix4d;
 
-static constexpr size_t MOST_NODES = 500000, MOST_PARTS = 200000, DEEPEST_NODE = 10000;
+static constexpr size_t MOST_NODES = 500000, MOST_PARTS = 200000;
 
 struct SceneNode {
     const aiNode* node;
