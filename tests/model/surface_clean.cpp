@@ -91,6 +91,29 @@ TEST(Clean, RefusesWhenNothingIsLeft) {
     }
 }
 
+// Large triangles across the plant, a little beside each other so that none is given twice.
+static Surface make_pile(int count) {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < count; i++) {
+        const double z = 1e-5 * i;
+        positions.insert(positions.end(), {{0, 0, z}, {1, 0, z}, {0, 1, z}});
+        triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return make(positions, triangles);
+}
+
+TEST(Clean, RefusesFarMoreFacesThanAPlantHasAtOnce) {
+    Surface many = make_pile(1500), too_many = make_pile(5000);
+    clean_surface(many);
+    try {
+        clean_surface(too_many);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code, FROND_BAD_GEOMETRY);
+    }
+}
+
 TEST(Clean, RefusesArraysThatDoNotAgree) {
     Surface surface = make(SQUARE, {{0, 1, 2}});
     surface.uvs.resize(3);

@@ -48,8 +48,8 @@ struct Surface {
 };
 
 // Drops triangles with bad indices, without area or given twice, and vertices that nothing uses; makes normals where
-// they are missing; keeps the order of what is left. Throws BAD_GEOMETRY when nothing is left or coordinates are
-// absurd.
+// they are missing; keeps the order of what is left. Throws BAD_GEOMETRY when nothing is left, coordinates are
+// absurd or there are more faces than a plant can have.
 void clean_surface(Surface& surface);
 // Normals for the vertices flagged in `missing`: smooth over all triangles at the same place, weighted by area.
 void make_normals(Surface& surface, const std::vector<char>& missing);

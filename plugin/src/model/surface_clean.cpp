@@ -14,6 +14,9 @@ namespace frond {
 static constexpr double LARGEST_COORDINATE = 1e9;
 // A triangle lower than this share of the plant's size has no area.
 static constexpr double SMALLEST_HEIGHT = 1e-10;
+// More faces than this, in squares of its size, no plant has; a cage would take minutes and gigabytes only to be
+// refused.
+static constexpr double MOST_AREA = 1000;
 
 static void check_sizes(const Surface& surface) {
     const size_t count = surface.positions.size();
@@ -174,6 +177,20 @@ static void repair_values(Surface& surface) {
         }
 }
 
+static void check_area(const Surface& surface) {
+    double area = 0;
+    for (const Triangle& t : surface.triangles) {
+        const Vec3& a = surface.positions[size_t(t[0])];
+        area += (surface.positions[size_t(t[1])] - a).cross(surface.positions[size_t(t[2])] - a).norm() / 2;
+    }
+    const double size = surface.size();
+    if (area > MOST_AREA * size * size)
+        fail(FROND_BAD_GEOMETRY,
+             "the %zu triangles have %.3g m^2 in a plant of %.3g m, over %g times its size squared; "
+             "give a plant's own surface",
+             surface.triangles.size(), area, size, MOST_AREA);
+}
+
 void clean_surface(Surface& surface) {
     check_sizes(surface);
     if (surface.triangles.empty()) fail(FROND_BAD_GEOMETRY, "there are no triangles; a plant needs at least one");
@@ -187,6 +204,7 @@ void clean_surface(Surface& surface) {
              "beyond 1e9 m; check the mesh and the scale",
              given);
     drop_vertices(surface, usable);
+    check_area(surface);
     repair_values(surface);
 }
 
