@@ -204,7 +204,7 @@ struct Factorize {
     FROND_INLINE void run() const {
         ok = false;
         for (const Front& front : plan.fronts) {
-            double* columns = factor.columns.data()->at + front.columns;
+            double* columns = numbers_of(factor.columns) + front.columns;
             double* update = updates + front.update;
             std::fill_n(columns, size_t(stride_of(front)) * size_t(3 * front.own), 0.0);
             std::fill_n(update, size_t(padded(front.rows)) * size_t(3 * front.rows), 0.0);
@@ -228,7 +228,7 @@ bool factorize(const FrontPlan& plan, const BlockMatrix& A, FrontFactor& factor)
     factor.pivot.resize(3 * Eigen::Index(plan.order.size()));
     factor.inverse.resize(factor.pivot.size());
     bool ok = false;
-    run_in_lanes(Factorize{plan, A, factor, room.updates.data()->at, room.products.data()->at, ok});
+    run_in_lanes(Factorize{plan, A, factor, numbers_of(room.updates), numbers_of(room.products), ok});
     return ok;
 }
 

@@ -70,7 +70,7 @@ struct Solve {
 
     template <class S>
     FROND_INLINE void run() const {
-        const double* columns = factor.columns.data()->at;
+        const double* columns = numbers_of(factor.columns);
         for (const Front& front : plan.fronts) down(front, columns + front.columns);
         for (size_t f = plan.fronts.size(); f-- > 0;) up(plan.fronts[f], columns + plan.fronts[f].columns);
     }
@@ -79,7 +79,7 @@ struct Solve {
 // Takes what a front's columns eliminate off the rows below them, and puts its own rows into the answer.
 void take_front(const FrontPlan& plan, const Front& front, FrontFactor& factor, Eigen::Index at, Answer& answer) {
     const int stride = stride_of(front), own = 3 * front.own;
-    const double* L = factor.columns.data()->at + front.columns;
+    const double* L = numbers_of(factor.columns) + front.columns;
     const double* further = L + padded(front.own);
     for (int k = 0; k < own; ++k, L += stride, further += stride) {
         const int column = 3 * front.first + k;

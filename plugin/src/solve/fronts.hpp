@@ -50,6 +50,14 @@ inline int stride_of(const Front& front) {
     return padded(front.own) + padded(front.rows);
 }
 
+// The numbers of quads one after the other.
+inline double* numbers_of(std::vector<Quad>& quads) {
+    return reinterpret_cast<double*>(quads.data());
+}
+inline const double* numbers_of(const std::vector<Quad>& quads) {
+    return reinterpret_cast<const double*>(quads.data());
+}
+
 struct FrontFactor {
     std::vector<Quad> columns;  // L below its diagonal of ones, zero elsewhere
     VecX pivot, inverse;        // D and 1/D, in the order of elimination
