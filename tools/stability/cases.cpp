@@ -53,7 +53,7 @@ std::vector<Result> cells_of(const Scope& scope) {
 int unexplained(const std::vector<Result>& results, bool default_only) {
     int count = 0;
     for (const Result& result : results)
-        count += result.verdict.color == Color::RED && !known_limit(result.of->name, result.cell.mechanics) &&
+        count += result.verdict.color == Color::RED && !known_limit(result.of->name, result.cell) &&
                  (!default_only || result.cell.integrator == FROND_BDF2);
     return count;
 }

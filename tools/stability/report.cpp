@@ -107,7 +107,7 @@ std::string text_of(const std::vector<Result>& results) {
     }
     for (const auto& [key, one] : tallies) {
         if (!one.worst) continue;
-        const char* known = known_limit(key.first->name, one.worst->cell.mechanics);
+        const char* known = known_limit(key.first->name, one.worst->cell);
         std::snprintf(line, sizeof line, "red: %s, %s: %s%s%s\n", key.first->name, text_of(one.worst->cell).c_str(),
                       one.worst->verdict.text.c_str(), known ? " | known: " : "", known ? known : "");
         text += line;
@@ -126,7 +126,7 @@ std::string json_of(const std::vector<Result>& results) {
         cell["time_step"] = result.cell.dt;
         cell["color"] = color_name(result.verdict.color);
         cell["why"] = result.verdict.text;
-        if (const char* known = known_limit(result.of->name, result.cell.mechanics)) cell["known_limit"] = known;
+        if (const char* known = known_limit(result.of->name, result.cell)) cell["known_limit"] = known;
         cell["trouble"] = result.verdict.trouble;
         cell["cpu_seconds"] = result.verdict.seconds;
         root["cells"].push_back(cell);
@@ -155,7 +155,7 @@ std::string html_of(const std::vector<Result>& results) {
                 const Result& result = results[next];
                 if (row >= 0 && row != result.cell.integrator) page += "<br>";
                 row = result.cell.integrator;
-                const bool known = result.verdict.color == Color::RED && known_limit(one->name, result.cell.mechanics);
+                const bool known = result.verdict.color == Color::RED && known_limit(one->name, result.cell);
                 page += "<i class=\"" + std::string(known ? "known" : color_name(result.verdict.color)) + "\" title=\"" +
                         escaped(text_of(result.cell) + ": " + result.verdict.text) + "\"></i>";
             }

@@ -39,7 +39,7 @@ const std::vector<Case>& cases();
 const Case& find_case(const std::string& name);
 
 // What a method cannot pass, and why; null: it has to.
-const char* known_limit(const std::string& name, frond_mechanics mechanics);
+const char* known_limit(const std::string& name, const Cell& cell);
 
 enum class Color { GREEN, RED, GREY };
 struct Verdict {

@@ -27,7 +27,8 @@ bool step_tr_bdf2(Workspace& workspace, const StepInput& input, SolveReport& rep
     w.x_base = w.x + back * (w.x - x);
     w.v_base = w.v + back * (w.v - v);
     w.x_from = w.x + (1 - g) * input.h * w.v;
-    return solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from}, report);
+    return solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from}, report) &&
+           (is_calm(*w.system, x, w.x) || step_implicit_euler(w, input, report));
 }
 
 }  // namespace frond
