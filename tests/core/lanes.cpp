@@ -36,10 +36,13 @@ std::vector<double> some_numbers() {
 
 TEST(Lanes, OfAnyWidthGiveTheSameBits) {
     const std::vector<double> numbers = some_numbers();
-    std::vector<double> widest, two;
-    run_in_lanes(Functions{numbers, widest});
-    run_in_two_lanes(Functions{numbers, two});
-    EXPECT_EQ(widest, two);
+    std::vector<double> two;
+    run_in_lanes(2, Functions{numbers, two});
+    for (int lanes = 4; lanes <= most_lanes(); lanes *= 2) {
+        std::vector<double> wide;
+        run_in_lanes(lanes, Functions{numbers, wide});
+        EXPECT_EQ(wide, two) << lanes << " lanes";
+    }
 }
 
 TEST(Lanes, HaveTheFunctionsThatTheyAreNamedFor) {

@@ -44,9 +44,9 @@ std::shared_ptr<const Model> model_of(bool is_blade) {
 }
 
 struct Width {
-    const bool before = takes_four_lanes();
-    explicit Width(bool narrow) { takes_four_lanes() = before && !narrow; }
-    ~Width() { takes_four_lanes() = before; }
+    const int before = most_lanes();
+    explicit Width(int most) { most_lanes() = std::min(before, most); }
+    ~Width() { most_lanes() = before; }
 };
 
 // Plants of a model, here and there, turned this way and that, in gusts.
@@ -139,16 +139,16 @@ void expect_same(const Plant& a, const Plant& b) {
     ASSERT_NEAR(a.report.residual, b.report.residual, 1e-12);
 }
 
-// (blade, wind [m/s], narrow lanes)
-struct Abreast : testing::TestWithParam<std::tuple<bool, double, bool>> {};
+// (blade, wind [m/s], lanes)
+struct Abreast : testing::TestWithParam<std::tuple<bool, double, int>> {};
 INSTANTIATE_TEST_SUITE_P(Plants, Abreast,
-                         testing::Combine(testing::Bool(), testing::Values(0.0, 3.0, 25.0), testing::Bool()));
+                         testing::Combine(testing::Bool(), testing::Values(0.0, 3.0, 25.0), testing::Values(2, 4, 8)));
 
 TEST_P(Abreast, GoAsAlone) {
-    const auto [is_blade, speed, narrow] = GetParam();
-    const Width width(narrow);
+    const auto [is_blade, speed, lanes] = GetParam();
+    const Width width(lanes);
     const auto model = model_of(is_blade);
-    Field together(model, 7, speed), apart(model, 7, speed);
+    Field together(model, 11, speed), apart(model, 11, speed);
     for (int step = 0; step < 240; ++step) {
         for (Field* field : {&together, &apart}) disturb(*field, step);
         together.step(true);
@@ -158,8 +158,8 @@ TEST_P(Abreast, GoAsAlone) {
             if (HasFatalFailure()) FAIL() << "plant " << i << " in step " << step;
         }
     }
-    EXPECT_GT(together.abreast, speed > 10 ? 40 : 240 * 5);  // a gale takes most out
-    EXPECT_GT(together.alone, 7);
+    EXPECT_GT(together.abreast, speed > 10 ? 40 : 240 * 9);  // a gale takes most out
+    EXPECT_GT(together.alone, 11);
     EXPECT_EQ(apart.abreast, 0);
 }
 

@@ -181,7 +181,7 @@ int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double
 }
 
 int rod_add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
-    assemble_ahead<PiecesOfOne>(as_rods(body), x, ahead, f, A);
+    run_in_lanes(to_add_ahead<PiecesOfOne>(as_rods(body), x, ahead, f, A));
     return 0;
 }
 

@@ -136,14 +136,14 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
         if (!look_at_wind(air, *plants[i], to_world, surroundings, effects)) unsound |= 1u << i;
         put_wind(air, to_world, i, i + 1 < plant_count ? i + 1 : lanes, lanes);
     }
-    run_in_lanes(GatherPieces{air, step, count, surroundings.wind->def.density, h, (effects & FROND_AIR_DRAG) != 0});
+    run_in_lanes(lanes, GatherPieces{air, step, count, surroundings.wind->def.density, h, (effects & FROND_AIR_DRAG) != 0});
     return unsound;
 }
 
 unsigned air_forces(const Abreast& step, VecX& out) {
     out.resize(3 * step.lanes);
     unsigned dragged = 0;
-    run_in_lanes(AddForces{step, out, dragged});
+    run_in_lanes(step.lanes, AddForces{step, out, dragged});
     return dragged;
 }
 
