@@ -163,5 +163,24 @@ TEST_P(Abreast, GoAsAlone) {
     EXPECT_EQ(apart.abreast, 0);
 }
 
+// A host's field, which turns with the place.
+void field_of_host(const frond_vec3* points, int count, double time, frond_vec3* velocities, void*) {
+    for (int i = 0; i < count; i++)
+        velocities[i] = {velocities[i].x + std::sin(points[i].z + time), 0.5 * std::sin(points[i].x), velocities[i].z};
+}
+
+TEST(PlantsAbreast, AreBlownByAFieldOfTheHostAsAlone) {
+    const auto model = model_of(true);
+    Field together(model, 5, 3), apart(model, 5, 3);
+    for (Field* field : {&together, &apart}) field->wind->field = field_of_host;
+    for (int step = 0; step < 60; ++step) {
+        together.step(true);
+        apart.step(false);
+        for (size_t i = 0; i < together.plants.size(); i++) expect_same(*together.plants[i], *apart.plants[i]);
+        if (HasFatalFailure()) FAIL() << "step " << step;
+    }
+    EXPECT_GT(together.abreast, 5 * 50);
+}
+
 }  // namespace
 }  // namespace frond::test
