@@ -88,7 +88,6 @@ struct PlaceChildren {
     const Hull& hull;
     const PiecesNow& now;
     btVector3 &lower, &upper;
-    bool& has_left;  // one of them, the room that it has in the tree
 
     template <class S, class Of>
     FROND_INLINE static Lanes3<S> three(const Of& of) {
@@ -183,12 +182,15 @@ struct PlaceChildren {
         constexpr btScalar WIDER = btScalar(0.03);  // [m]
         const btVector3 wider(WIDER, WIDER, WIDER);
         const btDbvtVolume volume = btDbvtVolume::FromMM(from - wider, to + wider);
-        shape.getChildList()[child].m_node->volume = volume;
+        btDbvtNode& node = *shape.getChildList()[child].m_node;
+        node.volume = volume;
+        for (btDbvtNode* over = node.parent; over && !over->volume.Contain(volume); over = over->parent)
+            Merge(over->volume, volume, over->volume);
         for (int c = 0; c < 3; c++) {
             shape.room[size_t(c) * shape.room.size() / SIDES + child] = volume.Mins()[c];
             shape.room[size_t(c + 3) * shape.room.size() / SIDES + child] = volume.Maxs()[c];
         }
-        has_left = true;
+        shape.growths++;
     }
     template <class S>
     FROND_INLINE void put(const Children<S>& many, size_t first, int count, Boxes<S>& all) const {
@@ -254,11 +256,12 @@ void PlantShape::set_box(const btVector3& lower, const btVector3& upper) {
 
 void place_pieces(PlantShape& shape, const Hull& hull, const PiecesNow& now) {
     btVector3 lower(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT), upper = -lower;
-    bool has_left = false;
-    run_in_lanes(PlaceChildren{shape, hull, now, lower, upper, has_left});
+    run_in_lanes(PlaceChildren{shape, hull, now, lower, upper});
     shape.set_box(lower, upper);
-    if (!has_left) return;
+    constexpr int MOST_GROWTHS = 256;
+    if (shape.growths < MOST_GROWTHS) return;
     for (btDbvtNode* node : shape.inner) Merge(node->childs[0]->volume, node->childs[1]->volume, node->volume);
+    shape.growths = 0;
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -23,8 +23,10 @@ struct PlantShape : btCompoundShape {
     void getAabb(const btTransform& frame, btVector3& lower, btVector3& upper) const override;
 
     World& world;
-    // Of the tree of its children's boxes, which keeps its form: nodes with others below them, each after those.
+    // Of the tree of its children's boxes, which keeps its form: nodes with others below them, each after those. They grow
+    // with these, and are fitted to them anew after so many growths.
     std::vector<btDbvtNode*> inner;
+    int growths = 0;
     // The boxes in that tree, somewhat wider than the children: lower x of all, then y, z, upper x, y, z.
     std::vector<btScalar> room;
 
