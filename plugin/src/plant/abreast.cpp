@@ -111,21 +111,33 @@ void gather_motions(Abreast& step, Plant* const* plants, int count, const Surrou
 bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings& settings, bool may_be_off, double h) {
     const Abreast& step = space.step;
     Motion& motion = plant.motion;
-    plant.x_good.swap(motion.x);
-    plant.v_good.swap(motion.v);
-    motion.x.swap(space.x[size_t(lane)]);
-    motion.v.swap(space.v[size_t(lane)]);
-    plant.is_off_course = may_be_off && ends_off_course(plant, h);
-    if (plant.is_off_course && is_far_out(plant)) {
-        plant.x_good.swap(motion.x);
-        plant.v_good.swap(motion.v);
-        return false;
-    }
     History& history = motion.history;
+    VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
+    plant.is_off_course = false;
+    if (may_be_off) {
+        plant.x_good = motion.x;
+        plant.v_good = motion.v;
+        motion.x.swap(x);
+        motion.v.swap(v);
+        plant.is_off_course = ends_off_course(plant, h);
+        if (plant.is_off_course && is_far_out(plant)) {
+            motion.x.swap(x);
+            motion.v.swap(v);
+            return false;
+        }
+        history.x_prev = plant.x_good;
+        history.v_prev = plant.v_good;
+    } else {
+        // Where it began is kept once.
+        plant.x_good.resize(0);
+        plant.v_good.resize(0);
+        history.x_prev.swap(motion.x);
+        history.v_prev.swap(motion.v);
+        motion.x.swap(x);
+        motion.v.swap(v);
+    }
     history.shaken = false;
     history.h = h;
-    history.x_prev = plant.x_good;
-    history.v_prev = plant.v_good;
     history.x_end = motion.x;
     history.v_end = motion.v;
     plant.lead = 0;
@@ -143,8 +155,8 @@ bool may_go_abreast(const Plant& plant, const Surroundings& surroundings, double
     const History& history = motion.history;
     return plant.follow && !plant.swing && !plant.own_elements && !plant.workspace && !plant.is_touched &&
            !plant.has_user_force && plant.grabs.empty() && plant.fragments.empty() && plant.pin_springs.empty() &&
-           !plant.pins_changed && plant.recovers_for <= 0 && plant.patience == 1 && plant.max_substeps <= 1 && history.valid &&
-           h > 0 && h <= TRUSTED &&
+           !plant.pins_changed && plant.recovers_for <= 0 && plant.patience == 1 && plant.max_substeps <= 1 &&
+           history.valid && h > 0 && h <= TRUSTED &&
            frond::may_go_abreast(*plant.system, settings_for(plant, plant.effects & surroundings.effects), h);
 }
 
