@@ -1,5 +1,5 @@
 // Lanes: functions are right, and each number comes out as if it were alone, to the last bit, whatever the width.
-#include "core/lanes.hpp"
+#include "core/lane_functions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,13 @@ struct Functions {
             const S x = gather<S>([&](int lane) { return in[i + size_t(lane)]; });
             S sine, cosine;
             sine_cosine(x, sine, cosine);
-            const S all[] = {sine, cosine, sqrt(x * x + 1.0), whole(x), select(x < 0.0, S(-x), x)};
+            const S all[] = {sine,
+                             cosine,
+                             sqrt(x * x + 1.0),
+                             whole(x),
+                             select(x < 0.0, S(-x), x),
+                             logarithm<S>(x * x + 1e-3),
+                             over_cube_root<S>(x * x + 1e-9)};
             for (int lane = 0; lane < LANES<S>; ++lane)
                 for (const S& value : all) out.push_back(value[lane]);
         }
@@ -36,10 +42,13 @@ std::vector<double> some_numbers() {
 
 TEST(Lanes, OfAnyWidthGiveTheSameBits) {
     const std::vector<double> numbers = some_numbers();
-    std::vector<double> widest, two;
-    run_in_lanes(Functions{numbers, widest});
-    run_in_two_lanes(Functions{numbers, two});
-    EXPECT_EQ(widest, two);
+    std::vector<double> two;
+    run_in_lanes(2, Functions{numbers, two});
+    for (int lanes = 4; lanes <= most_lanes(); lanes *= 2) {
+        std::vector<double> wide;
+        run_in_lanes(lanes, Functions{numbers, wide});
+        EXPECT_EQ(wide, two) << lanes << " lanes";
+    }
 }
 
 TEST(Lanes, HaveTheFunctionsThatTheyAreNamedFor) {
@@ -47,13 +56,15 @@ TEST(Lanes, HaveTheFunctionsThatTheyAreNamedFor) {
     std::vector<double> out;
     run_in_lanes(Functions{numbers, out});
     for (size_t i = 0; i < numbers.size(); ++i) {
-        const double x = numbers[i], *f = out.data() + 5 * i;
+        const double x = numbers[i], *f = out.data() + 7 * i;
         const double near = 4e-16 * std::max(1.0, std::abs(x));
         EXPECT_NEAR(f[0], std::sin(x), near) << x;
         EXPECT_NEAR(f[1], std::cos(x), near) << x;
         EXPECT_EQ(f[2], std::sqrt(x * x + 1)) << x;
         EXPECT_EQ(f[3], std::nearbyint(x)) << x;
         EXPECT_EQ(f[4], std::abs(x)) << x;
+        EXPECT_NEAR(f[5], std::log(x * x + 1e-3), 3e-16 * std::max(1.0, std::abs(f[5]))) << x;
+        EXPECT_NEAR(f[6] * std::cbrt(x * x + 1e-9), 1, 1e-15) << x;
     }
 }
 

@@ -9,9 +9,9 @@ namespace frond::test {
 namespace {
 
 struct Narrow {
-    const bool before = takes_four_lanes();
-    explicit Narrow(bool narrow) { takes_four_lanes() = before && !narrow; }
-    ~Narrow() { takes_four_lanes() = before; }
+    const int before = most_lanes();
+    explicit Narrow(bool narrow) { most_lanes() = narrow ? 2 : before; }
+    ~Narrow() { most_lanes() = before; }
 };
 
 struct EveryBody : testing::TestWithParam<std::tuple<int, int>> {};

@@ -7,6 +7,7 @@
 
 #include "bench.hpp"
 #include "commands.hpp"
+#include "quantile.hpp"
 #include "studio/studio.hpp"
 #include "study/report.hpp"
 
@@ -115,10 +116,6 @@ ContactFigures measure_field(int plants, const BenchOptions& options) {
         figures.plants = report.plant_count;
         figures.tets = report.tet_count;
     }
-    const auto median = [](std::vector<double>& values) {
-        std::sort(values.begin(), values.end());
-        return values[values.size() / 2];
-    };
     for (size_t k = 0; k < CONTACT_STAGE_COUNT; k++) figures.ms[k] = median(ms[k]);
     figures.contacts = int(median(contacts));
     return figures;

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "bench.hpp"
+#include "quantile.hpp"
 #include "study/report.hpp"
 
 namespace frond::tools {
@@ -31,11 +32,6 @@ frond_report report_of(const Stage& stage) {
     frond_report report;
     must(frond_world_get_report(stage.world, &report));
     return report;
-}
-
-double share_of(std::vector<double> values, double share) {
-    std::sort(values.begin(), values.end());
-    return values[size_t(share * double(values.size() - 1))];
 }
 
 Settings field_settings(const BenchOptions& options, const std::vector<std::string>& assignments) {
@@ -162,9 +158,9 @@ PathFigures measure_path(int count, const BenchOptions& options) {
         bullet.push_back(ms_still);
         awake.push_back(report.awake_count);
     }
-    figures.whole = share_of(whole, 0.5);
-    figures.frond = share_of(frond, 0.5);
-    figures.still = share_of(bullet, 0.5);
+    figures.whole = median(whole);
+    figures.frond = median(frond);
+    figures.still = median(bullet);
     for (const double count_awake : awake) figures.awake += count_awake / double(awake.size());
     return figures;
 }
@@ -198,7 +194,7 @@ void bench_wind(const BenchOptions& options) {
             for (size_t k = 0; k < times.size(); k++) times[k].push_back(parts[k]);
         }
         std::printf("%8d %9.0f", threads, segments);
-        for (const std::vector<double>& column : times) std::printf(" %9.2f", share_of(column, 0.5));
+        for (const std::vector<double>& column : times) std::printf(" %9.2f", median(column));
         std::printf("\n");
         std::fflush(stdout);
     }
@@ -241,7 +237,7 @@ void bench_abreast() {
             must(frond_world_step(world, H));
             if (i >= WARM_UP) ms.push_back(now() - begin);
         }
-        medians[in_lanes] = share_of(ms, 0.5);
+        medians[in_lanes] = median(ms);
         must(frond_world_get_state_hash(world, &hashes[in_lanes]));
         std::printf("%18s %9d %9.2f\n", in_lanes ? "in lanes" : "one at a time", segments, medians[in_lanes]);
         std::fflush(stdout);
@@ -266,8 +262,8 @@ void bench_crowd(const BenchOptions& options, double budget) {
         awake += report.awake_count / double(STEPS);
         simulated += (report.detail_count[FROND_DETAIL_FULL] + report.detail_count[FROND_DETAIL_ROD]) / double(STEPS);
     }
-    std::printf("%8.1f %9.2f %9.2f %9.2f %9.2f %9.1f %9.1f\n", budget, share_of(ms, 0.5), share_of(ms, 0.95),
-                share_of(ms, 0.99), share_of(ms, 1), awake, simulated);
+    std::printf("%8.1f %9.2f %9.2f %9.2f %9.2f %9.1f %9.1f\n", budget, median(ms), quantile(ms, 0.95),
+                quantile(ms, 0.99), quantile(ms, 1), awake, simulated);
     std::fflush(stdout);
 }
 

@@ -76,7 +76,7 @@ double bytes_a_second(size_t bytes) {
     std::vector<double> a(count), b(count, 1.0), c(count, 2.0);
     auto* run = triad;
 #if defined(__x86_64__)
-    if (takes_four_lanes()) run = triad_of_four;
+    if (most_lanes() >= 4) run = triad_of_four;
 #endif
     const double seconds = least_seconds([&] {
         for (size_t round = 0; round < rounds; ++round) run(a.data(), b.data(), c.data(), double(round), count);
@@ -93,8 +93,8 @@ Ceilings measure_ceilings() {
     ceilings.products_and_sums = flops_a_second(chains_of_two, 2);
     ceilings.fused = ceilings.products_and_sums;
 #if defined(__x86_64__)
-    if (takes_four_lanes()) ceilings.products_and_sums = flops_a_second(chains_of_four, 4);
-    if (takes_four_lanes() && __builtin_cpu_supports("fma")) ceilings.fused = flops_a_second(fused_chains, 4);
+    if (most_lanes() >= 4) ceilings.products_and_sums = flops_a_second(chains_of_four, 4);
+    if (most_lanes() >= 4 && __builtin_cpu_supports("fma")) ceilings.fused = flops_a_second(fused_chains, 4);
 #endif
     ceilings.triad_near = bytes_a_second(NEAR);
     ceilings.triad_far = bytes_a_second(FAR);

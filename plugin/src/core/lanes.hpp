@@ -20,11 +20,19 @@ namespace frond {
 
 using TwoLanes = double __attribute__((vector_size(16)));
 using FourLanes = double __attribute__((vector_size(32)));
+using EightLanes = double __attribute__((vector_size(64)));
 template <class S>
 constexpr int LANES = int(sizeof(S) / sizeof(double));
 
-// Runs job.run<S>() in the widest lanes that this processor has; that function has to be FROND_INLINE.
+constexpr int MOST_LANES = 8;  // on any processor
+
+// Runs job.run<S>() in lanes of a width that this processor has; that function has to be FROND_INLINE. Eight lanes have
+// fused products at hand, so what is run in them has to be compiled with -ffp-contract=off.
 #if defined(__x86_64__)
+template <class Job>
+[[gnu::target("avx512f")]] void run_in_eight_lanes(const Job& job) {
+    job.template run<EightLanes>();
+}
 template <class Job>
 [[gnu::target("avx2")]] void run_in_four_lanes(const Job& job) {
     job.template run<FourLanes>();
@@ -34,19 +42,29 @@ template <class Job>
 void run_in_two_lanes(const Job& job) {
     job.template run<TwoLanes>();
 }
-// Whether four lanes are taken; tests turn them off.
-inline bool& takes_four_lanes() {
+// How many are taken at most on this one: 2, 4 or 8; tests take fewer.
+inline int& most_lanes() {
 #if defined(__x86_64__)
-    static bool takes = __builtin_cpu_supports("avx2");
+    static int most = __builtin_cpu_supports("avx512f") ? 8 : __builtin_cpu_supports("avx2") ? 4 : 2;
 #else
-    static bool takes = false;
+    static int most = 2;
 #endif
-    return takes;
+    return most;
 }
+// Pieces of one plant: eight are seldom alike, and what has to be put lane by lane gains nothing.
 template <class Job>
 void run_in_lanes(const Job& job) {
 #if defined(__x86_64__)
-    if (takes_four_lanes()) return run_in_four_lanes(job);
+    if (most_lanes() >= 4) return run_in_four_lanes(job);
+#endif
+    run_in_two_lanes(job);
+}
+// In so many, up to most_lanes().
+template <class Job>
+void run_in_lanes(int lanes, const Job& job) {
+#if defined(__x86_64__)
+    if (lanes == 8) return run_in_eight_lanes(job);
+    if (lanes == 4) return run_in_four_lanes(job);
 #endif
     run_in_two_lanes(job);
 }
@@ -110,6 +128,10 @@ FROND_INLINE TwoLanes sqrt(const TwoLanes& a) {
 FROND_INLINE FourLanes sqrt(const FourLanes& a) {
     const TwoLanes low = sqrt(TwoLanes{a[0], a[1]}), high = sqrt(TwoLanes{a[2], a[3]});
     return FourLanes{low[0], low[1], high[0], high[1]};
+}
+FROND_INLINE EightLanes sqrt(const EightLanes& a) {
+    const FourLanes low = sqrt(FourLanes{a[0], a[1], a[2], a[3]}), high = sqrt(FourLanes{a[4], a[5], a[6], a[7]});
+    return EightLanes{low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]};
 }
 
 // From and to memory of any alignment.

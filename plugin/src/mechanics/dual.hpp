@@ -1,47 +1,85 @@
 // Dual: a number with its derivatives by the twelve coordinates of a piece of rod, carried along by the chain rule
-// (forward differentiation), so that a stiffness is exactly the derivative of the force as it is written. Eigen's own
-// AutoDiff makes dynamic temporaries of such expressions, about which GCC 12 warns.
+// (forward differentiation), so that a stiffness is exactly the derivative of the force as it is written. The
+// derivatives lie side by side in lanes. Eigen's own AutoDiff makes dynamic temporaries of such expressions, about
+// which GCC 12 warns.
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
+
+#include "core/lanes.hpp"
 
 namespace frond {
 
+template <class S>
 struct Dual {
-    using Slope = Eigen::Array<double, 12, 1>;
+    static constexpr int COUNT = 12, GROUPS = COUNT / LANES<S>;
     double value;
-    Slope slope;
+    S slope[GROUPS];
 
-    Dual(double constant = 0) : value(constant), slope(Slope::Zero()) {}
-    Dual(double value, const Slope& slope) : value(value), slope(slope) {}
-    static Dual variable(double value, int number) {
+    FROND_INLINE Dual(double constant = 0) : value(constant), slope{} {}
+    FROND_INLINE static Dual variable(double value, int number) {
         Dual dual(value);
-        dual.slope[number] = 1;
+        dual.slope[number / LANES<S>][number % LANES<S>] = 1;
         return dual;
     }
 
-    Dual operator-() const { return {-value, -slope}; }
-    friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.slope + b.slope}; }
-    friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.slope - b.slope}; }
-    friend Dual operator*(const Dual& a, const Dual& b) {
-        return {a.value * b.value, a.value * b.slope + b.value * a.slope};
+    FROND_INLINE Dual operator-() const { return scaled(-1); }
+    FROND_INLINE friend Dual operator+(const Dual& a, const Dual& b) {
+        Dual out(a.value + b.value);
+        for (int i = 0; i < GROUPS; ++i) out.slope[i] = a.slope[i] + b.slope[i];
+        return out;
     }
-    friend Dual operator/(const Dual& a, const Dual& b) {
-        const double quotient = a.value / b.value;
-        return {quotient, (a.slope - quotient * b.slope) / b.value};
+    FROND_INLINE friend Dual operator-(const Dual& a, const Dual& b) {
+        Dual out(a.value - b.value);
+        for (int i = 0; i < GROUPS; ++i) out.slope[i] = a.slope[i] - b.slope[i];
+        return out;
     }
-    friend bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
+    FROND_INLINE friend Dual operator*(const Dual& a, const Dual& b) {
+        Dual out(a.value * b.value);
+        for (int i = 0; i < GROUPS; ++i) out.slope[i] = a.value * b.slope[i] + b.value * a.slope[i];
+        return out;
+    }
+    FROND_INLINE friend Dual operator/(const Dual& a, const Dual& b) {
+        Dual out(a.value / b.value);
+        for (int i = 0; i < GROUPS; ++i) out.slope[i] = (a.slope[i] - out.value * b.slope[i]) / b.value;
+        return out;
+    }
+    // With constants.
+    FROND_INLINE Dual scaled(double by) const {
+        Dual out(by * value);
+        for (int i = 0; i < GROUPS; ++i) out.slope[i] = by * slope[i];
+        return out;
+    }
+    FROND_INLINE Dual moved(double by) const {
+        Dual out = *this;
+        out.value += by;
+        return out;
+    }
+    FROND_INLINE friend Dual operator+(const Dual& a, double b) { return a.moved(b); }
+    FROND_INLINE friend Dual operator+(double a, const Dual& b) { return b.moved(a); }
+    FROND_INLINE friend Dual operator-(double a, const Dual& b) { return b.scaled(-1).moved(a); }
+    FROND_INLINE friend Dual operator*(double a, const Dual& b) { return b.scaled(a); }
+    FROND_INLINE friend Dual operator*(const Dual& a, double b) { return a.scaled(b); }
+    FROND_INLINE friend bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
 };
 
-inline Dual sqrt(const Dual& a) {
-    const double root = std::sqrt(a.value);
-    return {root, a.slope * (0.5 / root)};
+// Where the value is f, and its derivative by a's is that.
+template <class S>
+FROND_INLINE Dual<S> function_of(const Dual<S>& a, double f, double derivative) {
+    Dual<S> out = a.scaled(derivative);
+    out.value = f;
+    return out;
 }
-inline void sine_cosine(const Dual& a, Dual& sine, Dual& cosine) {
+template <class S>
+FROND_INLINE Dual<S> sqrt(const Dual<S>& a) {
+    const double root = std::sqrt(a.value);
+    return function_of(a, root, 0.5 / root);
+}
+template <class S>
+FROND_INLINE void sine_cosine(const Dual<S>& a, Dual<S>& sine, Dual<S>& cosine) {
     const double s = std::sin(a.value), c = std::cos(a.value);
-    sine = {s, c * a.slope};
-    cosine = {c, -s * a.slope};
+    sine = function_of(a, s, c);
+    cosine = function_of(a, c, -s);
 }
 
 }  // namespace frond

@@ -84,50 +84,62 @@ struct FindInertia {
     }
 };
 
-// Blocks as in positive_stiffness.
-using Blocks = std::array<Mat3, 10>;
-
 template <class S>
-Lanes3<S> lanes_of(const Vec3& v) {
-    return {S(v[0]), S(v[1]), S(v[2])};
+FROND_INLINE Lanes3<Dual<S>> constants(const Vec3& v) {
+    return {v[0], v[1], v[2]};
 }
 
 // The derivative of the gradient, by forward differentiation of its own code.
-Blocks exact_stiffness(const RodSegment& rod, const VecX& x) {
-    RodPiece<Dual> piece;
-    piece.length = rod.length;
-    for (int r = 0; r < 3; ++r) piece.frame.r[r] = lanes_of<Dual>(rod.frame.row(r));
-    piece.stretch = lanes_of<Dual>(rod.stretch);
-    piece.bend = lanes_of<Dual>(rod.bend);
-    piece.rest_strain = lanes_of<Dual>(rod.rest_strain);
-    piece.rest_curvature = lanes_of<Dual>(rod.rest_curvature);
-    Lanes3<Dual> v[4];
-    for (int n = 0; n < 4; ++n) {
-        const double* from = x.data() + 3 * (2 * (n < 2 ? rod.a : rod.b) + n % 2);
-        v[n] = {Dual::variable(from[0], 3 * n), Dual::variable(from[1], 3 * n + 1), Dual::variable(from[2], 3 * n + 2)};
-    }
-    const RodEnd<Dual> a = rod_end(v[0], v[1]), b = rod_end(v[2], v[3]);
-    const RodGradient<Dual> gradient =
-        gradient_of(piece, rotation_of(a.w, a.p), rate_of(a), rate_of(b), bend_between(piece, a, b));
-    const Lanes3<Dual>* parts[4] = {&gradient.place_a, &gradient.turn_a, &gradient.place_b, &gradient.turn_b};
-    std::array<Dual, 12> g;
-    for (size_t n = 0; n < 4; ++n) g[3 * n] = parts[n]->x, g[3 * n + 1] = parts[n]->y, g[3 * n + 2] = parts[n]->z;
-    const auto slope = [&](int r, int c) { return 0.5 * (g[size_t(r)].slope[c] + g[size_t(c)].slope[r]); };
-    Blocks K;
-    for (int r = 0, k = 0; r < 4; ++r)
-        for (int c = 0; c <= r; ++c, ++k)
-            for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j) K[size_t(k)](i, j) = slope(3 * r + i, 3 * c + j);
-    return K;
-}
+struct AddExactStiffness {
+    const RodElements& elements;
+    const VecX& x;
+    double scale;
+    BlockMatrix& K;
+    static constexpr int COUNT = 12;  // coordinates of a piece
 
-void add_exact_stiffness(const RodElements& elements, const VecX& x, double scale, BlockMatrix& K) {
-    for (const RodSegment& rod : elements.segments) {
-        const Blocks stiffness = exact_stiffness(rod, x);
-        for (size_t r = 0, k = 0; r < 4; ++r)
-            for (size_t c = 0; c <= r; ++c, ++k) K.block(rod.slots[4 * r + c]) += scale * stiffness[k];
+    // Row by row.
+    template <class S>
+    FROND_INLINE void differentiate(const RodSegment& rod, double (&slopes)[COUNT][COUNT]) const {
+        RodPiece<Dual<S>> piece;
+        piece.length = rod.length;
+        for (int r = 0; r < 3; ++r) piece.frame.r[r] = constants<S>(rod.frame.row(r));
+        piece.stretch = constants<S>(rod.stretch);
+        piece.bend = constants<S>(rod.bend);
+        piece.rest_strain = constants<S>(rod.rest_strain);
+        piece.rest_curvature = constants<S>(rod.rest_curvature);
+        Lanes3<Dual<S>> v[4];
+        for (int n = 0; n < 4; ++n) {
+            const double* from = x.data() + 3 * (2 * (n < 2 ? rod.a : rod.b) + n % 2);
+            v[n] = {Dual<S>::variable(from[0], 3 * n), Dual<S>::variable(from[1], 3 * n + 1),
+                    Dual<S>::variable(from[2], 3 * n + 2)};
+        }
+        const RodEnd<Dual<S>> a = rod_end(v[0], v[1]), b = rod_end(v[2], v[3]);
+        const RodGradient<Dual<S>> gradient =
+            gradient_of(piece, rotation_of(a.w, a.p), rate_of(a), rate_of(b), bend_between(piece, a, b));
+        const auto put = [&](const Lanes3<Dual<S>>& part, int row) {
+            for (int i = 0; i < Dual<S>::GROUPS; ++i) {
+                frond::store(part.x.slope[i], slopes[row] + LANES<S> * i);
+                frond::store(part.y.slope[i], slopes[row + 1] + LANES<S> * i);
+                frond::store(part.z.slope[i], slopes[row + 2] + LANES<S> * i);
+            }
+        };
+        put(gradient.place_a, 0), put(gradient.turn_a, 3), put(gradient.place_b, 6), put(gradient.turn_b, 9);
     }
-}
+    template <class S>
+    FROND_INLINE void run() const {
+        for (const RodSegment& rod : elements.segments) {
+            double slopes[COUNT][COUNT];
+            differentiate<S>(rod, slopes);
+            for (int r = 0; r < 4; ++r)
+                for (int c = 0; c <= r; ++c) {
+                    auto block = K.block(rod.slots[size_t(4 * r + c)]);
+                    for (int i = 3 * r; i < 3 * r + 3; ++i)
+                        for (int j = 3 * c; j < 3 * c + 3; ++j)
+                            block(i - 3 * r, j - 3 * c) += scale * (0.5 * (slopes[i][j] + slopes[j][i]));
+                }
+        }
+    }
+};
 
 }  // namespace
 
@@ -151,7 +163,7 @@ int rod_add_force(const Elements& body, const VecX& x, VecX& f) {
 }
 
 void rod_add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale, BlockMatrix& K) {
-    if (tangent == Tangent::exact) return add_exact_stiffness(as_rods(body), x, scale, K);
+    if (tangent == Tangent::exact) return run_in_lanes(AddExactStiffness{as_rods(body), x, scale, K});
     Assemble<PiecesOfOne> job = {as_rods(body), x};
     job.K = &K;
     job.scale = scale;
@@ -162,7 +174,7 @@ int rod_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, 
     Assemble<PiecesOfOne> job = {as_rods(body), x};
     job.f = &f;
     if (tangent == Tangent::exact)
-        add_exact_stiffness(as_rods(body), x, 1, K);
+        run_in_lanes(AddExactStiffness{as_rods(body), x, 1, K});
     else
         job.K = &K;
     run_in_lanes(job);
@@ -181,7 +193,7 @@ int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double
 }
 
 int rod_add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
-    assemble_ahead<PiecesOfOne>(as_rods(body), x, ahead, f, A);
+    run_in_lanes(to_add_ahead<PiecesOfOne>(as_rods(body), x, ahead, f, A));
     return 0;
 }
 
@@ -195,7 +207,8 @@ bool rods_are_calm(const Elements& body, const VecX& from, const VecX& to) {
     for (int i = 1; i < elements.node_count; i += 2)
         if (!((point(to, i) - point(from, i)).squaredNorm() < LARGEST_TURN * LARGEST_TURN)) return false;
     for (const RodSegment& rod : elements.segments) {
-        const Vec3 change = point(to, 2 * rod.b) - point(to, 2 * rod.a) - point(from, 2 * rod.b) + point(from, 2 * rod.a);
+        const Vec3 change =
+            point(to, 2 * rod.b) - point(to, 2 * rod.a) - point(from, 2 * rod.b) + point(from, 2 * rod.a);
         if (!(change.norm() < LARGEST_STRETCH * rod.length)) return false;
     }
     return true;

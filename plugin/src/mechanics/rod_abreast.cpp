@@ -75,24 +75,29 @@ struct FindYielding {
     }
 };
 
+// Of numbers of nodes side by side.
+int lanes_of(const Elements& body, const VecX& x) {
+    return int(x.size()) / (3 * body.node_count);
+}
+
 void add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
-    assemble_ahead<PieceOfSeveral>(as_rods(body), x, ahead, f, A);
+    run_in_lanes(lanes_of(body, x), to_add_ahead<PieceOfSeveral>(as_rods(body), x, ahead, f, A));
 }
 
 void rotary_inertia(const Elements& body, const VecX& x, VecX& out) {
     out.resize(x.size() / 6 * 9);
-    run_in_lanes(FindInertia{as_rods(body), x, out});
+    run_in_lanes(lanes_of(body, x), FindInertia{as_rods(body), x, out});
 }
 
 unsigned not_calm(const Elements& body, const VecX& from, const VecX& to) {
     unsigned wild = 0;
-    run_in_lanes(FindWild{as_rods(body), from, to, wild});
+    run_in_lanes(lanes_of(body, from), FindWild{as_rods(body), from, to, wild});
     return wild;
 }
 
 unsigned may_yield(const Elements& body, const VecX& x) {
     unsigned yielding = 0;
-    run_in_lanes(FindYielding{as_rods(body), x, yielding});
+    run_in_lanes(lanes_of(body, x), FindYielding{as_rods(body), x, yielding});
     return yielding;
 }
 

@@ -63,15 +63,15 @@ struct Assemble {
     }
 };
 
-// Mechanics::add_ahead of one plant, or of several side by side.
+// To be run: Mechanics::add_ahead of one plant, or of several side by side.
 template <template <class> class Pieces>
-void assemble_ahead(const RodElements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
+Assemble<Pieces> to_add_ahead(const RodElements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
     Assemble<Pieces> job = {elements, x};
     job.f = &f;
     job.K = &A;
     job.damping = ahead.element_damping.empty() ? nullptr : &ahead.element_damping;
     job.ahead = &ahead;
-    run_in_lanes(job);
+    return job;
 }
 
 }  // namespace frond

@@ -17,7 +17,7 @@ struct PlantsAbreast {
     Abreast step;
     AirAbreast air;
     VecX half, forces;
-    std::array<VecX, 4> x, v;  // each plant's at the end of the step
+    std::array<VecX, MOST_LANES> x, v;  // each plant's at the end of the step
 };
 
 namespace {
@@ -40,7 +40,7 @@ struct Gather {
 // The other way round.
 struct HandOut {
     const VecX& from;
-    std::array<VecX, 4>& plants;
+    std::array<VecX, MOST_LANES>& plants;
     template <class S>
     FROND_INLINE void run() const {
         double* to[LANES<S>];
@@ -96,7 +96,7 @@ void give_back(WorkspacePool& pool, std::shared_ptr<PlantsAbreast> space) {
 void gather_motions(Abreast& step, Plant* const* plants, int count, const Surroundings& surroundings,
                     frond_effects effects) {
     const auto at = [&](int lane) -> Plant& { return *plants[std::min(lane, count - 1)]; };
-    const auto gather_from = [&](const auto& of, VecX& to) { run_in_lanes(Gather<decltype(of)>{of, to}); };
+    const auto gather_from = [&](const auto& of, VecX& to) { run_in_lanes(step.lanes, Gather<decltype(of)>{of, to}); };
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.x; }, step.x);
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.v; }, step.v);
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.x_prev; }, step.x_prev);
@@ -111,21 +111,33 @@ void gather_motions(Abreast& step, Plant* const* plants, int count, const Surrou
 bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings& settings, bool may_be_off, double h) {
     const Abreast& step = space.step;
     Motion& motion = plant.motion;
-    plant.x_good.swap(motion.x);
-    plant.v_good.swap(motion.v);
-    motion.x.swap(space.x[size_t(lane)]);
-    motion.v.swap(space.v[size_t(lane)]);
-    plant.is_off_course = may_be_off && ends_off_course(plant, h);
-    if (plant.is_off_course && is_far_out(plant)) {
-        plant.x_good.swap(motion.x);
-        plant.v_good.swap(motion.v);
-        return false;
-    }
     History& history = motion.history;
+    VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
+    plant.is_off_course = false;
+    if (may_be_off) {
+        plant.x_good = motion.x;
+        plant.v_good = motion.v;
+        motion.x.swap(x);
+        motion.v.swap(v);
+        plant.is_off_course = ends_off_course(plant, h);
+        if (plant.is_off_course && is_far_out(plant)) {
+            motion.x.swap(x);
+            motion.v.swap(v);
+            return false;
+        }
+        history.x_prev = plant.x_good;
+        history.v_prev = plant.v_good;
+    } else {
+        // Where it began is kept once.
+        plant.x_good.resize(0);
+        plant.v_good.resize(0);
+        history.x_prev.swap(motion.x);
+        history.v_prev.swap(motion.v);
+        motion.x.swap(x);
+        motion.v.swap(v);
+    }
     history.shaken = false;
     history.h = h;
-    history.x_prev = plant.x_good;
-    history.v_prev = plant.v_good;
     history.x_end = motion.x;
     history.v_end = motion.v;
     plant.lead = 0;
@@ -143,8 +155,8 @@ bool may_go_abreast(const Plant& plant, const Surroundings& surroundings, double
     const History& history = motion.history;
     return plant.follow && !plant.swing && !plant.own_elements && !plant.workspace && !plant.is_touched &&
            !plant.has_user_force && plant.grabs.empty() && plant.fragments.empty() && plant.pin_springs.empty() &&
-           !plant.pins_changed && plant.recovers_for <= 0 && plant.patience == 1 && plant.max_substeps <= 1 && history.valid &&
-           h > 0 && h <= TRUSTED &&
+           !plant.pins_changed && plant.recovers_for <= 0 && plant.patience == 1 && plant.max_substeps <= 1 &&
+           history.valid && h > 0 && h <= TRUSTED &&
            frond::may_go_abreast(*plant.system, settings_for(plant, plant.effects & surroundings.effects), h);
 }
 
@@ -155,11 +167,11 @@ bool go_alike(const Plant& a, const Plant& b) {
 }
 
 int most_abreast() {
-    return lanes_abreast();
+    return lanes_for(MOST_LANES);
 }
 
 void solve_abreast(Plant* const* given, int given_count, const Surroundings& surroundings, double h) {
-    std::array<Plant*, 4> plants;
+    std::array<Plant*, MOST_LANES> plants;
     int count = 0;
     for (int i = 0; i < given_count; i++) {
         Plant& plant = *given[i];
@@ -178,7 +190,7 @@ void solve_abreast(Plant* const* given, int given_count, const Surroundings& sur
     const System& system = *plants[0]->system;
     const frond_effects effects = plants[0]->effects & surroundings.effects;
     const SolveSettings settings = settings_for(*plants[0], effects);
-    make_room(step, plants[0]->system);
+    make_room(step, plants[0]->system, lanes_for(count));
     Timer timer;
     gather_motions(step, plants.data(), count, surroundings, effects);
     const unsigned bad_wind = gather_air(space->air, step, plants.data(), count, surroundings, effects, h);
@@ -188,13 +200,13 @@ void solve_abreast(Plant* const* given, int given_count, const Surroundings& sur
     unsigned alone = step_abreast(step, settings, plants[0]->motion.pinned, h, h_before), far_away, off_course;
     space->half = 0.5 * (step.x + step.x_end);
     alone |= system.row->abreast->not_calm(*system.elements, step.x, space->half);
-    run_in_lanes(LookAtWays{step, double(plants[0]->size), h, far_away, off_course});
+    run_in_lanes(step.lanes, LookAtWays{step, double(plants[0]->size), h, far_away, off_course});
     // Without air the energy of what left its course is looked at.
     alone |= far_away | (off_course & ~air_forces(step, space->forces));
     const bool has_yields = (effects & FROND_PLASTICITY) && !system.elements->yields.empty();
     const unsigned may_yield = has_yields ? system.row->abreast->may_yield(*system.elements, step.x_end) : 0;
-    run_in_lanes(HandOut{step.x_end, space->x});
-    run_in_lanes(HandOut{step.v_end, space->v});
+    run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
+    run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
     const double ms_solve = timer.lap();
 
     for (int lane = 0; lane < count; lane++) {

@@ -2,6 +2,7 @@
 // those of each alone.
 #pragma once
 
+#include "core/lanes.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {

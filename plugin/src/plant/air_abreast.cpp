@@ -1,37 +1,71 @@
 // In: plants side by side and the air of their world. Out: drags on their chain nodes, as in air_gather.cpp.
 #include "plant/air_abreast.hpp"
 
-#include "core/product.hpp"
+#include <algorithm>
+
 #include "plant/air_push.hpp"
+#include "plant/wind_lanes.hpp"
 
 namespace frond {
 
 namespace {
 
-// The wind at the chain nodes of a plant; none where it has no effect.
-bool look_at_wind(AirAbreast& air, const Plant& plant, const Mat3& to_world, const Surroundings& surroundings,
-                  frond_effects effects) {
-    const size_t count = plant.chain_positions.size();
-    air.wind_at.assign(count, frond_vec3{0, 0, 0});
-    if (!(effects & FROND_WIND)) return true;
-    air.points.resize(count);
-    for (size_t i = 0; i < count; i++) {
-        const Vec3 p = product(to_world, plant.chain_positions[i]) + plant.position;
-        air.points[i] = {p.x(), p.y(), p.z()};
-    }
-    return wind_velocities(*surroundings.wind, up_of(surroundings.gravity), surroundings.time, air.points, air.wind_at);
-}
-
-// Into the lanes from one to another.
-void put_wind(AirAbreast& air, const Mat3& to_world, int first, int end, int lanes) {
-    for (int lane = first; lane < end; lane++) {
-        const auto put = [&](VecX& to, size_t i, double value) { to[Eigen::Index(i) * lanes + lane] = value; };
-        for (int k = 0; k < 9; k++) put(air.to_world, size_t(k), to_world(k / 3, k % 3));
-        for (size_t i = 0; i < air.wind_at.size(); i++) {
-            const frond_vec3& v = air.wind_at[i];
-            put(air.wind, 3 * i, v.x), put(air.wind, 3 * i + 1, v.y), put(air.wind, 3 * i + 2, v.z);
+// Where the chain nodes of all plants are in the world, and the wind there.
+struct LookAtWind {
+    AirAbreast& air;
+    const Abreast& step;
+    const WindNow& now;
+    int count;  // of chain nodes
+    template <class S>
+    FROND_INLINE void run() const {
+        constexpr int MOST = 4;  // nodes at once
+        const Lanes33<S> to_world = {
+            {load3<S>(air.to_world.data(), 0), load3<S>(air.to_world.data(), 3), load3<S>(air.to_world.data(), 6)}};
+        const Lanes3<S> position = load3<S>(air.position.data(), 0);
+        for (int begin = 0; begin < count; begin += MOST) {
+            const int here = std::min(MOST, count - begin);
+            Lanes3<S> places[MOST], velocities[MOST];
+            for (int i = 0; i < here; i++) places[i] = to_world * load3<S>(step.x.data(), 6 * (begin + i)) + position;
+            wind_at(now, places, here, velocities);
+            for (int i = 0; i < here; i++) {
+                store3(places[i], air.places.data(), 3 * (begin + i));
+                store3(velocities[i], air.wind.data(), 3 * (begin + i));
+            }
         }
     }
+};
+
+// Where plants are.
+void look_at_frames(AirAbreast& air, Plant* const* plants, int plant_count, int lanes) {
+    air.to_world.resize(9 * lanes);
+    air.position.resize(3 * lanes);
+    for (int lane = 0; lane < lanes; lane++) {
+        const Plant& plant = *plants[std::min(lane, plant_count - 1)];
+        const Mat3 to_world = plant.rotation.toRotationMatrix();
+        for (int k = 0; k < 9; k++) air.to_world[k * lanes + lane] = to_world(k / 3, k % 3);
+        for (int c = 0; c < 3; c++) air.position[c * lanes + lane] = plant.position[c];
+    }
+}
+
+// The host's own field, which is asked plant by plant. Returns those where it was unsound.
+unsigned ask_field(AirAbreast& air, const Surroundings& surroundings, int plant_count, int lanes) {
+    unsigned unsound = 0;
+    const size_t count = size_t(air.wind.size()) / (3 * size_t(lanes));
+    std::vector<frond_vec3> points(count), velocities(count);
+    for (int lane = 0; lane < plant_count; lane++) {
+        const auto at = [&](auto& of, size_t i, int c) -> auto& {
+            return of[(3 * Eigen::Index(i) + c) * lanes + lane];
+        };
+        for (size_t i = 0; i < count; i++) {
+            points[i] = {at(air.places, i, 0), at(air.places, i, 1), at(air.places, i, 2)};
+            velocities[i] = {at(air.wind, i, 0), at(air.wind, i, 1), at(air.wind, i, 2)};
+        }
+        if (!blow_by_field(*surroundings.wind, surroundings.time, points, velocities)) unsound |= 1u << lane;
+        for (size_t i = 0; i < count; i++)
+            at(air.wind, i, 0) = velocities[i].x, at(air.wind, i, 1) = velocities[i].y,
+                            at(air.wind, i, 2) = velocities[i].z;
+    }
+    return unsound;
 }
 
 struct GatherPieces {
@@ -126,24 +160,27 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
     if (!surroundings.wind || !(effects & (FROND_WIND | FROND_AIR_DRAG))) return 0;
     if (!air.pieces) air.pieces = air_pieces_of(*plants[0]);
     const Eigen::Index n = Eigen::Index(3 * count) * lanes;
-    air.to_world.resize(9 * lanes);
-    for (VecX* numbers : {&air.wind, &air.passing, &air.velocities}) numbers->resize(n);
+    for (VecX* numbers : {&air.wind, &air.places, &air.passing, &air.velocities}) numbers->resize(n);
     air.resistance.setZero(2 * n);
     air.lag.setZero(2 * n);
+    look_at_frames(air, plants, plant_count, lanes);
     unsigned unsound = 0;
-    for (int i = 0; i < plant_count; i++) {
-        const Mat3 to_world = plants[i]->rotation.toRotationMatrix();
-        if (!look_at_wind(air, *plants[i], to_world, surroundings, effects)) unsound |= 1u << i;
-        put_wind(air, to_world, i, i + 1 < plant_count ? i + 1 : lanes, lanes);
+    if (effects & FROND_WIND) {
+        const WindNow now = wind_now(*surroundings.wind, up_of(surroundings.gravity));
+        run_in_lanes(lanes, LookAtWind{air, step, now, count});
+        if (surroundings.wind->field) unsound = ask_field(air, surroundings, plant_count, lanes);
+    } else {
+        air.wind.setZero();
     }
-    run_in_lanes(GatherPieces{air, step, count, surroundings.wind->def.density, h, (effects & FROND_AIR_DRAG) != 0});
+    run_in_lanes(lanes,
+                 GatherPieces{air, step, count, surroundings.wind->def.density, h, (effects & FROND_AIR_DRAG) != 0});
     return unsound;
 }
 
 unsigned air_forces(const Abreast& step, VecX& out) {
     out.resize(3 * step.lanes);
     unsigned dragged = 0;
-    run_in_lanes(AddForces{step, out, dragged});
+    run_in_lanes(step.lanes, AddForces{step, out, dragged});
     return dragged;
 }
 

@@ -1,14 +1,14 @@
 // In: pieces of organs, how they are turned and the air that passes them. Out: force over velocity.
 //
-// The air's pressure follows the part of its velocity across a stem's axis or along a blade's normal, as if there were no
-// other (Hoerner 1965; Taylor 1952, "Analysis of the swimming of long and narrow animals"): F = rho/2 Cd A u |u|. So the drag of
-// a blade that is bent down the wind falls as Gosselin, de Langre, Machado-Almeida 2010 measured.
+// The air's pressure follows the part of its velocity across a stem's axis or along a blade's normal, as if there were
+// no other (Hoerner 1965; Taylor 1952, "Analysis of the swimming of long and narrow animals"): F = rho/2 Cd A u |u|. So
+// the drag of a blade that is bent down the wind falls as Gosselin, de Langre, Machado-Almeida 2010 measured.
 //   cylinder  Cd = 1 + 10 Re^(-2/3)                       (White 1991, "Viscous fluid flow")
 //   sphere    Cd = 24 / Re + 6 / (1 + sqrt Re) + 0.4      (the same); both up to Re = 2e5
 // The skin is rubbed as a flat plate: 1.328 / sqrt Re of either side (Blasius 1908).
 #pragma once
 
-#include "core/lanes.hpp"
+#include "core/lane_functions.hpp"
 #include "plant/air.hpp"
 
 namespace frond {
@@ -22,7 +22,8 @@ struct AirLanes {
     template <class Piece>
     FROND_INLINE explicit AirLanes(const Piece& piece)
         : coefficient(gather<S>([&](int l) { return piece(l).coefficient; })),
-          size(gather<S>([&](int l) { return piece(l).size; })), skin(gather<S>([&](int l) { return piece(l).skin; })),
+          size(gather<S>([&](int l) { return piece(l).size; })),
+          skin(gather<S>([&](int l) { return piece(l).skin; })),
           chord_along(gather<S>([&](int l) { return piece(l).chord_along; })),
           chord_across(gather<S>([&](int l) { return piece(l).chord_across; })),
           area{gather<S>([&](int l) { return piece(l).area[0]; }), gather<S>([&](int l) { return piece(l).area[1]; }),
@@ -31,11 +32,14 @@ struct AirLanes {
 
 constexpr double VISCOSITY = 1.5e-5;  // of air, kinematic [m^2/s]
 
-inline double cylinder_coefficient(double Re) {
-    return 1 + 10 / std::cbrt(Re * Re);
+// Of drag, by Reynolds number.
+template <class S>
+FROND_INLINE S cylinder_coefficient(const S& Re) {
+    return 1.0 + 10.0 * over_cube_root(S(Re * Re));
 }
-inline double sphere_coefficient(double Re) {
-    return 24 / Re + 6 / (1 + std::sqrt(Re)) + 0.4;
+template <class S>
+FROND_INLINE S sphere_coefficient(const S& Re) {
+    return 24.0 / Re + 6.0 / (1.0 + sqrt(Re)) + 0.4;
 }
 
 // rho/2 Cd A |u|, the area as it is seen along u: exact for an ellipse and for an ellipsoid.
@@ -43,13 +47,13 @@ template <class S>
 FROND_INLINE S air_pressure(const AirLanes<S>& piece, AirShape shape, const Lanes3<S>& local, double density) {
     constexpr double STILL = 1e-9;  // [m/s]
     const S speed = sqrt(dot(local, local));
-    double coefficients[LANES<S>], speeds[LANES<S>], numbers[LANES<S>];
-    store(piece.coefficient, coefficients), store(speed, speeds), store(S(speed * piece.size / VISCOSITY), numbers);
-    for (int lane = 0; lane < LANES<S>; lane++)
-        if (coefficients[lane] == 0 && speeds[lane] > STILL)
-            coefficients[lane] = shape == AirShape::COMPACT ? sphere_coefficient(numbers[lane])
-                                                            : cylinder_coefficient(numbers[lane]);
-    const S coefficient = load<S>(coefficients);
+    S coefficient = piece.coefficient;
+    const auto is_open = coefficient == 0.0;
+    if (any(is_open)) {
+        const S Re = select(speed > STILL, speed, constant<S>(1)) * piece.size / VISCOSITY;
+        coefficient = select(
+            is_open, shape == AirShape::COMPACT ? sphere_coefficient<S>(Re) : cylinder_coefficient<S>(Re), coefficient);
+    }
     const Lanes3<S> seen = scaled(piece.area, local);
     return select(speed > STILL, S(0.5 * density * coefficient * sqrt(dot(seen, seen))), S{});
 }
@@ -61,13 +65,15 @@ FROND_INLINE S air_friction(const AirLanes<S>& piece, const S& along, const S& a
     const S way = select(along < 0.0, S(-along), along) * piece.chord_along +
                   select(across < 0.0, S(-across), across) * piece.chord_across;  // speed times chord
     const auto goes = way > 0.0;
-    return select(goes, S(0.5 * 1.328 * density * piece.skin * sqrt(VISCOSITY * square / select(goes, way, constant<S>(1)))),
+    return select(goes,
+                  S(0.5 * 1.328 * density * piece.skin * sqrt(VISCOSITY * square / select(goes, way, constant<S>(1)))),
                   S{});
 }
 
 // Along axis, thin and wide, of air that passes at `local` along these.
 template <class S>
-FROND_INLINE Lanes3<S> air_resistance(const AirLanes<S>& piece, AirShape shape, const Lanes3<S>& local, double density) {
+FROND_INLINE Lanes3<S> air_resistance(const AirLanes<S>& piece, AirShape shape, const Lanes3<S>& local,
+                                      double density) {
     if (shape == AirShape::SHEET) {
         const S rub = air_friction(piece, local.x, local.z, density);
         return {rub, air_pressure(piece, shape, {S{}, local.y, S{}}, density), rub};

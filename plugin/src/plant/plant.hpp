@@ -92,7 +92,7 @@ struct Plant {
     std::vector<int> anchor;               // the chain node that holds each cage node where it is pinned
     std::vector<Spring> pin_springs;       // hold pinned cage nodes that are too few to hold a chain node
     std::shared_ptr<const Foot> foot;      // the three above at first
-    VecX x_good, v_good;  // before the running step, of the motion
+    VecX x_good, v_good;  // before the running step, of the motion; empty after a healthy one abreast: in the history
     VecX contact_impulse;  // of the running step's contacts on the nodes of the mechanics [N s]; empty: none
     VecX contact_shift;    // likewise, of those that move the plant and give it no velocity
     Loads loads;          // of the running step, kept to reuse its memory

@@ -226,7 +226,8 @@ VecX way_of(const Plant& plant) {
     if (plant.lead > 0 || plant.swing) return cage_velocities(plant);
     const VecX now = cage_of(plant, plant.motion.x);
     if (plant.stepped_by == 0) return VecX::Zero(now.size());
-    VecX way = (now - cage_of(plant, plant.x_good)) / plant.stepped_by;
+    const VecX& before = plant.x_good.size() > 0 ? plant.x_good : plant.motion.history.x_prev;
+    VecX way = (now - cage_of(plant, before)) / plant.stepped_by;
     add_rate(plant.fade, way);
     return way;
 }

@@ -2,6 +2,7 @@
 // step_bdf2() and solve_stage() do to each, in the same order.
 #include "solve/abreast.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/lanes.hpp"
@@ -143,14 +144,6 @@ struct Finish {
     }
 };
 
-struct CountLanes {
-    int& lanes;
-    template <class S>
-    FROND_INLINE void run() const {
-        lanes = LANES<S>;
-    }
-};
-
 }  // namespace
 
 bool may_go_abreast(const System& system, const SolveSettings& settings, double h) {
@@ -159,14 +152,11 @@ bool may_go_abreast(const System& system, const SolveSettings& settings, double 
            !is_long_stage(system, h) && settings_are_sound(settings);
 }
 
-int lanes_abreast() {
-    int lanes = 0;
-    run_in_lanes(CountLanes{lanes});
-    return lanes;
+int lanes_for(int count) {
+    return count > 4 ? most_lanes() : std::min(most_lanes(), 4);
 }
 
-void make_room(Abreast& a, std::shared_ptr<const System> system) {
-    const int lanes = lanes_abreast();
+void make_room(Abreast& a, std::shared_ptr<const System> system, int lanes) {
     if (a.system == system && a.lanes == lanes) return;
     a.lanes = lanes;
     a.system = std::move(system);
@@ -188,7 +178,7 @@ unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vect
     const Bdf2 method = bdf2_after(h_before, h);
     a.held = system.loose;
     for (size_t i = 0; i < pinned.size(); ++i) a.held[i] |= pinned[i];
-    run_in_lanes(LookBack{a, pinned, h, h_before, method});
+    run_in_lanes(a.lanes, LookBack{a, pinned, h, h_before, method});
     unsigned lost = system.row->abreast->not_calm(elements, a.x, a.x_from);
 
     system.row->abreast->rotary_inertia(elements, a.x, a.inertia);
@@ -198,12 +188,12 @@ unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vect
     system.row->abreast->add_ahead(
         elements, a.x_from, {a.way, a.v_start, method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
         a.elastic, a.A);
-    run_in_lanes(FormSystem{a, method.step, 1 + method.step * settings.mass_damping});
+    run_in_lanes(a.lanes, FormSystem{a, method.step, 1 + method.step * settings.mass_damping});
 
     lost |= factorize(*system.plan.tree, a.A, a.factor);
     solve(*system.plan.tree, a.factor, a.rhs, a.dv);
     relative_residuals(a.A, a.rhs, a.dv, a.residual.data());
-    run_in_lanes(Finish{a, pinned, method.step, lost});
+    run_in_lanes(a.lanes, Finish{a, pinned, method.step, lost});
     return lost;
 }
 

@@ -3,6 +3,7 @@
 // needs more is told of, and left as it was.
 #pragma once
 
+#include "core/lanes.hpp"
 #include "solve/linear_solver.hpp"
 #include "solve/solve.hpp"
 #include "solve/tree_abreast.hpp"
@@ -19,7 +20,7 @@ struct Abreast {
     VecX drag_force, drag_damping;  // three numbers [N], and xx, xy, xz, yy, yz, zz [N s/m]
     // Out.
     VecX x_end, v_end;
-    std::array<double, 4> residual;
+    std::array<double, MOST_LANES> residual;
 
     // Room for the step.
     VecX v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia;
@@ -31,10 +32,10 @@ struct Abreast {
 
 // Whether plants of such a system, with such settings, can go abreast in steps of h [s].
 bool may_go_abreast(const System& system, const SolveSettings& settings, double h);
-// As many plants as go abreast on this processor.
-int lanes_abreast();
-// For so many of a system.
-void make_room(Abreast& abreast, std::shared_ptr<const System> system);
+// In which so many plants go, on this processor.
+int lanes_for(int count);
+// For as many of a system.
+void make_room(Abreast& abreast, std::shared_ptr<const System> system, int lanes);
 // A step of h [s] after one of h_before by bdf2, whose history holds in all lanes and whose pinned nodes stay where
 // they are. Returns the lanes that have to be stepped alone, a bit each.
 unsigned step_abreast(Abreast& abreast, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,

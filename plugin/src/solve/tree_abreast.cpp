@@ -231,22 +231,27 @@ struct FindResiduals {
 
 }  // namespace
 
+// Of the numbers of matrices side by side.
+static int lanes_of(const BlockMatrix& A) {
+    return int(A.values.size() / (9 * size_t(A.pattern->block_count())));
+}
+
 unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeAbreast& factor) {
-    const size_t lanes = A.values.size() / (9 * size_t(A.pattern->block_count()));
-    factor.numbers.resize(lanes * NUMBERS * plan.pairs.size());
+    factor.lanes = lanes_of(A);
+    factor.numbers.resize(size_t(factor.lanes) * NUMBERS * plan.pairs.size());
     unsigned failed = 0;
-    run_in_lanes(Factorize{plan, A, factor.numbers.data(), failed});
+    run_in_lanes(factor.lanes, Factorize{plan, A, factor.numbers.data(), failed});
     return failed;
 }
 
 void solve(const TreePlan& plan, const TreeAbreast& factor, const VecX& b, VecX& x) {
     x = b;
-    run_in_lanes(Solve{plan, factor.numbers.data(), x.data()});
+    run_in_lanes(factor.lanes, Solve{plan, factor.numbers.data(), x.data()});
 }
 
 void relative_residuals(const BlockMatrix& A, const VecX& b, const VecX& x, double* out) {
     VecX left;
-    run_in_lanes(FindResiduals{A, b, x, left, out});
+    run_in_lanes(lanes_of(A), FindResiduals{A, b, x, left, out});
 }
 
 }  // namespace frond

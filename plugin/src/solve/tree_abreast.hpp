@@ -7,6 +7,7 @@
 namespace frond {
 
 struct TreeAbreast {
+    int lanes = 0;
     std::vector<double> numbers;  // of a pair: L' of its own, row by row, L' to its parent, and 1 / D
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "world/convert.hpp"
+#include "world/plant_shape.hpp"
 #include "world/world.hpp"
 
 namespace frond {

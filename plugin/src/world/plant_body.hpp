@@ -32,6 +32,9 @@ struct Hull {
     std::vector<Flat> flats;                                // one a capsule
     std::vector<std::unique_ptr<btConvexHullShape>> plates;  // of the flat ones: x is wide, y along and z thin
     std::vector<int> plate_capsule;                          // of each plate
+    // Half a capsule's height and its radius, half a plate's width and length and its margin, as far as several go on [m].
+    std::vector<double> capsule_halves, capsule_radii, plate_halves[2], plate_margins;
+    std::vector<btTransform> modelled;  // capsules, then plates
     std::unique_ptr<btCompoundShape> rest;  // capsules, then plates, as modelled: of plants that sleep so
     double wider_by_cage = 0, wider_by_sheath = 0;  // what those are wider than the capsules [m]; 0: not asked
     // Of the compound's children, the capsule that a child is or stands for; -1 if there is no such child.
@@ -96,8 +99,6 @@ void show_again(PlantBody& body);
 void move_capsules(PlantBody& body);
 // Makes ready for contact of cages, or of sheaths. The broad phase then sees the plant as wide as those.
 void take_collider(PlantBody& body);
-// The frame of a capsule, whose axis is y, between two points.
-btTransform capsule_frame(const Vec3& begin, const Vec3& end);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -1,11 +1,12 @@
 // In: plants of a world after each substep, and what touches them. Out: which of them sleep.
 //
-// Speeds would not tell rest from the turning point of a slow sway, so places do: a plant is still when nothing of it has
-// gone farther than a set way for half a period of its slowest sway. What it still swings is then within that way, and so
-// is the difference that sleeping makes. As in Bullet's islands, plants sleep with those that they touch.
+// Speeds would not tell rest from the turning point of a slow sway, so places do: a plant is still when nothing of it
+// has gone farther than a set way for half a period of its slowest sway. What it still swings is then within that way,
+// and so is the difference that sleeping makes. As in Bullet's islands, plants sleep with those that they touch.
 #include "world/sleep.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/union_find.hpp"
 #include "world/convert.hpp"
@@ -37,6 +38,17 @@ void wake_blown(World& world) {
     wind_velocities(*world.wind, up_of(gravity_of(world)), world.time, points, air);
     for (size_t i = 0; i < asked.size(); i++)
         if ((Vec3(air[i].x, air[i].y, air[i].z) - asked[i]->rest.air).norm() > GUST) wake(*asked[i]);
+}
+
+// What moves most is at the end.
+bool are_within(const VecX& a, const VecX& b, double distance) {
+    constexpr Eigen::Index MANY = 24;
+    if (a.size() != b.size()) return false;
+    for (Eigen::Index end = a.size(); end > 0; end -= MANY) {
+        const Eigen::Index begin = std::max(end - MANY, Eigen::Index(0));
+        if (!((a - b).segment(begin, end - begin).lpNorm<Eigen::Infinity>() <= distance)) return false;
+    }
+    return true;
 }
 
 // Of the contacts of a plant and a body within a step.
@@ -95,7 +107,8 @@ PlantBody& look_at(PlantBody& body) {
 
 frond_vec3 middle_of(const PlantBody& body) {
     btVector3 lower, upper;
-    static_cast<const btCompoundShape*>(body.getCollisionShape())->btCompoundShape::getAabb(body.getWorldTransform(), lower, upper);
+    static_cast<const btCompoundShape*>(body.getCollisionShape())
+        ->btCompoundShape::getAabb(body.getWorldTransform(), lower, upper);
     const Vec3 middle = 0.5 * (from_bullet(lower) + from_bullet(upper));
     return {middle.x(), middle.y(), middle.z()};
 }
@@ -154,13 +167,13 @@ void wake_touched(World& world, double h) {
     }
     const auto sleeps = [](const PlantBody* body) { return body->rest.asleep; };
     const auto of_sleeper = [&](const Contact& contact) { return sleeps(contact.plant); };
-    world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(), of_sleeper), world.contacts.end());
+    world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(), of_sleeper),
+                         world.contacts.end());
     const auto with_sleeper = [&](const PlantContact& contact) {
         return std::any_of(contact.plants.begin(), contact.plants.end(), sleeps);
     };
-    world.plant_contacts.erase(
-        std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(), with_sleeper),
-        world.plant_contacts.end());
+    world.plant_contacts.erase(std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(), with_sleeper),
+                               world.plant_contacts.end());
 }
 
 void watch(const World& world, PlantBody& body, double h) {
@@ -172,13 +185,15 @@ void watch(const World& world, PlantBody& body, double h) {
     const bool fades = !is_over(plant.fade) || (plant.swing && !is_over(plant.swing->fade));
     const bool stirs =
         plant.has_user_force || plant.trouble & FROND_TROUBLE_REWOUND || !plant.fragments.empty() || fades;
-    if (!stirs && rest.places.size() == x.size() &&
-        (x - rest.places).lpNorm<Eigen::Infinity>() <= world.sleep_distance) {
+    if (!stirs && are_within(x, rest.places, world.sleep_distance)) {
         rest.still += h;
         return;
     }
-    rest.places = x;
     rest.still = 0;
+    // From where it moves on need not be known in each substep.
+    constexpr double EVERY = 0.1, APART = 0.3;  // [s], of plants that follow each other [-]
+    const auto turn = [&](double time) { return std::floor(time / EVERY + APART * body.index); };
+    if (rest.places.size() != x.size() || turn(world.time) != turn(world.time - h)) rest.places = x;
 }
 
 void put_to_sleep(World& world) {

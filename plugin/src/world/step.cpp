@@ -174,13 +174,13 @@ void step_alone(const World& world, PlantBody& body, const Surroundings& surroun
 
 // Plants that are stepped by one job: one, or several that go abreast.
 struct StepJob {
-    std::array<PlantBody*, 4> bodies;
+    std::array<PlantBody*, MOST_LANES> bodies;
     int count = 0;
 };
 
 void run_job(const World& world, const StepJob& job, const Surroundings& surroundings, double h) {
     if (job.count == 1) return step_alone(world, *job.bodies[0], surroundings, h);
-    std::array<Plant*, 4> plants;
+    std::array<Plant*, MOST_LANES> plants;
     for (int i = 0; i < job.count; i++) plants[size_t(i)] = job.bodies[size_t(i)]->plant.get();
     solve_abreast(plants.data(), job.count, surroundings, job.bodies[0]->level.pending);
     for (int i = 0; i < job.count; i++) finish(world, *job.bodies[size_t(i)], surroundings);

@@ -1,0 +1,49 @@
+// Functions of lanes that look at the bits of numbers; as all of lanes.hpp, the same in any width.
+#pragma once
+
+#include "core/lanes.hpp"
+
+namespace frond {
+
+// The bits of numbers in lanes, and back.
+template <class S>
+using BitsOf = decltype(S{} < S{});
+
+// Whole numbers from 0 to below 2^52 as they stand in the bits.
+template <class S>
+FROND_INLINE S number_of(const BitsOf<S>& bits) {
+    constexpr double BEGIN = 4503599627370496.0;  // 2^52, behind whose exponent they stand
+    constexpr long long EXPONENT = 0x4330000000000000;
+    return S(bits | EXPONENT) - BEGIN;
+}
+
+// Of normal numbers above zero, within 3e-16 of the larger of it and 1.
+template <class S>
+FROND_INLINE S logarithm(const S& x) {
+    constexpr long long FRACTION = 0x000fffffffffffff, OF_ONE = 0x3ff0000000000000;
+    constexpr double LN2_ABOVE = 0.693147180369123816490,
+                     LN2_BELOW = 1.90821492927058770002e-10;  // the first ends in zeros
+    constexpr double SERIES[] = {1,        1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9, 1.0 / 11,
+                                 1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21};
+    const BitsOf<S> bits = BitsOf<S>(x);
+    const S above = S((bits & FRACTION) | OF_ONE), power = number_of<S>(bits >> 52) - 1023.0;
+    const auto is_large = above > M_SQRT2;
+    const S m = select(is_large, S(0.5 * above), above), whole = select(is_large, S(power + 1.0), power);
+    const S s = (m - 1.0) / (m + 1.0);
+    return whole * LN2_ABOVE + (whole * LN2_BELOW + 2.0 * s * polynomial(SERIES, S(s * s)));
+}
+
+// One over the cube root of normal numbers above zero, within 1e-15 of itself: a guess by the exponent, and Newton's
+// way.
+template <class S>
+FROND_INLINE S over_cube_root(const S& x) {
+    constexpr int LOW = 12;  // bits of the guess that do not matter
+    constexpr double GUESS = double(0x553ef0ff289dd796 >> LOW), BEGIN = 4503599627370496.0;
+    constexpr long long FRACTION = 0x000fffffffffffff;
+    const S guess = BEGIN + (GUESS - number_of<S>(BitsOf<S>(x) >> LOW) * (1.0 / 3));
+    S y = S((BitsOf<S>(guess) & FRACTION) << LOW);
+    for (int i = 0; i < 4; ++i) y = y * ((4.0 - x * y * y * y) * (1.0 / 3));
+    return y;
+}
+
+}  // namespace frond

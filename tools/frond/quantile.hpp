@@ -1,0 +1,20 @@
+// Of measured numbers, how large a share of them is.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace frond::tools {
+
+// The value below which that share of them is; 0 of none.
+inline double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1) + 0.5);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+inline double median(const std::vector<double>& values) {
+    return quantile(values, 0.5);
+}
+
+}  // namespace frond::tools
