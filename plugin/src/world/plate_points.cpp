@@ -1,5 +1,5 @@
-// In: a flat piece, and a convex body near it. Out: the points by which they touch if they do: the outline of the body's
-// side that looks at the piece, clipped by the piece (Sutherland, Hodgman 1974, "Reentrant polygon clipping").
+// In: a flat piece, and a convex body near it. Out: the points by which they touch if they do: the outline of the
+// body's side that looks at the piece, clipped by the piece (Sutherland, Hodgman 1974, "Reentrant polygon clipping").
 #include <cmath>
 
 #include "world/convert.hpp"
@@ -42,7 +42,10 @@ void drop_doubles(Outline& outline) {
 
 std::vector<Vec3> points_over_plate(const PlantBody& body, int capsule, const btCollisionObject& other,
                                     const Vec3& towards) {
-    constexpr double FACING = 0.7, TILT = 0.05;  // cosine; of the body's side against the piece [rad]
+    constexpr double FACING = 0.7;  // cosine
+    // Of the body's side against the piece, first of a face that lies on it, then of edges that slope over its rim [-].
+    constexpr double TILTS[] = {0.05, 0.2, 0.6};
+    constexpr double NEAR = 0.005;  // farther above the piece slopes are of no use [m]
     constexpr int DIRECTIONS = 8;
     const Plant& plant = *body.plant;
     const Flat& flat = body.hull->flats[size_t(capsule)];
@@ -56,25 +59,30 @@ std::vector<Vec3> points_over_plate(const PlantBody& body, int capsule, const bt
     const double facing = towards.dot(frame.col(2));
     if (std::abs(facing) < FACING) return {};
 
-    // The body's outermost points in directions around the piece's normal.
     const auto& shape = static_cast<const btConvexShape&>(*other.getCollisionShape());
     const btTransform& place = other.getWorldTransform();
-    Outline outline;
-    for (int k = 0; k < DIRECTIONS; k++) {
-        const double turn = 2 * M_PI * k / DIRECTIONS;
-        const Vec3 aside = TILT * (std::cos(turn) * frame.col(0) + std::sin(turn) * frame.col(1));
-        const btVector3 way = to_bullet(Vec3(std::copysign(1.0, facing) * frame.col(2) + aside));
-        const btVector3 point = place * shape.localGetSupportingVertex(way * place.getBasis());
-        outline.push_back(frame.transpose() * (from_bullet(point) - middle));
-    }
     const double half_width = flat.half_width - flat.half_thickness, half_length = 0.5 * (b - a).norm();
-    for (const double sign : {-1.0, 1.0}) {
-        outline = clip(outline, 0, sign, half_width);
-        outline = clip(outline, 1, sign, half_length);
+    Outline points;
+    for (const double tilt : TILTS) {
+        // The body's outermost points in directions around the piece's normal.
+        Outline outline;
+        for (int k = 0; k < DIRECTIONS; k++) {
+            const double turn = 2 * M_PI * k / DIRECTIONS;
+            const Vec3 aside = tilt * (std::cos(turn) * frame.col(0) + std::sin(turn) * frame.col(1));
+            const btVector3 way = to_bullet(Vec3(std::copysign(1.0, facing) * frame.col(2) + aside));
+            const btVector3 point = place * shape.localGetSupportingVertex(way * place.getBasis());
+            outline.push_back(frame.transpose() * (from_bullet(point) - middle));
+        }
+        for (const double sign : {-1.0, 1.0}) {
+            outline = clip(outline, 0, sign, half_width);
+            outline = clip(outline, 1, sign, half_length);
+        }
+        for (const Vec3& p : outline)
+            if (tilt == TILTS[0] || std::abs(p.z()) < flat.half_thickness + NEAR) points.push_back(p);
     }
-    drop_doubles(outline);
-    for (Vec3& p : outline) p = middle + frame * p;
-    return outline;
+    drop_doubles(points);
+    for (Vec3& p : points) p = middle + frame * p;
+    return points;
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -51,7 +51,6 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
     Row row;
     row.plants[0] = contact.plant;
     if (!make_touch(plant, grip_of(contact), row.touches[0])) return;
-    wake(*contact.other, contact.normal, row.touches[0].velocity);
     row.pusher = make_pusher(*contact.other, contact.on_other, h);
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.pusher.velocity;
@@ -60,6 +59,14 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
     row.touch.depth = -contact.gap;
     row.impulse = &contact.impulse;
     rows.push_back(std::move(row));
+}
+
+// Before there are rows: all of a body's know it as it is then, asleep or not.
+void wake_pushed(const std::vector<Contact*>& contacts) {
+    PlantTouch touch;
+    for (const Contact* contact : contacts)
+        if (make_touch(*contact->plant->plant, grip_of(*contact), touch))
+            wake(*contact->other, contact->normal, touch.velocity);
 }
 
 // What is struck at its rim would turn by more in the step than a linear answer can tell: then it is taken at its axis.
@@ -228,7 +235,8 @@ const std::vector<Coupling>& couple(Coupler& coupler, int by) {
 }
 
 // Of each plant, what the bodies that push it lose by that [J].
-std::vector<double> losses_of_bodies(size_t plant_count, const std::vector<Row>& rows, const std::vector<Vec3>& impulses) {
+std::vector<double> losses_of_bodies(size_t plant_count, const std::vector<Row>& rows,
+                                     const std::vector<Vec3>& impulses) {
     std::vector<double> losses(plant_count, 0);
     for (size_t i = 0; i < rows.size(); i++) {
         if (rows[i].plants[1] || impulses[i].isZero(0)) continue;
@@ -240,7 +248,8 @@ std::vector<double> losses_of_bodies(size_t plant_count, const std::vector<Row>&
     return losses;
 }
 
-// Also of plants that nothing pushes: what they came to without contacts stands now. `losses`: of bodies, one a plant [J].
+// Also of plants that nothing pushes: what they came to without contacts stands now. `losses`: of bodies, one a plant
+// [J].
 void end_steps(const ContactIsland& island, const std::vector<double>& losses) {
     for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending, losses[size_t(body->place)]);
 }
@@ -277,6 +286,7 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
 std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& response, const ContactIsland& island,
                                      double h) {
     std::vector<Row> rows;
+    wake_pushed(island.with_bodies);
     for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
     for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
     for (Bond* bond : island.bonds) add_row(*bond, h, rows);
