@@ -320,9 +320,9 @@ double solve_first(Newton& n) {
 
 // A change of the nodes' places that counts as none, as a share of the plant's size: what follows it is smaller still.
 constexpr double TINY = 1e-11;
-// A change that is more than what is left over by rounding: where not even a small part of it makes anything better,
-// there is no way.
-constexpr double FAR = 0.01;
+// A change of more than the plant's size: where not even a small part of it makes anything better, there is no way, as
+// for what is drawn out many times.
+constexpr double FAR = 1;
 
 // Further solves until the residual is small against the first one, or steps are at the end of what double resolves.
 bool iterate(Newton& n, double first) {
