@@ -165,8 +165,9 @@ const Kind KINDS[] = {
     {"heightfield", [](Shape& s) {
          s.sloping = 0.5;
          s.heights.assign(9 * 9, 0);
-         auto& field = add<btHeightfieldTerrainShape>(s, 9, 9, s.heights.data(), btScalar(1), btScalar(-1), btScalar(1),
-                                                      1, PHY_FLOAT, false);
+         // Bullet's older constructor takes PHY_FLOAT for its own precision.
+         const float* heights = s.heights.data();
+         auto& field = add<btHeightfieldTerrainShape>(s, 9, 9, heights, btScalar(-1), btScalar(1), 1, false);
          field.setLocalScaling(vec(0.2, 1, 0.2));
      }}};
 
