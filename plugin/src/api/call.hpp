@@ -6,6 +6,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/types.hpp"
 
 namespace frond {
@@ -48,8 +49,6 @@ inline void check_range(double value, double low, double high, const char* name)
     if (!(value >= low && value <= high))
         fail(FROND_BAD_ARGUMENT, "%s is %g; it must be in %g .. %g", name, value, low, high);
 }
-// Coordinates further out than this are a mistake of the caller's [m], or of any other vector in its unit.
-constexpr double LARGEST_COORDINATE = 1e9;
 inline void check_vec(const frond_vec3& p, const char* name) {
     for (double value : {p.x, p.y, p.z}) check_range(value, -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
 }

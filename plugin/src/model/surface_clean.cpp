@@ -5,13 +5,12 @@
 #include <unordered_set>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "model/place_index.hpp"
 #include "model/surface.hpp"
 
 namespace frond {
 
-// Coordinates beyond this are no plant's [m].
-static constexpr double LARGEST_COORDINATE = 1e9;
 // A triangle lower than this share of the plant's size has no area.
 static constexpr double SMALLEST_HEIGHT = 1e-10;
 // More faces than this, in squares of its size, no plant has; a cage would take minutes and gigabytes only to be

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/log.hpp"
 #include "model/import.hpp"
 #include "model/tet_geometry.hpp"
@@ -24,7 +25,7 @@ static void check_tets(const TetMesh& mesh) {
         fail(FROND_BAD_GEOMETRY, "there are %zu regions for %zu tets; give one each, or none", mesh.tet_region.size(),
              mesh.tets.size());
     for (size_t i = 0; i < mesh.nodes.size(); ++i)
-        if (!mesh.nodes[i].allFinite() || mesh.nodes[i].cwiseAbs().maxCoeff() > 1e9)
+        if (!mesh.nodes[i].allFinite() || mesh.nodes[i].cwiseAbs().maxCoeff() > LARGEST_COORDINATE)
             fail(FROND_BAD_GEOMETRY, "node %zu is not finite or beyond 1e9", i);
     for (size_t t = 0; t < mesh.tets.size(); ++t) {
         for (int node : mesh.tets[t])

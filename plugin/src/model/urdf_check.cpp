@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "model/urdf.hpp"
 
 namespace frond {
@@ -65,7 +66,7 @@ static std::string what_is_wrong_with(const UrdfLink& link) {
 
 static bool is_usable(const UrdfMesh& mesh) {
     for (const Vec3& place : mesh.positions)
-        if (!place.allFinite() || place.cwiseAbs().maxCoeff() > 1e9) return false;
+        if (!place.allFinite() || place.cwiseAbs().maxCoeff() > LARGEST_COORDINATE) return false;
     for (const Triangle& triangle : mesh.triangles)
         for (int corner : triangle)
             if (corner < 0 || size_t(corner) >= mesh.positions.size()) return false;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "world/is_in.hpp"
 #include "world/snapshot.hpp"
 
@@ -17,19 +18,39 @@ namespace {
 
 void check_count(size_t saved, size_t own, const char* what) {
     if (saved != own)
-        fail(FROND_BAD_ARGUMENT, "the snapshot has %zu %s, this world %zu; restore into a world with the same ones", saved, what,
-             own);
+        fail(FROND_BAD_ARGUMENT, "the snapshot has %zu %s, this world %zu; restore into a world with the same ones",
+             saved, what, own);
+}
+
+// Forces, rates and the like: their products are numbers still.
+constexpr double MOST = 1e15;
+
+bool is_sound(const VecX& numbers, double most) {
+    return numbers.allFinite() && (numbers.size() == 0 || numbers.cwiseAbs().maxCoeff() <= most);
 }
 
 void check_size(const VecX& numbers, Eigen::Index size, const char* what, bool may_be_empty = false) {
     if (numbers.size() != size && !(may_be_empty && numbers.size() == 0)) damaged(what);
-    if (!numbers.allFinite()) damaged(what);
+    if (!is_sound(numbers, MOST)) damaged(what);
 }
 
 template <class List>
-void check_finite(const List& numbers, const char* what) {
+void check_numbers(const List& numbers, const char* what, double most = MOST) {
     for (const auto& value : numbers)
-        if (!std::isfinite(double(value))) damaged(what);
+        if (!(std::abs(double(value)) <= most)) damaged(what);
+}
+
+void check_vec(const Vec3& v, const char* what, double most = MOST) {
+    check_numbers(std::array{v.x(), v.y(), v.z()}, what, most);
+}
+
+// Axes at right angles and a place, as Bullet takes frames.
+void check_frame(const std::array<btScalar, 12>& frame, const char* what) {
+    constexpr double SLACK = 1e-3;
+    check_numbers(frame, what, LARGEST_COORDINATE);
+    Mat3 basis;
+    for (int i = 0; i < 9; i++) basis(i / 3, i % 3) = double(frame[size_t(i)]);
+    if (!((basis * basis.transpose() - Mat3::Identity()).cwiseAbs().maxCoeff() <= SLACK)) damaged(what);
 }
 
 void check_index(int index, size_t count, const char* what) {
@@ -43,7 +64,8 @@ struct Becomes {
     Eigen::Index numbers;  // of places
 };
 Becomes becomes(const Plant& plant, frond_mechanics which) {
-    const auto system = which == plant.which ? plant.system : make_system(plant.model, which, plant.mass, plant.nodes->order);
+    const auto system =
+        which == plant.which ? plant.system : make_system(plant.model, which, plant.mass, plant.nodes->order);
     return {system, &mechanics(which, plant.nodes->order), 3 * Eigen::Index(elements_of(*system).node_count)};
 }
 
@@ -54,8 +76,8 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
         check_index(c.capsule, world.bodies[size_t(c.plant)]->capsules().size(), "contacts");
         check_index(c.other, size_t(objects.size()), "contacts");
         if (PlantBody::of(objects[c.other])) damaged("contacts");
-        for (const Vec3& v : {c.on_plant, c.on_other, c.normal, c.impulse}) check_finite(std::array{v.x(), v.y(), v.z()}, "contacts");
-        check_finite(std::array{c.along, c.across, c.gap, c.friction}, "contacts");
+        for (const Vec3& v : {c.on_plant, c.on_other, c.normal, c.impulse}) check_vec(v, "contacts");
+        check_numbers(std::array{c.along, c.across, c.gap, c.friction}, "contacts");
     }
     for (const SavedPlantContact& saved : touches.with_plants) {
         const PlantContact& c = saved.contact;
@@ -64,22 +86,26 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
             const Plant& plant = *world.bodies[size_t(saved.plants[k])]->plant;
             const ContactSide& side = c.sides[k];
             if (side.node_count < 1 || side.node_count > 4) damaged("contacts of plants");
-            const size_t nodes = c.by_sheath[k] ? size_t(sheath_of(plant)->collider.node_count) : plant.model->cage.nodes.size();
+            const size_t nodes =
+                c.by_sheath[k] ? size_t(sheath_of(plant)->collider.node_count) : plant.model->cage.nodes.size();
             for (int i = 0; i < side.node_count; i++) check_index(side.nodes[size_t(i)], nodes, "contacts of plants");
             check_index(side.piece, plant.model->capsules.size(), "contacts of plants");
             const frond_mechanics which = snapshot.plants[size_t(saved.plants[k])].which;
             if (!is_sound(c.grips[k], int(becomes(plant, which).numbers / 3))) damaged("contacts of plants");
-            check_finite(side.weights, "contacts of plants");
+            check_numbers(side.weights, "contacts of plants");
         }
-        for (const Vec3& v : {c.between, c.point, c.normal, c.impulse}) check_finite(std::array{v.x(), v.y(), v.z()}, "contacts");
-        check_finite(std::array{c.depth, c.friction}, "contacts of plants");
+        for (const Vec3& v : {c.between, c.point, c.normal, c.impulse}) check_vec(v, "contacts");
+        check_numbers(std::array{c.depth, c.friction}, "contacts of plants");
     }
 }
 
 void check_motion(const SavedPlant& saved, const Becomes& becomes) {
     const Motion& motion = saved.motion;
     const History& history = motion.history;
-    for (const VecX* numbers : {&motion.x, &motion.v, &motion.pin_target}) check_size(*numbers, becomes.numbers, "motion");
+    for (const VecX* numbers : {&motion.x, &motion.v, &motion.pin_target}) {
+        check_size(*numbers, becomes.numbers, "motion");
+        if (!is_sound(*numbers, LARGEST_COORDINATE)) damaged("motion");
+    }
     if (motion.pinned.size() * 3 != size_t(becomes.numbers)) damaged("motion");
     // What a step does not look back on may be of other mechanics.
     for (const VecX* numbers : {&history.x_end, &history.v_end, &history.x_prev, &history.v_prev})
@@ -96,29 +122,34 @@ void check_motion(const SavedPlant& saved, const Becomes& becomes) {
 void check_fade(const Fade& fade, Eigen::Index numbers) {
     check_size(fade.offset, numbers, "fade", true);
     check_size(fade.rate, fade.offset.size(), "fade");
-    check_finite(std::array{fade.time}, "fade");
+    check_numbers(std::array{fade.time}, "fade");
 }
 
 void check_fragments(const SavedPlant& saved, const PlantBody& body) {
     const Plant& plant = *body.plant;
     bool alike = saved.fragments.size() == plant.fragments.size();
-    for (size_t i = 0; alike && i < saved.fragments.size(); i++) alike = saved.fragments[i].node == plant.fragments[i].node;
+    for (size_t i = 0; alike && i < saved.fragments.size(); i++)
+        alike = saved.fragments[i].node == plant.fragments[i].node;
     if (!alike)
-        fail(FROND_BAD_ARGUMENT, "plant %d is not broken at the capsules at which it was; call frond_plant_mend and "
-             "frond_plant_break first", body.index);
+        fail(FROND_BAD_ARGUMENT,
+             "plant %d is not broken at the capsules at which it was; call frond_plant_mend and "
+             "frond_plant_break first",
+             body.index);
     for (const SavedFragment& f : saved.fragments) {
-        check_finite(std::vector<double>(f.turn.data(), f.turn.data() + 9), "fragments");
-        for (const Vec3& v : {f.shift, f.centre, f.velocity, f.spin}) check_finite(std::array{v.x(), v.y(), v.z()}, "fragments");
+        check_numbers(std::vector<double>(f.turn.data(), f.turn.data() + 9), "fragments");
+        for (const Vec3& v : {f.shift, f.centre, f.velocity, f.spin}) check_vec(v, "fragments");
     }
     if (!plant.fragments.empty() && (saved.which != plant.which || !saved.swing.empty()))
-        fail(FROND_BAD_ARGUMENT, "plant %d is broken and had other mechanics; call frond_plant_set_mechanics first", body.index);
+        fail(FROND_BAD_ARGUMENT, "plant %d is broken and had other mechanics; call frond_plant_set_mechanics first",
+             body.index);
 }
 
 void check_lasting(const SavedPlant& saved, const Becomes& becomes) {
-    check_finite(saved.lasting, "lasting shape");
+    check_numbers(saved.lasting, "lasting shape");
     if (saved.lasting.empty()) return;
     const auto own = becomes.row->copy(elements_of(*becomes.system));
-    if (!saved.has_own_elements || becomes.row->get_lasting(*own).size() != saved.lasting.size()) damaged("lasting shape");
+    if (!saved.has_own_elements || becomes.row->get_lasting(*own).size() != saved.lasting.size())
+        damaged("lasting shape");
 }
 
 void check_pins(const SavedPlant& saved, const Plant& plant) {
@@ -133,8 +164,10 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
     const Plant& plant = *body.plant;
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     if (saved.kind != kind_of(plant))
-        fail(FROND_BAD_ARGUMENT, "plant %d is of another model, place or setting than in the snapshot; make the same plants in "
-             "the same order", body.index);
+        fail(FROND_BAD_ARGUMENT,
+             "plant %d is of another model, place or setting than in the snapshot; make the same plants in "
+             "the same order",
+             body.index);
     check_count(saved.grab_targets.size(), plant.grabs.size(), "grabs on a plant");
     check_fragments(saved, body);
     const Becomes become = becomes(plant, saved.which);
@@ -142,20 +175,21 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
     check_lasting(saved, become);
     check_pins(saved, plant);
     check_fade(saved.fade, 3 * Eigen::Index(node_count_of(plant)));
-    check_finite(saved.fibre_give, "fibres");
+    check_numbers(saved.fibre_give, "fibres");
     if (saved.swing.size() > 1 || (!saved.swing.empty() && !mechanics(saved.which, plant.nodes->order).moves_chain))
         damaged("sway");
     for (const SavedSwing& swing : saved.swing) {
-        for (const auto* pair : {&swing.place, &swing.speed, &swing.rest, &swing.damping}) check_finite(*pair, "sway");
-        check_finite(std::array{swing.since}, "sway");
+        for (const auto* pair : {&swing.place, &swing.speed, &swing.rest, &swing.damping}) check_numbers(*pair, "sway");
+        check_numbers(std::array{swing.since}, "sway");
         check_fade(swing.fade, become.numbers);
     }
-    for (const Vec3& target : saved.grab_targets) check_finite(std::array{target.x(), target.y(), target.z()}, "grabs");
+    for (const Vec3& target : saved.grab_targets) check_vec(target, "grabs", LARGEST_COORDINATE);
     if (saved.substeps < 1 || saved.substeps > plant.max_substeps) damaged("substeps");
     if (!(saved.patience > 0 && saved.patience <= 1)) damaged("patience");
     if (saved.level.every < 1 || saved.level.every > 64) damaged("detail");
-    check_finite(std::array{saved.lead, double(saved.recovers_for), saved.still, saved.air.x(), saved.air.y(), saved.air.z(),
-                            saved.level.pending, saved.level.distance, saved.level.touched}, "plants");
+    check_numbers(std::array{saved.lead, double(saved.recovers_for), saved.still, saved.air.x(), saved.air.y(),
+                             saved.air.z(), saved.level.pending, saved.level.distance, saved.level.touched},
+                  "plants");
     for (const SavedGrownIn& grown_in : saved.grown_in) {
         check_index(grown_in.capsule, body.capsules().size(), "ground");
         check_index(grown_in.other, size_t(objects.size()), "ground");
@@ -165,10 +199,12 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
 
 void check_rigid(const SavedRigid& saved, const Rigid& own) {
     if (saved.is_plane != own.is_plane || saved.is_fragment != (own.grown_on != nullptr))
-        fail(FROND_BAD_ARGUMENT, "the rigid bodies are others than in the snapshot; make the same ones in the same order");
-    for (const auto* frame : {&saved.frame, &saved.frame_before}) check_finite(*frame, "rigid bodies");
-    for (const auto* v : {&saved.velocity, &saved.spin, &saved.velocity_before, &saved.spin_before, &saved.force, &saved.torque})
-        check_finite(*v, "rigid bodies");
+        fail(FROND_BAD_ARGUMENT,
+             "the rigid bodies are others than in the snapshot; make the same ones in the same order");
+    for (const auto* frame : {&saved.frame, &saved.frame_before}) check_frame(*frame, "rigid bodies");
+    for (const auto* v : {&saved.velocity, &saved.spin, &saved.velocity_before, &saved.spin_before})
+        check_numbers(*v, "rigid bodies", LARGEST_COORDINATE);
+    for (const auto* v : {&saved.force, &saved.torque}) check_numbers(*v, "rigid bodies");
     if (saved.activation < ACTIVE_TAG || saved.activation > DISABLE_SIMULATION || !std::isfinite(double(saved.still)))
         damaged("rigid bodies");
 }
@@ -179,8 +215,9 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
     check_count(snapshot.plants.size(), world.bodies.size(), "plants");
     check_count(snapshot.rigids.size(), world.rigids.size(), "rigid bodies");
     check_count(snapshot.bonds.size(), world.bonds.size(), "bonds");
-    check_finite(std::array{snapshot.time, snapshot.travelled, snapshot.gravity_before.x(), snapshot.gravity_before.y(),
-                            snapshot.gravity_before.z()}, "time");
+    check_numbers(std::array{snapshot.time, snapshot.travelled, snapshot.gravity_before.x(),
+                             snapshot.gravity_before.y(), snapshot.gravity_before.z()},
+                  "time");
     for (size_t i = 0; i < snapshot.plants.size(); i++) {
         check_plant(world, snapshot.plants[i], look_at(*world.bodies[i]));
         check_touches(world, snapshot, snapshot.plants[i].asleep_with);
@@ -192,15 +229,16 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
     for (const Bond& bond : world.bonds) {
         const SavedBond& saved = snapshot.bonds[i++];
         if (saved.vertex != bond.vertex)
-            fail(FROND_BAD_ARGUMENT, "a bond holds another point than in the snapshot; make the same bonds in the same order");
-        check_finite(std::array{saved.impulse.x(), saved.impulse.y(), saved.impulse.z(), saved.length}, "bonds");
+            fail(FROND_BAD_ARGUMENT,
+                 "a bond holds another point than in the snapshot; make the same bonds in the same order");
+        check_numbers(std::array{saved.impulse.x(), saved.impulse.y(), saved.impulse.z(), saved.length}, "bonds");
         if (!(saved.length > 0)) damaged("bonds");
     }
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     for (const SavedAhead& ahead : snapshot.ahead) {
         check_index(ahead.body, size_t(objects.size()), "gravity");
         if (!btRigidBody::upcast(objects[ahead.body])) damaged("gravity");
-        check_finite(ahead.force, "gravity");
+        check_numbers(ahead.force, "gravity");
     }
 }
 
