@@ -21,21 +21,30 @@ double depth_above(frond_plant plant, double height) {
     return depth;
 }
 
+// 1 cm beside the first, or where there is no side on which one could leave the other.
 TEST_P(OnePlace, LetsPlantsPartAboveTheirFeet) {
-    constexpr double FEET = 0.2, DEPTH = 0.005;  // [m]
+    constexpr double DEPTH = 0.005;  // [m]
     frond_plant_def def = frond_default_plant_def();
     def.mechanics = frond_mechanics(GetParam());
-    SmallWorld small(def, 0, FROND_REST_STANDS_AS_MODELLED);
-    def.position = {0.01, 0, 0.003};
-    frond_plant second = {};
-    ASSERT_EQ(frond_plant_create(small.world, small.model, &def, &second), FROND_OK) << frond_last_error();
-    ASSERT_EQ(frond_world_step(small.world, 1.0 / 60), FROND_OK);
-    EXPECT_GT(depth_above(small.plant, FEET), 2 * DEPTH);
-    for (int i = 0; i < 180; i++) ASSERT_EQ(frond_world_step(small.world, 1.0 / 60), FROND_OK);
-    EXPECT_LT(depth_above(small.plant, FEET), DEPTH);
-    frond_report report;
-    ASSERT_EQ(frond_world_get_report(small.world, &report), FROND_OK);
-    EXPECT_EQ(report.trouble & FROND_TROUBLE_REWOUND, 0u);
+    struct Placing {
+        frond_vec3 second;
+        double h, duration, feet;  // [s], [s], [m]
+    };
+    for (const auto& [place, h, duration, feet] :
+         {Placing{{0.01, 0, 0.003}, 1.0 / 60, 3, 0.2}, Placing{{0, 0, 0}, 1.0 / 240, 1.5, 0.3}}) {
+        def.position = {0, 0, 0};
+        SmallWorld small(def, 0, FROND_REST_STANDS_AS_MODELLED);
+        def.position = place;
+        frond_plant second = {};
+        ASSERT_EQ(frond_plant_create(small.world, small.model, &def, &second), FROND_OK) << frond_last_error();
+        ASSERT_EQ(frond_world_step(small.world, h), FROND_OK);
+        EXPECT_GT(depth_above(small.plant, feet), 2 * DEPTH);
+        for (int i = 0; i < int(duration / h + 0.5); i++) ASSERT_EQ(frond_world_step(small.world, h), FROND_OK);
+        EXPECT_LT(depth_above(small.plant, feet), DEPTH) << "at " << place.x << " m, " << h << " s";
+        frond_report report;
+        ASSERT_EQ(frond_world_get_report(small.world, &report), FROND_OK);
+        EXPECT_EQ(report.trouble & FROND_TROUBLE_REWOUND, 0u);
+    }
 }
 
 }  // namespace

@@ -273,22 +273,25 @@ TEST(Wake, ComesToAllFromWhatIsOfTheWorld) {
 
 // A row of plants leaning on each other sleeps as one, and the one that is pulled wakes those that it reaches.
 TEST(Wake, GoesOnFromPlantToPlant) {
-    Stand stand;
-    const frond_mechanics mechanics = SANITIZED ? FROND_ROD : FROND_TET_COROTATIONAL;
-    for (int i = 0; i < 4; i++) stand.add(0.29 * i, mechanics);
-    stand.add(3, mechanics);
-    ASSERT_TRUE(stand.rests_within(40));
-    frond_grab grab = {};
-    must(frond_grab_create(stand.plants[0], {0.15, 0.5, 0}, 200, &grab));
-    must(frond_grab_move(grab, {0.35, 0.5, 0}));
-    int most = 0;
-    for (int i = 0; i < 60; i++) {
-        stand.steps(1);
-        most = std::max(most, stand.report().awake_count);
-        EXPECT_FALSE(frond_plant_is_awake(stand.plants[4]));
+    std::vector<frond_mechanics> all = {FROND_ROD};
+    if (!SANITIZED) all.push_back(FROND_TET_COROTATIONAL);
+    for (const frond_mechanics mechanics : all) {
+        Stand stand;
+        for (int i = 0; i < 4; i++) stand.add(0.29 * i, mechanics);
+        stand.add(3, mechanics);
+        ASSERT_TRUE(stand.rests_within(mechanics == FROND_ROD ? 10 : 40));
+        frond_grab grab = {};
+        must(frond_grab_create(stand.plants[0], {0.15, 0.5, 0}, 200, &grab));
+        must(frond_grab_move(grab, {0.35, 0.5, 0}));
+        int most = 0;
+        for (int i = 0; i < 60; i++) {
+            stand.steps(1);
+            most = std::max(most, stand.report().awake_count);
+            EXPECT_FALSE(frond_plant_is_awake(stand.plants[4]));
+        }
+        EXPECT_GE(most, 2);
+        EXPECT_TRUE(stand.rests_within(40));  // while it is held
     }
-    EXPECT_GE(most, 2);
-    EXPECT_TRUE(stand.rests_within(40));  // while it is held
 }
 
 // A board on the tips of two plants keeps them awake until it rests too; when it is taken away, they come back.

@@ -3,6 +3,7 @@
 
 #include "core/timer.hpp"
 #include "model/union_find.hpp"
+#include "world/agree_on_sides.hpp"
 #include "world/remember_contacts.hpp"
 #include "world/world.hpp"
 
@@ -61,9 +62,12 @@ void place_nodes(const PlantBody& body, double h, VecX& now, VecX& then) {
 }
 
 // Where a plant will be at the end of the step if nothing touches it, so that what is about to meet is found before it is
-// in each other; no farther than straight ways can tell.
-void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
-    constexpr double FARTHEST = 0.03;  // [m]
+// in each other; no farther than straight ways can tell. Plants at exactly the same place have no side on which one could
+// leave the other, and parted by rounding, every leaf its own way: each is a hair beside the one before (Edelsbrunner and
+// Mücke 1990, Simulation of simplicity).
+void place_shape(const PlantBody& body, size_t number, double h, PlantSearch::Shape& shape) {
+    constexpr double FARTHEST = 0.03, HAIR = 1e-8;  // [m]
+    const Vec3 hair = HAIR * double(number) * Vec3(0.8, 0.1, 0.6);
     const Plant& plant = *body.plant;
     shape.axes.clear();
     for (const auto& [begin, end] : plant.model->capsules)
@@ -79,6 +83,7 @@ void place_shape(const PlantBody& body, double h, PlantSearch::Shape& shape) {
         shape.ways[n] = turn * (point(then, int(n)) - point(now, int(n)));
         const double way = shape.ways[n].norm();
         if (way > FARTHEST) shape.ways[n] *= FARTHEST / way;
+        shape.ways[n] += hair;
         shape.places[n] = turn * point(now, int(n)) + plant.position + shape.ways[n];
     }
     shape.covers = cover_pieces(collider, shape.places.data(), shape.axes);
@@ -158,7 +163,7 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
     std::vector<CoveredBody> covered;
     std::vector<CollisionBody> bodies;
     for (size_t i = 0; i < island.size(); i++) {
-        place_shape(*island[i], h, memory.shapes[i]);
+        place_shape(*island[i], i, h, memory.shapes[i]);
         const bool with_itself = has(world, *island[i], FROND_SELF_CONTACT);
         const Collider* collider = &island[i]->touched_collider();
         covered.push_back({collider, &memory.shapes[i].covers, with_itself});
@@ -176,6 +181,7 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
         for (const CageContact& found : memory.found) result.contacts.push_back(contact_of(found, memory, island));
     }
     if (!last.empty()) remember_contacts(placed_now(world, island, bodies, memory), last, result.contacts);
+    agree_on_sides(last, result.contacts);
     result.ms_narrow = timer.lap() - result.ms_hash;
     return result;
 }

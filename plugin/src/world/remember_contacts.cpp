@@ -68,7 +68,7 @@ struct Memory {
     double alike;  // cosine between two ways out, for one contact: a tip may leave in several
     bool doubts;   // of what is deeper than it was
 };
-constexpr Memory OF_CAGES = {follow, 0.5, false}, OF_SHEATHS = {move_on, -1, true};
+constexpr Memory OF_CAGES = {follow, 0.8, false}, OF_SHEATHS = {move_on, -1, true};
 
 // Springs do not hold what is followed well enough: a leaf of the corn pair was 53 mm in the other one after 2 s.
 const Memory& memory_of(const World& world, const PlantContact& contact) {

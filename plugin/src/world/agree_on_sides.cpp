@@ -1,0 +1,74 @@
+// In: contacts of the last substep and of this one. Out: of this one's, those whose pieces agree on a side.
+#include "world/agree_on_sides.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "world/plant_body.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+// A plant's number and its piece's.
+using Piece = std::array<int, 2>;
+
+struct Sided {
+    std::array<Piece, 2> pieces;  // the lower one first
+    Vec3 way;                     // along which that leaves the other, as long as they are in each other [m]
+};
+Sided sided(const PlantContact& contact) {
+    const Piece first = {contact.plants[0]->number, contact.sides[0].piece};
+    const Piece second = {contact.plants[1]->number, contact.sides[1].piece};
+    const Vec3 way = contact.depth * contact.normal;
+    return first < second ? Sided{{first, second}, way} : Sided{{second, first}, -way};
+}
+
+using Ways = std::map<std::array<Piece, 2>, Vec3>;
+
+Ways ways_of(const std::vector<const PlantContact*>& contacts) {
+    Ways ways;
+    for (const PlantContact* contact : contacts) {
+        if (contact->depth <= 0) continue;
+        const Sided of = sided(*contact);
+        ways.emplace(of.pieces, Vec3::Zero()).first->second += of.way;
+    }
+    return ways;
+}
+
+// Where nothing is known from the last substep, or what agrees with that is shallow against what does not, the deepest
+// counts.
+void overrule(const std::vector<PlantContact>& contacts, Ways& ways) {
+    constexpr double FAR = 2;
+    std::map<std::array<Piece, 2>, std::array<Vec3, 2>> deepest;  // with and against what is known
+    for (const PlantContact& contact : contacts) {
+        if (contact.depth <= 0) continue;
+        const Sided of = sided(contact);
+        const auto known = ways.find(of.pieces);
+        const bool is_against = known != ways.end() && of.way.dot(known->second) < 0;
+        Vec3& most =
+            deepest.emplace(of.pieces, std::array{Vec3(Vec3::Zero()), Vec3(Vec3::Zero())}).first->second[is_against];
+        if (of.way.norm() > most.norm()) most = of.way;
+    }
+    for (const auto& [pieces, most] : deepest)
+        if (!ways.emplace(pieces, most[0]).second && most[1].norm() > FAR * most[0].norm()) ways[pieces] = most[1];
+}
+
+}  // namespace
+
+void agree_on_sides(const std::vector<const PlantContact*>& last, std::vector<PlantContact>& contacts) {
+    constexpr double DEEP = 0.001, AGAINST = -0.3;  // [m], a cosine
+    Ways ways = ways_of(last);
+    overrule(contacts, ways);
+    const auto is_against = [&](const PlantContact& contact) {
+        if (contact.depth <= DEEP) return false;
+        const Sided of = sided(contact);
+        const Vec3& way = ways.at(of.pieces);
+        return of.way.dot(way) < AGAINST * of.way.norm() * way.norm();
+    };
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_against), contacts.end());
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
