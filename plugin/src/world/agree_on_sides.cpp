@@ -37,10 +37,10 @@ Ways ways_of(const std::vector<const PlantContact*>& contacts) {
     return ways;
 }
 
-// Where nothing is known from the last substep, or what agrees with that is shallow against what does not, the deepest
-// counts.
+// Where nothing is known from the last substep, or the pieces are deep in each other and what agrees with that is shallow
+// against what does not, the deepest counts.
 void overrule(const std::vector<PlantContact>& contacts, Ways& ways) {
-    constexpr double FAR = 2;
+    constexpr double FAR = 2, DEEP = 0.005;  // [-], [m]
     std::map<std::array<Piece, 2>, std::array<Vec3, 2>> deepest;  // with and against what is known
     for (const PlantContact& contact : contacts) {
         if (contact.depth <= 0) continue;
@@ -51,8 +51,10 @@ void overrule(const std::vector<PlantContact>& contacts, Ways& ways) {
             deepest.emplace(of.pieces, std::array{Vec3(Vec3::Zero()), Vec3(Vec3::Zero())}).first->second[is_against];
         if (of.way.norm() > most.norm()) most = of.way;
     }
-    for (const auto& [pieces, most] : deepest)
-        if (!ways.emplace(pieces, most[0]).second && most[1].norm() > FAR * most[0].norm()) ways[pieces] = most[1];
+    for (const auto& [pieces, most] : deepest) {
+        const auto [known, is_new] = ways.emplace(pieces, most[0]);
+        if (!is_new && known->second.norm() >= DEEP && most[1].norm() > FAR * most[0].norm()) known->second = most[1];
+    }
 }
 
 }  // namespace

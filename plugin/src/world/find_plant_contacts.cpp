@@ -181,7 +181,8 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
         for (const CageContact& found : memory.found) result.contacts.push_back(contact_of(found, memory, island));
     }
     if (!last.empty()) remember_contacts(placed_now(world, island, bodies, memory), last, result.contacts);
-    agree_on_sides(last, result.contacts);
+    // What springs hold wavers too much to say where it went.
+    if (world.response != FROND_RESPONSE_PENALTY) agree_on_sides(last, result.contacts);
     result.ms_narrow = timer.lap() - result.ms_hash;
     return result;
 }
