@@ -14,8 +14,13 @@ namespace {
 constexpr int SIX = 6, OWN = 0, TO_PARENT = 36, INVERSE = 72, NUMBERS = 78;  // of a pair
 
 template <class S>
+FROND_INLINE const double* entry_at(const BlockMatrix& A, int slot, int i) {
+    alignas(LINE) static constexpr double ZERO[MOST_LANES] = {};
+    return slot < 0 ? ZERO : A.values.data() + LANES<S> * size_t(9 * slot + i);
+}
+template <class S>
 FROND_INLINE S entry(const BlockMatrix& A, int slot, int i) {
-    return slot < 0 ? S{} : load<S>(A.values.data() + LANES<S> * size_t(9 * slot + i));
+    return load<S>(entry_at<S>(A, slot, i));
 }
 
 // a . b as lanes within a row add it up.
@@ -30,25 +35,21 @@ struct Factorize {
     const TreePlan& plan;
     const BlockMatrix& A;
     double* numbers;
+    uint8_t* begun;  // of pairs: what is below them has changed them
     unsigned& failed;
 
     template <class S>
     FROND_INLINE double* of(size_t pair, int first) const {
         return numbers + LANES<S> * (NUMBERS * pair + size_t(first));
     }
-    // Only what is right of the diagonal counts.
+    // (r, c) of a pair's own block, as far as pairs below it have been eliminated. Only what is right of the diagonal counts.
     template <class S>
-    FROND_INLINE void take_own(size_t i) const {
+    FROND_INLINE S own_now(size_t i, int r, int c) const {
         const std::array<int, 3>& slots = plan.pairs[i].own;
-        double* own = of<S>(i, OWN);
-#pragma GCC unroll 3
-        for (int r = 0; r < 3; ++r)
-#pragma GCC unroll 3
-            for (int c = 0; c < 3; ++c) {
-                store(entry<S>(A, slots[0], r + 3 * c), own + LANES<S> * (SIX * r + c));
-                store(entry<S>(A, slots[1], 3 * r + c), own + LANES<S> * (SIX * r + c + 3));
-                store(entry<S>(A, slots[2], r + 3 * c), own + LANES<S> * (SIX * (r + 3) + c + 3));
-            }
+        return load<S>(begun[i] ? of<S>(i, OWN + SIX * r + c)
+                       : r >= 3 ? entry_at<S>(A, slots[2], r - 3 + 3 * (c - 3))
+                       : c < 3  ? entry_at<S>(A, slots[0], r + 3 * c)
+                                : entry_at<S>(A, slots[1], 3 * r + c - 3));
     }
     // Becomes L', its inverse pivots beside it. Returns what was sound, and is no more where a pivot is none.
     template <class S>
@@ -58,7 +59,7 @@ struct Factorize {
 #pragma GCC unroll 6
         for (int r = 0; r < SIX; ++r)
 #pragma GCC unroll 6
-            for (int c = r; c < SIX; ++c) own[r][c] = load<S>(at + LANES<S> * (SIX * r + c));
+            for (int c = r; c < SIX; ++c) own[r][c] = own_now<S>(i, r, c);
 #pragma GCC unroll 6
         for (int k = 0; k < SIX; ++k) {
             const S d = own[k][k];
@@ -103,17 +104,16 @@ struct Factorize {
         for (int r = 0; r < SIX; ++r)
 #pragma GCC unroll 6
             for (int c = r; c < SIX; ++c) {
-                double* to = parent + LANES<S> * (SIX * r + c);
-                S sum = load<S>(to);
+                S sum = own_now<S>(size_t(place.parent), r, c);
 #pragma GCC unroll 6
                 for (int k = 0; k < SIX; ++k) sum -= over[k][r] * C[k][c];
-                store(sum, to);
+                store(sum, parent + LANES<S> * (SIX * r + c));
             }
+        begun[place.parent] = 1;
     }
     template <class S>
     FROND_INLINE void run() const {
         S sound = constant<S>(1);
-        for (size_t i = 0; i < plan.pairs.size(); ++i) take_own<S>(i);
         for (size_t i = plan.pairs.size(); i-- > 0;) {
             S own[SIX][SIX];
             S inverse[SIX];
@@ -240,7 +240,8 @@ unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeAbreast& fact
     factor.lanes = lanes_of(A);
     factor.numbers.resize(size_t(factor.lanes) * NUMBERS * plan.pairs.size());
     unsigned failed = 0;
-    run_in_lanes(factor.lanes, Factorize{plan, A, factor.numbers.data(), failed});
+    factor.begun.assign(plan.pairs.size(), 0);
+    run_in_lanes(factor.lanes, Factorize{plan, A, factor.numbers.data(), factor.begun.data(), failed});
     return failed;
 }
 
