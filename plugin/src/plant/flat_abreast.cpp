@@ -40,8 +40,7 @@ struct FindFrames {
         gather_places<S>();
         const double* x = out.x.data();
         for (int i = 0; i < int(out.turns.size()) / (9 * LANES<S>); i++) {
-            const RodEnd<S> at = rod_end(Lanes3<S>{}, load3<S>(x, 6 * i + 3));
-            const Lanes33<S> rows = rotation_of(at.w, at.p);
+            const Lanes33<S> rows = rotation_by(load3<S>(x, 6 * i + 3));
             for (int r = 0; r < 3; r++) store3(rows.r[r], out.turns.data(), 9 * i + 3 * r);
         }
         for (size_t i = 0; i < capsules.size(); i++) {

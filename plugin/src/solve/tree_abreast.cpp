@@ -63,8 +63,9 @@ struct Factorize {
 #pragma GCC unroll 6
         for (int k = 0; k < SIX; ++k) {
             const S d = own[k][k];
-            sound = select(d > 0.0, select(d < std::numeric_limits<double>::infinity(), sound, S{}), S{});
             inverse[k] = 1.0 / d;
+            // Above zero and not infinite, which would make this product none.
+            sound = select(inverse[k] > 0.0, select(d * inverse[k] > 0.0, sound, S{}), S{});
 #pragma GCC unroll 6
             for (int r = k + 1; r < SIX; ++r) {
                 const S times = own[k][r] * inverse[k];

@@ -33,7 +33,7 @@ btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
 
 namespace {
 
-constexpr size_t SIDES = 6;
+constexpr size_t ROOM = 8, UPPER = 4;  // numbers of a room; where its upper corner begins
 
 // Nodes with others below them, those first.
 void list_inner(btDbvtNode* node, std::vector<btDbvtNode*>& out) {
@@ -56,14 +56,25 @@ FROND_INLINE Lanes3<S> absolute(const Lanes3<S>& v) {
     return {of(v.x), of(v.y), of(v.z)};
 }
 
-// Several of Bullet's numbers.
-using TwoScalars = btScalar __attribute__((vector_size(2 * sizeof(btScalar))));
+// Four of Bullet's numbers.
 using FourScalars = btScalar __attribute__((vector_size(4 * sizeof(btScalar))));
-template <class S>
-FROND_INLINE S load_scalars(const btScalar* from) {
-    std::conditional_t<LANES<S> == 4, FourScalars, TwoScalars> out;
-    __builtin_memcpy(&out, from, sizeof out);
-    return __builtin_convertvector(out, S);
+// Three numbers of each lane from the places that `at` names; a fourth is there.
+template <class S, class At>
+FROND_INLINE Lanes3<S> take_in(const At& at) {
+    if constexpr (LANES<S> == 4) {
+        FourLanes from[4], turned[4];
+        for (int lane = 0; lane < 4; lane++) {
+            FourScalars four;
+            __builtin_memcpy(&four, at(lane), sizeof four);
+            from[lane] = __builtin_convertvector(four, FourLanes);
+        }
+        turn_over(from[0], from[1], from[2], from[3], turned);
+        return {turned[0], turned[1], turned[2]};
+    } else {
+        return {gather<S>([&](int lane) { return double(at(lane)[0]); }),
+                gather<S>([&](int lane) { return double(at(lane)[1]); }),
+                gather<S>([&](int lane) { return double(at(lane)[2]); })};
+    }
 }
 
 // Three numbers of each lane to the places that `to` names.
@@ -133,11 +144,6 @@ struct ChildrenOfOne {
     FROND_INLINE Lanes3<S> axis(size_t first, int which) const {
         return three([&](int lane) { return now.frames[plate(first, lane)].data() + 3 * which; });
     }
-    FROND_INLINE Lanes3<S> room(size_t side, size_t first) const {
-        const size_t stride = shape.room.size() / SIDES;
-        const btScalar* at = &shape.room[side * stride + first];
-        return {load_scalars<S>(at), load_scalars<S>(at + stride), load_scalars<S>(at + 2 * stride)};
-    }
     FROND_INLINE void set_box(const Boxes<S>& all) const {
         btVector3 lower(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT), upper = -lower;
         for (int lane = 0; lane < LANES<S>; lane++) {
@@ -178,44 +184,30 @@ struct ChildOfSeveral {
     FROND_INLINE Lanes3<S> axis(size_t first, int which) const {
         return three(chains.frames, 9 * first + 3 * size_t(which));
     }
-    FROND_INLINE S room_at(size_t side, size_t child) const {
-        return gather<S>([&](int lane) {
-            const std::vector<btScalar>& room = shape_of(lane).room;
-            return double(room[side * (room.size() / SIDES) + child]);
-        });
-    }
-    FROND_INLINE Lanes3<S> room(size_t side, size_t child) const {
-        return {room_at(side, child), room_at(side + 1, child), room_at(side + 2, child)};
-    }
     FROND_INLINE void set_box(const Boxes<S>& all) const {
         for (int lane = 0; lane < count; lane++)
             shape_of(lane).set_box(corner_of(all.lower, lane), corner_of(all.upper, lane));
     }
 };
 
-// Wider than the box of the child, on all sides; it holds what it held before as far as that is near.
+// Wider than the box of the child, more so on sides where that has left it: there it will go on. It holds what it held before
+// as far as that is near.
 void make_room(PlantShape& shape, size_t child, const btVector3& from, const btVector3& to) {
-    constexpr btScalar WIDER = btScalar(0.03), NEAR = btScalar(0.1);  // [m]
-    const size_t stride = shape.room.size() / SIDES;
-    const btVector3 wider(WIDER, WIDER, WIDER), near(NEAR, NEAR, NEAR);
-    const auto corner = [&](size_t side) {
-        const btScalar* at = &shape.room[side * stride + child];
-        return btVector3(at[0], at[stride], at[2 * stride]);
-    };
-    btVector3 lower = corner(0), upper = corner(SIDES / 2);
-    lower.setMin(from - wider);
-    upper.setMax(to + wider);
-    lower.setMax(from - near);
-    upper.setMin(to + near);
-    const btDbvtVolume volume = btDbvtVolume::FromMM(lower, upper);
+    constexpr btScalar WIDER = btScalar(0.03), AHEAD = btScalar(0.08), NEAR = btScalar(0.1);  // [m]
+    btScalar *lower = &shape.room[ROOM * child], *upper = lower + UPPER;
+    const bool is_new = lower[0] > upper[0];
+    for (int c = 0; c < 3; c++) {
+        const btScalar below = from[c] - (from[c] < lower[c] && !is_new ? AHEAD : WIDER),
+                       above = to[c] + (to[c] > upper[c] && !is_new ? AHEAD : WIDER);
+        lower[c] = std::max(std::min(lower[c], below), from[c] - NEAR);
+        upper[c] = std::min(std::max(upper[c], above), to[c] + NEAR);
+    }
+    const btDbvtVolume volume = btDbvtVolume::FromMM(btVector3(lower[0], lower[1], lower[2]),
+                                                     btVector3(upper[0], upper[1], upper[2]));
     btDbvtNode& node = *shape.getChildList()[child].m_node;
     node.volume = volume;
     for (btDbvtNode* over = node.parent; over && !over->volume.Contain(volume); over = over->parent)
         Merge(over->volume, volume, over->volume);
-    for (int c = 0; c < 3; c++) {
-        shape.room[size_t(c) * stride + child] = lower[c];
-        shape.room[size_t(c + 3) * stride + child] = upper[c];
-    }
     shape.growths++;
 }
 
@@ -274,8 +266,12 @@ struct PlaceChildren {
         return many;
     }
     FROND_INLINE void keep_in_tree(const Boxes<S>& boxes, size_t first, int count) const {
-        const Lanes3<S> most =
-            -least(boxes.lower - group.room(0, first), group.room(SIDES / 2, first) - boxes.upper);
+        const auto room = [&](int lane) -> const btScalar* {
+            return &group.shape_of(lane).room[ROOM * group.child_of(first, lane)];
+        };
+        const Lanes3<S> lower = take_in<S>(room),
+                        upper = take_in<S>([&](int lane) -> const btScalar* { return room(lane) + UPPER; });
+        const Lanes3<S> most = -least(boxes.lower - lower, upper - boxes.upper);
         const auto is_out = larger<S>(larger<S>(most.x, most.y), most.z) > 0.0;
         if (!any(is_out)) return;
         for (int lane = 0; lane < count; lane++)
@@ -353,9 +349,8 @@ PlantShape::PlantShape(World& world, const Hull& hull) : world(world) {
     setMargin(btScalar(std::max(hull.wider_by_cage, hull.wider_by_sheath)));
     list_inner(getDynamicAabbTree()->m_root, inner);
     // None has any yet.
-    const size_t stride = child + MOST_LANES;
-    room.assign(SIDES * stride, btScalar(BT_LARGE_FLOAT));
-    std::fill(room.begin() + std::ptrdiff_t(SIDES / 2 * stride), room.end(), btScalar(-BT_LARGE_FLOAT));
+    room.assign(ROOM * (child + MOST_LANES), btScalar(BT_LARGE_FLOAT));
+    for (size_t i = 0; i < room.size(); i += ROOM) std::fill_n(&room[i + UPPER], UPPER, btScalar(-BT_LARGE_FLOAT));
 }
 
 void PlantShape::getAabb(const btTransform& frame, btVector3& lower, btVector3& upper) const {

@@ -30,7 +30,7 @@ struct PlantShape : btCompoundShape {
     // with these, and are fitted to them anew after so many growths.
     std::vector<btDbvtNode*> inner;
     int growths = 0;
-    // The boxes in that tree, somewhat wider than the children: lower x of all, then y, z, upper x, y, z.
+    // The boxes in that tree, somewhat wider than the children, one after the other: lower x, y, z, no number, and upper.
     std::vector<btScalar> room;
 
     void set_box(const btVector3& lower, const btVector3& upper);
