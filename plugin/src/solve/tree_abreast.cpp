@@ -42,7 +42,7 @@ struct Factorize {
     FROND_INLINE double* of(size_t pair, int first) const {
         return numbers + LANES<S> * (NUMBERS * pair + size_t(first));
     }
-    // (r, c) of a pair's own block, as far as pairs below it have been eliminated. Only what is right of the diagonal counts.
+    // (r, c) of a pair's own block, as far as pairs below it are eliminated. Only what is right of the diagonal counts.
     template <class S>
     FROND_INLINE S own_now(size_t i, int r, int c) const {
         const std::array<int, 3>& slots = plan.pairs[i].own;
@@ -206,17 +206,23 @@ struct FindResiduals {
     FROND_INLINE void run() const {
         const BlockPattern& pattern = *A.pattern;
         left = b;
-        for (int j = 0; j < pattern.node_count; ++j)
+        for (int j = 0; j < pattern.node_count; ++j) {
+            const Lanes3<S> x_j = load3<S>(x.data(), 3 * j);
+            Lanes3<S> left_j = load3<S>(left.data(), 3 * j);
             for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
                 const int i = pattern.row[size_t(k)];
                 const double* a = A.values.data() + LANES<S> * 9 * size_t(k);
                 // By columns: what is read as rows is the block turned over.
                 const Lanes33<S> over = {{load3<S>(a, 0), load3<S>(a, 3), load3<S>(a, 6)}};
-                store3(load3<S>(left.data(), 3 * i) - transposed_times(over, load3<S>(x.data(), 3 * j)), left.data(),
-                       3 * i);
-                if (i == j) continue;
-                store3(load3<S>(left.data(), 3 * j) - over * load3<S>(x.data(), 3 * i), left.data(), 3 * j);
+                if (i == j) {
+                    left_j = left_j - transposed_times(over, x_j);
+                    continue;
+                }
+                store3(load3<S>(left.data(), 3 * i) - transposed_times(over, x_j), left.data(), 3 * i);
+                left_j = left_j - over * load3<S>(x.data(), 3 * i);
             }
+            store3(left_j, left.data(), 3 * j);
+        }
         S rest = {}, all = {};
         for (int i = 0; i < pattern.node_count; ++i) {
             const Lanes3<S> of_rest = load3<S>(left.data(), 3 * i), of_all = load3<S>(b.data(), 3 * i);
