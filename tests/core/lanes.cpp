@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct Functions {
                              whole(x),
                              select(x < 0.0, S(-x), x),
                              logarithm<S>(x * x + 1e-3),
-                             over_cube_root<S>(x * x + 1e-9)};
+                             over_cube_root<S>(x * x + 1e-9),
+                             select(x > -1.0, select(x < 1.0, x, constant<S>(1)), constant<S>(-1))};
             for (int lane = 0; lane < LANES<S>; ++lane)
                 for (const S& value : all) out.push_back(value[lane]);
         }
@@ -56,7 +58,7 @@ TEST(Lanes, HaveTheFunctionsThatTheyAreNamedFor) {
     std::vector<double> out;
     run_in_lanes(Functions{numbers, out});
     for (size_t i = 0; i < numbers.size(); ++i) {
-        const double x = numbers[i], *f = out.data() + 7 * i;
+        const double x = numbers[i], *f = out.data() + 8 * i;
         const double near = 4e-16 * std::max(1.0, std::abs(x));
         EXPECT_NEAR(f[0], std::sin(x), near) << x;
         EXPECT_NEAR(f[1], std::cos(x), near) << x;
@@ -65,6 +67,28 @@ TEST(Lanes, HaveTheFunctionsThatTheyAreNamedFor) {
         EXPECT_EQ(f[4], std::abs(x)) << x;
         EXPECT_NEAR(f[5], std::log(x * x + 1e-3), 3e-16 * std::max(1.0, std::abs(f[5]))) << x;
         EXPECT_NEAR(f[6] * std::cbrt(x * x + 1e-9), 1, 1e-15) << x;
+        EXPECT_EQ(f[7], std::min(std::max(x, -1.0), 1.0)) << x;
+    }
+}
+
+// Whether any lane but the others is.
+struct AskLanes {
+    unsigned& wrong;
+    template <class S>
+    FROND_INLINE void run() const {
+        wrong = unsigned(any(constant<S>(0) > 0.5));
+        for (int lane = 0; lane < LANES<S>; ++lane) {
+            S one = constant<S>(0);
+            one[lane] = 1;
+            wrong += unsigned(!any(one > 0.5)) + unsigned(!any(one == 0.0));
+        }
+    }
+};
+TEST(Lanes, TellWhetherThereIsAny) {
+    for (int lanes = 2; lanes <= most_lanes(); lanes *= 2) {
+        unsigned wrong = 1;
+        run_in_lanes(lanes, AskLanes{wrong});
+        EXPECT_EQ(wrong, 0u) << lanes << " lanes";
     }
 }
 

@@ -1,5 +1,8 @@
 // Plants of a world, which are stepped side by side where they can be, go as each does in a world of its own, to the
 // last bit, on any number of threads; while they are woken one by one, and one is hit.
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btConvexShape.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -8,6 +11,7 @@
 #include <vector>
 
 #include "frond/frond.h"
+#include "frond/frond_bullet.hpp"
 #include "support/stems.hpp"
 
 namespace {
@@ -104,6 +108,84 @@ TEST(Abreast, PlantsOfAWorldGoAsEachAlone) {
             EXPECT_EQ(garden.state(i), alone[i]) << "plant " << i << ", threads " << threads;
     }
     frond_model_destroy(model);
+}
+
+// Corn in wind. Only plants of the same settings go abreast; a direct solver does not ask for the tolerance.
+struct Row {
+    frond_world world = {};
+    frond_model model = {};
+    std::vector<frond_plant> plants;
+
+    explicit Row(bool is_abreast) {
+        frond_model_def model_def = frond_default_model_def();
+        model_def.capsule_height = 0.4;
+        EXPECT_EQ(frond_model_load(FROND_SOURCE_DIR "/models/corn/corn.obj", &model_def, &model), FROND_OK);
+        const frond_world_def def = frond_default_world_def();
+        EXPECT_EQ(frond_world_create(&def, &world), FROND_OK);
+        frond_wind_def wind = frond_default_wind_def();
+        wind.velocity = {9, 0, 0};
+        EXPECT_EQ(frond_world_set_wind(world, &wind), FROND_OK);
+        for (int i = 0; i < COUNT; i++) {
+            frond_plant_def plant_def = frond_default_plant_def();
+            plant_def.mechanics = FROND_ROD;
+            plant_def.effects &= ~uint32_t(FROND_PLANT_CONTACT);
+            plant_def.position = {0.7 * i, 0, 0};
+            plant_def.rotation = {0, std::sin(0.4 * i), 0, std::cos(0.4 * i)};
+            if (!is_abreast) plant_def.tolerance *= 1 + 1e-3 * i;
+            plants.emplace_back();
+            EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plants.back()), FROND_OK);
+        }
+    }
+    ~Row() {
+        frond_world_destroy(world);
+        frond_model_destroy(model);
+    }
+    btCompoundShape& shape(size_t i) const {
+        return static_cast<btCompoundShape&>(*frond::bullet_object(plants[i])->getCollisionShape());
+    }
+    // Frames of all pieces, and the box around them.
+    std::vector<btScalar> pieces(size_t i) const {
+        std::vector<btScalar> numbers;
+        const auto add = [&](const btVector3& v) { numbers.insert(numbers.end(), {v.x(), v.y(), v.z()}); };
+        for (int child = 0; child < shape(i).getNumChildShapes(); child++) {
+            const btTransform& frame = shape(i).getChildTransform(child);
+            for (int r = 0; r < 3; r++) add(frame.getBasis()[r]);
+            add(frame.getOrigin());
+        }
+        btVector3 lower, upper;
+        shape(i).getAabb(btTransform::getIdentity(), lower, upper);
+        add(lower), add(upper);
+        return numbers;
+    }
+    // What Bullet looks for pieces in: each of them as far as it reaches, not its box, which is wider.
+    void check_tree(size_t i) const {
+        constexpr btScalar NEAR = btScalar(1e-4);  // [m]
+        for (int child = 0; child < shape(i).getNumChildShapes(); child++) {
+            const btTransform& frame = shape(i).getChildTransform(child);
+            const auto& piece = static_cast<const btConvexShape&>(*shape(i).getChildShape(child));
+            btVector3 lower, upper;
+            for (int c = 0; c < 3; c++) {
+                const btVector3 along = frame.getBasis()[c];
+                upper[c] = (frame * piece.localGetSupportingVertex(along))[c] - NEAR;
+                lower[c] = (frame * piece.localGetSupportingVertex(-along))[c] + NEAR;
+            }
+            for (const btDbvtNode* node = shape(i).getChildList()[child].m_node; node; node = node->parent)
+                EXPECT_TRUE(node->volume.Contain(btDbvtVolume::FromMM(lower, upper)))
+                    << "plant " << i << ", piece " << child;
+        }
+    }
+};
+
+TEST(Abreast, PiecesAreWhereThoseOfEachAloneAre) {
+    Row abreast(true), alone(false);
+    ASSERT_GT(abreast.shape(0).getNumChildShapes(), frond_plant_get_capsule_count(abreast.plants[0])) << "no plates";
+    for (int k = 0; k < 90; k++) {
+        for (Row* row : {&abreast, &alone}) ASSERT_EQ(frond_world_step(row->world, H), FROND_OK);
+        for (size_t i = 0; i < COUNT; i++) {
+            ASSERT_EQ(abreast.pieces(i), alone.pieces(i)) << "plant " << i << ", step " << k;
+            abreast.check_tree(i);
+        }
+    }
 }
 
 }  // namespace

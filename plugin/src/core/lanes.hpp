@@ -85,15 +85,6 @@ FROND_INLINE void set_lane(S& a, int lane, double value) {
     a[lane] = value;
 }
 // Of what a comparison gives.
-FROND_INLINE bool any(int mask) {
-    return mask != 0;
-}
-template <class Mask>
-FROND_INLINE std::enable_if_t<!std::is_arithmetic_v<Mask>, bool> any(const Mask& mask) {
-    auto all = mask[0];
-    for (size_t lane = 1; lane < sizeof mask / sizeof mask[0]; ++lane) all |= mask[lane];
-    return all != 0;
-}
 FROND_INLINE bool lane_of(int mask, int) {
     return mask != 0;
 }
@@ -103,9 +94,33 @@ template <class S>
 FROND_INLINE S constant(double value) {
     return S{} + value;
 }
+// GCC makes one mask of those of selections within each other, and in eight lanes works that out lane by lane: it is kept
+// from looking through them.
 template <class Mask, class S>
 FROND_INLINE S select(const Mask& mask, const S& yes, const S& no) {
+#if defined(__x86_64__) && !defined(__clang__)
+    if constexpr (sizeof(S) == sizeof(EightLanes)) {
+        S chosen = mask ? yes : no;
+        asm("" : "+v"(chosen));
+        return chosen;
+    }
+#endif
     return mask ? yes : no;
+}
+FROND_INLINE bool any(int mask) {
+    return mask != 0;
+}
+template <class Mask>
+FROND_INLINE std::enable_if_t<!std::is_arithmetic_v<Mask>, bool> any(const Mask& mask) {
+    if constexpr (sizeof(Mask) == sizeof(EightLanes)) {
+        const EightLanes ones = select(mask, constant<EightLanes>(1), EightLanes{});
+        double sum = 0;
+        for (int lane = 0; lane < 8; ++lane) sum += ones[lane];
+        return sum > 0;
+    }
+    auto all = mask[0];
+    for (size_t lane = 1; lane < sizeof mask / sizeof mask[0]; ++lane) all |= mask[lane];
+    return all != 0;
 }
 // value(lane) of each lane.
 template <class S, class Value>
@@ -129,9 +144,10 @@ FROND_INLINE FourLanes sqrt(const FourLanes& a) {
     const TwoLanes low = sqrt(TwoLanes{a[0], a[1]}), high = sqrt(TwoLanes{a[2], a[3]});
     return FourLanes{low[0], low[1], high[0], high[1]};
 }
+// One instruction, in what is compiled with -fno-math-errno.
 FROND_INLINE EightLanes sqrt(const EightLanes& a) {
-    const FourLanes low = sqrt(FourLanes{a[0], a[1], a[2], a[3]}), high = sqrt(FourLanes{a[4], a[5], a[6], a[7]});
-    return EightLanes{low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]};
+    return EightLanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3]),
+                      std::sqrt(a[4]), std::sqrt(a[5]), std::sqrt(a[6]), std::sqrt(a[7])};
 }
 
 // From and to memory of any alignment.

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/lines.hpp"
 #include "core/types.hpp"
 
 namespace frond {
@@ -24,7 +25,7 @@ extern template BlockPattern make_block_pattern(int, const std::vector<std::arra
 
 struct BlockMatrix {
     const BlockPattern* pattern = nullptr;
-    std::vector<double> values;  // 9 a block, column-major; block (i, j) of the lower triangle, i >= j
+    NumbersInLines values;  // 9 a block, column-major; block (i, j) of the lower triangle, i >= j
     // Takes the pattern and makes room for it; allocates only the first time.
     void set_pattern(const BlockPattern& new_pattern);
     void set_zero();

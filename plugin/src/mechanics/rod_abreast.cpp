@@ -61,10 +61,12 @@ struct FindYielding {
     template <class S>
     FROND_INLINE void run() const {
         S within = constant<S>(1);
+        LastEnd<S> last;
         for (size_t s = 0; s < elements.segments.size(); ++s) {
             if (!(elements.yields[s].strain > 0)) continue;
             const PieceOfSeveral<S> pieces(elements.segments, s);
-            const Placed<S> at(pieces, x);
+            const Placed<S> at = last.place(pieces, x);
+            last.go_on(pieces, at);
             const S wide = pieces.rod.reach_wide * at.bent.curvature.y,
                     thin = pieces.rod.reach_thin * at.bent.curvature.z;
             const S pull = select(at.bent.strain.x < 0.0, S(-at.bent.strain.x), at.bent.strain.x);
@@ -80,8 +82,16 @@ int lanes_of(const Elements& body, const VecX& x) {
     return int(x.size()) / (3 * body.node_count);
 }
 
-void add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
-    run_in_lanes(lanes_of(body, x), to_add_ahead<PieceOfSeveral>(as_rods(body), x, ahead, f, A));
+void set_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
+               std::vector<uint8_t>& filled) {
+    const int lanes = lanes_of(body, x);
+    filled.assign(size_t(body.pattern.block_count()), 0);
+    f.setZero(x.size());
+    Assemble<PieceOfSeveral> job = to_add_ahead<PieceOfSeveral>(as_rods(body), x, ahead, f, A);
+    job.filled = &filled;
+    run_in_lanes(lanes, job);
+    for (size_t slot = 0; slot < filled.size(); ++slot)
+        if (!filled[slot]) std::fill_n(A.values.begin() + std::ptrdiff_t(9 * slot) * lanes, 9 * lanes, 0.0);
 }
 
 void rotary_inertia(const Elements& body, const VecX& x, VecX& out) {
@@ -104,7 +114,7 @@ unsigned may_yield(const Elements& body, const VecX& x) {
 }  // namespace
 
 const MechanicsAbreast& rods_abreast() {
-    static const MechanicsAbreast ROW = {add_ahead, rotary_inertia, not_calm, may_yield};
+    static const MechanicsAbreast ROW = {set_ahead, rotary_inertia, not_calm, may_yield};
     return ROW;
 }
 

@@ -16,6 +16,7 @@ struct Assemble {
     const std::vector<double>* damping = nullptr;  // of each piece, times its stiffness into D
     BlockMatrix* D = nullptr;
     const Ahead* ahead = nullptr;
+    std::vector<uint8_t>* filled = nullptr;  // which blocks of K are, of several plants
 
     template <class S>
     FROND_INLINE Lanes3<S> move(const Pieces<S>& pieces, int RodSegment::*end, int first, const S& c) const {
@@ -41,10 +42,15 @@ struct Assemble {
     template <class S>
     FROND_INLINE void run() const {
         const std::vector<RodSegment>& rods = elements.segments;
+        LastEnd<S> last;
         for (size_t s = 0; s < rods.size(); s += size_t(Pieces<S>::MANY)) {
             const Pieces<S> pieces(rods, s);
-            const Placed<S> at(pieces, x);
-            const Lanes33<S> rotation_a = rotation_of(at.a.w, at.a.p), rate_a = rate_of(at.a), rate_b = rate_of(at.b);
+            const Placed<S> at = last.place(pieces, x);
+            Lanes33<S> rate_a = last.rate;
+            if (!pieces.begins_at(last.node)) rate_a = rate_of(at.a);
+            const Lanes33<S> rotation_a = rotation_of(at.a.w, at.a.p), rate_b = rate_of(at.b);
+            last.go_on(pieces, at);
+            last.rate = rate_b;
             RodGradient<S> g;
             if (f) g = gradient_of(at.piece, rotation_a, rate_a, rate_b, at.bent);
             if (K) {
@@ -55,8 +61,8 @@ struct Assemble {
                 const double step = ahead ? ahead->step : 1;
                 const S alike = c + (ahead ? ahead->damping : 0.0);
                 if (ahead) look_ahead(pieces, at, change, alike, g);
-                pieces.add_blocks(blocks, ahead ? S(step * step + step * alike) : constant<S>(scale), K->values);
-                if (D) pieces.add_blocks(blocks, c, D->values);
+                pieces.add_blocks(blocks, ahead ? S(step * step + step * alike) : constant<S>(scale), *K, filled);
+                if (D) pieces.add_blocks(blocks, c, *D, filled);
             }
             if (f) pieces.take_off(f->data(), g);
         }

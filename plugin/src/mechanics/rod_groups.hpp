@@ -20,6 +20,9 @@ struct PiecesOfOne {
         : first(first), count(int(std::min(size_t(MANY), rods.size() - first))) {
         for (int lane = 0; lane < MANY; ++lane) rod[lane] = &rods[first + size_t(std::min(lane, count - 1))];
     }
+    // Whether all begin where those that ended at that node do.
+    FROND_INLINE static bool begins_at(int) { return false; }
+    FROND_INLINE static int last_node() { return -1; }
     FROND_INLINE Lanes3<S> vector(Vec3 RodSegment::*of) const {
         return {gather<S>([&](int l) { return (rod[l]->*of)[0]; }), gather<S>([&](int l) { return (rod[l]->*of)[1]; }),
                 gather<S>([&](int l) { return (rod[l]->*of)[2]; })};
@@ -54,7 +57,9 @@ struct PiecesOfOne {
         }
     }
     // Blocks of a BlockMatrix lie by columns.
-    FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, std::vector<double>& A) const {
+    FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, BlockMatrix& K,
+                                 std::vector<uint8_t>*) const {
+        NumbersInLines& A = K.values;
         S values[90];
         for (int k = 0; k < 10; ++k)
             for (int r = 0; r < 3; ++r) {
@@ -79,6 +84,8 @@ struct PieceOfSeveral {
     const RodSegment& rod;
     size_t first;
     FROND_INLINE PieceOfSeveral(const std::vector<RodSegment>& rods, size_t first) : rod(rods[first]), first(first) {}
+    FROND_INLINE bool begins_at(int node) const { return rod.a == node; }
+    FROND_INLINE int last_node() const { return rod.b; }
     FROND_INLINE Lanes3<S> vector(Vec3 RodSegment::*of) const {
         const Vec3& v = rod.*of;
         return {constant<S>(v[0]), constant<S>(v[1]), constant<S>(v[2])};
@@ -94,19 +101,30 @@ struct PieceOfSeveral {
         from(6 * rod.a, g.place_a), from(6 * rod.a + 3, g.turn_a);
         from(6 * rod.b, g.place_b), from(6 * rod.b + 3, g.turn_b);
     }
-    FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, std::vector<double>& A) const {
+    // What is not filled yet holds anything.
+    FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, BlockMatrix& A,
+                                 std::vector<uint8_t>* filled) const {
         for (int r = 0, k = 0; r < 4; ++r)
             for (int c = 0; c <= r; ++c, ++k) {
-                double* to = A.data() + LANES<S> * 9 * size_t(rod.slots[size_t(4 * r + c)]);
-                const auto add = [&](int i, const S& value) {
-                    store(S(load<S>(to + LANES<S> * i) + by * value), to + LANES<S> * i);
-                };
-                for (int i = 0; i < 3; ++i) {
-                    add(i, blocks[k].r[i].x);
-                    add(i + 3, blocks[k].r[i].y);
-                    add(i + 6, blocks[k].r[i].z);
-                }
+                const size_t slot = size_t(rod.slots[size_t(4 * r + c)]);
+                double* to = A.values.data() + LANES<S> * 9 * slot;
+                if ((*filled)[slot])
+                    add_block(blocks[k], by, to, [](const double* at) { return load<S>(at); });
+                else
+                    add_block(blocks[k], by, to, [](const double*) { return S{}; });
+                (*filled)[slot] = 1;
             }
+    }
+    template <class Before>
+    FROND_INLINE static void add_block(const Lanes33<S>& block, const S& by, double* to, const Before& before) {
+        const auto add = [&](int i, const S& value) {
+            store(S(before(to + LANES<S> * i) + by * value), to + LANES<S> * i);
+        };
+        for (int i = 0; i < 3; ++i) {
+            add(i, block.r[i].x);
+            add(i + 3, block.r[i].y);
+            add(i + 6, block.r[i].z);
+        }
     }
 };
 
@@ -132,14 +150,36 @@ struct Placed {
     RodEnd<S> a, b;
     RodBent<S> bent;
     template <class Pieces>
-    FROND_INLINE Placed(const Pieces& pieces, const VecX& x)
+    FROND_INLINE Placed(const Pieces& pieces, const VecX& x) : Placed(pieces, x, end_of(pieces, x, &RodSegment::a)) {}
+    template <class Pieces>
+    FROND_INLINE Placed(const Pieces& pieces, const VecX& x, const RodEnd<S>& a)
         : piece(piece_of(pieces)),
-          a(end_of(pieces, x, &RodSegment::a)),
+          a(a),
           b(end_of(pieces, x, &RodSegment::b)),
           bent(bend_between(piece, a, b)) {}
     template <class Pieces>
     FROND_INLINE static RodEnd<S> end_of(const Pieces& pieces, const VecX& x, int RodSegment::*which) {
         return rod_end(pieces.point(x.data(), which, 0), pieces.point(x.data(), which, 3));
+    }
+};
+
+// Pieces of several plants mostly go on from the last ones, whose end is known.
+template <class S>
+struct LastEnd {
+    int node = -1;  // none
+    RodEnd<S> end = {};
+    Lanes33<S> rate = {};  // rate_of() it, where that is asked for
+
+    template <class Pieces>
+    FROND_INLINE Placed<S> place(const Pieces& pieces, const VecX& x) const {
+        RodEnd<S> begin = end;
+        if (!pieces.begins_at(node)) begin = Placed<S>::end_of(pieces, x, &RodSegment::a);
+        return Placed<S>(pieces, x, begin);
+    }
+    template <class Pieces>
+    FROND_INLINE void go_on(const Pieces& pieces, const Placed<S>& at) {
+        node = pieces.last_node();
+        end = at.b;
     }
 };
 

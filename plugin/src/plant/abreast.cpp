@@ -9,6 +9,7 @@
 #include "core/timer.hpp"
 #include "plant/air_abreast.hpp"
 #include "plant/guard.hpp"
+#include "plant/lanes_of_plants.hpp"
 #include "solve/system.hpp"
 
 namespace frond {
@@ -31,9 +32,7 @@ struct Gather {
     FROND_INLINE void run() const {
         const double* from[LANES<S>];
         for (int lane = 0; lane < LANES<S>; lane++) from[lane] = of(lane).data();
-        const Eigen::Index count = of(0).size();
-        for (Eigen::Index i = 0; i < count; i++)
-            store(gather<S>([&](int lane) { return from[lane][i]; }), to.data() + LANES<S> * i);
+        put_side_by_side<S>(from, size_t(of(0).size()), to.data());
     }
 };
 
@@ -48,10 +47,7 @@ struct HandOut {
             plants[size_t(lane)].resize(from.size() / LANES<S>);
             to[lane] = plants[size_t(lane)].data();
         }
-        for (Eigen::Index i = 0; i < from.size() / LANES<S>; i++) {
-            const S numbers = load<S>(from.data() + LANES<S> * i);
-            for (int lane = 0; lane < LANES<S>; lane++) to[lane][i] = numbers[lane];
-        }
+        put_apart<S>(from.data(), size_t(from.size()) / LANES<S>, to);
     }
 };
 

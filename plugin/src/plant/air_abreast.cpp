@@ -115,12 +115,18 @@ struct GatherPieces {
     FROND_INLINE void run() const {
         look_at_air<S>();
         const double* x = step.x.data();
+        // Pieces mostly go on from the one before.
+        int last_node = -1;
+        Lanes33<S> last_turn = {};
         for (const AirPiece& of : *air.pieces) {
+            Lanes33<S> turn = last_turn;
+            if (of.parent != last_node) turn = rotation_by(load3<S>(x, 6 * of.parent + 3));
+            last_node = of.node;
+            last_turn = rotation_by(load3<S>(x, 6 * of.node + 3));
             const AirLanes<S> piece([&](int) -> const AirPiece& { return of; });
             const Lanes3<S> wide = {constant<S>(of.wide[0]), constant<S>(of.wide[1]), constant<S>(of.wide[2])};
-            const Lanes33<S> frame = air_frame<S>(
-                load3<S>(x, 6 * of.node) - load3<S>(x, 6 * of.parent),
-                turned_by(load3<S>(x, 6 * of.parent + 3), wide) + turned_by(load3<S>(x, 6 * of.node + 3), wide));
+            const Lanes33<S> frame = air_frame<S>(load3<S>(x, 6 * of.node) - load3<S>(x, 6 * of.parent),
+                                                  turn * wide + last_turn * wide);
             add_at(of.parent, of, piece, frame);
             add_at(of.node, of, piece, frame);
         }

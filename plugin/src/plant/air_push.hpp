@@ -24,9 +24,13 @@ FROND_INLINE Lanes33<S> air_frame(const Lanes3<S>& chord, const Lanes3<S>& wide)
 
 // A direction of the chain, turned as a node is.
 template <class S>
-FROND_INLINE Lanes3<S> turned_by(const Lanes3<S>& turn, const Lanes3<S>& direction) {
+FROND_INLINE Lanes33<S> rotation_by(const Lanes3<S>& turn) {
     const RodEnd<S> at = rod_end(Lanes3<S>{}, turn);
-    return rotation_of(at.w, at.p) * direction;
+    return rotation_of(at.w, at.p);
+}
+template <class S>
+FROND_INLINE Lanes3<S> turned_by(const Lanes3<S>& turn, const Lanes3<S>& direction) {
+    return rotation_by(turn) * direction;
 }
 
 // At one end of a piece, of air that passes it and of its own velocity: a symmetric matrix, xx, xy, xz, yy, yz, zz, and

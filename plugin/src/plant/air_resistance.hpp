@@ -48,11 +48,10 @@ FROND_INLINE S air_pressure(const AirLanes<S>& piece, AirShape shape, const Lane
     constexpr double STILL = 1e-9;  // [m/s]
     const S speed = sqrt(dot(local, local));
     S coefficient = piece.coefficient;
-    const auto is_open = coefficient == 0.0;
-    if (any(is_open)) {
-        const S Re = select(speed > STILL, speed, constant<S>(1)) * piece.size / VISCOSITY;
-        coefficient = select(
-            is_open, shape == AirShape::COMPACT ? sphere_coefficient<S>(Re) : cylinder_coefficient<S>(Re), coefficient);
+    if (any(coefficient == 0.0)) {
+        const S Re = speed * piece.size / VISCOSITY;
+        coefficient = select(coefficient > 0.0, coefficient,
+                             shape == AirShape::COMPACT ? sphere_coefficient<S>(Re) : cylinder_coefficient<S>(Re));
     }
     const Lanes3<S> seen = scaled(piece.area, local);
     return select(speed > STILL, S(0.5 * density * coefficient * sqrt(dot(seen, seen))), S{});

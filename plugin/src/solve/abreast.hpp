@@ -24,7 +24,7 @@ struct Abreast {
 
     // Room for the step.
     VecX v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia;
-    std::vector<uint8_t> held;
+    std::vector<uint8_t> held, filled;
     std::vector<double> element_damping;
     BlockMatrix A;
     TreeAbreast factor;

@@ -47,7 +47,7 @@ bool make(const BlockMatrix& A, LinearScratch& scratch) {
         if (!block.allFinite() || Eigen::LLT<Mat3>(block).info() != Eigen::Success) return false;
     }
     for (double shift = 0; shift <= LAST_SHIFT; shift = shift > 0 ? 2 * shift : FIRST_SHIFT) {
-        scratch.incomplete = A.values;
+        scratch.incomplete.assign(A.values.begin(), A.values.end());
         for (int start : pattern.start)
             if (start < pattern.block_count())
                 for (size_t c = 0; c < 9; c += 4) scratch.incomplete[9 * size_t(start) + c] *= 1 + shift;

@@ -14,8 +14,13 @@ namespace {
 constexpr int SIX = 6, OWN = 0, TO_PARENT = 36, INVERSE = 72, NUMBERS = 78;  // of a pair
 
 template <class S>
+FROND_INLINE const double* entry_at(const BlockMatrix& A, int slot, int i) {
+    alignas(LINE) static constexpr double ZERO[MOST_LANES] = {};
+    return slot < 0 ? ZERO : A.values.data() + LANES<S> * size_t(9 * slot + i);
+}
+template <class S>
 FROND_INLINE S entry(const BlockMatrix& A, int slot, int i) {
-    return slot < 0 ? S{} : load<S>(A.values.data() + LANES<S> * size_t(9 * slot + i));
+    return load<S>(entry_at<S>(A, slot, i));
 }
 
 // a . b as lanes within a row add it up.
@@ -30,25 +35,21 @@ struct Factorize {
     const TreePlan& plan;
     const BlockMatrix& A;
     double* numbers;
+    uint8_t* begun;  // of pairs: what is below them has changed them
     unsigned& failed;
 
     template <class S>
     FROND_INLINE double* of(size_t pair, int first) const {
         return numbers + LANES<S> * (NUMBERS * pair + size_t(first));
     }
-    // Only what is right of the diagonal counts.
+    // (r, c) of a pair's own block, as far as pairs below it are eliminated. Only what is right of the diagonal counts.
     template <class S>
-    FROND_INLINE void take_own(size_t i) const {
+    FROND_INLINE S own_now(size_t i, int r, int c) const {
         const std::array<int, 3>& slots = plan.pairs[i].own;
-        double* own = of<S>(i, OWN);
-#pragma GCC unroll 3
-        for (int r = 0; r < 3; ++r)
-#pragma GCC unroll 3
-            for (int c = 0; c < 3; ++c) {
-                store(entry<S>(A, slots[0], r + 3 * c), own + LANES<S> * (SIX * r + c));
-                store(entry<S>(A, slots[1], 3 * r + c), own + LANES<S> * (SIX * r + c + 3));
-                store(entry<S>(A, slots[2], r + 3 * c), own + LANES<S> * (SIX * (r + 3) + c + 3));
-            }
+        return load<S>(begun[i] ? of<S>(i, OWN + SIX * r + c)
+                       : r >= 3 ? entry_at<S>(A, slots[2], r - 3 + 3 * (c - 3))
+                       : c < 3  ? entry_at<S>(A, slots[0], r + 3 * c)
+                                : entry_at<S>(A, slots[1], 3 * r + c - 3));
     }
     // Becomes L', its inverse pivots beside it. Returns what was sound, and is no more where a pivot is none.
     template <class S>
@@ -58,12 +59,13 @@ struct Factorize {
 #pragma GCC unroll 6
         for (int r = 0; r < SIX; ++r)
 #pragma GCC unroll 6
-            for (int c = r; c < SIX; ++c) own[r][c] = load<S>(at + LANES<S> * (SIX * r + c));
+            for (int c = r; c < SIX; ++c) own[r][c] = own_now<S>(i, r, c);
 #pragma GCC unroll 6
         for (int k = 0; k < SIX; ++k) {
             const S d = own[k][k];
-            sound = select(d > 0.0, select(d < std::numeric_limits<double>::infinity(), sound, S{}), S{});
             inverse[k] = 1.0 / d;
+            // Above zero and not infinite, which would make this product none.
+            sound = select(inverse[k] > 0.0, select(d * inverse[k] > 0.0, sound, S{}), S{});
 #pragma GCC unroll 6
             for (int r = k + 1; r < SIX; ++r) {
                 const S times = own[k][r] * inverse[k];
@@ -103,17 +105,16 @@ struct Factorize {
         for (int r = 0; r < SIX; ++r)
 #pragma GCC unroll 6
             for (int c = r; c < SIX; ++c) {
-                double* to = parent + LANES<S> * (SIX * r + c);
-                S sum = load<S>(to);
+                S sum = own_now<S>(size_t(place.parent), r, c);
 #pragma GCC unroll 6
                 for (int k = 0; k < SIX; ++k) sum -= over[k][r] * C[k][c];
-                store(sum, to);
+                store(sum, parent + LANES<S> * (SIX * r + c));
             }
+        begun[place.parent] = 1;
     }
     template <class S>
     FROND_INLINE void run() const {
         S sound = constant<S>(1);
-        for (size_t i = 0; i < plan.pairs.size(); ++i) take_own<S>(i);
         for (size_t i = plan.pairs.size(); i-- > 0;) {
             S own[SIX][SIX];
             S inverse[SIX];
@@ -205,17 +206,23 @@ struct FindResiduals {
     FROND_INLINE void run() const {
         const BlockPattern& pattern = *A.pattern;
         left = b;
-        for (int j = 0; j < pattern.node_count; ++j)
+        for (int j = 0; j < pattern.node_count; ++j) {
+            const Lanes3<S> x_j = load3<S>(x.data(), 3 * j);
+            Lanes3<S> left_j = load3<S>(left.data(), 3 * j);
             for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
                 const int i = pattern.row[size_t(k)];
                 const double* a = A.values.data() + LANES<S> * 9 * size_t(k);
                 // By columns: what is read as rows is the block turned over.
                 const Lanes33<S> over = {{load3<S>(a, 0), load3<S>(a, 3), load3<S>(a, 6)}};
-                store3(load3<S>(left.data(), 3 * i) - transposed_times(over, load3<S>(x.data(), 3 * j)), left.data(),
-                       3 * i);
-                if (i == j) continue;
-                store3(load3<S>(left.data(), 3 * j) - over * load3<S>(x.data(), 3 * i), left.data(), 3 * j);
+                if (i == j) {
+                    left_j = left_j - transposed_times(over, x_j);
+                    continue;
+                }
+                store3(load3<S>(left.data(), 3 * i) - transposed_times(over, x_j), left.data(), 3 * i);
+                left_j = left_j - over * load3<S>(x.data(), 3 * i);
             }
+            store3(left_j, left.data(), 3 * j);
+        }
         S rest = {}, all = {};
         for (int i = 0; i < pattern.node_count; ++i) {
             const Lanes3<S> of_rest = load3<S>(left.data(), 3 * i), of_all = load3<S>(b.data(), 3 * i);
@@ -240,7 +247,8 @@ unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeAbreast& fact
     factor.lanes = lanes_of(A);
     factor.numbers.resize(size_t(factor.lanes) * NUMBERS * plan.pairs.size());
     unsigned failed = 0;
-    run_in_lanes(factor.lanes, Factorize{plan, A, factor.numbers.data(), failed});
+    factor.begun.assign(plan.pairs.size(), 0);
+    run_in_lanes(factor.lanes, Factorize{plan, A, factor.numbers.data(), factor.begun.data(), failed});
     return failed;
 }
 

@@ -1,5 +1,5 @@
-// TreeAbreast: factors of the matrices of several plants abreast, of the pattern of one tree (tree_factor.hpp), to the last
-// bit as of each alone.
+// TreeAbreast: factors of the matrices of several plants abreast, of the pattern of one tree (tree_factor.hpp), to the
+// last bit as of each alone.
 #pragma once
 
 #include "solve/tree_factor.hpp"
@@ -8,7 +8,8 @@ namespace frond {
 
 struct TreeAbreast {
     int lanes = 0;
-    std::vector<double> numbers;  // of a pair: L' of its own, row by row, L' to its parent, and 1 / D
+    NumbersInLines numbers;      // of a pair: L' of its own, row by row, L' to its parent, and 1 / D
+    std::vector<uint8_t> begun;  // room
 };
 
 // Returns the lanes whose matrix is not positive definite, a bit each.

@@ -97,6 +97,7 @@ void hide(PlantBody& body);
 void show_again(PlantBody& body);
 // Moves the capsules to where the chain is.
 void move_capsules(PlantBody& body);
+void move_capsules(PlantBody* const* bodies, int count);  // at most MOST_LANES
 // Makes ready for contact of cages, or of sheaths. The broad phase then sees the plant as wide as those.
 void take_collider(PlantBody& body);
 

@@ -10,6 +10,9 @@
 #include "frond/frond_bullet.hpp"
 
 namespace frond {
+
+struct ChainsAbreast;
+
 inline namespace FROND_BULLET_PRECISION {
 
 struct Hull;
@@ -27,7 +30,7 @@ struct PlantShape : btCompoundShape {
     // with these, and are fitted to them anew after so many growths.
     std::vector<btDbvtNode*> inner;
     int growths = 0;
-    // The boxes in that tree, somewhat wider than the children: lower x of all, then y, z, upper x, y, z.
+    // The boxes in that tree, somewhat wider than the children, one after the other: lower x, y, z, no number, and upper.
     std::vector<btScalar> room;
 
     void set_box(const btVector3& lower, const btVector3& upper);
@@ -40,6 +43,9 @@ struct PiecesNow {
     const std::vector<Mat3>& frames;  // columns axis, thin and wide of each plate; zero: it stays turned as it was
 };
 void place_pieces(PlantShape& shape, const Hull& hull, const PiecesNow& now);
+// The same of several plants of a hull side by side, to the last bit; `ends` are those of their capsules, among nodes.
+void place_pieces(PlantShape* const* shapes, int count, const Hull& hull, const std::vector<std::array<int, 2>>& ends,
+                  const ChainsAbreast& chains);
 // The frame of a capsule, whose axis is y, between two points.
 btTransform capsule_frame(const Vec3& begin, const Vec3& end);
 

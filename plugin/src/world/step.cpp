@@ -133,17 +133,28 @@ void mark_touched(World& world) {
         if (body->plant->is_touched || body->plant->has_user_force) body->level.is_due = true;
 }
 
-// What remains of a step when nothing pushes the plant any more; a plant that may break moves its capsules later.
-void finish(const World& world, PlantBody& body, const Surroundings& surroundings) {
+// What remains of a step when nothing pushes the plants any more, of one or of those that went abreast; plants that may
+// break move their capsules later.
+void finish(const World& world, PlantBody* const* bodies, int count, const Surroundings& surroundings) {
     constexpr double LATELY = 0.3;
-    Plant& plant = *body.plant;
-    accept_step(plant, surroundings, body.level.pending);
-    const double ms = plant.ms_effects + plant.report.ms_assembly + plant.report.ms_solve;
-    body.level.ms += float((body.level.ms > 0 ? LATELY : 1) * (ms - double(body.level.ms)));
+    for (int i = 0; i < count; i++) {
+        PlantBody& body = *bodies[i];
+        Plant& plant = *body.plant;
+        accept_step(plant, surroundings, body.level.pending);
+        const double ms = plant.ms_effects + plant.report.ms_assembly + plant.report.ms_solve;
+        body.level.ms += float((body.level.ms > 0 ? LATELY : 1) * (ms - double(body.level.ms)));
+    }
     const Timer timer;
-    if (!(plant.effects & world.effects & FROND_BREAKING)) move_capsules(body);
-    body.level.ms_capsules = float(timer.ms());
-    if (world.sleep_distance > 0) watch(world, body, body.level.pending);
+    if (!(bodies[0]->plant->effects & world.effects & FROND_BREAKING)) move_capsules(bodies, count);
+    const float ms_capsules = float(timer.ms() / count);
+    for (int i = 0; i < count; i++) {
+        bodies[i]->level.ms_capsules = ms_capsules;
+        if (world.sleep_distance > 0) watch(world, *bodies[i], bodies[i]->level.pending);
+    }
+}
+void finish(const World& world, PlantBody& body, const Surroundings& surroundings) {
+    PlantBody* const bodies[] = {&body};
+    finish(world, bodies, 1, surroundings);
 }
 
 // Sways are told, and more seldom the capsules put where they are, in every so many substeps.
@@ -183,7 +194,7 @@ void run_job(const World& world, const StepJob& job, const Surroundings& surroun
     std::array<Plant*, MOST_LANES> plants;
     for (int i = 0; i < job.count; i++) plants[size_t(i)] = job.bodies[size_t(i)]->plant.get();
     solve_abreast(plants.data(), job.count, surroundings, job.bodies[0]->level.pending);
-    for (int i = 0; i < job.count; i++) finish(world, *job.bodies[size_t(i)], surroundings);
+    finish(world, job.bodies.data(), job.count, surroundings);
 }
 
 // Whether a plant can be stepped with those of a job.
