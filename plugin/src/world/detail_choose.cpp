@@ -130,7 +130,7 @@ void choose_details(World& world) {
     constexpr double SAFE = 0.75;  // of the budget, for what cannot be foreseen [-]
     constexpr int MOST = 2;        // plants that go over between cage and chain in a substep with a budget
     std::vector<PlantBody*> order = world.awake;
-    for (PlantBody* body : order) body->level.distance = distance_of(world, *body);
+    for (PlantBody* body : order) body->level.distance = float(distance_of(world, *body));
     const bool is_limited = def.budget > 0;
     if (is_limited)
         std::stable_sort(order.begin(), order.end(), [](const PlantBody* a, const PlantBody* b) {

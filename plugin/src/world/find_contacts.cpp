@@ -291,7 +291,7 @@ std::vector<Contact> find_contacts(World& world, double h) {
     add_fast_bodies_and_planes(world, h, contacts);
     discount_grown_in(contacts);
     drop_what_draws_out(contacts);
-    for (PlantBody* body : world.awake) body->new_for = std::max(body->new_for - 1, 0);
+    for (PlantBody* body : world.awake) body->new_for = int16_t(std::max(body->new_for - 1, 0));
     return contacts;
 }
 

@@ -45,26 +45,27 @@ struct Hull {
 struct Level {
     frond_detail now = FROND_DETAIL_FULL;
     frond_mechanics own;       // of FROND_DETAIL_FULL
-    int every = 1;             // substeps that are taken as one
+    uint8_t every = 1;         // substeps that are taken as one
     bool is_due = true;        // is stepped in the running substep
+    float distance = 0;        // as it counts
     double pending = 0;        // time that is not yet stepped [s]
-    double distance = 0;       // as it counts
     double touched = 0;        // until when it was touched lately [s]
     float ms = 0;              // that a step took, lately
     float ms_capsules = 0;     // of the last one
 };
 
+// Small ones are side by side: fields have thousands of plants.
 struct PlantBody : btSoftBody {
     BT_DECLARE_ALIGNED_ALLOCATOR();
 
     std::unique_ptr<Plant> plant;
     World* world;
     frond_plant handle = {};
-    int new_for = 1;  // substeps in which what it stands in is yet to be found out; one that began asleep wakes without pairs
     Rest rest;
     std::unique_ptr<GrownIn> grown_in;  // null: in nothing
     bool is_hidden = false;  // from what sleeps and from what is static: asleep with nothing touching it
     bool is_looked_at = false;  // asleep, but unfolded for somebody to look
+    int16_t new_for = 1;  // substeps in which what it stands in is yet to be found out; one that began asleep wakes without pairs
     int filter_group = 0, filter_mask = 0;  // of the broad phase, while it is hidden
     int index = 0;    // among the world's plants
     int number = -1;  // among those that take part in the running substep; -1: it does not

@@ -188,7 +188,7 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
     if (!(saved.patience > 0 && saved.patience <= 1)) damaged("patience");
     if (saved.level.every < 1 || saved.level.every > 64) damaged("detail");
     check_numbers(std::array{saved.lead, double(saved.recovers_for), saved.still, saved.air.x(), saved.air.y(),
-                             saved.air.z(), saved.level.pending, saved.level.distance, saved.level.touched},
+                             saved.air.z(), saved.level.pending, double(saved.level.distance), saved.level.touched},
                   "plants");
     for (const SavedGrownIn& grown_in : saved.grown_in) {
         check_index(grown_in.capsule, body.capsules().size(), "ground");
