@@ -22,12 +22,13 @@ FROND_INLINE Lanes33<S> air_frame(const Lanes3<S>& chord, const Lanes3<S>& wide)
     return {{along, cross(beside, along), beside}};
 }
 
-// A direction of the chain, turned as a node is.
+// Of a node that is turned so.
 template <class S>
 FROND_INLINE Lanes33<S> rotation_by(const Lanes3<S>& turn) {
     const RodEnd<S> at = rod_end(Lanes3<S>{}, turn);
     return rotation_of(at.w, at.p);
 }
+// A direction of the chain, turned as a node is.
 template <class S>
 FROND_INLINE Lanes3<S> turned_by(const Lanes3<S>& turn, const Lanes3<S>& direction) {
     return rotation_by(turn) * direction;

@@ -11,12 +11,12 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// A plant's number and its piece's.
-using Piece = std::array<int, 2>;
+using Piece = std::array<int, 2>;     // a plant's number and its piece's
+using Pieces = std::array<Piece, 2>;  // the lower one first
 
 struct Sided {
-    std::array<Piece, 2> pieces;  // the lower one first
-    Vec3 way;                     // along which that leaves the other, as long as they are in each other [m]
+    Pieces pieces;
+    Vec3 way;  // along which the lower piece leaves the other, as long as they are in each other [m]
 };
 Sided sided(const PlantContact& contact) {
     const Piece first = {contact.plants[0]->number, contact.sides[0].piece};
@@ -25,7 +25,7 @@ Sided sided(const PlantContact& contact) {
     return first < second ? Sided{{first, second}, way} : Sided{{second, first}, -way};
 }
 
-using Ways = std::map<std::array<Piece, 2>, Vec3>;
+using Ways = std::map<Pieces, Vec3>;
 
 Ways ways_of(const std::vector<const PlantContact*>& contacts) {
     Ways ways;
@@ -37,11 +37,11 @@ Ways ways_of(const std::vector<const PlantContact*>& contacts) {
     return ways;
 }
 
-// Where nothing is known from the last substep, or the pieces are deep in each other and what agrees with that is shallow
-// against what does not, the deepest counts.
+// Where nothing is known from the last substep, or the pieces are deep in each other and what agrees with that is
+// shallow against what does not, the deepest counts.
 void overrule(const std::vector<PlantContact>& contacts, Ways& ways) {
-    constexpr double FAR = 2, DEEP = 0.005;  // [-], [m]
-    std::map<std::array<Piece, 2>, std::array<Vec3, 2>> deepest;  // with and against what is known
+    constexpr double FAR = 2, DEEP = 0.005;         // [-], [m]
+    std::map<Pieces, std::array<Vec3, 2>> deepest;  // with and against what is known
     for (const PlantContact& contact : contacts) {
         if (contact.depth <= 0) continue;
         const Sided of = sided(contact);
@@ -60,11 +60,11 @@ void overrule(const std::vector<PlantContact>& contacts, Ways& ways) {
 }  // namespace
 
 void agree_on_sides(const std::vector<const PlantContact*>& last, std::vector<PlantContact>& contacts) {
-    constexpr double DEEP = 0.001, AGAINST = -0.3;  // [m], a cosine
+    constexpr double SHALLOW = 0.001, AGAINST = -0.3;  // [m], a cosine
     Ways ways = ways_of(last);
     overrule(contacts, ways);
     const auto is_against = [&](const PlantContact& contact) {
-        if (contact.depth <= DEEP) return false;
+        if (contact.depth <= SHALLOW) return false;
         const Sided of = sided(contact);
         const Vec3& way = ways.at(of.pieces);
         return of.way.dot(way) < AGAINST * of.way.norm() * way.norm();

@@ -58,7 +58,7 @@ struct SavedPlant {
     std::vector<Vec3> grab_targets;
     std::vector<SavedFragment> fragments;
     // Of its body.
-    int new_for;
+    int16_t new_for;
     bool asleep;
     double still;
     VecX places;

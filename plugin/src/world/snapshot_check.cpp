@@ -25,23 +25,15 @@ void check_count(size_t saved, size_t own, const char* what) {
 // Forces, rates and the like: their products are numbers still.
 constexpr double MOST = 1e15;
 
-bool is_sound(const VecX& numbers, double most) {
-    return numbers.allFinite() && (numbers.size() == 0 || numbers.cwiseAbs().maxCoeff() <= most);
-}
-
-void check_size(const VecX& numbers, Eigen::Index size, const char* what, bool may_be_empty = false) {
-    if (numbers.size() != size && !(may_be_empty && numbers.size() == 0)) damaged(what);
-    if (!is_sound(numbers, MOST)) damaged(what);
-}
-
 template <class List>
 void check_numbers(const List& numbers, const char* what, double most = MOST) {
     for (const auto& value : numbers)
         if (!(std::abs(double(value)) <= most)) damaged(what);
 }
 
-void check_vec(const Vec3& v, const char* what, double most = MOST) {
-    check_numbers(std::array{v.x(), v.y(), v.z()}, what, most);
+void check_size(const VecX& numbers, Eigen::Index size, const char* what, bool may_be_empty = false) {
+    if (numbers.size() != size && !(may_be_empty && numbers.size() == 0)) damaged(what);
+    check_numbers(numbers, what);
 }
 
 // Axes at right angles and a place, as Bullet takes frames.
@@ -76,7 +68,7 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
         check_index(c.capsule, world.bodies[size_t(c.plant)]->capsules().size(), "contacts");
         check_index(c.other, size_t(objects.size()), "contacts");
         if (PlantBody::of(objects[c.other])) damaged("contacts");
-        for (const Vec3& v : {c.on_plant, c.on_other, c.normal, c.impulse}) check_vec(v, "contacts");
+        for (const Vec3& v : {c.on_plant, c.on_other, c.normal, c.impulse}) check_numbers(v, "contacts");
         check_numbers(std::array{c.along, c.across, c.gap, c.friction}, "contacts");
     }
     for (const SavedPlantContact& saved : touches.with_plants) {
@@ -94,7 +86,7 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
             if (!is_sound(c.grips[k], int(becomes(plant, which).numbers / 3))) damaged("contacts of plants");
             check_numbers(side.weights, "contacts of plants");
         }
-        for (const Vec3& v : {c.between, c.point, c.normal, c.impulse}) check_vec(v, "contacts");
+        for (const Vec3& v : {c.between, c.point, c.normal, c.impulse}) check_numbers(v, "contacts");
         check_numbers(std::array{c.depth, c.friction}, "contacts of plants");
     }
 }
@@ -104,7 +96,7 @@ void check_motion(const SavedPlant& saved, const Becomes& becomes) {
     const History& history = motion.history;
     for (const VecX* numbers : {&motion.x, &motion.v, &motion.pin_target}) {
         check_size(*numbers, becomes.numbers, "motion");
-        if (!is_sound(*numbers, LARGEST_COORDINATE)) damaged("motion");
+        check_numbers(*numbers, "motion", LARGEST_COORDINATE);
     }
     if (motion.pinned.size() * 3 != size_t(becomes.numbers)) damaged("motion");
     // What a step does not look back on may be of other mechanics.
@@ -136,8 +128,8 @@ void check_fragments(const SavedPlant& saved, const PlantBody& body) {
              "frond_plant_break first",
              body.index);
     for (const SavedFragment& f : saved.fragments) {
-        check_numbers(std::vector<double>(f.turn.data(), f.turn.data() + 9), "fragments");
-        for (const Vec3& v : {f.shift, f.centre, f.velocity, f.spin}) check_vec(v, "fragments");
+        check_numbers(f.turn.reshaped(), "fragments");
+        for (const Vec3& v : {f.shift, f.centre, f.velocity, f.spin}) check_numbers(v, "fragments");
     }
     if (!plant.fragments.empty() && (saved.which != plant.which || !saved.swing.empty()))
         fail(FROND_BAD_ARGUMENT, "plant %d is broken and had other mechanics; call frond_plant_set_mechanics first",
@@ -183,13 +175,14 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
         check_numbers(std::array{swing.since}, "sway");
         check_fade(swing.fade, become.numbers);
     }
-    for (const Vec3& target : saved.grab_targets) check_vec(target, "grabs", LARGEST_COORDINATE);
+    for (const Vec3& target : saved.grab_targets) check_numbers(target, "grabs", LARGEST_COORDINATE);
     if (saved.substeps < 1 || saved.substeps > plant.max_substeps) damaged("substeps");
     if (!(saved.patience > 0 && saved.patience <= 1)) damaged("patience");
     if (saved.level.every < 1 || saved.level.every > 64) damaged("detail");
-    check_numbers(std::array{saved.lead, double(saved.recovers_for), saved.still, saved.air.x(), saved.air.y(),
-                             saved.air.z(), saved.level.pending, double(saved.level.distance), saved.level.touched},
+    check_numbers(std::array{saved.lead, double(saved.recovers_for), saved.still, saved.level.pending,
+                             double(saved.level.distance), saved.level.touched},
                   "plants");
+    check_numbers(saved.air, "plants");
     for (const SavedGrownIn& grown_in : saved.grown_in) {
         check_index(grown_in.capsule, body.capsules().size(), "ground");
         check_index(grown_in.other, size_t(objects.size()), "ground");
@@ -215,9 +208,8 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
     check_count(snapshot.plants.size(), world.bodies.size(), "plants");
     check_count(snapshot.rigids.size(), world.rigids.size(), "rigid bodies");
     check_count(snapshot.bonds.size(), world.bonds.size(), "bonds");
-    check_numbers(std::array{snapshot.time, snapshot.travelled, snapshot.gravity_before.x(),
-                             snapshot.gravity_before.y(), snapshot.gravity_before.z()},
-                  "time");
+    check_numbers(std::array{snapshot.time, snapshot.travelled}, "time");
+    check_numbers(snapshot.gravity_before, "time");
     for (size_t i = 0; i < snapshot.plants.size(); i++) {
         check_plant(world, snapshot.plants[i], look_at(*world.bodies[i]));
         check_touches(world, snapshot, snapshot.plants[i].asleep_with);
@@ -231,8 +223,8 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
         if (saved.vertex != bond.vertex)
             fail(FROND_BAD_ARGUMENT,
                  "a bond holds another point than in the snapshot; make the same bonds in the same order");
-        check_numbers(std::array{saved.impulse.x(), saved.impulse.y(), saved.impulse.z(), saved.length}, "bonds");
-        if (!(saved.length > 0)) damaged("bonds");
+        check_numbers(saved.impulse, "bonds");
+        if (!(saved.length > 0 && saved.length <= MOST)) damaged("bonds");
     }
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     for (const SavedAhead& ahead : snapshot.ahead) {

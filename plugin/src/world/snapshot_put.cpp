@@ -99,7 +99,7 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
         fragment.velocity = from.velocity;
         fragment.spin = from.spin;
     }
-    body.new_for = int16_t(saved.new_for);
+    body.new_for = saved.new_for;
     const double ms = body.level.ms, ms_capsules = body.level.ms_capsules;  // of this machine
     body.level = saved.level;
     body.level.ms = ms;
