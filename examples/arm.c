@@ -1,5 +1,5 @@
-/* arm: a robot arm reaches through three corn plants and stops among them. What its links feel is what the ground under the
- * plants holds. Writes frames, a contact sheet and a moving picture.    arm [MODELS [FOLDER]] */
+/* arm: a robot arm reaches through three corn plants and stops among them. What its links feel is what the ground under
+ * the plants holds. Writes frames, a contact sheet and a moving picture.    arm [MODELS [FOLDER]] */
 #include <frond/frond_robot.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,7 +28,9 @@ static void add(frond_vec3* sum, frond_vec3 v, double sign) {
     sum->z += sign * v.z;
 }
 
-static double length(frond_vec3 v) { return sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+static double length(frond_vec3 v) {
+    return sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
 
 /* What the ground holds all plants with [N]. */
 static frond_vec3 held(const frond_plant* plants) {
@@ -92,7 +94,8 @@ int main(int argc, char** argv) {
     picture_def.width = film_def.width = 960;
     picture_def.height = film_def.height = 720;
     film_def.frames_per_second = 20;
-    scene.camera = frond_picture_frame((frond_vec3){-0.4, 0, -0.8}, (frond_vec3){2.0, 2.2, 0.9}, scene.up, 0.5, 0.2, 4.0 / 3);
+    scene.camera =
+        frond_picture_frame((frond_vec3){-0.4, 0, -0.8}, (frond_vec3){2.0, 2.2, 0.9}, scene.up, 0.5, 0.2, 4.0 / 3);
     check_picture(frond_picture_create(&picture_def, &picture));
     check_picture(frond_film_create(&film_def, &film));
 

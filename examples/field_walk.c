@@ -1,5 +1,6 @@
-/* field_walk: a character walks a path through a field of 2,500 plants that sleep until somebody comes, behind a ball that
- * rolls ahead; far plants are simulated for less. Writes a picture from above and one from eye level.
+/* field_walk: a character walks a path through a field of 2,500 plants that sleep until somebody comes, behind a ball
+ * that rolls ahead; far plants are simulated for less. Writes a picture from above and one from eye level.
+ *
  *     field_walk [MODELS [FOLDER]] */
 #include <frond/frond.h>
 #include <math.h>
@@ -104,7 +105,8 @@ int main(int argc, char** argv) {
             check_picture(frond_picture_begin(picture, &scene));
             for (i = 0; i < PLANTS; i++)
                 if (hypot(places[i].x - at.x - 4, places[i].z) < seen)
-                    check_picture(frond_picture_draw_plant(picture, plants[i], models[kinds[i]], FROND_PICTURE_SURFACE));
+                    check_picture(
+                        frond_picture_draw_plant(picture, plants[i], models[kinds[i]], FROND_PICTURE_SURFACE));
             check_picture(frond_picture_draw_rigid(picture, &walker_def, walker, cloth));
             check_picture(frond_picture_draw_rigid(picture, &ball_def, ball, leather));
             check_picture(frond_picture_end(picture));
@@ -112,8 +114,8 @@ int main(int argc, char** argv) {
             check_picture(frond_picture_write(picture, path));
         }
     }
-    printf("%d plants, at most %d awake, bodies touched some in %d of %d steps; pictures are in %s/\n", PLANTS, most_awake,
-           touched, STEPS, folder);
+    printf("%d plants, at most %d awake, bodies touched some in %d of %d steps; pictures are in %s/\n", PLANTS,
+           most_awake, touched, STEPS, folder);
 
     frond_picture_destroy(picture);
     frond_world_destroy(world);

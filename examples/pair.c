@@ -1,5 +1,5 @@
-/* pair: two corn plants that stand in each other's leaves come apart. Writes a picture without response (a) and one with
- * it (b), contact points drawn.    pair [MODEL [FOLDER]] */
+/* pair: two corn plants that stand in each other's leaves come apart. Writes a picture without response (a) and one
+ * with it (b), contact points drawn.    pair [MODEL [FOLDER]] */
 #include <frond/frond.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,8 +20,8 @@ static void check_picture(bool ok) {
 }
 
 /* Two plants for two seconds; how deep they are in each other at the end [m]. */
-static double play(frond_model model, frond_response response, frond_picture* picture,
-                   const frond_picture_scene* scene, const char* path) {
+static double play(frond_model model, frond_response response, frond_picture* picture, const frond_picture_scene* scene,
+                   const char* path) {
     frond_world_def world_def = frond_default_world_def();
     frond_plant_def plant_def = frond_default_plant_def();
     frond_world world;
@@ -48,8 +48,8 @@ static double play(frond_model model, frond_response response, frond_picture* pi
 
     check_picture(frond_picture_begin(picture, scene));
     for (i = 0; i < 2; i++)
-        check_picture(frond_picture_draw_plant(picture, plants[i], model,
-                                               FROND_PICTURE_SURFACE | FROND_PICTURE_CONTACTS));
+        check_picture(
+            frond_picture_draw_plant(picture, plants[i], model, FROND_PICTURE_SURFACE | FROND_PICTURE_CONTACTS));
     check_picture(frond_picture_end(picture));
     check_picture(frond_picture_write(picture, path));
     frond_world_destroy(world);
@@ -81,8 +81,9 @@ int main(int argc, char** argv) {
     without = play(model, FROND_RESPONSE_NONE, picture, &scene, path);
     snprintf(path, sizeof path, "%s/pair_b.png", folder);
     with = play(model, FROND_RESPONSE_IMPULSE, picture, &scene, path);
-    printf("after 2 s the cages are %.1f mm deep in each other without response, %.2f mm with it; pictures are in %s/\n",
-           1000 * without, 1000 * with, folder);
+    printf(
+        "after 2 s the cages are %.1f mm deep in each other without response, %.2f mm with it; pictures are in %s/\n",
+        1000 * without, 1000 * with, folder);
 
     frond_picture_destroy(picture);
     frond_model_destroy(model);

@@ -1,4 +1,5 @@
-/* pick: a hand reaches for a cucumber, closes its fingers, draws it away until its stalk breaks, and lowers it. Writes frames, a contact sheet and a moving picture.    pick [MODELS [FOLDER]] */
+/* pick: a hand reaches for a cucumber, closes its fingers, draws it away until its stalk breaks, and lowers it. Writes
+ * frames, a contact sheet and a moving picture.    pick [MODELS [FOLDER]] */
 #include <frond/frond_robot.h>
 #include <math.h>
 #include <stdio.h>
@@ -41,7 +42,9 @@ static frond_vec3 lower_end(frond_plant plant, frond_model model, const char* or
     return end;
 }
 
-static double dot(frond_vec3 a, frond_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static double dot(frond_vec3 a, frond_vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 int main(int argc, char** argv) {
     const char* models = argc > 1 ? argv[1] : "models";
@@ -68,8 +71,8 @@ int main(int argc, char** argv) {
     int reach, rise, left, right, broken_at = -1;
     char path[1024];
 
-    /* A fruit comes off its stalk in a chain of rods; in a cage both share cells, and weigh what these do, so they are small.
-     * Fingers that grip want short steps. */
+    /* A fruit comes off its stalk in a chain of rods; in a cage both share cells, and weigh what these do, so they are
+     * small. Fingers that grip want short steps. */
     model_def.cage_size = 0.1;
     world_def.max_substep = 1.0 / 240;
     check(frond_world_create(&world_def, &world));
@@ -84,7 +87,8 @@ int main(int argc, char** argv) {
     turn = 0.5 * atan2(-end.x, -end.z);
     away = 1 + 0.72 / hypot(end.x, end.z);
     hand_def.position = (frond_vec3){away * end.x, 0, away * end.z};
-    hand_def.rotation = (frond_quat){-sqrt(0.5) * cos(turn), sqrt(0.5) * sin(turn), sqrt(0.5) * sin(turn), sqrt(0.5) * cos(turn)};
+    hand_def.rotation =
+        (frond_quat){-sqrt(0.5) * cos(turn), sqrt(0.5) * sin(turn), sqrt(0.5) * sin(turn), sqrt(0.5) * cos(turn)};
     hand_def.friction = 2;
     snprintf(path, sizeof path, "%s/arm/picker.urdf", models);
     check(frond_robot_load(world, path, &hand_def, &hand));
@@ -99,8 +103,8 @@ int main(int argc, char** argv) {
     picture_def.width = film_def.width = 600;
     picture_def.height = film_def.height = 600;
     film_def.frames_per_second = 60.0 / STEPS_A_FRAME;
-    scene.camera = frond_picture_frame((frond_vec3){end.x - 0.4, 0, end.z - 0.5}, (frond_vec3){end.x + 0.8, 1.3, end.z + 0.1},
-                                       scene.up, 0.4, 0.1, 1);
+    scene.camera = frond_picture_frame((frond_vec3){end.x - 0.4, 0, end.z - 0.5},
+                                       (frond_vec3){end.x + 0.8, 1.3, end.z + 0.1}, scene.up, 0.4, 0.1, 1);
     check_picture(frond_picture_create(&picture_def, &picture));
     check_picture(frond_film_create(&film_def, &film));
 
@@ -145,6 +149,8 @@ int main(int argc, char** argv) {
     frond_picture_destroy(picture);
     frond_world_destroy(world);
     frond_model_destroy(cucumber);
-    end = (frond_vec3){fruit.position.x - palm.position.x, fruit.position.y - palm.position.y, fruit.position.z - palm.position.z};
-    return !(broken_at > DRAW && sqrt(dot(end, end)) < 0.25); /* its stalk held until it was drawn, and the hand has it */
+    end = (frond_vec3){fruit.position.x - palm.position.x, fruit.position.y - palm.position.y,
+                       fruit.position.z - palm.position.z};
+    return !(broken_at > DRAW &&
+             sqrt(dot(end, end)) < 0.25); /* its stalk held until it was drawn, and the hand has it */
 }

@@ -1,5 +1,5 @@
-/* stand: a cucumber plant whose file shows it without gravity comes to its natural stand, for four heights h of its capsules,
- * as in the paper's Fig 6. Writes a picture.    stand [MODEL [FOLDER]] */
+/* stand: a cucumber plant whose file shows it without gravity comes to its natural stand, for four heights h of its
+ * capsules, as in the paper's Fig 6. Writes a picture.    stand [MODEL [FOLDER]] */
 #include <frond/frond.h>
 #include <math.h>
 #include <stdio.h>
@@ -73,8 +73,8 @@ int main(int argc, char** argv) {
     check_picture(frond_picture_create(&picture_def, &picture));
     check_picture(frond_picture_begin(picture, &scene));
     for (i = 0; i < PLANTS; i++)
-        check_picture(frond_picture_draw_plant(picture, plants[i], models[i],
-                                               FROND_PICTURE_SURFACE | FROND_PICTURE_CAPSULES));
+        check_picture(
+            frond_picture_draw_plant(picture, plants[i], models[i], FROND_PICTURE_SURFACE | FROND_PICTURE_CAPSULES));
     check_picture(frond_picture_end(picture));
     snprintf(path, sizeof path, "%s/stand.png", folder);
     check_picture(frond_picture_write(picture, path));
@@ -83,8 +83,8 @@ int main(int argc, char** argv) {
         frond_energy energy;
         sunk = start - mean_height(plants[i]);
         check(frond_plant_get_energy(plants[i], &energy));
-        printf("h = %.0f cm, %d capsules: it sank by %.0f mm\n", 100 * heights[i], frond_plant_get_capsule_count(plants[i]),
-               1000 * sunk);
+        printf("h = %.0f cm, %d capsules: it sank by %.0f mm\n", 100 * heights[i],
+               frond_plant_get_capsule_count(plants[i]), 1000 * sunk);
         stand = stand && sunk > 0.005 && sunk < 0.2 && energy.kinetic < 1e-4;
     }
 

@@ -1,5 +1,5 @@
-/* trellis: a cucumber with its stake, set aslant, comes to lean on a trellis of static boxes. Writes a picture of it, the
- * contact points drawn.    trellis [MODEL [FOLDER]] */
+/* trellis: a cucumber with its stake, set aslant, comes to lean on a trellis of static boxes. Writes a picture of it,
+ * the contact points drawn.    trellis [MODEL [FOLDER]] */
 #include <frond/frond.h>
 #include <math.h>
 #include <stdio.h>
@@ -58,8 +58,8 @@ int main(int argc, char** argv) {
         defs[i].shape = FROND_BOX;
         defs[i].mass = 0;
         defs[i].size = i < POSTS ? (frond_vec3){0.02, 1.1, 0.02} : (frond_vec3){0.01, 0.02, wide + 0.05};
-        defs[i].state.position = i < POSTS ? (frond_vec3){away + 0.03, 1.1, i ? wide : -wide}
-                                           : (frond_vec3){away, 0.5 * (i - POSTS + 1), 0};
+        defs[i].state.position =
+            i < POSTS ? (frond_vec3){away + 0.03, 1.1, i ? wide : -wide} : (frond_vec3){away, 0.5 * (i - POSTS + 1), 0};
         check(frond_rigid_create(world, &defs[i], &boxes[i]));
     }
 
@@ -84,13 +84,14 @@ int main(int argc, char** argv) {
     check_picture(frond_picture_create(&picture_def, &picture));
     check_picture(frond_picture_begin(picture, &scene));
     check_picture(frond_picture_draw_plant(picture, plant, model, FROND_PICTURE_SURFACE | FROND_PICTURE_CONTACTS));
-    for (i = 0; i < POSTS + SLATS; i++)
-        check_picture(frond_picture_draw_rigid(picture, &defs[i], boxes[i], wood));
+    for (i = 0; i < POSTS + SLATS; i++) check_picture(frond_picture_draw_rigid(picture, &defs[i], boxes[i], wood));
     check_picture(frond_picture_end(picture));
     snprintf(path, sizeof path, "%s/trellis.png", folder);
     check_picture(frond_picture_write(picture, path));
-    printf("the plant leans on the trellis at %d places, its tip moved by %.1f mm in the last half second; a picture is in"
-           " %s/\n", leaning, 1000 * hypot(tip.x - before.x, tip.y - before.y), folder);
+    printf(
+        "the plant leans on the trellis at %d places, its tip moved by %.1f mm in the last half second; a picture is in"
+        " %s/\n",
+        leaning, 1000 * hypot(tip.x - before.x, tip.y - before.y), folder);
 
     frond_picture_destroy(picture);
     frond_world_destroy(world);

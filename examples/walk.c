@@ -1,5 +1,5 @@
-/* walk: a character's capsule walks through a row of ten corn plants and takes their leaves along. Writes a picture of it
- * in their midst.    walk [MODEL [FOLDER]] */
+/* walk: a character's capsule walks through a row of ten corn plants and takes their leaves along. Writes a picture of
+ * it in their midst.    walk [MODEL [FOLDER]] */
 #include <frond/frond.h>
 #include <math.h>
 #include <stdio.h>
@@ -93,8 +93,8 @@ int main(int argc, char** argv) {
         check(frond_plant_get_tip(plants[i], &tip));
         moved += hypot(tip.x - tips[i].x, tip.z - tips[i].z) > 0.05;
     }
-    printf("tips moved by up to %.2f m, those of %d plants are aside at the end; a picture is in %s/\n", farthest, moved,
-           folder);
+    printf("tips moved by up to %.2f m, those of %d plants are aside at the end; a picture is in %s/\n", farthest,
+           moved, folder);
 
     frond_picture_destroy(picture);
     frond_world_destroy(world);

@@ -90,8 +90,8 @@ int main(int argc, char** argv) {
     check_picture(frond_film_write_sheet(film, path, 6, 3));
     snprintf(path, sizeof path, "%s/wind.webp", folder);
     check_picture(frond_film_write_webp(film, path));
-    printf("gusts of %.1f m/s; the tip was blown to %.2f m, the drag at the end is %.2f N; pictures are in %s/\n", strongest,
-           farthest, force.x, folder);
+    printf("gusts of %.1f m/s; the tip was blown to %.2f m, the drag at the end is %.2f N; pictures are in %s/\n",
+           strongest, farthest, force.x, folder);
 
     frond_film_destroy(film);
     frond_picture_destroy(picture);

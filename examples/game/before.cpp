@@ -68,7 +68,8 @@ struct Game {
         ghost.setWorldTransform(btTransform(btQuaternion::getIdentity(), place));
         ghost.setCollisionShape(&walker_shape);
         ghost.setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
-        walker = std::make_unique<btKinematicCharacterController>(&ghost, &walker_shape, btScalar(0.3), btVector3(0, 1, 0));
+        walker =
+            std::make_unique<btKinematicCharacterController>(&ghost, &walker_shape, btScalar(0.3), btVector3(0, 1, 0));
         world.addCollisionObject(&ghost, btBroadphaseProxy::CharacterFilter,
                                  btBroadphaseProxy::StaticFilter | btBroadphaseProxy::DefaultFilter);
         world.addAction(walker.get());
@@ -81,7 +82,7 @@ int main(int, char** argv) {
     for (int frame = 0; frame < 300; frame++) game.world.stepSimulation(btScalar(1.0 / 60));
     game.world.debugDrawWorld();
     const btVector3 at = game.ghost.getWorldTransform().getOrigin();
-    std::printf("%s: the walker came to x = %.2f m, the top crate is %.2f m high, %d lines drawn\n", argv[0], double(at.x()),
-                double(game.crates[2]->motion.m_graphicsWorldTrans.getOrigin().y()), game.drawer.lines);
+    std::printf("%s: the walker came to x = %.2f m, the top crate is %.2f m high, %d lines drawn\n", argv[0],
+                double(at.x()), double(game.crates[2]->motion.m_graphicsWorldTrans.getOrigin().y()), game.drawer.lines);
     return at.x() > -2 && game.drawer.lines > 0 ? 0 : 1;
 }

@@ -1,4 +1,5 @@
-// FCL sees plants: a straight reach is free without the plant, blocked by it, and free again when the plant is bent away.
+// FCL sees plants: a straight reach is free without the plant, blocked by it, and free again when the plant is bent
+// away.
 #include "frond/frond_fcl.hpp"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>

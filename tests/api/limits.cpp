@@ -53,10 +53,10 @@ TEST(Limits, CountsThatNoMemoryHoldsAreRefusedUnread) {
     const int32_t indices[3] = {};
     const frond_model_def def = frond_default_model_def();
     frond_model model = {};
-    expect_refused([&] { return frond_model_from_triangles(xyz, 2147483647, indices, 1, &def, &model); }, FROND_BAD_ARGUMENT,
-                   "vertex_count");
-    expect_refused([&] { return frond_model_from_triangles(xyz, 3, indices, 2147483647, &def, &model); }, FROND_BAD_ARGUMENT,
-                   "triangle_count");
+    expect_refused([&] { return frond_model_from_triangles(xyz, 2147483647, indices, 1, &def, &model); },
+                   FROND_BAD_ARGUMENT, "vertex_count");
+    expect_refused([&] { return frond_model_from_triangles(xyz, 3, indices, 2147483647, &def, &model); },
+                   FROND_BAD_ARGUMENT, "triangle_count");
 }
 
 TEST(Limits, EndlessNamesAreRefused) {
@@ -69,7 +69,8 @@ TEST(Limits, EndlessNamesAreRefused) {
     def.organ_count = 1;
     expect_refused([&] { return frond_model_load("x.obj", &def, &model); }, FROND_BAD_ARGUMENT, "organ");
     frond_material material;
-    expect_refused([&] { return frond_material_preset(endless.c_str(), &material); }, FROND_BAD_ARGUMENT, "no material");
+    expect_refused([&] { return frond_material_preset(endless.c_str(), &material); }, FROND_BAD_ARGUMENT,
+                   "no material");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Robots from URDF files: their links move as the joints say, their motors carry them, and they feel plants as the ground
-// under the plants does.
+// Robots from URDF files: their links move as the joints say, their motors carry them, and they feel plants as the
+// ground under the plants does.
 #include "frond/frond_robot.hpp"
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -78,7 +78,8 @@ TEST(Robot, HasItsLinksWhereItsJointsPutThem) {
     ASSERT_EQ(frond_robot_set_joint(arm.robot, arm.link("turn"), 0.5), FROND_OK);
     ASSERT_EQ(frond_robot_set_joint(arm.robot, arm.link("lift"), 0.7), FROND_OK);
     ASSERT_EQ(frond_robot_set_joint(arm.robot, arm.link("elbow"), 0.4), FROND_OK);
-    const double out = 0.7 * std::sin(0.7) + 0.74 * std::sin(1.1), up = 0.72 + 0.7 * std::cos(0.7) + 0.74 * std::cos(1.1);
+    const double out = 0.7 * std::sin(0.7) + 0.74 * std::sin(1.1),
+                 up = 0.72 + 0.7 * std::cos(0.7) + 0.74 * std::cos(1.1);
     const frond_vec3 palm = arm.state("palm").position;
     EXPECT_NEAR(palm.x, 1 + out * std::cos(0.5), 1e-5);
     EXPECT_NEAR(palm.y, up, 1e-5);
@@ -125,7 +126,8 @@ std::string inertial() {
            "ixz=\"0\" iyz=\"0\"/></inertial>";
 }
 std::string floating_box() {
-    return urdf_robot(urdf_link("world", "") + urdf_link("box", inertial()) + urdf_joint("world", "box", "0 0 3", "floating"));
+    return urdf_robot(urdf_link("world", "") + urdf_link("box", inertial()) +
+                      urdf_joint("world", "box", "0 0 3", "floating"));
 }
 
 TEST(Robot, WithAFloatingJointFallsFreely) {
@@ -140,9 +142,9 @@ TEST(Robot, WithAFloatingJointFallsFreely) {
 TEST(Robot, MovesLinksThatTouchNothing) {
     const UrdfFolder folder;
     const std::string slide = "<axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" effort=\"200\" velocity=\"2\"/>";
-    const RobotWorld rail(folder.write(
-        "rail.urdf", urdf_robot(urdf_link("rail", "") + urdf_link("slide", inertial()) +
-                                urdf_joint("rail", "slide", "0 0 0", "prismatic", slide))));
+    const RobotWorld rail(
+        folder.write("rail.urdf", urdf_robot(urdf_link("rail", "") + urdf_link("slide", inertial()) +
+                                             urdf_joint("rail", "slide", "0 0 0", "prismatic", slide))));
     ASSERT_EQ(frond_robot_drive_to(rail.robot, rail.link("slide"), 0.5, 0, 0), FROND_OK);
     rail.step(120);
     EXPECT_NEAR(rail.state("slide").position.y, 0.5, 0.001);

@@ -84,8 +84,9 @@ TEST(UrdfPlant, MeshesAreFoundByPackagePath) {
     const std::string leaf = "v 0 0 0\nv 0.1 0 0\nv 0.1 0 0.1\nv 0 0 0.1\nf 1 2 3\nf 1 3 4\n";
     folder.write("elsewhere/plants/leaf.obj", leaf);
     const std::string file = folder.write(
-        "p/deep/a.urdf", urdf_robot(urdf_stem() + urdf_link("leaf", urdf_visual("<mesh filename=\"package://plants/leaf.obj\"/>")) +
-                                    urdf_joint("stem", "leaf", "0 0 0.4")));
+        "p/deep/a.urdf",
+        urdf_robot(urdf_stem() + urdf_link("leaf", urdf_visual("<mesh filename=\"package://plants/leaf.obj\"/>")) +
+                   urdf_joint("stem", "leaf", "0 0 0.4")));
     const frond_model_def def = frond_default_model_def();
     frond_model model = {};
     EXPECT_EQ(frond_model_load(file.c_str(), &def, &model), FROND_FILE_NOT_FOUND);
@@ -122,7 +123,9 @@ std::string long_chain(int count) {
 
 std::vector<Damage> damages() {
     const std::string leaf = urdf_link("leaf", urdf_visual("<box size=\"0.1 0.1 0.001\"/>"));
-    const auto stem_of = [](const std::string& geometry) { return urdf_robot(urdf_link("stem", urdf_visual(geometry))); };
+    const auto stem_of = [](const std::string& geometry) {
+        return urdf_robot(urdf_link("stem", urdf_visual(geometry)));
+    };
     return {
         {"no XML", "this is no XML", "XML"},
         {"cut", urdf_robot(urdf_stem()).substr(0, 120), "line"},
@@ -133,7 +136,8 @@ std::vector<Damage> damages() {
         {"xacro", "<robot name=\"r\" xmlns:xacro=\"x\"><xacro:include filename=\"a\"/></robot>", "xacro"},
         {"cycle", urdf_robot(urdf_stem() + leaf + urdf_joint("stem", "leaf") + urdf_joint("leaf", "stem")), "cycle"},
         {"cycle beside a root",
-         urdf_robot(urdf_stem() + leaf + urdf_link("b", "") + urdf_joint("leaf", "b") + urdf_joint("b", "leaf")), "cycle"},
+         urdf_robot(urdf_stem() + leaf + urdf_link("b", "") + urdf_joint("leaf", "b") + urdf_joint("b", "leaf")),
+         "cycle"},
         {"two roots", urdf_robot(urdf_stem() + leaf), "both have no parent"},
         {"two parents",
          urdf_robot(urdf_stem() + leaf + urdf_link("b", "") + urdf_joint("stem", "leaf") + urdf_joint("stem", "b") +
@@ -148,13 +152,13 @@ std::vector<Damage> damages() {
         {"huge", stem_of("<sphere radius=\"1e308\"/>"), "size 1e+308"},
         {"no geometry", urdf_robot(urdf_link("stem", "<visual/>")), "cannot be read"},
         {"no axis",
-         urdf_robot(urdf_stem() + leaf +
-                    urdf_joint("stem", "leaf", "0 0 0", "continuous", "<axis xyz=\"0 0 0\"/>")),
+         urdf_robot(urdf_stem() + leaf + urdf_joint("stem", "leaf", "0 0 0", "continuous", "<axis xyz=\"0 0 0\"/>")),
          "no axis"},
         {"nothing to see", urdf_robot(urdf_link("stem", "")), "none of the 1 links"},
         {"missing mesh", stem_of("<mesh filename=\"meshes/none.obj\"/>"), "meshes/none.obj was not found"},
         {"other mesh", stem_of("<mesh filename=\"x.blend\"/>"), "not found"},
-        {"unknown organ", urdf_robot(urdf_link("stem", urdf_visual("<sphere radius=\"0.1\"/>") + "<frond organ=\"leg\"/>")),
+        {"unknown organ",
+         urdf_robot(urdf_link("stem", urdf_visual("<sphere radius=\"0.1\"/>") + "<frond organ=\"leg\"/>")),
          "no organ \"leg\""},
         {"unknown material",
          urdf_robot(urdf_link("stem", urdf_visual("<sphere radius=\"0.1\"/>") + "<frond material=\"tin\"/>")),

@@ -51,8 +51,8 @@ static std::shared_ptr<const Model> build(const Stem& stem) {
     return build_from_stems(&given, 1, def);
 }
 
-// How far the end of a clamped beam moves under a force of one newton on it, and under its own weight taken across at one
-// m/s^2, by the beam formula [m].
+// How far the end of a clamped beam moves under a force of one newton on it, and under its own weight taken across at
+// one m/s^2, by the beam formula [m].
 struct BeamAnswer {
     double force = 0, weight = 0;
 };

@@ -13,7 +13,8 @@ namespace {
 
 // A thick stem with a thin arm that reaches far out; `young` is the arm's.
 std::shared_ptr<const Model> gallows(double young) {
-    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.6, 0}, 0.02, 0.02}, {0, {0, 0.6, 0}, {0.7, 0.65, 0}, 0.004, 0.003}};
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.6, 0}, 0.02, 0.02},
+                                {0, {0, 0.6, 0}, {0.7, 0.65, 0}, 0.004, 0.003}};
     frond_model_def def = model_def();
     frond_organ_material organ = {"stem", *material_preset("stem")};
     organ.material.young = young;

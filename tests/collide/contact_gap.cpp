@@ -1,4 +1,5 @@
-// Contacts that are followed: to where the two are nearest by now, no farther than they touched, and only on the same side.
+// Contacts that are followed: to where the two are nearest by now, no farther than they touched, and only on the same
+// side.
 #include "collide/contact_gap.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,9 @@ struct BlockOnSlab {
         CageContact contact = corner();
         for (const auto& [begin, end] : block.collider.edges) {
             const Vec3 &from = block.places[size_t(begin)], &to = block.places[size_t(end)];
-            if (from.y() > 0.1 || to.y() > 0.1 || std::abs(std::abs(to.x() - from.x()) - 0.1) > 1e-9 || from.z() != to.z()) continue;
+            if (from.y() > 0.1 || to.y() > 0.1 || std::abs(std::abs(to.x() - from.x()) - 0.1) > 1e-9 ||
+                from.z() != to.z())
+                continue;
             contact.kind = CONTACT_EDGE_IN_FACE;
             contact.a.node_count = 2;
             contact.a.nodes = {begin, end, 0, 0};

@@ -2,8 +2,8 @@
 //
 //     fuzz_calls [-runs=N] [-max_total_time=S] [-seed=N] [-max_len=N] [corpus folder or file ...]
 //
-// Runs the corpus as it is, then mutations of it. What a run was given is written to crash.bin before it, so that it can
-// be run again after a crash.
+// Runs the corpus as it is, then mutations of it. What a run was given is written to crash.bin before it, so that it
+// can be run again after a crash.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -84,7 +84,8 @@ void mutate(Bytes& bytes, std::mt19937& random, const std::vector<Bytes>& corpus
                 bytes.insert(bytes.begin() + long(at), uint8_t(random()));
                 break;
             case 3:
-                bytes.erase(bytes.begin() + long(at), bytes.begin() + long(at + below(std::min<size_t>(16, bytes.size() - at))));
+                bytes.erase(bytes.begin() + long(at),
+                            bytes.begin() + long(at + below(std::min<size_t>(16, bytes.size() - at))));
                 break;
             case 4: {
                 const double number = NUMBERS[below(sizeof NUMBERS / sizeof *NUMBERS)];
@@ -123,9 +124,11 @@ int main(int argc, char** argv) {
     const auto start = std::chrono::steady_clock::now();
     const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
     long runs = 0;
-    for (; (options.runs < 0 || runs < options.runs) && (options.seconds == 0 || passed() < double(options.seconds)); runs++) {
+    for (; (options.runs < 0 || runs < options.runs) && (options.seconds == 0 || passed() < double(options.seconds));
+         runs++) {
         Bytes bytes;
-        if (!corpus.empty() && random() % 8 != 0) bytes = corpus[random() % corpus.size()];
+        if (!corpus.empty() && random() % 8 != 0)
+            bytes = corpus[random() % corpus.size()];
         else
             for (size_t i = random() % options.longest; i > 0; i--) bytes.push_back(uint8_t(random()));
         mutate(bytes, random, corpus, options.longest);

@@ -28,7 +28,8 @@ struct Stage {
 frond_model shared_model() {
     static const frond_model model = [] {
         frond_set_log(nullptr, nullptr);
-        const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.3, 0}, 0.02, 0.015}, {0, {0, 0.3, 0}, {0.15, 0.5, 0}, 0.012, 0.006}};
+        const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.3, 0}, 0.02, 0.015},
+                                    {0, {0, 0.3, 0}, {0.15, 0.5, 0}, 0.012, 0.006}};
         frond_model_def def = frond_default_model_def();
         def.cage_size = 0.1;
         frond_model made = {};
@@ -172,11 +173,13 @@ void look_at_world(Stage& s) {
     const frond_grab grab = s.any(s.grabs);
     const frond_bond bond = s.any(s.bonds);
     const frond_rigid rigid = s.any(s.rigids);
-    require((frond_grab_get(grab, &vec, nullptr, nullptr) == FROND_OK) == frond_grab_is_valid(grab), "a grab is and is not");
+    require((frond_grab_get(grab, &vec, nullptr, nullptr) == FROND_OK) == frond_grab_is_valid(grab),
+            "a grab is and is not");
     require((frond_bond_get(bond, &vec, &vec) == FROND_OK) == frond_bond_is_valid(bond), "a bond is and is not");
     require((frond_rigid_get_body(rigid) != nullptr) == frond_rigid_is_valid(rigid), "a body is and is not");
     if (frond_rigid_get_state(rigid, &state) == FROND_OK)
-        require(std::isfinite(state.position.x + state.rotation.w + state.velocity.y + state.spin.z), "a body is not finite");
+        require(std::isfinite(state.position.x + state.rotation.w + state.velocity.y + state.spin.z),
+                "a body is not finite");
 }
 
 void look_at_model(Stage& s) {
@@ -213,7 +216,8 @@ void hold(Stage& s) {
     frond_bond bond = {};
     switch (s.input.below(9)) {
         case 0:
-            if (frond_grab_create(s.plant(), s.input.vec(), s.input.number() * 100, &grab) == FROND_OK) s.grabs.push_back(grab);
+            if (frond_grab_create(s.plant(), s.input.vec(), s.input.number() * 100, &grab) == FROND_OK)
+                s.grabs.push_back(grab);
             break;
         case 1:
             frond_grab_move(s.any(s.grabs), s.input.vec());
@@ -222,7 +226,8 @@ void hold(Stage& s) {
             frond_grab_destroy(s.any(s.grabs));
             break;
         case 3:
-            if (frond_bond_create(s.plant(), s.input.vec(), s.any(s.rigids), &bond) == FROND_OK) s.bonds.push_back(bond);
+            if (frond_bond_create(s.plant(), s.input.vec(), s.any(s.rigids), &bond) == FROND_OK)
+                s.bonds.push_back(bond);
             break;
         case 4:
             frond_bond_destroy(s.any(s.bonds));
@@ -284,8 +289,10 @@ void step(Stage& s) {
 }
 
 using Call = void (*)(Stage&);
-constexpr Call CALLS[] = {create_plant, create_rigid, set_rigid, set_state, set_wind, set_detail, save_or_restore, set_lasting,
-                          look_at_plant, look_at_world, look_at_model, hold, hold, change, change, step, step, step};
+constexpr Call CALLS[] = {
+    create_plant, create_rigid,  set_rigid,     set_state,     set_wind, set_detail, save_or_restore,
+    set_lasting,  look_at_plant, look_at_world, look_at_model, hold,     hold,       change,
+    change,       step,          step,          step};
 
 }  // namespace
 

@@ -72,7 +72,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     }
     const frond_result result = frond_world_restore(garden.world, bytes.data(), bytes.size());
     require(result == FROND_OK || result == FROND_FILE_FORMAT || result == FROND_BAD_ARGUMENT, "an unexpected result");
-    for (int i = 0; i < 2; i++) require(frond_world_step(garden.world, 1.0 / 60) == FROND_OK, "the world does not step any more");
+    for (int i = 0; i < 2; i++)
+        require(frond_world_step(garden.world, 1.0 / 60) == FROND_OK, "the world does not step any more");
     for (frond_plant plant : garden.plants) require_finite(plant);
     return 0;
 }

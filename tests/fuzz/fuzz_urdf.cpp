@@ -53,16 +53,17 @@ std::string made_up(Input& input) {
         if (input.below(3)) text += shape(input, "visual");
         if (input.below(3)) text += shape(input, "collision");
         if (input.below(2))
-            text += "<inertial><mass value=\"" + text_of(input.number()) + "\"/><inertia ixx=\"" + text_of(input.number()) +
-                    "\" iyy=\"1e-3\" izz=\"1e-3\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+            text += "<inertial><mass value=\"" + text_of(input.number()) + "\"/><inertia ixx=\"" +
+                    text_of(input.number()) + "\" iyy=\"1e-3\" izz=\"1e-3\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
         text += "</link>";
     }
     for (int i = 1; i < links; i++) {
         const int parent = input.byte() < 240 ? input.below(i) : input.below(links);
         text += "<joint name=\"j" + std::to_string(i) + "\" type=\"" + JOINTS[input.below(7)] + "\"><parent link=\"l" +
-                std::to_string(parent) + "\"/><child link=\"l" + std::to_string(i) + "\"/><origin xyz=" + vec_text(input) +
-                " rpy=" + vec_text(input) + "/><axis xyz=" + vec_text(input) + "/><limit lower=\"" + text_of(input.number()) +
-                "\" upper=\"" + text_of(input.number()) + "\" effort=\"10\" velocity=\"1\"/></joint>";
+                std::to_string(parent) + "\"/><child link=\"l" + std::to_string(i) +
+                "\"/><origin xyz=" + vec_text(input) + " rpy=" + vec_text(input) + "/><axis xyz=" + vec_text(input) +
+                "/><limit lower=\"" + text_of(input.number()) + "\" upper=\"" + text_of(input.number()) +
+                "\" effort=\"10\" velocity=\"1\"/></joint>";
     }
     return text + "</robot>";
 }
@@ -84,7 +85,8 @@ void try_plant(const std::string& path) {
     frond_model model = {};
     frond_plant plant = {};
     const frond_result result = frond_model_load(path.c_str(), &def, &model);
-    require(result == FROND_OK || (model.id == 0 && frond_last_error()[0] != 0), "a failed call left a model, or no text");
+    require(result == FROND_OK || (model.id == 0 && frond_last_error()[0] != 0),
+            "a failed call left a model, or no text");
     require(result != FROND_INTERNAL, "an internal error");
     if (result != FROND_OK) return;
     if (frond_plant_create(world_of_all(), model, &plant_def, &plant) == FROND_OK) {
@@ -130,7 +132,8 @@ void look(frond_robot robot) {
         frond_link_state state = {};
         frond_robot_link about = {};
         require(frond_robot_get_link_state(robot, link, &state) == FROND_OK, "a valid link has no state");
-        require(std::isfinite(state.position.x + state.rotation.w + state.force.y + state.joint_position), "a link is not finite");
+        require(std::isfinite(state.position.x + state.rotation.w + state.force.y + state.joint_position),
+                "a link is not finite");
         require(frond_robot_get_link(robot, link, &about) == FROND_OK, "a valid link is not told of");
         require(frond_robot_find_link(robot, about.name) >= 0, "a link is not found by its name");
         require(frond_joint_name(about.joint)[0] != '?', "a joint has no name");
@@ -154,7 +157,8 @@ void try_robot(Input& input, const std::string& path) {
     const frond_robot_def def = frond_default_robot_def();
     frond_robot robot = {};
     const frond_result result = frond_robot_load(world_of_all(), path.c_str(), &def, &robot);
-    require(result == FROND_OK || (robot.id == 0 && frond_last_error()[0] != 0), "a failed call left a robot, or no text");
+    require(result == FROND_OK || (robot.id == 0 && frond_last_error()[0] != 0),
+            "a failed call left a robot, or no text");
     require(result != FROND_INTERNAL, "an internal error");
     if (result != FROND_OK) return;
     for (int i = 0; i < 3; i++) require(frond_world_step(world_of_all(), 1.0 / 60) == FROND_OK, "no step");

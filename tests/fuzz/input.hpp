@@ -35,7 +35,8 @@ struct Input {
     }
     // Mostly numbers that mean something, sometimes any.
     double number() {
-        static const double KNOWN[] = {0, 1, -1, 0.1, 0.5, -0.3, 2, 10, 1e-6, 1e6, 1e9, 1e10, 1e30, -1e308, 1e-310, NAN, INFINITY};
+        static const double KNOWN[] = {0,   1,   -1,   0.1,  0.5,    -0.3,   2,   10,      1e-6,
+                                       1e6, 1e9, 1e10, 1e30, -1e308, 1e-310, NAN, INFINITY};
         const uint8_t choice = byte();
         if (choice < 200) return (choice - 100) / 50.0;
         if (choice < 240) return KNOWN[choice % (sizeof KNOWN / sizeof *KNOWN)];

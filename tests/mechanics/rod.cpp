@@ -70,7 +70,9 @@ protected:
     }
 };
 INSTANTIATE_TEST_SUITE_P(Rods, EveryRod, testing::Values(int(FROND_ROD), int(FROND_SPRING_CHAIN)),
-                         [](const auto& info) { return frond_mechanics(info.param) == FROND_ROD ? "rod" : "spring_chain"; });
+                         [](const auto& info) {
+                             return frond_mechanics(info.param) == FROND_ROD ? "rod" : "spring_chain";
+                         });
 
 TEST_P(EveryRod, ForceIsMinusTheGradientOfEnergy) {
     Dice dice(1);

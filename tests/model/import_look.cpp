@@ -70,8 +70,7 @@ TEST(ImportLook, FindsAPictureInTheFolderForPicturesBesideTheModels) {
     make_folder(folder, "textures");
     folder.write("models/plant.mtl", "newmtl green\nmap_Kd work/Leaf.tga\n");
     folder.write("textures/leaf.png", files::png());
-    const Surface surface =
-        import_surface(folder.write("models/plant.obj", files::obj(false, "plant.mtl")), {});
+    const Surface surface = import_surface(folder.write("models/plant.obj", files::obj(false, "plant.mtl")), {});
     EXPECT_EQ(part_of(surface, "leaf").texture, 0) << "in another format, too";
 }
 
@@ -99,8 +98,8 @@ TEST(ImportLook, WhatOnlyGlowsLooksAsItGlows) {
 TEST(ImportLook, ColorsThatBlenderWroteAreLinear) {
     files::Folder folder;
     folder.write("plant.mtl", "newmtl bark\nKd 0.5 0.5 0\nnewmtl green\nKd 0 0.5 0\n");
-    const Surface by_blender = import_surface(
-        folder.write("plant.obj", "# Blender 3.3.1\n" + files::obj(false, "plant.mtl")), {});
+    const Surface by_blender =
+        import_surface(folder.write("plant.obj", "# Blender 3.3.1\n" + files::obj(false, "plant.mtl")), {});
     EXPECT_NEAR(part_of(by_blender, "stem").color[0], 0.5f, 1e-6f);
     const std::string dae = replaced(files::dae(false), "<asset>",
                                      "<asset><contributor><authoring_tool>Blender 2.79</authoring_tool></contributor>");

@@ -66,10 +66,14 @@ TEST(Place, APlantCalledAHerbIsNoTree) {
     const struct {
         const char *file, *part;
         double height, scale;
-    } rows[] = {{"white_lily.glb", "pPlane1", 20, 0.1},   {"plant.glb", "Potted_Plant_Leaf_0", 10, 0.1},
-                {"flower.ply", "", 28, 0.1},              {"sunflower.glb", "", 2.5, 1},
-                {"tree.glb", "", 28, 1},                  {"bobble.obj", "Circle", 39, 1},
-                {"flower_tree.glb", "petals", 20, 1},     {"plant.glb", "Flowerless", 20, 1}};
+    } rows[] = {{"white_lily.glb", "pPlane1", 20, 0.1},
+                {"plant.glb", "Potted_Plant_Leaf_0", 10, 0.1},
+                {"flower.ply", "", 28, 0.1},
+                {"sunflower.glb", "", 2.5, 1},
+                {"tree.glb", "", 28, 1},
+                {"bobble.obj", "Circle", 39, 1},
+                {"flower_tree.glb", "petals", 20, 1},
+                {"plant.glb", "Flowerless", 20, 1}};
     for (const auto& row : rows) {
         last_warning.clear();
         set_log(keep_warning, nullptr);

@@ -129,8 +129,8 @@ TEST(Section, OfATaperIsThatOfItsPlace) {
         const double end = sample.chain.nodes[i].position.y();
         // The mean of 1 / r^4 over the capsule.
         const auto radius = [&](double y) { return r0 + (r1 - r0) * y / LENGTH; };
-        const double mean = (std::pow(radius(end), -3) - std::pow(radius(begin), -3)) /
-                            (3 * (radius(begin) - radius(end)));
+        const double mean =
+            (std::pow(radius(end), -3) - std::pow(radius(begin), -3)) / (3 * (radius(begin) - radius(end)));
         EXPECT_NEAR(sample.sections[i].inertia_thin * mean / (M_PI / 4), 1, 3e-3) << i;
     }
 }
@@ -185,8 +185,8 @@ TEST(Section, OfAStripHasItsOwnWidthAndThickness) {
     const double w = 0.04, t = 5e-4, area = w * t;
     for (bool doubled : {false, true}) {
         // With two faces 0.01 mm apart it is drawn twice, but no thicker than its material says.
-        const Surface surface = doubled ? prism(rectangle(w, 1e-5), true)
-                                        : prism({{-w / 2, 0, 0}, {0, 0, 0}, {w / 2, 0, 0}}, false);
+        const Surface surface =
+            doubled ? prism(rectangle(w, 1e-5), true) : prism({{-w / 2, 0, 0}, {0, 0, 0}, {w / 2, 0, 0}}, false);
         const Sample sample(surface, "blade", wood(t));
         for (const Section& section : sample.inner()) {
             EXPECT_NEAR(section.thickness, t, 1e-12) << doubled;

@@ -1,5 +1,5 @@
-// placements: how many pairs of corn plants that were made in each other are out of each other from 2 to 4 s, by FCL. Two of
-// the placements are those of the scene corn_pair and of examples/pair.c, the others random.
+// placements: how many pairs of corn plants that were made in each other are out of each other from 2 to 4 s, by FCL.
+// Two of the placements are those of the scene corn_pair and of examples/pair.c, the others random.
 //     placements [COUNT [STEPS_A_SECOND [MECHANICS [AT_LEAST]]]]
 // Fails if fewer than AT_LEAST of them are less than 1 mm in each other.
 #include <cstdio>
@@ -54,14 +54,16 @@ Deepest play(const Placement& placement, frond_mechanics mechanics, int steps_a_
 int run(int count, int steps_a_second, frond_mechanics mechanics, int at_least) {
     std::mt19937 random(1);
     int apart = 0;
-    std::printf("%s, 1/%d s; deepest from 2 to 4 s [mm]\n%-3s %7s %7s %7s %7s %9s %9s %7s\n", frond_mechanics_name(mechanics),
-                steps_a_second, "", "x", "z", "turn", "turn", "cages", "surfaces", "steps");
+    std::printf("%s, 1/%d s; deepest from 2 to 4 s [mm]\n%-3s %7s %7s %7s %7s %9s %9s %7s\n",
+                frond_mechanics_name(mechanics), steps_a_second, "", "x", "z", "turn", "turn", "cages", "surfaces",
+                "steps");
     for (int i = 0; i < count; i++) {
         const Placement placement = i == 0 ? AS_IN_SCENE : i == 1 ? AS_IN_EXAMPLE : draw_placement(random);
         const Deepest deepest = play(placement, mechanics, steps_a_second);
         apart += deepest.late == 0;
-        std::printf("%-3d %7.3f %7.3f %7.3f %7.3f %9.2f %9.2f %7d\n", i, placement.place.x, placement.place.z, placement.turns[0],
-                    placement.turns[1], 1000 * deepest.cages, 1000 * deepest.surfaces, deepest.late);
+        std::printf("%-3d %7.3f %7.3f %7.3f %7.3f %9.2f %9.2f %7d\n", i, placement.place.x, placement.place.z,
+                    placement.turns[0], placement.turns[1], 1000 * deepest.cages, 1000 * deepest.surfaces,
+                    deepest.late);
         std::fflush(stdout);
     }
     std::printf("%d of %d less than 1 mm in each other\n", apart, count);

@@ -1,5 +1,5 @@
-// Air: drag of a pole, of bodies that fall and of blades that bend is that of the formulas and of what was published; still
-// air only takes energy; a gale upsets no step; off means nothing at all.
+// Air: drag of a pole, of bodies that fall and of blades that bend is that of the formulas and of what was published;
+// still air only takes energy; a gale upsets no step; off means nothing at all.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -219,8 +219,8 @@ TEST_P(EveryAir, FreePlateAndStemFallWithTheirTerminalVelocities) {
     EXPECT_NEAR(drag / (node_mass_of(*stem.plant->system).sum() * GRAVITY), 1, 0.03);
 }
 
-// Drag of a bent blade over that of a stiff one, by the Cauchy number; the digits follow from the differential equation of
-// Gosselin, de Langre, Machado-Almeida 2010 (tests/study/known.cpp solves it).
+// Drag of a bent blade over that of a stiff one, by the Cauchy number; the digits follow from the differential equation
+// of Gosselin, de Langre, Machado-Almeida 2010 (tests/study/known.cpp solves it).
 struct Reconfigured {
     double C, R;
 };

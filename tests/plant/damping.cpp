@@ -18,8 +18,7 @@ constexpr double H = 1.0 / 240;
 
 // Two stems one on the other, 0.8 m in all, each with a damping ratio of its own.
 std::shared_ptr<const Model> stem_model(double low_ratio, double high_ratio, frond_rest rest) {
-    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.4, 0}, 0.02, 0.02},
-                                {0, {0, 0.4, 0}, {0, 0.8, 0}, 0.02, 0.016}};
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.4, 0}, 0.02, 0.02}, {0, {0, 0.4, 0}, {0, 0.8, 0}, 0.02, 0.016}};
     frond_organ_material organs[] = {{"stem_0", plain_material(1000, 2e7, 0.3, 1e-3)},
                                      {"stem_1", plain_material(1000, 2e7, 0.3, 1e-3)}};
     organs[0].material.damping_ratio = low_ratio;
@@ -64,8 +63,8 @@ struct Swaying {
         return e.kinetic + e.elastic + e.gravity - still;
     }
 
-    // By how fast the energy falls over six swings of the tip, for a cage that is not symmetric lets a sway wander into the
-    // plane across; the first swing is left out, in which higher modes die away.
+    // By how fast the energy falls over six swings of the tip, for a cage that is not symmetric lets a sway wander into
+    // the plane across; the first swing is left out, in which higher modes die away.
     double decay() {
         double before = 0, last = 0;
         int turns = 0, steps = 0;
@@ -89,9 +88,9 @@ struct EveryDamping : testing::TestWithParam<int> {
     const frond_mechanics which = frond_mechanics(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Mechanics, EveryDamping,
-                         testing::ValuesIn(SANITIZED
-                                               ? std::vector<int>{FROND_ROD}
-                                               : std::vector<int>{FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD}),
+                         testing::ValuesIn(SANITIZED ? std::vector<int>{FROND_ROD}
+                                                     : std::vector<int>{FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN,
+                                                                        FROND_ROD}),
                          [](const auto& info) { return mechanics(frond_mechanics(info.param)).name; });
 
 TEST_P(EveryDamping, FirstSwayDecaysWithTheRatioThatIsGiven) {

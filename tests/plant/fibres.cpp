@@ -65,8 +65,7 @@ double drawn(Plant& plant, const Vec3& way, double force, double& held) {
 }
 
 class Pulled : public testing::TestWithParam<frond_mechanics> {};
-INSTANTIATE_TEST_SUITE_P(Tets, Pulled,
-                         testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN));
+INSTANTIATE_TEST_SUITE_P(Tets, Pulled, testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN));
 
 TEST_P(Pulled, BladeIsNotDrawnOut) {
     const auto model = blade(5e8, 3e-4);
@@ -94,7 +93,8 @@ TEST_P(Pulled, BladeComesBackAndStandsStill) {
         EXPECT_LT((point(plant->motion.x, i) - point(plant->nodes->modelled, i)).norm(), 0.01 * LENGTH) << i;
 }
 
-// By Hooke's law, but for the slack: the cage carries a share of the pull from the start, the fibres theirs beyond that.
+// By Hooke's law, but for the slack: the cage carries a share of the pull from the start, the fibres theirs beyond
+// that.
 TEST_P(Pulled, SoftTissueGivesAsItShould) {
     constexpr double YOUNG = 2e5, RADIUS = 0.006;
     const frond_stem stem = {-1, {0, 0, 0}, {0, LENGTH, 0}, RADIUS, RADIUS};

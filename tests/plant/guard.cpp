@@ -163,7 +163,8 @@ TEST(Guard, WhatIsHeldBentDoesNotStartFromTheModelledShape) {
         if (node_place(*plant, i).y() > node_place(*plant, top).y()) top = i;
     pin_node(*plant, top);
     for (int i = 0; i < 240; i++) {
-        move_pin(*plant, top, plant->nodes->modelled.segment<3>(3 * top) + Vec3(0.15 * std::min(1.0, i / 120.0), -0.05, 0));
+        move_pin(*plant, top,
+                 plant->nodes->modelled.segment<3>(3 * top) + Vec3(0.15 * std::min(1.0, i / 120.0), -0.05, 0));
         step_plant(*plant, earth(), H);
     }
     EXPECT_GT(away(*plant), 0.15);

@@ -1,4 +1,5 @@
-// What a plant keeps of being bent: nothing below its yield, a set beyond it in rods as in tets, no energy out of nothing.
+// What a plant keeps of being bent: nothing below its yield, a set beyond it in rods as in tets, no energy out of
+// nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,8 +60,7 @@ struct Bending {
     // A soft spring from far away is a force.
     void pull(double force) {
         plant->grabs.clear();
-        if (force != 0)
-            plant->grabs.push_back({vertex, Vec3(force / 0.01, 0, 0), 0.01, 0});
+        if (force != 0) plant->grabs.push_back({vertex, Vec3(force / 0.01, 0, 0), 0.01, 0});
     }
     // How far the tip stays aside after a force that came and went [m].
     double set_after(double force) {

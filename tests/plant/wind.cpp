@@ -99,8 +99,8 @@ TEST(Wind, HasKaimalsSpectrum) {
         }
 }
 
-// exp(-12 r sqrt((f/U)^2 + (0.12/L)^2)) a wave: the mean product of gusts some way apart across the wind is the spectrum's
-// mean of that.
+// exp(-12 r sqrt((f/U)^2 + (0.12/L)^2)) a wave: the mean product of gusts some way apart across the wind is the
+// spectrum's mean of that.
 TEST(Wind, GustsAreCoherentAcrossTheWindAsStated) {
     frond_wind_def def = plain_def();
     const double U = 8, L = 30, sigma = 0.25 * U;

@@ -56,7 +56,8 @@ TEST(Answer, IsThatOfWholeSolvesForEverySolverAndIntegrator) {
                 std::vector<Mat3> blocks(pushes.size(), Mat3::Zero());
                 add_answers(pointers, answers[j], spread, blocks);
                 for (size_t i = 0; i < pushes.size(); ++i) {
-                    const Mat3 expected = i == 3 || j == 3 ? Mat3(Mat3::Zero()) : by_whole_solves(rig, pushes[i], pushes[j]);
+                    const Mat3 expected =
+                        i == 3 || j == 3 ? Mat3(Mat3::Zero()) : by_whole_solves(rig, pushes[i], pushes[j]);
                     const double largest = by_whole_solves(rig, pushes[0], pushes[0]).norm();
                     EXPECT_LT((blocks[i] - expected).norm(), 1e-7 * std::max(largest, expected.norm()))
                         << solver << " " << integrator << " " << i << " " << j;

@@ -89,8 +89,9 @@ TEST(Drags, ForceIsMinusTheGradientOfThePotential) {
     VecX force = VecX::Zero(v.size());
     add_drag_force(drags, rig.motion.x, v, force);
     constexpr double STEP = 1e-6;
-    const double slope = (drag_potential(drags, rig.motion.x, v + STEP * dv) -
-                          drag_potential(drags, rig.motion.x, v - STEP * dv)) / (2 * STEP);
+    const double slope =
+        (drag_potential(drags, rig.motion.x, v + STEP * dv) - drag_potential(drags, rig.motion.x, v - STEP * dv)) /
+        (2 * STEP);
     EXPECT_NEAR(slope, -force.dot(dv), 1e-6 * force.norm() * dv.norm());
 
     // Its damping is the derivative of the force, and nowhere above the lumped one.

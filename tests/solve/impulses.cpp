@@ -61,8 +61,8 @@ TEST(Impulses, ShareTheLoadOfAPlateOnFourPoints) {
     EXPECT_NEAR(sum, 2, 1e-5);
 }
 
-// Random coupled touches: bodies part, or push and part no faster than they must; friction is within its cone and, where
-// they slide, against it.
+// Random coupled touches: bodies part, or push and part no faster than they must; friction is within its cone and,
+// where they slide, against it.
 TEST(Impulses, MeetTheConditionsOfContactAndFriction) {
     Dice dice(3);
     for (int repeat = 0; repeat < 50; repeat++) {

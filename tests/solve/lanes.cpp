@@ -15,8 +15,7 @@ struct Narrow {
 };
 
 struct EveryBody : testing::TestWithParam<std::tuple<int, int>> {};
-INSTANTIATE_TEST_SUITE_P(Lanes, EveryBody,
-                         testing::Combine(testing::Range(0, TET_MECHANICS), testing::Values(1, 2)));
+INSTANTIATE_TEST_SUITE_P(Lanes, EveryBody, testing::Combine(testing::Range(0, TET_MECHANICS), testing::Values(1, 2)));
 
 TEST_P(EveryBody, MovesAlikeInLanesOfAnyWidth) {
     const auto [which, order] = GetParam();

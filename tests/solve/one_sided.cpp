@@ -1,5 +1,5 @@
-// One-sided rows: what is found pulls or has nothing to do, for random matrices that are nearly singular too; what is not
-// positive definite is said to be so.
+// One-sided rows: what is found pulls or has nothing to do, for random matrices that are nearly singular too; what is
+// not positive definite is said to be so.
 #include "solve/one_sided.hpp"
 
 #include <gtest/gtest.h>

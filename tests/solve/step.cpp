@@ -170,8 +170,9 @@ TEST_P(EveryStep, GivesTheSameBitsAgain) {
 struct EveryEulerStep : EveryStep {};
 static std::vector<Combination> euler_combinations() {
     std::vector<Combination> all = every_combination();
-    all.erase(std::remove_if(all.begin(), all.end(), [](const auto& c) { return c.integrator != FROND_IMPLICIT_EULER; }),
-              all.end());
+    all.erase(
+        std::remove_if(all.begin(), all.end(), [](const auto& c) { return c.integrator != FROND_IMPLICIT_EULER; }),
+        all.end());
     return all;
 }
 INSTANTIATE_TEST_SUITE_P(Step, EveryEulerStep, testing::ValuesIn(euler_combinations()), combination_name);

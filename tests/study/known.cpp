@@ -167,8 +167,8 @@ TEST(Known, ImplicitEulerDampsAsItsFormulaSays) {
 TEST(Known, ReconfigurationHasThePublishedDigits) {
     const struct {
         double C, R;
-    } digits[] = {{1, 0.9748}, {3.162, 0.8311}, {10, 0.5236}, {31.62, 0.3011}, {100, 0.1918}, {1000, 0.0890},
-                  {1e4, 0.0413}};
+    } digits[] = {{1, 0.9748},   {3.162, 0.8311}, {10, 0.5236}, {31.62, 0.3011},
+                  {100, 0.1918}, {1000, 0.0890},  {1e4, 0.0413}};
     for (const auto& d : digits) EXPECT_NEAR(reconfiguration_of(d.C), d.R, 6e-5) << d.C;
     EXPECT_NEAR(reconfiguration_of(1e-4), 1, 1e-6);
     const double vogel = 2 * std::log(reconfiguration_of(1e5) / reconfiguration_of(1e4)) / std::log(10.0);

@@ -27,11 +27,10 @@ double bound_of(const std::string& name) {
         {"greenhill", 5e-3},      {"peers", 5e-3},
         {"frequencies", 0.03},    {"damping", 1e-3},
         {"amplitude", 5e-4},      {"far_amplitude", 0.05},
-        {"free_fall", 1e-6},
-        {"sway", 0.11},           {"swing", 0.02},
-        {"peers_swing", 0.02},    {"release", 0.02},
-        {"aspect", 0.05},         {"twig", 0.05},
-        {"reconfiguration", 0.03},
+        {"free_fall", 1e-6},      {"sway", 0.11},
+        {"swing", 0.02},          {"peers_swing", 0.02},
+        {"release", 0.02},        {"aspect", 0.05},
+        {"twig", 0.05},           {"reconfiguration", 0.03},
         {"corn_drift", 1e-3},     {"cucumber_drift", 1e-3},
     };
     const auto bound = bounds.find(name);
@@ -61,8 +60,9 @@ TEST_P(EveryProblem, RunsAndKeepsItsError) {
     ASSERT_FALSE(result.points.empty());
     double best = INFINITY;
     for (const Point& point : result.points) {
-        // Explicit steps are too long, and linear tets do not feel the weight that makes a column buckle. What tets of our
-        // own, one cell across, were rolled up to was 0.3 to 0.4 of the length off, where a step's energy was not looked at.
+        // Explicit steps are too long, and linear tets do not feel the weight that makes a column buckle. What tets of
+        // our own, one cell across, were rolled up to was 0.3 to 0.4 of the length off, where a step's energy was not
+        // looked at.
         const bool may_fail = point.setup.plant.integrator != frond_default_plant_def().integrator ||
                               (problem == "greenhill" && point.setup.plant.mechanics == FROND_TET_LINEAR) ||
                               (problem == "roll_up" && (point.failure == "lost" || point.setup.body == Body::MESH)) ||
@@ -152,8 +152,11 @@ TEST(Rods, BendAndTwistAndBuckleAsTheFormulasSay) {
         const char* problem;
         int pieces;
         double error;
-    } rows[] = {{"cantilever_tip", 10, 0.005}, {"elastica_tip", 20, 0.005}, {"roll_up", 20, 0.005},
-                {"greenhill", 10, 0.02},       {"torsion", 10, 0.005}};
+    } rows[] = {{"cantilever_tip", 10, 0.005},
+                {"elastica_tip", 20, 0.005},
+                {"roll_up", 20, 0.005},
+                {"greenhill", 10, 0.02},
+                {"torsion", 10, 0.005}};
     for (const auto& row : rows) {
         const Problem& problem = find_problem(row.problem);
         Choice setup = problem.baseline();

@@ -62,8 +62,7 @@ inline std::vector<CageContact> contacts_of(const std::vector<CollisionBody>& bo
 
 inline Vec3 place_of(const std::vector<CollisionBody>& bodies, const ContactSide& side) {
     Vec3 sum = Vec3::Zero();
-    for (size_t k = 0; k < 4; ++k)
-        sum += side.weights[k] * bodies[size_t(side.body)].places[size_t(side.nodes[k])];
+    for (size_t k = 0; k < 4; ++k) sum += side.weights[k] * bodies[size_t(side.body)].places[size_t(side.nodes[k])];
     return sum;
 }
 

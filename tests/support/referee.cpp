@@ -41,8 +41,8 @@ bool referee_overlap(const Capsule& a, const Capsule& b) {
 
 double referee_distance(const Capsule& a, const Corners& b) {
     double distance = 0;
-    const bool apart = fcl::detail::GJKSolver_indep<double>().shapeTriangleDistance(
-        shape_of(a), frame_of(a), b[0], b[1], b[2], &distance);
+    const bool apart = fcl::detail::GJKSolver_indep<double>().shapeTriangleDistance(shape_of(a), frame_of(a), b[0],
+                                                                                    b[1], b[2], &distance);
     return apart ? distance : -1;
 }
 

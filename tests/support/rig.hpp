@@ -21,7 +21,7 @@ struct RigSettings : SolveSettings {
 };
 
 inline RigSettings plain_settings(frond_mechanics mechanics = FROND_TET_COROTATIONAL,
-                                    frond_linear_solver solver = FROND_BLOCK) {
+                                  frond_linear_solver solver = FROND_BLOCK) {
     RigSettings s = {};
     s.mechanics = mechanics;
     s.integrator = FROND_IMPLICIT_EULER;
@@ -123,8 +123,8 @@ inline std::string combination_name(const testing::TestParamInfo<Combination>& i
     static const char* const INTEGRATORS[] = {FROND_INTEGRATORS(FROND_TEST_TEXT)};
     static const char* const SOLVERS[] = {FROND_LINEAR_SOLVERS(FROND_TEST_TEXT)};
     static const char* const MASSES[] = {FROND_MASSES(FROND_TEST_TEXT)};
-    return std::string(MECHANICS[info.param.mechanics]) + (info.param.order == 2 ? "_quadratic_" : "_") + INTEGRATORS[info.param.integrator] + "_" +
-           SOLVERS[info.param.linear_solver] + "_" + MASSES[info.param.mass];
+    return std::string(MECHANICS[info.param.mechanics]) + (info.param.order == 2 ? "_quadratic_" : "_") +
+           INTEGRATORS[info.param.integrator] + "_" + SOLVERS[info.param.linear_solver] + "_" + MASSES[info.param.mass];
 }
 
 }  // namespace frond::test

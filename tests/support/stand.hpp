@@ -1,5 +1,5 @@
-// Plants of one model in a world, through the C API, with their outlines for the referee: the corn pair of the paper's figure 5
-// among them.
+// Plants of one model in a world, through the C API, with their outlines for the referee: the corn pair of the paper's
+// figure 5 among them.
 #pragma once
 
 #include <algorithm>
@@ -119,7 +119,8 @@ struct Stand {
     }
 };
 
-// Where the second of two plants stands, seen from the first [m], and how both are turned about their own heights [rad].
+// Where the second of two plants stands, seen from the first [m], and how both are turned about their own heights
+// [rad].
 struct Placement {
     frond_vec3 place;
     std::array<double, 2> turns;

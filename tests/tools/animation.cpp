@@ -37,8 +37,8 @@ TEST_P(Animation, HasATargetASampleWhereTheTableSaysAndOneWeightAtATime) {
     const std::string folder = ::testing::TempDir() + "frond_animation_" + GetParam();
     std::filesystem::create_directories(folder);
     const std::string file = folder + "/twig." + GetParam(), csv = folder + "/twig.csv";
-    const std::string command = std::string(FROND_COMMAND) + " export twig --at 1 --every 10 --animation " + file +
-                                " --csv " + csv;
+    const std::string command =
+        std::string(FROND_COMMAND) + " export twig --at 1 --every 10 --animation " + file + " --csv " + csv;
     ASSERT_EQ(std::system(command.c_str()), 0);
     const std::vector<double> tips = tips_of(csv);
     ASSERT_EQ(tips.size(), size_t(SAMPLES));
@@ -75,8 +75,9 @@ TEST_P(Animation, HasATargetASampleWhereTheTableSaysAndOneWeightAtATime) {
         ASSERT_EQ(channel.mKeys[k].mNumValuesAndWeights, unsigned(SAMPLES));
         for (unsigned i = 0; i < unsigned(SAMPLES); i++) EXPECT_EQ(channel.mKeys[k].mWeights[i], i == k ? 1 : 0);
         if (k > 0) {
-            EXPECT_NEAR((channel.mKeys[k].mTime - channel.mKeys[k - 1].mTime) * SAMPLES / channel.mKeys[SAMPLES - 1].mTime,
-                        SAMPLES / (SAMPLES - 1.0), 1e-3);
+            EXPECT_NEAR(
+                (channel.mKeys[k].mTime - channel.mKeys[k - 1].mTime) * SAMPLES / channel.mKeys[SAMPLES - 1].mTime,
+                SAMPLES / (SAMPLES - 1.0), 1e-3);
         }
     }
     std::filesystem::remove_all(folder);

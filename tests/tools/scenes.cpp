@@ -206,8 +206,7 @@ static std::vector<frond_capsule> capsules_of(const Play& play) {
 static Break play_until_it_breaks(Play& play) {
     Break out;
     for (int i = 0; i < 400; i++) {
-        if (!play.stage.grabs.empty())
-            must(frond_grab_get(play.stage.grabs[0], &out.hold, nullptr, &out.pull));
+        if (!play.stage.grabs.empty()) must(frond_grab_get(play.stage.grabs[0], &out.hold, nullptr, &out.pull));
         const std::vector<frond_capsule> capsules = capsules_of(play);
         play.step();
         frond_report report;
@@ -258,7 +257,8 @@ TEST(Snap, ACornStalkBreaksNearTheMomentThatItsStrengthBears) {
         frond_rigid_state before = {}, after = {};
         must(frond_rigid_get_state(b.broken.rigid, &before));
         // By the hand and by the weight of what came off, about the middle of the piece.
-        const frond_vec3 middle = {0.5 * (b.begin.x + b.end.x), 0.5 * (b.begin.y + b.end.y), 0.5 * (b.begin.z + b.end.z)};
+        const frond_vec3 middle = {0.5 * (b.begin.x + b.end.x), 0.5 * (b.begin.y + b.end.y),
+                                   0.5 * (b.begin.z + b.end.z)};
         const frond_vec3 by_hand = cross(difference(b.hold, middle), b.pull);
         const frond_vec3 by_weight = cross(difference(before.position, middle), {0, -9.81 * b.broken.mass, 0});
         const double moment = length_of({by_hand.x + by_weight.x, by_hand.y + by_weight.y, by_hand.z + by_weight.z});

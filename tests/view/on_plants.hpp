@@ -33,7 +33,8 @@ inline int lowest(const std::vector<float>& surface) {
 }
 
 // The pixel of a point, by looking for the ray that goes to it: the inverse of ray_through, found by Newton's method.
-inline void pixel_of(const frond::tools::Camera& camera, const frond_vec3& p, int width, int height, double& x, double& y) {
+inline void pixel_of(const frond::tools::Camera& camera, const frond_vec3& p, int width, int height, double& x,
+                     double& y) {
     using frond::tools::Ray;
     x = width / 2.0;
     y = height / 2.0;
@@ -63,8 +64,8 @@ inline void pixel_of(const frond::tools::Camera& camera, const frond_vec3& p, in
     }
 }
 
-// What a user can take hold of: the middle of a triangle of the first plant, where the mouse meets it first, as far to the
-// right in the picture as there is one: near a leaf's tip.
+// What a user can take hold of: the middle of a triangle of the first plant, where the mouse meets it first, as far to
+// the right in the picture as there is one: near a leaf's tip.
 struct LeafTip {
     int vertex;   // a corner of it
     double x, y;  // [pixel]

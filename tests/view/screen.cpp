@@ -21,8 +21,8 @@ UnseenScreen::UnseenScreen() {
     int ends[2];
     if (pipe(ends)) return;
     const std::string end = std::to_string(ends[1]);
-    const char* arguments[] = {"Xvfb", "-displayfd", end.c_str(), "-screen", "0", "1024x768x24", "-nolisten", "tcp",
-                               nullptr};
+    const char* arguments[] = {"Xvfb",        "-displayfd", end.c_str(), "-screen", "0",
+                               "1024x768x24", "-nolisten",  "tcp",       nullptr};
     if (posix_spawnp(&server, "Xvfb", nullptr, nullptr, const_cast<char**>(arguments), environ)) server = 0;
     close(ends[1]);
     std::string number;

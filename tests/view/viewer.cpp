@@ -180,8 +180,8 @@ TEST(ViewPanel, TellsCostsAndDoesWhatIsClicked) {
         if (line.text.find(" wind") != std::string::npos) wind_row = row;
         row++;
     }
-    for (const char* word : {"mechanics: rod", "integrator: bdf2", "assembly", "solve", "collide", "capsules", "surface",
-                             "trouble so far: none"})
+    for (const char* word : {"mechanics: rod", "integrator: bdf2", "assembly", "solve", "collide", "capsules",
+                             "surface", "trouble so far: none"})
         EXPECT_NE(all.find(word), std::string::npos) << word << "\n" << all;
     EXPECT_EQ(effects, FROND_EFFECT_COUNT);
     const frond_effects before = viewer.settings.plant.effects;

@@ -107,8 +107,9 @@ TEST_P(EveryBond, KeepsMomentum) {
     constexpr double MASS = 0.2;
     SmallWorld small(def(-1), 1e8);
     ASSERT_EQ(frond_world_set_gravity(small.world, {0, 0, 0}), FROND_OK);
-    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT | FROND_DAMPING)),
-              FROND_OK);
+    ASSERT_EQ(
+        frond_plant_set_effects(small.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT | FROND_DAMPING)),
+        FROND_OK);
     const frond_rigid body = add_body(small.world, MASS, {0.05, 0.6, 0}, {1, 0, 0.5});
     frond_bond bond = {};
     ASSERT_EQ(frond_bond_create(small.plant, {0.01, 0.6, 0}, body, &bond), FROND_OK) << frond_last_error();

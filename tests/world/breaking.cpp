@@ -100,8 +100,7 @@ struct Stem {
 struct EveryBreak : testing::TestWithParam<frond_mechanics> {
     bool is_rod() const { return GetParam() == FROND_ROD; }
 };
-INSTANTIATE_TEST_SUITE_P(Breaking, EveryBreak,
-                         testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD),
+INSTANTIATE_TEST_SUITE_P(Breaking, EveryBreak, testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
 // Bending moment at the foot over the section's modulus: F L / (pi r^3 / 4). The foot's capsule tells the strain at its

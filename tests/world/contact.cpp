@@ -92,12 +92,11 @@ std::vector<frond_mechanics> mechanics_that_touch() {
     if (SANITIZED) return {FROND_TET_COROTATIONAL, FROND_ROD};
     return {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD};
 }
-INSTANTIATE_TEST_SUITE_P(Contact, EveryBody, testing::ValuesIn(mechanics_that_touch()),
-                         [](const auto& info) {
-                             return std::string(info.param == FROND_ROD               ? "rod"
-                                                : info.param == FROND_TET_NEOHOOKEAN ? "tet_neohookean"
-                                                                                      : "tet_corotational");
-                         });
+INSTANTIATE_TEST_SUITE_P(Contact, EveryBody, testing::ValuesIn(mechanics_that_touch()), [](const auto& info) {
+    return std::string(info.param == FROND_ROD              ? "rod"
+                       : info.param == FROND_TET_NEOHOOKEAN ? "tet_neohookean"
+                                                            : "tet_corotational");
+});
 
 TEST_P(EveryBody, ABallPushesAStemAsideAndIsSlowed) {
     Scene scene(0);
@@ -156,9 +155,8 @@ TEST_P(EveryBody, ABlockSlidesWhereFrictionEnds) {
     for (const double angle : {0.98 * limit, 1.02 * limit}) {
         Scene scene;
         scene.add_stem({-1, 1, 0}, {1, 1, 0}, 0.05, 1e10, GetParam(), 10, friction);
-        btRigidBody& block =
-            scene.add(new btBoxShape(btVector3(btScalar(0.2), btScalar(0.05), btScalar(0.2))), 1,
-                      btVector3(0, btScalar(1.1), 0));
+        btRigidBody& block = scene.add(new btBoxShape(btVector3(btScalar(0.2), btScalar(0.05), btScalar(0.2))), 1,
+                                       btVector3(0, btScalar(1.1), 0));
         block.setFriction(1);
         block.setSleepingThresholds(0, 0);
         block.setAngularFactor(btVector3(0, 0, 1));

@@ -81,10 +81,11 @@ TEST(Detail, IsHandedOverWithoutAJumpBothWays) {
     const double height = info.upper.y - info.lower.y;
 
     const double far_away[] = {0, 8, 20, 60, 300, 60, 20, 8, 0};
-    const frond_detail wanted[] = {FROND_DETAIL_FULL, FROND_DETAIL_ROD,  FROND_DETAIL_ROD,
+    const frond_detail wanted[] = {FROND_DETAIL_FULL, FROND_DETAIL_ROD,   FROND_DETAIL_ROD,
                                    FROND_DETAIL_SWAY, FROND_DETAIL_STILL, FROND_DETAIL_SWAY,
-                                   FROND_DETAIL_ROD,  FROND_DETAIL_ROD,  FROND_DETAIL_FULL};
-    constexpr double MOST_FASTER = 0.5;  // of any node, as three steps of free fall make it, or what it is used to [m/s]
+                                   FROND_DETAIL_ROD,  FROND_DETAIL_ROD,   FROND_DETAIL_FULL};
+    constexpr double MOST_FASTER =
+        0.5;  // of any node, as three steps of free fall make it, or what it is used to [m/s]
     State before(plant);
     frond_vec3 tip;
     must(frond_plant_get_tip(plant, &tip));
@@ -102,7 +103,8 @@ TEST(Detail, IsHandedOverWithoutAJumpBothWays) {
             if (i == 0 && k > 0) {
                 EXPECT_LT(std::abs(moved - tip_speed), 0.005 * height) << "to " << frond_detail_name(wanted[k]);
                 EXPECT_LT(largest_jump(before, after), 0.005 * height) << "to " << frond_detail_name(wanted[k]);
-                EXPECT_LT(largest_speed_change(before, after), std::max(MOST_FASTER, 1.25 * faster)) << "to " << frond_detail_name(wanted[k]);
+                EXPECT_LT(largest_speed_change(before, after), std::max(MOST_FASTER, 1.25 * faster))
+                    << "to " << frond_detail_name(wanted[k]);
                 std::printf("to %-6s tip %.3f %% of the height, nodes %.3f %%, speeds %.3f m/s (usual %.3f)\n",
                             frond_detail_name(wanted[k]), 100 * std::abs(moved - tip_speed) / height,
                             100 * largest_jump(before, after) / height, largest_speed_change(before, after), faster);

@@ -1,4 +1,5 @@
-// Every shape that Bullet has, raised from below against a stem that reaches out sideways, lifts it; so does a character.
+// Every shape that Bullet has, raised from below against a stem that reaches out sideways, lifts it; so does a
+// character.
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>

@@ -76,8 +76,8 @@ TEST(OwnWorld, AMaskOnTheWorldSwitchesAnEffectOffForAllPlants) {
     for (size_t i = 0; i < before.size(); i++) EXPECT_NEAR(after[i], before[i], 1e-12);
 }
 
-// Two plants in each other's way, in wind, pulled and struck, so that there is something to do for most effects: each is
-// switched off and on again while they move, on the world and on a plant.
+// Two plants in each other's way, in wind, pulled and struck, so that there is something to do for most effects: each
+// is switched off and on again while they move, on the world and on a plant.
 TEST(OwnWorld, EveryEffectIsSwitchedWhileItRuns) {
     // Those of the others are told together with what they are part of, or have nothing to do here.
     constexpr frond_effects TOLD = FROND_GRAVITY | FROND_DAMPING | FROND_USER_FORCE | FROND_SURFACE | FROND_NORMALS |
@@ -102,7 +102,8 @@ TEST(OwnWorld, EveryEffectIsSwitchedWhileItRuns) {
         const auto run = [&] {
             frond_effects seen = 0;
             for (int i = 0; i < 4; i++) {
-                EXPECT_EQ(frond_plant_add_force(small.plant, frond_plant_get_node_count(small.plant) - 1, {0, 0, 2}), FROND_OK);
+                EXPECT_EQ(frond_plant_add_force(small.plant, frond_plant_get_node_count(small.plant) - 1, {0, 0, 2}),
+                          FROND_OK);
                 step(small.world, 1);
                 for (frond_plant plant : {small.plant, other}) {
                     frond_surface_view view = {};
@@ -129,7 +130,7 @@ TEST(OwnWorld, EveryEffectIsSwitchedWhileItRuns) {
 
 TEST(OwnWorld, AGrabbedPlantFollowsAndSwingsBackWhenLetGo) {
     frond_plant_def def = frond_default_plant_def();
-    def.integrator = FROND_IMPLICIT_EULER;  // its own damping brings the plant to rest in time
+    def.integrator = FROND_IMPLICIT_EULER;            // its own damping brings the plant to rest in time
     def.effects &= ~(frond_effects)FROND_PLASTICITY;  // so soft a stem would keep a third of that bend
     SmallWorld small(def, 1e7);
     step(small.world, 120);

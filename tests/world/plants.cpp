@@ -113,7 +113,8 @@ INSTANTIATE_TEST_SUITE_P(Plants, Free,
 
 // Two crossed stems, one thrown at the other.
 struct ThrownStems : Stand {
-    explicit ThrownStems(frond_mechanics mechanics, frond_world_def def = frond_default_world_def()) : Stand(weightless(def)) {
+    explicit ThrownStems(frond_mechanics mechanics, frond_world_def def = frond_default_world_def())
+        : Stand(weightless(def)) {
         make_stems({{-1, {0, -0.3, 0}, {0, 0.3, 0}, 0.02, 0.02}});
         frond_plant_def plant = plant_def();
         plant.mechanics = mechanics;
@@ -257,7 +258,8 @@ TEST(Plants, FarFromEachOtherMoveAsIfAlone) {
 TEST(Plants, MayComeAndGoWhileTheyTouch) {
     for (const frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_ROD}) {
         Stand stand;
-        stand.make_stems({{-1, {0, 0, 0}, {0, 0.4, 0}, 0.02, 0.01}, {0, {0, 0.2, 0}, {0.25, 0.35, 0}, 0.01, 0.006}}, 1e8);
+        stand.make_stems({{-1, {0, 0, 0}, {0, 0.4, 0}, 0.02, 0.01}, {0, {0, 0.2, 0}, {0.25, 0.35, 0}, 0.01, 0.006}},
+                         1e8);
         frond_plant_def def = stand.plant_def();
         def.mechanics = mechanics;
         def.effects = FROND_DEFAULT_EFFECTS | FROND_SELF_CONTACT;

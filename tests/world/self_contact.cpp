@@ -6,8 +6,9 @@
 namespace {
 
 struct SelfContact : testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Plants, SelfContact, testing::Range(0, int(FROND_MECHANICS_COUNT)),
-                         [](const auto& info) { return std::string(frond_mechanics_name(frond_mechanics(info.param))); });
+INSTANTIATE_TEST_SUITE_P(Plants, SelfContact, testing::Range(0, int(FROND_MECHANICS_COUNT)), [](const auto& info) {
+    return std::string(frond_mechanics_name(frond_mechanics(info.param)));
+});
 
 void step(frond_world world, frond_plant plant, int node_count, double most) {
     std::vector<double> before(size_t(3 * node_count)), after(size_t(3 * node_count));

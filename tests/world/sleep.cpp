@@ -17,7 +17,6 @@ void must(frond_result result) {
     ASSERT_EQ(result, FROND_OK) << frond_last_error();
 }
 
-
 // Forked stems of half a metre, some beside each other.
 struct Stand {
     frond_world world = {};
@@ -99,7 +98,8 @@ TEST_P(Sleep, ChangesNothingByMoreThanATenthOfAMillimetre) {
     EXPECT_FALSE(frond_plant_is_awake(sleeps.plants[0]));
     stays_awake.steps(60 * 30);
     EXPECT_EQ(stays_awake.report().awake_count, 1);
-    const std::vector<double> asleep = sleeps.places(sleeps.plants[0]), awake = stays_awake.places(stays_awake.plants[0]);
+    const std::vector<double> asleep = sleeps.places(sleeps.plants[0]),
+                              awake = stays_awake.places(stays_awake.plants[0]);
     for (size_t i = 0; i < asleep.size(); i++) ASSERT_NEAR(asleep[i], awake[i], 1e-4) << i;
 
     // And not a bit from then on.
@@ -161,14 +161,22 @@ TEST(Wake, ComesFromAllThatMovesAPlant) {
     holder_def.mass = 0;
     holder_def.state.position = {0.15, 0.6, 0};
     const std::vector<std::pair<const char*, std::function<void()>>> causes = {
-        {"a force", [&] { must(frond_plant_add_force(plant, frond_plant_get_node_count(plant) - 1, {0.1, 0, 0})); }},
-        {"a grab", [&] { must(frond_grab_create(plant, {0.15, 0.5, 0}, 10, &grab)); }},
-        {"a grab that moves", [&] { must(frond_grab_move(grab, {0.2, 0.5, 0})); }},
+        {"a force",
+         [&] {
+             must(frond_plant_add_force(plant, frond_plant_get_node_count(plant) - 1, {0.1, 0, 0}));
+         }},
+        {"a grab",
+         [&] {
+             must(frond_grab_create(plant, {0.15, 0.5, 0}, 10, &grab));
+         }},
+        {"a grab that moves",
+         [&] {
+             must(frond_grab_move(grab, {0.2, 0.5, 0}));
+         }},
         {"a grab that ends", [&] { frond_grab_destroy(grab); }},
         {"a pin", [&] { must(frond_plant_pin(plant, frond_plant_get_node_count(plant) - 1)); }},
         {"no pin", [&] { must(frond_plant_unpin(plant, frond_plant_get_node_count(plant) - 1)); }},
-        {"a state",
-         [&] { must(frond_plant_set_state(plant, modelled.data(), nullptr, int(modelled.size() / 3))); }},
+        {"a state", [&] { must(frond_plant_set_state(plant, modelled.data(), nullptr, int(modelled.size() / 3))); }},
         {"effects", [&] { must(frond_plant_set_effects(plant, FROND_DEFAULT_EFFECTS)); }},
         {"mechanics", [&] { must(frond_plant_set_mechanics(plant, FROND_TET_COROTATIONAL)); }},
         {"a word", [&] { must(frond_plant_wake(plant)); }},
@@ -246,7 +254,10 @@ TEST(Wake, ComesToAllFromWhatIsOfTheWorld) {
     wind.velocity = {4, 0, 0};
     wind.turbulence = 0;
     const std::vector<std::pair<const char*, std::function<void()>>> causes = {
-        {"gravity", [&] { must(frond_world_set_gravity(stand.world, {0.5, -9.81, 0})); }},
+        {"gravity",
+         [&] {
+             must(frond_world_set_gravity(stand.world, {0.5, -9.81, 0}));
+         }},
         {"effects", [&] { must(frond_world_set_effects(stand.world, FROND_ALL_EFFECTS & ~uint32_t(FROND_GRAVITY))); }},
         {"wind", [&] { must(frond_world_set_wind(stand.world, &wind)); }},
         {"more wind",

@@ -1,5 +1,5 @@
-// Snapshots: a world goes back to where it was and from there the same way again, to the bit; bytes that are not of such
-// a world change nothing.
+// Snapshots: a world goes back to where it was and from there the same way again, to the bit; bytes that are not of
+// such a world change nothing.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -13,7 +13,8 @@ namespace {
 
 constexpr double H = 1.0 / 60;
 
-// Plants of all mechanics, some in each other, in gusts; a ball flies among them onto the ground, a box lies on a plate.
+// Plants of all mechanics, some in each other, in gusts; a ball flies among them onto the ground, a box lies on a
+// plate.
 struct Garden {
     frond_world world = {};
     frond_model model = {};
@@ -63,7 +64,8 @@ struct Garden {
         for (frond_rigid rigid : rigids) {
             frond_rigid_state state;
             EXPECT_EQ(frond_rigid_get_state(rigid, &state), FROND_OK);
-            for (double number : {state.position.x, state.position.y, state.position.z, state.velocity.y, state.spin.x}) {
+            for (double number :
+                 {state.position.x, state.position.y, state.position.z, state.velocity.y, state.spin.x}) {
                 uint64_t bits;
                 std::memcpy(&bits, &number, sizeof bits);
                 value = value * 31 + bits;

@@ -19,7 +19,8 @@ constexpr double START = 0.5 * MASS * SPEED * SPEED;    // [J]
 // Without weight, so that nothing but the ball brings energy.
 struct StruckCorn : Stand {
     frond_rigid ball = {};
-    StruckCorn(frond_mechanics mechanics, double step, const frond_vec3& from, const frond_vec3& way) : Stand(def_of(step)) {
+    StruckCorn(frond_mechanics mechanics, double step, const frond_vec3& from, const frond_vec3& way)
+        : Stand(def_of(step)) {
         h = step;
         frond_model_def def = frond_default_model_def();
         def.rest = FROND_REST_WITHOUT_GRAVITY;
@@ -71,13 +72,14 @@ TEST_P(Struck, GetsNoMoreEnergyThanTheBallHad) {
             return low + (high - low) * double(random()) / double(std::mt19937::max());
         };
         for (int k = 0; k < count; k++) {
-            const double away = draw(0.02, 0.5), angle = draw(0, 2 * M_PI), height = draw(0.3, 1.3), beside = draw(-0.15, 0.15);
+            const double away = draw(0.02, 0.5), angle = draw(0, 2 * M_PI), height = draw(0.3, 1.3),
+                         beside = draw(-0.15, 0.15);
             const double x = std::cos(angle), z = std::sin(angle);
             const bool falls = k % 2 == 0;
-            StruckCorn corn(GetParam(), 1.0 / steps_a_second,
-                            falls ? frond_vec3{away * x, 1.9, away * z}
-                                  : frond_vec3{-x - beside * z, height, -z + beside * x},
-                            falls ? frond_vec3{0, -1, 0} : frond_vec3{x, 0, z});
+            StruckCorn corn(
+                GetParam(), 1.0 / steps_a_second,
+                falls ? frond_vec3{away * x, 1.9, away * z} : frond_vec3{-x - beside * z, height, -z + beside * x},
+                falls ? frond_vec3{0, -1, 0} : frond_vec3{x, 0, z});
             double most = 0;
             for (int i = 0; i < steps_a_second / 2; i++) {
                 corn.steps(1);
@@ -85,7 +87,8 @@ TEST_P(Struck, GetsNoMoreEnergyThanTheBallHad) {
                 const double plant = corn.plant_energy();
                 most = std::max(most, plant);
                 ASSERT_LT(plant, START) << k << " at 1/" << steps_a_second << " s, step " << i;
-                ASSERT_LT(plant + corn.ball_energy(), 1.02 * START) << k << " at 1/" << steps_a_second << " s, step " << i;
+                ASSERT_LT(plant + corn.ball_energy(), 1.02 * START)
+                    << k << " at 1/" << steps_a_second << " s, step " << i;
             }
             EXPECT_GT(most, 0.002 * START) << k << " at 1/" << steps_a_second;  // it was struck
         }

@@ -158,8 +158,8 @@ TEST(Threads, OfTheHostGoBeforeBulletsTaskScheduler) {
     EXPECT_EQ(scheduler.team.calls, 0);
 }
 
-// Pairs of plants that lean on each other with a ball beside each, far apart: as many islands of contacts. Returns the bits of
-// plants and balls.
+// Pairs of plants that lean on each other with a ball beside each, far apart: as many islands of contacts. Returns the
+// bits of plants and balls.
 std::vector<uint64_t> hash_of_islands(Team* team, frond_response response) {
     constexpr int ISLANDS = 5;
     frond_world_def def = frond_default_world_def();

@@ -24,11 +24,11 @@ namespace {
 struct Case {
     frond_world_def world = frond_default_world_def();
     frond_plant_def plant = frond_default_plant_def();
-    double apart = 5;       // of the plants [m]
-    double ball = 5;        // of the ball from the stalk [m]
-    double wind = 0;        // [m/s]
-    double force = 0;       // on a leaf [N]
-    bool look = false;      // somebody looks at the surface
+    double apart = 5;         // of the plants [m]
+    double ball = 5;          // of the ball from the stalk [m]
+    double wind = 0;          // [m/s]
+    double force = 0;         // on a leaf [N]
+    bool look = false;        // somebody looks at the surface
     frond_effects never = 0;  // effects that would answer to the one that is counted
 };
 
@@ -110,8 +110,8 @@ struct Counted {
 };
 
 Counted read_part(const std::filesystem::path& path, std::string& name) {
-    static const char* const COLLISION[] = {"find_cage_contacts", "gap_between",    "find_meeting_pieces",
-                                            "cover_pieces",       "place_shape",    "add_capsule_contacts",
+    static const char* const COLLISION[] = {"find_cage_contacts", "gap_between",        "find_meeting_pieces",
+                                            "cover_pieces",       "place_shape",        "add_capsule_contacts",
                                             "contact_at",         "respond_to_contacts"};
     Counted counted;
     std::ifstream file(path);
@@ -142,8 +142,7 @@ std::map<std::string, Counted> count_in_valgrind() {
         if (!name.empty()) all[name] = counted;
     }
     std::filesystem::remove_all(folder);
-    if (status != 0 || all.empty())
-        throw SceneError("valgrind did not count; install it with tools/install-packages");
+    if (status != 0 || all.empty()) throw SceneError("valgrind did not count; install it with tools/install-packages");
     return all;
 }
 
@@ -179,23 +178,26 @@ void bench_effects(const BenchOptions& options) {
     if (options.csv)
         std::printf("effect,without,off,masked,idle,unserved,work,idle_collides,processor,compiler,version,commit\n");
     else
-        std::printf("instructions of a step of two corn plants of tets, by callgrind\n%s, frond %s %s\n"
-                    "without: of neither plant nor world; off: of the plant; masked: of the world; idle: on with nothing "
-                    "to do;\nunserved: off where there is something to do; work: on there\n%-14s %11s %9s %9s %9s %11s %11s\n",
-                    FROND_COMPILER, frond_version_string(), FROND_COMMIT, "effect", "without", "off +", "masked +",
-                    "idle +", "unserved", "work +");
+        std::printf(
+            "instructions of a step of two corn plants of tets, by callgrind\n%s, frond %s %s\n"
+            "without: of neither plant nor world; off: of the plant; masked: of the world; idle: on with nothing "
+            "to do;\nunserved: off where there is something to do; work: on there\n%-14s %11s %9s %9s %9s %11s %11s\n",
+            FROND_COMPILER, frond_version_string(), FROND_COMMIT, "effect", "without", "off +", "masked +", "idle +",
+            "unserved", "work +");
     for (const Row& row : rows()) {
         const std::string name = frond_effect_name(row.effect);
         std::map<std::string, double> n;
         for (const char* column : columns) n[column] = all.at(name + " " + column).instructions;
         if (options.csv) {
-            std::printf("%s,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%d,\"%s\",\"%s\",%s,%s\n", name.c_str(), n["without"], n["off"],
-                        n["masked"], n["idle"], n["unserved"], n["work"], int(all.at(name + " idle").collides),
-                        study::processor_name().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT);
+            std::printf("%s,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%d,\"%s\",\"%s\",%s,%s\n", name.c_str(), n["without"],
+                        n["off"], n["masked"], n["idle"], n["unserved"], n["work"],
+                        int(all.at(name + " idle").collides), study::processor_name().c_str(), FROND_COMPILER,
+                        frond_version_string(), FROND_COMMIT);
             continue;
         }
-        std::printf("%-14s %11.0f %9.0f %9.0f %9.0f %11.0f %11.0f\n", name.c_str(), n["without"], n["off"] - n["without"],
-                    n["masked"] - n["without"], n["idle"] - n["without"], n["unserved"], n["work"] - n["unserved"]);
+        std::printf("%-14s %11.0f %9.0f %9.0f %9.0f %11.0f %11.0f\n", name.c_str(), n["without"],
+                    n["off"] - n["without"], n["masked"] - n["without"], n["idle"] - n["without"], n["unserved"],
+                    n["work"] - n["unserved"]);
     }
 }
 

@@ -76,8 +76,8 @@ struct StaticField {
             const btVector3 begin(btScalar(c.begin.x), btScalar(c.begin.y), btScalar(c.begin.z));
             const btVector3 end(btScalar(c.end.x), btScalar(c.end.y), btScalar(c.end.z));
             const btScalar length = begin.distance(end);
-            const btQuaternion turn = length > 0 ? shortestArcQuat(btVector3(0, 1, 0), (end - begin) / length)
-                                                 : btQuaternion::getIdentity();
+            const btQuaternion turn =
+                length > 0 ? shortestArcQuat(btVector3(0, 1, 0), (end - begin) / length) : btQuaternion::getIdentity();
             compound->addChildShape(btTransform(turn, (begin + end) / 2),
                                     shape<btCapsuleShape>(btScalar(c.radius), length));
         }
@@ -170,14 +170,17 @@ void bench_wind(const BenchOptions& options) {
     constexpr int WARM_UP = 30, STEPS = 60, COUNT = 1000;
     const char* const PIECES = "capsule_height=0.23";  // [m]
     const char* const columns[] = {"world", "Frond", "air", "assembly", "solve", "capsules", "collide", "respond"};
-    std::printf("\n%d rod plants, all in a wind of 6 m/s at 10 m height, median [ms]; air, assembly, solve and capsules are sums "
-                "of all threads'\n%8s %9s", COUNT, "threads", "segments");
+    std::printf(
+        "\n%d rod plants, all in a wind of 6 m/s at 10 m height, median [ms]; air, assembly, solve and capsules are "
+        "sums "
+        "of all threads'\n%8s %9s",
+        COUNT, "threads", "segments");
     for (const char* column : columns) std::printf(" %9s", column);
     std::printf("\n");
     for (const int threads : {1, 2}) {
-        Play play(cast("field"), field_settings(options, {"patch_wind=0", "detail=0", "wind=6,0,0", PIECES,
-                                                          "plants=" + std::to_string(COUNT),
-                                                          "threads=" + std::to_string(threads)}));
+        Play play(cast("field"),
+                  field_settings(options, {"patch_wind=0", "detail=0", "wind=6,0,0", PIECES,
+                                           "plants=" + std::to_string(COUNT), "threads=" + std::to_string(threads)}));
         for (frond_plant plant : play.stage.plants) must(frond_plant_wake(plant));
         double segments = 0;
         for (frond_plant plant : play.stage.plants) segments += frond_plant_get_capsule_count(plant) / double(COUNT);
@@ -189,8 +192,8 @@ void bench_wind(const BenchOptions& options) {
             const double ms = now() - begin;
             if (i < WARM_UP) continue;
             const frond_report r = report_of(play.stage);
-            const double parts[] = {ms, r.ms_step, r.ms_effects, r.ms_assembly, r.ms_solve, r.ms_capsules, r.ms_collide,
-                                    r.ms_response};
+            const double parts[] = {ms,         r.ms_step,     r.ms_effects, r.ms_assembly,
+                                    r.ms_solve, r.ms_capsules, r.ms_collide, r.ms_response};
             for (size_t k = 0; k < times.size(); k++) times[k].push_back(parts[k]);
         }
         std::printf("%8d %9.0f", threads, segments);
@@ -272,7 +275,8 @@ std::string plot_of(const std::vector<PathFigures>& path, const std::string& bas
     plot << "set xlabel 'plants in the field'\nset ylabel 'ms a step, median'\nset logscale xy\nset grid\n"
          << "set key left top\nset yrange [0.001:20]\n$data << EOD\n";
     for (const PathFigures& f : path)
-        plot << f.plants << ' ' << f.whole << ' ' << f.still << ' ' << std::max(f.beyond(), 1e-3) << ' ' << f.frond << '\n';
+        plot << f.plants << ' ' << f.whole << ' ' << f.still << ' ' << std::max(f.beyond(), 1e-3) << ' ' << f.frond
+             << '\n';
     plot << "EOD\nplot $data using 1:2 with linespoints lw 2 pt 7 title 'the whole Bullet world', "
          << "$data using 1:3 with linespoints lw 2 pt 5 title 'Bullet alone, plants as static bodies', "
          << "$data using 1:4 with linespoints lw 2 pt 9 title 'beyond that', "
@@ -283,8 +287,8 @@ std::string plot_of(const std::vector<PathFigures>& path, const std::string& bas
 }  // namespace
 
 void bench_field(const BenchOptions& options) {
-    std::printf("scene field; one core unless told\n%s, %s, frond %s %s\n", study::processor_name().c_str(), FROND_COMPILER,
-                frond_version_string(), FROND_COMMIT);
+    std::printf("scene field; one core unless told\n%s, %s, frond %s %s\n", study::processor_name().c_str(),
+                FROND_COMPILER, frond_version_string(), FROND_COMMIT);
     std::printf("one more plant that sleeps keeps %.2f kB beyond its model\n", memory_of_sleeper(options));
     std::printf("all asleep but a path on which one walks behind a ball, median [ms]\n");
     std::printf("%8s %8s %10s %10s %10s %10s\n", "plants", "awake", "world", "static", "beyond", "Frond");
@@ -292,7 +296,8 @@ void bench_field(const BenchOptions& options) {
     for (int count = 1; count <= options.most; count *= 10) {
         path.push_back(measure_path(count, options));
         const PathFigures& f = path.back();
-        std::printf("%8d %8.1f %10.3f %10.3f %10.3f %10.3f\n", f.plants, f.awake, f.whole, f.still, f.beyond(), f.frond);
+        std::printf("%8d %8.1f %10.3f %10.3f %10.3f %10.3f\n", f.plants, f.awake, f.whole, f.still, f.beyond(),
+                    f.frond);
         std::fflush(stdout);
     }
     bench_wind(options);

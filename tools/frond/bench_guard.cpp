@@ -45,8 +45,8 @@ struct Counted {
 
 // "cfn=(12) name" names a function that is called, later only by its number; the line after "calls=" has what it took.
 Counted read_part(const std::filesystem::path& path) {
-    static const char* const GUARD[] = {"farthest_way",   "ends_off_course", "reach_at_start", "look_at_energy", "are_near",
-                                        "watch_recovery", "damp_recovering", "jump_with_pins"};
+    static const char* const GUARD[] = {"farthest_way", "ends_off_course", "reach_at_start",  "look_at_energy",
+                                        "are_near",     "watch_recovery",  "damp_recovering", "jump_with_pins"};
     const std::string trigger = "desc: Trigger: Client Request: ";
     Counted counted;
     std::map<std::string, bool> is_guard;
@@ -87,14 +87,15 @@ void step_for_guard() {
 }
 
 void bench_guard() {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("frond_guard_" + std::to_string(getpid()));
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("frond_guard_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
     const std::string command = "valgrind --tool=callgrind --collect-atstart=no -q --callgrind-out-file='" +
                                 (folder / "part").string() + "' '" + self + "' bench guard --inside > /dev/null";
     const int status = std::system(command.c_str());
-    std::printf("instructions of a step of a swaying corn plant, by callgrind\n%-18s %12s %12s %8s\n", "mechanics", "all",
-                "guard", "share");
+    std::printf("instructions of a step of a swaying corn plant, by callgrind\n%-18s %12s %12s %8s\n", "mechanics",
+                "all", "guard", "share");
     int parts = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const Counted counted = read_part(entry.path());

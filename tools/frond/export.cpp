@@ -1,5 +1,5 @@
-// frond export SCENE|FILE: steps a scene and writes what came of it for other programs: the surface as a mesh file, its way
-// there as morph targets or a vertex cache, states as a table, the plant as URDF.
+// frond export SCENE|FILE: steps a scene and writes what came of it for other programs: the surface as a mesh file, its
+// way there as morph targets or a vertex cache, states as a table, the plant as URDF.
 #include "export.hpp"
 
 #include <cmath>
@@ -20,8 +20,8 @@ struct ExportOptions {
 
 // ---- what happens until then ----------------------------------------------------------------------------------------
 
-// Vertices of all plants, a sample a step, as a point cache that Blender and Maya lay onto the mesh of the first one: PC2,
-// little-endian.
+// Vertices of all plants, a sample a step, as a point cache that Blender and Maya lay onto the mesh of the first one:
+// PC2, little-endian.
 class PointCache {
 public:
     PointCache(const std::string& path, double rate) : path(path), rate(float(rate)), file(open_to_write(path, true)) {
@@ -76,9 +76,10 @@ public:
             must(frond_plant_get_root_force(stage.plants[i], stage.places[i], &force, &moment));
             must(frond_plant_get_energy(stage.plants[i], &energy));
             char line[512];
-            std::snprintf(line, sizeof line, "%.9g,%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%d\n",
-                          stage.time, i, tip.x, tip.y, tip.z, force.x, force.y, force.z, moment.x, moment.y, moment.z,
-                          energy.kinetic, energy.elastic, energy.gravity, frond_plant_get_contact_count(stage.plants[i]));
+            std::snprintf(line, sizeof line,
+                          "%.9g,%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%d\n", stage.time, i,
+                          tip.x, tip.y, tip.z, force.x, force.y, force.z, moment.x, moment.y, moment.z, energy.kinetic,
+                          energy.elastic, energy.gravity, frond_plant_get_contact_count(stage.plants[i]));
             file << line;
         }
     }
@@ -129,7 +130,8 @@ void add_export(CLI::App& app) {
     command->add_option("--out", options->out, "surface of all plants: .gltf .glb .obj .ply");
     command->add_option("--at", options->at, "when [s], default 0")->check(CLI::Range(0.0, 1e6));
     command->add_option("--animation", options->animation, "the way until then, as morph targets: .gltf .glb");
-    command->add_option("--every", options->every, "steps from target to target, default 2")->check(CLI::Range(1, 1000000));
+    command->add_option("--every", options->every, "steps from target to target, default 2")
+        ->check(CLI::Range(1, 1000000));
     command->add_option("--cache", options->cache, "places of all vertices at each step until then: .pc2");
     command->add_option("--csv", options->csv, "tip, forces at the root, energies at each step until then");
     command->add_option("--urdf", options->urdf, "the first plant as it was modelled, as links and joints");

@@ -13,7 +13,7 @@ void close(std::ofstream& file, const std::string& path);
 
 // Surfaces of all plants at a moment.
 struct Sample {
-    double time;                                       // [s]
+    double time;                                      // [s]
     std::vector<std::vector<float>> places, normals;  // of each plant, its vertices' [m]
 };
 Sample sample_of(const Stage& stage);
@@ -22,8 +22,8 @@ Sample sample_of(const Stage& stage);
 void check_mesh_ending(const std::string& path);
 // Surfaces as they are now: a mesh and a node for each part of each plant.
 void write_mesh(const std::string& out, const Stage& stage);
-// The way through all samples, at least two: .gltf .glb. Each sample is a morph target, of which one after the other has
-// weight one.
+// The way through all samples, at least two: .gltf .glb. Each sample is a morph target, of which one after the other
+// has weight one.
 void write_animation(const std::string& out, const Stage& stage, const std::vector<Sample>& samples);
 
 }  // namespace frond::tools

@@ -1,5 +1,5 @@
-// In: a stage, and samples of how it moved. Out: mesh files, by assimp. Its exporter writes morph targets, but not when they
-// have which weight: that is added to the file afterwards.
+// In: a stage, and samples of how it moved. Out: mesh files, by assimp. Its exporter writes morph targets, but not when
+// they have which weight: that is added to the file afterwards.
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
@@ -76,7 +76,8 @@ aiVector3D* take(const std::map<int32_t, unsigned>& number, const float* from) {
 }
 
 // The vertices that a part's triangles use, in their order; one target a sample of the plant's.
-aiMesh* mesh_of(const frond_surface_view& view, const frond_part& part, size_t plant, const std::vector<Sample>& samples) {
+aiMesh* mesh_of(const frond_surface_view& view, const frond_part& part, size_t plant,
+                const std::vector<Sample>& samples) {
     const int32_t* corners = view.indices + 3 * size_t(part.first_triangle);
     const size_t corner_count = 3 * size_t(part.triangle_count);
     std::map<int32_t, unsigned> number;

@@ -76,14 +76,14 @@ nlohmann::ordered_json summary(const Play& play, const Record& record) {
             out["effects"][frond_effect_name(1u << bit)] =
                 median_of(record, [&](const frond_report& r) { return r.ms_of_effect[bit]; });
     }
-    out["ms_per_step"] = {{"all", median_of(record, [](const frond_report& r) { return r.ms_step; })},
-                          {"effects", median_of(record, [](const frond_report& r) { return r.ms_effects; })},
-                          {"assembly", median_of(record, [](const frond_report& r) { return r.ms_assembly; })},
-                          {"solve", median_of(record, [](const frond_report& r) { return r.ms_solve; })},
-                          {"contact",
-                           median_of(record, [](const frond_report& r) { return r.ms_collide + r.ms_response; })},
-                          {"capsules", median_of(record, [](const frond_report& r) { return r.ms_capsules; })},
-                          {"surface", median(record.ms_surface)}};
+    out["ms_per_step"] = {
+        {"all", median_of(record, [](const frond_report& r) { return r.ms_step; })},
+        {"effects", median_of(record, [](const frond_report& r) { return r.ms_effects; })},
+        {"assembly", median_of(record, [](const frond_report& r) { return r.ms_assembly; })},
+        {"solve", median_of(record, [](const frond_report& r) { return r.ms_solve; })},
+        {"contact", median_of(record, [](const frond_report& r) { return r.ms_collide + r.ms_response; })},
+        {"capsules", median_of(record, [](const frond_report& r) { return r.ms_capsules; })},
+        {"surface", median(record.ms_surface)}};
     return out;
 }
 
@@ -92,11 +92,12 @@ void print(const nlohmann::ordered_json& out) {
                 out["plants"].get<int>(), out["nodes"].get<int>(), out["tets"].get<int>(),
                 out["mechanics"].get<std::string>().c_str(), out["integrator"].get<std::string>().c_str(),
                 out["linear_solver"].get<std::string>().c_str());
-    std::printf("  %d steps, %.2f s; tip from %.3f m to %.3f m high, at most %.3f m from where it began; %d contacts; "
-                "trouble: %s\n",
-                out["steps"].get<int>(), out["time"].get<double>(), out["tip_at_start"][1].get<double>(),
-                out["tip"][1].get<double>(), out["tip_farthest"].get<double>(), out["contacts"].get<int>(),
-                out["trouble"].get<std::string>().c_str());
+    std::printf(
+        "  %d steps, %.2f s; tip from %.3f m to %.3f m high, at most %.3f m from where it began; %d contacts; "
+        "trouble: %s\n",
+        out["steps"].get<int>(), out["time"].get<double>(), out["tip_at_start"][1].get<double>(),
+        out["tip"][1].get<double>(), out["tip_farthest"].get<double>(), out["contacts"].get<int>(),
+        out["trouble"].get<std::string>().c_str());
     std::printf("  effects:");
     for (const auto& [name, ms] : out["effects"].items()) {
         std::printf(" %s", name.c_str());
@@ -104,11 +105,11 @@ void print(const nlohmann::ordered_json& out) {
     }
     std::printf(" (median ms; without a number: part of what others solve)\n");
     const auto& ms = out["ms_per_step"];
-    std::printf("  median step %.3f ms: effects %.3f, assembly %.3f, solve %.3f, contact %.3f, capsules %.3f; "
-                "surface %.3f ms\n",
-                ms["all"].get<double>(), ms["effects"].get<double>(), ms["assembly"].get<double>(),
-                ms["solve"].get<double>(), ms["contact"].get<double>(), ms["capsules"].get<double>(),
-                ms["surface"].get<double>());
+    std::printf(
+        "  median step %.3f ms: effects %.3f, assembly %.3f, solve %.3f, contact %.3f, capsules %.3f; "
+        "surface %.3f ms\n",
+        ms["all"].get<double>(), ms["effects"].get<double>(), ms["assembly"].get<double>(), ms["solve"].get<double>(),
+        ms["contact"].get<double>(), ms["capsules"].get<double>(), ms["surface"].get<double>());
 }
 
 // Frames as PNG files, a contact sheet and a moving picture.

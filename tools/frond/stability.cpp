@@ -64,8 +64,8 @@ void run_stability(StabilityOptions& options) {
     write_to(options.json, stability::json_of(results));
     write_to(options.html, stability::html_of(results));
     const int red = stability::unexplained(results, false), of_default = stability::unexplained(results, true);
-    std::printf("%d cells; unexplained red ones: %d with the default integrator, %d in all\n", int(results.size()), of_default,
-                red);
+    std::printf("%d cells; unexplained red ones: %d with the default integrator, %d in all\n", int(results.size()),
+                of_default, red);
     if (of_default > 0) throw SceneError("the table has red cells with the default integrator");
 }
 
@@ -73,22 +73,26 @@ void run_stability(StabilityOptions& options) {
 
 void add_stability(CLI::App& app) {
     auto options = std::make_shared<StabilityOptions>();
-    CLI::App* command = app.add_subcommand("stability", "hard cases over mechanics, integrators and time steps: what holds");
+    CLI::App* command =
+        app.add_subcommand("stability", "hard cases over mechanics, integrators and time steps: what holds");
     command->add_option("--case", options->scope.names, "these cases only");
     command->add_option("--mechanics", options->mechanics, "one mechanics only");
     command->add_option("--integrator", options->integrator, "one integrator only");
     command->add_flag("--quick", options->scope.quick, "the default integrator at 1/60 s only, without the slow cases");
-    command->add_flag_callback("--default", [options] { options->integrator = frond_integrator_name(FROND_BDF2); },
-                               "the default integrator only, at all time steps");
+    command->add_flag_callback(
+        "--default", [options] { options->integrator = frond_integrator_name(FROND_BDF2); },
+        "the default integrator only, at all time steps");
     command->add_flag("--list", options->list, "the cases and their criteria; runs nothing");
-    command->add_flag("--bullet", options->bullet, "Bullet's own soft bodies in the cases that they can be put through, beside Frond");
+    command->add_flag("--bullet", options->bullet,
+                      "Bullet's own soft bodies in the cases that they can be put through, beside Frond");
     command->add_option("--json", options->json, "write all cells to this file");
     command->add_option("--html", options->html, "write the table as a page");
     // The soft bodies' table shows what a game could wait for: about as long as what it simulates takes.
     constexpr int WITH_BULLET = 6;
-    const CLI::Option* seconds =
-        command->add_option("--seconds", options->limits.seconds, "CPU time after which a cell is red, default 120, with --bullet 6")
-            ->check(CLI::Range(1, 100000));
+    const CLI::Option* seconds = command
+                                     ->add_option("--seconds", options->limits.seconds,
+                                                  "CPU time after which a cell is red, default 120, with --bullet 6")
+                                     ->check(CLI::Range(1, 100000));
     command->add_option("--processes", options->limits.processes, "at once; default: one a processor")
         ->check(CLI::Range(1, 1024));
     command->callback([options, seconds] {

@@ -76,7 +76,8 @@ void tell(const study::Result& result) {
 // "run 12 of 40" on a terminal; writes down what a problem gave as soon as it has ended.
 class Writer : public study::Watcher {
 public:
-    Writer(std::string folder, const study::Provenance& provenance) : folder(std::move(folder)), provenance(provenance) {}
+    Writer(std::string folder, const study::Provenance& provenance)
+        : folder(std::move(folder)), provenance(provenance) {}
     void at(int done, int total) override {
         if (!progress) progress = std::make_unique<Progress>("run", total);
         progress->at(done);

@@ -36,8 +36,7 @@ void view(const ViewOptions& options) {
     std::vector<std::string> assignments = options.assignments;
     // A plant of the user's is not pulled by anybody else.
     if (!casting.file.empty()) assignments.insert(assignments.begin(), "pull=0");
-    Viewer viewer =
-        make_viewer(casting, settings_of(casting, assignments), options.view.width, options.view.height);
+    Viewer viewer = make_viewer(casting, settings_of(casting, assignments), options.view.width, options.view.height);
     set_overlays(viewer, options.view.overlays);
     viewer.is_paused = options.is_paused;
     Window window(viewer, ("frond view " + options.what).c_str());
@@ -58,8 +57,10 @@ void add_view(CLI::App& app) {
     command->add_option("--frames", options->frames, "close it after so many")->check(CLI::Range(1, 1000000000));
     command->add_option("--shot", options->shot, "write what it showed last (PNG)");
     command->add_option("--set", options->assignments, "key=value, may be repeated");
-    command->footer("Drag a plant with the left button, everything else with the right one, the view with the middle one;\n"
-                    "the wheel goes nearer. The window tells the keys.\nKeys of --set:\n" + settings_help());
+    command->footer(
+        "Drag a plant with the left button, everything else with the right one, the view with the middle one;\n"
+        "the wheel goes nearer. The window tells the keys.\nKeys of --set:\n" +
+        settings_help());
     command->callback([options] { view(*options); });
 }
 

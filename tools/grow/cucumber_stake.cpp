@@ -6,9 +6,9 @@ namespace frond::grow {
 namespace {
 
 const Rgb BAMBOO{0.79, 0.68, 0.42}, BAMBOO_NODE{0.58, 0.47, 0.27}, TWINE{0.80, 0.72, 0.55};
-constexpr double DEPTH = 0.02;            // in the ground [m]
-constexpr double INTERNODE = 0.24;        // of the bamboo [m]
-constexpr double TWINE_RADIUS = 0.0013;   // [m]
+constexpr double DEPTH = 0.02;           // in the ground [m]
+constexpr double INTERNODE = 0.24;       // of the bamboo [m]
+constexpr double TWINE_RADIUS = 0.0013;  // [m]
 constexpr int STAKE_SIDES = 10, TWINE_SIDES = 4, TWINE_RINGS = 14;
 
 // The vertex of a ring of a tube that lies farthest in a direction.
@@ -80,8 +80,8 @@ void add_cucumber_stake(GrownPlant& plant, const CucumberStake& stake, const Tub
     tube.sides = STAKE_SIDES;
     for (double y : heights) {
         const Rgb tone = scaled(mix(BAMBOO, BAMBOO_NODE, nodeness(y)), 1 - 0.25 * smooth_step(0.1, -DEPTH, y));
-        tube.rings.push_back({{stake.foot.x, y, stake.foot.z},
-                              cucumber_stake_radius(y) * (1 + 0.14 * nodeness(y)), tone});
+        tube.rings.push_back(
+            {{stake.foot.x, y, stake.foot.z}, cucumber_stake_radius(y) * (1 + 0.14 * nodeness(y)), tone});
     }
     tube.tint = [&](int r, int s) {
         return scaled(tube.rings[size_t(r)].color, 1 + 0.05 * std::sin(2.4 * s + 0.7 * r));

@@ -62,8 +62,12 @@ struct Tree {
     }
 
     void add_twig(int number, const Wood& bough, double s, double azimuth) {
-        const Wood twig = {bough.at(s), off(bough.heading_at(s), random.range(0.6, 1.0), azimuth),
-                           random.range(0.2, 0.3), 0.0035, 0.0015, random.range(0, 0.15)};
+        const Wood twig = {bough.at(s),
+                           off(bough.heading_at(s), random.range(0.6, 1.0), azimuth),
+                           random.range(0.2, 0.3),
+                           0.0035,
+                           0.0015,
+                           random.range(0, 0.15)};
         add_wood("twig_" + std::to_string(number), twig, 6, 5, TWIG);
         for (int k = 0; k < LEAVES_A_TWIG; k++) {
             const double at = (k + 1.0) / LEAVES_A_TWIG;
@@ -89,8 +93,11 @@ GrownPlant grow_tree(const GrownSettings& value, uint64_t seed) {
     tree.add_wood("trunk", trunk, 16, 12, BARK);
     for (int b = 0, bough_count = 0, twig_count = 0; b < branches; b++) {
         const double s = 0.28 + 0.70 * (b + 0.5) / branches;
-        const Wood branch = {trunk.at(s), Tree::off({0, 1, 0}, 1.25 - 0.6 * s, GOLDEN * b + tree.random.spread(0.3)),
-                             height * tree.random.range(0.42, 0.5) * (1.2 - 0.8 * s), 0.42 * trunk.radius(s), 0.008,
+        const Wood branch = {trunk.at(s),
+                             Tree::off({0, 1, 0}, 1.25 - 0.6 * s, GOLDEN * b + tree.random.spread(0.3)),
+                             height * tree.random.range(0.42, 0.5) * (1.2 - 0.8 * s),
+                             0.42 * trunk.radius(s),
+                             0.008,
                              tree.random.range(0, 0.12)};
         tree.add_wood("branch_" + std::to_string(b + 1), branch, 12, 8, BARK);
         // As many as bring all branches so far to their share.
@@ -99,7 +106,9 @@ GrownPlant grow_tree(const GrownSettings& value, uint64_t seed) {
             const double t = 0.25 + 0.75 * (k + 0.6) / most;
             const Wood bough = {branch.at(t),
                                 Tree::off(branch.heading_at(t), tree.random.range(0.6, 0.9), GOLDEN * k + b),
-                                branch.length * tree.random.range(0.28, 0.36) * (1.2 - 0.5 * t), 0.011, 0.004,
+                                branch.length * tree.random.range(0.28, 0.36) * (1.2 - 0.5 * t),
+                                0.011,
+                                0.004,
                                 tree.random.range(0, 0.1)};
             tree.add_wood("bough_" + std::to_string(++bough_count), bough, 8, 6, mix(BARK, TWIG, 0.5));
             for (int n = 0; n < TWIGS_A_BOUGH && twig_count < twigs; n++)

@@ -11,18 +11,16 @@ namespace {
 constexpr int ALL = 10000;
 constexpr double APART = 0.7, STRIP = 8, PATH = 0.35, RAGGED = 0.12;  // [m]
 constexpr double WALK_SPEED = 1.3, BALL_SPEED = 1.8, BALL = 0.2;      // [m/s], [m]
-constexpr double GARDEN = 6;       // how far from the path cucumbers grow [m]
-constexpr double EYES = 1.65;      // [m]
+constexpr double GARDEN = 6;                                          // how far from the path cucumbers grow [m]
+constexpr double EYES = 1.65;                                         // [m]
 
 // Capsules as long as that make some 40 to 70 of each kind.
 struct Kind {
     const char* file;
     double capsule_height;  // [m]
 };
-constexpr Kind KINDS[] = {{"wheat/wheat.obj", 0.3},
-                          {"corn/corn.obj", 0.4},
-                          {"sunflower/sunflower.obj", 0.3},
-                          {"cucumber/cucumber.obj", 0.4}};
+constexpr Kind KINDS[] = {
+    {"wheat/wheat.obj", 0.3}, {"corn/corn.obj", 0.4}, {"sunflower/sunflower.obj", 0.3}, {"cucumber/cucumber.obj", 0.4}};
 
 // A number in 0..1 that looks like chance.
 double chance(int i, int k) {

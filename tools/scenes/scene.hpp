@@ -24,13 +24,13 @@ struct Settings {
     frond_model_def model = frond_default_model_def();
     frond_plant_def plant = frond_default_plant_def();
     frond_wind_def wind = frond_default_wind_def();  // the world has air only if its velocity is not zero
-    double dt = 1.0 / 60;        // [s]
-    double pull = 0.2;           // how far the user drags, as a share of the plant's height [-]
-    int plants = 0;              // of a field; 0: as many as it has
-    int walkers = 1;             // in a field
-    double patch_wind = 5;       // over a patch of a field [m/s]
-    double budget = 0;           // of a step of all plants [ms]; 0: any
-    bool detail = true;          // a field's far plants are simulated for less
+    double dt = 1.0 / 60;                            // [s]
+    double pull = 0.2;                               // how far the user drags, as a share of the plant's height [-]
+    int plants = 0;                                  // of a field; 0: as many as it has
+    int walkers = 1;                                 // in a field
+    double patch_wind = 5;                           // over a patch of a field [m/s]
+    double budget = 0;                               // of a step of all plants [ms]; 0: any
+    bool detail = true;                              // a field's far plants are simulated for less
     int threads = 1;
     double grab_stiffness = 60;  // [N/m]; 0: as stiff as it takes to move the plant
     struct OrganOverride {
@@ -78,12 +78,12 @@ struct Stage {
     frond_vec3 lower = {}, upper = {};  // box of all plants at the start [m]
     bool has_view = false;              // pictures show the box below, and what stands in it, instead of all plants
     frond_vec3 view_lower = {}, view_upper = {};
-    std::vector<frond_vec3> places;     // one a plant [m]
-    frond_vec3 patch = {};              // middle of the patch over which the wind blows [m]
-    double patch_radius = 0;            // [m]
-    double time = 0;                    // [s]
-    frond_vec3 drag_start = {};         // where the user took hold [m]
-    double drag_stiffness = 0;          // of the user's spring as it is now [N/m]
+    std::vector<frond_vec3> places;  // one a plant [m]
+    frond_vec3 patch = {};           // middle of the patch over which the wind blows [m]
+    double patch_radius = 0;         // [m]
+    double time = 0;                 // [s]
+    frond_vec3 drag_start = {};      // where the user took hold [m]
+    double drag_stiffness = 0;       // of the user's spring as it is now [N/m]
 
     explicit Stage(const Settings& settings);
     Stage(const Stage&) = delete;
@@ -105,7 +105,7 @@ struct Scene {
     double duration;  // [s]
     void (*set_defaults)(Settings& settings);
     void (*build)(Stage& stage);
-    void (*drive)(Stage& stage);  // before each step
+    void (*drive)(Stage& stage);    // before each step
     const char* without = nullptr;  // a setting with which it is played, and pictured, for comparison
 };
 const std::vector<Scene>& scenes();

@@ -152,7 +152,8 @@ void build_corn_field(Stage& stage) {
     }
 }
 
-// A leaf like a flag: a ribbon whose lower half is held upright, and whose tip the user lays down onto that, and further.
+// A leaf like a flag: a ribbon whose lower half is held upright, and whose tip the user lays down onto that, and
+// further.
 constexpr double FLAG_LENGTH = 0.6, FLAG_WIDTH = 0.08, FLAG_HELD = 0.3;  // [m]
 void flag_defaults(Settings& settings) {
     settings.model.rest = FROND_REST_WITHOUT_GRAVITY;
@@ -195,7 +196,7 @@ void build_flag(Stage& stage) {
 // Over and down in a half circle, and then through where the lower half stands.
 void fold(Stage& stage) {
     constexpr double PI = 3.14159265358979, BEGIN = 0.2, DOWN = 2.0, PAST = 3.0;  // [s]
-    constexpr double FAR = 0.06;  // past the lower half [m]
+    constexpr double FAR = 0.06;                                                  // past the lower half [m]
     const double t = stage.time;
     if (t < BEGIN) return;
     if (stage.grabs.empty()) {
@@ -436,10 +437,11 @@ const std::vector<Scene>& scenes() {
          "response=none"},
         {"tangle", "one of two tangled corn plants is pulled away and let go", 4, corn_defaults, build_tangle, drag},
         {"corn_field", "17 corn plants touch", 3, corn_defaults, build_corn_field, rest},
-        {"flag", "a ribbon of a leaf is folded, and its layers are pressed on each other", 4, flag_defaults, build_flag, fold,
-         "self_contact=off"},
+        {"flag", "a ribbon of a leaf is folded, and its layers are pressed on each other", 4, flag_defaults, build_flag,
+         fold, "self_contact=off"},
         {"crate", "a small crate is let fall on a cucumber's leaves", 3, cucumber_defaults, build_crate, rest},
-        {"box", "a cardboard box of 80 g is set down on a rosette's leaves and rests there", 4, nullptr, build_box, rest},
+        {"box", "a cardboard box of 80 g is set down on a rosette's leaves and rests there", 4, nullptr, build_box,
+         rest},
         {"trellis", "a cucumber leans on a trellis of static boxes", 4, cucumber_defaults, build_trellis, rest},
         {"twig", "a twig of 60 rods is pulled aside and let go", 5, twig_defaults, build_twig, drag},
         {"snap", "a corn stalk is bent over until it snaps", 7, snap_defaults, build_snap, snap},

@@ -206,7 +206,8 @@ void Bench::expect_shape(frond_plant plant, const Places& rest, double share) co
     for (int t = 0; t < cage.tet_count; t++) {
         const auto at = [&](int c) { return now[size_t(cage.tets[4 * t + c])] - now[size_t(cage.tets[4 * t])]; };
         const frond_vec3 a = at(1), b = at(2), c = at(3);
-        const double volume = a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+        const double volume =
+            a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
         inside_out += !(volume > 0);
     }
     // Where the chain moves, tets are only drawn.

@@ -64,17 +64,18 @@ public:
     double fastest() const;         // node of all plants [m/s]
     double time() const;
 
-    // Pins the cage nodes that are lower than that above the origin of the model at rest; the plant is made without pins.
+    // Pins the cage nodes that are lower than that above the origin of the model at rest; the plant is made without
+    // pins.
     std::vector<int> hold(frond_plant plant, double height);
     void move(frond_plant plant, const std::vector<int>& nodes, const std::function<frond_vec3(const frond_vec3&)>& to);
 
     // Criteria.
     void expect(bool holds, const char* what, double measured, double bound) const;
-    // Steps on, and energy never goes over what it began with, by a twentieth of what is above `rest`, or by what lifts the
-    // plant by a hundredth of its size.
+    // Steps on, and energy never goes over what it began with, by a twentieth of what is above `rest`, or by what lifts
+    // the plant by a hundredth of its size.
     void expect_no_energy_from_nothing(double seconds, double rest);
-    // No tet is inside out, where the tets are what moves, and nodes are within a share of the plant's size of where they should be, in the
-    // mean.
+    // No tet is inside out, where the tets are what moves, and nodes are within a share of the plant's size of where
+    // they should be, in the mean.
     void expect_shape(frond_plant plant, const Places& rest, double share) const;
 
 private:
@@ -95,8 +96,8 @@ frond_model beam();  // of 200 tets, upright, 1 m x 0.1 m x 0.1 m, 10 MPa, 800 k
 frond_model herb();  // of stems: 0.6 m high, a branch and a leaf stalk, standing as modelled, in Frond's own cage
 constexpr double FOOT = 0.01;  // [m]
 
-using tools::Lattice;
 using tools::even_heights;
+using tools::Lattice;
 using tools::make_lattice;
 frond_material plain_material();  // 10 MPa, 800 kg/m^3, Poisson's ratio 0.3
 frond_model model_of(const Lattice& lattice, const frond_material& material);

@@ -107,7 +107,8 @@ BulletBeam::~BulletBeam() {
 
 void BulletBeam::make_classic_world() {
     const auto solver = std::make_shared<btSequentialImpulseConstraintSolver>();
-    const auto made = std::make_shared<btSoftRigidDynamicsWorld>(&dispatcher, &broadphase, solver.get(), &configuration);
+    const auto made =
+        std::make_shared<btSoftRigidDynamicsWorld>(&dispatcher, &broadphase, solver.get(), &configuration);
     parts = {solver, made};
     world = made.get();
 }
@@ -117,8 +118,8 @@ void BulletBeam::make_deformable_world(BulletMethod method, const frond_material
     const auto body_solver = std::make_shared<btDeformableBodySolver>();
     const auto solver = std::make_shared<btDeformableMultiBodyConstraintSolver>();
     solver->setDeformableSolver(body_solver.get());
-    const auto made = std::make_shared<btDeformableMultiBodyDynamicsWorld>(&dispatcher, &broadphase, solver.get(), &configuration,
-                                                                         body_solver.get());
+    const auto made = std::make_shared<btDeformableMultiBodyDynamicsWorld>(&dispatcher, &broadphase, solver.get(),
+                                                                           &configuration, body_solver.get());
     made->setImplicit(true);
     made->setLineSearch(true);
     parts = {body_solver, solver, made};
@@ -176,7 +177,8 @@ void BulletBeam::set_gravity(const frond_vec3& gravity) {
         static_cast<btDeformableGravityForce*>(forces.back().get())->m_gravity = to_bullet(gravity);
 }
 
-btRigidBody& BulletBeam::add(btCollisionShape* shape, double mass, const frond_vec3& place, const frond_vec3& velocity) {
+btRigidBody& BulletBeam::add(btCollisionShape* shape, double mass, const frond_vec3& place,
+                             const frond_vec3& velocity) {
     shapes.emplace_back(shape);
     btVector3 inertia(0, 0, 0);
     if (mass > 0) shape->calculateLocalInertia(btScalar(mass), inertia);
@@ -218,8 +220,9 @@ void BulletBeam::check(double time) const {
         const frond_vec3 x = from_bullet(body->m_nodes[int(i)].m_x);
         const double way = length(x - rest[i]);
         if (way <= box) continue;
-        std::snprintf(text, sizeof text, std::isfinite(way) ? "a node is %.3g m away after %.3g s" : "not finite (%g) after %.3g s",
-                      way, time);
+        std::snprintf(text, sizeof text,
+                      std::isfinite(way) ? "a node is %.3g m away after %.3g s" : "not finite (%g) after %.3g s", way,
+                      time);
         throw Broken(text);
     }
 }

@@ -1,4 +1,5 @@
-// Bullet's own soft bodies, put through the hard cases that they can be put through: a beam of tets in a world of theirs.
+// Bullet's own soft bodies, put through the hard cases that they can be put through: a beam of tets in a world of
+// theirs.
 #pragma once
 
 #include <BulletSoftBody/btDeformableLagrangianForce.h>
@@ -45,7 +46,8 @@ public:
     frond_vec3 place(size_t node) const;
 
     // Steps; after each all nodes are finite and in the box.
-    void run(double seconds, const std::function<void(double time)>& before_each = [](double) {});
+    void run(
+        double seconds, const std::function<void(double time)>& before_each = [](double) {});
     void step(double length);
     // No tet inside out, nodes within a share of its size of where they were modelled and `shift`, in the mean.
     void expect_shape(double share, const frond_vec3& shift = {}) const;

@@ -28,13 +28,27 @@ void put(BulletMethod method, double dt) {
     come_back_from(method, dt, [](BulletBeam&, const frond_vec3& p) { return to(p); });
 }
 
-frond_vec3 to_point(const frond_vec3&) { return {0, 0.5, 0}; }
-frond_vec3 to_plane(const frond_vec3& p) { return {0, p.y, p.z}; }
-frond_vec3 to_line(const frond_vec3& p) { return {0, p.y, 0}; }
-frond_vec3 mirrored(const frond_vec3& p) { return {-p.x, p.y, p.z}; }
-frond_vec3 folded(const frond_vec3& p) { return p.y <= 0.5 ? p : frond_vec3{0.15 - p.x, 1 - p.y, p.z}; }
-frond_vec3 shrunk(const frond_vec3& p) { return 0.01 * p; }
-frond_vec3 blown_up(const frond_vec3& p) { return 5 * p; }
+frond_vec3 to_point(const frond_vec3&) {
+    return {0, 0.5, 0};
+}
+frond_vec3 to_plane(const frond_vec3& p) {
+    return {0, p.y, p.z};
+}
+frond_vec3 to_line(const frond_vec3& p) {
+    return {0, p.y, 0};
+}
+frond_vec3 mirrored(const frond_vec3& p) {
+    return {-p.x, p.y, p.z};
+}
+frond_vec3 folded(const frond_vec3& p) {
+    return p.y <= 0.5 ? p : frond_vec3{0.15 - p.x, 1 - p.y, p.z};
+}
+frond_vec3 shrunk(const frond_vec3& p) {
+    return 0.01 * p;
+}
+frond_vec3 blown_up(const frond_vec3& p) {
+    return 5 * p;
+}
 frond_vec3 wrung(const frond_vec3& p) {
     const double c = std::cos(4 * 2 * M_PI * p.y), s = std::sin(4 * 2 * M_PI * p.y);
     return {c * p.x - s * p.z, p.y, s * p.x + c * p.z};
@@ -84,20 +98,31 @@ void bend_of(BulletMethod method, double dt, double value) {
     beam.box = 3;
     beam.run(2.5);
 }
-void soft(BulletMethod method, double dt) { bend_of<&frond_material::young>(method, dt, 1e3); }
-void stiff(BulletMethod method, double dt) { bend_of<&frond_material::young>(method, dt, 1e11); }
-void light(BulletMethod method, double dt) { bend_of<&frond_material::density>(method, dt, 1); }
-void heavy(BulletMethod method, double dt) { bend_of<&frond_material::density>(method, dt, 2e4); }
-void no_contraction(BulletMethod method, double dt) { bend_of<&frond_material::poisson>(method, dt, 0); }
-void incompressible(BulletMethod method, double dt) { bend_of<&frond_material::poisson>(method, dt, 0.499); }
+void soft(BulletMethod method, double dt) {
+    bend_of<&frond_material::young>(method, dt, 1e3);
+}
+void stiff(BulletMethod method, double dt) {
+    bend_of<&frond_material::young>(method, dt, 1e11);
+}
+void light(BulletMethod method, double dt) {
+    bend_of<&frond_material::density>(method, dt, 1);
+}
+void heavy(BulletMethod method, double dt) {
+    bend_of<&frond_material::density>(method, dt, 2e4);
+}
+void no_contraction(BulletMethod method, double dt) {
+    bend_of<&frond_material::poisson>(method, dt, 0);
+}
+void incompressible(BulletMethod method, double dt) {
+    bend_of<&frond_material::poisson>(method, dt, 0.499);
+}
 
 // The foot goes where `where` says, then back, or stays at `shift`.
 template <class Where>
 void drive(BulletMethod method, double dt, double duration, const Where& where) {
     BulletBeam beam(method, dt, make_lattice(0.1, 2, even_heights(1, 10)), plain_material());
-    beam.run(duration, [&](double time) {
-        beam.move_foot([&](const frond_vec3& p) { return where(p, time + beam.dt); });
-    });
+    beam.run(duration,
+             [&](double time) { beam.move_foot([&](const frond_vec3& p) { return where(p, time + beam.dt); }); });
     beam.move_foot([](const frond_vec3& p) { return p; });
     beam.run(BACK);
     beam.expect_shape(DRIVEN_NEAR);
@@ -160,10 +185,18 @@ void hit_by(BulletMethod method, double dt, double mass_ratio, double speed) {
     beam.run(BACK);
     beam.expect_shape(DRIVEN_NEAR);
 }
-void light_ball(BulletMethod method, double dt) { hit_by(method, dt, 1e-4, 5); }
-void equal_ball(BulletMethod method, double dt) { hit_by(method, dt, 1, 5); }
-void heavy_ball(BulletMethod method, double dt) { hit_by(method, dt, 1e4, 5); }
-void fast_ball(BulletMethod method, double dt) { hit_by(method, dt, 0.5, 100); }
+void light_ball(BulletMethod method, double dt) {
+    hit_by(method, dt, 1e-4, 5);
+}
+void equal_ball(BulletMethod method, double dt) {
+    hit_by(method, dt, 1, 5);
+}
+void heavy_ball(BulletMethod method, double dt) {
+    hit_by(method, dt, 1e4, 5);
+}
+void fast_ball(BulletMethod method, double dt) {
+    hit_by(method, dt, 0.5, 100);
+}
 
 void stand_in(BulletMethod method, double dt, const btVector3& half, const frond_vec3& at) {
     BulletBeam beam(method, dt, make_lattice(0.1, 2, even_heights(1, 10)), plain_material());

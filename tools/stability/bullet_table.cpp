@@ -21,8 +21,7 @@ std::vector<Column> columns(bool quick) {
     for (double dt : quick ? std::vector<double>{1.0 / 60} : std::vector<double>{1.0 / 240, 1.0 / 60}) {
         const std::string at = " 1/" + std::to_string(int(1 / dt + 0.5));
         for (int method = 0; method < int(BulletMethod::COUNT); method++)
-            list.push_back({"Bullet " + std::string(name_of(BulletMethod(method))) + at,
-                            [=](const BulletCase& one) {
+            list.push_back({"Bullet " + std::string(name_of(BulletMethod(method))) + at, [=](const BulletCase& one) {
                                 return verdict_of([&] { one.run(BulletMethod(method), dt); });
                             }});
         for (frond_mechanics mechanics : OWN)

@@ -24,7 +24,8 @@ frond_rigid_def ball_of(double mass, const frond_vec3& from, const frond_vec3& v
     return ball;
 }
 
-// A ball flies against the stem, is taken away after a second, and the plant comes back. It was never faster than the ball.
+// A ball flies against the stem, is taken away after a second, and the plant comes back. It was never faster than the
+// ball.
 void hit(Bench& bench, const frond_rigid_def& ball, const frond_vec3& at) {
     const frond_plant plant = bench.add(herb(), at);
     const Places rest = bench.places(plant);
@@ -100,7 +101,8 @@ void squeeze(Bench& bench) {
     const Places rest = bench.places(plant);
     const double wide = 0.3, thick = 0.05;
     frond_rigid plates[2];
-    for (int i = 0; i < 2; i++) plates[i] = bench.add(block({thick, 0.4, 0.5}, {(2 * i - 1) * (wide + thick), 0.55, 0}));
+    for (int i = 0; i < 2; i++)
+        plates[i] = bench.add(block({thick, 0.4, 0.5}, {(2 * i - 1) * (wide + thick), 0.55, 0}));
     bench.run(2, [&](double time) {
         for (int i = 0; i < 2; i++) {
             frond_rigid_state state = {};
@@ -181,7 +183,8 @@ void break_in_contact(Bench& bench) {
 
 std::vector<Case> contact_cases() {
     const char* back =
-        "never faster than 5 times the ball and 5 m/s; 4 s after it is gone no tet inside out, nodes within 0.25 of its size";
+        "never faster than 5 times the ball and 5 m/s; 4 s after it is gone no tet inside out, nodes within 0.25 of "
+        "its size";
     const char* calm = "never faster than 3 m/s; after 2 s no tet inside out, nodes within 0.25 of its size";
     const char* gone = "finite; 4 s later no tet inside out, nodes within 0.25 of its size of where they stood";
     return {

@@ -46,7 +46,8 @@ void incompressible(Bench& bench) {
 
 // A stem a million times as stiff as what grows on it.
 void stiffness_ratio(Bench& bench) {
-    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.5, 0}, 0.02, 0.015}, {0, {0, 0.5, 0}, {0.3, 0.6, 0}, 0.008, 0.004}};
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.5, 0}, 0.02, 0.015},
+                                {0, {0, 0.5, 0}, {0.3, 0.6, 0}, 0.008, 0.004}};
     frond_material hard = plain_material(), weak = plain_material();
     hard.young = 1e11;
     weak.young = 1e5;
@@ -103,12 +104,14 @@ void quadratic(Bench& bench) {
         throw DoesNotApply("chains have no elements of order 2");
     bench.plant_def.element_order = 2;
     bench.plant_def.root_height = FOOT;
-    const frond_plant plant = bench.add(bench.keep(model_of(make_lattice(0.1, 1, even_heights(1, 5)), plain_material())));
+    const frond_plant plant =
+        bench.add(bench.keep(model_of(make_lattice(0.1, 1, even_heights(1, 5)), plain_material())));
     const Places rest = bench.places(plant);
     const double at_rest = bench.energy();
     Places x = rest;
     for (frond_vec3& p : x)
-        if (p.y > FOOT) p = p + frond_vec3{bench.between(-0.1, 0.1), bench.between(-0.1, 0.1), bench.between(-0.1, 0.1)};
+        if (p.y > FOOT)
+            p = p + frond_vec3{bench.between(-0.1, 0.1), bench.between(-0.1, 0.1), bench.between(-0.1, 0.1)};
     bench.put(plant, x);
     bench.expect_no_energy_from_nothing(4, at_rest);
     bench.expect_shape(plant, rest, 0.15);

@@ -48,30 +48,33 @@ void drive(Bench& bench, const std::function<frond_vec3(const frond_vec3&, doubl
 
 void spin(Bench& bench) {
     constexpr double SPEED = 100;  // [rad/s]
-    drive(bench,
-          [](const frond_vec3& p, double time) {
-              const double c = std::cos(SPEED * time), s = std::sin(SPEED * time);
-              return frond_vec3{c * p.x + s * p.z, p.y, c * p.z - s * p.x};
-          },
-          16 * 2 * M_PI / SPEED);
+    drive(
+        bench,
+        [](const frond_vec3& p, double time) {
+            const double c = std::cos(SPEED * time), s = std::sin(SPEED * time);
+            return frond_vec3{c * p.x + s * p.z, p.y, c * p.z - s * p.x};
+        },
+        16 * 2 * M_PI / SPEED);
 }
 
 void shake(Bench& bench) {
-    drive(bench,
-          [](const frond_vec3& p, double time) {
-              return p + frond_vec3{0.05 * std::sin(2 * M_PI * 60 * time + 1), 0, 0.05 * std::cos(2 * M_PI * 47 * time)};
-          },
-          1);
+    drive(
+        bench,
+        [](const frond_vec3& p, double time) {
+            return p + frond_vec3{0.05 * std::sin(2 * M_PI * 60 * time + 1), 0, 0.05 * std::cos(2 * M_PI * 47 * time)};
+        },
+        1);
 }
 
 // Thrown over once and set down again.
 void somersault(Bench& bench) {
-    drive(bench,
-          [](const frond_vec3& p, double time) {
-              const double angle = 2 * M_PI * time, c = std::cos(angle), s = std::sin(angle);
-              return frond_vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
-          },
-          1);
+    drive(
+        bench,
+        [](const frond_vec3& p, double time) {
+            const double angle = 2 * M_PI * time, c = std::cos(angle), s = std::sin(angle);
+            return frond_vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+        },
+        1);
 }
 
 void gravity_for(Bench& bench, const std::function<frond_vec3(double)>& gravity) {

@@ -6,8 +6,8 @@
 namespace frond::stability {
 namespace {
 
-constexpr double BACK = 4;       // given to come back [s]
-constexpr double NEAR = 0.15;    // of the shape at rest, a sway that is left included; in sizes of the plant [-]
+constexpr double BACK = 4;     // given to come back [s]
+constexpr double NEAR = 0.15;  // of the shape at rest, a sway that is left included; in sizes of the plant [-]
 
 // The beam, put where `to` takes its nodes; its foot stays.
 void come_back_from(Bench& bench, const std::function<frond_vec3(const frond_vec3&)>& to) {
@@ -75,15 +75,14 @@ void scramble(Bench& bench) {
 }
 
 void fold(Bench& bench) {
-    come_back_from(bench, [](const frond_vec3& p) {
-        return p.y <= 0.5 ? p : frond_vec3{0.15 - p.x, 1 - p.y, p.z};
-    });
+    come_back_from(bench, [](const frond_vec3& p) { return p.y <= 0.5 ? p : frond_vec3{0.15 - p.x, 1 - p.y, p.z}; });
 }
 
 void wring(Bench& bench) {
     come_back_from(bench, [](const frond_vec3& p) {
         const double angle = 4 * 2 * M_PI * p.y;
-        return frond_vec3{std::cos(angle) * p.x - std::sin(angle) * p.z, p.y, std::sin(angle) * p.x + std::cos(angle) * p.z};
+        return frond_vec3{std::cos(angle) * p.x - std::sin(angle) * p.z, p.y,
+                          std::sin(angle) * p.x + std::cos(angle) * p.z};
     });
 }
 
@@ -173,7 +172,8 @@ std::vector<Case> shape_cases() {
         {"mirrored", "a beam that is its own mirror image but for its foot", back, mirror},
         {"scattered", "each node of a beam up to half its length from its place", back, scatter},
         {"scrambled_beam", "the peers' beam of 1170 tets, level, nodes thrown to random places",
-         "after 120 frames of 1/60 s no tet inside out, nodes within 0.05 of its size of the static shape", scramble, true},
+         "after 120 frames of 1/60 s no tet inside out, nodes within 0.05 of its size of the static shape", scramble,
+         true},
         {"folded_double", "the upper half of a beam folded down on the lower one", back, fold},
         {"wrung", "a beam wrung by four turns", back, wring},
         {"shrunk", "a beam at a hundredth of its size", back, shrink},

@@ -191,14 +191,17 @@ std::vector<Case> time_cases() {
         {"effects_switched", "other effects in each step, in wind", back, switch_effects},
         {"mechanics_switched", "other mechanics in each step, pulled aside meanwhile", back, switch_mechanics},
         {"rest_10000", "10,000 steps at rest, without sleep", "no node moves by more than 1 cm", rest_10000, true},
-        {"rest_million", "a million steps at rest, without sleep", "no node moves by more than 1 cm", rest_million, true},
+        {"rest_million", "a million steps at rest, without sleep", "no node moves by more than 1 cm", rest_million,
+         true},
         {"odd_steps", "pulled aside and let go; every third step is zero, others 1e-3 to 1 times the cell's",
          "finite; no tet inside out, nodes within 0.25 of its size of where they stood", odd_steps},
-        {"loose_solver", "pulled aside and let go; conjugate gradients that stop after 3 rounds or at half the residual",
+        {"loose_solver",
+         "pulled aside and let go; conjugate gradients that stop after 3 rounds or at half the residual",
          "finite; no tet inside out, nodes within 0.25 of its size of where they stood", loose_solver},
         {"loose_newton", "pulled aside and let go; 100 Newton iterations with a tolerance of 1",
          "finite; no tet inside out, nodes within 0.25 of its size of where they stood", loose_newton},
-        {"undamped", "a beam without any damping, let go from a far bend", "no energy out of nothing in 10 s", undamped},
+        {"undamped", "a beam without any damping, let go from a far bend", "no energy out of nothing in 10 s",
+         undamped},
     };
 }
 

@@ -137,14 +137,18 @@ std::string json_of(const std::vector<Result>& results) {
 std::string html_of(const std::vector<Result>& results) {
     std::string page =
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Frond: hard cases</title><style>"
-        "body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}td,th{border:1px solid #ccc;padding:2px 6px;"
+        "body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}td,th{border:1px solid #ccc;padding:2px "
+        "6px;"
         "text-align:left;vertical-align:top}.green{background:#bfe5bf}.red{background:#f2a6a6}.grey{background:#ddd}"
         ".known{background:#f2dba6}i{display:inline-block;width:9px;height:9px;margin:1px}</style><h1>Frond " +
         std::string(frond_version_string()) +
-        ": hard cases</h1><p>A square is a cell: rows are integrators, columns time steps of 1/240, 1/60, 1/30, 1/10 s. "
-        "Green: passed. Red: not. Amber: not, as is known of the method. Grey: has no meaning there. Point at one to see "
+        ": hard cases</h1><p>A square is a cell: rows are integrators, columns time steps of 1/240, 1/60, 1/30, 1/10 "
+        "s. "
+        "Green: passed. Red: not. Amber: not, as is known of the method. Grey: has no meaning there. Point at one to "
+        "see "
         "why.</p><table><tr><th>case<th>passes if";
-    for (int m = 0; m < FROND_MECHANICS_COUNT; m++) page += "<th>" + std::string(frond_mechanics_name(frond_mechanics(m)));
+    for (int m = 0; m < FROND_MECHANICS_COUNT; m++)
+        page += "<th>" + std::string(frond_mechanics_name(frond_mechanics(m)));
     size_t next = 0;
     for (const Case* one : cases_in(results)) {
         page += "\n<tr><td><b>" + escaped(one->name) + "</b><br>" + escaped(one->does) + "<td>" + escaped(one->passes);
@@ -156,8 +160,8 @@ std::string html_of(const std::vector<Result>& results) {
                 if (row >= 0 && row != result.cell.integrator) page += "<br>";
                 row = result.cell.integrator;
                 const bool known = result.verdict.color == Color::RED && known_limit(one->name, result.cell);
-                page += "<i class=\"" + std::string(known ? "known" : color_name(result.verdict.color)) + "\" title=\"" +
-                        escaped(text_of(result.cell) + ": " + result.verdict.text) + "\"></i>";
+                page += "<i class=\"" + std::string(known ? "known" : color_name(result.verdict.color)) +
+                        "\" title=\"" + escaped(text_of(result.cell) + ": " + result.verdict.text) + "\"></i>";
             }
         }
     }

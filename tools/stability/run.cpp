@@ -55,7 +55,8 @@ Verdict read_verdict(int in, int status, int seconds) {
     } else if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGXCPU)) {
         verdict.text = "took more than " + std::to_string(seconds) + " s of CPU";
     } else {
-        verdict.text = WIFSIGNALED(status) ? std::string("crashed: ") + strsignal(WTERMSIG(status)) : "ended without a word";
+        verdict.text =
+            WIFSIGNALED(status) ? std::string("crashed: ") + strsignal(WTERMSIG(status)) : "ended without a word";
     }
     return verdict;
 }
@@ -101,8 +102,8 @@ std::vector<Verdict> run_apart(size_t count, const Limits& limits, const std::fu
         size_t number;
         int out;
     };
-    const size_t processes = size_t(limits.processes > 0 ? limits.processes
-                                                         : std::max(1, int(std::thread::hardware_concurrency())));
+    const size_t processes =
+        size_t(limits.processes > 0 ? limits.processes : std::max(1, int(std::thread::hardware_concurrency())));
     std::vector<Verdict> verdicts(count);
     std::map<pid_t, Child> children;
     size_t next = 0;
@@ -131,8 +132,8 @@ std::vector<Verdict> run_apart(size_t count, const Limits& limits, const std::fu
 
 void run_cells(std::vector<Result>& results, const Limits& limits, const std::function<void(int)>& tell) {
     warm_up();
-    const std::vector<Verdict> verdicts =
-        run_apart(results.size(), limits, [&](size_t i) { return run_cell(*results[i].of, results[i].cell); }, tell);
+    const std::vector<Verdict> verdicts = run_apart(
+        results.size(), limits, [&](size_t i) { return run_cell(*results[i].of, results[i].cell); }, tell);
     for (size_t i = 0; i < results.size(); i++) results[i].verdict = verdicts[i];
 }
 

@@ -22,8 +22,8 @@ std::string text_of(const Cell& cell);  // "rod, bdf2, 1/60 s"
 
 struct Case {
     const char* name;
-    const char* does;    // what is done to the plant
-    const char* passes;  // the criterion in words
+    const char* does;           // what is done to the plant
+    const char* passes;         // the criterion in words
     void (*run)(Bench& bench);  // throws Broken where it is not met, DoesNotApply where the case has no meaning
     bool is_slow = false;       // left out of the quick table
 };
@@ -78,8 +78,8 @@ Verdict run_cell(const Case& of, const Cell& cell);  // in this process
 // Red cells that no known limit explains, of the default integrator or of any.
 int unexplained(const std::vector<Result>& results, bool default_only);
 
-// Bullet's own soft bodies in the cases that they can be put through, beside what Frond's cells of these are, at 1/60 s and,
-// unless it is to be quick, at 1/240 s.
+// Bullet's own soft bodies in the cases that they can be put through, beside what Frond's cells of these are, at 1/60 s
+// and, unless it is to be quick, at 1/240 s.
 std::string bullet_table(bool quick, const Limits& limits, const std::function<void(int done, int all)>& tell);
 
 std::string text_of(const std::vector<Result>& results);

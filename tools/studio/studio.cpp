@@ -16,7 +16,8 @@ Studio::Studio(const View& view) : view(view) {
     for (const std::string& overlay : view.overlays)
         if (overlay != "cage" && overlay != "faces" && overlay != "capsules" && overlay != "contacts" &&
             overlay != "force")
-            throw SceneError("there is no overlay \"" + overlay + "\"; there are cage, faces, capsules, contacts, force");
+            throw SceneError("there is no overlay \"" + overlay +
+                             "\"; there are cage, faces, capsules, contacts, force");
     frond_picture_def def = frond_default_picture_def();
     def.width = view.width;
     def.height = view.height;

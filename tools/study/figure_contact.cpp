@@ -1,6 +1,6 @@
-// The figure "contact": settings of contact come in, how deep two corn plants that were made in each other still are over
-// time and what a step costs go out. Depth is the deepest contact that the plants tell of; it agrees with what FCL finds
-// between their cages (tests/collide/cage_contact.cpp, tests/world/plants.cpp).
+// The figure "contact": settings of contact come in, how deep two corn plants that were made in each other still are
+// over time and what a step costs go out. Depth is the deepest contact that the plants tell of; it agrees with what FCL
+// finds between their cages (tests/collide/cage_contact.cpp, tests/world/plants.cpp).
 #include <algorithm>
 #include <cmath>
 
@@ -37,10 +37,14 @@ const std::vector<Case>& cases() {
         {"paper's hash, n = 199", {"hash_layout=paper", "hash_table_size=199"}, Effort::TINY, false},
         {"paper's hash, n = 1999", {"hash_layout=paper", "hash_table_size=1999"}, Effort::FULL, false},
         {"paper's hash, n = 9973", {"hash_layout=paper", "hash_table_size=9973"}, Effort::FULL, false},
-        {"paper's hash, n = 9973, cell 10 cm", {"hash_layout=paper", "hash_table_size=9973", "hash_cell_size=0.1"},
-         Effort::QUICK, false},
-        {"paper's hash, n = 9973, cell 50 cm", {"hash_layout=paper", "hash_table_size=9973", "hash_cell_size=0.5"},
-         Effort::FULL, false},
+        {"paper's hash, n = 9973, cell 10 cm",
+         {"hash_layout=paper", "hash_table_size=9973", "hash_cell_size=0.1"},
+         Effort::QUICK,
+         false},
+        {"paper's hash, n = 9973, cell 50 cm",
+         {"hash_layout=paper", "hash_table_size=9973", "hash_cell_size=0.5"},
+         Effort::FULL,
+         false},
         {"every pair", {"hash_layout=brute_force"}, Effort::FULL, false},
     };
     return list;
@@ -76,15 +80,16 @@ FigurePanel come_apart(const Case& one) {
 }  // namespace
 
 Figure make_contact(const std::string&, Effort effort) {
-    Figure figure = {"contact",
-                     "two corn plants, made with their leaves in each other, come apart; the baseline, then one setting "
-                     "changed at a time. Settings of the hash change only what it costs, so they have no curve",
-                     "time [s]",
-                     "deepest contact [mm]",
-                     "y",
-                     {"setting", "deepest at first [mm]", "left after 2 s [mm]", "last above 1 mm at [s]",
-                      "search [ms a step]", "response [ms a step]"},
-                     {}};
+    Figure figure = {
+        "contact",
+        "two corn plants, made with their leaves in each other, come apart; the baseline, then one setting "
+        "changed at a time. Settings of the hash change only what it costs, so they have no curve",
+        "time [s]",
+        "deepest contact [mm]",
+        "y",
+        {"setting", "deepest at first [mm]", "left after 2 s [mm]", "last above 1 mm at [s]", "search [ms a step]",
+         "response [ms a step]"},
+        {}};
     for (const Case& one : cases())
         if (one.from <= effort) figure.panels.push_back(come_apart(one));
     return figure;

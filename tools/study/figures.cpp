@@ -106,7 +106,8 @@ FigurePanel stand_panel(const std::string& folder, double h) {
 
 Figure make_fig6(const std::string& folder, Effort) {
     Figure figure = {"fig6",
-                     "the cucumber's natural stand under gravity, its mesh being the shape without it and its stem as firm as with a string",
+                     "the cucumber's natural stand under gravity, its mesh being the shape without it and its stem as "
+                     "firm as with a string",
                      "height of the axis as drawn [m]",
                      "moved by gravity [m]",
                      "",
@@ -216,7 +217,8 @@ std::string gnuplot_of(const Figure& figure, const std::string& picture_base) {
         << "set key outside right top Left reverse noenhanced\n";
     if (*figure.logarithmic)
         out << "set logscale " << figure.logarithmic << "\nset format " << figure.logarithmic << " '10^{%T}'\n";
-    static constexpr const char* COLOURS[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
+    static constexpr const char* COLOURS[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                              "#E69F00", "#56B4E9", "#000000"};
     int drawn = 0;
     for (const FigurePanel& panel : figure.panels) {
         const Curve& curve = panel.curve;

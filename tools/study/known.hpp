@@ -45,8 +45,8 @@ private:
 double greenhill_number(double end_weight = 0);
 
 // Drag of a strip that stands across the wind, clamped at its foot, over that of a stiff one, by the Cauchy number
-// C = rho/2 Cd W U^2 L^3 / (E I): pressure along the strip's normal by the part of the wind along it (Gosselin, de Langre,
-// Machado-Almeida 2010, J. Fluid Mech. 650, 319-341).
+// C = rho/2 Cd W U^2 L^3 / (E I): pressure along the strip's normal by the part of the wind along it (Gosselin, de
+// Langre, Machado-Almeida 2010, J. Fluid Mech. 650, 319-341).
 double reconfiguration_of(double C);
 
 // Damping ratio that implicit Euler adds to a mode, z = 2 pi f h.

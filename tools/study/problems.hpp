@@ -5,10 +5,10 @@
 
 namespace frond::study {
 
-Setup static_baseline();    // a stem of 10 pieces, material damping off
-Setup motion_baseline();    // the same at 1/240 s
-Setup free_baseline();      // held nowhere
-Setup peers_baseline();     // the beam of 1170 tets that other programs were tried on
+Setup static_baseline();  // a stem of 10 pieces, material damping off
+Setup motion_baseline();  // the same at 1/240 s
+Setup free_baseline();    // held nowhere
+Setup peers_baseline();   // the beam of 1170 tets that other programs were tried on
 Setup twig_baseline();
 Setup wind_baseline();      // with the damping that lets it come to rest
 Setup standing_baseline();  // a plant from a file, as it is by default

@@ -1,5 +1,5 @@
-// Do the mechanics agree on whole plants? Where corn and cucumber stand under their weight, and how fast they sway first,
-// each against rods of the same model.
+// Do the mechanics agree on whole plants? Where corn and cucumber stand under their weight, and how fast they sway
+// first, each against rods of the same model.
 #include <algorithm>
 #include <cmath>
 
@@ -57,10 +57,12 @@ struct Standing {
 // Let go from where a hundredth of its weight, taken sideways, bends it, a plant sways mostly in its first mode.
 Standing watch(const ModelPtr& model, const Setup& setup, Effort effort) {
     const double duration = effort == Effort::FULL ? 20 : effort == Effort::QUICK ? 8 : 4;  // [s]
-    const std::unique_ptr<Trial> rests =
-        settle(model, setup, 1, [](Trial& trial, double) { trial.set_gravity({0, -G, 0}); });
-    const std::unique_ptr<Trial> aside =
-        settle(model, setup, 1, [](Trial& trial, double) { trial.set_gravity({ASIDE * G, -G, 0}); });
+    const std::unique_ptr<Trial> rests = settle(model, setup, 1, [](Trial& trial, double) {
+        trial.set_gravity({0, -G, 0});
+    });
+    const std::unique_ptr<Trial> aside = settle(model, setup, 1, [](Trial& trial, double) {
+        trial.set_gravity({ASIDE * G, -G, 0});
+    });
     Setup free = setup;
     free.plant.mass_damping = free.plant.stiffness_damping = free.plant.material_damping = 0;
     Trial trial(model, free);
@@ -97,9 +99,9 @@ Outcome run_agree(const Setup& setup, Session& session) {
             known = {standing.tip.x, standing.tip.y, standing.tip.z, standing.frequency};
         }
         const Standing standing = watch(model, setup, session.effort);
-        const double off = std::hypot(std::hypot(standing.tip.x - known[0], standing.tip.y - known[1]),
-                                      standing.tip.z - known[2]) /
-                           (info.upper.y - info.lower.y);
+        const double off =
+            std::hypot(std::hypot(standing.tip.x - known[0], standing.tip.y - known[1]), standing.tip.z - known[2]) /
+            (info.upper.y - info.lower.y);
         const double faster = standing.frequency / known[3] - 1;
         const std::string name = plant->name;
         outcome.values.push_back({name + ": tip [% of height]", 100 * off, 0});

@@ -1,5 +1,5 @@
-// Beams that move: sway in known modes, fall, swing and are let go from a large bend; a twig does too. Where no formula is known, the
-// path of the end is compared with one that was refined in time until it no longer changed.
+// Beams that move: sway in known modes, fall, swing and are let go from a large bend; a twig does too. Where no formula
+// is known, the path of the end is compared with one that was refined in time until it no longer changed.
 #include <array>
 #include <cmath>
 

@@ -112,7 +112,8 @@ std::vector<Result> run_problems(const std::vector<const Problem*>& problems, Ef
     std::mutex watching;
     int count = 0;
     std::atomic<int> left = int(plans.size());
-    std::exception_ptr failure;  // a file that cannot be written; what a problem itself fails at is a point of its diagram
+    std::exception_ptr
+        failure;  // a file that cannot be written; what a problem itself fails at is a point of its diagram
     const auto run = [&](size_t k) {
         results[k] = run_plan(plans[k], effort, [&] {
             const std::lock_guard<std::mutex> lock(watching);

@@ -59,9 +59,9 @@ std::string key_of(const Setup& setup) {
     out.precision(17);
     out << int(setup.body) << ' ' << setup.resolution << ' ' << setup.dt << ' ' << p.mechanics << ' ' << p.element_order
         << ' ' << p.integrator << ' ' << p.linear_solver << ' ' << p.mass << ' ' << p.newton_iterations << ' '
-        << p.newton_tolerance << ' ' << p.max_substeps << ' ' << p.substep_tolerance << ' ' << p.max_iterations << ' ' << p.tolerance << ' ' << p.mass_damping << ' '
-        << p.stiffness_damping << ' ' << p.material_damping << ' ' << p.spectral_radius << ' ' << p.root_height << ' '
-        << p.effects;
+        << p.newton_tolerance << ' ' << p.max_substeps << ' ' << p.substep_tolerance << ' ' << p.max_iterations << ' '
+        << p.tolerance << ' ' << p.mass_damping << ' ' << p.stiffness_damping << ' ' << p.material_damping << ' '
+        << p.spectral_radius << ' ' << p.root_height << ' ' << p.effects;
     return out.str();
 }
 

@@ -131,7 +131,8 @@ public:
     virtual void at(int done, int total) = 0;
     virtual void ended(const Result& result) = 0;
 };
-// In the given order. Problems run beside each other, one on each of the machine's cores; costs are of their own threads.
+// In the given order. Problems run beside each other, one on each of the machine's cores; costs are of their own
+// threads.
 std::vector<Result> run_problems(const std::vector<const Problem*>& problems, Effort effort, Watcher* watcher);
 
 // Marks those points that no other beats in both cost and error; failed ones are never on the front.

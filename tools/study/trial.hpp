@@ -90,8 +90,8 @@ private:
 // Loads for the next step, as a share of the full ones.
 using LoadFunction = std::function<void(Trial& trial, double share)>;
 
-// A plant that rests under the loads, which were raised in `ramp` long steps of an integrator that damps all motion. After
-// `most_steps` it is taken as it is.
+// A plant that rests under the loads, which were raised in `ramp` long steps of an integrator that damps all motion.
+// After `most_steps` it is taken as it is.
 std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ramp, const LoadFunction& load,
                               int most_steps = 300);
 

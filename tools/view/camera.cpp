@@ -43,8 +43,8 @@ frond_picture_camera picture_camera(const Camera& camera) {
 Ray ray_through(const Camera& camera, double x, double y, int width, int height) {
     const Axes axes = axes_of(camera);
     const double slope = std::tan(0.5 * camera.field_of_view), aspect = double(width) / height;
-    const frond_vec3 direction = (2 * x / width - 1) * slope * aspect * axes.right +
-                                 (1 - 2 * y / height) * slope * axes.up + -1.0 * axes.back;
+    const frond_vec3 direction =
+        (2 * x / width - 1) * slope * aspect * axes.right + (1 - 2 * y / height) * slope * axes.up + -1.0 * axes.back;
     return {camera.target + camera.distance * axes.back, (1 / length(direction)) * direction};
 }
 

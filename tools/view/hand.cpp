@@ -1,5 +1,5 @@
-// In: a ray through the mouse. Out: a spring that holds the plant where the ray first meets it, and follows the mouse in
-// the plane that faces the camera there.
+// In: a ray through the mouse. Out: a spring that holds the plant where the ray first meets it, and follows the mouse
+// in the plane that faces the camera there.
 #include <algorithm>
 #include <cmath>
 

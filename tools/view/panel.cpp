@@ -50,8 +50,8 @@ void add_costs(const Viewer& viewer, std::vector<Row>& rows) {
     const struct {
         const char* name;
         double ms;
-    } stages[] = {{"collide", cost.ms_collide},   {"effects", cost.ms_effects},  {"assembly", cost.ms_assembly},
-                  {"solve", cost.ms_solve},       {"response", cost.ms_response}, {"capsules", cost.ms_capsules},
+    } stages[] = {{"collide", cost.ms_collide}, {"effects", cost.ms_effects},   {"assembly", cost.ms_assembly},
+                  {"solve", cost.ms_solve},     {"response", cost.ms_response}, {"capsules", cost.ms_capsules},
                   {"surface", cost.ms_surface}};
     for (const auto& stage : stages) tell(text_of("    %.3f ms  %s", stage.ms, stage.name));
     tell(text_of("%d contacts with bodies, %d of plants", cost.contact_count, cost.plant_contact_count));

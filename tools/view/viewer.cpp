@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studio/studio.hpp"
 #include "scenes/vector.hpp"
+#include "studio/studio.hpp"
 
 namespace frond::tools {
 
@@ -92,7 +92,7 @@ void step_once(Viewer& viewer) {
 }
 
 void advance(Viewer& viewer, double seconds) {
-    constexpr int MOST = 4;         // steps in a frame: what takes longer goes slower
+    constexpr int MOST = 4;  // steps in a frame: what takes longer goes slower
     constexpr double LATELY = 0.1;
     viewer.frame_time += (viewer.frame_time > 0 ? LATELY : 1) * (seconds - viewer.frame_time);
     const double dt = viewer.settings.dt;

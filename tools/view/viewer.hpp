@@ -18,7 +18,7 @@ enum class Button { LEFT, MIDDLE, RIGHT };
 // A spring from the plant to the mouse, as in the paper's figure 7.
 struct Hand {
     frond_grab grab = {};
-    frond_vec3 hold = {}, start = {};    // where the ray of the first click met the plant; where the spring began [m]
+    frond_vec3 hold = {}, start = {};     // where the ray of the first click met the plant; where the spring began [m]
     frond_vec3 target = {}, wanted = {};  // where the spring pulls to, and where the mouse is [m]
 };
 
@@ -33,7 +33,7 @@ struct Viewer {
     int width, height;  // of the picture [pixel]
     std::array<bool, size_t(Overlay::COUNT)> overlays = {};
     bool is_paused = false, shows_panel = true;
-    double left_over = 0;  // of the time that passed, not stepped yet [s]
+    double left_over = 0;    // of the time that passed, not stepped yet [s]
     frond_report cost = {};  // its times are smoothed
     uint32_t trouble = 0;    // of all steps so far
     double frame_time = 0;   // smoothed [s]
@@ -41,7 +41,7 @@ struct Viewer {
     enum class Drag { NONE, HAND, ORBIT, PAN } drag = Drag::NONE;
     Button drag_button = Button::LEFT;
     Hand hand;
-    size_t own_rigids = 0;  // of the scene; the others were thrown
+    size_t own_rigids = 0;              // of the scene; the others were thrown
     std::map<uint64_t, Shades> shades;  // by model
 };
 
@@ -77,7 +77,8 @@ Pick pick(const Stage& stage, const Ray& ray);
 // Takes hold of a plant where the mouse is; false where none is.
 bool take_hold(Viewer& viewer);
 void move_hand(Viewer& viewer);
-// Before each step: the spring goes where the mouse is, no faster than a hand does, however far the mouse went in a frame.
+// Before each step: the spring goes where the mouse is, no faster than a hand does, however far the mouse went in a
+// frame.
 void follow_mouse(Viewer& viewer);
 void let_go(Viewer& viewer);
 

@@ -96,28 +96,28 @@ typedef struct frond_bond {
 /* ---- choices ------------------------------------------------------------------------------------------- */
 
 /* What a scene pays for. An effect runs only if its bit is set on the world AND on the plant. */
-#define FROND_EFFECTS(X)                                                                                              \
-    X(GRAVITY, 0, "gravity")                                                                                          \
-    X(DAMPING, 1, "damping")              /* mass_, stiffness_ and material_damping of the plant's def */             \
-    X(USER_FORCE, 2, "user_force")        /* frond_plant_add_force and grabs */                                       \
-    X(SURFACE, 3, "surface")              /* deform the render mesh */                                                \
-    X(NORMALS, 4, "normals")              /* and its normals; needs FROND_SURFACE */                                  \
-    X(RIGID_CONTACT, 5, "rigid_contact")  /* bodies of the Bullet world push the plant */                             \
-    X(FRICTION, 6, "friction")            /* and rub on it; likewise plants on plants */                              \
-    X(TWO_WAY, 7, "two_way")              /* and feel the same impulses; needs FROND_RIGID_CONTACT */                 \
-    X(PLASTICITY, 8, "plasticity")        /* what is bent beyond its yield_strain keeps a set, and creeps */          \
-    X(PLANT_CONTACT, 9, "plant_contact")  /* plants push each other by their cages, where both have this bit. Those   \
-                                           * that stand in each other when they are made come apart, slowly. */       \
-    X(SELF_CONTACT, 10, "self_contact")   /* and parts of a plant do, but for those that meet as modelled */          \
-    X(BREAKING, 11, "breaking")           /* what is bent or pulled beyond its strength breaks there: all beyond      \
-                                           * comes off as a rigid body, and goes on being drawn with the plant. */    \
-    X(WIND, 12, "wind")                   /* the air's own motion pushes the plant, where the world has air:          \
-                                           * frond_world_set_wind */                                                  \
-    X(AIR_DRAG, 13, "air_drag")           /* and the plant's own motion through the air is resisted */                \
-    X(FIBRES, 14, "fibres")               /* organs in a cage that is fatter than they are are not drawn out by more  \
-                                           * than 3 % and what their tissue gives; their cage alone gives as rubber   \
-                                           * does. Costs nothing while nothing is drawn out. Chains need none,        \
-                                           * FROND_TET_LINEAR has none. */
+#define FROND_EFFECTS(X)                                                                                            \
+    X(GRAVITY, 0, "gravity")                                                                                        \
+    X(DAMPING, 1, "damping")             /* mass_, stiffness_ and material_damping of the plant's def */            \
+    X(USER_FORCE, 2, "user_force")       /* frond_plant_add_force and grabs */                                      \
+    X(SURFACE, 3, "surface")             /* deform the render mesh */                                               \
+    X(NORMALS, 4, "normals")             /* and its normals; needs FROND_SURFACE */                                 \
+    X(RIGID_CONTACT, 5, "rigid_contact") /* bodies of the Bullet world push the plant */                            \
+    X(FRICTION, 6, "friction")           /* and rub on it; likewise plants on plants */                             \
+    X(TWO_WAY, 7, "two_way")             /* and feel the same impulses; needs FROND_RIGID_CONTACT */                \
+    X(PLASTICITY, 8, "plasticity")       /* what is bent beyond its yield_strain keeps a set, and creeps */         \
+    X(PLANT_CONTACT, 9, "plant_contact") /* plants push each other by their cages, where both have this bit. Those  \
+                                          * that stand in each other when they are made come apart, slowly. */      \
+    X(SELF_CONTACT, 10, "self_contact")  /* and parts of a plant do, but for those that meet as modelled */         \
+    X(BREAKING, 11, "breaking")          /* what is bent or pulled beyond its strength breaks there: all beyond     \
+                                          * comes off as a rigid body, and goes on being drawn with the plant. */   \
+    X(WIND, 12, "wind")                  /* the air's own motion pushes the plant, where the world has air:         \
+                                          * frond_world_set_wind */                                                 \
+    X(AIR_DRAG, 13, "air_drag")          /* and the plant's own motion through the air is resisted */               \
+    X(FIBRES, 14, "fibres")              /* organs in a cage that is fatter than they are are not drawn out by more \
+                                          * than 3 % and what their tissue gives; their cage alone gives as rubber  \
+                                          * does. Costs nothing while nothing is drawn out. Chains need none,       \
+                                          * FROND_TET_LINEAR has none. */
 typedef uint32_t frond_effects;
 #define FROND_EFFECT_ENUM(code, bit, text) FROND_##code = 1 << bit,
 #define FROND_EFFECT_ONE(code, bit, text) +1
@@ -134,11 +134,11 @@ FROND_API const char* frond_effect_name(frond_effects effect);
 
 /* What moves by itself. Every model has a chain and a cage: with the tets the cage moves and the chain follows, with
  * the last two the chain moves and the cage follows. */
-#define FROND_MECHANICS(X)                                                                                       \
-    X(TET_LINEAR, "tet_linear")             /* the paper's equation (1): right for small deflections only */     \
-    X(TET_COROTATIONAL, "tet_corotational") /* linear in each tet's own rotated frame: bends far */              \
-    X(TET_NEOHOOKEAN, "tet_neohookean")     /* a rubber-like solid: right for large strains too */               \
-    X(ROD, "rod")                           /* beams with the organs' true sections: quickest, right for stems */ \
+#define FROND_MECHANICS(X)                                                                                         \
+    X(TET_LINEAR, "tet_linear")             /* the paper's equation (1): right for small deflections only */       \
+    X(TET_COROTATIONAL, "tet_corotational") /* linear in each tet's own rotated frame: bends far */                \
+    X(TET_NEOHOOKEAN, "tet_neohookean")     /* a rubber-like solid: right for large strains too */                 \
+    X(ROD, "rod")                           /* beams with the organs' true sections: quickest, right for stems */  \
     X(SPRING_CHAIN, "spring_chain")         /* the paper's capsules joined by springs, driven by r and h; with the \
                                              * radii of the shape a plant sways as with rods, with others by r^4 */
 /* How a step in time is taken. */
@@ -150,11 +150,11 @@ FROND_API const char* frond_effect_name(frond_effects effect);
     X(GENERALIZED_ALPHA, "generalized_alpha") /* iterated to convergence; spectral_radius sets damping */     \
     X(SYMPLECTIC_EULER, "symplectic_euler")   /* explicit: no solve, unstable but for tiny steps */
 /* How a linear system is solved. */
-#define FROND_LINEAR_SOLVERS(X)                                                                                        \
-    X(BLOCK, "block")                       /* Frond's own LDLT by dense fronts: exact and, for plants, quickest */    \
-    X(DIRECT, "direct")                     /* sparse LDLT by Eigen: as exact; here for comparison */                  \
-    X(PCG_JACOBI, "pcg_jacobi")             /* the paper's conjugate gradients, preconditioned by the diagonal */      \
-    X(PCG_BLOCK_JACOBI, "pcg_block_jacobi") /* by the 3x3 blocks of the diagonal */                                    \
+#define FROND_LINEAR_SOLVERS(X)                                                                                     \
+    X(BLOCK, "block")                       /* Frond's own LDLT by dense fronts: exact and, for plants, quickest */ \
+    X(DIRECT, "direct")                     /* sparse LDLT by Eigen: as exact; here for comparison */               \
+    X(PCG_JACOBI, "pcg_jacobi")             /* the paper's conjugate gradients, preconditioned by the diagonal */   \
+    X(PCG_BLOCK_JACOBI, "pcg_block_jacobi") /* by the 3x3 blocks of the diagonal */                                 \
     X(PCG_INCOMPLETE_CHOLESKY, "pcg_incomplete_cholesky") /* by factors without fill: fewest iterations */
 /* How mass is given to nodes: each its own, or shared with its neighbours as the elements' shape functions say. Of
  * rods, "consistent" is the mean of both, whose frequencies are right to 0.5 % with ten pieces (lumped: 2.5 % in the
@@ -162,21 +162,21 @@ FROND_API const char* frond_effect_name(frond_effects effect);
 #define FROND_MASSES(X) X(LUMPED, "lumped") X(CONSISTENT, "consistent")
 
 /* How it is found out where cages are in each other. All of them find the same. */
-#define FROND_HASH_LAYOUTS(X)                                                                                     \
-    X(HASH_GRID, "grid")               /* a grid of cells, only those in which two plants are: quickest */        \
-    X(HASH_PAPER, "paper")             /* the paper's table of n buckets over cells of size l */                  \
+#define FROND_HASH_LAYOUTS(X)                                                                              \
+    X(HASH_GRID, "grid")               /* a grid of cells, only those in which two plants are: quickest */ \
+    X(HASH_PAPER, "paper")             /* the paper's table of n buckets over cells of size l */           \
     X(HASH_BRUTE_FORCE, "brute_force") /* everything with everything, to compare with */
 /* What contacts do. */
-#define FROND_RESPONSES(X)                                                                                        \
-    X(RESPONSE_IMPULSE, "impulse") /* impulses that fit together, with friction, each body answering as it moves: exact */ \
-    X(RESPONSE_PENALTY, "penalty") /* a spring at each contact, stable however stiff: cheap, yields a little */   \
+#define FROND_RESPONSES(X)                                                                                      \
+    X(RESPONSE_IMPULSE, "impulse") /* impulses that fit together, with friction, as bodies answer: exact */     \
+    X(RESPONSE_PENALTY, "penalty") /* a spring at each contact, stable however stiff: cheap, yields a little */ \
     X(RESPONSE_NONE, "none")       /* contacts are told but nothing pushes */
 
 /* How much of a plant is simulated, from most to least: see frond_world_set_detail. */
-#define FROND_DETAILS(X)                                                                                            \
-    X(DETAIL_FULL, "full")   /* the plant's own mechanics */                                                        \
-    X(DETAIL_ROD, "rod")     /* rods, where the plant's own are tets */                                             \
-    X(DETAIL_SWAY, "sway")   /* the plant's two first sways, driven by the wind; a touch makes it rods */            \
+#define FROND_DETAILS(X)                                                                                  \
+    X(DETAIL_FULL, "full")   /* the plant's own mechanics */                                              \
+    X(DETAIL_ROD, "rod")     /* rods, where the plant's own are tets */                                   \
+    X(DETAIL_SWAY, "sway")   /* the plant's two first sways, driven by the wind; a touch makes it rods */ \
     X(DETAIL_STILL, "still") /* comes to rest as modelled and stays there, asleep, whatever touches or blows at it */
 
 #define FROND_MECHANICS_ENUM(code, text) FROND_##code,
@@ -187,9 +187,7 @@ typedef enum frond_linear_solver {
     FROND_LINEAR_SOLVERS(FROND_MECHANICS_ENUM) FROND_LINEAR_SOLVER_COUNT
 } frond_linear_solver;
 typedef enum frond_mass { FROND_MASSES(FROND_MECHANICS_ENUM) FROND_MASS_COUNT } frond_mass;
-typedef enum frond_hash_layout {
-    FROND_HASH_LAYOUTS(FROND_MECHANICS_ENUM) FROND_HASH_LAYOUT_COUNT
-} frond_hash_layout;
+typedef enum frond_hash_layout { FROND_HASH_LAYOUTS(FROND_MECHANICS_ENUM) FROND_HASH_LAYOUT_COUNT } frond_hash_layout;
 typedef enum frond_response { FROND_RESPONSES(FROND_MECHANICS_ENUM) FROND_RESPONSE_COUNT } frond_response;
 #undef FROND_MECHANICS_ENUM
 /* Which shape the file shows: the plant as it stands under 9.81 m/s^2 along the model's -y, for which Frond finds the
@@ -219,8 +217,8 @@ typedef struct frond_world_def {
     /* Plants against plants and themselves. */
     frond_hash_layout hash_layout; /* default FROND_HASH_GRID */
     int hash_table_size;   /* n of FROND_HASH_PAPER, 0 .. 1e8; 0 (default) takes twice the number of things in it */
-    double hash_cell_size; /* l [m], 0 .. 1e3; 0 (default) takes one and a half mean edges of the cages that touch, and less
-                            * than an eighth of one is not taken */
+    double hash_cell_size; /* l [m], 0 .. 1e3; 0 (default) takes one and a half mean edges of the cages that touch, and
+                            * less than an eighth of one is not taken */
     /* All contacts. */
     frond_response response;   /* default FROND_RESPONSE_IMPULSE */
     int response_iterations;   /* rounds over all contacts at most, 1 .. 100000, default 200 */
@@ -229,13 +227,13 @@ typedef struct frond_world_def {
     double penalty_stiffness;  /* of FROND_RESPONSE_PENALTY, a contact [N/m], 1e-6 .. 1e12, default 1000 */
     /* A plant falls asleep when nothing of it has gone farther than this for half a period of its slowest sway, 0.5 to
      * 3 s, and nothing that moves touches it [m], 0 .. 0.01, default 5e-5; 0: none sleeps. It then stands still and
-     * costs nothing, until it is touched, pulled, bent or blown at, a pin or bond moves, or something beside it leaves. */
+     * costs nothing, until it is touched, pulled, bent or blown at, a pin or bond moves, or its neighbour leaves. */
     double sleep_distance;
     /* Threads for the steps of plants, each a job; results are the same bits for any number of them. Null (default):
      * Bullet's task scheduler, if the host has set one (btSetTaskScheduler), else the caller's thread alone. */
     frond_parallel_for_fn* parallel_for;
     void* parallel_user;
-    uint32_t cookie;       /* do not set */
+    uint32_t cookie; /* do not set */
 } frond_world_def;
 
 /* What the last substep did and cost. Each bit of `trouble` has a cause, an effect and a remedy. */
@@ -296,10 +294,11 @@ FROND_API bool frond_world_is_valid(frond_world world);
 FROND_API frond_result frond_world_step(frond_world world, double dt);
 FROND_API frond_result frond_world_set_gravity(frond_world world, frond_vec3 gravity);
 FROND_API frond_result frond_world_set_effects(frond_world world, frond_effects effects);
-/* For pictures that are drawn between steps of a fixed length, so that what moves evenly looks so. frond_plant_get_surface
- * then shows plants where they were between the last two substeps: fraction 1 (default) at the end of the last one, 0 at
- * its beginning, straight between and as far beyond, up to 2. FROND_AS_MOTION_STATES: whenever it is asked, where the
- * motion states of a Bullet world have its bodies. Everything else, frond_rigid_get_state too, tells of the last one's end. */
+/* For pictures that are drawn between steps of a fixed length, so that what moves evenly looks so.
+ * frond_plant_get_surface then shows plants where they were between the last two substeps: fraction 1 (default) at the
+ * end of the last one, 0 at its beginning, straight between and as far beyond, up to 2. FROND_AS_MOTION_STATES:
+ * whenever it is asked, where the motion states of a Bullet world have its bodies. Everything else,
+ * frond_rigid_get_state too, tells of the last one's end. */
 #define FROND_AS_MOTION_STATES (-1.0)
 FROND_API frond_result frond_world_set_interpolation(frond_world world, double fraction);
 FROND_API frond_result frond_world_get_report(frond_world world, frond_report* out);
@@ -326,16 +325,16 @@ typedef enum frond_wind_profile {
 } frond_wind_profile;
 
 /* A mean wind, and gusts on it: velocities with Kaimal's spectra, f S(f) / sigma^2 = 4 n / (1 + 6 n)^(5/3) with
- * n = f L / U, and the coherence in space of IEC 61400-1, carried along by the mean wind (Taylor's hypothesis). They are a
- * function of place, time and seed and nothing else; a wind that is set anew while they blow takes them along. Across
- * the wind and upwards they have 0.8 and 0.5 times the standard deviation and a third and a twelfth of the length scale
- * that they have along it, as there. Height z [m] is against gravity, above the level of ground_height; gusts grow with
- * it as the mean does. */
+ * n = f L / U, and the coherence in space of IEC 61400-1, carried along by the mean wind (Taylor's hypothesis). They
+ * are a function of place, time and seed and nothing else; a wind that is set anew while they blow takes them along.
+ * Across the wind and upwards they have 0.8 and 0.5 times the standard deviation and a third and a twelfth of the
+ * length scale that they have along it, as there. Height z [m] is against gravity, above the level of ground_height;
+ * gusts grow with it as the mean does. */
 typedef struct frond_wind_def {
-    frond_vec3 velocity;        /* mean, at reference_height [m/s], up to 200; default 0: still air */
-    double turbulence;          /* standard deviation of gusts along the wind over the mean speed [-], 0..1, default 0.2 */
-    double length_scale;        /* of gusts along the wind, L above [m], 0.1 .. 1e4, default 20 */
-    uint64_t seed;              /* of the gusts; default 1 */
+    frond_vec3 velocity; /* mean, at reference_height [m/s], up to 200; default 0: still air */
+    double turbulence;   /* standard deviation of gusts along the wind over the mean speed [-], 0..1, default 0.2 */
+    double length_scale; /* of gusts along the wind, L above [m], 0.1 .. 1e4, default 20 */
+    uint64_t seed;       /* of the gusts; default 1 */
     frond_wind_profile profile; /* default FROND_WIND_LOG */
     double reference_height;    /* [m], 0.01 .. 1e4, default 10 as weather stations have it */
     double roughness;           /* of the ground [m], 1e-6 .. half the reference height, default 0.03: open grassland */
@@ -393,7 +392,7 @@ typedef struct frond_material {
     double strength;
     /* Drag coefficient in air of the area that the organ turns to the flow [-]; 0: by its kind, 0.01 .. 10. Blades and
      * flowers are then flat plates of the organ's aspect, fruits spheres, crowns 0.4 and everything else a long
-     * cylinder, both by Reynolds number (sources: plugin/src/plant/air_pieces.cpp). The skin's friction comes on top. */
+     * cylinder, both by Reynolds number (sources: plugin/src/plant/air_pieces.cpp). The skin's friction is added. */
     double drag;
 } frond_material;
 /* A material for the organs of one kind or name: see frond_model_def.organs. */
@@ -479,9 +478,9 @@ typedef struct frond_range {
  * rod or a strip, not of the cage around it. A small organ can lie within another one's capsules; all from
  * capsule_count on is then 0. */
 typedef struct frond_organ {
-    const char* name;         /* "leaf_3"; no two organs of a model share one */
-    const char* kind;         /* "stem", "blade" ... */
-    frond_material material;  /* the preset of its kind, or what frond_model_def.organs put in its place */
+    const char* name;        /* "leaf_3"; no two organs of a model share one */
+    const char* kind;        /* "stem", "blade" ... */
+    frond_material material; /* the preset of its kind, or what frond_model_def.organs put in its place */
     int capsule_count;
     double length;            /* of its capsules [m] */
     double mass;              /* of its sections times their lengths [kg] */
@@ -533,9 +532,9 @@ FROND_API frond_result frond_model_get_chain(frond_model model, frond_chain_view
 /* ---- plant: one instance, which moves ---------------------------------------------------------------------- */
 
 typedef struct frond_plant_def {
-    frond_vec3 position;               /* of the model's origin [m] */
-    frond_quat rotation;               /* need not have length one; default identity */
-    frond_mechanics mechanics;         /* default FROND_TET_COROTATIONAL */
+    frond_vec3 position;       /* of the model's origin [m] */
+    frond_quat rotation;       /* need not have length one; default identity */
+    frond_mechanics mechanics; /* default FROND_TET_COROTATIONAL */
     /* Of the displacements within a tet, 1 (default) or 2. Linear tets are quick and lock: one cell across and five
      * times as long as thick bends 3 % of what it should, which a cage made by Frond is calibrated for and the caller's
      * own tets are not. Quadratic tets have a node in the middle of each edge too and bend such cells within 5 %, with
@@ -546,9 +545,9 @@ typedef struct frond_plant_def {
     frond_linear_solver linear_solver; /* default FROND_BLOCK */
     frond_mass mass;                   /* default FROND_LUMPED */
     int newton_iterations;             /* solves per step at most, 1..100, default 1 */
-    double newton_tolerance;  /* stop when the residual force is below this share of the first one [-], default 1e-6 */
-    int max_iterations;       /* of an iterative linear solver, default 10000 */
-    double tolerance;         /* of an iterative linear solver, relative residual [-], default 1e-6 */
+    double newton_tolerance; /* stop when the residual force is below this share of the first one [-], default 1e-6 */
+    int max_iterations;      /* of an iterative linear solver, default 10000 */
+    double tolerance;        /* of an iterative linear solver, relative residual [-], default 1e-6 */
     /* A step is taken in 1, 2, 4 .. max_substeps (1 .. 64, default 1: always one, at no cost) equal parts, as few as
      * keep the error that the step adds to the place of any node below substep_tolerance (1e-9 .. 1, default 1e-4)
      * times the plant's size [-]. The error is told from how far nodes end from where their velocities and the last
@@ -558,18 +557,18 @@ typedef struct frond_plant_def {
     double substep_tolerance;
     double mass_damping;      /* Rayleigh: D = mass_damping M + stiffness_damping K [1/s], default 0.1 */
     double stiffness_damping; /* [s], default 0.002 */
-    double material_damping;  /* how much of their materials' damping_ratio the organs have, on top of the two above [-],
-                               * 0 (none) .. 100, default 1 */
-    double spectral_radius;   /* of FROND_GENERALIZED_ALPHA at infinite frequency, 0..1 [-], default 0.8: 1 damps
-                               * nothing, 0 most */
-    double root_height;       /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
-                               * from the shape; negative pins none. A node on an edge is where both its ends are. */
-    frond_effects effects;    /* default FROND_DEFAULT_EFFECTS */
+    double material_damping; /* how much of their materials' damping_ratio the organs have, on top of the two above [-],
+                              * 0 (none) .. 100, default 1 */
+    double spectral_radius;  /* of FROND_GENERALIZED_ALPHA at infinite frequency, 0..1 [-], default 0.8: 1 damps
+                              * nothing, 0 most */
+    double root_height;      /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
+                              * from the shape; negative pins none. A node on an edge is where both its ends are. */
+    frond_effects effects;   /* default FROND_DEFAULT_EFFECTS */
     /* Begins asleep, as modelled, as if it had come to rest so: a field of thousands then costs no steps until
      * something moves them. Default false. */
     bool starts_asleep;
-    /* Of Bullet's collision filter: the plant meets what has a group in its mask and has its group in the own mask, plants
-     * too. Default 1 and -1 (all). */
+    /* Of Bullet's collision filter: the plant meets what has a group in its mask and has its group in the own mask,
+     * plants too. Default 1 and -1 (all). */
     int group, mask;
     void* user;
     uint32_t cookie; /* do not set */
@@ -631,8 +630,8 @@ FROND_API frond_result frond_plant_set_integrator(frond_plant plant, frond_integ
 FROND_API int frond_plant_get_node_count(frond_plant plant);
 FROND_API int frond_plant_get_capsule_count(frond_plant plant);
 /* node_count must be the plant's. Either array may be null. positions [m], velocities [m/s], node_count*3, in the
- * world's frame. Setting moves pinned nodes too: they stay where they are put. Rods and springs take a shape of the cage as
- * near as they can; frond_snapshot.h keeps theirs to the bit. */
+ * world's frame. Setting moves pinned nodes too: they stay where they are put. Rods and springs take a shape of the
+ * cage as near as they can; frond_snapshot.h keeps theirs to the bit. */
 FROND_API frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count);
 FROND_API frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
                                              int node_count);
@@ -677,8 +676,8 @@ FROND_API frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out);
  * in DETAIL_SWAY makes it rods at once. Which detail a plant has depends on the calls and on nothing else, unless there
  * is a budget. */
 
-/* Says how far off a plant is to count, given the distance to the viewer that counts otherwise [m] (with by_size [-]): a
- * game's own order of importance. Not finite or below zero counts as zero. */
+/* Says how far off a plant is to count, given the distance to the viewer that counts otherwise [m] (with by_size [-]):
+ * a game's own order of importance. Not finite or below zero counts as zero. */
 typedef double frond_detail_fn(frond_plant plant, double distance, void* user);
 
 typedef struct frond_detail_def {
@@ -688,7 +687,7 @@ typedef struct frond_detail_def {
     double half_from;  /* rods are stepped every second substep, by twice its length; default 12 */
     double sway_from;  /* default 25; sways are told every fourth substep and drawn at each */
     double still_from; /* default 150 */
-    bool by_size;      /* distances count in sizes of the plant instead of metres, as it looks on the screen; default false */
+    bool by_size;      /* distances count in sizes of the plant, as it looks on the screen, not metres; default false */
     double hysteresis; /* share by which a plant has to come nearer to get detail back [-], 0 .. 0.9, default 0.15 */
     /* Time that a substep of all plants may take [ms], 0 .. 1e6; 0 (default): any. Plants then lose detail, those that
      * count as farthest first, as soon as more is measured, and get it back when there is time again. Results then
@@ -712,9 +711,9 @@ FROND_API frond_result frond_plant_get_detail(frond_plant plant, frond_detail* o
  * more than its organ's strength / young and more than 1.5 times what it stands with. Rods tell bending and pulling
  * apart; in a cage a capsule that is pulled breaks at half its strength or more. The capsule and all that grows beyond
  * it become a rigid body with their mass and momentum. It is drawn in the plant's surface, its nodes, capsules and
- * vertices are reported where it is, grabs on it pull it, forces and pins on its nodes end; other bodies and plants feel
- * it, its own plant does not, which takes no part in FROND_PLANT_CONTACT and FROND_SELF_CONTACT any more. Bonds on it let go.
- * Triangles across the break keep their place in the list, without area. */
+ * vertices are reported where it is, grabs on it pull it, forces and pins on its nodes end; other bodies and plants
+ * feel it, its own plant does not, which takes no part in FROND_PLANT_CONTACT and FROND_SELF_CONTACT any more. Bonds on
+ * it let go. Triangles across the break keep their place in the list, without area. */
 typedef struct frond_broken {
     frond_rigid rigid; /* the plant's: it ends with it, and frond_rigid_destroy leaves it alone */
     int capsule;       /* at which it came off */
@@ -744,12 +743,12 @@ FROND_API bool frond_grab_is_valid(frond_grab grab);
 /* ---- rigid: bodies that plants touch, for those who have no Bullet world of their own ------------------------- */
 
 /* What the three numbers of frond_rigid_def.size are [m]. All stand along their own y axis. */
-#define FROND_SHAPES(X)                                                                  \
-    X(SPHERE, "sphere")     /* radius */                                                 \
-    X(BOX, "box")           /* half extents */                                           \
+#define FROND_SHAPES(X)                                                                     \
+    X(SPHERE, "sphere")     /* radius */                                                    \
+    X(BOX, "box")           /* half extents */                                              \
     X(CAPSULE, "capsule")   /* radius, half the length between the half spheres' centres */ \
-    X(CYLINDER, "cylinder") /* radius, half the length */                                \
-    X(CONE, "cone")         /* radius, half the height */                                \
+    X(CYLINDER, "cylinder") /* radius, half the length */                                   \
+    X(CONE, "cone")         /* radius, half the height */                                   \
     X(PLANE, "plane")       /* none: all below its origin; does not move */
 #define FROND_SHAPE_ENUM(code, text) FROND_##code,
 typedef enum frond_shape { FROND_SHAPES(FROND_SHAPE_ENUM) FROND_SHAPE_COUNT } frond_shape;

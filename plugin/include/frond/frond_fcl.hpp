@@ -6,8 +6,8 @@
 //     ... frond_world_step(world, dt);
 //     bean.update(); manager.update();            // the same objects, where the plant is now
 //
-// Objects keep their addresses as long as the FclPlant lives. Failures throw std::runtime_error with frond_last_error().
-// One thread at a time, and none while the plant's world steps.
+// Objects keep their addresses as long as the FclPlant lives. Failures throw std::runtime_error with
+// frond_last_error(). One thread at a time, and none while the plant's world steps.
 #ifndef FROND_FCL_HPP
 #define FROND_FCL_HPP
 
@@ -66,8 +66,8 @@ private:
     using Bvh = fcl::BVHModel<fcl::OBBRSS<S>>;
     frond_plant plant;
     std::vector<std::shared_ptr<fcl::Capsule<S>>> capsules;
-    std::shared_ptr<Bvh> cage;        // null: capsules
-    std::vector<int> cage_nodes;      // of the plant, one a vertex of the cage's outside
+    std::shared_ptr<Bvh> cage;    // null: capsules
+    std::vector<int> cage_nodes;  // of the plant, one a vertex of the cage's outside
     std::vector<std::unique_ptr<fcl::CollisionObject<S>>> objects;
 
     static void must(frond_result result) {
@@ -97,8 +97,7 @@ private:
             capsules[i]->computeLocalAABB();
             fcl::Transform3<S> frame = fcl::Transform3<S>::Identity();
             if (axis.norm() > 0)
-                frame.linear() =
-                    fcl::Quaternion<S>::FromTwoVectors(fcl::Vector3<S>::UnitZ(), axis).toRotationMatrix();
+                frame.linear() = fcl::Quaternion<S>::FromTwoVectors(fcl::Vector3<S>::UnitZ(), axis).toRotationMatrix();
             frame.translation() = S(0.5) * (begin + end);
             objects[i]->setTransform(frame);
         }

@@ -1,17 +1,20 @@
-/* frond_robot.h - robots among plants: arms and grippers described in URDF files become multi-bodies of the Bullet world,
- * with motors, and feel the plants that they push. Compiles as C99 and as C++; the rules of frond.h hold here too.
+/* frond_robot.h - robots among plants: arms and grippers described in URDF files become multi-bodies of the Bullet
+ * world, with motors, and feel the plants that they push. Compiles as C99 and as C++; the rules of frond.h hold here
+ * too.
  *
  * A robot is a tree of links; link 0 is its base, and every other link hangs on its parent by one joint, which has the
  * link's number. Joints are fixed, revolute, continuous, prismatic or, between the base and the rest, floating. Of the
- * file count <inertial>, <collision> and <joint> with its <limit>; not <visual>, <mimic>, <dynamics> and <safety>. Meshes
- * collide as their convex hulls. A mesh that the file calls "package://NAME/PATH" is looked for in the folders of
- * the environment variables FROND_PACKAGE_PATH and ROS_PACKAGE_PATH (separated by colons), then in those above the file.
+ * file count <inertial>, <collision> and <joint> with its <limit>; not <visual>, <mimic>, <dynamics> and <safety>.
+ * Meshes collide as their convex hulls. A mesh that the file calls "package://NAME/PATH" is looked for in the folders
+ * of the environment variables FROND_PACKAGE_PATH and ROS_PACKAGE_PATH (separated by colons), then in those above the
+ * file.
  *
- * Motors and limits are held as well as Bullet's solver converges: in a world of frond_world_create it makes 100 rounds once
- * there is a robot; in your own, set getSolverInfo().m_numIterations (with Bullet's default of 10 an arm sags by a degree).
+ * Motors and limits are held as well as Bullet's solver converges: in a world of frond_world_create it makes 100 rounds
+ * once there is a robot; in your own, set getSolverInfo().m_numIterations (with Bullet's default of 10 an arm sags by a
+ * degree).
  *
- * Plants push links as they push any body; what they do to a link in a substep is the sum of its contacts. Robots do not
- * collide with themselves. */
+ * Plants push links as they push any body; what they do to a link in a substep is the sum of its contacts. Robots do
+ * not collide with themselves. */
 #ifndef FROND_ROBOT_H
 #define FROND_ROBOT_H
 
@@ -25,10 +28,10 @@ typedef struct frond_robot {
     uint64_t id;
 } frond_robot;
 
-#define FROND_JOINTS(X)                                                  \
-    X(JOINT_FIXED, "fixed")           /* also of link 0 */               \
-    X(JOINT_REVOLUTE, "revolute")     /* turns between two limits */     \
-    X(JOINT_CONTINUOUS, "continuous") /* turns without limits */         \
+#define FROND_JOINTS(X)                                              \
+    X(JOINT_FIXED, "fixed")           /* also of link 0 */           \
+    X(JOINT_REVOLUTE, "revolute")     /* turns between two limits */ \
+    X(JOINT_CONTINUOUS, "continuous") /* turns without limits */     \
     X(JOINT_PRISMATIC, "prismatic")   /* slides between two limits */
 #define FROND_JOINT_ENUM(code, text) FROND_##code,
 typedef enum frond_joint { FROND_JOINTS(FROND_JOINT_ENUM) FROND_JOINT_COUNT } frond_joint;
@@ -51,28 +54,28 @@ typedef struct frond_robot_link {
     const char* joint_name; /* "" of link 0 */
     int parent;             /* -1 of link 0 */
     frond_joint joint;
-    double lower, upper;    /* limits of the joint [rad], [m]; 0 where it has none */
-    double max_force;       /* that the file gives its motor [N], [N m]; 0: none said */
-    double mass;            /* [kg] */
-    const void* body;       /* as frond_contact.body names it; null: it touches nothing */
+    double lower, upper; /* limits of the joint [rad], [m]; 0 where it has none */
+    double max_force;    /* that the file gives its motor [N], [N m]; 0: none said */
+    double mass;         /* [kg] */
+    const void* body;    /* as frond_contact.body names it; null: it touches nothing */
 } frond_robot_link;
 
 /* How a link is now, in the world's frame. */
 typedef struct frond_link_state {
     frond_vec3 position; /* of the link's frame, where its joint is [m] */
     frond_quat rotation;
-    frond_vec3 force;    /* of all plants on the link in the last substep [N] */
-    frond_vec3 torque;   /* the same about the link's centre of mass [N m] */
-    int contact_count;   /* at how many points */
+    frond_vec3 force;                      /* of all plants on the link in the last substep [N] */
+    frond_vec3 torque;                     /* the same about the link's centre of mass [N m] */
+    int contact_count;                     /* at how many points */
     double joint_position, joint_velocity; /* [rad], [m]; [rad/s], [m/s] */
-    double motor_force;  /* of the joint's motor in the last substep [N m], [N] */
+    double motor_force;                    /* of the joint's motor in the last substep [N m], [N] */
 } frond_link_state;
 
 FROND_API frond_robot_def frond_default_robot_def(void);
 /* Reads the file in a process of its own, as frond_model_load does. FILE_FORMAT for a file that is damaged, cyclic or
- * huge, FILE_NOT_FOUND for a mesh that is missing, UNSUPPORTED for a floating joint in the middle of the tree or a Bullet
- * world that takes no multi-bodies: a btMultiBodyDynamicsWorld does, and the worlds of frond_world_create are such.
- * All joints begin at zero or at the limit nearest to it, held there by their motors. */
+ * huge, FILE_NOT_FOUND for a mesh that is missing, UNSUPPORTED for a floating joint in the middle of the tree or a
+ * Bullet world that takes no multi-bodies: a btMultiBodyDynamicsWorld does, and the worlds of frond_world_create are
+ * such. All joints begin at zero or at the limit nearest to it, held there by their motors. */
 FROND_API frond_result frond_robot_load(frond_world world, const char* path, const frond_robot_def* def,
                                         frond_robot* out);
 /* Null and stale handles are ignored. Its world's end is its end. */
@@ -89,8 +92,8 @@ FROND_API frond_result frond_robot_get_link_state(frond_robot robot, int link, f
 FROND_API frond_result frond_robot_get_surface(frond_robot robot, frond_surface_view* out);
 /* Puts a joint there at once, at rest, and has its motor hold it. BAD_ARGUMENT for fixed joints, and beyond limits. */
 FROND_API frond_result frond_robot_set_joint(frond_robot robot, int link, double position);
-/* The motor goes to `position` [rad], [m], no faster than max_velocity [rad/s], [m/s] (0: the file's limit, or 1 where it
- * has none), with up to max_force [N m], [N]; 0: the file's limit, or 1000 where it has none. */
+/* The motor goes to `position` [rad], [m], no faster than max_velocity [rad/s], [m/s] (0: the file's limit, or 1 where
+ * it has none), with up to max_force [N m], [N]; 0: the file's limit, or 1000 where it has none. */
 FROND_API frond_result frond_robot_drive_to(frond_robot robot, int link, double position, double max_velocity,
                                             double max_force);
 /* The motor keeps a velocity [rad/s], [m/s]; max_force as above. */
@@ -101,16 +104,17 @@ FROND_API frond_result frond_robot_release(frond_robot robot, int link);
 FROND_API frond_result frond_robot_bond(frond_plant plant, frond_vec3 point, frond_robot robot, int link,
                                         frond_bond* out);
 
-/* Writes a model's chain as a URDF file that other programs read: a link with a <visual>, a <collision> and an <inertial>
- * for each capsule, hung on each other by fixed joints, +z up, and in <frond> what Frond needs to make the same plant of it
- * again: organ, material, and the stiffness and mass of the section. Materials are told by kind, so that those of the
- * caller's own count only by the stiffness that they gave the sections. FILE_NOT_FOUND if the file cannot be written. */
+/* Writes a model's chain as a URDF file that other programs read: a link with a <visual>, a <collision> and an
+ * <inertial> for each capsule, hung on each other by fixed joints, +z up, and in <frond> what Frond needs to make the
+ * same plant of it again: organ, material, and the stiffness and mass of the section. Materials are told by kind, so
+ * that those of the caller's own count only by the stiffness that they gave the sections. FILE_NOT_FOUND if the file
+ * cannot be written. */
 FROND_API frond_result frond_model_write_urdf(frond_model model, const char* path);
 
-/* What holds a plant: the force of the ground on its pinned nodes, in the world's frame [N], and its moment about `about`
- * [N m]. Either may be null. Elastic forces and weight as they are after the last substep count; what damps does not, so
- * that it is exact for a plant at rest, which is held with the opposite of its weight and of all that pushes it beyond
- * its foot. */
+/* What holds a plant: the force of the ground on its pinned nodes, in the world's frame [N], and its moment about
+ * `about` [N m]. Either may be null. Elastic forces and weight as they are after the last substep count; what damps
+ * does not, so that it is exact for a plant at rest, which is held with the opposite of its weight and of all that
+ * pushes it beyond its foot. */
 FROND_API frond_result frond_plant_get_root_force(frond_plant plant, frond_vec3 about, frond_vec3* force,
                                                   frond_vec3* moment);
 

@@ -1,10 +1,11 @@
-/* frond_snapshot.h - a world as bytes, to go back to: roll-back networking, undo. Compiles as C99 and as C++; the rules of
- * frond.h for handles, errors and threads hold.
+/* frond_snapshot.h - a world as bytes, to go back to: roll-back networking, undo. Compiles as C99 and as C++; the rules
+ * of frond.h for handles, errors and threads hold.
  *
- * In a snapshot is all that steps change: shape and motion of plants, what is lasting in them, pins, targets of grabs, who
- * sleeps, the time and the gusts that have passed, and the bodies that Frond made. Not what the host set up: defs, effects,
- * gravity, wind, and the bodies of a Bullet world of its own, which it puts back itself. Saving and restoring both have
- * Bullet look for contacts anew; from either, a world of Frond's own steps on to the same bits. UNSUPPORTED with robots (frond_robot.h).
+ * In a snapshot is all that steps change: shape and motion of plants, what is lasting in them, pins, targets of grabs,
+ * who sleeps, the time and the gusts that have passed, and the bodies that Frond made. Not what the host set up: defs,
+ * effects, gravity, wind, and the bodies of a Bullet world of its own, which it puts back itself. Saving and restoring
+ * both have Bullet look for contacts anew; from either, a world of Frond's own steps on to the same bits. UNSUPPORTED
+ * with robots (frond_robot.h).
  */
 #ifndef FROND_SNAPSHOT_H
 #define FROND_SNAPSHOT_H
@@ -19,9 +20,9 @@ extern "C" {
 FROND_API size_t frond_world_get_snapshot_size(frond_world world);
 /* size must be what the function above says. */
 FROND_API frond_result frond_world_save(frond_world world, void* snapshot, size_t size);
-/* Into a world with the same plants, grabs, bonds and rigid bodies in the order in which they were made; plants of the same
- * models and settings, with the same capsules broken. Handles stay. Else BAD_ARGUMENT, and FILE_FORMAT for bytes that
- * are cut off, changed, or of another version or precision of Frond, and nothing is changed. */
+/* Into a world with the same plants, grabs, bonds and rigid bodies in the order in which they were made; plants of the
+ * same models and settings, with the same capsules broken. Handles stay. Else BAD_ARGUMENT, and FILE_FORMAT for bytes
+ * that are cut off, changed, or of another version or precision of Frond, and nothing is changed. */
 FROND_API frond_result frond_world_restore(frond_world world, const void* snapshot, size_t size);
 
 #ifdef __cplusplus

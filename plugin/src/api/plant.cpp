@@ -74,15 +74,16 @@ static std::vector<frond_contact> contacts_of(const PlantBody& body) {
     const LastContacts* kept = body.rest.contacts.get();
     for (const Contact& c : kept ? kept->with_bodies : body.world->contacts)
         if (c.plant == &body && (!kept || is_in(*body.world->bullet, c.other)))
-            out.push_back({from_vec(c.on_plant), from_vec(c.normal), from_vec(c.impulse), c.gap, c.capsule, c.other, {}});
+            out.push_back(
+                {from_vec(c.on_plant), from_vec(c.normal), from_vec(c.impulse), c.gap, c.capsule, c.other, {}});
     for (const PlantContact& c : kept ? kept->with_plants : body.world->plant_contacts) {
         const size_t side = c.plants[0] == &body ? 0 : 1;
         if (c.plants[side] != &body) continue;
         const double sign = side == 0 ? 1 : -1;
         const Vec3 point = side == 0 ? c.point : Vec3(c.point + c.depth * c.normal);
         const PlantBody* other = c.plants[1 - side];
-        out.push_back({from_vec(point), from_vec(sign * c.normal), from_vec(sign * c.impulse), -c.depth, c.sides[side].piece,
-                       other, other->handle});
+        out.push_back({from_vec(point), from_vec(sign * c.normal), from_vec(sign * c.impulse), -c.depth,
+                       c.sides[side].piece, other, other->handle});
     }
     return out;
 }
@@ -275,8 +276,7 @@ frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 positi
         Plant& p = *get_awake(plant).plant;
         check_node(p, node);
         check_vec(position, "position [m]");
-        if (!p.pinned[size_t(node)])
-            fail(FROND_BAD_ARGUMENT, "node %d is not pinned; call frond_plant_pin", node);
+        if (!p.pinned[size_t(node)]) fail(FROND_BAD_ARGUMENT, "node %d is not pinned; call frond_plant_pin", node);
         move_pin(p, node, p.to_model(to_vec(position)));
     });
 }

@@ -53,7 +53,8 @@ size_t check_link(const Robot& robot, int link) {
 size_t check_joint(const Robot& robot, int link) {
     const size_t index = check_link(robot, link);
     if (!moves(robot, index))
-        fail(FROND_BAD_ARGUMENT, "link %d, \"%s\", has no joint that moves", link, robot.tree.links[index].name.c_str());
+        fail(FROND_BAD_ARGUMENT, "link %d, \"%s\", has no joint that moves", link,
+             robot.tree.links[index].name.c_str());
     return index;
 }
 

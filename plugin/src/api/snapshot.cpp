@@ -10,7 +10,8 @@
 using namespace frond;
 
 static std::vector<uint8_t> saved_bytes(World& world) {
-    if (!world.robots.empty()) fail(FROND_UNSUPPORTED, "this world has robots, whose joints no snapshot holds; save without them");
+    if (!world.robots.empty())
+        fail(FROND_UNSUPPORTED, "this world has robots, whose joints no snapshot holds; save without them");
     Snapshot snapshot = take_snapshot(world);
     return bytes_of(snapshot);
 }
@@ -29,7 +30,8 @@ frond_result frond_world_save(frond_world world, void* snapshot, size_t size) {
         check_pointer(snapshot, "snapshot");
         const std::vector<uint8_t> bytes = saved_bytes(w);
         if (size != bytes.size())
-            fail(FROND_BAD_ARGUMENT, "size is %zu, this world's snapshot has %zu bytes; ask frond_world_get_snapshot_size", size,
+            fail(FROND_BAD_ARGUMENT,
+                 "size is %zu, this world's snapshot has %zu bytes; ask frond_world_get_snapshot_size", size,
                  bytes.size());
         std::memcpy(snapshot, bytes.data(), size);
         find_contacts_anew(w);

@@ -23,7 +23,8 @@ frond_result frond_model_write_urdf(frond_model model, const char* path) {
         FILE* file = fopen(path, "w");
         if (!file) fail(FROND_FILE_NOT_FOUND, "%s cannot be written: %s", path, strerror(errno));
         const bool written = fwrite(text.data(), 1, text.size(), file) == text.size();
-        if (fclose(file) != 0 || !written) fail(FROND_FILE_NOT_FOUND, "%s could not be written whole: is the disk full?", path);
+        if (fclose(file) != 0 || !written)
+            fail(FROND_FILE_NOT_FOUND, "%s could not be written whole: is the disk full?", path);
     });
 }
 

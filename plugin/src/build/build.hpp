@@ -13,8 +13,8 @@ std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_mod
 std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def);
 std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def& def);
 
-// Makes organs stiffer that could not carry the plant in the shape in which it was modelled: sets organ_stiffer. Returns
-// the one that needed most.
+// Makes organs stiffer that could not carry the plant in the shape in which it was modelled: sets organ_stiffer.
+// Returns the one that needed most.
 struct WeakOrgan {
     std::string name;   // empty: there is none
     double factor = 1;  // how much stiffer it was made [-]

@@ -53,9 +53,8 @@ static void build_stems(const UrdfTree& tree, const std::vector<UrdfPiece>& piec
         if (piece.shape->has_color) part.color = piece.shape->color;
     }
     find_organs_of_links(tree, links, def, model);
-    model.chain =
-        make_chain_of_stems(stems.data(), int(stems.size()), model.surface, placement_of(made, model.surface),
-                            model.organs, {def.capsule_height, def.capsule_radius}, model.sections);
+    model.chain = make_chain_of_stems(stems.data(), int(stems.size()), model.surface, placement_of(made, model.surface),
+                                      model.organs, {def.capsule_height, def.capsule_radius}, model.sections);
     model.exact_sections = true;
     take_sections(tree, links, turn, model);
     merge_organs(tree, links, model.surface, model.chain, model.organs);

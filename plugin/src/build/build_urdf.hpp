@@ -9,8 +9,8 @@
 
 namespace frond {
 
-// Links of cylinders and capsules alone become stems of just that radius; with other shapes a surface is made of all, and
-// what holds it is measured on that, pieces of links being joined at the links' joints.
+// Links of cylinders and capsules alone become stems of just that radius; with other shapes a surface is made of all,
+// and what holds it is measured on that, pieces of links being joined at the links' joints.
 std::shared_ptr<const Model> build_from_urdf(const std::string& path, const frond_model_def& def);
 
 ImportOptions import_options(const frond_model_def& def);

@@ -31,14 +31,15 @@ double rod_energy(const Model& model, int axis, const std::vector<char>& left_ou
 }
 
 // Elastic energy of organs' tets whose nodes moved [J].
-double cage_energy(const Model& model, const TetElements& elements, const VecX& moved, const std::vector<char>& left_out) {
+double cage_energy(const Model& model, const TetElements& elements, const VecX& moved,
+                   const std::vector<char>& left_out) {
     double sum = 0;
     for (size_t e = 0; e < elements.tets.size(); e++) {
         if (left_out[size_t(model.cage.tet_organ[e])]) continue;
         take_gradients(elements, e, moved, [&](const TetShare& share, const Mat3& F) {
             const double swelling = F.trace();
-            sum += share.volume * (share.mu * (0.5 * (F + F.transpose())).squaredNorm() +
-                                   0.5 * share.lambda * swelling * swelling);
+            sum += share.volume *
+                   (share.mu * (0.5 * (F + F.transpose())).squaredNorm() + 0.5 * share.lambda * swelling * swelling);
         });
     }
     return sum;

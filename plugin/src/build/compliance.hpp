@@ -1,6 +1,6 @@
-// Compliance of an organ that is held at its base: how far each of several unit loads moves the place of each other one,
-// along it. By linear theory, of the organ's rods and of its cage. Forces and moments at the tip tell where it comes to
-// lie and how it turns; a force half-way and weight tell how the way there bends.
+// Compliance of an organ that is held at its base: how far each of several unit loads moves the place of each other
+// one, along it. By linear theory, of the organ's rods and of its cage. Forces and moments at the tip tell where it
+// comes to lie and how it turns; a force half-way and weight tell how the way there bends.
 #pragma once
 
 #include "build/lone_organ.hpp"
@@ -25,13 +25,14 @@ LoadPlaces find_load_places(const Model& plant, int organ);
 // Each piece's share in the compliance of an organ's rods, by chain nodes; zero for those of other organs.
 std::vector<Compliance> rod_compliances(const Model& plant, int organ, const LoadPlaces& places);
 
-// Loads of an organ's cage, one a column: forces and moments on the nodes around their place, shared out as a rigid body would.
+// Loads of an organ's cage, one a column: forces and moments on the nodes around their place, shared out as a rigid
+// body would.
 using CageLoads = Eigen::Matrix<double, Eigen::Dynamic, LOAD_COUNT>;
 CageLoads cage_loads(const LoneOrgan& lone, const TetElements& elements, const Model& plant,
                      const std::vector<int>& hangs, const LoadPlaces& places);
 // Each tet's share in the compliance of an organ's cage; empty if its root does not hold it.
-std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElements& elements,
-                                         StaticStiffness& stiffness, const CageLoads& loads);
+std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElements& elements, StaticStiffness& stiffness,
+                                         const CageLoads& loads);
 
 // Of the edges of a cage's tets [m].
 double mean_edge(const Cage& cage);

@@ -90,8 +90,8 @@ CageLoads cage_loads(const LoneOrgan& lone, const TetElements& elements, const M
     return loads;
 }
 
-std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElements& elements,
-                                         StaticStiffness& stiffness, const CageLoads& loads) {
+std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElements& elements, StaticStiffness& stiffness,
+                                         const CageLoads& loads) {
     const int order = elements.nodes.order;
     if (!stiffness.set(elements, with_middles(elements.nodes, lone.model.root), mechanics(FROND_TET_LINEAR, order),
                        Tangent::positive, elements.rest_positions))

@@ -34,7 +34,7 @@ bool span_triangle(const std::vector<Vec3>& points, double size) {
     for (const Vec3& p : points)
         if ((p - points[0]).squaredNorm() > (far - points[0]).squaredNorm()) far = p;
     const Vec3 line = far - points[0];
-    constexpr double LEAST = 0.003; // width of the triangle over the size of the body [-]
+    constexpr double LEAST = 0.003;  // width of the triangle over the size of the body [-]
     return std::any_of(points.begin(), points.end(), [&](const Vec3& p) {
         return line.cross(p - points[0]).norm() > LEAST * size * line.norm() && line.norm() > LEAST * size;
     });

@@ -1,9 +1,10 @@
 // In: an organ's cage, alone, and its rods. Out: moduli of the tets with which the cage has the rods' compliance.
 //
 // First as a whole and place by place: under equal loads elastic energy is inversely proportional to modulus, so the
-// ratio of energies, cage over rods, is the factor. Then tet by tet, because a lattice of one cell across is not equally
-// stiff in all directions and hard to twist: Gauss-Newton rounds, each the least change of the moduli's logarithms after
-// which all compliances match, within bounds, since tets that are much softer than those around them turn inside out.
+// ratio of energies, cage over rods, is the factor. Then tet by tet, because a lattice of one cell across is not
+// equally stiff in all directions and hard to twist: Gauss-Newton rounds, each the least change of the moduli's
+// logarithms after which all compliances match, within bounds, since tets that are much softer than those around them
+// turn inside out.
 #include "build/fit_moduli.hpp"
 
 #include <algorithm>
@@ -48,7 +49,8 @@ double first_modulus(const Section& section, double stiffer, double edge, double
 
 // ---- place by place ----------------------------------------------------------------------------------------------
 
-// Places along an organ are not told apart more finely than its tets do: each chain node's first node of such a stretch.
+// Places along an organ are not told apart more finely than its tets do: each chain node's first node of such a
+// stretch.
 std::vector<int> stretches(const Chain& chain, int organ, double length) {
     std::vector<int> first(chain.nodes.size());
     for (size_t i = 0; i < first.size(); i++) {
@@ -159,7 +161,7 @@ struct Errors {
 // Of a load with itself the error is the logarithm of the ratio, cage over rods; of two loads the difference of their
 // correlations.
 Errors errors_of(const std::vector<Compliance>& shares, const Compliance& rods, Aim aim) {
-    constexpr double LARGE = 0.5;   // an error beyond which it counts less, because it may be beyond mending [-]
+    constexpr double LARGE = 0.5;  // an error beyond which it counts less, because it may be beyond mending [-]
     using Sizes = Eigen::Matrix<double, LOAD_COUNT, 1>;
     const Compliance cage = sum_of(shares);
     Sizes floors;
@@ -176,10 +178,9 @@ Errors errors_of(const std::vector<Compliance>& shares, const Compliance& rods, 
     for (Eigen::Index k = 0; k < errors.value.size(); k++) {
         const auto [i, j] = pairs[size_t(k)];
         const double size = std::sqrt(is[i] * is[j]), alike = cage(i, j) / size;
-        const double error = i == j ? std::log(is[i] / wanted[i])
-                                    : alike - rods(i, j) / std::sqrt(wanted[i] * wanted[j]);
-        const double counts =
-            std::sqrt(weight_of(i, aim) * weight_of(j, aim) / (1 + error * error / (LARGE * LARGE)));
+        const double error =
+            i == j ? std::log(is[i] / wanted[i]) : alike - rods(i, j) / std::sqrt(wanted[i] * wanted[j]);
+        const double counts = std::sqrt(weight_of(i, aim) * weight_of(j, aim) / (1 + error * error / (LARGE * LARGE)));
         errors.value[k] = counts * error;
         for (size_t e = 0; e < shares.size(); e++) {
             const double by_sizes = i == j ? 0 : 0.5 * alike * (shares[e](i, i) / is[i] + shares[e](j, j) / is[j]);
@@ -239,8 +240,9 @@ bool fit_rounds(Bench& bench, Aim aim, int rounds, Progress& progress) {
             progress.best_error = worst;
             progress.best_change = progress.change;
         }
-        const VecX step = least_change(errors.slope, -errors.value, (softest - progress.change.array()).max(-LARGEST_STEP),
-                                       (stiffest - progress.change.array()).min(LARGEST_STEP), RIGID);
+        const VecX step =
+            least_change(errors.slope, -errors.value, (softest - progress.change.array()).max(-LARGEST_STEP),
+                         (stiffest - progress.change.array()).min(LARGEST_STEP), RIGID);
         move_to(bench, progress, progress.change + step);
     }
     return true;
@@ -256,8 +258,8 @@ bool fit_tets(Bench& bench) {
         move_to(bench, progress, progress.best_change);
         worst = worst_errors(bench.measure(), bench.rods);
     }
-    // Where that is not to be had, as in blades one cell thick and many times as wide, tets are drawn apart in vain, and the
-    // softest turn inside out when the plant is pulled.
+    // Where that is not to be had, as in blades one cell thick and many times as wide, tets are drawn apart in vain,
+    // and the softest turn inside out when the plant is pulled.
     if (worst.all > MENDED)
         move_to(bench, progress, before);
     else if (worst.across > BENDS && !bench.is_blade())

@@ -78,8 +78,8 @@ static VecX energies_of(const TetElements& elements, frond_mechanics which, cons
         take_gradients(elements, e, shape, [&](const TetShare& share, const Mat3& change) {
             const Mat3 gradient = turned[q++].transpose() * change;
             const Mat3 strain = 0.5 * (gradient + gradient.transpose());
-            energies[Eigen::Index(e)] += share.volume * (2 * share.mu * strain.squaredNorm() +
-                                                         share.lambda * strain.trace() * strain.trace());
+            energies[Eigen::Index(e)] +=
+                share.volume * (2 * share.mu * strain.squaredNorm() + share.lambda * strain.trace() * strain.trace());
         });
     }
     return energies;
@@ -103,9 +103,8 @@ SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanic
     for (size_t e = 0; e < elements.tets.size(); e++)
         if (!rods.carries[size_t(model.cage.tet_organ[e])]) slope.col(Eigen::Index(e)).setZero();
     if (!errors.allFinite() || !slope.allFinite()) return {};
-    return {errors.lpNorm<Eigen::Infinity>(),
-            least_change(slope, errors, (-FARTHEST - done.array()).max(-LARGEST_STEP),
-                         (FARTHEST - done.array()).min(LARGEST_STEP), RIGID)};
+    return {errors.lpNorm<Eigen::Infinity>(), least_change(slope, errors, (-FARTHEST - done.array()).max(-LARGEST_STEP),
+                                                           (FARTHEST - done.array()).min(LARGEST_STEP), RIGID)};
 }
 
 }  // namespace frond

@@ -17,7 +17,7 @@ RodSways find_sways(const Model& model, const RodElements& elements, frond_mecha
 // What is wanting to a cage's sways.
 struct SwayGap {
     double error = 0;  // the larger one of the logarithms of the frequencies' squares, rods over cage [-]
-    VecX change;       // the least one of the logarithms of the tets' moduli, in organs that carry the plant, that mends it
+    VecX change;  // the least one of the logarithms of the tets' moduli, in organs that carry the plant, that mends it
 };
 // Of a cage at x, whose exact stiffness is factorized; within bounds, `done` being what was changed before.
 SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanics which, const VecX& x,

@@ -33,8 +33,7 @@ std::vector<int> organ_parents(const Model& model) {
 std::vector<double> borne_masses(const Model& model, const std::vector<int>& parents) {
     std::vector<double> own(model.organs.size(), 0.0);
     for (size_t e = 0; e < model.cage.tets.size(); e++)
-        own[size_t(model.cage.tet_organ[e])] +=
-            model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
+        own[size_t(model.cage.tet_organ[e])] += model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
     std::vector<double> borne = own;
     for (size_t o = 0; o < own.size(); o++) {
         size_t steps = 0;
@@ -50,8 +49,7 @@ std::vector<std::vector<int>> node_organs(const Cage& cage) {
     for (size_t e = 0; e < cage.tets.size(); e++)
         for (int corner : cage.tets[e]) {
             std::vector<int>& list = organs[size_t(corner)];
-            if (std::find(list.begin(), list.end(), cage.tet_organ[e]) == list.end())
-                list.push_back(cage.tet_organ[e]);
+            if (std::find(list.begin(), list.end(), cage.tet_organ[e]) == list.end()) list.push_back(cage.tet_organ[e]);
         }
     return organs;
 }

@@ -104,9 +104,9 @@ int organ_of_largest(const Model& model, const TetElements& elements, const VecX
 // Balances a share of gravity from where the search stands; false, with the search where it was, if that fails.
 bool balance(Search& search, double gravity) {
     constexpr int ROUNDS = 25;
-    constexpr double TOLERANCE = 3e-9;  // how far a node is from its balance, over the plant's size [-]
+    constexpr double TOLERANCE = 3e-9;   // how far a node is from its balance, over the plant's size [-]
     constexpr double LEAST_SHARE = 0.1;  // of a move; less gets nowhere [-]
-    constexpr int PATIENCE = 5;         // rounds in which moves must become half as large
+    constexpr int PATIENCE = 5;          // rounds in which moves must become half as large
     const VecX start = search.rest;
     std::vector<double> sizes;
     VecX move = VecX::Zero(search.x.size());
@@ -130,10 +130,10 @@ bool balance(Search& search, double gravity) {
 
 // What came of a search for a rest shape.
 struct Outcome {
-    VecX rest;                 // empty unless the plant stands
+    VecX rest;                   // empty unless the plant stands
     std::vector<double> shares;  // of organs in the energy of the motion in which it topples; empty unless it does
-    double overload = 1;       // how many times too heavy it then is [-]
-    int torn = -1;             // else the organ at which no balance was found
+    double overload = 1;         // how many times too heavy it then is [-]
+    int torn = -1;               // else the organ at which no balance was found
 };
 
 // One organ's tets of an elements' pattern.
@@ -172,7 +172,8 @@ void add_work_of_tets(Search& search, const VecX& move, std::vector<double>& wor
     for (size_t organ = 0; organ < work.size(); organ++) {
         if (!has_tets[organ]) continue;
         own.set_zero();
-        search.row.add_stiffness(take_organ(search.elements, tet_organ, int(organ)), search.x, Tangent::positive, 1, own);
+        search.row.add_stiffness(take_organ(search.elements, tet_organ, int(organ)), search.x, Tangent::positive, 1,
+                                 own);
         own.multiply(move, product);
         work[organ] += move.dot(product);
     }
@@ -189,10 +190,9 @@ Outcome find_outcome(Search& search) {
     Outcome outcome;
     outcome.overload = toppling.overload;
 
-    outcome.shares = find_shares(toppling, search.stiffness, taken, search.held, search.model.organs.size(),
-                                 [&](const VecX& move, std::vector<double>& work) {
-                                     add_work_of_tets(search, move, work);
-                                 });
+    outcome.shares =
+        find_shares(toppling, search.stiffness, taken, search.held, search.model.organs.size(),
+                    [&](const VecX& move, std::vector<double>& work) { add_work_of_tets(search, move, work); });
     return outcome;
 }
 
@@ -229,8 +229,8 @@ VecX fit_sway(Search& search, const RodSways& rods) {
     const auto find = [&] {
         if (!search.stiffness.set(search.elements, search.held, search.row, Tangent::exact, search.x))
             return SwayGap{INFINITY, {}};
-        return find_gap(search.model, search.elements, search.which, search.x, search.stiffness.factor, search.held, rods,
-                        done);
+        return find_gap(search.model, search.elements, search.which, search.x, search.stiffness.factor, search.held,
+                        rods, done);
     };
     SwayGap gap = find();
     double share = 1;
@@ -310,8 +310,8 @@ WeakOrgan find_rest_shape(Model& model, int order) {
     constexpr int MOST_TRIES = 40;
     std::vector<double> factor(model.organs.size(), 1.0);
     // Where all materials are Frond's choice, a touch must not topple the plant either; rods have more margin.
-    const bool given = std::any_of(model.organs.begin(), model.organs.end(),
-                                   [](const Organ& organ) { return organ.material_given; });
+    const bool given =
+        std::any_of(model.organs.begin(), model.organs.end(), [](const Organ& organ) { return organ.material_given; });
     const double margin = given ? 1 : MARGIN;
     stiffen_torn_organs(model, order);
     auto search = std::make_unique<Search>(model, FROND_TET_COROTATIONAL, order);

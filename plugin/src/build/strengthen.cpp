@@ -49,16 +49,16 @@ std::vector<double> organ_turns(const Model& model) {
         for (size_t i = 0; i < nodes.size(); i++) {
             if (nodes[i].parent < 0) continue;
             const size_t parent = size_t(nodes[i].parent), organ = size_t(nodes[i].organ);
-            turn[i] = model.sections[i].length * curvature[i] +
-                      (nodes[parent].organ == nodes[i].organ ? turn[parent] : 0.0);
+            turn[i] =
+                model.sections[i].length * curvature[i] + (nodes[parent].organ == nodes[i].organ ? turn[parent] : 0.0);
             turns[organ] = std::max(turns[organ], turn[i]);
         }
     }
     return turns;
 }
 
-// Rods of a plant that stands, with the stiffness that resists, where each organ is weaker by its safety factor, and what
-// weight takes from it.
+// Rods of a plant that stands, with the stiffness that resists, where each organ is weaker by its safety factor, and
+// what weight takes from it.
 struct Standing {
     RodElements elements, weaker;
     std::vector<uint8_t> held;
@@ -127,11 +127,11 @@ void strengthen_rods(const Model& model, frond_mechanics which, const std::funct
         if (!standing.is_sound) break;
         const Toppling toppling = find_toppling(standing.resisting, standing.taken, standing.held);
         if (!(toppling.overload > 1)) break;
-        const std::vector<double> shares = find_shares(
-            toppling, standing.resisting, standing.taken, standing.held, stiffer.size(),
-            [&](const VecX& move, std::vector<double>& work) {
-                add_work_of_rods(model, standing.weaker, which, move, work);
-            });
+        const std::vector<double> shares =
+            find_shares(toppling, standing.resisting, standing.taken, standing.held, stiffer.size(),
+                        [&](const VecX& move, std::vector<double>& work) {
+                            add_work_of_rods(model, standing.weaker, which, move, work);
+                        });
         const std::vector<double> factors = stiffer_by(shares, toppling.overload);
         for (size_t o = 0; o < stiffer.size(); o++) stiffer[o] *= factors[o];
     }
@@ -146,7 +146,8 @@ WeakOrgan strengthen(Model& model) {
         stiffer[o] = given ? 1 : std::max(1.0, turns[o] / LARGEST_TURN);
         safety.push_back(given ? SAFETY_OF_GIVEN : SAFETY);
     }
-    strengthen_rods(model, FROND_ROD, [&] { return make_rod_elements(model, FROND_ROD); }, safety, stiffer);
+    strengthen_rods(
+        model, FROND_ROD, [&] { return make_rod_elements(model, FROND_ROD); }, safety, stiffer);
 
     // Organs of no weight to speak of, silk and hairs, are not worth a word.
     constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]

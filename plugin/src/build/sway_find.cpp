@@ -42,7 +42,7 @@ static VecX move_along(const Vec3& direction, const std::vector<uint8_t>& still)
 static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still,
                        const Vec3& direction) {
     constexpr int MOST_STEPS = 12;
-    constexpr double CLOSE = 0.3;  // of logarithms of frequencies' squares: modes that sway together [-]
+    constexpr double CLOSE = 0.3;       // of logarithms of frequencies' squares: modes that sway together [-]
     std::vector<VecX> basis, weighted;  // of unit mass, and times the masses
     VecX next = move_along(direction, still);
     Eigen::MatrixXd T = Eigen::MatrixXd::Zero(MOST_STEPS, MOST_STEPS);

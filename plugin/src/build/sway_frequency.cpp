@@ -46,8 +46,7 @@ double sway_frequency(const std::shared_ptr<const Model>& model) {
     if (!stiffness.set(elements, still, FROND_ROD, Tangent::positive, elements.modelled))
         fail(FROND_BAD_GEOMETRY, "the plant's rods have no stiffness; check its materials and radii");
     const Bent sway = find_sway(*system, stiffness, still);
-    if (sway.mass == 0)
-        fail(FROND_BAD_GEOMETRY, "the plant has no part that could sway: its chain is a root alone");
+    if (sway.mass == 0) fail(FROND_BAD_GEOMETRY, "the plant has no part that could sway: its chain is a root alone");
     return std::sqrt(sway.square()) / (2 * M_PI);
 }
 

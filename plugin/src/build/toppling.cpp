@@ -51,7 +51,8 @@ Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, con
 std::vector<double> find_shares(const Toppling& toppling, StaticStiffness& resisting, const BlockMatrix& taken,
                                 const std::vector<uint8_t>& held, size_t organ_count,
                                 const std::function<void(const VecX& move, std::vector<double>& work)>& add_work) {
-    // What weight takes in the motion bends the body in it once more, now without the noise that stiff organs feel most.
+    // What weight takes in the motion bends the body in it once more, now without the noise that stiff organs feel
+    // most.
     VecX product(toppling.mode.size()), smooth(toppling.mode.size());
     taken.multiply(toppling.mode, product);
     hold(held, product);

@@ -1,6 +1,6 @@
-// Toppling: the way in which a body gives way first under its weight. Linear buckling: with P the stiffness that resists
-// and G what weight takes from it, the mode of the largest eigenvalue of P^-1 G; a body is stable while that is below
-// one (Greenhill 1881 for a single stem).
+// Toppling: the way in which a body gives way first under its weight. Linear buckling: with P the stiffness that
+// resists and G what weight takes from it, the mode of the largest eigenvalue of P^-1 G; a body is stable while that is
+// below one (Greenhill 1881 for a single stem).
 #pragma once
 
 #include <functional>

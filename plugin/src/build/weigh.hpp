@@ -5,8 +5,8 @@
 
 namespace frond {
 
-// The chain node that each tet's weight hangs on: of its organ's nodes that of most vertices in it, else the nearest; of
-// all nodes where its organ has none.
+// The chain node that each tet's weight hangs on: of its organ's nodes that of most vertices in it, else the nearest;
+// of all nodes where its organ has none.
 std::vector<int> hang_tets(const Model& model);
 
 // One a chain node.

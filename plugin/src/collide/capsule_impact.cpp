@@ -67,10 +67,10 @@ std::optional<Impact> first_impact(const Capsule& a_before, const Capsule& a_aft
 
 std::optional<Impact> first_impact(const Capsule& a_before, const Capsule& a_after, const Corners& b_before,
                                    const Corners& b_after) {
-    return advance(
-        Points<2>{a_before.begin, a_before.end}, Points<2>{a_after.begin, a_after.end}, b_before, b_after,
-        a_before.radius,
-        [&](const Points<2>& a, const Corners& b) { return gap_between(capsule_of(a, a_before.radius), b); });
+    return advance(Points<2>{a_before.begin, a_before.end}, Points<2>{a_after.begin, a_after.end}, b_before, b_after,
+                   a_before.radius, [&](const Points<2>& a, const Corners& b) {
+                       return gap_between(capsule_of(a, a_before.radius), b);
+                   });
 }
 
 }  // namespace frond

@@ -17,9 +17,7 @@ struct NumberLists {
     };
     std::vector<int> start = {0};  // one more than there are lists
     std::vector<int> numbers;
-    Range operator[](int i) const {
-        return {numbers.data() + start[size_t(i)], numbers.data() + start[size_t(i) + 1]};
-    }
+    Range operator[](int i) const { return {numbers.data() + start[size_t(i)], numbers.data() + start[size_t(i) + 1]}; }
 };
 
 struct Collider {
@@ -31,14 +29,14 @@ struct Collider {
     // The boundary: faces of one tet only.
     std::vector<Triangle> faces;  // anticlockwise seen from outside
     std::vector<int> face_tet;
-    NumberLists tet_faces;                      // of a tet: those of its faces that are on the boundary
-    std::vector<Triangle> face_edges;           // edge k is between corners k and k + 1
-    std::vector<std::array<int, 2>> edges;      // nodes, ascending
+    NumberLists tet_faces;                       // of a tet: those of its faces that are on the boundary
+    std::vector<Triangle> face_edges;            // edge k is between corners k and k + 1
+    std::vector<std::array<int, 2>> edges;       // nodes, ascending
     std::vector<std::array<int, 2>> edge_faces;  // two of the faces at it, which may be more
 
     std::vector<int> node_tet;  // one of a node's tets; 0 for a node without any
-    NumberLists neighbours;   // of a node: those at the other ends of the tets' edges
-    NumberLists node_pieces;  // of a node: the pieces of its tets
+    NumberLists neighbours;     // of a node: those at the other ends of the tets' edges
+    NumberLists node_pieces;    // of a node: the pieces of its tets
     NumberLists piece_nodes;
 
     // Pieces that do not collide with each other: the same one, those that share a node, as at a joint, and those that

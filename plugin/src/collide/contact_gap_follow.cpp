@@ -64,7 +64,8 @@ bool follow_contact(const CollisionBody& a, const CollisionBody& b, double reach
     const double cosine = gap > TOUCHING ? apart.dot(contact.normal) / gap : 1;
     if (std::abs(cosine) < TURNED) return false;
     const Triangle& face = b.collider->faces[size_t(nearest_face)];
-    const std::array<double, 3> weights = weights_in({b.places[face[0]], b.places[face[1]], b.places[face[2]]}, nearest.b);
+    const std::array<double, 3> weights =
+        weights_in({b.places[face[0]], b.places[face[1]], b.places[face[2]]}, nearest.b);
     contact.b = side_of_nodes(*b.collider, contact.b.body, face.data(), weights.data(), 3,
                               b.collider->face_tet[size_t(nearest_face)]);
     if (contact.a.node_count == 2) {

@@ -20,10 +20,10 @@ struct CollisionBody {
 // through.
 struct OverlapScene {
     std::vector<CollisionBody> bodies;
-    std::vector<int> first_node;  // of a body
-    std::vector<Vec3> places;     // of all nodes
-    std::vector<int> node, node_body;           // in its body's numbering; one a node that takes part
-    std::vector<int> tet, tet_body;             // likewise
+    std::vector<int> first_node;       // of a body
+    std::vector<Vec3> places;          // of all nodes
+    std::vector<int> node, node_body;  // in its body's numbering; one a node that takes part
+    std::vector<int> tet, tet_body;    // likewise
     std::vector<int> face, face_body;
     std::vector<int> edge, edge_body;
     const Vec3& place(int body, int n) const { return places[size_t(first_node[size_t(body)] + n)]; }

@@ -71,8 +71,8 @@ static bool takes_part(const CollisionBody& body, int tet) {
 
 static void fill_tets(OverlapScene& s, const std::vector<CollisionBody>& bodies) {
     s.bodies = bodies;
-    for (auto* list : {&s.first_node, &s.node, &s.node_body, &s.tet, &s.tet_body, &s.face, &s.face_body, &s.edge,
-                       &s.edge_body})
+    for (auto* list :
+         {&s.first_node, &s.node, &s.node_body, &s.tet, &s.tet_body, &s.face, &s.face_body, &s.edge, &s.edge_body})
         list->clear();
     s.places.clear();
     for (size_t b = 0; b < bodies.size(); ++b) {
@@ -86,8 +86,8 @@ static void fill_tets(OverlapScene& s, const std::vector<CollisionBody>& bodies)
     }
 }
 
-// Marks the tets of one body, those from first on, whose boxes meet one of a piece that is not near their own: as cells are
-// wider than pieces, nearly all of a plant would share one with such a piece.
+// Marks the tets of one body, those from first on, whose boxes meet one of a piece that is not near their own: as cells
+// are wider than pieces, nearly all of a plant would share one with such a piece.
 static void keep_parts_that_meet(OverlapSearch& search, size_t first, size_t last, std::vector<uint8_t>& kept) {
     const OverlapScene& s = search.scene;
     std::vector<BoxSet::Bounds>& boxes = search.queries.boxes;
@@ -115,7 +115,8 @@ static void keep_parts_that_meet(OverlapSearch& search, size_t first, size_t las
     }
     for (size_t a = 0; a < parts.size(); ++a)
         for (size_t b = 0; b < a; ++b) {
-            if (!boxes_meet(parts[a].whole, parts[b].whole) || collider.are_near(parts[a].piece, parts[b].piece)) continue;
+            if (!boxes_meet(parts[a].whole, parts[b].whole) || collider.are_near(parts[a].piece, parts[b].piece))
+                continue;
             for (const size_t i : parts[a].tets) {
                 if (!boxes_meet(boxes[i], parts[b].whole)) continue;
                 for (const size_t j : parts[b].tets)

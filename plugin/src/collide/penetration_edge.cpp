@@ -1,10 +1,10 @@
 // Contacts of edges: edges of one body that go through faces of another come in, contacts with depth and normal go out.
 // Where an edge passes through without an end inside and a boundary edge of the other body is beside the faces that are
 // gone through, and both edges are the outermost along the line across both (the Gauss-map test of edge pairs in
-// separating-axis tests: Gregorius 2013, "The Separating Axis Test between Convex Polyhedra"), that is the way out; edges
-// deeper inside take it over from their neighbours as nodes do. An edge that hangs on a node inside leaves as that does.
-// Along its way out an edge may have a ridge of the other body above it, farther than its end or its first way tells:
-// then it has to pass that too.
+// separating-axis tests: Gregorius 2013, "The Separating Axis Test between Convex Polyhedra"), that is the way out;
+// edges deeper inside take it over from their neighbours as nodes do. An edge that hangs on a node inside leaves as
+// that does. Along its way out an edge may have a ridge of the other body above it, farther than its end or its first
+// way tells: then it has to pass that too.
 #include <algorithm>
 #include <map>
 
@@ -33,11 +33,13 @@ static bool goes_in(const OverlapSearch& search, const BodyPair& pair, int edge,
     return face_normal(scene, pair.b, scene.face[size_t(search.edges[size_t(overlap)].face)]).dot(along) < 0;
 }
 
-// Cuts an edge at the overlaps from first to last. Where copies of cells overlap it may go in twice before it comes out.
+// Cuts an edge at the overlaps from first to last. Where copies of cells overlap it may go in twice before it comes
+// out.
 static void cut_edge(const OverlapSearch& search, const BodyPair& pair, int edge, const int* first, const int* last,
                      bool begins_inside, std::vector<Chord>& chords) {
     int level = 0, least = 0;
-    for (const int* k = first; k != last; ++k) least = std::min(least, level += goes_in(search, pair, edge, *k) ? 1 : -1);
+    for (const int* k = first; k != last; ++k)
+        least = std::min(least, level += goes_in(search, pair, edge, *k) ? 1 : -1);
     level = begins_inside ? std::max(1, -least) : -least;
     Chord chord = {edge};
     if (!begins_inside && level > 0) chord.first = *first;  // only by rounding
@@ -189,7 +191,8 @@ static void leave_anyhow(const OverlapSearch& search, const BodyPair& pair, cons
     // Half of what is inside.
     way.normal = normal.normalized();
     way.depth = 0.5 * (edge_place(scene, pair.a, chord.edge, search.edges[size_t(chord.last)].along) -
-                       edge_place(scene, pair.a, chord.edge, search.edges[size_t(chord.first)].along)).norm();
+                       edge_place(scene, pair.a, chord.edge, search.edges[size_t(chord.first)].along))
+                          .norm();
     way.known = true;
 }
 
@@ -225,8 +228,8 @@ static CageContact contact_of(const OverlapSearch& search, const BodyPair& pair,
         contact.b = side_of_nodes(b, pair.b, b.edges[size_t(chord.other_edge)].data(), other.data(), 2, tet);
     } else {
         const int face = scene.face[size_t(overlap.face)];
-        contact.b = side_of_nodes(b, pair.b, b.faces[size_t(face)].data(), overlap.weights.data(), 3,
-                                  b.face_tet[size_t(face)]);
+        contact.b =
+            side_of_nodes(b, pair.b, b.faces[size_t(face)].data(), overlap.weights.data(), 3, b.face_tet[size_t(face)]);
     }
     contact.point = edge_place(scene, pair.a, chord.edge, along);
     contact.normal = way.normal;
@@ -252,7 +255,8 @@ void find_edge_contacts(const OverlapSearch& search, const BodyPair& pair, const
     const OverlapScene& scene = search.scene;
     const Collider &a = *scene.bodies[size_t(pair.a)].collider, &b = *scene.bodies[size_t(pair.b)].collider;
     std::vector<Chord> chords = find_chords(search, pair, inside);
-    const auto first_hanging = std::stable_partition(chords.begin(), chords.end(), [](const Chord& c) { return !c.hangs(); });
+    const auto first_hanging =
+        std::stable_partition(chords.begin(), chords.end(), [](const Chord& c) { return !c.hangs(); });
     const size_t through = size_t(first_hanging - chords.begin());
     std::vector<WayOut> ways(through);
     std::vector<int> candidates;

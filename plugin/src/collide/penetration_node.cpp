@@ -82,8 +82,8 @@ static void leave_nearest(const OverlapScene& scene, int body, WayOut& way) {
     }
 }
 
-// A node with few others inside, as a leaf's tip, needs not agree with many: edges that go along a blade would have it leave
-// lengthwise. No node does where that is very far.
+// A node with few others inside, as a leaf's tip, needs not agree with many: edges that go along a blade would have it
+// leave lengthwise. No node does where that is very far.
 static void leave_shortly(const OverlapScene& scene, int body, size_t neighbours, WayOut& way) {
     constexpr double SHORTER = 0.25, FAR_SHORTER = 0.125;
     constexpr size_t FEW = 2;

@@ -1,5 +1,5 @@
-// Lanes: several numbers that the processor works on at once, and vectors and matrices of them. Each number comes out as
-// if it were alone, to the last bit, whatever the width: the processor's own square roots and no fused products.
+// Lanes: several numbers that the processor works on at once, and vectors and matrices of them. Each number comes out
+// as if it were alone, to the last bit, whatever the width: the processor's own square roots and no fused products.
 #pragma once
 
 #if defined(__SSE2__)
@@ -94,8 +94,8 @@ template <class S>
 FROND_INLINE S constant(double value) {
     return S{} + value;
 }
-// GCC makes one mask of those of selections within each other, and in eight lanes works that out lane by lane: it is kept
-// from looking through them.
+// GCC makes one mask of those of selections within each other, and in eight lanes works that out lane by lane: it is
+// kept from looking through them.
 template <class Mask, class S>
 FROND_INLINE S select(const Mask& mask, const S& yes, const S& no) {
 #if defined(__x86_64__) && !defined(__clang__)
@@ -210,14 +210,22 @@ FROND_INLINE S polynomial(const double (&c)[N], const S& x) {
     return sum;
 }
 
-// Within 4e-16 for angles of a few turns, less so the larger they are: what is left of it beside whole half turns, halved, by their series.
+// Within 4e-16 for angles of a few turns, less so the larger they are: what is left of it beside whole half turns,
+// halved, by their series.
 template <class S>
 FROND_INLINE void sine_cosine(const S& angle, S& sine, S& cosine) {
     constexpr double PI_BELOW = 1.2246467991473532e-16;  // what M_PI leaves of pi
-    constexpr double SINE[] = {1, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800,
-                               -1.0 / 1307674368000};
-    constexpr double COSINE[] = {1, -1.0 / 2, 1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800, 1.0 / 479001600,
-                                 -1.0 / 87178291200, 1.0 / 20922789888000};
+    constexpr double SINE[] = {
+        1, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000};
+    constexpr double COSINE[] = {1,
+                                 -1.0 / 2,
+                                 1.0 / 24,
+                                 -1.0 / 720,
+                                 1.0 / 40320,
+                                 -1.0 / 3628800,
+                                 1.0 / 479001600,
+                                 -1.0 / 87178291200,
+                                 1.0 / 20922789888000};
     const S turns = whole<S>(angle * (1 / M_PI));
     const S half = ((angle - turns * M_PI) - turns * PI_BELOW) * 0.5, square = half * half;
     const S odd = turns - 2.0 * whole<S>(turns * 0.5);
@@ -358,7 +366,9 @@ FROND_INLINE Lanes33<S> turning(const Lanes3<S>& v, const S& a, const S& b) {
     const S bx = b * v.x, by = b * v.y, bz = b * v.z;
     const S xx = bx * v.x, yy = by * v.y, zz = bz * v.z, xy = bx * v.y, xz = bx * v.z, yz = by * v.z;
     const Lanes3<S> w = a * v;
-    return {{{1.0 - (yy + zz), xy - w.z, xz + w.y}, {xy + w.z, 1.0 - (xx + zz), yz - w.x}, {xz - w.y, yz + w.x, 1.0 - (xx + yy)}}};
+    return {{{1.0 - (yy + zz), xy - w.z, xz + w.y},
+             {xy + w.z, 1.0 - (xx + zz), yz - w.x},
+             {xz - w.y, yz + w.x, 1.0 - (xx + yy)}}};
 }
 
 }  // namespace frond

@@ -1,5 +1,6 @@
-// Looks at URDF text before urdfdom does, which overflows its stack on deep files, takes cycles for trees and drops what
-// it cannot read: XML comes in; out go the same elements with capsules as cylinders, and notes on what is beside them.
+// Looks at URDF text before urdfdom does, which overflows its stack on deep files, takes cycles for trees and drops
+// what it cannot read: XML comes in; out go the same elements with capsules as cylinders, and notes on what is beside
+// them.
 #include <tinyxml2.h>
 
 #include <algorithm>
@@ -97,7 +98,8 @@ static void check_type(const XMLElement& joint) {
     const std::string type = attribute(joint, "type");
     if (!TYPES.count(type))
         fail(FROND_FILE_FORMAT,
-             "line %d: joint \"%.64s\" is of type \"%.32s\"; there are fixed, revolute, continuous, prismatic and floating "
+             "line %d: joint \"%.64s\" is of type \"%.32s\"; there are fixed, revolute, continuous, prismatic and "
+             "floating "
              "ones, of which others can be put together",
              joint.GetLineNum(), attribute(joint, "name").c_str(), type.c_str());
 }
@@ -112,7 +114,8 @@ static void check_tree(const XMLElement& root, const UrdfText& text) {
                           child = end_of(*joint, "child");
         for (const std::string& end : {parent, child})
             if (!text.links.count(end))
-                fail(FROND_FILE_FORMAT, "line %d: joint \"%.64s\" names the link \"%.64s\", which the file does not have",
+                fail(FROND_FILE_FORMAT,
+                     "line %d: joint \"%.64s\" names the link \"%.64s\", which the file does not have",
                      joint->GetLineNum(), name.c_str(), end.c_str());
         if (!has_parent.insert(child).second)
             fail(FROND_FILE_FORMAT, "line %d: joint \"%.64s\" gives link \"%.64s\" a second parent; links have one",

@@ -41,10 +41,11 @@ static std::string find_in_package(const std::string& folder, const std::string&
         // The package's own folder, whatever it was renamed to.
         if (is_file(above + "/package.xml") && is_file(above + "/" + path)) return above + "/" + path;
     }
-    fail(FROND_FILE_NOT_FOUND,
-         "the mesh package://%.64s/%.256s was not found; set FROND_PACKAGE_PATH to the folder in which the folder %.64s "
-         "lies",
-         package.c_str(), path.c_str(), package.c_str());
+    fail(
+        FROND_FILE_NOT_FOUND,
+        "the mesh package://%.64s/%.256s was not found; set FROND_PACKAGE_PATH to the folder in which the folder %.64s "
+        "lies",
+        package.c_str(), path.c_str(), package.c_str());
 }
 
 std::string find_mesh(const std::string& folder, const std::string& reference) {

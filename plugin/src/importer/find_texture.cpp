@@ -91,9 +91,9 @@ std::string find_beside(const std::string& folder, const std::string& reference)
 
 // ---- pictures ----
 
-static const char* const PICTURE_FOLDERS[] = {"/textures",    "/materials/textures", "/texture", "/images", "/maps",
-                                              "/../textures", "/../materials/textures", "/../texture", "/../images",
-                                              "/../maps"};
+static const char* const PICTURE_FOLDERS[] = {
+    "/textures",    "/materials/textures",    "/texture",    "/images",    "/maps",
+    "/../textures", "/../materials/textures", "/../texture", "/../images", "/../maps"};
 
 // Letters small, ending off: "Work/Leaf.PNG" -> "leaf"; its ending with the dot goes to `ending`.
 static std::string stem_of(const std::string& path, std::string& ending) {

@@ -32,14 +32,15 @@ static FileFormat format_by_name(const std::string& name) {
     static const struct {
         const char* ending;
         FileFormat format;
-    } ROWS[] = {{".obj", FileFormat::OBJ}, {".ply", FileFormat::PLY}, {".gltf", FileFormat::GLTF},
-                {".glb", FileFormat::GLB}, {".fbx", FileFormat::FBX}, {".dae", FileFormat::DAE},
+    } ROWS[] = {{".obj", FileFormat::OBJ}, {".ply", FileFormat::PLY},  {".gltf", FileFormat::GLTF},
+                {".glb", FileFormat::GLB}, {".fbx", FileFormat::FBX},  {".dae", FileFormat::DAE},
                 {".stl", FileFormat::STL}, {".urdf", FileFormat::URDF}};
     const size_t dot = name.rfind('.');
     const std::string ending = dot == std::string::npos ? "" : name.substr(dot);
     for (const auto& row : ROWS)
         if (strcasecmp(row.ending, ending.c_str()) == 0) return row.format;
-    fail(FROND_FILE_FORMAT, "the name ends in \"%s\"; meshes are read from .obj .ply .gltf .glb .fbx .dae .stl, trees of links from .urdf",
+    fail(FROND_FILE_FORMAT,
+         "the name ends in \"%s\"; meshes are read from .obj .ply .gltf .glb .fbx .dae .stl, trees of links from .urdf",
          ending.c_str());
 }
 

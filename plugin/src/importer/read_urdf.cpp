@@ -111,7 +111,8 @@ void take_material(const urdf::Visual& visual, UrdfShape& shape) {
 void check_count(const std::string& link, const char* what, size_t got, size_t wanted, int line) {
     if (got != wanted)
         fail(FROND_FILE_FORMAT,
-             "line %d: %zu of the <%s> elements of link \"%.64s\" cannot be read; look for missing geometry, nan, inf and "
+             "line %d: %zu of the <%s> elements of link \"%.64s\" cannot be read; look for missing geometry, nan, inf "
+             "and "
              "decimal commas",
              line, wanted - std::min(got, wanted), what, link.c_str());
 }
@@ -170,7 +171,8 @@ void take_joint(const urdf::Joint& joint, UrdfLink& link) {
     const bool has_axis = link.joint != UrdfJoint::FIXED && link.joint != UrdfJoint::FLOATING;
     if (has_axis) link.axis = vec_of(joint.axis);
     if (has_axis && !(link.axis.norm() > 1e-9 && link.axis.norm() < 1e9))
-        fail(FROND_FILE_FORMAT, "joint \"%.64s\" has no axis: it is of length %g", joint.name.c_str(), link.axis.norm());
+        fail(FROND_FILE_FORMAT, "joint \"%.64s\" has no axis: it is of length %g", joint.name.c_str(),
+             link.axis.norm());
     link.axis.normalize();
     if (!joint.limits) return;
     link.lower = joint.limits->lower;
@@ -197,7 +199,8 @@ void take_links(Reader& reader, const urdf::ModelInterface& model, UrdfUse use) 
         if (open.size() > reader.text.links.size()) break;
     }
     if (reader.tree.links.size() != reader.text.links.size())
-        fail(FROND_FILE_FORMAT, "urdfdom reads %zu of its %zu links", reader.tree.links.size(), reader.text.links.size());
+        fail(FROND_FILE_FORMAT, "urdfdom reads %zu of its %zu links", reader.tree.links.size(),
+             reader.text.links.size());
 }
 
 }  // namespace

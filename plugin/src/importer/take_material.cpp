@@ -115,9 +115,9 @@ void take_material(const aiScene& scene, const aiMaterial& material, const MeshF
     }
     // The materials that assimp makes up say nothing: for meshes without one, for STL, and its grey for OBJ files whose
     // material library is missing. Nor does the white under a texture that is not there.
-    const bool is_made_up =
-        !look.has_color || file.format == FileFormat::STL || (!is_gltf(file) && part.material.empty()) ||
-        (file.format == FileFormat::OBJ && look.color == aiColor4D(0.6f, 0.6f, 0.6f, look.color.a));
+    const bool is_made_up = !look.has_color || file.format == FileFormat::STL ||
+                            (!is_gltf(file) && part.material.empty()) ||
+                            (file.format == FileFormat::OBJ && look.color == aiColor4D(0.6f, 0.6f, 0.6f, look.color.a));
     if (is_made_up || (look.has_reference && part.texture < 0 && is_plain)) {
         if (part.texture >= 0) part.color = {1, 1, 1, 1};
         return;

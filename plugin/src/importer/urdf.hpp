@@ -29,9 +29,10 @@ struct UrdfText {
 UrdfText check_urdf(const MeshFile& file);
 UrdfTree read_urdf(const MeshFile& file, UrdfUse use);
 
-// The path of the mesh that a URDF file in `folder` names. "package://NAME/PATH" is PATH in the folder NAME, or one that
-// holds NAME's package.xml, of those in FROND_PACKAGE_PATH or ROS_PACKAGE_PATH (separated by colons), else of those above
-// `folder`, nearest first; any other path is taken from `folder`. Throws FILE_NOT_FOUND with what was looked for.
+// The path of the mesh that a URDF file in `folder` names. "package://NAME/PATH" is PATH in the folder NAME, or one
+// that holds NAME's package.xml, of those in FROND_PACKAGE_PATH or ROS_PACKAGE_PATH (separated by colons), else of
+// those above `folder`, nearest first; any other path is taken from `folder`. Throws FILE_NOT_FOUND with what was
+// looked for.
 std::string find_mesh(const std::string& folder, const std::string& reference);
 
 }  // namespace frond

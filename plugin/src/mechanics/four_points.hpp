@@ -1,7 +1,8 @@
 // The four points of integration of a quadratic tet at once.
 //
-// At point q a node counts in a corner C, or E if it lies between it and another one, and M more if it is the one beside q
-// (see tet_element.hpp). So what points have with corners, k_q between corners i and j, comes to the nodes as sums
+// At point q a node counts in a corner C, or E if it lies between it and another one, and M more if it is the one
+// beside q (see tet_element.hpp). So what points have with corners, k_q between corners i and j, comes to the nodes as
+// sums
 //   C, E: over all points T_ij = sum of k_q,   M: of the points beside them alone.
 #pragma once
 
@@ -31,7 +32,9 @@ struct FourPoints {
         };
         const S volume = gather<S>([&](int q) { return elements.point_volume[4 * tet + size_t(q)]; });
         return {{{{at(0), at(3), at(6)}, {at(1), at(4), at(7)}, {at(2), at(5), at(8)}}},
-                volume, of_tets(elements.lambda), of_tets(elements.mu)};
+                volume,
+                of_tets(elements.lambda),
+                of_tets(elements.mu)};
     }
     // Of what is given at nodes, the differences from the first corner as points see it, as columns.
     FROND_INLINE Lanes33<S> edges(const VecX& x) const {
@@ -84,8 +87,8 @@ struct FourPoints {
     FROND_INLINE void add_stiffness(const TetStiffnessLanes<S>& s, BlockMatrix& K) const {
         Between of[4][4];
         const FirstCorner<S> first = first_corner(s);
-        const Lanes33<S>* below[] = {&first.k10, &s.k11,       &first.k20, &s.k21, &s.k22,
-                                     &first.k30, &s.k31, &s.k32, &s.k33};
+        const Lanes33<S>* below[] = {&first.k10, &s.k11, &first.k20, &s.k21, &s.k22,
+                                     &first.k30, &s.k31, &s.k32,     &s.k33};
         of[0][0] = Between(first.k00);
 #pragma GCC unroll 1
         for (int i = 1, n = 0; i < 4; ++i)

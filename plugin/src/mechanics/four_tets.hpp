@@ -34,7 +34,9 @@ struct FourTets {
             return gather<S>([&](int l) { return inverse[l][i]; });
         };
         return {{{{at(0), at(3), at(6)}, {at(1), at(4), at(7)}, {at(2), at(5), at(8)}}},
-                of_tets(elements.volume), of_tets(elements.lambda), of_tets(elements.mu)};
+                of_tets(elements.volume),
+                of_tets(elements.lambda),
+                of_tets(elements.mu)};
     }
     // Of what is given at nodes, the differences from the first corner, as columns.
     FROND_INLINE Lanes33<S> edges(const VecX& x) const {
@@ -65,8 +67,7 @@ struct FourTets {
     FROND_INLINE void add_block(size_t slot, const Lanes33<S>& k, BlockMatrix& K) const {
         Nine blocks[TETS];
         lane_by_lane(k, blocks);
-        for (int l = 0; l < count; ++l)
-            add_to(K.values.data() + 9 * size_t(elements.slots[tet[l]][slot]), blocks[l]);
+        for (int l = 0; l < count; ++l) add_to(K.values.data() + 9 * size_t(elements.slots[tet[l]][slot]), blocks[l]);
     }
     FROND_INLINE void add_stiffness(const TetStiffnessLanes<S>& k, BlockMatrix& K) const {
         const FirstCorner<S> first = first_corner(k);

@@ -9,11 +9,11 @@
 namespace frond {
 
 struct Grip {
-    static constexpr int MOST = 10;        // a quadratic tet's nodes
-    int count = 0;                         // of nodes
-    bool turns = false;                    // the node after each is its rotation vector
-    std::array<int, MOST> node = {};       // of the mechanics
-    std::array<double, MOST> weight = {};  // [-]
+    static constexpr int MOST = 10;                          // a quadratic tet's nodes
+    int count = 0;                                           // of nodes
+    bool turns = false;                                      // the node after each is its rotation vector
+    std::array<int, MOST> node = {};                         // of the mechanics
+    std::array<double, MOST> weight = {};                    // [-]
     std::array<Vec3, 2> arm = {Vec3::Zero(), Vec3::Zero()};  // of the first two nodes, in the modelled shape [m]
 };
 

@@ -6,10 +6,29 @@
 namespace frond {
 
 static Mechanics rods(const char* name) {
-    return {name,         make_rods,      rod_masses,      rod_energy,          rod_add_force,       rod_add_stiffness,
-            rod_add_both, rod_add_damped, rod_add_ahead,   rod_inertia,         rods_are_calm,       nullptr,
-            rods_yield,   copy_rods,      rods_flow,       lasting_of_rods,     set_lasting_of_rods, rod_section_strains,
-            without_rods, false,          true,            true,                &rods_abreast()};
+    return {name,
+            make_rods,
+            rod_masses,
+            rod_energy,
+            rod_add_force,
+            rod_add_stiffness,
+            rod_add_both,
+            rod_add_damped,
+            rod_add_ahead,
+            rod_inertia,
+            rods_are_calm,
+            nullptr,
+            rods_yield,
+            copy_rods,
+            rods_flow,
+            lasting_of_rods,
+            set_lasting_of_rods,
+            rod_section_strains,
+            without_rods,
+            false,
+            true,
+            true,
+            &rods_abreast()};
 }
 
 const Mechanics& mechanics(frond_mechanics which, int order) {

@@ -12,8 +12,8 @@
 
 namespace frond {
 
-// What a mechanics needs at rest; read-only, shared by all plants of a model. Its nodes are blocks of three numbers of x:
-// places or, where a mechanics says so, rotation vectors.
+// What a mechanics needs at rest; read-only, shared by all plants of a model. Its nodes are blocks of three numbers of
+// x: places or, where a mechanics says so, rotation vectors.
 struct Elements {
     int node_count = 0;
     VecX rest_positions;  // without load, node_count*3 [m]
@@ -44,15 +44,15 @@ struct TetLasting {
 // an element's points of integration has a volume and an inverse of its own.
 struct TetElements : Elements {
     TetNodes nodes;
-    std::vector<Tet> tets;           // as in the cage
-    std::vector<Tet> ordered;        // the same tets, nodes ascending: their blocks then fall in the lower triangle
+    std::vector<Tet> tets;     // as in the cage
+    std::vector<Tet> ordered;  // the same tets, nodes ascending: their blocks then fall in the lower triangle
     // Inverse of the edges from ordered[0] to ordered[1..3], as columns, as points see them; by tets and points [1/m].
     std::vector<Mat3> rest_inverse;
     std::vector<double> volume;        // [m^3]
     std::vector<double> point_volume;  // with order 2 the shares of a tet's points in its volume, else none [m^3]
-    std::vector<double> lambda, mu;  // Lame's constants [Pa]
-    std::vector<double> density;     // [kg/m^3]
-    std::vector<TetLasting> lasting;  // by tets and their points; of a plant that has yielded, else none
+    std::vector<double> lambda, mu;    // Lame's constants [Pa]
+    std::vector<double> density;       // [kg/m^3]
+    std::vector<TetLasting> lasting;   // by tets and their points; of a plant that has yielded, else none
     // E I length / reach^2 of each capsule's section, reach being that of its outermost fibre [J].
     std::vector<double> resistance;
     // Blocks of an element's nodes a >= b, in the order of nodes.of_tet, at [a(a+1)/2 + b] in a BlockMatrix of this
@@ -76,9 +76,9 @@ enum class Tangent { exact, positive };
 
 // What one solve knows of the end of a step.
 struct Ahead {
-    const VecX &way, &v;  // from x to where v leads [m], and v [m/s]
-    double step;          // [s]
-    double damping;       // times the stiffness: of all elements [s],
+    const VecX &way, &v;                         // from x to where v leads [m], and v [m/s]
+    double step;                                 // [s]
+    double damping;                              // times the stiffness: of all elements [s],
     const std::vector<double>& element_damping;  // and beside that of each; empty: none [s]
 };
 
@@ -90,7 +90,8 @@ struct MechanicsAbreast {
     void (*set_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
                       std::vector<uint8_t>& filled);
     void (*rotary_inertia)(const Elements& elements, const VecX& x, VecX& out);  // row by row
-    // Which lanes are not as is_calm() and as yields() ask, or so near to that that they have to be asked themselves; a bit each.
+    // Which lanes are not as is_calm() and as yields() ask, or so near to that that they have to be asked themselves; a
+    // bit each.
     unsigned (*not_calm)(const Elements& elements, const VecX& from, const VecX& to);
     unsigned (*may_yield)(const Elements& elements, const VecX& x);
 };

@@ -1,5 +1,5 @@
-// In: a deformation gradient F. Out: its rotation, without iteration on matrices and without a start value where that is
-// well, else by singular values.
+// In: a deformation gradient F. Out: its rotation, without iteration on matrices and without a start value where that
+// is well, else by singular values.
 #include "mechanics/polar.hpp"
 
 #include <Eigen/SVD>

@@ -26,8 +26,8 @@ constexpr std::array<Parts, 10> parts_at(int q) {
     }
     return out;
 }
-constexpr std::array<std::array<Parts, 10>, QuadraticTetElement::POINTS> PARTS = {parts_at(0), parts_at(1),
-                                                                                  parts_at(2), parts_at(3)};
+constexpr std::array<std::array<Parts, 10>, QuadraticTetElement::POINTS> PARTS = {parts_at(0), parts_at(1), parts_at(2),
+                                                                                  parts_at(3)};
 
 }  // namespace
 
@@ -37,15 +37,14 @@ void QuadraticTetElement::add_to_nodes(int q, const std::array<Mat3, 16>& corner
         for (size_t m = 0; m < 10; ++m)
             for (size_t i = 0; i < (n < 4 ? 1u : 2u); ++i)
                 for (size_t j = 0; j < (m < 4 ? 1u : 2u); ++j)
-                    out[10 * n + m] += parts[n][i].part * parts[m][j].part *
-                                       corners[4 * parts[n][i].corner + parts[m][j].corner];
+                    out[10 * n + m] +=
+                        parts[n][i].part * parts[m][j].part * corners[4 * parts[n][i].corner + parts[m][j].corner];
 }
 
 void QuadraticTetElement::add_to_nodes(int q, const std::array<Vec3, 4>& corners, std::vector<Vec3>& out) {
     const std::array<Parts, 10>& parts = PARTS[size_t(q)];
     for (size_t n = 0; n < 10; ++n)
-        for (size_t i = 0; i < (n < 4 ? 1u : 2u); ++i)
-            out[n] += parts[n][i].part * corners[parts[n][i].corner];
+        for (size_t i = 0; i < (n < 4 ? 1u : 2u); ++i) out[n] += parts[n][i].part * corners[parts[n][i].corner];
 }
 
 void QuadraticTetElement::add_stiffness(const TetElements& elements, size_t e, int q, const TetStiffness& k,

@@ -1,5 +1,5 @@
-// In: rods and where their nodes are. Out: the strain of each capsule's outermost fibre, and rods without those of a part
-// that came off. What a piece bears by being pulled and by being bent adds up at the fibre; twist does not count.
+// In: rods and where their nodes are. Out: the strain of each capsule's outermost fibre, and rods without those of a
+// part that came off. What a piece bears by being pulled and by being bent adds up at the fibre; twist does not count.
 #include "mechanics/rod_elements.hpp"
 #include "mechanics/rows.hpp"
 #include "mechanics/sections.hpp"

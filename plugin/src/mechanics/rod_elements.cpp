@@ -19,8 +19,9 @@ size_t organ_of(const Model& model, size_t node) {
     return size_t(std::max(model.chain.nodes[node].organ, 0));
 }
 
-// Resistance of a piece's section, along, thin, wide, and how far its fibres reach: of its tissue, or of a full cylinder,
-// stiffer by a factor in bending alone: a blade's is far below one, and would let it be drawn out like rubber.
+// Resistance of a piece's section, along, thin, wide, and how far its fibres reach: of its tissue, or of a full
+// cylinder, stiffer by a factor in bending alone: a blade's is far below one, and would let it be drawn out like
+// rubber.
 void take_section(const Model& model, size_t node, RodSegment& rod) {
     const Section& section = model.sections[node];
     const double stiffer = model.organ_stiffer[organ_of(model, node)], over = 12 / (rod.length * rod.length);
@@ -81,8 +82,8 @@ void let_stand(RodElements& elements) {
     }
 }
 
-// Long pieces of thin blades bend by more than one piece can show, and what stands for that, shear, would draw them out:
-// at least so much resistance that the weight beyond a piece shears it by a third.
+// Long pieces of thin blades bend by more than one piece can show, and what stands for that, shear, would draw them
+// out: at least so much resistance that the weight beyond a piece shears it by a third.
 void bound_shear(RodElements& elements) {
     constexpr double LARGEST_SHEAR = 1.0 / 3;
     std::vector<double> weight;
@@ -105,8 +106,8 @@ void set_inertia(const Model& model, RodElements& elements) {
     }
     for (const RodSegment& rod : elements.segments) {
         const Section& section = model.sections[size_t(rod.b)];
-        const Mat3 half = rod.frame * Vec3(0.5 * rod.length * section.rotary_inertia()).asDiagonal() *
-                          rod.frame.transpose();
+        const Mat3 half =
+            rod.frame * Vec3(0.5 * rod.length * section.rotary_inertia()).asDiagonal() * rod.frame.transpose();
         for (int end : {rod.a, rod.b}) elements.inertia[size_t(end)] += half;
     }
 }
@@ -177,10 +178,10 @@ std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics wh
     return elements;
 }
 
-// Lumped: each node its own. Consistent: the mean of that and of linear shape functions (Goudreau, Taylor 1972), 5/12 of
-// a piece's mass to its ends and 1/12 to the pair, since their errors are opposite: ten pieces sway in their third mode
-// 2.5 % too slowly with the one, 3.7 % too fast with the other and 0.4 % so with their mean. What nodes carry beyond
-// their pieces stays with them.
+// Lumped: each node its own. Consistent: the mean of that and of linear shape functions (Goudreau, Taylor 1972), 5/12
+// of a piece's mass to its ends and 1/12 to the pair, since their errors are opposite: ten pieces sway in their third
+// mode 2.5 % too slowly with the one, 3.7 % too fast with the other and 0.4 % so with their mean. What nodes carry
+// beyond their pieces stays with them.
 Masses rod_masses(const Elements& body, frond_mass mass) {
     const RodElements& elements = as_rods(body);
     Masses masses;
@@ -199,7 +200,8 @@ Masses rod_masses(const Elements& body, frond_mass mass) {
     }
     for (const RodSegment& rod : elements.segments) {
         const double shared = std::min(elements.mass[size_t(rod.a)] / pieces[size_t(rod.a)],
-                                       elements.mass[size_t(rod.b)] / pieces[size_t(rod.b)]) / 6;
+                                       elements.mass[size_t(rod.b)] / pieces[size_t(rod.b)]) /
+                              6;
         masses.slot[size_t(rod.slots[0])] -= shared;
         masses.slot[size_t(rod.slots[10])] -= shared;
         masses.slot[size_t(rod.slots[8])] += shared;

@@ -8,15 +8,15 @@ namespace frond {
 
 // A beam from chain node a to b. Its frame has the columns axis, thin, wide: it bends most easily towards `thin`.
 struct RodSegment {
-    int a, b;                   // chain nodes, a < b
-    double length;              // at rest [m]
-    Mat3 frame;                 // in the modelled shape
-    Vec3 stretch;               // resistance to stretch and to shear towards thin and wide [N]
-    Vec3 bend;                  // to twist and to turning about thin and wide [N m^2]
-    Vec3 rest_strain;           // stretch and shear without load; (1, 0, 0) for a straight piece at its own length [-]
-    Vec3 rest_curvature;        // twist and curvature without load, over the modelled one [1/m]
+    int a, b;             // chain nodes, a < b
+    double length;        // at rest [m]
+    Mat3 frame;           // in the modelled shape
+    Vec3 stretch;         // resistance to stretch and to shear towards thin and wide [N]
+    Vec3 bend;            // to twist and to turning about thin and wide [N m^2]
+    Vec3 rest_strain;     // stretch and shear without load; (1, 0, 0) for a straight piece at its own length [-]
+    Vec3 rest_curvature;  // twist and curvature without load, over the modelled one [1/m]
     double reach_thin, reach_wide;  // of the outermost fibres from the axis, towards thin and wide [m]
-    std::array<int, 16> slots;  // of the nodes 2a, 2a+1, 2b, 2b+1 in a BlockMatrix of the pattern
+    std::array<int, 16> slots;      // of the nodes 2a, 2a+1, 2b, 2b+1 in a BlockMatrix of the pattern
 };
 
 // What of a piece's strain is lasting: added to what it would be at rest without.
@@ -29,8 +29,8 @@ struct RodLasting {
 
 struct RodElements : Elements {
     std::vector<RodSegment> segments;
-    std::vector<double> mass;   // one a chain node [kg]
-    std::vector<Mat3> inertia;  // rotary, one a chain node, in the modelled shape [kg m^2]
+    std::vector<double> mass;         // one a chain node [kg]
+    std::vector<Mat3> inertia;        // rotary, one a chain node, in the modelled shape [kg m^2]
     std::vector<RodLasting> lasting;  // one a segment of a plant that has yielded, else none
 };
 
@@ -52,10 +52,12 @@ FibreStrain fibre_strain(const RodSegment& rod, const RodStrain& strain);
 // Sets `yields` of elements that are complete otherwise.
 void let_rods_yield(const Model& model, RodElements& elements);
 
-// From a model with chain, sections and organs: `rod` takes the sections as they are, `spring_chain` full cylinders of the
-// capsules' own radius, each organ's stiffer in bending as the model says. Where plants stand as modelled, so do both.
+// From a model with chain, sections and organs: `rod` takes the sections as they are, `spring_chain` full cylinders of
+// the capsules' own radius, each organ's stiffer in bending as the model says. Where plants stand as modelled, so do
+// both.
 RodElements make_rod_elements(const Model& model, frond_mechanics which);
-// Of `spring_chain`, with other radii, one a chain node [m], and each organ stiffer in bending by a factor; none: by nothing.
+// Of `spring_chain`, with other radii, one a chain node [m], and each organ stiffer in bending by a factor; none: by
+// nothing.
 RodElements make_spring_elements(const Model& model, const std::vector<double>& radii,
                                  const std::vector<double>& stiffer);
 

@@ -153,10 +153,7 @@ struct Placed {
     FROND_INLINE Placed(const Pieces& pieces, const VecX& x) : Placed(pieces, x, end_of(pieces, x, &RodSegment::a)) {}
     template <class Pieces>
     FROND_INLINE Placed(const Pieces& pieces, const VecX& x, const RodEnd<S>& a)
-        : piece(piece_of(pieces)),
-          a(a),
-          b(end_of(pieces, x, &RodSegment::b)),
-          bent(bend_between(piece, a, b)) {}
+        : piece(piece_of(pieces)), a(a), b(end_of(pieces, x, &RodSegment::b)), bent(bend_between(piece, a, b)) {}
     template <class Pieces>
     FROND_INLINE static RodEnd<S> end_of(const Pieces& pieces, const VecX& x, int RodSegment::*which) {
         return rod_end(pieces.point(x.data(), which, 0), pieces.point(x.data(), which, 3));

@@ -1,5 +1,5 @@
-// In: a piece of rod and where its two ends are. Out: its strain, the gradient of its energy, its stiffness. Written for
-// numbers of any kind: lanes, or numbers that carry their derivatives.
+// In: a piece of rod and where its two ends are. Out: its strain, the gradient of its energy, its stiffness. Written
+// for numbers of any kind: lanes, or numbers that carry their derivatives.
 //
 // Rotations go as quaternions (w, p): the one half way and tan(angle/4) of the turn between the ends, which its share
 // needs, then take no trigonometric function, and the turn itself one arc tangent of a small number.
@@ -20,9 +20,9 @@ struct RodPiece {
 template <class S>
 struct RodEnd {
     Lanes3<S> place, turn;
-    S square;      // of the turn's angle
-    S w, half;     // cosine of half the angle, and its sine over the angle
-    Lanes3<S> p;   // the quaternion's vector
+    S square;     // of the turn's angle
+    S w, half;    // cosine of half the angle, and its sine over the angle
+    Lanes3<S> p;  // the quaternion's vector
 };
 
 template <class S>
@@ -50,8 +50,8 @@ FROND_INLINE Lanes33<S> rotation_of(const S& w, const Lanes3<S>& p) {
 // From the rate of the rotation vector to the angular velocity: I + (1 - cos a)/a^2 [v] + (a - sin a)/a^3 [v]^2.
 template <class S>
 FROND_INLINE Lanes33<S> rate_of(const RodEnd<S>& end) {
-    constexpr double SERIES[] = {1.0 / 6, -1.0 / 120, 1.0 / 5040, -1.0 / 362880, 1.0 / 39916800, -1.0 / 6227020800,
-                                 1.0 / 1307674368000, -1.0 / 355687428096000};
+    constexpr double SERIES[] = {1.0 / 6,        -1.0 / 120,        1.0 / 5040,          -1.0 / 362880,
+                                 1.0 / 39916800, -1.0 / 6227020800, 1.0 / 1307674368000, -1.0 / 355687428096000};
     const auto small = end.square < 1.0;
     const S square = select(small, constant<S>(1), end.square);
     const S second = select(small, polynomial(SERIES, end.square), S((1.0 - 2.0 * end.half * end.w) / square));
@@ -68,21 +68,21 @@ FROND_INLINE Lanes33<S> inertia_by_rate(const Lanes3<S>& turn, const Lanes33<S>&
 // What follows from the places of the two ends.
 template <class S>
 struct RodBent {
-    Lanes3<S> chord;    // [m]
-    Lanes3<S> turn;     // of the second end against the first, as a rotation vector
-    Lanes3<S> quarter;  // its axis times tan(angle/4)
-    S cotangent;        // angle/2 cot(angle/2)
-    Lanes33<S> middle;  // the frame, turned half way
+    Lanes3<S> chord;              // [m]
+    Lanes3<S> turn;               // of the second end against the first, as a rotation vector
+    Lanes3<S> quarter;            // its axis times tan(angle/4)
+    S cotangent;                  // angle/2 cot(angle/2)
+    Lanes33<S> middle;            // the frame, turned half way
     Lanes3<S> strain, curvature;  // over the rest's
 };
 
 template <class S>
 FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a, const RodEnd<S>& b) {
     // atan(x)/x by powers of x^2, for x up to tan(pi/8): Chebyshev's best polynomial, within 2e-18.
-    constexpr double ARC[] = {0.99999999999999999874, -0.33333333333333121163,  0.19999999999940891408,
-                              -0.14285714279250239667, 0.11111110744919395758,  -0.090908968090564377814,
-                              0.076920453307659118451, -0.066629518120618369597, 0.058468782857870010961,
-                              -0.050351024039430294125, 0.037965256099576568431, -0.017805395704537507381};
+    constexpr double ARC[] = {0.99999999999999999874,   -0.33333333333333121163,  0.19999999999940891408,
+                              -0.14285714279250239667,  0.11111110744919395758,   -0.090908968090564377814,
+                              0.076920453307659118451,  -0.066629518120618369597, 0.058468782857870010961,
+                              -0.050351024039430294125, 0.037965256099576568431,  -0.017805395704537507381};
     RodBent<S> out;
     out.chord = b.place - a.place;
     S w = a.w * b.w + dot(a.p, b.p);
@@ -109,14 +109,13 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
 template <class S>
 FROND_INLINE S inverse_rate_second(const RodBent<S>& bent) {
     // |B_2k| / (2k)!, Bernoulli's numbers
-    constexpr double SERIES[] = {0.083333333333333333333, 0.0013888888888888888889, 3.3068783068783068783e-5,
-                                 8.2671957671957671958e-7, 2.0876756987868098979e-8, 5.2841901386874931848e-10,
+    constexpr double SERIES[] = {0.083333333333333333333,   0.0013888888888888888889,  3.3068783068783068783e-5,
+                                 8.2671957671957671958e-7,  2.0876756987868098979e-8,  5.2841901386874931848e-10,
                                  1.3382536530684678833e-11, 3.3896802963225828668e-13, 8.5860620562778445641e-15,
-                                 2.174868698558061873e-16, 5.5090028283602295152e-18};
+                                 2.174868698558061873e-16,  5.5090028283602295152e-18};
     const S square = dot(bent.turn, bent.turn);
     const auto small = square < 1.0;
-    return select(small, polynomial(SERIES, square),
-                  S((1.0 - bent.cotangent) / select(small, constant<S>(1), square)));
+    return select(small, polynomial(SERIES, square), S((1.0 - bent.cotangent) / select(small, constant<S>(1), square)));
 }
 
 // Gradient of the energy by place and rotation vector of either end.
@@ -173,7 +172,8 @@ FROND_INLINE void positive_stiffness(const RodPiece<S>& rod, const RodBent<S>& b
     const S per_length = 1.0 / rod.length;
     const Lanes3<S> stretch = per_length * rod.stretch, bend = per_length * rod.bend;
     const Lanes33<S> pulled = scaled_rows(stretch, transposed(bent.middle));
-    const Lanes33<S> weighted_a = scaled_rows(stretch, change.strain_a), weighted_b = scaled_rows(stretch, change.strain_b);
+    const Lanes33<S> weighted_a = scaled_rows(stretch, change.strain_a),
+                     weighted_b = scaled_rows(stretch, change.strain_b);
     const Lanes33<S> bent_a = scaled_rows(bend, change.bend_a), bent_b = scaled_rows(bend, change.bend_b);
     K[0] = bent.middle * pulled;
     K[1] = -transposed_times(change.strain_a, pulled);

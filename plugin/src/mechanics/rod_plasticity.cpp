@@ -33,8 +33,7 @@ void let_rods_yield(const Model& model, RodElements& elements) {
     const std::vector<RodStrain> standing = rod_strains(elements, elements.modelled);
     for (size_t s = 0; s < yields.size(); ++s)
         if (yields[s].strain > 0)
-            yields[s].strain =
-                firm_strain(yields[s].strain, fibre_strain(elements.segments[s], standing[s]).sum());
+            yields[s].strain = firm_strain(yields[s].strain, fibre_strain(elements.segments[s], standing[s]).sum());
     elements.yields = std::move(yields);
 }
 
@@ -63,8 +62,7 @@ void rods_flow(Elements& body, const VecX& x, double h) {
         const FibreStrain fibre = fibre_strain(elements.segments[s], strains[s]);
         if (yield.strain == 0 || !(fibre.sum() > yield.strain)) continue;
         RodLasting& lasting = elements.lasting[s];
-        const double gone =
-            1 - elastic_share(yield, fibre.sum(), fibre.bend / fibre.sum(), h, lasting.hardening);
+        const double gone = 1 - elastic_share(yield, fibre.sum(), fibre.bend / fibre.sum(), h, lasting.hardening);
         lasting.stretch += gone * strains[s].strain[0];
         lasting.bend_wide += gone * strains[s].curvature[1];
         lasting.bend_thin += gone * strains[s].curvature[2];

@@ -1,5 +1,5 @@
-// In: elements and where their nodes are. Out: which of the chain's capsules breaks. A section breaks where its outermost
-// fibre is strained by more than the strength of the organ's material over its modulus.
+// In: elements and where their nodes are. Out: which of the chain's capsules breaks. A section breaks where its
+// outermost fibre is strained by more than the strength of the organ's material over its modulus.
 #include "mechanics/sections.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
-// In: tets and where their nodes are. Out: the strain of the outermost fibre of the stem that runs through them, and tets
-// without those of a part that came off.
+// In: tets and where their nodes are. Out: the strain of the outermost fibre of the stem that runs through them, and
+// tets without those of a part that came off.
 //
 // Along a capsule cage and stem bend with one energy: where the stem's outermost fibre at the distance c of its axis is
-// strained by e, it holds E I (e / c)^2 L / 2, and the tets half the sum of their E V times the squares of their strains.
-// A capsule that is pulled holds up to four times that at the same strain of its fibre: it breaks at half its strength
-// or more. Green's strain needs no rotation and is the same to the first order.
+// strained by e, it holds E I (e / c)^2 L / 2, and the tets half the sum of their E V times the squares of their
+// strains. A capsule that is pulled holds up to four times that at the same strain of its fibre: it breaks at half its
+// strength or more. Green's strain needs no rotation and is the same to the first order.
 #include <cmath>
 
 #include "mechanics/rows.hpp"
@@ -35,8 +35,8 @@ void tet_section_strains(const Elements& body, const VecX& x, std::vector<double
     const bool linear = elements.nodes.order == 1;
     out.assign(elements.resistance.size(), 0);
     for (size_t e = 0; e < elements.tets.size(); ++e)
-        out[size_t(elements.section[e])] += linear ? weighted_square<LinearTet>(elements, e, x)
-                                                   : weighted_square<QuadraticTetElement>(elements, e, x);
+        out[size_t(elements.section[e])] +=
+            linear ? weighted_square<LinearTet>(elements, e, x) : weighted_square<QuadraticTetElement>(elements, e, x);
     for (size_t i = 0; i < out.size(); ++i)
         out[i] = elements.resistance[i] > 0 ? std::sqrt(out[i] / elements.resistance[i]) : 0;
 }

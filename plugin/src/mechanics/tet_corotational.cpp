@@ -44,7 +44,8 @@ struct Corotational {
     }
 
     // With g = R b, a motion dx of the nodes turns R by w = T sum(g x dx), T = (tr(S) I - F R^T)^-1, which gives
-    //   K_ab = V (2 mu b_a.b_b I + lambda g_a g_b^T + (lambda tr(S - I) - 2 mu) [g_a]^T T [g_b]), [g] the cross product.
+    //   K_ab = V (2 mu b_a.b_b I + lambda g_a g_b^T + (lambda tr(S - I) - 2 mu) [g_a]^T T [g_b]), [g] the cross
+    //   product.
     template <class S>
     FROND_INLINE static TetStiffnessLanes<S> exact_stiffness(const TetShareLanes<S>& tet, const Strain<S>& s,
                                                              const S& scale) {

@@ -158,8 +158,7 @@ struct QuadraticTetElement {
     static void add_to_nodes(int q, const std::array<Mat3, 16>& corners, std::vector<Mat3>& out);
     static void add_to_nodes(int q, const std::array<Vec3, 4>& corners, std::vector<Vec3>& out);
 
-    static void add_force(const TetElements& elements, size_t e, const TetShare& share, int q, const Mat3& P,
-                          VecX& f) {
+    static void add_force(const TetElements& elements, size_t e, const TetShare& share, int q, const Mat3& P, VecX& f) {
         const QuadraticTet& tet = elements.nodes.of_tet[e];
         const Mat3 forces = P * share.rest_inverse.transpose() * share.volume;
         std::array<Vec3, 4> corner;

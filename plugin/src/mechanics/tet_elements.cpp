@@ -16,8 +16,7 @@ void check_model(const Model& model, int order) {
     const size_t node_count = model.cage.nodes.size(), tet_count = model.cage.tets.size();
     const std::vector<double>& young = model.young_of(order);
     if (tet_count == 0) fail(FROND_BAD_GEOMETRY, "the model has no tets; give it a cage first");
-    if (model.tet_density.size() != tet_count || young.size() != tet_count ||
-        model.tet_poisson.size() != tet_count)
+    if (model.tet_density.size() != tet_count || young.size() != tet_count || model.tet_poisson.size() != tet_count)
         fail(FROND_INTERNAL, "the model has %zu tets but not as many materials", tet_count);
     for (size_t e = 0; e < tet_count; ++e) {
         for (int i : model.cage.tets[e])

@@ -1,8 +1,8 @@
 // Rows of the table of mechanics from a material that is written for lanes. Beside what tet_row.hpp asks for, such a
 // material ("law") says
 //   Lanes33<S> stress_of_change(share, strain, dF)   the positive stiffness times a change of F [Pa]
-// Four points of integration are taken at once: of four tets with straight edges, or of one quadratic tet. Each comes out
-// as if it were alone, and they are added up in the order of tets.
+// Four points of integration are taken at once: of four tets with straight edges, or of one quadratic tet. Each comes
+// out as if it were alone, and they are added up in the order of tets.
 #pragma once
 
 #include "mechanics/four_points.hpp"

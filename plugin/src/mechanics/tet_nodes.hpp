@@ -16,7 +16,7 @@ constexpr int TET_BETWEEN[4][4] = {{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6,
 
 struct TetNodes {
     int order = 1, corner_count = 0;
-    std::vector<Edge> edges;          // the corners of node corner_count + k; none with order 1
+    std::vector<Edge> edges;           // the corners of node corner_count + k; none with order 1
     std::vector<QuadraticTet> of_tet;  // one a tet; none with order 1
     int count() const { return corner_count + int(edges.size()); }
 };

@@ -1,7 +1,7 @@
-// In: the elastic stretch of tets. Out: what of it is lasting, as a change F_p of the shape at rest that keeps the volume:
-// F = F_e F_p (Lee 1969, "Elastic-plastic deformation at finite strains"; return to the yield strain after Irving, Teran,
-// Fedkiw 2004, "Invertible finite elements"). The material then sees F F_p^-1, so that the inverse of the edges at rest
-// times F_p^-1 stands in for the former.
+// In: the elastic stretch of tets. Out: what of it is lasting, as a change F_p of the shape at rest that keeps the
+// volume: F = F_e F_p (Lee 1969, "Elastic-plastic deformation at finite strains"; return to the yield strain after
+// Irving, Teran, Fedkiw 2004, "Invertible finite elements"). The material then sees F F_p^-1, so that the inverse of
+// the edges at rest times F_p^-1 stands in for the former.
 //
 // A cage is thicker than the stem in it and its tets' strains are not those of a fibre. Along each capsule of the chain
 // cage and rod bend with one energy, which is what the cage is calibrated for: where the rim of the rod yields, the
@@ -22,9 +22,9 @@ namespace frond {
 
 namespace {
 
-constexpr double FLATTEST = 0.05;  // least stretch that still flows [-]
+constexpr double FLATTEST = 0.05;       // least stretch that still flows [-]
 constexpr double LOG_OVER_GREEN = 2.2;  // strains: down to a stretch of 0.4 the logarithmic one is no larger [-]
-constexpr size_t NUMBERS = 10;     // of a point: F_p^-1 by columns, hardening
+constexpr size_t NUMBERS = 10;          // of a point: F_p^-1 by columns, hardening
 
 // Von Mises: of a bar pulled by e the deviator is (1 + nu) e (2/3, -1/3, -1/3).
 double as_pulled(const TetShare& share, double deviator_norm) {
@@ -144,14 +144,15 @@ struct LookForStrained {
         const auto green = [&](int i, int j) __attribute__((always_inline)) {
             return S(0.5 * (f[0][i] * f[0][j] + f[1][i] * f[1][j] + f[2][i] * f[2][j]));
         };
-        const S xx = green(0, 0), yy = green(1, 1), zz = green(2, 2), xy = green(0, 1), yz = green(1, 2), zx = green(2, 0);
+        const S xx = green(0, 0), yy = green(1, 1), zz = green(2, 2), xy = green(0, 1), yz = green(1, 2),
+                zx = green(2, 0);
         const S mean = (xx + yy + zz) * (1.0 / 3), a = xx - mean, b = yy - mean, c = zz - mean;
         const S square = a * a + b * b + c * c + 2.0 * (xy * xy + yz * yz + zx * zx);
         const S allowed = gather<S>([&](int l) {
             // As a pulled bar, see as_pulled().
             const double sum = elements.lambda[tet(l)] + elements.mu[tet(l)];
-            const double most = elements.yields[tet(l)].strain / LOG_OVER_GREEN *
-                                (1 + elements.lambda[tet(l)] / (2 * sum));
+            const double most =
+                elements.yields[tet(l)].strain / LOG_OVER_GREEN * (1 + elements.lambda[tet(l)] / (2 * sum));
             return most > 0 ? most * most / 1.5 : INFINITY;
         });
         for (int lane = 0; lane < LANES<S>; ++lane)

@@ -5,8 +5,8 @@
 
 namespace frond {
 
-// The elastic stretch S at a point, a symmetric matrix, and the strain of a bar that is pulled as much out of shape: that
-// of von Mises, of logarithmic strains [-]; 0 for what is turned inside out or flat.
+// The elastic stretch S at a point, a symmetric matrix, and the strain of a bar that is pulled as much out of shape:
+// that of von Mises, of logarithmic strains [-]; 0 for what is turned inside out or flat.
 struct Strained {
     Mat3 S;
     double strain;

@@ -1,5 +1,5 @@
-// A row of the table of mechanics from a material and an element. A material ("law") says what follows from the gradient
-// of deformation F at one point:
+// A row of the table of mechanics from a material and an element. A material ("law") says what follows from the
+// gradient of deformation F at one point:
 //   Strain strain(share, F)                         what the rest is made of
 //   double energy(share, strain)                    a volume [J/m^3]
 //   Mat3 stress(share, strain)                      first Piola-Kirchhoff, dW/dF [Pa]
@@ -101,7 +101,7 @@ struct TetRow {
                 const TetShare share = Element::share(elements, e, q);
                 const Mat3 F = Element::gradient(share, places, q);
                 if (!exceeds(share, F, elements.yields[e].strain, now)) continue;
-                TetLasting& lasting = elements.lasting[e * Element::POINTS + size_t(q)], next = lasting;
+                TetLasting &lasting = elements.lasting[e * Element::POINTS + size_t(q)], next = lasting;
                 const double elastic = elastic_share(elements.yields[e], now.strain, 1, h, next.hardening);
                 const Mat3 change = flow_of(now.S, elastic);
                 next.inverse *= change;
@@ -114,7 +114,8 @@ struct TetRow {
         }
     }
 
-    // What flows on and on ends as a needle, which has no inverse: where a lasting stretch nears five, tets stay elastic.
+    // What flows on and on ends as a needle, which has no inverse: where a lasting stretch nears five, tets stay
+    // elastic.
     static constexpr double FARTHEST = 25;  // square of the norm of F_p^-1 [-]
 };
 
@@ -135,9 +136,8 @@ void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<
         const Mat3& B = share.rest_inverse;
         const Mat3 H = Law::stress(share, strain) * B.transpose() * share.volume;
         const TetStiffness k = Law::stiffness(share, strain, Tangent::exact, 1);
-        const Mat3 K[3][3] = {{k.k11, k.k21.transpose(), k.k31.transpose()},
-                              {k.k21, k.k22, k.k32.transpose()},
-                              {k.k31, k.k32, k.k33}};
+        const Mat3 K[3][3] = {
+            {k.k11, k.k21.transpose(), k.k31.transpose()}, {k.k21, k.k22, k.k32.transpose()}, {k.k31, k.k32, k.k33}};
         std::array<Mat3, 16> corners;
         corners.fill(Mat3::Zero());
         for (size_t a = 1; a < 4; ++a)
@@ -156,9 +156,26 @@ void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<
 template <class Law>
 Mechanics tet_row(const char* name, int order, bool needs_search) {
     const auto row = [&](auto rows, auto make, auto is_calm, auto yields, auto rest_derivative) {
-        return Mechanics{name,          make,            tet_masses, rows.energy, rows.add_force, rows.add_stiffness,
-                         rows.add_both, rows.add_damped, nullptr,    nullptr,     is_calm,         rest_derivative, yields,
-                         copy_tets,     rows.flow,       lasting_of_tets, set_lasting_of_tets, tet_section_strains, without_tets, needs_search,
+        return Mechanics{name,
+                         make,
+                         tet_masses,
+                         rows.energy,
+                         rows.add_force,
+                         rows.add_stiffness,
+                         rows.add_both,
+                         rows.add_damped,
+                         nullptr,
+                         nullptr,
+                         is_calm,
+                         rest_derivative,
+                         yields,
+                         copy_tets,
+                         rows.flow,
+                         lasting_of_tets,
+                         set_lasting_of_tets,
+                         tet_section_strains,
+                         without_tets,
+                         needs_search,
                          false};
     };
     if (order == 1)

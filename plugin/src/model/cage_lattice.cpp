@@ -111,7 +111,8 @@ Cover make_cover(const Topology& topology, const Lattice& lattice, double offset
             }
             if (cell_of_entry.size() >= most || cover.cells.cells().size() > MAX_CELLS)
                 fail(FROND_BAD_ARGUMENT,
-                     "cells of %g m are too small for this plant, or cage_offset or its %zu triangles are too large; make "
+                     "cells of %g m are too small for this plant, or cage_offset or its %zu triangles are too large; "
+                     "make "
                      "cage_size larger, or 0 to choose, or the triangles fewer",
                      lattice.cell_size, topology.triangles.size());
             cell_of_entry.push_back(last);

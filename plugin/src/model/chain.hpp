@@ -8,10 +8,10 @@ namespace frond {
 
 struct ChainNode {
     Vec3 position;
-    double radius;    // of the capsule [m]
-    int parent;       // smaller than its own index; -1 at a root
-    int organ;        // that most of its capsule belongs to; -1 if the surface's parts have none
-    double distance;  // along the chain from the root [m]
+    double radius;         // of the capsule [m]
+    int parent;            // smaller than its own index; -1 at a root
+    int organ;             // that most of its capsule belongs to; -1 if the surface's parts have none
+    double distance;       // along the chain from the root [m]
     double fitted_radius;  // what the shape has, whatever radius was given [m]
 };
 

@@ -28,7 +28,8 @@ struct Piece {
 };
 
 // Where the surface was moved to: the same turn, scale and shift take the stems along.
-std::vector<Piece> place_stems(const frond_stem* stems, int count, const Surface& surface, const StemPlacement& placed) {
+std::vector<Piece> place_stems(const frond_stem* stems, int count, const Surface& surface,
+                               const StemPlacement& placed) {
     std::vector<Piece> pieces;
     for (int i = 0; i < count; i++) {
         const frond_stem& stem = stems[i];

@@ -1,6 +1,7 @@
-// Runs the import program on a file: a path comes in, a surface or a tree of links goes out, or an error with the file's name and the
-// cause. The program has limits on time and memory, and nothing that it says is believed unchecked. Its exit status is
-// a hint only: a host may ignore SIGCHLD or reap our child before us, so the complete stream alone decides.
+// Runs the import program on a file: a path comes in, a surface or a tree of links goes out, or an error with the
+// file's name and the cause. The program has limits on time and memory, and nothing that it says is believed unchecked.
+// Its exit status is a hint only: a host may ignore SIGCHLD or reap our child before us, so the complete stream alone
+// decides.
 #include "model/import_process.hpp"
 
 #include <errno.h>
@@ -72,8 +73,8 @@ static ImportLimits choose_limits(const ImportLimits& wanted, double file_bytes)
     return limits;
 }
 
-static pid_t start_program(const std::string& program, const std::string& path, const ImportLimits& limits,
-                           UrdfUse use, Pipe& output, Pipe& messages) {
+static pid_t start_program(const std::string& program, const std::string& path, const ImportLimits& limits, UrdfUse use,
+                           Pipe& output, Pipe& messages) {
     const std::string cpu = std::to_string(int(limits.cpu_seconds + 0.999));
     const std::string wall = std::to_string(int(limits.wall_seconds + 0.999));
     const std::string memory = std::to_string(int64_t(limits.memory_mib));
@@ -271,7 +272,8 @@ bool is_urdf(const std::string& path) {
 
 UrdfTree import_urdf(const std::string& path, UrdfUse use) {
     if (!is_urdf(path))
-        fail(FROND_FILE_FORMAT, "%s: the name does not end in .urdf; give the path of a URDF file", file_name(path).c_str());
+        fail(FROND_FILE_FORMAT, "%s: the name does not end in .urdf; give the path of a URDF file",
+             file_name(path).c_str());
     return run_program(path, ImportLimits(), use).tree;
 }
 

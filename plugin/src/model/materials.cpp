@@ -111,7 +111,8 @@ static const MaterialRow MATERIALS[] = {
     // [19], creep [20]. Friction: estimate, bark is rougher than stems.
     {"branch", {950, 3.0e9, 0.35, 3.0e-3, 0, 7, 0.03, 0.5, 0.008, WOOD_CREEP, 4.5e7, BY_SHAPE}},
     // Foliage drawn as one solid: leaves, twigs and mostly air. Estimates: 2-5 m^2 of leaf a cubic metre, 0.25 kg each
-    // when fresh, and as much again in twigs; stiff enough to keep its shape and too soft to hold up the branches in it.
+    // when fresh, and as much again in twigs; stiff enough to keep its shape and too soft to hold up the branches in
+    // it.
     // It gives way without harm.
     {"crown", {4, 5.0e4, 0.20, 0.4e-3, 0, ISOTROPIC, 0.10, 0.38, 0, 0, 0, BY_SHAPE}},
     // Hydrated: between herbs and wood [11]. Strength: thick roots of herbs [22]. Friction: estimate, as bark.

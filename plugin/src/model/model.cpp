@@ -17,8 +17,8 @@ const std::vector<double>& Model::young_of(int order) const {
     return order == 2 && !rest_shapes->quadratic_young.empty() ? rest_shapes->quadratic_young : tet_young;
 }
 
-// Holds those corners that lie in the lower part of the cells around a foot: held up to the top of a coarse cell, a stem
-// would be shorter than it is. All of them, if fewer than three off one line would be left.
+// Holds those corners that lie in the lower part of the cells around a foot: held up to the top of a coarse cell, a
+// stem would be shorter than it is. All of them, if fewer than three off one line would be left.
 static void hold_foot(const Cage& cage, double foot, const std::vector<int>& corners, std::vector<uint8_t>& root) {
     constexpr double SHARE = 0.35;  // of the height from the foot to the top of its cells [-]
     double top = foot;

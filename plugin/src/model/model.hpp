@@ -1,9 +1,9 @@
 // Model: everything about a plant that does not change. Built once, read-only, shared by all its plants.
 #pragma once
 
-#include "model/cage.hpp"
 #include <memory>
 #include <mutex>
+#include "model/cage.hpp"
 
 #include "model/section.hpp"
 
@@ -32,7 +32,7 @@ struct RestShapes {
     Each<VecX> positions;                 // nodes without gravity, node_count*3 [m]; empty: as modelled
     Each<std::vector<double>> stiffer;    // than Model::young_of(), one a tet [-]; empty: not
     std::vector<double> quadratic_young;  // like Model::tet_young, for order 2; empty: those hold for both [Pa]
-    std::vector<double> springs;  // than their material, spring_chain's capsules of each organ [-]; empty: not
+    std::vector<double> springs;          // than their material, spring_chain's capsules of each organ [-]; empty: not
 };
 
 struct Model {
@@ -41,12 +41,12 @@ struct Model {
     std::vector<Organ> organs;
     Chain chain;
     ChainArrays chain_view;
-    std::vector<Section> sections;    // of the capsule between a chain node and its parent, one a chain node
-    bool exact_sections = false;      // they are given, not measured on the surface
-    std::vector<double> chain_mass;   // that each chain node carries of the plant's mass [kg]
+    std::vector<Section> sections;      // of the capsule between a chain node and its parent, one a chain node
+    bool exact_sections = false;        // they are given, not measured on the surface
+    std::vector<double> chain_mass;     // that each chain node carries of the plant's mass [kg]
     std::vector<double> organ_stiffer;  // how much stiffer than its material each organ was made so that it stands [-]
-    bool calibrated = false;          // tet_young is fitted, for order 1 only; else it is the material's
-    bool stands_as_modelled = false;  // under GRAVITY; else the modelled shape is the one without it
+    bool calibrated = false;            // tet_young is fitted, for order 1 only; else it is the material's
+    bool stands_as_modelled = false;    // under GRAVITY; else the modelled shape is the one without it
     std::vector<std::array<int, 2>> capsules;  // chain nodes at the two ends; a root alone is both ends
     Cage cage;
     Embedding embedding;              // surface vertices in the cage
@@ -60,7 +60,7 @@ struct Model {
     CageReport cage_report;
     double ms_import = 0, ms_cage = 0, ms_chain = 0, ms_total = 0;
 
-    double mass() const;  // [kg]
+    double mass() const;                                   // [kg]
     const std::vector<double>& young_of(int order) const;  // of the tets, as elements of an order [Pa]
 };
 

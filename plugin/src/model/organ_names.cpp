@@ -48,14 +48,13 @@ static const WordTable& organ_words() {
          {"root", "rootball", "taproot", "rhizome", "tuber", "bulb", "wurzel", "wurzeln", "racine", "raiz", "raíz",
           "raices", "radice", "radici", "wortel", "wortels", "根"}},
         {"tendril", {"tendril", "ranke", "ranken", "vrille", "zarcillo", "viticcio", "cirrus"}},
-        {"support",
-         {"support",  "stake",  "pot",        "flowerpot", "plantpot",  "planter", "trellis", "soil",     "ground",
-          "dirt",     "earth",  "terrain",    "floor",     "vase",      "pole",    "post",    "fence",    "string",
-          "twine",    "rope",   "wire",       "lattice",   "bucket",    "tray",    "gravel",  "pebble",   "rock",
-          "stone",    "sand",   "mulch",      "clay",      "container", "stick",   "rod",     "ceramic",  "terracotta",
-          "concrete", "topf",   "blumentopf", "erde",      "boden",     "stab",    "spalier", "schnur",   "terre",
-          "tuteur",   "maceta", "suelo",      "tierra",    "vaso",      "terra",   "terreno", "bloempot", "grond",
-          "tie"}},
+        {"support", {"support", "stake",  "pot",     "flowerpot",  "plantpot", "planter", "trellis",    "soil",
+                     "ground",  "dirt",   "earth",   "terrain",    "floor",    "vase",    "pole",       "post",
+                     "fence",   "string", "twine",   "rope",       "wire",     "lattice", "bucket",     "tray",
+                     "gravel",  "pebble", "rock",    "stone",      "sand",     "mulch",   "clay",       "container",
+                     "stick",   "rod",    "ceramic", "terracotta", "concrete", "topf",    "blumentopf", "erde",
+                     "boden",   "stab",   "spalier", "schnur",     "terre",    "tuteur",  "maceta",     "suelo",
+                     "tierra",  "vaso",   "terra",   "terreno",    "bloempot", "grond",   "tie"}},
     };
     static const WordTable table = [] {
         WordTable made;
@@ -207,9 +206,8 @@ static bool has_word(const std::string& name, const std::set<std::string>& wante
 }
 
 bool names_a_grass(const std::string& name) {
-    return has_word(name,
-                    {"grass", "maize", "corn", "wheat", "barley", "rye", "oat", "rice", "millet", "sorghum", "reed",
-                     "bamboo", "cane", "cereal", "culm", "mais", "weizen", "gras"});
+    return has_word(name, {"grass", "maize", "corn", "wheat", "barley", "rye", "oat", "rice", "millet", "sorghum",
+                           "reed", "bamboo", "cane", "cereal", "culm", "mais", "weizen", "gras"});
 }
 
 bool names_a_bush(const std::string& name) {
@@ -217,12 +215,12 @@ bool names_a_bush(const std::string& name) {
 }
 
 bool names_a_herb(const std::vector<std::string>& names) {
-    static const std::set<std::string> trees = {"tree", "trunk", "bark",  "wood", "log",  "palm", "twig",  "bush",
-                                                "pine", "oak",   "baum",  "ast",  "stamm", "holz", "arbre", "bamboo"};
-    static const std::set<std::string> herbs = {
-        "flower", "tulip",    "rose",  "daisy", "lily",  "orchid", "poppy", "sunflower", "daffodil",  "dandelion",
-        "blume",  "fern",     "herb",  "wheat", "corn",  "maize",  "crop",  "tomato",    "basil",     "monstera",
-        "pot",    "plantpot", "potted"};
+    static const std::set<std::string> trees = {"tree", "trunk", "bark", "wood", "log",   "palm", "twig",  "bush",
+                                                "pine", "oak",   "baum", "ast",  "stamm", "holz", "arbre", "bamboo"};
+    static const std::set<std::string> herbs = {"flower", "tulip",     "rose",     "daisy",     "lily",  "orchid",
+                                                "poppy",  "sunflower", "daffodil", "dandelion", "blume", "fern",
+                                                "herb",   "wheat",     "corn",     "maize",     "crop",  "tomato",
+                                                "basil",  "monstera",  "pot",      "plantpot",  "potted"};
     const auto speak_of = [&](const std::set<std::string>& words) {
         return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return has_word(name, words); });
     };
@@ -258,8 +256,8 @@ static std::string without(const std::string& name, const std::set<std::string>&
 // Whether a material is called after a colour; those that share a name with a fruit or a flower count when told to.
 static bool is_color_name(const std::string& name, bool with_species) {
     static const std::set<std::string> shades = {"light", "dark", "pale", "bright", "deep", "medium"};
-    static const std::set<std::string> colors = {"green", "yellow", "brown",  "red",    "blue",
-                                                 "cyan",  "white",  "black",  "pink",   "purple",
+    static const std::set<std::string> colors = {"green", "yellow", "brown",  "red",     "blue",
+                                                 "cyan",  "white",  "black",  "pink",    "purple",
                                                  "grey",  "gray",   "violet", "magenta", "beige"};
     bool has_color = false;
     for (const std::string& word : words_of(name)) {

@@ -184,8 +184,8 @@ std::vector<char> find_sheets(const Topology& topology) {
     for (size_t t = 0; t < count; t++) {
         const size_t component = size_t(topology.triangle_component[t]);
         const double share = area[component] > 0 ? flat[component] / area[component] : 1;
-        found[t] = round[component] || share >= WHOLE ||
-                   (share > 1 - WHOLE && sheet[size_t(piece_of(topology, bands, t))]);
+        found[t] =
+            round[component] || share >= WHOLE || (share > 1 - WHOLE && sheet[size_t(piece_of(topology, bands, t))]);
     }
     return found;
 }

@@ -127,8 +127,8 @@ void smooth_sections(const Chain& chain, const std::vector<char>& exact, std::ve
 
 }  // namespace
 
-// A strip of an open sheet is twisted as easily bowed as flat; what is more than that in its bending stiffness is a rib,
-// which is round.
+// A strip of an open sheet is twisted as easily bowed as flat; what is more than that in its bending stiffness is a
+// rib, which is round.
 void finish_section(const Organ& organ, Section& section) {
     const Material& material = organ.material;
     if (is_sheet(organ)) {
@@ -164,9 +164,7 @@ std::vector<Section> measure_sections(const Surface& surface, const Topology& to
     const std::vector<Outline> outlines = cut_outlines(surface, topology, chain, frames);
     std::vector<Section> sections(chain.nodes.size());
     std::vector<char> exact(chain.nodes.size());
-    const auto organ_of = [&](size_t i) -> const Organ& {
-        return organs[size_t(std::max(chain.nodes[i].organ, 0))];
-    };
+    const auto organ_of = [&](size_t i) -> const Organ& { return organs[size_t(std::max(chain.nodes[i].organ, 0))]; };
     for (size_t i = 0; i < sections.size(); i++) {
         sections[i].axis = frames[i].axis;
         sections[i].length = frames[i].length;

@@ -31,9 +31,7 @@ struct Section {
     double twisting() const { return shear * torsion; }           // GJ [N m^2]
     double mass() const { return density * area; }                // a metre [kg/m]
     // Rotary inertia a metre about axis, thin and wide() [kg m].
-    Vec3 rotary_inertia() const {
-        return density * Vec3(inertia_thin + inertia_wide, inertia_wide, inertia_thin);
-    }
+    Vec3 rotary_inertia() const { return density * Vec3(inertia_thin + inertia_wide, inertia_wide, inertia_thin); }
 };
 
 // One a chain node, for the capsule between it and its parent; from the surface that belongs to it. Blades and flowers

@@ -15,9 +15,9 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr double CLOSED = 1e-6;   // a gap, as a share of the perimeter, that is none
-constexpr double MAIN = 0.8;      // share of all that is cut that the main component must have
-constexpr double COMPACT = 9;     // A^2 / sqrt(I_thin I_wide) of one outline; of two apart it is less
+constexpr double CLOSED = 1e-6;  // a gap, as a share of the perimeter, that is none
+constexpr double MAIN = 0.8;     // share of all that is cut that the main component must have
+constexpr double COMPACT = 9;    // A^2 / sqrt(I_thin I_wide) of one outline; of two apart it is less
 // Gauss's points and weights along the capsule: exact for a taper.
 constexpr std::array<double, 3> PLANES = {0.1127016653792583, 0.5, 0.8872983346207417};
 constexpr std::array<double, 3> WEIGHTS = {5.0 / 18, 8.0 / 18, 5.0 / 18};

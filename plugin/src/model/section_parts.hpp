@@ -20,8 +20,8 @@ struct Spread {
 
 // What planes across a capsule cut out of the surface, averaged over the planes.
 struct Outline {
-    bool found = false;  // at least one plane cuts one closed, compact outline
-    double area;         // inside [m^2]
+    bool found = false;                 // at least one plane cuts one closed, compact outline
+    double area;                        // inside [m^2]
     double inertia_thin, inertia_wide;  // [m^4]
     Vec3 thin;
     // For sheets: whether they are drawn with two faces, and the mean distance of the faces [m].

@@ -94,8 +94,8 @@ std::vector<std::vector<Patch>> collect_patches(const Surface& surface, const Ch
             const Vec3& a = surface.positions[size_t(triangle[0])];
             const Vec3& b = surface.positions[size_t(triangle[1])];
             const Vec3& c = surface.positions[size_t(triangle[2])];
-            const double longest = std::sqrt(
-                std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+            const double longest =
+                std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
             sharer.small = std::max(SMALL * length / double(sharer.capsules.size()), longest / fineness);
             sharer.share(a, b, c);
         }

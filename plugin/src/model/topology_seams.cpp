@@ -1,6 +1,6 @@
-// Seams: places at which a file says that two parts are joined, however near others come. They go into the spanning tree
-// of joints first; then, of the joints that nearness found, those within a part and between parts of which none is said to
-// hang on another one; then those that still join something.
+// Seams: places at which a file says that two parts are joined, however near others come. They go into the spanning
+// tree of joints first; then, of the joints that nearness found, those within a part and between parts of which none is
+// said to hang on another one; then those that still join something.
 #include <algorithm>
 #include <limits>
 

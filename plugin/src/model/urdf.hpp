@@ -21,10 +21,10 @@ enum class UrdfKind { SPHERE, BOX, CYLINDER, CAPSULE, MESH };
 
 struct UrdfShape {
     UrdfKind kind = UrdfKind::SPHERE;
-    UrdfFrame frame;             // in the link
-    Vec3 size = Vec3::Zero();    // radius; sides; radius and length along z, a capsule's without its ends; scale [m], [-]
-    int mesh = -1;               // index into UrdfTree::meshes
-    std::string material;        // its name; "" if it has none
+    UrdfFrame frame;           // in the link
+    Vec3 size = Vec3::Zero();  // radius; sides; radius and length along z, a capsule's without its ends; scale [m], [-]
+    int mesh = -1;             // index into UrdfTree::meshes
+    std::string material;      // its name; "" if it has none
     bool has_color = false;
     std::array<float, 4> color = {1, 1, 1, 1};  // linear RGBA
 };
@@ -48,12 +48,12 @@ struct UrdfLink {
     UrdfFrame centre;
     Mat3 inertia = Mat3::Zero();  // [kg m^2]
     std::vector<UrdfShape> visuals, collisions;
-    // Of <frond organ="" name="" material="" mass="" stretching="" bending="" twisting=""/>; the numbers are of a section of
-    // the link, all zero if there are none.
+    // Of <frond organ="" name="" material="" mass="" stretching="" bending="" twisting=""/>; the numbers are of a
+    // section of the link, all zero if there are none.
     std::string organ, organ_name, organ_material;
-    double section_mass = 0;                // [kg/m]
-    double stretching = 0, twisting = 0;    // EA [N], GJ [N m^2]
-    double bending_x = 0, bending_y = 0;    // EI against bending towards the link's x and y axis [N m^2]
+    double section_mass = 0;              // [kg/m]
+    double stretching = 0, twisting = 0;  // EA [N], GJ [N m^2]
+    double bending_x = 0, bending_y = 0;  // EI against bending towards the link's x and y axis [N m^2]
 };
 
 // Triangles of a mesh file, as they stand in it.

@@ -10,8 +10,8 @@ namespace frond {
 static constexpr double LARGEST = 1e6;  // of any number [m], [kg], [N] ...
 
 static bool is_usable(const UrdfFrame& frame) {
-    return frame.origin.allFinite() && frame.origin.cwiseAbs().maxCoeff() <= LARGEST && frame.turn.coeffs().allFinite() &&
-           std::abs(frame.turn.norm() - 1) < 1e-6;
+    return frame.origin.allFinite() && frame.origin.cwiseAbs().maxCoeff() <= LARGEST &&
+           frame.turn.coeffs().allFinite() && std::abs(frame.turn.norm() - 1) < 1e-6;
 }
 
 // How many of a shape's sizes have to be above zero.
@@ -29,13 +29,16 @@ static int size_count(UrdfKind kind) {
 
 static std::string what_is_wrong_with(const UrdfTree& tree, const UrdfLink& link, const UrdfShape& shape) {
     const char* name = link.name.c_str();
-    if (!is_usable(shape.frame)) return text_of("link \"%.64s\": the place of a shape is not finite or too far off", name);
+    if (!is_usable(shape.frame))
+        return text_of("link \"%.64s\": the place of a shape is not finite or too far off", name);
     for (int i = 0; i < size_count(shape.kind); ++i) {
         const double size = shape.kind == UrdfKind::MESH ? std::abs(shape.size[i]) : shape.size[i];
         if (!(size > 0 && size <= LARGEST))
-            return text_of("link \"%.64s\": a shape has the size %g; sizes are in metres, above 0", name, shape.size[i]);
+            return text_of("link \"%.64s\": a shape has the size %g; sizes are in metres, above 0", name,
+                           shape.size[i]);
     }
-    if (shape.mesh < -1 || shape.mesh >= int(tree.meshes.size())) return text_of("link \"%.64s\" has no such mesh", name);
+    if (shape.mesh < -1 || shape.mesh >= int(tree.meshes.size()))
+        return text_of("link \"%.64s\" has no such mesh", name);
     for (float channel : shape.color)
         if (!(channel >= 0 && channel <= 1)) return text_of("link \"%.64s\": a colour is not in 0..1", name);
     return "";
@@ -44,7 +47,8 @@ static std::string what_is_wrong_with(const UrdfTree& tree, const UrdfLink& link
 static std::string what_is_wrong_with(const UrdfLink& link) {
     const char* name = link.name.c_str();
     if (!is_usable(link.frame)) return text_of("link \"%.64s\": its joint's origin is not finite or too far off", name);
-    if (!(std::abs(link.axis.norm() - 1) < 1e-6)) return text_of("link \"%.64s\": its joint's axis has no length", name);
+    if (!(std::abs(link.axis.norm() - 1) < 1e-6))
+        return text_of("link \"%.64s\": its joint's axis has no length", name);
     for (double value : {link.lower, link.upper})
         if (!(std::abs(value) <= LARGEST)) return text_of("link \"%.64s\": a limit of its joint is %g", name, value);
     for (double value : {link.effort, link.speed})
@@ -57,7 +61,8 @@ static std::string what_is_wrong_with(const UrdfLink& link) {
         return text_of("link \"%.64s\": its mass is %g kg; give one of 0 .. 1e6", name, link.mass);
     for (double value : {link.section_mass, link.stretching, link.twisting, link.bending_x, link.bending_y})
         if (!(value >= 0 && value < 1e15)) return text_of("link \"%.64s\": its section has the number %g", name, value);
-    if (!is_usable(link.centre)) return text_of("link \"%.64s\": its centre of mass is not finite or too far off", name);
+    if (!is_usable(link.centre))
+        return text_of("link \"%.64s\": its centre of mass is not finite or too far off", name);
     for (int axis = 0; axis < 3; ++axis)
         if (!link.inertia.allFinite() || link.inertia.cwiseAbs().maxCoeff() > LARGEST || link.inertia(axis, axis) < 0)
             return text_of("link \"%.64s\": its inertia is not finite or below zero", name);

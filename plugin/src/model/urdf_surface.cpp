@@ -1,5 +1,5 @@
-// Surface of a tree of links: spheres, boxes, cylinders, capsules and meshes come in, triangles go out, fine enough along
-// each shape that it can be seen to bend.
+// Surface of a tree of links: spheres, boxes, cylinders, capsules and meshes come in, triangles go out, fine enough
+// along each shape that it can be seen to bend.
 #include <algorithm>
 #include <cmath>
 
@@ -47,8 +47,8 @@ static void add_round(Surface& surface, const UrdfPiece& piece) {
     for (const Ring& ring : rings)
         for (int k = 0; k < SIDES; ++k) {
             const double angle = 2 * PI * k / SIDES;
-            surface.positions.push_back(
-                piece.frame * Vec3(ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.along));
+            surface.positions.push_back(piece.frame *
+                                        Vec3(ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.along));
         }
     surface.positions.push_back(piece.frame * Vec3(0, 0, reach));
     const auto at = [first](int ring, int k) { return first + 1 + ring * SIDES + k % SIDES; };

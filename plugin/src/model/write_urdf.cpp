@@ -47,29 +47,31 @@ std::string link_text(const Model& model, size_t node, const std::string& name) 
     const Organ& organ = model.organs[size_t(std::max(model.chain.nodes[node].organ, 0))];
     const double length = section.length, radius = std::sqrt(section.area / M_PI), mass = section.mass() * length;
     const std::string half = numbers({0, 0, 0.5 * length});
-    const std::string geometry = text_of(
-        "      <origin xyz=\"%s\"/>\n      <geometry><cylinder radius=\"%.9g\" length=\"%.9g\"/></geometry>\n", half.c_str(),
-        radius, length);
+    const std::string geometry =
+        text_of("      <origin xyz=\"%s\"/>\n      <geometry><cylinder radius=\"%.9g\" length=\"%.9g\"/></geometry>\n",
+                half.c_str(), radius, length);
     const double across = mass * (radius * radius / 4 + length * length / 12), along = mass * radius * radius / 2;
     std::string text = "  <link name=\"" + name + "\">\n";
     text += "    <visual>\n" + geometry + "      <material name=\"" + escaped(organ.kind) + "\"/>\n    </visual>\n";
     text += "    <collision>\n" + geometry + "    </collision>\n";
-    text += text_of("    <inertial>\n      <origin xyz=\"%s\"/>\n      <mass value=\"%.9g\"/>\n      <inertia ixx=\"%.9g\" "
-                    "ixy=\"0\" ixz=\"0\" iyy=\"%.9g\" iyz=\"0\" izz=\"%.9g\"/>\n    </inertial>\n",
-                    half.c_str(), mass, across, across, along);
+    text += text_of(
+        "    <inertial>\n      <origin xyz=\"%s\"/>\n      <mass value=\"%.9g\"/>\n      <inertia ixx=\"%.9g\" "
+        "ixy=\"0\" ixz=\"0\" iyy=\"%.9g\" iyz=\"0\" izz=\"%.9g\"/>\n    </inertial>\n",
+        half.c_str(), mass, across, across, along);
     const Material* grass = material_preset("grass_" + organ.kind);
     const bool is_grass = grass && std::memcmp(grass, &organ.material, sizeof *grass) == 0;
-    text += text_of("    <frond organ=\"%s\" material=\"%s%s\" name=\"%s\" mass=\"%.9g\" stretching=\"%.9g\" bending=\"%.9g %.9g\" "
-                    "twisting=\"%.9g\"/>\n",
-                    organ.kind.c_str(), is_grass ? "grass_" : "", organ.kind.c_str(), escaped(organ.name).c_str(), section.mass(), section.stretching(),
-                    section.bending_thin(), section.bending_wide(), section.twisting());
+    text += text_of(
+        "    <frond organ=\"%s\" material=\"%s%s\" name=\"%s\" mass=\"%.9g\" stretching=\"%.9g\" bending=\"%.9g %.9g\" "
+        "twisting=\"%.9g\"/>\n",
+        organ.kind.c_str(), is_grass ? "grass_" : "", organ.kind.c_str(), escaped(organ.name).c_str(), section.mass(),
+        section.stretching(), section.bending_thin(), section.bending_wide(), section.twisting());
     return text + "  </link>\n";
 }
 
 std::string joint_text(const std::string& parent, const std::string& child, const Frame& frame) {
-    return "  <joint name=\"" + child + "_joint\" type=\"fixed\">\n    <parent link=\"" + parent + "\"/>\n    <child link=\"" +
-           child + "\"/>\n    <origin xyz=\"" + numbers(frame.origin) + "\" rpy=\"" + roll_pitch_yaw(frame.turn) +
-           "\"/>\n  </joint>\n";
+    return "  <joint name=\"" + child + "_joint\" type=\"fixed\">\n    <parent link=\"" + parent +
+           "\"/>\n    <child link=\"" + child + "\"/>\n    <origin xyz=\"" + numbers(frame.origin) + "\" rpy=\"" +
+           roll_pitch_yaw(frame.turn) + "\"/>\n  </joint>\n";
 }
 
 // z along the capsule, x where it is thinnest.
@@ -97,7 +99,8 @@ std::string urdf_of(const Model& model, const std::string& name) {
         const Frame& above = frames[size_t(parent)];
         const Quat back = above.turn.conjugate();
         text += link_text(model, i, link[i]);
-        text += joint_text(link[size_t(parent)], link[i], {back * (frames[i].origin - above.origin), back * frames[i].turn});
+        text += joint_text(link[size_t(parent)], link[i],
+                           {back * (frames[i].origin - above.origin), back * frames[i].turn});
     }
     return text + "</robot>\n";
 }

@@ -24,8 +24,8 @@ struct AirPiece {
     double skin;         // its surface [m^2]
     double chord_along;  // how far air goes along the skin, along the axis and across it [m]
     double chord_across;
-    Vec3 wide;           // in the modelled shape, length one
-    TetSpread spread;    // of `wide`
+    Vec3 wide;         // in the modelled shape, length one
+    TetSpread spread;  // of `wide`
 };
 using AirPieces = std::vector<AirPiece>;
 
@@ -45,7 +45,7 @@ inline Mat3 matrix_of(const SixOf& s) {
 // What a plant in air needs; plants without have none.
 struct AirState {
     std::shared_ptr<const AirPieces> pieces;
-    std::vector<frond_vec3> points, wind;  // one a chain node, world frame [m], [m/s]
+    std::vector<frond_vec3> points, wind;   // one a chain node, world frame [m], [m/s]
     std::vector<Vec3> velocities, passing;  // of chain nodes, and of the air past them, model frame [m/s]
     std::vector<Vec3> wide;                 // one a piece, where its wide side lies now, of no certain length
     std::vector<SixOf> resistance, lag;     // one a chain node [N s/m]

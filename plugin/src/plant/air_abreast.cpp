@@ -125,8 +125,8 @@ struct GatherPieces {
             last_turn = rotation_by(load3<S>(x, 6 * of.node + 3));
             const AirLanes<S> piece([&](int) -> const AirPiece& { return of; });
             const Lanes3<S> wide = {constant<S>(of.wide[0]), constant<S>(of.wide[1]), constant<S>(of.wide[2])};
-            const Lanes33<S> frame = air_frame<S>(load3<S>(x, 6 * of.node) - load3<S>(x, 6 * of.parent),
-                                                  turn * wide + last_turn * wide);
+            const Lanes33<S> frame =
+                air_frame<S>(load3<S>(x, 6 * of.node) - load3<S>(x, 6 * of.parent), turn * wide + last_turn * wide);
             add_at(of.parent, of, piece, frame);
             add_at(of.node, of, piece, frame);
         }

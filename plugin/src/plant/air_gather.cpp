@@ -1,7 +1,9 @@
-// In: a plant as it is and the air of its world. Out: drags on its chain nodes, which take half of each piece beside them.
+// In: a plant as it is and the air of its world. Out: drags on its chain nodes, which take half of each piece beside
+// them.
 //
 // The resistance is that of the air's speed past the plant at the start of the step; the velocity that it is multiplied
-// with is the one at the end, so that still air takes energy at any time step, and what stands in a wind feels exactly its force.
+// with is the one at the end, so that still air takes energy at any time step, and what stands in a wind feels exactly
+// its force.
 #include "core/product.hpp"
 #include "plant/air_push.hpp"
 #include "plant/plant.hpp"

@@ -1,7 +1,8 @@
 // In: a model's chain, sections and organs. Out: what each capsule turns to the air, and its drag coefficient.
 //
 // Coefficients where the material gives none:
-//   blades, flowers  finite flat plates: 1.10 + 0.02 (a + 1 / a), a length over width, at most the 1.98 of an endless one
+//   blades, flowers  finite flat plates: 1.10 + 0.02 (a + 1 / a), a length over width, at most the 1.98 of an endless
+//   one
 //                    (Hoerner 1965, "Fluid-dynamic drag", chapter 3)
 //   fruits           spheres, by Reynolds number, see air_resistance.cpp
 //   crowns           0.4: whole crowns in a wind tunnel, by their area in still air, have 0.2-0.6 in winds of 10-25 m/s
@@ -74,10 +75,10 @@ AirPieces make_air_pieces(const Model& model) {
         piece.area = Vec3(end, section.width * section.length, section.thickness * section.length);
         piece.size = section.width;
         // An ellipse's rim is nearest to that of the circle of its mean square diameter.
-        const double rim = piece.shape == AirShape::SHEET
-                               ? 2 * section.width
-                               : M_PI * std::sqrt((section.width * section.width +
-                                                   section.thickness * section.thickness) / 2);
+        const double rim =
+            piece.shape == AirShape::SHEET
+                ? 2 * section.width
+                : M_PI * std::sqrt((section.width * section.width + section.thickness * section.thickness) / 2);
         piece.skin = rim * section.length;
         piece.chord_along = size.length;
         piece.chord_across = section.width;
@@ -85,7 +86,8 @@ AirPieces make_air_pieces(const Model& model) {
         piece.spread = spread_of(model, int(i), piece.wide);
         pieces.push_back(piece);
     }
-    std::stable_sort(pieces.begin(), pieces.end(), [](const AirPiece& a, const AirPiece& b) { return a.shape < b.shape; });
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [](const AirPiece& a, const AirPiece& b) { return a.shape < b.shape; });
     return pieces;
 }
 

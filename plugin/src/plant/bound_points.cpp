@@ -1,4 +1,5 @@
-// What follows the cage, point by point: vertices of the surface, the chain and its capsules, and where one can hold on.
+// What follows the cage, point by point: vertices of the surface, the chain and its capsules, and where one can hold
+// on.
 #include <algorithm>
 
 #include "plant/plant.hpp"
@@ -57,7 +58,7 @@ void update_chain(Plant& plant) {
     }
     for (size_t i = 0; i < count; i++) {
         const Fragment* fragment = fragment_of_chain_node(plant, i);
-        plant.chain_positions[i] = fragment          ? plant.to_model(fragment->place(fragment->chain_x[i]))
+        plant.chain_positions[i] = fragment       ? plant.to_model(fragment->place(fragment->chain_x[i]))
                                    : plant.follow ? Vec3(point(x, int(2 * i)))
                                                   : chain_point(plant, i);
     }

@@ -201,11 +201,10 @@ void carry_stumps(Plant& plant) {
         const int parent = nodes[i].parent, node = int(2 * i);
         stump[i] = plant.parting->of_chain[size_t(parent)] < 0 ? parent : stump[size_t(parent)];
         const int at = 2 * stump[i];
-        const Mat3 turn = rotation_of<double>(point(motion.x, at + 1)) *
-                          rotation_of<double>(point(start, at + 1)).transpose();
+        const Mat3 turn =
+            rotation_of<double>(point(motion.x, at + 1)) * rotation_of<double>(point(start, at + 1)).transpose();
         point(motion.x, node) = point(motion.x, at) + turn * (point(start, node) - point(start, at));
-        point(motion.x, node + 1) =
-            rotation_vector<double>(Mat3(turn * rotation_of<double>(point(start, node + 1))));
+        point(motion.x, node + 1) = rotation_vector<double>(Mat3(turn * rotation_of<double>(point(start, node + 1))));
         for (int k = node; k < node + 2; k++) {
             point(motion.v, k).setZero();
             if (!follows) continue;

@@ -42,8 +42,8 @@ static double rest_time_of(const std::shared_ptr<const Model>& model) {
     return frequency > 0 ? std::clamp(0.5 / frequency, LEAST, MOST) : MOST;
 }
 
-static std::shared_ptr<const SharedSystem> shared_system(const std::shared_ptr<const Model>& model, frond_mechanics which,
-                                                   frond_mass mass, int order) {
+static std::shared_ptr<const SharedSystem> shared_system(const std::shared_ptr<const Model>& model,
+                                                         frond_mechanics which, frond_mass mass, int order) {
     static Shared<std::tuple<const Model*, frond_mechanics, frond_mass, int>, SharedSystem> systems;
     return systems.find_or_make({model.get(), which, mass, order}, [&] {
         ensure_rest_shape(*model, which, order);
@@ -66,8 +66,9 @@ struct OfModel {
 template <class Value, class Make>
 static std::shared_ptr<const Value> shared_of(const std::shared_ptr<const Model>& model, int order, Make&& make) {
     static Shared<std::pair<const Model*, int>, OfModel<Value>> values;
-    const auto shared = values.find_or_make(
-        {model.get(), order}, [&] { return std::make_shared<const OfModel<Value>>(OfModel<Value>{model, make()}); });
+    const auto shared = values.find_or_make({model.get(), order}, [&] {
+        return std::make_shared<const OfModel<Value>>(OfModel<Value>{model, make()});
+    });
     return std::shared_ptr<const Value>(shared, &shared->value);
 }
 
@@ -167,14 +168,15 @@ static std::vector<int> find_anchors(const Plant& plant, const std::vector<uint8
 
 static std::shared_ptr<const Foot> foot_of(const Plant& plant, double root_height) {
     static Shared<std::tuple<const Model*, int, bool, double>, OfModel<Foot>> feet;
-    const auto shared = feet.find_or_make({plant.model.get(), plant.nodes->order, bool(plant.follow), root_height}, [&] {
-        Foot foot;
-        foot.pinned = find_held(plant, root_height);
-        foot.pin_target = cage_places(plant);
-        const double limit = root_height > 0 ? plant.model->surface.lower().y() + root_height : -INFINITY;
-        foot.anchor = find_anchors(plant, foot.pinned, limit);
-        return std::make_shared<const OfModel<Foot>>(OfModel<Foot>{plant.model, std::move(foot)});
-    });
+    const auto shared =
+        feet.find_or_make({plant.model.get(), plant.nodes->order, bool(plant.follow), root_height}, [&] {
+            Foot foot;
+            foot.pinned = find_held(plant, root_height);
+            foot.pin_target = cage_places(plant);
+            const double limit = root_height > 0 ? plant.model->surface.lower().y() + root_height : -INFINITY;
+            foot.anchor = find_anchors(plant, foot.pinned, limit);
+            return std::make_shared<const OfModel<Foot>>(OfModel<Foot>{plant.model, std::move(foot)});
+        });
     return std::shared_ptr<const Foot>(shared, &shared->value);
 }
 

@@ -2,9 +2,10 @@
 // more than its tissue is.
 //
 // A fibre is slack up to a small stretch and then as stiff as what the cage lacks, so small motions, the rest shape and
-// the fit of the cage do not know of it. It only pulls. Taut ones are rows of impulses against the plant's own factor, as
-// contacts are, with their softness on the diagonal: for a step whose places follow velocities by `reach`, an impulse p
-// is a force p / reach, which draws the fibre out by p / (reach k). What is held pulls at its capsule likewise.
+// the fit of the cage do not know of it. It only pulls. Taut ones are rows of impulses against the plant's own factor,
+// as contacts are, with their softness on the diagonal: for a step whose places follow velocities by `reach`, an
+// impulse p is a force p / reach, which draws the fibre out by p / (reach k). What is held pulls at its capsule
+// likewise.
 #include "plant/fibres.hpp"
 
 #include <algorithm>
@@ -67,8 +68,8 @@ double drawn_out(const Plant& plant, const Fibre& fibre) {
     return (places[node] - places[parent]).norm() / fibre.length;
 }
 
-// Leaves that cross come apart only by being drawn out, so fibres of a plant that is entangled let it be, and then draw it
-// in again no faster than contacts can follow.
+// Leaves that cross come apart only by being drawn out, so fibres of a plant that is entangled let it be, and then draw
+// it in again no faster than contacts can follow.
 void let_give(Plant& plant, double h) {
     constexpr double RATE = 0.02;  // [1/s]
     const std::vector<Fibre>& list = plant.fibres->list;
@@ -94,7 +95,8 @@ std::vector<Row> find_rows(const Plant& plant) {
         if (!(drawn > NEARLY) || fragment_of_chain_node(plant, size_t(fibre.node))) continue;
         any = any || drawn > 1;
         const int parent = plant.model->chain.nodes[size_t(fibre.node)].parent;
-        rows.push_back({chain_grip(plant, parent), chain_grip(plant, fibre.node), give * fibre.length, fibre.stiffness});
+        rows.push_back(
+            {chain_grip(plant, parent), chain_grip(plant, fibre.node), give * fibre.length, fibre.stiffness});
     }
     if (!any) return {};
     add_rows_of_grabs(plant, rows);
@@ -116,8 +118,7 @@ Stretch stretch_of(const Row& row, const VecX& x) {
     const Vec3 along = way.normalized();
     Stretch stretch = {{}, way.norm() - row.length};
     const auto add = [&](const GripDerivative& at, const Vec3& pull) {
-        for (size_t k = 0; k < size_t(at.count); k++)
-            stretch.pull.push_back({at.node[k], at.by[k].transpose() * pull});
+        for (size_t k = 0; k < size_t(at.count); k++) stretch.pull.push_back({at.node[k], at.by[k].transpose() * pull});
     };
     add(derivative_at(row.end, x), -along);
     add(derivative_at(row.begin, x), along);
@@ -130,8 +131,8 @@ std::vector<Stretch> stretches_of(const std::vector<Row>& rows, const VecX& x) {
     return stretches;
 }
 
-// How fast each row closes by pulls on every one [1/kg]; empty if the plant does not answer. An answer has room for three
-// directions of one push, so three rows go into one.
+// How fast each row closes by pulls on every one [1/kg]; empty if the plant does not answer. An answer has room for
+// three directions of one push, so three rows go into one.
 Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
     const size_t count = stretches.size(), triples = (count + 2) / 3;
     std::vector<Answer> answers(triples);
@@ -162,8 +163,7 @@ Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
 bool answer_to(Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls, VecX& dv) {
     VecX impulse = VecX::Zero(plant.motion.v.size());
     for (size_t i = 0; i < stretches.size(); i++)
-        for (const NodePull& pull : stretches[i].pull)
-            point(impulse, pull.node) += pulls[Eigen::Index(i)] * pull.along;
+        for (const NodePull& pull : stretches[i].pull) point(impulse, pull.node) += pulls[Eigen::Index(i)] * pull.along;
     return respond(*plant.workspace, plant.settings, impulse, dv);
 }
 

@@ -1,6 +1,6 @@
 // Fibres: what an organ has against being drawn out and its cage has not. A cage is fatter than what it holds and is
-// fitted to how that bends: against a pull it has the square of the ratio of their thicknesses too little, of a blade of
-// 0.3 mm in cells of 24 mm the 1/6400th part.
+// fitted to how that bends: against a pull it has the square of the ratio of their thicknesses too little, of a blade
+// of 0.3 mm in cells of 24 mm the 1/6400th part.
 #pragma once
 
 #include "solve/solve.hpp"

@@ -98,8 +98,7 @@ void fit_velocities(const Follow& follow, const VecX& x, const VecX& cage_v, Vec
     v.setZero(x.size());
     if (!normal.set(follow, x)) return;
     VecX pull = VecX::Zero(x.size());
-    for (size_t n = 0; n < follow.grips.size(); n++)
-        add_grip_force(follow.grips[n], x, point(cage_v, int(n)), pull);
+    for (size_t n = 0; n < follow.grips.size(); n++) add_grip_force(follow.grips[n], x, point(cage_v, int(n)), pull);
     solve(normal.factor, pull, v);
 }
 

@@ -12,16 +12,16 @@ struct Model;
 struct Plant;
 struct Grip;
 
-// A direction of the modelled shape as the sum of the corners of the tets that hold a capsule's two nodes, each times its
-// own number: these follow the tets [1/m].
+// A direction of the modelled shape as the sum of the corners of the tets that hold a capsule's two nodes, each times
+// its own number: these follow the tets [1/m].
 using TetSpread = std::array<std::array<double, 4>, 2>;
 TetSpread spread_of(const Model& model, int node, const Vec3& direction);
 
-// Where the wide side of the capsule that ends at a chain node lies now, model frame; of no certain length. `modelled` and its
-// spread are of the modelled shape.
+// Where the wide side of the capsule that ends at a chain node lies now, model frame; of no certain length. `modelled`
+// and its spread are of the modelled shape.
 Vec3 wide_now(const Plant& plant, int node, const Vec3& modelled, const TetSpread& spread);
-// Columns axis, thin and wide of the capsule that ends at a chain node, as it lies now, model frame; `wide` and its spread
-// are of the modelled shape. False where the capsule has lost its shape.
+// Columns axis, thin and wide of the capsule that ends at a chain node, as it lies now, model frame; `wide` and its
+// spread are of the modelled shape. False where the capsule has lost its shape.
 bool piece_frame(const Plant& plant, int node, const Vec3& wide, const TetSpread& spread, Mat3& frame);
 
 struct Flat;
@@ -40,8 +40,8 @@ struct Flat {
 // One a capsule. Blades whose capsules were given a radius of the caller's are as round as he wants them.
 std::vector<Flat> make_flats(const Model& model);
 
-// A point of the capsule's axis at `along` of its way, 0..1, and `across` [m] from there to its wide side: the blade's own
-// half width is a lever, beside which a push turns it.
+// A point of the capsule's axis at `along` of its way, 0..1, and `across` [m] from there to its wide side: the blade's
+// own half width is a lever, beside which a push turns it.
 Grip flat_grip(const Plant& plant, int capsule, const Flat& flat, double along, double across);
 
 }  // namespace frond

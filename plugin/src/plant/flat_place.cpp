@@ -56,7 +56,9 @@ struct FindFrames {
                         gather<S>([&](int l) { return value(l, 2); })};
             };
             const auto place = [&](size_t end) {
-                return three([&](int l, int c) { return plant.chain_positions[size_t(plant.model->capsules[capsule(l)][end])][c]; });
+                return three([&](int l, int c) {
+                    return plant.chain_positions[size_t(plant.model->capsules[capsule(l)][end])][c];
+                });
             };
             const auto turn = [&](size_t end) {
                 return three([&](int l, int c) { return x[6 * plant.model->capsules[capsule(l)][end] + 3 + c]; });

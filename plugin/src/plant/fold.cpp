@@ -45,8 +45,8 @@ void fold(Plant& plant, double tolerance, bool keep_surface) {
     plant.trend = {};
     plant.loads = {};
     plant.air = nullptr;
-    for (VecX* numbers : {&plant.x_good, &plant.v_good, &plant.contact_impulse, &plant.contact_shift, &plant.user_force,
-                          &plant.cage_x})
+    for (VecX* numbers :
+         {&plant.x_good, &plant.v_good, &plant.contact_impulse, &plant.contact_shift, &plant.user_force, &plant.cage_x})
         drop(*numbers);
     plant.cage_stale = true;
     drop(plant.chain_positions);

@@ -1,5 +1,5 @@
-// Fragment: what has come off a plant, from a capsule of the chain that broke to the tips beyond it. It moves as a rigid
-// body does, which whoever simulates bodies does for it.
+// Fragment: what has come off a plant, from a capsule of the chain that broke to the tips beyond it. It moves as a
+// rigid body does, which whoever simulates bodies does for it.
 #pragma once
 
 #include <memory>
@@ -11,13 +11,13 @@ namespace frond {
 struct Plant;
 
 struct Fragment {
-    int node;                    // of the chain, at the end of the capsule that broke
-    VecX cage_x;                 // all cage nodes as they were then, model frame [m]
-    std::vector<Vec3> chain_x;   // all chain nodes
+    int node;                   // of the chain, at the end of the capsule that broke
+    VecX cage_x;                // all cage nodes as they were then, model frame [m]
+    std::vector<Vec3> chain_x;  // all chain nodes
     // As a rigid body, world frame. At first momentum and angular momentum are those of its nodes.
-    double mass = 0;                     // [kg]
-    Mat3 axes = Mat3::Identity();        // principal ones, when it came off
-    Vec3 moments = Vec3::Ones();         // of inertia about them [kg m^2]
+    double mass = 0;                                                           // [kg]
+    Mat3 axes = Mat3::Identity();                                              // principal ones, when it came off
+    Vec3 moments = Vec3::Ones();                                               // of inertia about them [kg m^2]
     Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero(), spin = Vec3::Zero();  // now [m], [m/s], [rad/s]
     // Where it is now: what was at p in the model's frame is at turn p + shift in the world.
     Mat3 turn;
@@ -28,12 +28,12 @@ struct Fragment {
 
 // Which fragment a thing belongs to, -1: to the plant. All empty as long as nothing is broken.
 struct Parting {
-    std::vector<int> of_chain;   // one a chain node: the capsule that ends there
-    std::vector<int> of_tet;     // one a tet of the cage
-    std::vector<int> of_node;    // one a cage node: all its tets are gone
-    std::vector<int> of_vertex;  // one a vertex of the surface
+    std::vector<int> of_chain;        // one a chain node: the capsule that ends there
+    std::vector<int> of_tet;          // one a tet of the cage
+    std::vector<int> of_node;         // one a cage node: all its tets are gone
+    std::vector<int> of_vertex;       // one a vertex of the surface
     std::vector<Triangle> triangles;  // the surface's; those across a break have no area
-    VecX start;                  // of a chain: the motion's places when nodes were last taken away
+    VecX start;                       // of a chain: the motion's places when nodes were last taken away
 };
 
 // That of all plants of which nothing came off.

@@ -11,8 +11,9 @@ struct SolveSettings;
 
 // Farthest way of a place in the running step [m]; infinite where it is no number.
 double farthest_way(const Plant& plant);
-// Whether something ended a step of h [s] far from where it was heading when the step began: a place by more than 0.02 of
-// the plant's size, the rotation of a chain's node by more than 0.35 rad; steps longer than 1/60 s are never trusted that far.
+// Whether something ended a step of h [s] far from where it was heading when the step began: a place by more than 0.02
+// of the plant's size, the rotation of a chain's node by more than 0.35 rad; steps longer than 1/60 s are never trusted
+// that far.
 bool ends_off_course(const Plant& plant, double h);
 constexpr double OFF_COURSE = 0.02, TURNED_OFF_COURSE = 0.35;  // over the plant's size [-], [rad]
 // What is stiff is strained much by little: the error of one solve grows over what moves as the square of the step [s].
@@ -30,10 +31,12 @@ double potential_energy(const Plant& plant, const VecX& x);
 double lifting_energy(const Plant& plant);
 
 struct EnergyLook {
-    bool comes_from_nowhere = false;  // it has more than it had and than forces, springs and pins that move can have given
-    bool was_small = false;           // it had less than lifts it by its size when the step began
+    // It has more than it had and than forces, springs and pins that move can have given.
+    bool comes_from_nowhere = false;
+    bool was_small = false;  // it had less than lifts it by its size when the step began
 };
-// After a solve over h [s] from x_good and v_good; contacts did `work` [J]. Not told, both false, in the air, which may give any.
+// After a solve over h [s] from x_good and v_good; contacts did `work` [J]. Not told, both false, in the air, which may
+// give any.
 EnergyLook look_at_energy(const Plant& plant, double h, double work = 0);
 
 // Before a solve: a plant whose pins are put farther away than it is long goes along with them, as it is.

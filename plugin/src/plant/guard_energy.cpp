@@ -1,7 +1,7 @@
 // In: a plant before and after a solve. Out: whether energy came out of nothing.
 //
-// One solve takes forces and stiffness of one place; where a plant turns far within the step they point elsewhere, and a
-// stiff, light one ends strained by many times what it was.
+// One solve takes forces and stiffness of one place; where a plant turns far within the step they point elsewhere, and
+// a stiff, light one ends strained by many times what it was.
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +24,8 @@ static double farthest(const VecX& x, const VecX& from, int first, int next) {
 
 // Of a chain's node, whose rotation vector turns back by 2 pi where it has turned by more than pi [rad].
 static Vec3 turn_of(const VecX& x, const VecX& from, int node) {
-    return rotation_vector<double>(rotation_of<double>(point(x, node)) * rotation_of<double>(point(from, node)).transpose());
+    return rotation_vector<double>(rotation_of<double>(point(x, node)) *
+                                   rotation_of<double>(point(from, node)).transpose());
 }
 
 double farthest_way(const Plant& plant) {
@@ -97,7 +98,8 @@ static double way_of_pins(const Plant& plant) {
     const int next = plant.follow ? 2 : 1;
     double most = 0;
     for (int i = 0; i < int(motion.pinned.size()); i += next)
-        if (motion.pinned[size_t(i)]) most = std::max(most, (point(motion.pin_target, i) - point(plant.x_good, i)).norm());
+        if (motion.pinned[size_t(i)])
+            most = std::max(most, (point(motion.pin_target, i) - point(plant.x_good, i)).norm());
     for (const Spring& spring : plant.pin_springs)
         most = std::max(most, (spring.target - grip_place(spring.grip, plant.x_good)).norm());
     return most;

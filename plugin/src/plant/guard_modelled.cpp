@@ -1,6 +1,6 @@
 // In: a plant that is caught in a shape from which no step leads back: at rest with tets inside out, strained from all
-// sides; or so far drawn out that every step fails. Out: its modelled shape, where it is held, if that has less potential
-// energy than the one it is caught in. What is seen of it fades over within a second.
+// sides; or so far drawn out that every step fails. Out: its modelled shape, where it is held, if that has less
+// potential energy than the one it is caught in. What is seen of it fades over within a second.
 #include "mechanics/rotation.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
@@ -25,7 +25,8 @@ bool find_frame(const Plant& plant, Mat3& rotation, Vec3& shift) {
         shift = point(motion.x, i) - rotation * point(modelled, i);
         return true;
     }
-    return fit_rigid(held_from, held_to, Vec3::Zero(), rotation, shift) || fit_rigid(from, to, Vec3::Zero(), rotation, shift);
+    return fit_rigid(held_from, held_to, Vec3::Zero(), rotation, shift) ||
+           fit_rigid(from, to, Vec3::Zero(), rotation, shift);
 }
 
 VecX modelled_in(const Plant& plant, const Mat3& rotation, const Vec3& shift) {

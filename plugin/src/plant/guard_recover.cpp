@@ -1,9 +1,9 @@
-// In: a plant after a step. Out: whether it has a shape to which nothing can have bent it, for how long it recovers from
-// that, and a way out where it cannot.
+// In: a plant after a step. Out: whether it has a shape to which nothing can have bent it, for how long it recovers
+// from that, and a way out where it cannot.
 //
-// Put there by a host, or driven there by what no tissue bears, it holds thousands of times the energy of any sway. Set free,
-// that would keep it flying about for long, so while it recovers it is damped as much as stops a sway without swinging
-// back, by the integrator that damps most, and keeps no set.
+// Put there by a host, or driven there by what no tissue bears, it holds thousands of times the energy of any sway. Set
+// free, that would keep it flying about for long, so while it recovers it is damped as much as stops a sway without
+// swinging back, by the integrator that damps most, and keeps no set.
 #include <cmath>
 
 #include "plant/guard.hpp"

@@ -1,4 +1,5 @@
-// A plant's step needs a workspace of some hundred kilobytes, and nothing of it afterwards: plants of one system take turns.
+// A plant's step needs a workspace of some hundred kilobytes, and nothing of it afterwards: plants of one system take
+// turns.
 #include "plant/plant.hpp"
 
 namespace frond {

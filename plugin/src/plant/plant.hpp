@@ -39,7 +39,7 @@ struct WorkspacePool {
     std::mutex mutex;
     std::vector<WorkspacePtr> free;
     std::vector<std::shared_ptr<PlantsAbreast>> abreast;  // likewise, of several plants at once
-    size_t seats = 0;  // plants that may ask for one: those that are awake
+    size_t seats = 0;                                     // plants that may ask for one: those that are awake
 };
 // A plant's right to one. Without as many seats, free workspaces go.
 struct PoolSeat {
@@ -67,47 +67,49 @@ struct Plant {
     frond_mechanics which;
     frond_mass mass;
     std::shared_ptr<const System> system;
-    std::unique_ptr<Elements> own_elements;  // of a plant that has yielded, with what of its shape is lasting; else null
-    PoolSeat seat;           // among the plants of the system
-    WorkspacePtr workspace;  // lent for a step; refers to system and own elements
+    std::unique_ptr<Elements>
+        own_elements;                       // of a plant that has yielded, with what of its shape is lasting; else null
+    PoolSeat seat;                          // among the plants of the system
+    WorkspacePtr workspace;                 // lent for a step; refers to system and own elements
     SolveSettings settings, step_settings;  // the latter without what the running step's effects leave out
-    double material_damping;  // share of the organs' damping ratios that counts [-]
-    double substep_tolerance;  // local error of a place in a step, over the plant's size [-]
-    Trend trend;               // empty with one substep
-    double rest_time;          // for which a plant that rests has been still [s]
-    Vec3 position;  // of the model's frame in the world [m]
+    double material_damping;                // share of the organs' damping ratios that counts [-]
+    double substep_tolerance;               // local error of a place in a step, over the plant's size [-]
+    Trend trend;                            // empty with one substep
+    double rest_time;                       // for which a plant that rests has been still [s]
+    Vec3 position;                          // of the model's frame in the world [m]
     Quat rotation;
     void* user = nullptr;
 
-    Motion motion;        // of what the mechanics move, model frame
+    Motion motion;                         // of what the mechanics move, model frame
     std::shared_ptr<const Follow> follow;  // null where the cage itself moves
     std::unique_ptr<Swing> swing;          // of a chain that only sways; else null
     Fade fade;                             // of the cage, beside where the mechanics have it
     double lead = 0;                       // for which the cage is drawn to go on, until the plant is stepped again [s]
     double stepped_by = 0;                 // the last step, from x_good to here; 0: it was put here since [s]
     std::shared_ptr<const Fibres> fibres;  // null where none pulls
-    std::vector<double> fibre_give;        // lengths at which they pull, over their own, after an entanglement; else empty [-]
-    std::vector<uint8_t> pinned;           // one a cage node
-    VecX pin_target;                       // where pinned cage nodes shall be, model frame [m]
-    std::vector<int> anchor;               // the chain node that holds each cage node where it is pinned
-    std::vector<Spring> pin_springs;       // hold pinned cage nodes that are too few to hold a chain node
-    std::shared_ptr<const Foot> foot;      // the three above at first
-    VecX x_good, v_good;  // before the running step, of the motion; empty after a healthy one abreast: in the history
+    std::vector<double>
+        fibre_give;               // lengths at which they pull, over their own, after an entanglement; else empty [-]
+    std::vector<uint8_t> pinned;  // one a cage node
+    VecX pin_target;              // where pinned cage nodes shall be, model frame [m]
+    std::vector<int> anchor;      // the chain node that holds each cage node where it is pinned
+    std::vector<Spring> pin_springs;   // hold pinned cage nodes that are too few to hold a chain node
+    std::shared_ptr<const Foot> foot;  // the three above at first
+    VecX x_good, v_good;   // before the running step, of the motion; empty after a healthy one abreast: in the history
     VecX contact_impulse;  // of the running step's contacts on the nodes of the mechanics [N s]; empty: none
     VecX contact_shift;    // likewise, of those that move the plant and give it no velocity
-    Loads loads;          // of the running step, kept to reuse its memory
+    Loads loads;           // of the running step, kept to reuse its memory
     std::unique_ptr<AirState> air;  // null until the plant is in air
     Vec3 blown = Vec3::Zero();      // force of the last step's air, where no drags tell of it [N]
-    VecX user_force;      // on cage nodes, until the end of the host's step, world frame [N]; empty: none yet
+    VecX user_force;                // on cage nodes, until the end of the host's step, world frame [N]; empty: none yet
     std::list<Grab> grabs;
 
-    std::vector<Fragment> fragments;  // that came off
+    std::vector<Fragment> fragments;                  // that came off
     std::shared_ptr<Parting> parting = no_parting();  // of its own only where there are fragments
 
     // What follows the cage.
     std::vector<Vec3> chain_positions;                      // model frame [m]
     std::vector<float> surface_positions, surface_normals;  // world frame
-    mutable VecX cage_x;  // model frame [m]; where it is not what the mechanics have
+    mutable VecX cage_x;                                    // model frame [m]; where it is not what the mechanics have
 
     // Folded: put away as what it takes to unfold it. Then all above that a step changes is empty.
     std::vector<float> away;  // from the modelled shape, of what the mechanics move [m]; empty: it is at rest there
@@ -116,23 +118,23 @@ struct Plant {
     frond_effects effects;
     uint32_t trouble = 0;  // of the last step
     int max_substeps;
-    int substeps = 1;              // of the next step
-    bool is_touched = false;       // by bodies, which answer to whole steps
-    bool is_entangled = false;     // deep in itself or another plant: leaves that cross come apart only by being drawn out
+    int substeps = 1;           // of the next step
+    bool is_touched = false;    // by bodies, which answer to whole steps
+    bool is_entangled = false;  // deep in itself or another plant: leaves that cross come apart only by being drawn out
     bool has_user_force = false;
     bool pins_changed = true;
     bool pins_are_own = false;     // the host has changed them
     bool stands_on_roots = false;  // the model's own root holds it
     bool surface_stale = true;
-    float surface_back = 0;        // for which the surface is drawn before the end of the last substep [s]
+    float surface_back = 0;  // for which the surface is drawn before the end of the last substep [s]
     mutable bool cage_stale = true;
     bool folded = false;
-    bool is_sound = true;          // what was found can be the next state
-    bool is_off_course = false;    // in the running step something went elsewhere than it was heading
-    float patience = 1;            // share of the work that searches are given [-]
-    bool may_yield = true;         // in the running step, for all that is known
-    float recovers_for = 0;        // from a shape to which nothing can have bent it [s]
-    float size;                    // of the modelled surface, from corner to corner [m]
+    bool is_sound = true;        // what was found can be the next state
+    bool is_off_course = false;  // in the running step something went elsewhere than it was heading
+    float patience = 1;          // share of the work that searches are given [-]
+    bool may_yield = true;       // in the running step, for all that is known
+    float recovers_for = 0;      // from a shape to which nothing can have bent it [s]
+    float size;                  // of the modelled surface, from corner to corner [m]
 
     // Of the last step.
     SolveReport report;
@@ -154,16 +156,16 @@ struct Surroundings {
 
 // `def` has been checked by the caller.
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def);
-// A step in two halves, between which contacts may change what the first one found: effects and solve; then accept, with
-// what becomes lasting, or rewind, and the chain.
+// A step in two halves, between which contacts may change what the first one found: effects and solve; then accept,
+// with what becomes lasting, or rewind, and the chain.
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
 // The middle of the first half: plant.motion goes on by h under plant.loads.
 SolveReport solve_in_substeps(Plant& plant, double h);
 // Of the running step; gravity in the model's frame [m/s^2].
 Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effects effects);
 SolveSettings settings_for(const Plant& plant, frond_effects effects);
-// Takes contact_impulse and contact_shift, if there are any, into the step that was solved, of a plant in touch: only now its
-// energy tells whether the step went wrong. `lost`: by bodies that push it [J].
+// Takes contact_impulse and contact_shift, if there are any, into the step that was solved, of a plant in touch: only
+// now its energy tells whether the step went wrong. `lost`: by bodies that push it [J].
 void add_contacts(Plant& plant, double h, double lost);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Both.
@@ -182,8 +184,8 @@ std::shared_ptr<const SwingModes> swing_modes_of(const Plant& plant);
 Vec3 air_force(const Plant& plant);  // of the last step, world frame [N]
 // Forces given by frond_plant_add_force end.
 void clear_user_force(Plant& plant);
-// Writes surface_positions and surface_normals as far as the effects ask for them, as they were `back` before the end of
-// the last substep; below zero: as they will be if all goes on so [s].
+// Writes surface_positions and surface_normals as far as the effects ask for them, as they were `back` before the end
+// of the last substep; below zero: as they will be if all goes on so [s].
 void update_surface(Plant& plant, frond_effects effects, double back = 0);
 frond_energy energy_of(const Plant& plant, const Vec3& gravity);
 // The surface vertex nearest to a point of the world.
@@ -229,8 +231,8 @@ bool is_where_held(const Motion& motion);
 
 // Lets go of what would snap back at once.
 void relax(Plant& plant);
-// Goes on with other mechanics from the same shape and motion. `smoothly`: between cage and chain only the swing is handed
-// over, which strains neither, and the rest of shape and motion fades.
+// Goes on with other mechanics from the same shape and motion. `smoothly`: between cage and chain only the swing is
+// handed over, which strains neither, and the rest of shape and motion fades.
 void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly = false);
 
 }  // namespace frond

@@ -1,5 +1,5 @@
-// A pinned node does not accelerate: what holds it is the opposite of all else that pulls it, elastic forces and weight.
-// Where the chain moves, nodes are pairs of a place and a rotation, and a held rotation is held by a moment.
+// A pinned node does not accelerate: what holds it is the opposite of all else that pulls it, elastic forces and
+// weight. Where the chain moves, nodes are pairs of a place and a rotation, and a held rotation is held by a moment.
 #include "plant/root_force.hpp"
 
 #include "mechanics/rotation.hpp"

@@ -9,10 +9,10 @@ namespace frond {
 
 // Shared by all plants of a model. Read-only.
 struct Sheath {
-    Collider collider;          // its pieces are the capsules
-    Follow follow;              // where the nodes are
+    Collider collider;           // its pieces are the capsules
+    Follow follow;               // where the nodes are
     std::vector<Vec3> modelled;  // in the modelled shape [m]
-    std::vector<Grip> holds;    // by which pushes take them: the chain's axis, and a blade's half width as a lever
+    std::vector<Grip> holds;     // by which pushes take them: the chain's axis, and a blade's half width as a lever
 };
 
 Sheath make_sheath(const Model& model);

@@ -1,7 +1,7 @@
 // In: a model's chain and sections. Out: rings of four nodes around the chain's nodes, and tets between two rings.
 //
-// A blade is at least as thick as what moves into it within a step: thinner ones would be through each other unseen. What
-// goes across a blade at a push beside its midrib turns with the chain's nodes.
+// A blade is at least as thick as what moves into it within a step: thinner ones would be through each other unseen.
+// What goes across a blade at a push beside its midrib turns with the chain's nodes.
 #include <algorithm>
 
 #include "model/tet_geometry.hpp"

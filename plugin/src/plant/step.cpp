@@ -262,8 +262,8 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
 }
 
 // Shifts as far as nothing is bent much, and as the work that it does on the plant stays small: contacts that want it
-// in different places at once would press it like a spring. What is left is for the next steps; a little is taken of what is
-// far too much, or stout stems would never part.
+// in different places at once would press it like a spring. What is left is for the next steps; a little is taken of
+// what is far too much, or stout stems would never part.
 static void move_by(Plant& plant, const VecX& dv, double h) {
     constexpr double LEAST = 0.002, LIFT = 0.5;  // the work is that of lifting the plant so fast, by its weight [m/s]
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);

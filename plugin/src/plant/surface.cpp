@@ -43,7 +43,9 @@ struct PlaceNodes {
     std::vector<Quad>& nodes;
     template <class>
     FROND_INLINE void run() const {
-        const auto lanes = [](const auto& v) __attribute__((always_inline)) { return FourLanes{v[0], v[1], v[2], 0}; };
+        const auto lanes = [](const auto& v) __attribute__((always_inline)) {
+            return FourLanes{v[0], v[1], v[2], 0};
+        };
         const FourLanes x = lanes(drawn.turn.col(0)), y = lanes(drawn.turn.col(1)), z = lanes(drawn.turn.col(2));
         const FourLanes shift = lanes(drawn.shift);
         const double* from = drawn.x.data();
@@ -81,8 +83,8 @@ struct PlaceVertices {
     }
 };
 
-// cof(E) M^T of four tets, each whichever way round its corners run. edges(lane, a) gives edge a of now, modelled(lane, a)
-// that at rest.
+// cof(E) M^T of four tets, each whichever way round its corners run. edges(lane, a) gives edge a of now, modelled(lane,
+// a) that at rest.
 template <class Edges, class Modelled>
 FROND_INLINE Lanes33<FourLanes> weighted_cofactors(const Edges& edges, const Modelled& modelled) {
     Lanes33<FourLanes> E, M;  // a row an edge
@@ -128,7 +130,7 @@ struct AddCofactors {
     FROND_INLINE void add_linear(const int (&tet)[4], int count) const {
         const std::vector<Tet>& tets = plant.model->cage.tets;
         const auto edge = [&](const auto& place) __attribute__((always_inline)) {
-            return [&, place](int lane, int a) __attribute__((always_inline)) {
+            return [&, place ](int lane, int a) __attribute__((always_inline)) {
                 const Tet& corners = tets[size_t(tet[lane])];
                 return FourLanes(place(corners[size_t(a) + 1]) - place(corners[0]));
             };
@@ -152,9 +154,8 @@ struct AddCofactors {
             return FourLanes(4.0 * now(tet[size_t(TET_BETWEEN[k][from])]) - own);
         };
         add(weighted_cofactors(
-                [&](int lane, int a) __attribute__((always_inline)) {
-                    return FourLanes(seen(a + 1, lane) - seen(0, lane));
-                },
+                [&](int lane, int a)
+                    __attribute__((always_inline)) { return FourLanes(seen(a + 1, lane) - seen(0, lane)); },
                 [&](int, int a) __attribute__((always_inline)) {
                     return FourLanes(modelled(tet[size_t(a) + 1]) - modelled(tet[0]));
                 }),
@@ -200,7 +201,8 @@ struct TurnNormals {
                 const double weight = model.embedding.weights[v][k];
                 for (int c = 0; c < 3; c++) columns[c] += weight * load(of.column[c]);
             }
-            FourLanes normal = columns[0] * double(rest[0]) + columns[1] * double(rest[1]) + columns[2] * double(rest[2]);
+            FourLanes normal =
+                columns[0] * double(rest[0]) + columns[1] * double(rest[1]) + columns[2] * double(rest[2]);
             const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
             if (length > 0) {
                 normal *= 1 / length;

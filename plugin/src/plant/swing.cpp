@@ -180,8 +180,7 @@ void keep_swinging(Plant& plant, const Surroundings& surroundings, double h, boo
 
 std::array<double, 2> swing_of(const Plant& plant) {
     std::array<double, 2> swing;
-    for (size_t k = 0; k < 2; k++)
-        swing[k] = state_of(*plant.swing, k).place * plant.swing->modes->modes[k].reach;
+    for (size_t k = 0; k < 2; k++) swing[k] = state_of(*plant.swing, k).place * plant.swing->modes->modes[k].reach;
     return swing;
 }
 

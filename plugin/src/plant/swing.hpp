@@ -1,4 +1,5 @@
-// Swing: a plant of which only its two first sways are simulated, as the air drives them. The rest of the chain follows.
+// Swing: a plant of which only its two first sways are simulated, as the air drives them. The rest of the chain
+// follows.
 #pragma once
 
 #include "plant/air.hpp"
@@ -12,11 +13,11 @@ struct Surroundings;
 
 // One of the two. Of unit modal mass, so that coordinates are metres times the root of a kilogram.
 struct SwingMode {
-    VecX shape;                // of the chain's places and rotations; empty: the plant has no such sway
-    double square = 0;         // of the angular frequency, under weight [1/s^2]
-    double stiffness = 0;      // shape.K shape, without weight [1/s^2]
-    double ratio = 0;          // the same, each element times its organ's damping ratio [1/s^2]
-    double reach = 0;          // of the place that moves farthest [1/sqrt kg]
+    VecX shape;            // of the chain's places and rotations; empty: the plant has no such sway
+    double square = 0;     // of the angular frequency, under weight [1/s^2]
+    double stiffness = 0;  // shape.K shape, without weight [1/s^2]
+    double ratio = 0;      // the same, each element times its organ's damping ratio [1/s^2]
+    double reach = 0;      // of the place that moves farthest [1/sqrt kg]
     // Of air at 1 m/s along each axis, over its speed and density.
     std::array<Vec3, 3> push = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     std::array<double, 3> resist = {};  // of the mode's own motion likewise
@@ -30,14 +31,14 @@ SwingModes make_swing_modes(const System& rods, const AirPieces& pieces);
 
 struct Swing {
     std::shared_ptr<const SwingModes> modes;
-    std::array<double, 2> place = {}, speed = {};  // when the air was asked last
+    std::array<double, 2> place = {}, speed = {};   // when the air was asked last
     std::array<double, 2> rest = {}, damping = {};  // to which the air drives them, and how they are damped since [1/s]
-    double since = 0;         // [s]
-    bool comes_to_rest = false;  // whatever the air does, damped half critically at least
-    bool fresh = true;        // the air was not asked yet
-    bool stale = true;        // the chain is not yet where the sway is
-    Fade fade;                // of the chain
-    std::vector<frond_vec3> at, air;  // one each
+    double since = 0;                               // [s]
+    bool comes_to_rest = false;                     // whatever the air does, damped half critically at least
+    bool fresh = true;                              // the air was not asked yet
+    bool stale = true;                              // the chain is not yet where the sway is
+    Fade fade;                                      // of the chain
+    std::vector<frond_vec3> at, air;                // one each
 };
 
 // A chain goes on as a sway, and as what it was, from where it is. Nothing of it may be broken off.

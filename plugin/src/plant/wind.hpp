@@ -9,7 +9,8 @@
 
 namespace frond {
 
-// A wave of one component of the gusts, carried along by the mean wind: size cos 2 pi (waves . (travelled - place) + phase).
+// A wave of one component of the gusts, carried along by the mean wind: size cos 2 pi (waves . (travelled - place) +
+// phase).
 struct Gust {
     double size;   // at the reference height [m/s]
     Vec3 waves;    // along, across and above the mean wind [1/m]
@@ -29,8 +30,8 @@ struct Wind {
 std::unique_ptr<Wind> make_wind(const frond_wind_def& def);
 // The mean wind goes on for h [s].
 void pass_time(Wind& wind, double h);
-// Velocities at points [m/s], world frame; `up` is against gravity, length one. False if the host's field gave some that
-// cannot be; they are zero then.
+// Velocities at points [m/s], world frame; `up` is against gravity, length one. False if the host's field gave some
+// that cannot be; they are zero then.
 bool wind_velocities(const Wind& wind, const Vec3& up, double time, const std::vector<frond_vec3>& points,
                      std::vector<frond_vec3>& out);
 // Against gravity; y where there is none.

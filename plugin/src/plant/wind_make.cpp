@@ -3,10 +3,10 @@
 // Spectra after Kaimal et al. 1972 and coherence as in IEC 61400-1 (2005), annex B:
 //   f S(f) / sigma^2 = 4 n / (1 + 6 n)^(5/3), n = f L / U, for each component, and between two points r apart
 //   exp(-12 r sqrt((f / U)^2 + (0.12 / L)^2)), L that of the component along the wind.
-// The energy below n is 1 - (1 + 6 n)^(-2/3). Each wave has the energy of its own stretch of frequencies, so that all of
-// them have sigma^2 and every stretch has what the spectrum says, for any seed. Waves across the wind are drawn from
-// Cauchy's distribution in the plane, whose mean wave is the exponential of the coherence (sums of waves: Shinozuka, Deodatis
-// 1991).
+// The energy below n is 1 - (1 + 6 n)^(-2/3). Each wave has the energy of its own stretch of frequencies, so that all
+// of them have sigma^2 and every stretch has what the spectrum says, for any seed. Waves across the wind are drawn from
+// Cauchy's distribution in the plane, whose mean wave is the exponential of the coherence (sums of waves: Shinozuka,
+// Deodatis 1991).
 #include <cmath>
 
 #include "plant/wind.hpp"

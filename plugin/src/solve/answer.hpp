@@ -19,8 +19,8 @@ struct Answer {
     Eigen::Matrix3Xd left, right;  // transposed, a column a row [1/sqrt kg] or [1] and [1/kg]
 };
 
-// Adds to blocks[i] the velocity at answer i by an impulse at `by` [1/kg]. All are of one plant. `spread` is memory, all
-// zero between calls.
+// Adds to blocks[i] the velocity at answer i by an impulse at `by` [1/kg]. All are of one plant. `spread` is memory,
+// all zero between calls.
 void add_answers(const std::vector<const Answer*>& at, const Answer& by, Eigen::Matrix3Xd& spread,
                  std::vector<Mat3>& blocks);
 

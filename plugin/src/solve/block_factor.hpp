@@ -24,7 +24,8 @@ struct BlockFactor {
 bool factorize(BlockFactor& factor, const BlockMatrix& A);
 // x = A^-1 b with the matrix factorized last.
 void solve(BlockFactor& factor, const VecX& b, VecX& x);
-// Half of a solve: with A = P' L D L' P and a right side B of few nodes, L^-1 P B where it is not zero, and that over D.
+// Half of a solve: with A = P' L D L' P and a right side B of few nodes, L^-1 P B where it is not zero, and that over
+// D.
 void half_solve(BlockFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer);
 
 }  // namespace frond

@@ -1,5 +1,5 @@
-// In: a symmetric matrix of 3x3 blocks. Out: its factors L D L^T and solutions through Eigen's SimplicialLDLT, number by
-// number: what Frond's own solver is measured against.
+// In: a symmetric matrix of 3x3 blocks. Out: its factors L D L^T and solutions through Eigen's SimplicialLDLT, number
+// by number: what Frond's own solver is measured against.
 #include "solve/direct.hpp"
 
 #include <Eigen/SparseCholesky>

@@ -5,7 +5,8 @@
 
 namespace frond {
 
-// By approximate minimum degree (Amestoy, Davis, Duff 1996) on the graph of nodes, so that a node's three rows stay together.
+// By approximate minimum degree (Amestoy, Davis, Duff 1996) on the graph of nodes, so that a node's three rows stay
+// together.
 std::vector<int> elimination_order(const BlockPattern& pattern);
 
 }  // namespace frond

@@ -20,8 +20,8 @@ void force_at_start(Workspace& w, const StepInput& input, SolveReport& report) {
     if (!w.element_damping.empty()) {
         w.A.set_zero();
         w.damping.set_zero();
-        report.inverted = body.add_force_stiffness_and_damping(*w.elements, x, w.element_damping, w.force, w.A,
-                                                               w.damping);
+        report.inverted =
+            body.add_force_stiffness_and_damping(*w.elements, x, w.element_damping, w.force, w.A, w.damping);
         w.damping.multiply(w.v_start, w.product);
         w.force -= w.product;
     } else if (b > 0) {

@@ -79,8 +79,8 @@ FROND_INLINE bool factorize_corner(const Tile<1>& a, Corner& out) {
     return is_pivot(d0) && is_pivot(d1) && is_pivot(d2);
 }
 
-// Three columns of a front, at `column`: what the columns before them take off, and division by their triangle. Beside L
-// its product with D is kept, for the columns and the update that follow.
+// Three columns of a front, at `column`: what the columns before them take off, and division by their triangle. Beside
+// L its product with D is kept, for the columns and the update that follow.
 struct Panel {
     double *L, *LD;
     int stride, column;

@@ -1,7 +1,7 @@
 // In: a pattern of blocks. Out: its fronts, and where everything is in them.
 //
-// Nodes that reach the same rows make a front of their own accord. A plant is thin, so those are small, and what is done
-// for each of them beside arithmetic would cost the most: a front is merged into its parent wherever the sum is
+// Nodes that reach the same rows make a front of their own accord. A plant is thin, so those are small, and what is
+// done for each of them beside arithmetic would cost the most: a front is merged into its parent wherever the sum is
 // estimated to be cheaper, though it then has zeros (Ashcraft, Grimes 1989, "The influence of relaxed supernode
 // partitions on the multifrontal method").
 #include <algorithm>
@@ -66,8 +66,8 @@ std::vector<Draft> draft_fronts(const std::vector<std::vector<int>>& columns) {
         });
         for (const int c : children) {
             Draft& child = drafts[size_t(c)];
-            const double apart = cost_of(child.own.size(), child.rows.size()) +
-                                 cost_of(parent.own.size(), parent.rows.size());
+            const double apart =
+                cost_of(child.own.size(), child.rows.size()) + cost_of(parent.own.size(), parent.rows.size());
             if (cost_of(child.own.size() + parent.own.size(), parent.rows.size()) >= apart) {
                 parent.children.push_back(c);
                 continue;
@@ -140,8 +140,8 @@ void place_rows(FrontPlan& plan) {
         }
 }
 
-// Updates wait for their parents on two stacks, on one those of fronts an even number of generations away from the root,
-// so that a front's own never lies among its children's.
+// Updates wait for their parents on two stacks, on one those of fronts an even number of generations away from the
+// root, so that a front's own never lies among its children's.
 void place_numbers(FrontPlan& plan) {
     std::vector<uint8_t> is_odd(plan.fronts.size(), 0);
     for (size_t f = plan.fronts.size(); f-- > 0;)

@@ -11,12 +11,12 @@ namespace frond {
 // A front is a dense matrix: the nodes that it eliminates, and those whose rows that changes. What is left of it then,
 // its update, is added to the front of its parent, which comes later.
 struct Front {
-    int first, own;           // its nodes are those at places first .. first + own - 1 in the order of elimination
-    int row, rows;            // further rows: places FrontPlan::rows[row .. row + rows - 1]
-    int parent;               // -1: none
-    int child, children;      // FrontPlan::children[child .. child + children - 1]
-    int entry, entries;       // FrontPlan::entries[entry .. entry + entries - 1]
-    size_t columns, update;   // where its columns are in FrontFactor, and its update in the memory of factorize()
+    int first, own;          // its nodes are those at places first .. first + own - 1 in the order of elimination
+    int row, rows;           // further rows: places FrontPlan::rows[row .. row + rows - 1]
+    int parent;              // -1: none
+    int child, children;     // FrontPlan::children[child .. child + children - 1]
+    int entry, entries;      // FrontPlan::entries[entry .. entry + entries - 1]
+    size_t columns, update;  // where its columns are in FrontFactor, and its update in the memory of factorize()
 };
 
 // Shared by all matrices of a pattern.
@@ -36,7 +36,7 @@ struct FrontPlan {
     std::vector<Landing> landings;  // one a row
     std::vector<int> children;
     std::vector<Entry> entries;
-    std::vector<int> front_of;      // one a place
+    std::vector<int> front_of;  // one a place
     // Numbers of all columns, of the updates at a time, of the largest front's columns and of the longest one.
     size_t column_size = 0, update_size = 0, largest = 0, longest = 0;
 };

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int LEAST_ITERATIONS = 30;
 
-// Rates at the end of a first step: the velocity, and what the second stage of SDIRK2 found, or the step if there is one.
+// Rates at the end of a first step: the velocity, and what the second stage of SDIRK2 found, or the step if there is
+// one.
 bool start(Workspace& w, const StepInput& input, SolveReport& report) {
     if (!step_sdirk2(w, input, report)) return false;
     w.x_rate = w.v;

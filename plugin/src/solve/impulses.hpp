@@ -21,7 +21,8 @@ struct Touch {
     double least_shift = NO_SHIFT;
     static constexpr double NO_SHIFT = -1e30;  // velocities see to that
     double most_shift = 1e30;                  // by an impulse of at most [N s]
-    // Of a bond, which holds both ways and across: how fast a shall move against b. What stands above then does not count.
+    // Of a bond, which holds both ways and across: how fast a shall move against b. What stands above then does not
+    // count.
     bool is_bond = false;
     Vec3 wanted = Vec3::Zero();  // [m/s]
 };
@@ -79,9 +80,9 @@ struct ImpulseReport {
     bool converged = false;
 };
 
-// The impulses [N s] for which, at every touch, either nothing pushes and the bodies part, or they push and move as fast
-// as they must along the normal, and across it friction stops the sliding or is at its limit against it. The search
-// begins with those that come in, if there are any, and ends where a round changes no touch's speed by more than
+// The impulses [N s] for which, at every touch, either nothing pushes and the bodies part, or they push and move as
+// fast as they must along the normal, and across it friction stops the sliding or is at its limit against it. The
+// search begins with those that come in, if there are any, and ends where a round changes no touch's speed by more than
 // `unfelt` [m/s], or its limits are reached.
 ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTable& coupling,
                             const ImpulseLimits& limits, std::vector<Vec3>& impulses, double unfelt = 0);

@@ -25,7 +25,8 @@ struct Stage {
 
 // Longer than what hangs takes to swing.
 bool is_long_stage(const System& system, double step);
-// What stiffness-proportional damping is times the stiffness [s]; `of_element` has each element's own unless all damp alike.
+// What stiffness-proportional damping is times the stiffness [s]; `of_element` has each element's own unless all damp
+// alike.
 double damping_of(const System& system, const SolveSettings& settings, std::vector<double>& of_element);
 
 // What bdf2 takes of the step before, and the step of its stage [s].
@@ -38,9 +39,9 @@ Bdf2 bdf2_after(double h_before, double h);
 // cannot be solved.
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report);
 
-// Whether something pushed the plant that its integrator does not look back beyond. Impulses are answered to by the last
-// stage; one that is much shorter than the step is softer than what the step's forces bend, by the square of that, and
-// would be pushed on by the same each step: then the step is of implicit Euler, which has one stage.
+// Whether something pushed the plant that its integrator does not look back beyond. Impulses are answered to by the
+// last stage; one that is much shorter than the step is softer than what the step's forces bend, by the square of that,
+// and would be pushed on by the same each step: then the step is of implicit Euler, which has one stage.
 inline bool is_pushed(const StepInput& input) {
     return !input.motion.history.valid && input.motion.history.shaken;
 }

@@ -79,7 +79,8 @@ void multiply_mass(const System& system, const std::vector<Mat3>& inertia, const
                 if (i != j) point(y, j) += masses.slot[size_t(k)] * point(v, i);
             }
     }
-    for (size_t i = 0; i < inertia.size(); ++i) point(y, int(2 * i + 1)) += product(inertia[i], point(v, int(2 * i + 1)));
+    for (size_t i = 0; i < inertia.size(); ++i)
+        point(y, int(2 * i + 1)) += product(inertia[i], point(v, int(2 * i + 1)));
 }
 
 double kinetic_energy(const System& system, const VecX& x, const VecX& v) {

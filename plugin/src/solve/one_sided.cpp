@@ -1,7 +1,7 @@
-// In: W and b of one-sided rows. Out: p, the least of p'Wp/2 - b'p that pulls nowhere the wrong way, by active sets (Lawson,
-// Hanson 1974, "Solving least squares problems", chapter 23): rows that pull are solved as equations; on the way to that,
-// those that would push leave, then violated ones join. A few times all of them at once, which is quick and mostly
-// enough; then one by one, where each round makes it less, so that it ends.
+// In: W and b of one-sided rows. Out: p, the least of p'Wp/2 - b'p that pulls nowhere the wrong way, by active sets
+// (Lawson, Hanson 1974, "Solving least squares problems", chapter 23): rows that pull are solved as equations; on the
+// way to that, those that would push leave, then violated ones join. A few times all of them at once, which is quick
+// and mostly enough; then one by one, where each round makes it less, so that it ends.
 #include "solve/one_sided.hpp"
 
 #include <Eigen/Cholesky>

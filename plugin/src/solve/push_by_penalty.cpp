@@ -1,9 +1,9 @@
 // In: touches that come nearer or overlap. Out: impulses of springs between them, found in a few rounds.
 //
-// A spring of stiffness k that is h further along in time: p = h k (depth - h v) for the velocity v along the normal that
-// all springs together leave, W p of them. That is a touch which gives by p / (h^2 k), so no k is too stiff: without end
-// the bodies just stop and part. Rounds go from touch to touch, each spring with what the others push by then, and end
-// early: what is left is for the next steps. Plants that overlap part by shifts, as with impulses.
+// A spring of stiffness k that is h further along in time: p = h k (depth - h v) for the velocity v along the normal
+// that all springs together leave, W p of them. That is a touch which gives by p / (h^2 k), so no k is too stiff:
+// without end the bodies just stop and part. Rounds go from touch to touch, each spring with what the others push by
+// then, and end early: what is left is for the next steps. Plants that overlap part by shifts, as with impulses.
 #include <algorithm>
 #include <cmath>
 
@@ -37,7 +37,8 @@ double wanted_speed(const Touch& touch, double h) {
 }
 
 // What one spring pushes in place of `before`, with all others as they are.
-Vec3 pushed(const Touch& touch, const Spring& spring, Vec3 velocity, const Vec3& before, const ResponseSettings& settings) {
+Vec3 pushed(const Touch& touch, const Spring& spring, Vec3 velocity, const Vec3& before,
+            const ResponseSettings& settings) {
     if (touch.is_bond) return before + firm_inverse(spring.own) * (touch.wanted - velocity);
     const double give = 1 / (settings.h * settings.h * settings.stiffness);  // [1/kg]
     const double push_before = before.dot(touch.normal);

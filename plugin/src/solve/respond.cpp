@@ -1,4 +1,5 @@
-// In: a step that was just taken, and impulses that it did not know of. Out: how velocities and places at its end change.
+// In: a step that was just taken, and impulses that it did not know of. Out: how velocities and places at its end
+// change.
 #include "solve/integrator.hpp"
 
 namespace frond {
@@ -16,9 +17,8 @@ bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& im
         divide_by_mass(w, w.rhs, dv);
         return dv.allFinite();
     }
-    const LinearResult result =
-        linear_solver(settings.linear_solver)
-            .again(w.A, w.rhs, {settings.max_iterations, settings.tolerance}, w.linear, dv);
+    const LinearResult result = linear_solver(settings.linear_solver)
+                                    .again(w.A, w.rhs, {settings.max_iterations, settings.tolerance}, w.linear, dv);
     return result.ok && dv.allFinite();
 }
 

@@ -6,9 +6,9 @@
 namespace frond {
 
 // Impulses along the normals [N s], as those of find_impulses for touches at rest without friction that have to part by
-// their least_shift, none by more than its most_shift: then only what touches answer along their normals counts, a ninth
-// of W. Each round only comes nearer. Leaves that are pressed from two sides may have no answer at all, so rounds are few
-// and what is left is for the next steps. `shifts` stays as it is where nothing has to part.
+// their least_shift, none by more than its most_shift: then only what touches answer along their normals counts, a
+// ninth of W. Each round only comes nearer. Leaves that are pressed from two sides may have no answer at all, so rounds
+// are few and what is left is for the next steps. `shifts` stays as it is where nothing has to part.
 void part_by_shifts(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
                     std::vector<Vec3>& shifts);
 

@@ -14,8 +14,8 @@ struct System;
 // One a mechanics, since each has a rest shape of its own, and one an order of its elements.
 std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass,
                                           int order = 1);
-// Without the elements of the capsules that are gone, one flag a chain node. Nodes stay; those that no element holds any
-// more are left where they are.
+// Without the elements of the capsules that are gone, one flag a chain node. Nodes stay; those that no element holds
+// any more are left where they are.
 std::shared_ptr<const System> system_without(const System& whole, const std::vector<uint8_t>& gone);
 const Model& model_of(const System& system);
 const Elements& elements_of(const System& system);
@@ -28,7 +28,8 @@ struct Spring {
     double stiffness;  // [N/m]
 };
 
-// What resists the motion of a point of the plant: force - damping times the point's velocity. Of grips that do not turn.
+// What resists the motion of a point of the plant: force - damping times the point's velocity. Of grips that do not
+// turn.
 struct Drag {
     Grip grip;
     Vec3 force;    // on the point if it stood still [N]
@@ -44,10 +45,10 @@ struct SolveSettings {
     double mass_damping, stiffness_damping;  // zero when the damping effect is off [1/s], [s]
     // Stiffness-proportional damping of an element whose organ has a damping ratio of one; adds to the above [s].
     double full_damping = 0;
-    double spectral_radius = 0.8;            // of generalized_alpha at infinite frequency, 0..1 [-]
-    bool careful = false;                    // every solve goes no farther than a line search says
-    bool from_rest = false;                  // and may begin at rest, where the potential is less there
-    int most_work = 0;                       // after which a stage that searches ends where it is; 0: never
+    double spectral_radius = 0.8;  // of generalized_alpha at infinite frequency, 0..1 [-]
+    bool careful = false;          // every solve goes no farther than a line search says
+    bool from_rest = false;        // and may begin at rest, where the potential is less there
+    int most_work = 0;             // after which a stage that searches ends where it is; 0: never
 };
 
 // What a method that looks back keeps of its last step. It holds only for the motion that this step left: where
@@ -128,8 +129,8 @@ double reach_of(const Workspace& workspace);
 void add_response(const Workspace& workspace, const VecX& dv, Motion& motion);
 // Adds only where they lead, so that what is moved apart does not fly apart.
 void add_shift(const Workspace& workspace, const VecX& dv, Motion& motion);
-// The same for impulses along three directions at a few nodes, held ones left out, to be coupled with others. The blocks
-// of a node that is given twice add up.
+// The same for impulses along three directions at a few nodes, held ones left out, to be coupled with others. The
+// blocks of a node that is given twice add up.
 bool make_answer(Workspace& workspace, const SolveSettings& settings, const std::vector<NodeBlock>& pushes,
                  Answer& answer);
 

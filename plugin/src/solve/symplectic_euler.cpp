@@ -1,6 +1,7 @@
 // Symplectic Euler, explicit: M (v' - v) = h (f - D v), x' = x + h v'. Keeps the energy of slow motion well and costs
 // no factor, but is stable only below h = 2 / (highest frequency), which for a plant is some microseconds: it is here
-// to show that. Drags, which may be stiffer still, are taken implicitly: M + h D in place of M, D lumped as the mass is.
+// to show that. Drags, which may be stiffer still, are taken implicitly: M + h D in place of M, D lumped as the mass
+// is.
 #include <Eigen/Cholesky>
 
 #include "core/timer.hpp"

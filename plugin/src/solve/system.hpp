@@ -11,9 +11,9 @@ struct System {
     const Mechanics* row = nullptr;
     std::unique_ptr<const Elements> elements;
     Masses masses;
-    bool damps_alike = true;        // all elements have the same damping ratio
-    std::vector<uint8_t> loose;     // one a node: no element holds it
-    double size = 0;                // longest side of the box around the nodes at rest [m]
+    bool damps_alike = true;     // all elements have the same damping ratio
+    std::vector<uint8_t> loose;  // one a node: no element holds it
+    double size = 0;             // longest side of the box around the nodes at rest [m]
     BlockPlan plan;
 };
 

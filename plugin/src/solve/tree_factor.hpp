@@ -20,7 +20,8 @@ struct TreePlan {
 // None if the pattern is no such tree.
 std::optional<TreePlan> make_tree_plan(const BlockPattern& pattern);
 
-// Pairs are eliminated from the last one to the first; a row of the factor is one of a pair's six numbers, in that order.
+// Pairs are eliminated from the last one to the first; a row of the factor is one of a pair's six numbers, in that
+// order.
 struct TreeFactor {
     // Row by row: L' of a pair's own six numbers, zero up to its diagonal of ones, L' to its parent, and D.
     struct Pair {

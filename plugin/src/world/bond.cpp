@@ -29,8 +29,8 @@ Vec3 place_on_body(const Bond& bond) {
 
 void let_go_of_gone(World& world) {
     for (Bond& bond : world.bonds)
-        if (bond.body && (!is_in(*world.bullet, bond.body) ||
-                          fragment_of_vertex(*bond.plant->plant, size_t(bond.vertex))))
+        if (bond.body &&
+            (!is_in(*world.bullet, bond.body) || fragment_of_vertex(*bond.plant->plant, size_t(bond.vertex))))
             bond.body = nullptr;
 }
 

@@ -11,9 +11,9 @@ struct World;
 
 struct Bond {
     PlantBody* plant;
-    int vertex;                // of the plant's surface
-    btCollisionObject* body;   // null once it has left the world: nothing holds any more
-    Vec3 on_body;              // where it is held, in the body's frame [m]
+    int vertex;                   // of the plant's surface
+    btCollisionObject* body;      // null once it has left the world: nothing holds any more
+    Vec3 on_body;                 // where it is held, in the body's frame [m]
     Vec3 impulse = Vec3::Zero();  // on the plant, of the last substep [N s]
     double length = 1;            // of that substep [s]
     uint64_t handle = 0;          // of the C API

@@ -1,5 +1,5 @@
-// ContactIsland: contacts and bonds that have to do with each other, through a plant or a body that can be pushed, and with
-// none of another island: so each can be answered by a thread of its own.
+// ContactIsland: contacts and bonds that have to do with each other, through a plant or a body that can be pushed, and
+// with none of another island: so each can be answered by a thread of its own.
 #pragma once
 
 #include "world/bond.hpp"

@@ -1,5 +1,5 @@
-// What a host's btIDebugDraw is shown of plants by debugDrawWorld. Bullet itself draws the capsules, as it draws any shape;
-// this adds the cages' edges (DBG_DrawWireframe) and, where plants are touched, points, normals and impulses
+// What a host's btIDebugDraw is shown of plants by debugDrawWorld. Bullet itself draws the capsules, as it draws any
+// shape; this adds the cages' edges (DBG_DrawWireframe) and, where plants are touched, points, normals and impulses
 // (DBG_DrawContactPoints).
 #include <LinearMath/btIDebugDraw.h>
 

@@ -1,8 +1,8 @@
 // In: where plants and the viewer are, and the time that steps took. Out: the detail of each plant that is awake.
 //
-// Distances decide, with hysteresis. With a budget the plants that are nearest are planned first, each with the time that
-// it took lately, until the budget is used up; from there on plants only sway. What is planned follows what is measured,
-// quickly down and slowly up, so that the steps of a crowd that comes in are too long once or twice at most.
+// Distances decide, with hysteresis. With a budget the plants that are nearest are planned first, each with the time
+// that it took lately, until the budget is used up; from there on plants only sway. What is planned follows what is
+// measured, quickly down and slowly up, so that the steps of a crowd that comes in are too long once or twice at most.
 #include <algorithm>
 #include <cmath>
 
@@ -133,9 +133,8 @@ void choose_details(World& world) {
     for (PlantBody* body : order) body->level.distance = float(distance_of(world, *body));
     const bool is_limited = def.budget > 0;
     if (is_limited)
-        std::stable_sort(order.begin(), order.end(), [](const PlantBody* a, const PlantBody* b) {
-            return a->level.distance < b->level.distance;
-        });
+        std::stable_sort(order.begin(), order.end(),
+                         [](const PlantBody* a, const PlantBody* b) { return a->level.distance < b->level.distance; });
     double left = SAFE * detail.room * def.budget / detail.overhead;
     int handed_over = 0;
     for (PlantBody* body : order) {
@@ -157,8 +156,8 @@ void choose_details(World& world) {
 void learn_times(World& world) {
     if (!world.detail) return;
     Detail& detail = *world.detail;
-    constexpr double LEAST = 0.05;                                // that tells anything [ms]
-    constexpr double SLOWLY = 0.1, MOST_OVERHEAD = 3;             // [-]
+    constexpr double LEAST = 0.05;                     // that tells anything [ms]
+    constexpr double SLOWLY = 0.1, MOST_OVERHEAD = 3;  // [-]
     // Up as slowly that a step in fifty, of those that go beyond the budget, is one too many [-].
     constexpr double DOWN = 0.8, UP = 1.005, FULL = 0.8, LEAST_ROOM = 0.02, MOST_ROOM = 3;
     double sum[2] = {}, count[2] = {};
@@ -170,8 +169,7 @@ void learn_times(World& world) {
     for (size_t k = 0; k < 2; k++)
         if (count[k] > 0) detail.ms_of[k] += SLOWLY * (sum[k] / count[k] - detail.ms_of[k]);
     const double plants = sum[0] + sum[1], ms = world.report.ms_step;
-    if (plants > LEAST)
-        detail.overhead += SLOWLY * (std::clamp(ms / plants, 1.0, MOST_OVERHEAD) - detail.overhead);
+    if (plants > LEAST) detail.overhead += SLOWLY * (std::clamp(ms / plants, 1.0, MOST_OVERHEAD) - detail.overhead);
     if (ms > detail.def.budget)
         detail.room = std::max(DOWN * detail.room, LEAST_ROOM);
     else if (ms < FULL * detail.def.budget)

@@ -1,5 +1,5 @@
-// In: contacts and bonds of a world. Out: its islands of them, in the order in which their first contacts come. What nothing
-// can push joins nothing.
+// In: contacts and bonds of a world. Out: its islands of them, in the order in which their first contacts come. What
+// nothing can push joins nothing.
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <unordered_map>

@@ -198,8 +198,8 @@ void add_fast_bodies_and_planes(World& world, double h, std::vector<Contact>& co
     }
 }
 
-// How deep capsules are in what does not move when their plant is new counts as no depth later. Those whose axis is in it,
-// roots in the ground, do not touch it at all.
+// How deep capsules are in what does not move when their plant is new counts as no depth later. Those whose axis is in
+// it, roots in the ground, do not touch it at all.
 void discount_grown_in(std::vector<Contact>& contacts) {
     for (Contact& contact : contacts) {
         std::unique_ptr<GrownIn>& grown_in = contact.plant->grown_in;

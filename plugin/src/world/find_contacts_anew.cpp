@@ -1,9 +1,9 @@
 // In: a world of Frond's own. Out: the same without what Bullet knows from earlier steps: pairs, their order, contact
 // points and the impulses at them.
 //
-// Bullet's broad phase, and each compound, is a tree that each step changes a little, and pairs and points come and go in
-// its order, which the solver's depends on. All objects leave it and come back in the order in which they are in the world,
-// with compounds that are new.
+// Bullet's broad phase, and each compound, is a tree that each step changes a little, and pairs and points come and go
+// in its order, which the solver's depends on. All objects leave it and come back in the order in which they are in the
+// world, with compounds that are new.
 #include "world/own_bullet.hpp"
 #include "world/world.hpp"
 
@@ -31,8 +31,9 @@ Filter leave(World& world, btCollisionObject& object) {
 void come_back(World& world, btCollisionObject& object, const Filter& filter) {
     btVector3 lower, upper;
     object.getCollisionShape()->getAabb(object.getWorldTransform(), lower, upper);
-    object.setBroadphaseHandle(world.own->broadphase.createProxy(lower, upper, object.getCollisionShape()->getShapeType(),
-                                                                &object, filter.group, filter.mask, &world.own->dispatcher));
+    object.setBroadphaseHandle(world.own->broadphase.createProxy(lower, upper,
+                                                                 object.getCollisionShape()->getShapeType(), &object,
+                                                                 filter.group, filter.mask, &world.own->dispatcher));
     world.bullet->updateSingleAabb(&object);
 }
 

@@ -1,7 +1,7 @@
 // In: an infinite plane, and where plants are. Out: their contacts with it.
 //
-// Bullet gives a plane a box without end, so its narrow phase would look at every piece of each plant that is awake, and keep
-// an algorithm and a manifold for each. Here a piece that is not near it costs two products.
+// Bullet gives a plane a box without end, so its narrow phase would look at every piece of each plant that is awake,
+// and keep an algorithm and a manifold for each. Here a piece that is not near it costs two products.
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 
 #include <algorithm>
@@ -32,7 +32,8 @@ Plane plane_for(const Plant& plant, btCollisionObject& object, bool moves) {
     const auto& shape = static_cast<const btStaticPlaneShape&>(*object.getCollisionShape());
     const btTransform& frame = object.getWorldTransform();
     const Vec3 normal = from_bullet(frame.getBasis() * shape.getPlaneNormal());
-    const double offset = normal.dot(plant.position - from_bullet(frame.getOrigin())) - double(shape.getPlaneConstant());
+    const double offset =
+        normal.dot(plant.position - from_bullet(frame.getOrigin())) - double(shape.getPlaneConstant());
     return {object, normal, plant.rotation.conjugate() * normal, offset, moves};
 }
 
@@ -102,7 +103,8 @@ void add_pieces(PlantBody& body, const Plane& plane, double h, std::vector<Conta
             const int node = along > 0 ? end : begin;
             if (along == 0 && !is_root) continue;
             if (plane.height(plant.chain_positions[size_t(node)]) - wide >= FAR || is_held(plant, node)) continue;
-            if (is_apart(body, int(i), plane.object) || is_between_pieces(body, int(i), plane.normal_in_world)) continue;
+            if (is_apart(body, int(i), plane.object) || is_between_pieces(body, int(i), plane.normal_in_world))
+                continue;
             add_at_node(body, int(i), along, reach_of(plant, plane, node, h), plane, contacts);
         }
     }

@@ -61,18 +61,18 @@ void place_nodes(const PlantBody& body, double h, VecX& now, VecX& then) {
     then = now + h * cage_velocities(plant);
 }
 
-// Where a plant will be at the end of the step if nothing touches it, so that what is about to meet is found before it is
-// in each other; no farther than straight ways can tell. Plants at exactly the same place have no side on which one could
-// leave the other, and parted by rounding, every leaf its own way: each is a hair beside the one before (Edelsbrunner and
-// Mücke 1990, Simulation of simplicity).
+// Where a plant will be at the end of the step if nothing touches it, so that what is about to meet is found before it
+// is in each other; no farther than straight ways can tell. Plants at exactly the same place have no side on which one
+// could leave the other, and parted by rounding, every leaf its own way: each is a hair beside the one before
+// (Edelsbrunner and Mücke 1990, Simulation of simplicity).
 void place_shape(const PlantBody& body, size_t number, double h, PlantSearch::Shape& shape) {
     constexpr double FARTHEST = 0.03, HAIR = 1e-8;  // [m]
     const Vec3 hair = HAIR * double(number) * Vec3(0.8, 0.1, 0.6);
     const Plant& plant = *body.plant;
     shape.axes.clear();
     for (const auto& [begin, end] : plant.model->capsules)
-        shape.axes.push_back({plant.to_world(plant.chain_positions[size_t(begin)]),
-                              plant.to_world(plant.chain_positions[size_t(end)])});
+        shape.axes.push_back(
+            {plant.to_world(plant.chain_positions[size_t(begin)]), plant.to_world(plant.chain_positions[size_t(end)])});
     VecX now, then;
     place_nodes(body, h, now, then);
     const Mat3 turn = plant.rotation.toRotationMatrix();
@@ -144,8 +144,8 @@ struct Found {
 };
 
 // The same bodies where they are now, not where they will be.
-PlacedIsland placed_now(const World& world, const std::vector<PlantBody*>& island, const std::vector<CollisionBody>& bodies,
-                        PlantSearch& memory) {
+PlacedIsland placed_now(const World& world, const std::vector<PlantBody*>& island,
+                        const std::vector<CollisionBody>& bodies, PlantSearch& memory) {
     PlacedIsland placed = {world, island, bodies};
     for (size_t i = 0; i < island.size(); i++) {
         PlantSearch::Shape& shape = memory.shapes[i];
@@ -167,7 +167,8 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
         const bool with_itself = has(world, *island[i], FROND_SELF_CONTACT);
         const Collider* collider = &island[i]->touched_collider();
         covered.push_back({collider, &memory.shapes[i].covers, with_itself});
-        bodies.push_back({collider, memory.shapes[i].places.data(), {}, with_itself, island[i]->plant->follow != nullptr});
+        bodies.push_back(
+            {collider, memory.shapes[i].places.data(), {}, with_itself, island[i]->plant->follow != nullptr});
     }
     std::vector<std::vector<uint8_t>> pieces = find_meeting_pieces(covered, 0);
     bool meet = false;
@@ -198,7 +199,8 @@ std::vector<std::vector<const PlantContact*>> sort_by_island(const World& world,
     for (const PlantContact& contact : contacts) {
         const int first = contact.plants[0]->number, second = contact.plants[1]->number;
         if (first < 0 || second < 0 || island_of[size_t(first)] < 0) continue;
-        if (island_of[size_t(first)] == island_of[size_t(second)]) sorted[size_t(island_of[size_t(first)])].push_back(&contact);
+        if (island_of[size_t(first)] == island_of[size_t(second)])
+            sorted[size_t(island_of[size_t(first)])].push_back(&contact);
     }
     return sorted;
 }
@@ -242,7 +244,8 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     }
     if (!any) return contacts;
     const std::vector<std::vector<PlantBody*>> islands = find_islands(world);
-    while (world.plant_searches.size() < islands.size()) world.plant_searches.push_back(std::make_unique<PlantSearch>());
+    while (world.plant_searches.size() < islands.size())
+        world.plant_searches.push_back(std::make_unique<PlantSearch>());
     world.report.ms_broad += timer.lap();
     const std::vector<std::vector<const PlantContact*>> known = sort_by_island(world, islands, last);
     std::vector<Found> found(islands.size());

@@ -1,8 +1,8 @@
 // In: plants that broke. Out: rigid bodies for what came off, and where these take it.
 //
-// The body is made of the capsules that came off, with the mass, momentum and angular momentum that the nodes had. Bullet
-// moves it; plants and other bodies meet it as any other. What it grew on does not, or it would be torn from it by their
-// overlap.
+// The body is made of the capsules that came off, with the mass, momentum and angular momentum that the nodes had.
+// Bullet moves it; plants and other bodies meet it as any other. What it grew on does not, or it would be torn from it
+// by their overlap.
 #include "world/fragments.hpp"
 
 #include <algorithm>
@@ -111,8 +111,7 @@ void pull_fragments(PlantBody& body, double h) {
         const btVector3 arm = to_bullet(point) - rigid.getCenterOfMassPosition();
         const Vec3 way = grab.target - point - h * from_bullet(rigid.getVelocityInLocalPoint(arm));
         if (!(way.norm() > 0)) continue;
-        const btScalar lightness =
-            rigid.computeImpulseDenominator(to_bullet(point), to_bullet(Vec3(way.normalized())));
+        const btScalar lightness = rigid.computeImpulseDenominator(to_bullet(point), to_bullet(Vec3(way.normalized())));
         const double soft = 1 + h * h * grab.stiffness * double(lightness);
         rigid.activate(true);
         rigid.applyImpulse(to_bullet(Vec3(h * grab.stiffness / soft * way)), arm);

@@ -1,5 +1,5 @@
-// What a plant gives to a body counts for the body's next motion, with the gravity of that step in it: see pusher.hpp. For
-// the host to see a body at rest at rest, that gravity comes with the impulse, and is held off when the step comes.
+// What a plant gives to a body counts for the body's next motion, with the gravity of that step in it: see pusher.hpp.
+// For the host to see a body at rest at rest, that gravity comes with the impulse, and is held off when the step comes.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>

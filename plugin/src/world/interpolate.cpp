@@ -1,5 +1,6 @@
-// In: a Bullet world that was left between two of its fixed steps. Out: how long before the end of the last one its motion
-// states show bodies, as btDiscreteDynamicsWorld::synchronizeSingleMotionState reckons it, so that surfaces go with them.
+// In: a Bullet world that was left between two of its fixed steps. Out: how long before the end of the last one its
+// motion states show bodies, as btDiscreteDynamicsWorld::synchronizeSingleMotionState reckons it, so that surfaces go
+// with them.
 #include "world/world.hpp"
 
 namespace frond {

@@ -17,8 +17,8 @@ struct OnCore {
 OnCore nearest_on_core(const PlantBody& body, int capsule, const Vec3& p);
 
 double piece_friction(const PlantBody& body, int capsule);  // [-]
-// Whether a body would push a flat piece against its end, where the blade goes on with the next one. `normal` leads away from
-// the body.
+// Whether a body would push a flat piece against its end, where the blade goes on with the next one. `normal` leads
+// away from the body.
 bool is_between_pieces(const PlantBody& body, int capsule, const Vec3& normal);
 
 }  // namespace FROND_BULLET_PRECISION

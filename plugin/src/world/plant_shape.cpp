@@ -190,8 +190,8 @@ struct ChildOfSeveral {
     }
 };
 
-// Wider than the box of the child, more so on sides where that has left it: there it will go on. It holds what it held before
-// as far as that is near.
+// Wider than the box of the child, more so on sides where that has left it: there it will go on. It holds what it held
+// before as far as that is near.
 void make_room(PlantShape& shape, size_t child, const btVector3& from, const btVector3& to) {
     constexpr btScalar WIDER = btScalar(0.03), AHEAD = btScalar(0.08), NEAR = btScalar(0.1);  // [m]
     btScalar *lower = &shape.room[ROOM * child], *upper = lower + UPPER;
@@ -202,8 +202,8 @@ void make_room(PlantShape& shape, size_t child, const btVector3& from, const btV
         lower[c] = std::max(std::min(lower[c], below), from[c] - NEAR);
         upper[c] = std::min(std::max(upper[c], above), to[c] + NEAR);
     }
-    const btDbvtVolume volume = btDbvtVolume::FromMM(btVector3(lower[0], lower[1], lower[2]),
-                                                     btVector3(upper[0], upper[1], upper[2]));
+    const btDbvtVolume volume =
+        btDbvtVolume::FromMM(btVector3(lower[0], lower[1], lower[2]), btVector3(upper[0], upper[1], upper[2]));
     btDbvtNode& node = *shape.getChildList()[child].m_node;
     node.volume = volume;
     for (btDbvtNode* over = node.parent; over && !over->volume.Contain(volume); over = over->parent)

@@ -26,11 +26,12 @@ struct PlantShape : btCompoundShape {
     void getAabb(const btTransform& frame, btVector3& lower, btVector3& upper) const override;
 
     World& world;
-    // Of the tree of its children's boxes, which keeps its form: nodes with others below them, each after those. They grow
-    // with these, and are fitted to them anew after so many growths.
+    // Of the tree of its children's boxes, which keeps its form: nodes with others below them, each after those. They
+    // grow with these, and are fitted to them anew after so many growths.
     std::vector<btDbvtNode*> inner;
     int growths = 0;
-    // The boxes in that tree, somewhat wider than the children, one after the other: lower x, y, z, no number, and upper.
+    // The boxes in that tree, somewhat wider than the children, one after the other: lower x, y, z, no number, and
+    // upper.
     std::vector<btScalar> room;
 
     void set_box(const btVector3& lower, const btVector3& upper);

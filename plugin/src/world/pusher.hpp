@@ -15,9 +15,9 @@ inline namespace FROND_BULLET_PRECISION {
 
 struct Pusher {
     btCollisionObject* object;
-    btRigidBody* rigid = nullptr;                 // that impulses move
+    btRigidBody* rigid = nullptr;  // that impulses move
     btMultiBodyLinkCollider* link = nullptr;
-    Vec3 point, velocity;                         // where it is touched, and how fast that moves [m], [m/s]
+    Vec3 point, velocity;                                    // where it is touched, and how fast that moves [m], [m/s]
     std::array<std::vector<btScalar>, 3> jacobian, answers;  // of a multi-body, along the world's axes
 };
 

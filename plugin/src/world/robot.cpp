@@ -77,7 +77,8 @@ void limit_motors(World& world, double h) {
             link.motor->setMaxAppliedImpulse(btScalar(link.motor_force * h));
             if (link.speed == 0 || !link.limit) continue;
             const UrdfLink& of_file = file_link(*robot, i);
-            const double at = joint_position(*robot, i), low = (of_file.lower - at) / h, high = (of_file.upper - at) / h;
+            const double at = joint_position(*robot, i), low = (of_file.lower - at) / h,
+                         high = (of_file.upper - at) / h;
             link.motor->setVelocityTarget(btScalar(std::clamp(link.speed, std::min(low, 0.0), std::max(high, 0.0))), 1);
         }
 }

@@ -20,22 +20,22 @@ inline namespace FROND_BULLET_PRECISION {
 // inverse of `centre`.
 struct RobotLink {
     UrdfFrame centre;
-    double mass = 0;   // [kg]
-    Vec3 inertia = Vec3::Zero();  // about the principal axes [kg m^2]
-    std::vector<std::unique_ptr<btCollisionShape>> shapes;  // of the collider's, which comes last
-    std::unique_ptr<btMultiBodyLinkCollider> collider;      // null: it touches nothing and its joint is fixed
-    std::unique_ptr<btMultiBodyJointMotor> motor;           // null: the joint is fixed
-    std::unique_ptr<btMultiBodyJointLimitConstraint> limit; // null: it has none
-    double motor_force = 0;                                 // at most; 0: it lets go [N], [N m]
-    double speed = 0;                                       // that the motor keeps; 0: none [rad/s], [m/s]
+    double mass = 0;                                         // [kg]
+    Vec3 inertia = Vec3::Zero();                             // about the principal axes [kg m^2]
+    std::vector<std::unique_ptr<btCollisionShape>> shapes;   // of the collider's, which comes last
+    std::unique_ptr<btMultiBodyLinkCollider> collider;       // null: it touches nothing and its joint is fixed
+    std::unique_ptr<btMultiBodyJointMotor> motor;            // null: the joint is fixed
+    std::unique_ptr<btMultiBodyJointLimitConstraint> limit;  // null: it has none
+    double motor_force = 0;                                  // at most; 0: it lets go [N], [N m]
+    double speed = 0;                                        // that the motor keeps; 0: none [rad/s], [m/s]
 };
 
 // What can be drawn of a robot, a vertex each in its link's frame.
 struct RobotSurface {
-    std::vector<Vec3> places;       // [m]
-    std::vector<int> link;          // of each place
+    std::vector<Vec3> places;  // [m]
+    std::vector<int> link;     // of each place
     std::vector<Triangle> triangles;
-    std::vector<float> positions;   // of the last look, world frame
+    std::vector<float> positions;  // of the last look, world frame
 };
 
 struct Robot {
@@ -58,7 +58,7 @@ RobotSurface make_surface(const UrdfTree& tree);
 // Writes RobotSurface::positions.
 void update_surface(Robot& robot);
 
-bool moves(const Robot& robot, size_t link);       // its joint does
+bool moves(const Robot& robot, size_t link);             // its joint does
 double joint_position(const Robot& robot, size_t link);  // [rad], [m]
 double joint_velocity(const Robot& robot, size_t link);
 void put_joint(Robot& robot, size_t link, double position);
@@ -67,8 +67,8 @@ void drive_to(Robot& robot, size_t link, double position, double speed, double f
 void drive_at(Robot& robot, size_t link, double velocity, double force);
 // Before a substep of h [s]: a motor's limit is an impulse, and none goes on where its joint ends.
 void limit_motors(World& world, double h);
-UrdfFrame frame_of(const Robot& robot, size_t link);   // of the file's link, in the world
-Vec3 centre_of(const Robot& robot, size_t link);       // of its mass, in the world [m]
+UrdfFrame frame_of(const Robot& robot, size_t link);  // of the file's link, in the world
+Vec3 centre_of(const Robot& robot, size_t link);      // of its mass, in the world [m]
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -29,13 +29,14 @@ bool drop_floating_root(UrdfTree& tree) {
     const auto floats = [](const UrdfLink& link) { return link.joint == UrdfJoint::FLOATING; };
     if (std::none_of(tree.links.begin(), tree.links.end(), floats)) return false;
     const UrdfLink& root = tree.links.front();
-    const bool is_lone = tree.links.size() > 1 && floats(tree.links[1]) && root.collisions.empty() && root.mass == 0 &&
-                         std::count_if(tree.links.begin(), tree.links.end(), floats) == 1 &&
-                         std::none_of(tree.links.begin() + 2, tree.links.end(),
-                                      [](const UrdfLink& link) { return link.parent == 0; });
+    const bool is_lone =
+        tree.links.size() > 1 && floats(tree.links[1]) && root.collisions.empty() && root.mass == 0 &&
+        std::count_if(tree.links.begin(), tree.links.end(), floats) == 1 &&
+        std::none_of(tree.links.begin() + 2, tree.links.end(), [](const UrdfLink& link) { return link.parent == 0; });
     if (!is_lone)
         fail(FROND_UNSUPPORTED,
-             "a joint floats that is not the only one of a root without mass and shapes; give what floats a file of its own");
+             "a joint floats that is not the only one of a root without mass and shapes; give what floats a file of "
+             "its own");
     tree.links.erase(tree.links.begin());
     for (UrdfLink& link : tree.links) link.parent--;
     tree.links.front().joint = UrdfJoint::FIXED;
@@ -107,8 +108,8 @@ void add_constraints(Robot& robot, size_t i) {
     own.motor->finalizeMultiDof();
     robot.bullet->addMultiBodyConstraint(own.motor.get());
     if (link.joint == UrdfJoint::CONTINUOUS) return;
-    own.limit = std::make_unique<btMultiBodyJointLimitConstraint>(body, int(i) - 1, btScalar(link.lower),
-                                                                  btScalar(link.upper));
+    own.limit =
+        std::make_unique<btMultiBodyJointLimitConstraint>(body, int(i) - 1, btScalar(link.lower), btScalar(link.upper));
     own.limit->finalizeMultiDof();
     robot.bullet->addMultiBodyConstraint(own.limit.get());
 }
@@ -172,8 +173,8 @@ Robot* add_robot(World& world, UrdfTree tree, const frond_robot_def& def) {
 
 void remove_robot(World& world, Robot* robot) {
     for (const RobotLink& link : robot->links) {
-        for (btMultiBodyConstraint* constraint :
-             {static_cast<btMultiBodyConstraint*>(link.motor.get()), static_cast<btMultiBodyConstraint*>(link.limit.get())})
+        for (btMultiBodyConstraint* constraint : {static_cast<btMultiBodyConstraint*>(link.motor.get()),
+                                                  static_cast<btMultiBodyConstraint*>(link.limit.get())})
             if (constraint) robot->bullet->removeMultiBodyConstraint(constraint);
         if (!link.collider) continue;
         wake_neighbours(world, *link.collider);

@@ -1,5 +1,5 @@
-// Collision shapes of a robot's link: what the file says comes in, a compound of Bullet's shapes goes out. Meshes become
-// their convex hulls.
+// Collision shapes of a robot's link: what the file says comes in, a compound of Bullet's shapes goes out. Meshes
+// become their convex hulls.
 #include <algorithm>
 
 #include "world/convert.hpp"

@@ -1,5 +1,5 @@
-// Jobs of a substep on the threads that the host lends: its own, or Bullet's task scheduler. Debian builds Bullet without
-// BT_THREADSAFE, whose btParallelFor then asserts, so the scheduler is asked itself.
+// Jobs of a substep on the threads that the host lends: its own, or Bullet's task scheduler. Debian builds Bullet
+// without BT_THREADSAFE, whose btParallelFor then asserts, so the scheduler is asked itself.
 #include <LinearMath/btThreads.h>
 
 #include <exception>

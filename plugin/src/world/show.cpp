@@ -27,7 +27,8 @@ std::vector<PlantBody*> plants_in(World& world, const btVector3& lower, const bt
 }
 
 void show_sleepers_to(World& world, const btCollisionObject& mover, double h) {
-    constexpr btScalar STEPS = 3, NEAR = btScalar(0.02);  // a pair is made a substep after this, and met in the next; [m]
+    constexpr btScalar STEPS = 3,
+                       NEAR = btScalar(0.02);  // a pair is made a substep after this, and met in the next; [m]
     const btBroadphaseProxy* proxy = mover.getBroadphaseHandle();
     const btRigidBody* rigid = btRigidBody::upcast(&mover);
     if (!proxy) return;

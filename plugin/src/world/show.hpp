@@ -8,7 +8,8 @@ inline namespace FROND_BULLET_PRECISION {
 
 // This world's plants in a box.
 std::vector<PlantBody*> plants_in(World& world, const btVector3& lower, const btVector3& upper);
-// Shows those that sleep where a kinematic body comes within the next substeps of h, so that the broad phase pairs them.
+// Shows those that sleep where a kinematic body comes within the next substeps of h, so that the broad phase pairs
+// them.
 void show_sleepers_to(World& world, const btCollisionObject& mover, double h);
 // Hides those again that have gone on sleeping, some of them in each substep.
 void hide_sleepers_again(World& world);

@@ -19,9 +19,9 @@ struct LastContacts;
 struct Rest {
     bool asleep = false;
     std::shared_ptr<const LastContacts> contacts;  // with which it sleeps; null: none
-    double still = 0;        // for how long nothing of it has gone far from `places` [s]
-    VecX places;             // of what its mechanics move
-    Vec3 air = Vec3::Zero();  // at its middle when it fell asleep [m/s]
+    double still = 0;                              // for how long nothing of it has gone far from `places` [s]
+    VecX places;                                   // of what its mechanics move
+    Vec3 air = Vec3::Zero();                       // at its middle when it fell asleep [m/s]
 };
 
 void wake(PlantBody& body);
@@ -33,8 +33,8 @@ frond_vec3 middle_of(const PlantBody& body);  // of its box [m]
 // Plants whose boxes meet that of an object which is about to leave.
 void wake_neighbours(World& world, const btCollisionObject& leaving);
 
-// What of a substep wakes plants. First gravity, effects, the air, and bonds to bodies that move; then what was found to
-// touch them. Contacts of plants that sleep on are taken out.
+// What of a substep wakes plants. First gravity, effects, the air, and bonds to bodies that move; then what was found
+// to touch them. Contacts of plants that sleep on are taken out.
 void wake_by_world(World& world);
 void wake_touched(World& world, double h);
 // Whether a body may push what sleeps.

@@ -1,5 +1,5 @@
-// Snapshot: all that steps change in a world, apart from the objects that it belongs to. Things name each other by their
-// place: plants in the world, bodies among Bullet's collision objects.
+// Snapshot: all that steps change in a world, apart from the objects that it belongs to. Things name each other by
+// their place: plants in the world, bodies among Bullet's collision objects.
 #pragma once
 
 #include "world/archive.hpp"

@@ -1,5 +1,5 @@
-// In: a snapshot, or bytes that were one. Out: the other. Layout: magic word, version, precision, length and checksum of
-// what follows; then everything in the order below, in the machine's own byte order.
+// In: a snapshot, or bytes that were one. Out: the other. Layout: magic word, version, precision, length and checksum
+// of what follows; then everything in the order below, in the machine's own byte order.
 #include <cstring>
 
 #include "core/error.hpp"
@@ -46,19 +46,22 @@ static void visit_fade(Archive& a, Fade& fade) {
 }
 
 static void visit(Archive& a, SavedSwing& swing) {
-    a(swing.place), a(swing.speed), a(swing.rest), a(swing.damping), a(swing.since), a(swing.comes_to_rest), a(swing.fresh);
+    a(swing.place), a(swing.speed), a(swing.rest), a(swing.damping), a(swing.since), a(swing.comes_to_rest),
+        a(swing.fresh);
     visit_fade(a, swing.fade);
 }
 
 static void visit_motion(Archive& a, Motion& motion) {
     History& history = motion.history;
     a(motion.x), a(motion.v), a(motion.pinned), a(motion.pin_target);
-    a(history.valid), a(history.shaken), a.one_of(history.integrator, FROND_INTEGRATOR_COUNT), a(history.h), a(history.x_end), a(history.v_end);
+    a(history.valid), a(history.shaken), a.one_of(history.integrator, FROND_INTEGRATOR_COUNT), a(history.h),
+        a(history.x_end), a(history.v_end);
     a(history.pinned), a(history.x_prev), a(history.v_prev), a(history.x_rate), a(history.v_rate);
 }
 
 static void visit_level(Archive& a, Level& level) {
-    a.one_of(level.now, FROND_DETAIL_COUNT), a.one_of(level.own, FROND_MECHANICS_COUNT), a(level.every), a(level.pending), a(level.is_due), a(level.distance), a(level.touched);
+    a.one_of(level.now, FROND_DETAIL_COUNT), a.one_of(level.own, FROND_MECHANICS_COUNT), a(level.every),
+        a(level.pending), a(level.is_due), a(level.distance), a(level.touched);
 }
 
 static void visit(Archive& a, SavedPlant& plant) {
@@ -69,7 +72,8 @@ static void visit(Archive& a, SavedPlant& plant) {
     a(plant.lead), a(plant.swing), a(plant.has_own_elements), a(plant.lasting), a(plant.fibre_give);
     a(plant.pinned), a(plant.pin_target), a(plant.anchor);
     a(plant.pins_changed), a(plant.pins_are_own), a(plant.has_user_force), a(plant.is_touched), a(plant.is_entangled);
-    a(plant.user_force), a(plant.substeps), a(plant.patience), a(plant.recovers_for), a(plant.grab_targets), a(plant.fragments);
+    a(plant.user_force), a(plant.substeps), a(plant.patience), a(plant.recovers_for), a(plant.grab_targets),
+        a(plant.fragments);
     a(plant.new_for), a(plant.asleep), a(plant.still), a(plant.places), a(plant.air);
     visit_level(a, plant.level);
     a(plant.grown_in);
@@ -78,7 +82,8 @@ static void visit(Archive& a, SavedPlant& plant) {
 
 static void visit(Archive& a, SavedRigid& rigid) {
     a(rigid.is_plane), a(rigid.is_fragment), a(rigid.frame), a(rigid.frame_before), a(rigid.velocity), a(rigid.spin);
-    a(rigid.velocity_before), a(rigid.spin_before), a(rigid.force), a(rigid.torque), a(rigid.activation), a(rigid.still);
+    a(rigid.velocity_before), a(rigid.spin_before), a(rigid.force), a(rigid.torque), a(rigid.activation),
+        a(rigid.still);
 }
 
 static void visit(Archive& a, SavedAhead& ahead) {
@@ -143,7 +148,8 @@ Snapshot snapshot_from(const uint8_t* bytes, size_t count) {
              static_cast<unsigned long long>(head.length), count);
     const Head own = head_of(bytes, count);
     if (std::memcmp(head.version, own.version, sizeof own.version) != 0 || head.layout != own.layout)
-        fail(FROND_FILE_FORMAT, "the snapshot is of another version of Frond than " FROND_VERSION "; save it anew with this one");
+        fail(FROND_FILE_FORMAT,
+             "the snapshot is of another version of Frond than " FROND_VERSION "; save it anew with this one");
     if (head.precision != own.precision)
         fail(FROND_FILE_FORMAT, "the snapshot is of a Bullet of %u bytes a number, this one has %u", head.precision,
              own.precision);

@@ -13,7 +13,8 @@ btVector3 vector_of(const std::array<btScalar, 3>& v) {
 }
 
 btTransform frame_of(const std::array<btScalar, 12>& n) {
-    return btTransform(btMatrix3x3(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]), btVector3(n[9], n[10], n[11]));
+    return btTransform(btMatrix3x3(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]),
+                       btVector3(n[9], n[10], n[11]));
 }
 
 btCollisionObject* object_at(const World& world, int place) {
@@ -165,7 +166,8 @@ void put_snapshot(World& world, Snapshot snapshot) {
         bond.length = snapshot.bonds[i++].length;
     }
     for (const SavedAhead& ahead : snapshot.ahead)
-        world.gravity_ahead.bodies.push_back({btRigidBody::upcast(object_at(world, ahead.body)), vector_of(ahead.force)});
+        world.gravity_ahead.bodies.push_back(
+            {btRigidBody::upcast(object_at(world, ahead.body)), vector_of(ahead.force)});
     world.gravity_ahead.is_held = snapshot.is_held;
     put_touches(world, snapshot.touches, world.contacts, world.plant_contacts);
     find_contacts_anew(world);

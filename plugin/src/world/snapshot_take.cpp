@@ -34,16 +34,17 @@ SavedTouches take_touches(const World& world, const std::vector<Contact>& with_b
     for (const Contact& c : with_bodies) {
         const int other = place_of(world, c.other);
         if (other < 0) continue;
-        touches.with_bodies.push_back({c.plant->index, c.capsule, other, c.along, c.across, c.gap, c.friction, c.on_plant,
-                                       c.on_other, c.normal, c.impulse});
+        touches.with_bodies.push_back({c.plant->index, c.capsule, other, c.along, c.across, c.gap, c.friction,
+                                       c.on_plant, c.on_other, c.normal, c.impulse});
     }
-    for (const PlantContact& c : with_plants) touches.with_plants.push_back({{c.plants[0]->index, c.plants[1]->index}, c});
+    for (const PlantContact& c : with_plants)
+        touches.with_plants.push_back({{c.plants[0]->index, c.plants[1]->index}, c});
     return touches;
 }
 
 void take_swing(const Swing& swing, SavedPlant& saved) {
-    saved.swing.push_back({swing.place, swing.speed, swing.rest, swing.damping, swing.since, swing.comes_to_rest, swing.fresh,
-                           swing.fade});
+    saved.swing.push_back({swing.place, swing.speed, swing.rest, swing.damping, swing.since, swing.comes_to_rest,
+                           swing.fresh, swing.fade});
 }
 
 SavedPlant take_plant(const World& world, const PlantBody& body) {
@@ -129,11 +130,12 @@ uint64_t kind_of(const Plant& plant) {
     add(&mass, sizeof mass);
     add(plant.position.data(), sizeof(Vec3));
     add(plant.rotation.coeffs().data(), 4 * sizeof(double));
-    const int choices[] = {int(s.integrator), int(s.linear_solver), int(plant.mass), plant.nodes->order, s.newton_iterations,
-                           s.max_iterations, plant.max_substeps};
+    const int choices[] = {int(s.integrator),   int(s.linear_solver), int(plant.mass),   plant.nodes->order,
+                           s.newton_iterations, s.max_iterations,     plant.max_substeps};
     add(choices, sizeof choices);
-    const double numbers[] = {s.newton_tolerance,  s.tolerance,           s.mass_damping,      s.stiffness_damping,
-                              s.spectral_radius, plant.material_damping, plant.substep_tolerance};
+    const double numbers[] = {s.newton_tolerance,     s.tolerance,       s.mass_damping,
+                              s.stiffness_damping,    s.spectral_radius, plant.material_damping,
+                              plant.substep_tolerance};
     add(numbers, sizeof numbers);
     return hash;
 }

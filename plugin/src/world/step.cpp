@@ -90,7 +90,8 @@ void find_touches(World& world, double h) {
     if (any_wants(world, among)) {
         const Timer timer;
         world.plant_contacts = find_plant_contacts(world, h);
-        add_effect(report, any_wants(world, FROND_PLANT_CONTACT) ? FROND_PLANT_CONTACT : FROND_SELF_CONTACT, timer.ms());
+        add_effect(report, any_wants(world, FROND_PLANT_CONTACT) ? FROND_PLANT_CONTACT : FROND_SELF_CONTACT,
+                   timer.ms());
     } else {
         world.plant_contacts.clear();
     }

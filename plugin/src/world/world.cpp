@@ -22,9 +22,15 @@ static std::set<btDynamicsWorld*>& attached_worlds() {
 }
 
 World::World(std::unique_ptr<OwnBullet> given, btDynamicsWorld* bullet, const frond_world_def& def)
-    : own(std::move(given)), bullet(bullet), effects(def.effects), max_substep(def.max_substep),
-      hash({def.hash_layout, def.hash_table_size, def.hash_cell_size}), response(def.response),
-      parallel_for(def.parallel_for), parallel_user(def.parallel_user), sleep_distance(def.sleep_distance) {
+    : own(std::move(given)),
+      bullet(bullet),
+      effects(def.effects),
+      max_substep(def.max_substep),
+      hash({def.hash_layout, def.hash_table_size, def.hash_cell_size}),
+      response(def.response),
+      parallel_for(def.parallel_for),
+      parallel_user(def.parallel_user),
+      sleep_distance(def.sleep_distance) {
     response_settings.limits = {def.response_iterations, def.response_tolerance};
     response_settings.stiffness = def.penalty_stiffness;
     soft_info.m_broadphase = bullet->getBroadphase();

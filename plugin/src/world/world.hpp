@@ -37,28 +37,29 @@ struct World final : btActionInterface {
     std::vector<PlantBody*> awake;        // by index, but for those that woke since the last substep
     std::vector<PlantBody*> taking_part;  // in the running substep, by number: what is awake, and what sleeps beside it
     std::vector<PlantBody*> looked_at;    // asleep, but unfolded since the last substep
-    // Bullet's objects that are plants, at their places among all: thousands need not be looked at to know what they are.
+    // Bullet's objects that are plants, at their places among all: thousands need not be looked at to know what they
+    // are.
     std::vector<const btCollisionObject*> plants_at;
     frond_parallel_for_fn* parallel_for;  // null: the host lends no threads of its own
     void* parallel_user;
     std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
     std::vector<std::unique_ptr<Robot>> robots;  // likewise
     std::list<Bond> bonds;
-    double sleep_distance;          // 0: no plant sleeps [m]
-    size_t turn = 0;                // of asking sleeping plants about the air
+    double sleep_distance;  // 0: no plant sleeps [m]
+    size_t turn = 0;        // of asking sleeping plants about the air
     uint64_t substep = 0;
-    double substep_length = 0;      // of the last one [s]
-    double interpolation = 1;       // where surfaces are shown between the last two [-], or FROND_AS_MOTION_STATES
-    std::unique_ptr<Detail> detail;  // null: all plants are simulated in full
+    double substep_length = 0;           // of the last one [s]
+    double interpolation = 1;            // where surfaces are shown between the last two [-], or FROND_AS_MOTION_STATES
+    std::unique_ptr<Detail> detail;      // null: all plants are simulated in full
     Vec3 gravity_before = Vec3::Zero();  // in the last substep [m/s^2]
     frond_effects effects_before = 0;    // likewise
-    bool is_stepping = false;       // in updateAction
+    bool is_stepping = false;            // in updateAction
     bool is_ending = false;
-    std::vector<Contact> contacts;  // of the last substep, with bodies
-    GravityAhead gravity_ahead;     // of those
-    std::vector<PlantContact> plant_contacts;  // likewise, of plants with each other and themselves
+    std::vector<Contact> contacts;                             // of the last substep, with bodies
+    GravityAhead gravity_ahead;                                // of those
+    std::vector<PlantContact> plant_contacts;                  // likewise, of plants with each other and themselves
     std::vector<std::unique_ptr<PlantSearch>> plant_searches;  // one an island of plants that may touch
-    double time = 0;  // [s]
+    double time = 0;                                           // [s]
     frond_report report = {};
 
     World(std::unique_ptr<OwnBullet> own, btDynamicsWorld* bullet, const frond_world_def& def);
