@@ -658,7 +658,7 @@ FROND_API frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule
  * shape that it has without any load: what FROND_BREAKING compares with strength / young. 0 of what came off.
  * capsule_count must be the plant's; out: capsule_count. */
 FROND_API frond_result frond_plant_get_strains(frond_plant plant, double* out, int capsule_count);
-/* Number of contacts of the last substep; 0 for an invalid handle. */
+/* Number of contacts of the last substep, none while the plant sleeps; 0 for an invalid handle. */
 FROND_API int frond_plant_get_contact_count(frond_plant plant);
 /* contact_count must be the plant's; out: contact_count. */
 FROND_API frond_result frond_plant_get_contacts(frond_plant plant, frond_contact* out, int contact_count);
