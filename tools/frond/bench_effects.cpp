@@ -2,18 +2,16 @@
 //
 // Valgrind's callgrind counts them, so they are exact: the command runs itself in it, steps each case there, and reads
 // what was counted for that one step.
-#include <unistd.h>
 #include <valgrind/callgrind.h>
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 
 #include "bench.hpp"
+#include "callgrind/count_self.hpp"
 #include "study/report.hpp"
 
 namespace frond::tools {
@@ -109,40 +107,26 @@ struct Counted {
     bool collides = false;  // code that looks for touches of plants ran
 };
 
-Counted read_part(const std::filesystem::path& path, std::string& name) {
+Counted read_part(const std::vector<std::string>& lines) {
     static const char* const COLLISION[] = {"find_cage_contacts", "gap_between",        "find_meeting_pieces",
                                             "cover_pieces",       "place_shape",        "add_capsule_contacts",
                                             "contact_at",         "respond_to_contacts"};
     Counted counted;
-    std::ifstream file(path);
-    const std::string trigger = "desc: Trigger: Client Request: ";
-    for (std::string line; std::getline(file, line);) {
-        if (line.rfind(trigger, 0) == 0) name = line.substr(trigger.size());
-        if (line.rfind("totals: ", 0) == 0) counted.instructions = std::strtod(line.c_str() + 8, nullptr);
-        if (line.rfind("summary: ", 0) == 0 && counted.instructions == 0)
+    for (const std::string& line : lines) {
+        if (begins_with(line, "totals: ")) counted.instructions = std::strtod(line.c_str() + 8, nullptr);
+        if (begins_with(line, "summary: ") && counted.instructions == 0)
             counted.instructions = std::strtod(line.c_str() + 9, nullptr);
-        if (line.rfind("fn=", 0) != 0 && line.rfind("cfn=", 0) != 0) continue;
+        if (!begins_with(line, "fn=") && !begins_with(line, "cfn=")) continue;
         for (const char* word : COLLISION) counted.collides |= line.find(word) != std::string::npos;
     }
     return counted;
 }
 
 std::map<std::string, Counted> count_in_valgrind() {
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("frond_effects_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
-    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-    const std::string command = "valgrind --tool=callgrind --collect-atstart=no -q --callgrind-out-file='" +
-                                (folder / "part").string() + "' '" + self + "' bench effects --inside > /dev/null";
-    const int status = std::system(command.c_str());
     std::map<std::string, Counted> all;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        std::string name;
-        const Counted counted = read_part(entry.path(), name);
-        if (!name.empty()) all[name] = counted;
-    }
-    std::filesystem::remove_all(folder);
-    if (status != 0 || all.empty()) throw SceneError("valgrind did not count; install it with tools/install-packages");
+    for (const auto& [name, lines] : count_self("bench effects --inside", "--collect-atstart=no"))
+        all[name] = read_part(lines);
+    if (all.empty()) throw SceneError("valgrind did not count; install it with tools/install-packages");
     return all;
 }
 

@@ -2,7 +2,6 @@
 //
 // Callgrind counts how often the instruction at each address ran, objdump says which it is: how many numbers it works
 // on, and how many bytes of memory it names.
-#include <unistd.h>
 #include <valgrind/callgrind.h>
 
 #include <array>
@@ -10,22 +9,20 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <unordered_map>
 
+#include "callgrind/count_self.hpp"
 #include "kernels/kernels.hpp"
 
 namespace frond::kernels {
+
+using tools::begins_with;
 
 namespace {
 
 struct Instruction {
     double flops = 0, bytes = 0;
 };
-
-bool begins_with(const std::string& text, const char* word) {
-    return text.rfind(word, 0) == 0;
-}
 
 // As objdump writes it in Intel's way: "vmulpd ymm0,ymm1,YMMWORD PTR [rax]".
 Instruction read_instruction(const std::string& text) {
@@ -69,14 +66,11 @@ std::unordered_map<unsigned long, Instruction> disassemble(const std::string& pr
 }
 
 // Lines are "0xaddress line count"; the one after "calls=" has what the call took, which is counted where it ran.
-Work read_part(const std::filesystem::path& path, const std::string& program,
-               const std::unordered_map<unsigned long, Instruction>& instructions, std::string& name) {
-    const std::string trigger = "desc: Trigger: Client Request: ";
+Work read_part(const std::vector<std::string>& lines, const std::string& program,
+               const std::unordered_map<unsigned long, Instruction>& instructions) {
     Work work;
-    std::ifstream file(path);
     bool is_own = false, is_call = false;
-    for (std::string line; std::getline(file, line);) {
-        if (begins_with(line, trigger.c_str())) name = line.substr(trigger.size());
+    for (const std::string& line : lines) {
         if (begins_with(line, "ob=")) is_own = line.substr(3) == program;
         if (begins_with(line, "calls=")) {
             is_call = true;
@@ -112,23 +106,13 @@ void run_to_be_counted(const std::vector<Kernel>& kernels) {
 }
 
 std::map<std::string, Work> count_work() {
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("frond_kernels_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
     const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-    const std::string command =
-        "valgrind --tool=callgrind -q --instr-atstart=no --dump-instr=yes --compress-pos=no --compress-strings=no "
-        "--callgrind-out-file='" +
-        (folder / "part").string() + "' '" + self + "' --inside > /dev/null 2>&1";
-    std::map<std::string, Work> all;
     const std::unordered_map<unsigned long, Instruction> instructions = disassemble(self);
-    if (!instructions.empty() && std::system(command.c_str()) == 0)
-        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-            std::string name;
-            const Work work = read_part(entry.path(), self, instructions, name);
-            if (!name.empty()) all[name] = work;
-        }
-    std::filesystem::remove_all(folder);
+    std::map<std::string, Work> all;
+    if (instructions.empty()) return all;
+    for (const auto& [name, lines] :
+         tools::count_self("--inside", "--instr-atstart=no --dump-instr=yes --compress-pos=no --compress-strings=no"))
+        all[name] = read_part(lines, self, instructions);
     return all;
 }
 
