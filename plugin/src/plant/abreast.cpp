@@ -134,8 +134,9 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
     }
     history.shaken = false;
     history.h = h;
-    history.x_end = motion.x;
-    history.v_end = motion.v;
+    // Until the next step nothing moves the plant that does not drop its history.
+    history.x_end.resize(0);
+    history.v_end.resize(0);
     plant.lead = 0;
     plant.is_sound = true;
     plant.step_settings = settings;
