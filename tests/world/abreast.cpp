@@ -12,6 +12,7 @@
 
 #include "frond/frond.h"
 #include "frond/frond_bullet.hpp"
+#include "frond/frond_snapshot.h"
 #include "support/stems.hpp"
 
 namespace {
@@ -186,6 +187,27 @@ TEST(Abreast, PiecesAreWhereThoseOfEachAloneAre) {
             abreast.check_tree(i);
         }
     }
+}
+
+// Where their last step ended is kept once of those that go abreast, and twice of others: snapshots tell it alike.
+TEST(Abreast, PlantsThatGoBackToASnapshotGoTheSameWayAgain) {
+    Row abreast(true), alone(false);
+    const auto step = [](const Row& row, int count) {
+        for (int k = 0; k < count; k++) ASSERT_EQ(frond_world_step(row.world, H), FROND_OK) << frond_last_error();
+    };
+    const auto hash_of = [](const Row& row) {
+        uint64_t hash = 0;
+        EXPECT_EQ(frond_world_get_state_hash(row.world, &hash), FROND_OK);
+        return hash;
+    };
+    for (const Row* row : {&abreast, &alone}) step(*row, 20);
+    std::vector<char> bytes(frond_world_get_snapshot_size(abreast.world));
+    EXPECT_EQ(bytes.size(), frond_world_get_snapshot_size(alone.world));
+    ASSERT_EQ(frond_world_save(abreast.world, bytes.data(), bytes.size()), FROND_OK) << frond_last_error();
+    for (const Row* row : {&abreast, &alone}) step(*row, 20);
+    ASSERT_EQ(frond_world_restore(abreast.world, bytes.data(), bytes.size()), FROND_OK) << frond_last_error();
+    step(abreast, 20);
+    EXPECT_EQ(hash_of(abreast), hash_of(alone));
 }
 
 }  // namespace

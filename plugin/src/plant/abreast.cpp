@@ -134,8 +134,9 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
     }
     history.shaken = false;
     history.h = h;
-    history.x_end = motion.x;
-    history.v_end = motion.v;
+    // Until the next step nothing moves the plant that does not drop its history.
+    history.x_end.resize(0);
+    history.v_end.resize(0);
     plant.lead = 0;
     plant.is_sound = true;
     plant.step_settings = settings;
@@ -145,6 +146,13 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
 }
 
 }  // namespace
+
+// As it may do only with its past and its pins at rest; what has gone abreast since they moved has them so.
+static bool goes_on(const Plant& plant, double h) {
+    const Motion& motion = plant.motion;
+    return history_holds(motion, plant.settings.integrator, h) &&
+           (motion.history.x_end.size() == 0 || is_where_held(motion));
+}
 
 bool may_go_abreast(const Plant& plant, const Surroundings& surroundings, double h) {
     const Motion& motion = plant.motion;
@@ -171,7 +179,7 @@ void solve_abreast(Plant* const* given, int given_count, const Surroundings& sur
     int count = 0;
     for (int i = 0; i < given_count; i++) {
         Plant& plant = *given[i];
-        if (history_holds(plant.motion, plant.settings.integrator, h) && is_where_held(plant.motion))
+        if (goes_on(plant, h))
             plants[size_t(count++)] = &plant;
         else
             solve_plant(plant, surroundings, h);

@@ -161,9 +161,11 @@ struct AddForces {
 unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int plant_count,
                     const Surroundings& surroundings, frond_effects effects, double h) {
     const int lanes = step.lanes, count = int(plants[0]->chain_positions.size());
-    step.drag_force.setZero();
-    step.drag_damping.setZero();
-    if (!surroundings.wind || !(effects & (FROND_WIND | FROND_AIR_DRAG))) return 0;
+    if (!surroundings.wind || !(effects & (FROND_WIND | FROND_AIR_DRAG))) {
+        step.drag_force.setZero();
+        step.drag_damping.setZero();
+        return 0;
+    }
     if (!air.pieces) air.pieces = air_pieces_of(*plants[0]);
     const Eigen::Index n = Eigen::Index(3 * count) * lanes;
     for (VecX* numbers : {&air.wind, &air.places, &air.passing, &air.velocities}) numbers->resize(n);

@@ -58,7 +58,7 @@ struct History {
     bool shaken = false;  // the last step was a first one too, or something pushed since: bdf2 then starts with damping
     frond_integrator integrator = FROND_IMPLICIT_EULER;
     double h = 0;       // of the last step [s]
-    VecX x_end, v_end;  // what that step left [m], [m/s]
+    VecX x_end, v_end;  // what that step left [m], [m/s]; empty: the motion, which nothing has moved since
     std::vector<uint8_t> pinned;
     VecX x_prev, v_prev;  // what it started from: bdf2
     VecX x_rate, v_rate;  // rates at its end [m/s], [m/s^2]: generalized_alpha

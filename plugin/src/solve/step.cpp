@@ -104,13 +104,17 @@ double damping_of(const System& system, const SolveSettings& settings, std::vect
     return 1;
 }
 
+static bool is_as_left(const Motion& motion) {
+    const History& history = motion.history;
+    return history.x_end.size() == 0 || (are_same(history.x_end, motion.x) && are_same(history.v_end, motion.v));
+}
+
 bool history_holds(const Motion& motion, frond_integrator integrator, double h) {
     // Bdf2 is stable while steps grow by less than 1 + sqrt 2 and however they shrink.
     constexpr double LARGEST_GROWTH = 2, LARGEST_FALL = 8;
     const History& history = motion.history;
     return history.valid && history.integrator == integrator && h <= LARGEST_GROWTH * history.h &&
-           history.h <= LARGEST_FALL * h && history.pinned == motion.pinned && are_same(history.x_end, motion.x) &&
-           are_same(history.v_end, motion.v);
+           history.h <= LARGEST_FALL * h && history.pinned == motion.pinned && is_as_left(motion);
 }
 
 SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, const Loads& loads, double h,

@@ -47,12 +47,21 @@ void take_swing(const Swing& swing, SavedPlant& saved) {
                            swing.fresh, swing.fade});
 }
 
+// What a step abreast left is kept once.
+Motion with_end(Motion motion) {
+    History& history = motion.history;
+    if (!history.valid || history.x_end.size() > 0) return motion;
+    history.x_end = motion.x;
+    history.v_end = motion.v;
+    return motion;
+}
+
 SavedPlant take_plant(const World& world, const PlantBody& body) {
     const Plant& plant = *body.plant;
     SavedPlant saved = {};
     saved.kind = kind_of(plant);
     saved.which = plant.which;
-    saved.motion = plant.motion;
+    saved.motion = with_end(plant.motion);
     saved.trend = plant.trend;
     saved.fade = plant.fade;
     saved.lead = plant.lead;
