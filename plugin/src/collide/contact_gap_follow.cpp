@@ -39,7 +39,7 @@ bool follow_contact(const CollisionBody& a, const CollisionBody& b, double reach
     const Vec3 around = Vec3::Constant(reach);
     const Vec3 lower = stretch.ends[0].cwiseMin(stretch.ends[1]) - around;
     const Vec3 upper = stretch.ends[0].cwiseMax(stretch.ends[1]) + around;
-    NearestPair nearest = {{}, {}, reach * reach};
+    NearestPair nearest = {Vec3::Zero(), Vec3::Zero(), reach * reach};
     int nearest_face = -1;
     for (size_t f = 0; f < b.collider->faces.size(); ++f) {
         const int piece = b.collider->tet_piece[size_t(b.collider->face_tet[f])];
