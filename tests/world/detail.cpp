@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -315,33 +318,52 @@ TEST(Detail, KeepsABudget) {
     frond_wind_def wind = frond_default_wind_def();
     wind.velocity = {5, 0, 0};
     must(frond_world_set_wind(stand.world, &wind));
-    const auto median = [&] {
-        std::vector<double> ms;
+    // Medians of 60 steps: time [ms], plants that sway and those that do not, detail of the first and the last plant.
+    struct Medians {
+        double ms, sway, more, first, last;
+    };
+    const auto medians = [&] {
+        std::array<std::vector<double>, 5> all;
         for (int i = 0; i < 60; i++) {
             must(frond_world_step(stand.world, H));
-            ms.push_back(report_of(stand.world).ms_step);
+            const frond_report report = report_of(stand.world);
+            const int* count = report.detail_count;
+            const double numbers[] = {report.ms_step, double(count[FROND_DETAIL_SWAY]),
+                                      double(count[FROND_DETAIL_FULL] + count[FROND_DETAIL_ROD]),
+                                      double(detail_of(stand.plants[0])), double(detail_of(stand.plants[COUNT - 1]))};
+            for (size_t n = 0; n < all.size(); n++) all[n].push_back(numbers[n]);
         }
-        std::sort(ms.begin(), ms.end());
-        return ms[30];
+        for (auto& numbers : all) std::sort(numbers.begin(), numbers.end());
+        return Medians{all[0][30], all[1][30], all[2][30], all[3][30], all[4][30]};
     };
-    const double all = median();
     frond_detail_def def = frond_default_detail_def();
     def.half_from = def.sway_from = def.still_from = 1e6;
-    def.budget = 0.4 * all;
+    def.budget = 0.4 * medians().ms;
     must(frond_world_set_detail(stand.world, &def));
     must(frond_world_set_viewer(stand.world, {0, 0, 0}));
-    // Another program on the same cores takes its time from the budget too: it may try thrice.
-    bool keeps = false;
-    for (int i = 0; i < 3 && !keeps; i++) {
-        median();
-        keeps = median() < def.budget;
+    // What another program on the same cores takes goes from the budget too, and a spike keeps detail down for a while:
+    // a try counts when the cores were this one's own.
+    const auto keeps = [&](const Medians& m) {
+        return m.ms < def.budget && m.sway > COUNT / 10 && m.more > 0 && m.first <= FROND_DETAIL_ROD &&
+               m.last == FROND_DETAIL_SWAY;
+    };
+    constexpr double OWN = 0.95;
+    Medians now = {};
+    int undisturbed = 0;
+    for (int i = 0; i < 10 && undisturbed < 3 && !keeps(now); i++) {
+        const auto start = std::chrono::steady_clock::now();
+        const std::clock_t start_used = std::clock();
+        medians();
+        now = medians();
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+        undisturbed += double(std::clock() - start_used) / CLOCKS_PER_SEC > OWN * passed.count();
     }
-    EXPECT_TRUE(keeps);
-    const frond_report report = report_of(stand.world);
-    EXPECT_GT(report.detail_count[FROND_DETAIL_SWAY], COUNT / 10);
-    EXPECT_GT(report.detail_count[FROND_DETAIL_FULL] + report.detail_count[FROND_DETAIL_ROD], 0);
-    EXPECT_LE(detail_of(stand.plants[0]), FROND_DETAIL_ROD);
-    EXPECT_EQ(detail_of(stand.plants[COUNT - 1]), FROND_DETAIL_SWAY);
+    if (undisturbed == 0 && !keeps(now)) GTEST_SKIP() << "other programs take the cores";
+    EXPECT_LT(now.ms, def.budget);
+    EXPECT_GT(now.sway, COUNT / 10);
+    EXPECT_GT(now.more, 0);
+    EXPECT_LE(now.first, FROND_DETAIL_ROD);
+    EXPECT_EQ(now.last, FROND_DETAIL_SWAY);
 }
 
 }  // namespace
