@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.21)
-# All C and C++ of ours is as .clang-format has it. CLANG_FORMAT is version 14: others break lines elsewhere.
+# All C and C++ of ours is as .clang-format has it, by version 14: others break lines elsewhere.
 set(files "")
 foreach(folder plugin examples tests tools)
     foreach(ending c h cpp hpp)
