@@ -18,12 +18,13 @@ bool ends_off_course(const Plant& plant, double h);
 constexpr double OFF_COURSE = 0.02, TURNED_OFF_COURSE = 0.35;  // over the plant's size [-], [rad]
 // What is stiff is strained much by little: the error of one solve grows over what moves as the square of the step [s].
 constexpr double TRUSTED = 1.001 / 60;
+// Whether a place went much farther than the plant is long, and than it has to come back.
+bool has_run_away(const Plant& plant);
+constexpr double FARTHEST_WAY = 4;  // over the plant's size, that is not asked about [-]
 // Stretched to many times its size.
 bool is_far_out(const Plant& plant);
-// A step's way, over the plant's size, that is not asked about [-].
-constexpr double FARTHEST_WAY = 4;
-// How far a place was from where it is modelled when the step began [m].
-double reach_at_start(const Plant& plant);
+// Of a chain's node, whose rotation vector turns back by 2 pi where it has turned by more than pi [rad].
+Vec3 turn_of(const VecX& x, const VecX& from, int node);
 
 // Elastic and that of weight, forces and springs, those of pins too, which do not change within a step [J].
 double potential_energy(const Plant& plant, const VecX& x);
@@ -33,7 +34,8 @@ double lifting_energy(const Plant& plant);
 struct EnergyLook {
     // It has more than it had and than forces, springs and pins that move can have given.
     bool comes_from_nowhere = false;
-    bool was_small = false;  // it had less than lifts it by its size when the step began
+    // It had less than lifts it by its size when the step began, or when it ended hardly more than it was given.
+    bool is_small = false;
 };
 // After a solve over h [s] from x_good and v_good; contacts did `work` [J]. Not told, both false, in the air, which may
 // give any.

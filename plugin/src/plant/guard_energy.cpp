@@ -5,51 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/rotation.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
 #include "solve/workspace.hpp"
 
 namespace frond {
-
-// Of every so many nodes from the first on.
-static double farthest(const VecX& x, const VecX& from, int first, int next) {
-    double most = 0;
-    for (int i = first; i < x.size() / 3; i += next) {
-        const double way = (point(x, i) - point(from, i)).squaredNorm();
-        if (!(way <= most)) most = std::isnan(way) ? INFINITY : way;
-    }
-    return std::sqrt(most);
-}
-
-// Of a chain's node, whose rotation vector turns back by 2 pi where it has turned by more than pi [rad].
-static Vec3 turn_of(const VecX& x, const VecX& from, int node) {
-    return rotation_vector<double>(rotation_of<double>(point(x, node)) *
-                                   rotation_of<double>(point(from, node)).transpose());
-}
-
-double farthest_way(const Plant& plant) {
-    return farthest(plant.motion.x, plant.x_good, 0, plant.follow ? 2 : 1);
-}
-
-bool ends_off_course(const Plant& plant, double h) {
-    if (h > TRUSTED) return true;
-    const VecX &x = plant.motion.x, &x_good = plant.x_good, &v_good = plant.v_good;
-    const double far = std::pow(OFF_COURSE * double(plant.size), 2);
-    const double turned_far = plant.follow ? TURNED_OFF_COURSE * TURNED_OFF_COURSE : far;
-    if ((x - x_good - h * v_good).squaredNorm() < std::min(far, turned_far)) return false;  // all together even
-    for (int i = 0; i < x.size() / 3; i++) {
-        const double off = (point(x, i) - point(x_good, i) - h * point(v_good, i)).squaredNorm();
-        if (off < (i % 2 ? turned_far : far)) continue;
-        const bool turns = plant.follow && i % 2;
-        if (!turns || !((turn_of(x, x_good, i) - h * point(v_good, i)).squaredNorm() < turned_far)) return true;
-    }
-    return false;
-}
-
-double reach_at_start(const Plant& plant) {
-    return farthest(plant.x_good, elements_of(*plant.system).modelled, 0, plant.follow ? 2 : 1);
-}
 
 // With each node's own mass, and the rotary inertia that the step began with: to work it out anew costs as much as all
 // strains do [J].
@@ -116,7 +76,6 @@ EnergyLook look_at_energy(const Plant& plant, double h, double work) {
     EnergyLook look;
     if (!plant.loads.drags.empty()) return look;
     const VecX &x = plant.motion.x, &x_good = plant.x_good;
-    const double before = kinetic_in_step(plant, plant.v_good) + elastic_energy(plant, x_good);
     const double after = kinetic_in_step(plant, plant.motion.v) + elastic_energy(plant, x);
     const double speed = CARRIED * way_of_pins(plant) / h, lifting = lifting_energy(plant);
     double given = work + work_along(plant, x - x_good) + spring_energy(plant, x_good, Held::BY_GRABS) -
@@ -125,8 +84,12 @@ EnergyLook look_at_energy(const Plant& plant, double h, double work) {
     for (int i = 1; plant.follow && i < x.size() / 3; i += 2)
         if (point(plant.loads.force, i) != Vec3::Zero())
             given += point(plant.loads.force, i).dot(turn_of(x, x_good, i) - (point(x, i) - point(x_good, i)));
+    // Most often what it had need not be asked.
+    look.is_small = after < lifting && after <= given + LIFT * lifting;
+    if (look.is_small) return look;
+    const double before = kinetic_in_step(plant, plant.v_good) + elastic_energy(plant, x_good);
     look.comes_from_nowhere = !(after <= before + given + SHARE * before + LIFT * lifting);
-    look.was_small = before < lifting;
+    look.is_small = before < lifting;
     return look;
 }
 

@@ -37,16 +37,6 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
             loads.springs.push_back({vertex_grip(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
 }
 
-// Whether all places, not the rotations of a chain, are nearer than that to `from`.
-static bool are_near(const Plant& plant, const VecX& from, double distance) {
-    const VecX& x = plant.motion.x;
-    if ((x - from).squaredNorm() < distance * distance) return true;  // all together even
-    const int next = plant.follow ? 2 : 1;
-    for (int i = 0; i < x.size() / 3; i += next)
-        if (!((point(x, i) - point(from, i)).squaredNorm() < distance * distance)) return false;
-    return true;
-}
-
 // What is bent beyond its yield keeps a part of that.
 static void keep_sets(Plant& plant, double h) {
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
@@ -57,14 +47,6 @@ static void keep_sets(Plant& plant, double h) {
         plant.own_elements = row.copy(shared);
     }
     row.flow(*plant.own_elements, plant.motion.x, h);
-}
-
-// A node has gone much farther than the plant is long, or than it has to come back.
-static bool has_run_away(const Plant& plant) {
-    constexpr double BACK = 2;  // in a step
-    const double size = double(plant.size);
-    return !are_near(plant, plant.x_good, FARTHEST_WAY * size) &&
-           !are_near(plant, plant.x_good, FARTHEST_WAY * size + BACK * reach_at_start(plant));
 }
 
 // What is pressed springs far in a solve that knows of no contact yet: then its energy tells nothing.
@@ -82,13 +64,8 @@ static bool is_plausible(Plant& plant, double h, Contacts contacts, double work 
     // soft.
     const bool is_told = plant.is_touched ? contacts == Contacts::DONE && plant.follow : plant.is_off_course;
     const EnergyLook look = is_told ? look_at_energy(plant, h, work) : EnergyLook();
-    plant.is_off_course &= !look.was_small;  // too weak to be torn
+    plant.is_off_course &= !look.is_small;  // too weak to be torn
     return !look.comes_from_nowhere && !has_run_away(plant);
-}
-
-bool is_far_out(const Plant& plant) {
-    constexpr double FARTHEST = 100;
-    return !are_near(plant, elements_of(*plant.system).modelled, FARTHEST * double(plant.size));
 }
 
 // Whether what was found can be the plant's next state, as far as each step asks.

@@ -1,0 +1,132 @@
+// In: a plant before and after a solve. Out: whether a node of it went where a healthy step does not lead.
+//
+// A node that did is rare, and each step asks: some nodes are looked at together first, in the lanes of the vector
+// unit.
+#include <algorithm>
+#include <cmath>
+
+#include "core/lanes.hpp"
+#include "mechanics/rotation.hpp"
+#include "plant/guard.hpp"
+#include "plant/plant.hpp"
+
+namespace frond {
+
+namespace {
+
+// What of a motion is looked at: numbers from `k` on.
+struct Way {
+    const VecX &x, &from;
+    template <class S>
+    FROND_INLINE S at(int k) const {
+        return load<S>(x.data() + k) - load<S>(from.data() + k);
+    }
+};
+struct OffCourse {
+    const VecX &x, &from, &v;
+    double h;  // [s]
+    template <class S>
+    FROND_INLINE S at(int k) const {
+        return load<S>(x.data() + k) - load<S>(from.data() + k) - constant<S>(h) * load<S>(v.data() + k);
+    }
+};
+
+// Whether a node `is_one`, which is asked of nodes among which any has a square above that of even or odd ones.
+template <class Of, class IsOne>
+struct FindNode {
+    const Of& of;
+    int count;
+    double even, odd;
+    const IsOne& is_one;
+    bool& found;
+    template <class S>
+    FROND_INLINE void run() const {
+        constexpr int NODES = LANES<S>;
+        S share[3];  // of what a square may be
+        for (int k = 0; k < 3 * NODES; k++) set_lane(share[k / NODES], k % NODES, 1 / (k / 3 % 2 ? odd : even));
+        int node = 0;
+        for (; node + NODES <= count; node += NODES) {
+            S sum = {};
+            for (int k = 0; k < 3; k++) {
+                const S off = of.template at<S>(3 * node + k * NODES);
+                sum += share[k] * off * off;
+            }
+            if (any(!(sum < constant<S>(1.0 / NODES))) && has_one(node, node + NODES)) return;
+        }
+        has_one(node, count);
+    }
+    bool has_one(int node, int to) const {
+        while (node < to && !is_one(node)) node++;
+        return found = node < to;
+    }
+};
+template <class Of, class IsOne>
+bool has_node(const Of& of, int count, double even, double odd, const IsOne& is_one) {
+    bool found = false;
+    run_in_lanes(FindNode<Of, IsOne>{of, count, even, odd, is_one, found});
+    return found;
+}
+
+// Whether all places, not the rotations of a chain, are nearer than that to `from`.
+bool are_near(const Plant& plant, const VecX& from, double distance) {
+    const VecX& x = plant.motion.x;
+    const double most = distance * distance;
+    const auto is_far = [&](int i) {
+        return (!plant.follow || i % 2 == 0) && !((point(x, i) - point(from, i)).squaredNorm() < most);
+    };
+    return !has_node(Way{x, from}, int(x.size() / 3), most, plant.follow ? INFINITY : most, is_far);
+}
+
+// Of every so many nodes from the first on.
+double farthest(const VecX& x, const VecX& from, int first, int next) {
+    double most = 0;
+    for (int i = first; i < x.size() / 3; i += next) {
+        const double way = (point(x, i) - point(from, i)).squaredNorm();
+        if (!(way <= most)) most = std::isnan(way) ? INFINITY : way;
+    }
+    return std::sqrt(most);
+}
+
+// How far a place was from where it is modelled when the step began [m].
+double reach_at_start(const Plant& plant) {
+    return farthest(plant.x_good, elements_of(*plant.system).modelled, 0, plant.follow ? 2 : 1);
+}
+
+}  // namespace
+
+Vec3 turn_of(const VecX& x, const VecX& from, int node) {
+    return rotation_vector<double>(rotation_of<double>(point(x, node)) *
+                                   rotation_of<double>(point(from, node)).transpose());
+}
+
+double farthest_way(const Plant& plant) {
+    return farthest(plant.motion.x, plant.x_good, 0, plant.follow ? 2 : 1);
+}
+
+bool ends_off_course(const Plant& plant, double h) {
+    if (h > TRUSTED) return true;
+    const VecX &x = plant.motion.x, &x_good = plant.x_good, &v_good = plant.v_good;
+    const double far = std::pow(OFF_COURSE * double(plant.size), 2);
+    const double turned_far = plant.follow ? TURNED_OFF_COURSE * TURNED_OFF_COURSE : far;
+    const auto is_off = [&](int i) {
+        const double off = (point(x, i) - point(x_good, i) - h * point(v_good, i)).squaredNorm();
+        if (off < (i % 2 ? turned_far : far)) return false;
+        const bool turns = plant.follow && i % 2;
+        return !turns || !((turn_of(x, x_good, i) - h * point(v_good, i)).squaredNorm() < turned_far);
+    };
+    return has_node(OffCourse{x, x_good, v_good, h}, int(x.size() / 3), far, turned_far, is_off);
+}
+
+bool has_run_away(const Plant& plant) {
+    constexpr double BACK = 2;  // in a step
+    const double size = double(plant.size);
+    return !are_near(plant, plant.x_good, FARTHEST_WAY * size) &&
+           !are_near(plant, plant.x_good, FARTHEST_WAY * size + BACK * reach_at_start(plant));
+}
+
+bool is_far_out(const Plant& plant) {
+    constexpr double FARTHEST = 100;
+    return !are_near(plant, elements_of(*plant.system).modelled, FARTHEST * double(plant.size));
+}
+
+}  // namespace frond
