@@ -29,9 +29,7 @@ inline auto point(const VecX& x, int i) {
 }
 
 // Eigen's own goes number by number.
-inline bool are_finite(const VecX& x) {
-    return (x - x).sum() == 0;
-}
+bool are_finite(const VecX& x);
 // To the last bit first.
 inline bool are_same(const VecX& a, const VecX& b) {
     if (a.size() != b.size() || a.size() == 0) return a.size() == b.size();

@@ -41,17 +41,18 @@ struct FindNode {
     bool& found;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr int NODES = LANES<S>;
-        S share[3];  // of what a square may be
-        for (int k = 0; k < 3 * NODES; k++) set_lane(share[k / NODES], k % NODES, 1 / (k / 3 % 2 ? odd : even));
+        constexpr int NODES = 4 * LANES<S>;  // together
+        S share[3];                          // of what a square may be
+        for (int k = 0; k < 3 * LANES<S>; k++)
+            set_lane(share[k / LANES<S>], k % LANES<S>, 1 / (k / 3 % 2 ? odd : even));
         int node = 0;
         for (; node + NODES <= count; node += NODES) {
             S sum = {};
-            for (int k = 0; k < 3; k++) {
-                const S off = of.template at<S>(3 * node + k * NODES);
-                sum += share[k] * off * off;
+            for (int k = 0; k < 12; k++) {
+                const S off = of.template at<S>(3 * node + k * LANES<S>);
+                sum += share[k % 3] * off * off;
             }
-            if (any(!(sum < constant<S>(1.0 / NODES))) && has_one(node, node + NODES)) return;
+            if (any(!(sum < constant<S>(1.0 / LANES<S>))) && has_one(node, node + NODES)) return;
         }
         has_one(node, count);
     }
