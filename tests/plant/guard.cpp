@@ -105,7 +105,7 @@ TEST_P(EveryShape, EnergyOutOfNothingIsTold) {
     plant->v_good = plant->motion.v;
     lend_workspace(*plant);  // as within a step
     EXPECT_FALSE(look_at_energy(*plant, H).comes_from_nowhere);
-    EXPECT_TRUE(look_at_energy(*plant, H).was_small);
+    EXPECT_TRUE(look_at_energy(*plant, H).is_small);
     plant->motion.v.setConstant(3);
     EXPECT_TRUE(look_at_energy(*plant, H).comes_from_nowhere);
     plant->motion.v = plant->v_good;

@@ -177,6 +177,18 @@ static std::vector<Combination> euler_combinations() {
 }
 INSTANTIATE_TEST_SUITE_P(Step, EveryEulerStep, testing::ValuesIn(euler_combinations()), combination_name);
 
+TEST_P(EveryEulerStep, TakesNoForceForForcesOfZero) {
+    const Model box = box_model(1, 2, 1, {0.1, 0.2, 0.1}, {900, 1e4, 0.3});
+    Rig with(box, settings(), mass()), without(box, settings(), mass());
+    without.loads.force.resize(0);
+    for (Rig* rig : {&with, &without}) {
+        rig->loads.gravity = {0, -9.81, 0};
+        ASSERT_TRUE(rig->step(H).ok && rig->step(H).ok);
+    }
+    EXPECT_EQ(with.motion.x, without.motion.x);
+    EXPECT_EQ(with.motion.v, without.motion.v);
+}
+
 // The equation itself, put together from dense parts: (M + h D + h^2 K) dv = h (f - D v - h K v).
 TEST_P(EveryEulerStep, SolvesTheEquationOfThePaperWithItsSignsRight) {
     Rig rig(box_model(1, 2, 1, {0.1, 0.2, 0.1}, {900, 1e4, 0.3}), settings(), mass());

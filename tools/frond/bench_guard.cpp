@@ -59,7 +59,7 @@ struct Counted {
 // "cfn=(12) name" names a function that is called, later only by its number; the line after "calls=" has what it took.
 Counted read_part(const std::vector<std::string>& lines) {
     static const char* const GUARD[] = {"ends_off_course", "has_run_away",    "is_far_out",
-                                        "is_plausible",    "is_sound",        "look_at_energy",
+                                        "is_plausible",    "are_finite",      "look_at_energy",
                                         "watch_recovery",  "damp_recovering", "jump_with_pins"};
     Counted counted;
     std::map<std::string, bool> is_guard;

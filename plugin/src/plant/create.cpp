@@ -130,7 +130,8 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     const VecX& start = elements_of(*plant.system).modelled;
     plant.motion = {};
     plant.motion.x = plant.motion.pin_target = start;
-    plant.motion.v = plant.loads.force = VecX::Zero(start.size());
+    plant.motion.v = VecX::Zero(start.size());
+    plant.loads = {};
     plant.motion.pinned.assign(size_t(start.size() / 3), 0);
     plant.pins_changed = plant.cage_stale = true;
     plant.substeps = 1;

@@ -66,7 +66,7 @@ void unfold(Plant& plant) {
     motion.x = motion.pin_target = elements_of(*plant.system).modelled;
     for (size_t i = 0; i < plant.away.size(); i++) motion.x[Eigen::Index(i)] += double(plant.away[i]);
     drop(plant.away);
-    motion.v = plant.loads.force = VecX::Zero(motion.x.size());
+    motion.v = VecX::Zero(motion.x.size());
     motion.pinned.assign(size_t(motion.x.size() / 3), 0);
     if (plant.pinned.empty()) {
         plant.pinned = plant.foot->pinned;

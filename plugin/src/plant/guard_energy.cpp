@@ -34,7 +34,8 @@ static double work_along(const Plant& plant, const VecX& way) {
     const VecX& mass = node_mass_of(*plant.system);
     Vec3 moved = Vec3::Zero();
     for (int i = 0; i < mass.size(); i++) moved += mass[i] * point(way, i);
-    return plant.loads.force.dot(way) + plant.loads.gravity.dot(moved);
+    const VecX& force = plant.loads.force;
+    return (force.size() > 0 ? force.dot(way) : 0) + plant.loads.gravity.dot(moved);
 }
 
 // Springs that hold pins are as stiff as what cannot move.
@@ -55,10 +56,10 @@ double potential_energy(const Plant& plant, const VecX& x) {
 // The farthest way of what holds the plant [m].
 static double way_of_pins(const Plant& plant) {
     const Motion& motion = plant.motion;
-    const int next = plant.follow ? 2 : 1;
+    const int count = int(motion.pinned.size());
     double most = 0;
-    for (int i = 0; i < int(motion.pinned.size()); i += next)
-        if (motion.pinned[size_t(i)])
+    for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1))
+        if (!plant.follow || i % 2 == 0)
             most = std::max(most, (point(motion.pin_target, i) - point(plant.x_good, i)).norm());
     for (const Spring& spring : plant.pin_springs)
         most = std::max(most, (spring.target - grip_place(spring.grip, plant.x_good)).norm());
@@ -81,9 +82,10 @@ EnergyLook look_at_energy(const Plant& plant, double h, double work) {
     double given = work + work_along(plant, x - x_good) + spring_energy(plant, x_good, Held::BY_GRABS) -
                    spring_energy(plant, x, Held::BY_GRABS) + 0.5 * node_mass_of(*plant.system).sum() * speed * speed;
     // The work of moments, which few nodes have, is done along the turn, not along rotation vectors.
-    for (int i = 1; plant.follow && i < x.size() / 3; i += 2)
-        if (point(plant.loads.force, i) != Vec3::Zero())
-            given += point(plant.loads.force, i).dot(turn_of(x, x_good, i) - (point(x, i) - point(x_good, i)));
+    const VecX& force = plant.loads.force;
+    for (int i = 1; plant.follow && i < force.size() / 3; i += 2)
+        if (point(force, i) != Vec3::Zero())
+            given += point(force, i).dot(turn_of(x, x_good, i) - (point(x, i) - point(x_good, i)));
     // Most often what it had need not be asked.
     look.is_small = after < lifting && after <= given + LIFT * lifting;
     if (look.is_small) return look;

@@ -15,9 +15,9 @@ void jump_with_pins(Plant& plant) {
         sum += way;
         count++;
     };
-    const int next = plant.follow ? 2 : 1;
-    for (int i = 0; i < int(motion.pinned.size()); i += next)
-        if (motion.pinned[size_t(i)]) add(point(motion.pin_target, i) - point(motion.x, i));
+    const int next = plant.follow ? 2 : 1, pinned_count = int(motion.pinned.size());
+    for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1))
+        if (i % next == 0) add(point(motion.pin_target, i) - point(motion.x, i));
     for (const Spring& spring : plant.pin_springs) add(spring.target - grip_place(spring.grip, motion.x));
     if (count == 0 || !(sum.norm() > JUMP * double(plant.size) * count)) return;
     const Vec3 way = sum / count;

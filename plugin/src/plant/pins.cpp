@@ -96,9 +96,10 @@ static void pin_chain(Plant& plant) {
 
 // On the same side of the half turn.
 bool is_where_held(const Motion& motion) {
-    for (size_t i = 0; i < motion.pinned.size(); i++)
-        if (motion.pinned[i] && point(motion.x, int(i)) != point(motion.pin_target, int(i))) return false;
-    return true;
+    const int count = int(motion.pinned.size());
+    int i = next_pinned(motion, 0);
+    while (i < count && point(motion.x, i) == point(motion.pin_target, i)) i = next_pinned(motion, i + 1);
+    return i == count;
 }
 
 void apply_pins(Plant& plant) {

@@ -16,7 +16,6 @@ void relax(Plant& plant) {
     SolveSettings settings = plant.settings;
     settings.integrator = FROND_IMPLICIT_EULER;
     Loads loads;
-    loads.force = VecX::Zero(given.size());
     if (plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
     apply_pins(plant);
     lend_workspace(plant);

@@ -19,11 +19,12 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
     Loads& loads = plant.loads;
     loads.gravity = gravity_in(plant, surroundings, effects);
     loads.springs = plant.pin_springs;
-    loads.force.setZero();
+    loads.force.resize(0);
     if (!(effects & FROND_USER_FORCE)) return;
 
     if (plant.has_user_force) {
         const Mat3 turn = to_model.toRotationMatrix();
+        loads.force.setZero(plant.motion.x.size());
         for (int i = 0; i < node_count_of(plant); i++) {
             const Vec3 force = turn * point(plant.user_force, i);
             if (!plant.follow)
@@ -68,9 +69,9 @@ static bool is_plausible(Plant& plant, double h, Contacts contacts, double work 
     return !look.comes_from_nowhere && !has_run_away(plant);
 }
 
-// Whether what was found can be the plant's next state, as far as each step asks.
+// Of what was found and moved since then.
 static bool is_sound(const Plant& plant) {
-    return plant.report.ok && are_finite(plant.motion.x) && are_finite(plant.motion.v);
+    return plant.report.ok && are_finite(plant.motion.x) && are_finite(plant.motion.v) && !has_run_away(plant);
 }
 
 // From the start of the step in equal parts, pinned nodes moving evenly.
@@ -234,8 +235,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     hold_what_is_drawn_out(plant, effects, h);
     // Chains have no fibres: nothing of them has moved since they were found plausible. What goes on as it was heading
     // is not being stretched.
-    plant.is_sound =
-        is_sound(plant) && (plant.follow || !has_run_away(plant)) && !(plant.is_off_course && is_far_out(plant));
+    plant.is_sound = (plant.follow ? plant.report.ok : is_sound(plant)) && !(plant.is_off_course && is_far_out(plant));
 }
 
 // Shifts as far as nothing is bent much, and as the work that it does on the plant stays small: contacts that want it
@@ -273,11 +273,13 @@ void add_contacts(Plant& plant, double h, double lost) {
     const bool is_bent = is_pushed && !is_calm(*plant.system, before, plant.motion.x);
     if (is_bent || !is_plausible(plant, h, Contacts::DONE, work)) {
         // Too much for a linear answer: the same push, along the plant's own curve.
-        plant.loads.force += impulse / h;
+        VecX& force = plant.loads.force;
+        if (force.size() == 0) force.setZero(impulse.size());
+        force += impulse / h;
         solve_carefully(plant, h, Contacts::DONE, work_allowed(plant));
     }
     if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
-    plant.is_sound = is_sound(plant) && !has_run_away(plant) && !is_far_out(plant);
+    plant.is_sound = is_sound(plant) && !is_far_out(plant);
 }
 
 void accept_step(Plant& plant, const Surroundings& surroundings, double h) {

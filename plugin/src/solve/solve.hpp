@@ -71,10 +71,12 @@ struct Motion {
     VecX pin_target;              // where pinned nodes are at the end of the step, node_count*3 [m]
     History history;              // set valid = false after putting x or v to a state of another time
 };
+// From the i-th node on; node_count when there is none.
+int next_pinned(const Motion& motion, int i);
 
 // What acts during a step, gathered by the effects.
 struct Loads {
-    VecX force;                   // node_count*3 [N]
+    VecX force;                   // node_count*3, empty: none [N]
     Vec3 gravity = Vec3::Zero();  // [m/s^2]; applied through the mass matrix
     std::vector<Spring> springs;
     std::vector<Drag> drags;

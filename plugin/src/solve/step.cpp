@@ -1,5 +1,6 @@
 // In: a plant's motion, what acts on it and a time h. Out: its motion h later, or the same motion and ok = false.
 #include <cmath>
+#include <cstring>
 #include <tuple>
 
 #include "solve/drags.hpp"
@@ -10,17 +11,17 @@ namespace frond {
 
 namespace {
 
-// Sizes fit and numbers are finite; what is not would only come back as NaN after an expensive step.
+// Sizes fit and what acts is finite; what is not would only come back as NaN after an expensive step.
 bool input_is_sound(const System& system, const StepInput& input) {
     const SolveSettings& s = input.settings;
     const Eigen::Index n = 3 * Eigen::Index(system.elements->node_count);
     const Motion& motion = input.motion;
     if (!(input.h > 0) || !std::isfinite(input.h) || !settings_are_sound(s)) return false;
-    if (motion.x.size() != n || motion.v.size() != n || input.loads.force.size() != n) return false;
+    const VecX& force = input.loads.force;
+    if (motion.x.size() != n || motion.v.size() != n || (force.size() != 0 && force.size() != n)) return false;
     if (!motion.pinned.empty() && (motion.pinned.size() * 3 != size_t(n) || motion.pin_target.size() != n))
         return false;
-    return are_finite(motion.x) && are_finite(motion.v) && are_finite(input.loads.force) &&
-           input.loads.gravity.allFinite() && springs_are_sound(system, input.loads.springs) &&
+    return are_finite(force) && input.loads.gravity.allFinite() && springs_are_sound(system, input.loads.springs) &&
            drags_are_sound(system, input.loads.drags);
 }
 
@@ -31,16 +32,19 @@ void prepare(Workspace& workspace, const StepInput& input) {
     const Motion& motion = input.motion;
     workspace.held = system.loose;
     if (system.row->rotary_inertia) system.row->rotary_inertia(*workspace.elements, motion.x, workspace.inertia);
-    workspace.external = input.loads.force;
+    if (input.loads.force.size() > 0)
+        workspace.external = input.loads.force;
+    else
+        workspace.external.setZero(motion.x.size());
     workspace.v_start = motion.v;
-    for (int i = 0; i < system.elements->node_count; ++i) {
-        if (!motion.pinned.empty() && motion.pinned[size_t(i)]) {
-            workspace.held[size_t(i)] = 1;
-            point(workspace.v_start, i) = (point(motion.pin_target, i) - point(motion.x, i)) / input.h;
-        }
-        // The rows of either mass matrix add up to the lumped mass.
-        point(workspace.external, i) += system.masses.node[i] * input.loads.gravity;
+    const int pinned_count = int(motion.pinned.size());
+    for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1)) {
+        workspace.held[size_t(i)] = 1;
+        point(workspace.v_start, i) = (point(motion.pin_target, i) - point(motion.x, i)) / input.h;
     }
+    // The rows of either mass matrix add up to the lumped mass.
+    for (int i = 0; i < system.elements->node_count; ++i)
+        point(workspace.external, i) += system.masses.node[i] * input.loads.gravity;
 }
 
 // Stiffness-proportional damping: the same for all elements, or each its own in a matrix apart.
@@ -52,11 +56,11 @@ void prepare_damping(Workspace& workspace, const SolveSettings& settings) {
 
 // Pinned nodes are where they were told to be, to the last bit, with the velocity that took them there.
 void finish_pins(Workspace& workspace, const Motion& motion) {
-    for (size_t i = 0; i < motion.pinned.size(); ++i)
-        if (motion.pinned[i]) {
-            point(workspace.x, int(i)) = point(motion.pin_target, int(i));
-            point(workspace.v, int(i)) = point(workspace.v_start, int(i));
-        }
+    const int count = int(motion.pinned.size());
+    for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1)) {
+        point(workspace.x, i) = point(motion.pin_target, i);
+        point(workspace.v, i) = point(workspace.v_start, i);
+    }
 }
 
 // The start of this step becomes the past of the next one.
@@ -109,6 +113,13 @@ static bool is_as_left(const Motion& motion) {
     return history.x_end.size() == 0 || (are_same(history.x_end, motion.x) && are_same(history.v_end, motion.v));
 }
 
+int next_pinned(const Motion& motion, int i) {
+    const size_t count = motion.pinned.size();
+    if (size_t(i) >= count) return int(count);
+    const void* found = std::memchr(motion.pinned.data() + i, 1, count - size_t(i));
+    return found ? int(static_cast<const uint8_t*>(found) - motion.pinned.data()) : int(count);
+}
+
 bool history_holds(const Motion& motion, frond_integrator integrator, double h) {
     // Bdf2 is stable while steps grow by less than 1 + sqrt 2 and however they shrink.
     constexpr double LARGEST_GROWTH = 2, LARGEST_FALL = 8;
@@ -122,10 +133,12 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     SolveReport report;
     const StepInput input = {settings, loads, motion, h};
     if (!input_is_sound(*workspace.system, input)) return report;
+    const Integrator& method = integrator(settings.integrator);
+    const bool goes_on = method.looks_back && history_holds(motion, settings.integrator, h);
+    if (!goes_on && !(are_finite(motion.x) && are_finite(motion.v))) return report;  // what a step left is
     prepare(workspace, input);
     prepare_damping(workspace, settings);
-    const Integrator& method = integrator(settings.integrator);
-    motion.history.valid = method.looks_back && history_holds(motion, settings.integrator, h);
+    motion.history.valid = goes_on;
     if (!method.step(workspace, input, report)) return report;
     finish_pins(workspace, motion);
     if (!are_finite(workspace.x) || !are_finite(workspace.v)) return report;

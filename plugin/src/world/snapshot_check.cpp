@@ -1,5 +1,6 @@
 // In: a snapshot that was read, and a world. Out: nothing, or an Error if the one does not fit the other. After this
 // nothing of the snapshot can lead outside what the world has.
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -34,6 +35,10 @@ void check_numbers(const List& numbers, const char* what, double most = MOST) {
 void check_size(const VecX& numbers, Eigen::Index size, const char* what, bool may_be_empty = false) {
     if (numbers.size() != size && !(may_be_empty && numbers.size() == 0)) damaged(what);
     check_numbers(numbers, what);
+}
+
+bool are_flags(const std::vector<uint8_t>& bytes) {
+    return std::all_of(bytes.begin(), bytes.end(), [](uint8_t byte) { return byte <= 1; });
 }
 
 // Axes at right angles and a place, as Bullet takes frames.
@@ -98,7 +103,7 @@ void check_motion(const SavedPlant& saved, const Becomes& becomes) {
         check_size(*numbers, becomes.numbers, "motion");
         check_numbers(*numbers, "motion", LARGEST_COORDINATE);
     }
-    if (motion.pinned.size() * 3 != size_t(becomes.numbers)) damaged("motion");
+    if (motion.pinned.size() * 3 != size_t(becomes.numbers) || !are_flags(motion.pinned)) damaged("motion");
     // What a step does not look back on may be of other mechanics.
     for (const VecX* numbers : {&history.x_end, &history.v_end, &history.x_prev, &history.v_prev})
         check_size(*numbers, history.valid ? becomes.numbers : numbers->size(), "history");
@@ -147,7 +152,7 @@ void check_lasting(const SavedPlant& saved, const Becomes& becomes) {
 void check_pins(const SavedPlant& saved, const Plant& plant) {
     const size_t nodes = size_t(node_count_of(plant));
     check_size(saved.pin_target, 3 * Eigen::Index(nodes), "pins");
-    if (saved.pinned.size() != nodes || saved.anchor.size() != nodes) damaged("pins");
+    if (saved.pinned.size() != nodes || !are_flags(saved.pinned) || saved.anchor.size() != nodes) damaged("pins");
     for (int anchor : saved.anchor) check_index(anchor, plant.model->chain.nodes.size(), "pins");
     check_size(saved.user_force, 3 * Eigen::Index(nodes), "forces", !saved.has_user_force);
 }
