@@ -41,14 +41,18 @@ struct EnergyLook {
 // give any.
 EnergyLook look_at_energy(const Plant& plant, double h, double work = 0);
 
-// Before a solve: a plant whose pins are put farther away than it is long goes along with them, as it is.
-void jump_with_pins(Plant& plant);
+// Between solves: a plant whose pins are put farther away than so much of its size goes along with them, as it is.
+bool jump_with_pins(Plant& plant, double least);
+constexpr double JUMP = 1;             // so far no step follows them
+constexpr double STUCK_BEHIND = 1e-3;  // nor, where a step failed that began at rest, so far
 
 // In a step: stronger damping, while the plant recovers.
 void damp_recovering(const Plant& plant, SolveSettings& settings);
 // After a step of h [s]: begins, keeps up and ends recovery from shapes to which nothing can have bent the plant.
 void watch_recovery(Plant& plant, double h);
 
+// After a step: whether no place went farther than any sway does where it turns.
+bool hardly_moves(const Plant& plant, double h);
 // Whether tets are; never where a chain moves.
 bool is_inside_out(const Plant& plant);
 // After a step: whether the plant rests with tets inside out.

@@ -6,8 +6,7 @@
 
 namespace frond {
 
-void jump_with_pins(Plant& plant) {
-    constexpr double JUMP = 1;  // of what holds it, within a step, in sizes of the plant [-]
+bool jump_with_pins(Plant& plant, double least) {
     Motion& motion = plant.motion;
     Vec3 sum = Vec3::Zero();
     double count = 0;
@@ -19,12 +18,13 @@ void jump_with_pins(Plant& plant) {
     for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1))
         if (i % next == 0) add(point(motion.pin_target, i) - point(motion.x, i));
     for (const Spring& spring : plant.pin_springs) add(spring.target - grip_place(spring.grip, motion.x));
-    if (count == 0 || !(sum.norm() > JUMP * double(plant.size) * count)) return;
+    if (count == 0 || !(sum.norm() > least * double(plant.size) * count)) return false;
     const Vec3 way = sum / count;
     for (int i = 0; i < motion.x.size() / 3; i += next) point(motion.x, i) += way;
     motion.history.valid = false;
     plant.x_good = motion.x;
     update_chain(plant);
+    return true;
 }
 
 }  // namespace frond

@@ -40,6 +40,21 @@ VecX modelled_in(const Plant& plant, const Mat3& rotation, const Vec3& shift) {
     return x;
 }
 
+bool has_less_energy(const Plant& plant, const VecX& x) {
+    return potential_energy(plant, x) < potential_energy(plant, plant.motion.x);
+}
+
+// If so, without them from now on: it got them where no plant can be.
+bool has_less_energy_without_sets(Plant& plant, const VecX& x) {
+    if (!plant.own_elements) return false;
+    const double caught = potential_energy(plant, plant.motion.x);
+    const std::vector<double> sets = lasting_of(plant);
+    set_lasting(plant, {});
+    if (potential_energy(plant, x) < caught) return true;
+    set_lasting(plant, sets);
+    return false;
+}
+
 }  // namespace
 
 // Points of integration may be right in a tet of order 2 whose corners are not.
@@ -62,7 +77,7 @@ bool start_from_modelled(Plant& plant) {
     Motion& motion = plant.motion;
     if (!find_frame(plant, rotation, shift)) return false;
     const VecX x = modelled_in(plant, rotation, shift);
-    if (!(potential_energy(plant, x) < potential_energy(plant, motion.x))) return false;
+    if (!has_less_energy(plant, x) && !has_less_energy_without_sets(plant, x)) return false;
     const VecX places = cage_places(plant);
     motion.x = x;
     motion.v.setZero();
@@ -72,11 +87,15 @@ bool start_from_modelled(Plant& plant) {
     return true;
 }
 
-bool is_caught_inside_out(const Plant& plant, double h) {
+bool hardly_moves(const Plant& plant, double h) {
     constexpr double SLOW = 0.002;  // in sizes of the plant a second; no sway turns as slowly as that
-    if (plant.follow || plant.is_touched || (plant.report.inverted == 0 && plant.nodes->order == 1)) return false;
     const double slow = SLOW * double(plant.size);
-    return plant.v_good.lpNorm<Eigen::Infinity>() < slow && farthest_way(plant) < slow * h && is_inside_out(plant);
+    return plant.v_good.lpNorm<Eigen::Infinity>() < slow && farthest_way(plant) < slow * h;
+}
+
+bool is_caught_inside_out(const Plant& plant, double h) {
+    if (plant.follow || plant.is_pressed || (plant.report.inverted == 0 && plant.nodes->order == 1)) return false;
+    return hardly_moves(plant, h) && is_inside_out(plant);
 }
 
 }  // namespace frond

@@ -38,6 +38,12 @@ bool holds_more_than(const Plant& plant, const VecX& x, double strain) {
     return own > row.energy(elements_of(*plant.system), drawn_out);
 }
 
+// A search that gave up where the plant hardly moves, though nothing pulls or presses it.
+bool found_no_way(const Plant& plant, double h) {
+    if (plant.is_pressed || plant.has_user_force || plant.loads.springs.size() > plant.pin_springs.size()) return false;
+    return plant.trouble & FROND_TROUBLE_RETRIED && !plant.report.converged && hardly_moves(plant, h);
+}
+
 }  // namespace
 
 void damp_recovering(const Plant& plant, SolveSettings& settings) {
@@ -47,21 +53,25 @@ void damp_recovering(const Plant& plant, SolveSettings& settings) {
 }
 
 void watch_recovery(Plant& plant, double h) {
-    constexpr float SWAYS = 1.5;  // of the slowest, that it takes
+    constexpr float SWAYS = 1.5;    // of the slowest, that it takes
+    constexpr float CAUGHT = 0.25;  // for so much of one, a plant that nothing pulls
     const float sway = float(2 * plant.rest_time);
     bool ends = false;
     if (plant.recovers_for > 0) {
         plant.trouble |= FROND_TROUBLE_RETRIED;
         plant.recovers_for -= float(h);
-        ends = plant.recovers_for <= 0 && !plant.is_touched;
-    } else {
-        if (plant.is_off_course && holds_more_than(plant, plant.x_good, TORN)) plant.recovers_for = SWAYS * sway;
+        ends = plant.recovers_for <= 0 && !plant.is_pressed;
+    } else if (plant.is_off_course || !plant.report.converged) {
+        if (holds_more_than(plant, plant.x_good, TORN)) plant.recovers_for = SWAYS * sway;
     }
+    plant.caught_for = found_no_way(plant, h) ? plant.caught_for + float(h) : 0;
     // What lies folded by now, or rests with tets inside out, would for ever.
     const bool is_folded = ends && (is_inside_out(plant) || holds_more_than(plant, plant.motion.x, FOLDED));
-    if (!(is_folded || is_caught_inside_out(plant, h)) || !start_from_modelled(plant)) return;
+    const bool is_caught = plant.caught_for > CAUGHT * sway || is_caught_inside_out(plant, h);
+    if (!(is_folded || is_caught) || !start_from_modelled(plant)) return;
     plant.trouble |= FROND_TROUBLE_REWOUND;
     plant.recovers_for = sway;
+    plant.caught_for = 0;
 }
 
 }  // namespace frond

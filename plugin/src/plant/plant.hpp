@@ -120,6 +120,7 @@ struct Plant {
     int max_substeps;
     int substeps = 1;           // of the next step
     bool is_touched = false;    // by bodies, which answer to whole steps
+    bool is_pressed = false;    // and some of them may move
     bool is_entangled = false;  // deep in itself or another plant: leaves that cross come apart only by being drawn out
     bool has_user_force = false;
     bool pins_changed = true;
@@ -134,6 +135,7 @@ struct Plant {
     float patience = 1;          // share of the work that searches are given [-]
     bool may_yield = true;       // in the running step, for all that is known
     float recovers_for = 0;      // from a shape to which nothing can have bent it [s]
+    float caught_for = 0;        // in a shape from which searches find no way [s]
     float size;                  // of the modelled surface, from corner to corner [m]
 
     // Of the last step.

@@ -212,7 +212,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     lend_workspace(plant);
     Timer timer;
     apply_pins(plant);
-    jump_with_pins(plant);
+    jump_with_pins(plant, JUMP);
     gather_loads(plant, surroundings, effects);
     plant.ms_user_force = timer.lap();
     gather_air(plant, surroundings, effects, h);
@@ -295,7 +295,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
         motion.v.setZero();
         motion.history.valid = false;
         plant.trouble |= FROND_TROUBLE_REWOUND;
-        if (is_stuck) start_from_modelled(plant);
+        if (is_stuck && !jump_with_pins(plant, STUCK_BEHIND)) start_from_modelled(plant);
     } else {
         watch_recovery(plant, h);
         if (effects & FROND_PLASTICITY && plant.recovers_for <= 0) {

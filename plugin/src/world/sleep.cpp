@@ -183,8 +183,8 @@ void watch(const World& world, PlantBody& body, double h) {
     if (plant.swing) swing = Eigen::Map<const Eigen::Vector2d>(swing_of(plant).data());
     const VecX& x = plant.swing ? swing : plant.motion.x;
     const bool fades = !is_over(plant.fade) || (plant.swing && !is_over(plant.swing->fade));
-    const bool stirs =
-        plant.has_user_force || plant.trouble & FROND_TROUBLE_REWOUND || !plant.fragments.empty() || fades;
+    const bool stirs = plant.has_user_force || plant.trouble & FROND_TROUBLE_REWOUND || plant.recovers_for > 0 ||
+                       !plant.fragments.empty() || fades;
     if (!stirs && are_within(x, rest.places, world.sleep_distance)) {
         rest.still += h;
         return;

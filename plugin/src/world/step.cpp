@@ -120,16 +120,20 @@ void mark_touched(World& world) {
                                               }),
                                world.plant_contacts.end());
     for (PlantBody* body : world.awake) {
-        body->plant->is_touched = body->plant->is_entangled = false;
+        body->plant->is_touched = body->plant->is_pressed = body->plant->is_entangled = false;
         body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;
     }
-    for (const Contact& contact : world.contacts) contact.plant->plant->is_touched = true;
+    for (const Contact& contact : world.contacts) {
+        contact.plant->plant->is_touched = true;
+        contact.plant->plant->is_pressed |= !contact.other->isStaticObject();
+    }
     for (const PlantContact& contact : world.plant_contacts)
         for (PlantBody* body : contact.plants) {
             body->plant->is_touched = true;
+            body->plant->is_pressed |= contact.plants[0] != contact.plants[1];
             body->plant->is_entangled |= contact.depth > ENTANGLED;
         }
-    for (const Bond& bond : world.bonds) bond.plant->plant->is_touched = true;
+    for (const Bond& bond : world.bonds) bond.plant->plant->is_touched = bond.plant->plant->is_pressed = true;
     for (PlantBody* body : world.awake)
         if (body->plant->is_touched || body->plant->has_user_force) body->level.is_due = true;
 }
