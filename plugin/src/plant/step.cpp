@@ -208,8 +208,7 @@ static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond
         update_chain(plant);
         gather_air(plant, surroundings, effects, h / parts);
         plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / parts, plant.motion);
-        if (!plant.report.ok || !is_calm_way(plant, 1))
-            solve_carefully(plant, h / parts, contacts_of(plant), MOST_WORK);
+        if (!plant.report.ok || is_blown_about(plant)) solve_carefully(plant, h / parts, contacts_of(plant), MOST_WORK);
         hold_what_is_drawn_out(plant, effects, h / parts);
         plant.report.add_cost(spent);
         spent = plant.report;
