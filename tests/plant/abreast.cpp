@@ -186,5 +186,65 @@ TEST(PlantsAbreast, AreBlownByAFieldOfTheHostAsAlone) {
     EXPECT_GT(together.abreast, 5 * 50);
 }
 
+// Straight, and as soft as can stand.
+std::shared_ptr<const Model> soft_stem() {
+    frond_model_def def = model_def();
+    def.capsule_height = 0.1;
+    def.cage_size = 0.1;
+    const frond_stem stem = {-1, {0, 0, 0}, {0, 1, 0}, 0.01, 0.01};
+    const frond_organ_material organ = {"stem_0", plain_material(500, 4e7, 0.3, 0.02)};
+    def.organs = &organ;
+    def.organ_count = 1;
+    return build_from_stems(&stem, 1, def);
+}
+
+// Rolled up less and less towards its end, which is turned by `angle` [rad].
+VecX rolled_up(const Plant& plant, double angle) {
+    VecX x = elements_of(*plant.system).modelled;
+    Vec3 before = Vec3::Zero(), place = before;
+    double turn_before = 0;
+    for (int i = 0; i < x.size() / 3; i += 2) {
+        const Vec3 modelled = point(x, i);
+        const double turn = angle * (1 - std::pow(1 - modelled.y(), 3)), middle = (turn + turn_before) / 2;
+        place += (modelled.y() - before.y()) * Vec3(-std::sin(middle), std::cos(middle), 0);
+        point(x, i) = place;
+        point(x, i + 1) = Vec3(0, 0, turn);
+        before = modelled;
+        turn_before = turn;
+    }
+    return x;
+}
+
+TEST(PlantsAbreast, GoOnPastHalfATurn) {
+    constexpr double FROM = M_PI - 0.2, RATE = 8;  // of the end's turn [rad], [rad/s]
+    const auto model = soft_stem();
+    Field together(model, 3, 0.1), apart(model, 3, 0.1);
+    for (Field* field : {&together, &apart}) {
+        field->surroundings.gravity.setZero();
+        for (const auto& plant : field->plants) {
+            plant->effects &= ~uint32_t(FROND_PLASTICITY);
+            plant->motion.x = rolled_up(*plant, FROM);
+            plant->motion.v = (rolled_up(*plant, FROM + 1e-4) - rolled_up(*plant, FROM - 1e-4)) * (RATE / 2e-4);
+            moved(*plant);
+        }
+    }
+    const auto end = [](const Plant& plant) { return plant.motion.x[plant.motion.x.size() - 1]; };
+    for (int step = 0; step < 3; ++step) {
+        together.step(true);
+        apart.step(false);
+        for (size_t i = 0; i < together.plants.size(); i++) {
+            const Plant& plant = *together.plants[i];
+            expect_same(plant, *apart.plants[i]);
+            if (HasFatalFailure()) FAIL() << "plant " << i << " in step " << step;
+            EXPECT_EQ(plant.trouble, 0u) << "plant " << i << " in step " << step;
+            EXPECT_EQ(plant.report.work, 0);
+            EXPECT_TRUE(step == 0 || plant.motion.history.valid);
+            // There and back.
+            EXPECT_EQ(end(plant) < 0, step == 1) << end(plant) << ", plant " << i << " in step " << step;
+        }
+    }
+    EXPECT_EQ(together.alone, 3);  // first steps
+}
+
 }  // namespace
 }  // namespace frond::test

@@ -294,6 +294,21 @@ TEST_P(EveryAir, LightLeafInAGaleIsStableAtLongSteps) {
     }
 }
 
+// What a whole step may turn, a part of one may too.
+TEST(Air, BlownAboutALeafIsSteppedInPartsWithoutASearch) {
+    const auto model = sheet_model("leaf", 0.8, 0.06, *material_preset("grass_blade"));
+    for (const double speed : {11, 12, 13}) {
+        Blown blade(model, FROND_ROD, wind_def(speed));
+        int parted = 0;
+        for (int n = 0; n < 12; ++n) {
+            blade.step(1.0 / 60);
+            if (blade.plant->trouble & FROND_TROUBLE_RETRIED) parted++;
+            EXPECT_EQ(blade.plant->report.work, 0) << speed << " m/s, step " << n;
+        }
+        EXPECT_GT(parted, 0) << speed << " m/s";
+    }
+}
+
 // ---- effects ---------------------------------------------------------------------------------------------------
 
 TEST(Air, WithoutOneOfBothEffectsTheOtherHalfIsLeftOut) {

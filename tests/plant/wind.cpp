@@ -1,5 +1,5 @@
 // Wind: spectrum, coherence and profile are those that are stated; the same seed gives the same bits.
-#include "plant/wind.hpp"
+#include "plant/wind_lanes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,6 +39,11 @@ std::vector<Vec3> passing(const frond_wind_def& def, int count, double h, int pa
         series[i / size_t(parts)] += Vec3(v.x - def.velocity.x, v.y, v.z) / parts;
     }
     return series;
+}
+
+TEST(Wind, KnowsItsWaves) {
+    for (double turns = -3; turns < 3; turns += 1e-3)
+        EXPECT_NEAR(cosine_of_turns(constant<TwoLanes>(turns))[0], std::cos(2 * M_PI * turns), 4e-9) << turns;
 }
 
 TEST(Wind, HasTheMeanAndTheStandardDeviationsThatAreGiven) {

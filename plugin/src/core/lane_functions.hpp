@@ -9,6 +9,13 @@ namespace frond {
 template <class S>
 using BitsOf = decltype(S{} < S{});
 
+// Without its sign.
+template <class S>
+FROND_INLINE S magnitude(const S& x) {
+    constexpr long long REST = 0x7fffffffffffffff;
+    return S(BitsOf<S>(x) & REST);
+}
+
 // Whole numbers from 0 to below 2^52 as they stand in the bits.
 template <class S>
 FROND_INLINE S number_of(const BitsOf<S>& bits) {

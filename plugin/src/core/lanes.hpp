@@ -122,6 +122,13 @@ FROND_INLINE std::enable_if_t<!std::is_arithmetic_v<Mask>, bool> any(const Mask&
     for (size_t lane = 1; lane < sizeof mask / sizeof mask[0]; ++lane) all |= mask[lane];
     return all != 0;
 }
+// Which lanes it holds for, a bit each.
+template <class Mask>
+FROND_INLINE unsigned bits_of(const Mask& mask) {
+    unsigned bits = 0;
+    for (size_t lane = 0; lane < sizeof mask / sizeof mask[0]; ++lane) bits |= unsigned(mask[lane] != 0) << lane;
+    return bits;
+}
 // value(lane) of each lane.
 template <class S, class Value>
 FROND_INLINE S gather(const Value& value) {

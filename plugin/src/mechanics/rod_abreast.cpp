@@ -9,13 +9,6 @@ namespace {
 // Looks that are nearly as far as they may go are left to the plant alone, which knows to the last bit.
 constexpr double NEARLY = 1 - 1e-9;
 
-template <class Mask>
-FROND_INLINE unsigned bits_of(const Mask& mask, int lanes) {
-    unsigned bits = 0;
-    for (int lane = 0; lane < lanes; ++lane) bits |= unsigned(mask[lane] != 0) << lane;
-    return bits;
-}
-
 struct FindInertia {
     const RodElements& elements;
     const VecX& x;
@@ -50,7 +43,7 @@ struct FindWild {
         for (int i = 3; i < 3 * elements.node_count; i += 6) look(way<S>(i), LARGEST_TURN);
         for (const RodSegment& rod : elements.segments)
             look(way<S>(6 * rod.b) - way<S>(6 * rod.a), LARGEST_STRETCH * rod.length);
-        wild = bits_of(calm == 0.0, LANES<S>);
+        wild = bits_of(calm == 0.0);
     }
 };
 
@@ -73,7 +66,7 @@ struct FindYielding {
             const S most = pull + sqrt(S(wide * wide + thin * thin));
             within = select(most < elements.yields[s].strain * NEARLY, within, S{});
         }
-        yielding = bits_of(within == 0.0, LANES<S>);
+        yielding = bits_of(within == 0.0);
     }
 };
 

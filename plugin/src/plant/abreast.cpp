@@ -68,11 +68,8 @@ struct LookAtWays {
             on_course = select(dot(off, off) < (i % 2 ? turned : far), on_course, S{});
             if (i % 2 == 0) near = select(dot(way, way) < std::pow(FARTHEST_WAY * size, 2) * NEARLY, near, S{});
         }
-        far_away = off_course = 0;
-        for (int lane = 0; lane < LANES<S>; lane++) {
-            far_away |= unsigned(near[lane] == 0) << lane;
-            off_course |= unsigned(on_course[lane] == 0) << lane;
-        }
+        far_away = bits_of(near == 0.0);
+        off_course = bits_of(on_course == 0.0);
     }
 };
 
@@ -109,34 +106,33 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
     Motion& motion = plant.motion;
     History& history = motion.history;
     VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
-    plant.is_off_course = false;
-    if (may_be_off) {
+    const bool is_wound = (step.wound >> lane & 1) != 0;
+    const bool is_asked = may_be_off || is_wound;
+    if (is_asked) {
         plant.x_good = motion.x;
         plant.v_good = motion.v;
+    }
+    motion.x.swap(x);
+    motion.v.swap(v);
+    if (is_asked && is_far_out(plant)) {
         motion.x.swap(x);
         motion.v.swap(v);
-        plant.is_off_course = ends_off_course(plant, h);
-        if (plant.is_off_course && is_far_out(plant)) {
-            motion.x.swap(x);
-            motion.v.swap(v);
-            return false;
-        }
-        history.x_prev = plant.x_good;
-        history.v_prev = plant.v_good;
-    } else {
+        return false;
+    }
+    if (!is_asked) {
         // Where it began is kept once.
         plant.x_good.resize(0);
         plant.v_good.resize(0);
-        history.x_prev.swap(motion.x);
-        history.v_prev.swap(motion.v);
-        motion.x.swap(x);
-        motion.v.swap(v);
     }
-    history.shaken = false;
-    history.h = h;
+    history.x_prev.swap(x);
+    history.v_prev.swap(v);
     // Until the next step nothing moves the plant that does not drop its history.
     history.x_end.resize(0);
     history.v_end.resize(0);
+    history.shaken = false;
+    history.h = h;
+    if (is_wound) unwind(motion);
+    plant.is_off_course = is_asked && ends_off_course(plant, h);
     plant.lead = 0;
     plant.is_sound = true;
     plant.step_settings = settings;
@@ -205,8 +201,8 @@ void solve_abreast(Plant* const* given, int given_count, const Surroundings& sur
     space->half = 0.5 * (step.x + step.x_end);
     alone |= system.row->abreast->not_calm(*system.elements, step.x, space->half);
     run_in_lanes(step.lanes, LookAtWays{step, double(plants[0]->size), h, far_away, off_course});
-    // Without air the energy of what left its course is looked at.
-    alone |= far_away | (off_course & ~air_forces(step, space->forces));
+    // Without air the energy of what left its course is looked at; of what is wound that is asked later.
+    alone |= far_away | ((off_course | step.wound) & ~air_forces(step, space->forces));
     const bool has_yields = (effects & FROND_PLASTICITY) && !system.elements->yields.empty();
     const unsigned may_yield = has_yields ? system.row->abreast->may_yield(*system.elements, step.x_end) : 0;
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});

@@ -151,8 +151,7 @@ struct AddForces {
             any += dot(force, force) + dot(first, first) + dot(rest, rest);
         }
         store3(sum, out.data(), 0);
-        dragged = 0;
-        for (int lane = 0; lane < LANES<S>; lane++) dragged |= unsigned(any[lane] > 0) << lane;
+        dragged = bits_of(any > 0.0);
     }
 };
 

@@ -141,10 +141,16 @@ static void solve_recovering(Plant& plant, double h) {
     solve_in_equal_parts(plant, settings, parts, h);
 }
 
+// Whether one solve can tell well how far everything went in a share of the step. What was unwound has not turned far.
+static bool is_calm_way(const Plant& plant, double share) {
+    const VecX& from = plant.x_good;
+    const auto is_calm_to = [&](const VecX& to) { return is_calm(*plant.system, from, from + share * (to - from)); };
+    return is_calm_to(plant.motion.x) || (plant.follow && is_calm_to(wound_as(from, plant.motion.x)));
+}
+
 // Whether the air has turned something by more than twice what one solve can tell well.
 static bool is_blown_about(const Plant& plant) {
-    if (plant.loads.drags.empty()) return false;
-    return !is_calm(*plant.system, plant.x_good, 0.5 * (plant.x_good + plant.motion.x));
+    return !plant.loads.drags.empty() && !is_calm_way(plant, 0.5);
 }
 
 // Part of the solve.
@@ -159,8 +165,7 @@ static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h
 // So that none of it is blown about in its share of the way; no more than eight.
 static int parts_to_be_calm(const Plant& plant) {
     int parts = 2;
-    const VecX way = plant.motion.x - plant.x_good;
-    while (parts < 8 && !is_calm(*plant.system, plant.x_good, plant.x_good + way / (2 * parts))) parts *= 2;
+    while (parts < 8 && !is_calm_way(plant, 0.5 / parts)) parts *= 2;
     return parts;
 }
 
@@ -181,8 +186,7 @@ static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond
         update_chain(plant);
         gather_air(plant, surroundings, effects, h / parts);
         plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / parts, plant.motion);
-        if (!plant.report.ok || !is_calm(*plant.system, plant.x_good, plant.motion.x))
-            solve_carefully(plant, h / parts, contacts_of(plant), MOST_WORK);
+        if (!plant.report.ok || is_blown_about(plant)) solve_carefully(plant, h / parts, contacts_of(plant), MOST_WORK);
         hold_what_is_drawn_out(plant, effects, h / parts);
         plant.report.add_cost(spent);
         spent = plant.report;
@@ -249,8 +253,7 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
     const double allowed = row.energy(elements, x) + node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
     for (double share = 1; share > LEAST; share /= 2) {
         add_shift(*plant.workspace, share * dv, plant.motion);
-        if (is_calm(*plant.system, plant.x_good, plant.motion.x) && row.energy(elements, plant.motion.x) <= allowed)
-            return;
+        if (is_calm_way(plant, 1) && row.energy(elements, plant.motion.x) <= allowed) return;
         plant.motion.x = x;
     }
 }

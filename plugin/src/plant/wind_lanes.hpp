@@ -21,12 +21,14 @@ WindNow wind_now(const Wind& wind, const Vec3& up);
 bool blow_by_field(const Wind& wind, double time, const std::vector<frond_vec3>& points,
                    std::vector<frond_vec3>& velocities);
 
-// cos 2 pi x within 6e-8.
+// cos 2 pi x within 4e-9.
 template <class S>
 FROND_INLINE S cosine_of_turns(const S& x) {
-    const S r = x - whole<S>(x), size = select(r < 0.0, S(-r), r);
-    const S q = 2 * M_PI * (0.25 - size), s = q * q;
-    return q * (1.0 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880 - s * (1.0 / 39916800))))));
+    // sin(2 pi y) / y by powers of y^2, for y up to a quarter: the odd polynomial that errs least (Remez).
+    constexpr double SINE[] = {6.2831851600897226565, -41.341655031479418784, 81.601004077356553391,
+                               -76.549782387613466232, 39.536706762014835694};
+    const S y = 0.25 - magnitude(S(x - whole<S>(x)));
+    return y * polynomial(SINE, S(y * y));
 }
 
 // Mean wind and gusts at heights over those at the reference height [-].

@@ -118,7 +118,7 @@ struct FormSystem {
     }
 };
 
-// Where the step ends, unless a rotation vector is longer than half a turn there, or something no number.
+// Where the step ends, unless something is no number there.
 struct Finish {
     Abreast& a;
     const std::vector<uint8_t>& pinned;
@@ -127,7 +127,7 @@ struct Finish {
     template <class S>
     FROND_INLINE void run() const {
         constexpr double NEARLY = 1 - 1e-9;
-        S sound = constant<S>(1);
+        S sound = constant<S>(1), within = sound;
         for (int i = 0; i < a.system->elements->node_count; ++i) {
             Lanes3<S> v = load3<S>(a.v_start.data(), 3 * i) + load3<S>(a.dv.data(), 3 * i);
             Lanes3<S> x = load3<S>(a.x_base.data(), 3 * i) + constant<S>(step) * v;
@@ -135,12 +135,14 @@ struct Finish {
                 x = load3<S>(a.x.data(), 3 * i);
                 v = load3<S>(a.v_start.data(), 3 * i);
             }
-            const S most = constant<S>(i % 2 ? M_PI * M_PI * NEARLY : 1e300);
-            sound = select(dot(x, x) <= most, select(dot(v, v) <= 1e300, sound, S{}), S{});
+            const S far = dot(x, x);
+            sound = select(far + dot(v, v) <= 1e300, sound, S{});
+            if (i % 2) within = select(far <= M_PI * M_PI * NEARLY, within, S{});
             store3(x, a.x_end.data(), 3 * i);
             store3(v, a.v_end.data(), 3 * i);
         }
-        for (int lane = 0; lane < LANES<S>; ++lane) lost |= unsigned(sound[lane] == 0) << lane;
+        lost |= bits_of(sound == 0.0);
+        a.wound = bits_of(within == 0.0);
     }
 };
 

@@ -21,6 +21,7 @@ struct Abreast {
     // Out.
     VecX x_end, v_end;
     std::array<double, MOST_LANES> residual;
+    unsigned wound = 0;  // lanes with a rotation vector longer than half a turn, or nearly so, a bit each: see unwind()
 
     // Room for the step.
     VecX v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia;

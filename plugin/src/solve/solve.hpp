@@ -139,6 +139,8 @@ bool make_answer(Workspace& workspace, const SolveSettings& settings, const std:
 // Of nodes that turn: rotation vectors grown beyond half a turn become those of the same rotation the other way round,
 // here and in the history, and their rates follow.
 void unwind(Motion& motion);
+// The other way: what is at `to`, each rotation vector the one of the same rotation that is nearest to that at `from`.
+VecX wound_as(const VecX& from, VecX to);
 // With the system's mass [J].
 double kinetic_energy(const System& system, const VecX& x, const VecX& v);
 

@@ -121,8 +121,7 @@ struct Factorize {
             sound = factorize_own(i, own, inverse, sound);
             if (plan.pairs[i].parent >= 0) eliminate(i, own, inverse);
         }
-        failed = 0;
-        for (int lane = 0; lane < LANES<S>; ++lane) failed |= unsigned(sound[lane] == 0) << lane;
+        failed = bits_of(sound == 0.0);
     }
 };
 

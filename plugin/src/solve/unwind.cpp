@@ -32,10 +32,22 @@ void unwind(Motion& motion) {
             continue;
         }
         turn_back(history.x_prev, node, {&history.v_prev});
+        if (history.x_end.size() == 0) continue;
         turn_back(history.x_end, node, {&history.v_end, &history.x_rate, &history.v_rate});
         point(history.x_end, node) = point(motion.x, node);
         point(history.v_end, node) = point(motion.v, node);
     }
+}
+
+VecX wound_as(const VecX& from, VecX to) {
+    for (int node = 1; node < to.size() / 3; node += 2) {
+        const Vec3 turn = point(to, node), start = point(from, node);
+        const double way = (turn - start).squaredNorm();
+        if (!(way > M_PI * M_PI)) continue;
+        const Vec3 other = turn * (1 - 2 * M_PI / turn.norm());
+        if ((other - start).squaredNorm() < way) point(to, node) = other;
+    }
+    return to;
 }
 
 }  // namespace frond
