@@ -9,7 +9,7 @@ const std::vector<Case>& cases() {
     static const std::vector<Case> all = [] {
         std::vector<Case> table;
         for (const auto& family :
-             {shape_cases(), matter_cases(), root_cases(), contact_cases(), crowd_cases(), time_cases()})
+             {shape_cases(), matter_cases(), root_cases(), contact_cases(), crowd_cases(), time_cases(), corn_cases()})
             table.insert(table.end(), family.begin(), family.end());
         return table;
     }();

@@ -34,6 +34,7 @@ std::vector<Case> root_cases();
 std::vector<Case> contact_cases();
 std::vector<Case> crowd_cases();
 std::vector<Case> time_cases();
+std::vector<Case> corn_cases();
 const std::vector<Case>& cases();
 // Throws a SceneError that names the cases there are.
 const Case& find_case(const std::string& name);

@@ -83,7 +83,9 @@ bool start_from_modelled(Plant& plant) {
     motion.v.setZero();
     motion.history.valid = false;
     plant.cage_stale = true;
-    begin_fade(plant.fade, places - cage_places(plant), VecX::Zero(places.size()));
+    plant.fade = {};
+    // Bodies push what is seen of it: while that fades it would be bent from where it no longer is.
+    if (!plant.is_touched) begin_fade(plant.fade, places - cage_places(plant), VecX::Zero(places.size()));
     return true;
 }
 

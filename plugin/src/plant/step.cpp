@@ -276,10 +276,11 @@ void add_contacts(Plant& plant, double h, double lost) {
     const bool is_bent = is_pushed && !is_calm(*plant.system, before, plant.motion.x);
     if (is_bent || !is_plausible(plant, h, Contacts::DONE, work)) {
         // Too much for a linear answer: the same push, along the plant's own curve.
-        VecX& force = plant.loads.force;
-        if (force.size() == 0) force.setZero(impulse.size());
-        force += impulse / h;
+        VecX with_push = impulse / h;
+        if (plant.loads.force.size() > 0) with_push += plant.loads.force;
+        plant.loads.force.swap(with_push);
         solve_carefully(plant, h, Contacts::DONE, work_allowed(plant));
+        plant.loads.force.swap(with_push);
     }
     if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
     plant.is_sound = is_sound(plant) && !is_far_out(plant);

@@ -1,0 +1,113 @@
+// Cases: a real plant on the ground, of light leaves on a stem, driven to where no plant can be.
+#include <cmath>
+
+#include "stability/bench.hpp"
+
+namespace frond::stability {
+namespace {
+
+constexpr double BACK = 5;     // given to come back [s]
+constexpr double NEAR = 0.25;  // of the shape at rest, a sway that is left included; in sizes of the plant [-]
+constexpr double SIZE = 2.2;   // of the corn [m]
+constexpr double BLOWS = 0.4;  // how long it is struck [s]
+
+frond_model model_of_corn() {
+    static const frond_model made = [] {
+        const frond_model_def def = frond_default_model_def();
+        frond_model model = {};
+        must(frond_model_load(tools::model_path("corn/corn.obj").c_str(), &def, &model));
+        return model;
+    }();
+    return made;
+}
+
+struct Stand {
+    frond_plant plant;
+    std::vector<int> foot;
+    Places rest;
+};
+
+Stand stand_on_ground(Bench& bench) {
+    bench.box = 1e6;
+    frond_rigid_def ground = frond_default_rigid_def();
+    ground.shape = FROND_PLANE;
+    bench.add(ground);
+    Stand corn = {bench.add(model_of_corn()), {}, {}};
+    corn.rest = bench.places(corn.plant);
+    // Only a node that is held can be moved.
+    for (size_t i = 0; i < corn.rest.size(); i++)
+        if (frond_plant_move_pin(corn.plant, int(i), corn.rest[i]) == FROND_OK) corn.foot.push_back(int(i));
+    return corn;
+}
+
+void come_back(Bench& bench, const Stand& corn) {
+    bench.run(BACK);
+    bench.expect_shape(corn.plant, corn.rest, NEAR);
+}
+
+void scatter(Bench& bench) {
+    const Stand corn = stand_on_ground(bench);
+    Places places = corn.rest;
+    for (frond_vec3& p : places)
+        p = p + SIZE * frond_vec3{bench.between(-0.5, 0.5), bench.between(-0.5, 0.5), bench.between(-0.5, 0.5)};
+    for (int node : corn.foot) places[size_t(node)] = corn.rest[size_t(node)];
+    bench.put(corn.plant, places);
+    come_back(bench, corn);
+}
+
+// Forces up to ten million times a leaf's weight.
+void strike(Bench& bench) {
+    constexpr int NODES = 5;
+    const Stand corn = stand_on_ground(bench);
+    bench.run(BLOWS, [&](double) {
+        for (int i = 0; i < NODES; i++) {
+            const size_t node = bench.random() % corn.rest.size();
+            const double most = std::pow(10, bench.between(0, 6));
+            must(frond_plant_add_force(
+                corn.plant, int(node),
+                {bench.between(-most, most), bench.between(-most, most), bench.between(-most, most)}));
+        }
+    });
+    come_back(bench, corn);
+}
+
+// By a point of a leaf, on a spring as stiff as a machine, farther than it is long and to and fro.
+void drag(Bench& bench) {
+    const Stand corn = stand_on_ground(bench);
+    size_t tip = 0;
+    for (size_t i = 0; i < corn.rest.size(); i++)
+        if (corn.rest[i].x > corn.rest[tip].x) tip = i;
+    frond_grab grab = {};
+    must(frond_grab_create(corn.plant, corn.rest[tip], 1e7, &grab));
+    bench.run(BLOWS, [&](double time) {
+        must(frond_grab_move(grab, {3 * SIZE * std::sin(30 * time), 2 * SIZE, -2 * SIZE}));
+    });
+    frond_grab_destroy(grab);
+    come_back(bench, corn);
+}
+
+// Less than what it is long, so that it is not taken for put elsewhere.
+void jerk(Bench& bench) {
+    const Stand corn = stand_on_ground(bench);
+    for (const frond_vec3& way : {frond_vec3{0.6 * SIZE, 0.6 * SIZE, 0}, frond_vec3{}}) {
+        bench.move(corn.plant, corn.foot, [&](const frond_vec3& p) { return p + way; });
+        bench.run(BLOWS);
+    }
+    come_back(bench, corn);
+}
+
+}  // namespace
+
+std::vector<Case> corn_cases() {
+    const char* back = "finite; after 5 s no tet inside out, nodes within 0.25 of its size";
+    return {
+        {"corn_scattered", "each node of a corn plant up to half its length from its place, in the ground too", back,
+         scatter},
+        {"corn_struck", "five nodes of a corn plant pushed by up to 1 MN in each step for 0.4 s", back, strike},
+        {"corn_dragged", "a leaf of a corn plant drawn to and fro by three times its length at 30 rad/s, let go", back,
+         drag},
+        {"corn_jerked", "the foot of a corn plant put 0.85 of its size away within a step, and back", back, jerk},
+    };
+}
+
+}  // namespace frond::stability
