@@ -113,6 +113,57 @@ TEST_P(EveryShape, EnergyOutOfNothingIsTold) {
     EXPECT_TRUE(look_at_energy(*plant, H).comes_from_nowhere);
 }
 
+// As if each step had searched and given up where the plant is.
+TEST_P(EveryShape, StartsFromItsModelledShapeWhereSearchesFindNoWayUnlessItIsPulled) {
+    for (const bool is_pulled : {true, false}) {
+        const auto plant = stem(GetParam());
+        step_plant(*plant, earth(), H);
+        scramble(*plant, 0.4);
+        plant->motion.v.setZero();
+        plant->x_good = plant->motion.x;
+        plant->v_good = plant->motion.v;
+        plant->has_user_force = is_pulled;
+        uint32_t trouble = 0;
+        for (double time = 0; time < plant->rest_time; time += H) {
+            plant->trouble = FROND_TROUBLE_RETRIED;
+            plant->report.converged = plant->is_off_course = false;
+            plant->recovers_for = 0;
+            watch_recovery(*plant, H);
+            trouble |= plant->trouble;
+        }
+        EXPECT_EQ(bool(trouble & FROND_TROUBLE_REWOUND), !is_pulled);
+        if (is_pulled)
+            EXPECT_GT(away(*plant), 0.3);
+        else
+            EXPECT_LT(away(*plant), 0.02);
+    }
+}
+
+// On the ground it does so at once: bodies would push what is still seen of the other shape.
+TEST_P(EveryShape, FadesFromThereUnlessSomethingTouchesIt) {
+    for (const bool is_touched : {true, false}) {
+        const auto plant = stem(GetParam());
+        step_plant(*plant, earth(), H);
+        scramble(*plant, 0.4);
+        plant->is_touched = is_touched;
+        ASSERT_TRUE(start_from_modelled(*plant));
+        EXPECT_EQ(is_over(plant->fade), is_touched);
+    }
+}
+
+TEST_P(EveryShape, StartsWithoutSetsThatKeepItFromItsModelledShape) {
+    const auto plant = stem(GetParam());
+    step_plant(*plant, earth(), H);
+    scramble(*plant, 0.4);
+    const Mechanics& row = mechanics(plant->which, 1);
+    plant->own_elements = row.copy(elements_of(*plant->system));
+    for (int i = 0; i < 200; i++) row.flow(*plant->own_elements, plant->motion.x, H);
+    scramble(*plant, 0.3);
+    ASSERT_FALSE(lasting_of(*plant).empty());
+    ASSERT_TRUE(start_from_modelled(*plant));
+    EXPECT_LT(potential_energy(*plant, plant->motion.x), 0.1);
+}
+
 TEST_P(EveryShape, GoesAlongWithAFootThatIsPutElsewhere) {
     const auto plant = stem(GetParam());
     const Vec3 way(7, 1, -2);
