@@ -158,10 +158,9 @@ TEST_P(EveryShape, StartsWithoutSetsThatKeepItFromItsModelledShape) {
     const Mechanics& row = mechanics(plant->which, 1);
     plant->own_elements = row.copy(elements_of(*plant->system));
     for (int i = 0; i < 200; i++) row.flow(*plant->own_elements, plant->motion.x, H);
-    scramble(*plant, 0.3);
     ASSERT_FALSE(lasting_of(*plant).empty());
     ASSERT_TRUE(start_from_modelled(*plant));
-    EXPECT_LT(potential_energy(*plant, plant->motion.x), 0.1);
+    EXPECT_TRUE(lasting_of(*plant).empty());
 }
 
 TEST_P(EveryShape, GoesAlongWithAFootThatIsPutElsewhere) {

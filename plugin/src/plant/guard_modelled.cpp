@@ -40,19 +40,18 @@ VecX modelled_in(const Plant& plant, const Mat3& rotation, const Vec3& shift) {
     return x;
 }
 
-bool has_less_energy(const Plant& plant, const VecX& x) {
-    return potential_energy(plant, x) < potential_energy(plant, plant.motion.x);
-}
-
-// If so, without them from now on: it got them where no plant can be.
-bool has_less_energy_without_sets(Plant& plant, const VecX& x) {
-    if (!plant.own_elements) return false;
-    const double caught = potential_energy(plant, plant.motion.x);
+// Without the sets that would bend it there by more than its weight can: it got them where no plant can be. Nothing is
+// changed if that is no less than what it holds now.
+bool drop_wild_sets_for_less_energy(Plant& plant, const VecX& x) {
+    const double caught = potential_energy(plant, plant.motion.x), with_sets = potential_energy(plant, x);
+    if (!plant.own_elements) return with_sets < caught;
     const std::vector<double> sets = lasting_of(plant);
     set_lasting(plant, {});
-    if (potential_energy(plant, x) < caught) return true;
-    set_lasting(plant, sets);
-    return false;
+    const double without = potential_energy(plant, x);
+    const bool are_wild = !(with_sets - without < lifting_energy(plant)),
+               has_less = (are_wild ? without : with_sets) < caught;
+    if (!are_wild || !has_less) set_lasting(plant, sets);
+    return has_less;
 }
 
 }  // namespace
@@ -77,7 +76,7 @@ bool start_from_modelled(Plant& plant) {
     Motion& motion = plant.motion;
     if (!find_frame(plant, rotation, shift)) return false;
     const VecX x = modelled_in(plant, rotation, shift);
-    if (!has_less_energy(plant, x) && !has_less_energy_without_sets(plant, x)) return false;
+    if (!drop_wild_sets_for_less_energy(plant, x)) return false;
     const VecX places = cage_places(plant);
     motion.x = x;
     motion.v.setZero();
