@@ -38,10 +38,15 @@ bool holds_more_than(const Plant& plant, const VecX& x, double strain) {
     return own > row.energy(elements_of(*plant.system), drawn_out);
 }
 
-// A search that gave up where the plant hardly moves, though nothing pulls or presses it.
+// The step was searched for, and the search gave up.
+bool is_lost(const Plant& plant) {
+    return plant.trouble & FROND_TROUBLE_RETRIED && !plant.report.converged;
+}
+
+// Where the plant hardly moves, though nothing pulls or presses it.
 bool found_no_way(const Plant& plant, double h) {
-    if (plant.is_pressed || plant.has_user_force || plant.loads.springs.size() > plant.pin_springs.size()) return false;
-    return plant.trouble & FROND_TROUBLE_RETRIED && !plant.report.converged && hardly_moves(plant, h);
+    const bool is_pulled = plant.has_user_force || plant.loads.springs.size() > plant.pin_springs.size();
+    return is_lost(plant) && !is_pulled && !plant.is_pressed && hardly_moves(plant, h);
 }
 
 }  // namespace
@@ -61,12 +66,13 @@ void watch_recovery(Plant& plant, double h) {
         plant.trouble |= FROND_TROUBLE_RETRIED;
         plant.recovers_for -= float(h);
         ends = plant.recovers_for <= 0 && !plant.is_pressed;
-    } else if (plant.is_off_course || !plant.report.converged) {
+    } else if (plant.is_off_course || is_lost(plant)) {
         if (holds_more_than(plant, plant.x_good, TORN)) plant.recovers_for = SWAYS * sway;
     }
     plant.caught_for = found_no_way(plant, h) ? plant.caught_for + float(h) : 0;
-    // What lies folded by now, or rests with tets inside out, would for ever.
-    const bool is_folded = ends && (is_inside_out(plant) || holds_more_than(plant, plant.motion.x, FOLDED));
+    // What lies folded or finds no way by now, or rests with tets inside out, would for ever.
+    const bool is_folded =
+        ends && (is_lost(plant) || is_inside_out(plant) || holds_more_than(plant, plant.motion.x, FOLDED));
     const bool is_caught = plant.caught_for > CAUGHT * sway || is_caught_inside_out(plant, h);
     if (!(is_folded || is_caught) || !start_from_modelled(plant)) return;
     plant.trouble |= FROND_TROUBLE_REWOUND;
