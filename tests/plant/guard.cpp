@@ -62,6 +62,17 @@ void scramble(Plant& plant, double far) {
     set_state(plant, places.data(), nullptr);
 }
 
+// As far as a hand bends it, so that it is not torn.
+void bend(Plant& plant) {
+    std::vector<double> places;
+    for (int i = 0; i < node_count_of(plant); i++) {
+        const Vec3 p = node_place(plant, i);
+        const double aside = p.y() > 0.05 ? 0.4 * (p.y() - 0.05) * (p.y() - 0.05) : 0;
+        places.insert(places.end(), {p.x() + aside, p.y(), p.z()});
+    }
+    set_state(plant, places.data(), nullptr);
+}
+
 struct EveryShape : testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(Guard, EveryShape, testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD),
                          [](const auto& info) { return std::string(mechanics(info.param, 1).name); });
@@ -118,7 +129,7 @@ TEST_P(EveryShape, StartsFromItsModelledShapeWhereSearchesFindNoWayUnlessItIsPul
     for (const bool is_pulled : {true, false}) {
         const auto plant = stem(GetParam());
         step_plant(*plant, earth(), H);
-        scramble(*plant, 0.4);
+        bend(*plant);
         plant->motion.v.setZero();
         plant->x_good = plant->motion.x;
         plant->v_good = plant->motion.v;
@@ -127,13 +138,12 @@ TEST_P(EveryShape, StartsFromItsModelledShapeWhereSearchesFindNoWayUnlessItIsPul
         for (double time = 0; time < plant->rest_time; time += H) {
             plant->trouble = FROND_TROUBLE_RETRIED;
             plant->report.converged = plant->is_off_course = false;
-            plant->recovers_for = 0;
             watch_recovery(*plant, H);
             trouble |= plant->trouble;
         }
         EXPECT_EQ(bool(trouble & FROND_TROUBLE_REWOUND), !is_pulled);
         if (is_pulled)
-            EXPECT_GT(away(*plant), 0.3);
+            EXPECT_GT(away(*plant), 0.15);
         else
             EXPECT_LT(away(*plant), 0.02);
     }

@@ -4,6 +4,7 @@
 // Put there by a host, or driven there by what no tissue bears, it holds thousands of times the energy of any sway. Set
 // free, that would keep it flying about for long, so while it recovers it is damped as much as stops a sway without
 // swinging back, by the integrator that damps most, and keeps no set.
+#include <algorithm>
 #include <cmath>
 
 #include "plant/guard.hpp"
@@ -64,20 +65,20 @@ void watch_recovery(Plant& plant, double h) {
     bool ends = false;
     if (plant.recovers_for > 0) {
         plant.trouble |= FROND_TROUBLE_RETRIED;
-        plant.recovers_for -= float(h);
-        ends = plant.recovers_for <= 0 && !plant.is_pressed;
-    } else if (plant.is_off_course || is_lost(plant)) {
-        if (holds_more_than(plant, plant.x_good, TORN)) plant.recovers_for = SWAYS * sway;
+        plant.recovers_for = std::max(0.0f, plant.recovers_for - float(h));
+        ends = plant.recovers_for == 0 && !plant.is_pressed;
+    } else if ((plant.is_off_course || is_lost(plant)) && holds_more_than(plant, plant.x_good, TORN)) {
+        plant.recovers_for = SWAYS * sway;
+    } else {
+        plant.recovers_for = found_no_way(plant, h) ? plant.recovers_for - float(h) : 0;
     }
-    plant.caught_for = found_no_way(plant, h) ? plant.caught_for + float(h) : 0;
     // What lies folded or finds no way by now, or rests with tets inside out, would for ever.
     const bool is_folded =
         ends && (is_lost(plant) || is_inside_out(plant) || holds_more_than(plant, plant.motion.x, FOLDED));
-    const bool is_caught = plant.caught_for > CAUGHT * sway || is_caught_inside_out(plant, h);
+    const bool is_caught = -plant.recovers_for > CAUGHT * sway || is_caught_inside_out(plant, h);
     if (!(is_folded || is_caught) || !start_from_modelled(plant)) return;
     plant.trouble |= FROND_TROUBLE_REWOUND;
     plant.recovers_for = sway;
-    plant.caught_for = 0;
 }
 
 }  // namespace frond

@@ -134,9 +134,9 @@ struct Plant {
     bool is_off_course = false;  // in the running step something went elsewhere than it was heading
     float patience = 1;          // share of the work that searches are given [-]
     bool may_yield = true;       // in the running step, for all that is known
-    float recovers_for = 0;      // from a shape to which nothing can have bent it [s]
-    float caught_for = 0;        // in a shape from which searches find no way [s]
-    float size;                  // of the modelled surface, from corner to corner [m]
+    // From a shape to which nothing can have bent it; below zero: was so long caught where searches find no way [s].
+    float recovers_for = 0;
+    float size;  // of the modelled surface, from corner to corner [m]
 
     // Of the last step.
     SolveReport report;

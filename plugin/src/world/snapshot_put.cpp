@@ -89,7 +89,6 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     plant.substeps = saved.substeps;
     plant.patience = saved.patience;
     plant.recovers_for = saved.recovers_for;
-    plant.caught_for = saved.caught_for;
     size_t i = 0;
     for (Grab& grab : plant.grabs) grab.target = saved.grab_targets[i++];
     for (size_t k = 0; k < saved.fragments.size(); k++) {

@@ -81,7 +81,6 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     saved.substeps = plant.substeps;
     saved.patience = plant.patience;
     saved.recovers_for = plant.recovers_for;
-    saved.caught_for = plant.caught_for;
     for (const Grab& grab : plant.grabs) saved.grab_targets.push_back(grab.target);
     for (const Fragment& f : plant.fragments)
         saved.fragments.push_back({f.node, f.turn, f.shift, f.centre, f.velocity, f.spin});
