@@ -242,7 +242,8 @@ enum {
      * Remedy: raise max_iterations or newton_iterations, or use FROND_BLOCK. */
     FROND_TROUBLE_NOT_CONVERGED = 1 << 0,
     /* Cause: a plant's state became non-finite or its system could not be solved. Effect: it was put back to its
-     * last good state and brought to rest. Remedy: smaller steps, weaker forces. */
+     * last good state and brought to rest; or, where no step leads out of a shape that nothing can have bent it to,
+     * into its modelled shape, where it is held. Remedy: smaller steps, weaker forces. */
     FROND_TROUBLE_REWOUND = 1 << 1,
     /* Cause: a tet turned inside out. Effect: none lasting with FROND_TET_COROTATIONAL. Remedy: smaller steps. */
     FROND_TROUBLE_INVERTED = 1 << 2,
