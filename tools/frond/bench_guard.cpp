@@ -1,7 +1,7 @@
 // frond bench guard: what the looks for steps gone wrong cost in a step that has not.
 //
-// Valgrind's callgrind counts the instructions of steps of a plant that was let go, and of those
-// functions in them.
+// Valgrind's callgrind counts the instructions of steps of a plant that was just let go, and of one that sways, and of
+// those functions in them.
 #include <valgrind/callgrind.h>
 
 #include <cstdio>

@@ -78,10 +78,10 @@ bool are_near(const Plant& plant, const VecX& from, double distance) {
     return !has_node(Way{x, from}, int(x.size() / 3), most, plant.follow ? INFINITY : most, is_far);
 }
 
-// Of every so many nodes from the first on.
-double farthest(const VecX& x, const VecX& from, int first, int next) {
+// Of all places [m]; infinite where one is no number.
+double farthest(const Plant& plant, const VecX& x, const VecX& from) {
     double most = 0;
-    for (int i = first; i < x.size() / 3; i += next) {
+    for (int i = 0; i < x.size() / 3; i += plant.follow ? 2 : 1) {
         const double way = (point(x, i) - point(from, i)).squaredNorm();
         if (!(way <= most)) most = std::isnan(way) ? INFINITY : way;
     }
@@ -90,7 +90,7 @@ double farthest(const VecX& x, const VecX& from, int first, int next) {
 
 // How far a place was from where it is modelled when the step began [m].
 double reach_at_start(const Plant& plant) {
-    return farthest(plant.x_good, elements_of(*plant.system).modelled, 0, plant.follow ? 2 : 1);
+    return farthest(plant, plant.x_good, elements_of(*plant.system).modelled);
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ Vec3 turn_of(const VecX& x, const VecX& from, int node) {
 }
 
 double farthest_way(const Plant& plant) {
-    return farthest(plant.motion.x, plant.x_good, 0, plant.follow ? 2 : 1);
+    return farthest(plant, plant.motion.x, plant.x_good);
 }
 
 bool ends_off_course(const Plant& plant, double h) {

@@ -18,8 +18,8 @@ Wrench root_force(const Plant& plant, const Vec3& gravity, const Vec3& about) {
         held.force += force;
         held.moment += (place - centre).cross(force);
     };
-    for (int i = 0; i < int(mass.size()); i++) {
-        if (plant.motion.pinned.empty() || !plant.motion.pinned[size_t(i)]) continue;
+    const int pinned_count = int(plant.motion.pinned.size());
+    for (int i = next_pinned(plant.motion, 0); i < pinned_count; i = next_pinned(plant.motion, i + 1)) {
         if (row.moves_chain && i % 2 == 1)
             held.moment -= inverse_rate_matrix<double>(Vec3(point(x, i))).transpose() * point(pull, i);
         else
