@@ -17,7 +17,7 @@ namespace frond {
 struct PlantsAbreast {
     Abreast step;
     AirAbreast air;
-    VecX half, forces;
+    NumbersInLines forces;
     std::array<VecX, MOST_LANES> x, v;  // each plant's at the end of the step
 };
 
@@ -27,7 +27,7 @@ namespace {
 template <class Of>
 struct Gather {
     const Of& of;
-    VecX& to;
+    NumbersInLines& to;
     template <class S>
     FROND_INLINE void run() const {
         const double* from[LANES<S>];
@@ -38,16 +38,16 @@ struct Gather {
 
 // The other way round.
 struct HandOut {
-    const VecX& from;
+    const NumbersInLines& from;
     std::array<VecX, MOST_LANES>& plants;
     template <class S>
     FROND_INLINE void run() const {
         double* to[LANES<S>];
         for (int lane = 0; lane < LANES<S>; lane++) {
-            plants[size_t(lane)].resize(from.size() / LANES<S>);
+            plants[size_t(lane)].resize(Eigen::Index(from.size()) / LANES<S>);
             to[lane] = plants[size_t(lane)].data();
         }
-        put_apart<S>(from.data(), size_t(from.size()) / LANES<S>, to);
+        put_apart<S>(from.data(), from.size() / LANES<S>, to);
     }
 };
 
@@ -89,14 +89,16 @@ void give_back(WorkspacePool& pool, std::shared_ptr<PlantsAbreast> space) {
 void gather_motions(Abreast& step, Plant* const* plants, int count, const Surroundings& surroundings,
                     frond_effects effects) {
     const auto at = [&](int lane) -> Plant& { return *plants[std::min(lane, count - 1)]; };
-    const auto gather_from = [&](const auto& of, VecX& to) { run_in_lanes(step.lanes, Gather<decltype(of)>{of, to}); };
+    const auto gather_from = [&](const auto& of, NumbersInLines& to) {
+        run_in_lanes(step.lanes, Gather<decltype(of)>{of, to});
+    };
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.x; }, step.x);
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.v; }, step.v);
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.x_prev; }, step.x_prev);
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.v_prev; }, step.v_prev);
     for (int lane = 0; lane < step.lanes; lane++) {
         const Vec3 gravity = gravity_in(at(lane), surroundings, effects);
-        for (int c = 0; c < 3; c++) step.gravity[c * step.lanes + lane] = gravity[c];
+        for (int c = 0; c < 3; c++) step.gravity[size_t(c * step.lanes + lane)] = gravity[c];
     }
 }
 
@@ -137,7 +139,7 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
     plant.is_sound = true;
     plant.step_settings = settings;
     plant.loads.drags.clear();
-    for (int c = 0; c < 3; c++) plant.blown[c] = space.forces[c * step.lanes + lane];
+    for (int c = 0; c < 3; c++) plant.blown[c] = space.forces[size_t(c * step.lanes + lane)];
     return true;
 }
 
@@ -198,8 +200,7 @@ void solve_abreast(Plant* const* given, int given_count, const Surroundings& sur
 
     const double h_before = plants[0]->motion.history.h;
     unsigned alone = step_abreast(step, settings, plants[0]->motion.pinned, h, h_before), far_away, off_course;
-    space->half = 0.5 * (step.x + step.x_end);
-    alone |= system.row->abreast->not_calm(*system.elements, step.x, space->half);
+    alone |= system.row->abreast->not_calm(*system.elements, step.x, step.x_end, 0.5);
     run_in_lanes(step.lanes, LookAtWays{step, double(plants[0]->size), h, far_away, off_course});
     // Without air the energy of what left its course is looked at; of what is wound that is asked later.
     alone |= far_away | ((off_course | step.wound) & ~air_forces(step, space->forces));

@@ -37,24 +37,24 @@ struct LookAtWind {
 
 // Where plants are.
 void look_at_frames(AirAbreast& air, Plant* const* plants, int plant_count, int lanes) {
-    air.to_world.resize(9 * lanes);
-    air.position.resize(3 * lanes);
+    air.to_world.resize(9 * size_t(lanes));
+    air.position.resize(3 * size_t(lanes));
     for (int lane = 0; lane < lanes; lane++) {
         const Plant& plant = *plants[std::min(lane, plant_count - 1)];
         const Mat3 to_world = plant.rotation.toRotationMatrix();
-        for (int k = 0; k < 9; k++) air.to_world[k * lanes + lane] = to_world(k / 3, k % 3);
-        for (int c = 0; c < 3; c++) air.position[c * lanes + lane] = plant.position[c];
+        for (int k = 0; k < 9; k++) air.to_world[size_t(k * lanes + lane)] = to_world(k / 3, k % 3);
+        for (int c = 0; c < 3; c++) air.position[size_t(c * lanes + lane)] = plant.position[c];
     }
 }
 
 // The host's own field, which is asked plant by plant. Returns those where it was unsound.
 unsigned ask_field(AirAbreast& air, const Surroundings& surroundings, int plant_count, int lanes) {
     unsigned unsound = 0;
-    const size_t count = size_t(air.wind.size()) / (3 * size_t(lanes));
+    const size_t count = air.wind.size() / (3 * size_t(lanes));
     std::vector<frond_vec3> points(count), velocities(count);
     for (int lane = 0; lane < plant_count; lane++) {
         const auto at = [&](auto& of, size_t i, int c) -> auto& {
-            return of[(3 * Eigen::Index(i) + c) * lanes + lane];
+            return of[(3 * i + size_t(c)) * size_t(lanes) + size_t(lane)];
         };
         for (size_t i = 0; i < count; i++) {
             points[i] = {at(air.places, i, 0), at(air.places, i, 1), at(air.places, i, 2)};
@@ -91,7 +91,7 @@ struct GatherPieces {
         const AirPush<S> push = air_push(piece, of.shape, frame, load3<S>(air.passing.data(), 3 * node),
                                          load3<S>(air.velocities.data(), 3 * node), density, h);
         for (int k = 0; k < 6; k++) {
-            const auto add = [&](VecX& to, const S& value) {
+            const auto add = [&](NumbersInLines& to, const S& value) {
                 double* at = to.data() + LANES<S> * (6 * node + k);
                 store(S(load<S>(at) + value), at);
             };
@@ -136,7 +136,7 @@ struct GatherPieces {
 
 struct AddForces {
     const Abreast& step;
-    VecX& out;
+    NumbersInLines& out;
     unsigned& dragged;
     template <class S>
     FROND_INLINE void run() const {
@@ -161,15 +161,13 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
                     const Surroundings& surroundings, frond_effects effects, double h) {
     const int lanes = step.lanes, count = int(plants[0]->chain_positions.size());
     if (!surroundings.wind || !(effects & (FROND_WIND | FROND_AIR_DRAG))) {
-        step.drag_force.setZero();
-        step.drag_damping.setZero();
+        for (NumbersInLines* drags : {&step.drag_force, &step.drag_damping}) drags->assign(drags->size(), 0);
         return 0;
     }
     if (!air.pieces) air.pieces = air_pieces_of(*plants[0]);
-    const Eigen::Index n = Eigen::Index(3 * count) * lanes;
-    for (VecX* numbers : {&air.wind, &air.places, &air.passing, &air.velocities}) numbers->resize(n);
-    air.resistance.setZero(2 * n);
-    air.lag.setZero(2 * n);
+    const size_t n = 3 * size_t(count) * size_t(lanes);
+    for (NumbersInLines* numbers : {&air.wind, &air.places, &air.passing, &air.velocities}) numbers->resize(n);
+    for (NumbersInLines* sums : {&air.resistance, &air.lag}) sums->assign(2 * n, 0);
     look_at_frames(air, plants, plant_count, lanes);
     unsigned unsound = 0;
     if (effects & FROND_WIND) {
@@ -177,15 +175,15 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
         run_in_lanes(lanes, LookAtWind{air, step, now, count});
         if (surroundings.wind->field) unsound = ask_field(air, surroundings, plant_count, lanes);
     } else {
-        air.wind.setZero();
+        air.wind.assign(n, 0);
     }
     run_in_lanes(lanes,
                  GatherPieces{air, step, count, surroundings.wind->def.density, h, (effects & FROND_AIR_DRAG) != 0});
     return unsound;
 }
 
-unsigned air_forces(const Abreast& step, VecX& out) {
-    out.resize(3 * step.lanes);
+unsigned air_forces(const Abreast& step, NumbersInLines& out) {
+    out.resize(3 * size_t(step.lanes));
     unsigned dragged = 0;
     run_in_lanes(step.lanes, AddForces{step, out, dragged});
     return dragged;

@@ -163,12 +163,12 @@ void make_room(Abreast& a, std::shared_ptr<const System> system, int lanes) {
     a.lanes = lanes;
     a.system = std::move(system);
     const BlockPattern& pattern = a.system->elements->pattern;
-    const Eigen::Index n = 3 * lanes * Eigen::Index(pattern.node_count);
-    for (VecX* numbers : {&a.x, &a.v, &a.x_prev, &a.v_prev, &a.x_end, &a.v_end, &a.v_start, &a.x_from, &a.x_base,
-                          &a.v_base, &a.way, &a.elastic, &a.rhs, &a.dv, &a.drag_damping})
-        numbers->setZero(n);
-    a.gravity.setZero(3 * lanes);
-    a.drag_force.setZero(n / 2);
+    const size_t n = 3 * size_t(lanes) * size_t(pattern.node_count);
+    for (NumbersInLines* numbers : {&a.x, &a.v, &a.x_prev, &a.v_prev, &a.x_end, &a.v_end, &a.v_start, &a.x_from,
+                                    &a.x_base, &a.v_base, &a.way, &a.elastic, &a.rhs, &a.dv, &a.drag_damping})
+        numbers->assign(n, 0);
+    a.gravity.assign(3 * size_t(lanes), 0);
+    a.drag_force.assign(n / 2, 0);
     a.A.pattern = &pattern;
     a.A.values.resize(9 * size_t(lanes) * pattern.row.size());
 }
@@ -181,18 +181,19 @@ unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vect
     a.held = system.loose;
     for (size_t i = 0; i < pinned.size(); ++i) a.held[i] |= pinned[i];
     run_in_lanes(a.lanes, LookBack{a, pinned, h, h_before, method});
-    unsigned lost = system.row->abreast->not_calm(elements, a.x, a.x_from);
+    unsigned lost = system.row->abreast->not_calm(elements, a.x, a.x_from, 1);
 
     system.row->abreast->rotary_inertia(elements, a.x, a.inertia);
     const double damping = damping_of(system, settings, a.element_damping);
     system.row->abreast->set_ahead(
-        elements, a.x_from, {a.way, a.v_start, method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
+        elements, a.x_from,
+        {a.way.data(), a.v_start.data(), method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
         a.elastic, a.A, a.filled);
     run_in_lanes(a.lanes, FormSystem{a, method.step, 1 + method.step * settings.mass_damping});
 
     lost |= factorize(*system.plan.tree, a.A, a.factor);
     solve(*system.plan.tree, a.factor, a.rhs, a.dv);
-    relative_residuals(a.A, a.rhs, a.dv, a.residual.data());
+    relative_residuals(a.A, a.rhs, a.dv, a.left, a.residual.data());
     run_in_lanes(a.lanes, Finish{a, pinned, method.step, lost});
     return lost;
 }

@@ -198,8 +198,8 @@ struct Solve {
 
 struct FindResiduals {
     const BlockMatrix& A;
-    const VecX &b, &x;
-    VecX& left;
+    const NumbersInLines &b, &x;
+    NumbersInLines& left;
     double* out;
     template <class S>
     FROND_INLINE void run() const {
@@ -251,13 +251,13 @@ unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeAbreast& fact
     return failed;
 }
 
-void solve(const TreePlan& plan, const TreeAbreast& factor, const VecX& b, VecX& x) {
+void solve(const TreePlan& plan, const TreeAbreast& factor, const NumbersInLines& b, NumbersInLines& x) {
     x = b;
     run_in_lanes(factor.lanes, Solve{plan, factor.numbers.data(), x.data()});
 }
 
-void relative_residuals(const BlockMatrix& A, const VecX& b, const VecX& x, double* out) {
-    VecX left;
+void relative_residuals(const BlockMatrix& A, const NumbersInLines& b, const NumbersInLines& x, NumbersInLines& left,
+                        double* out) {
     run_in_lanes(lanes_of(A), FindResiduals{A, b, x, left, out});
 }
 
