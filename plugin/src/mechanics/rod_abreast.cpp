@@ -89,7 +89,7 @@ void set_ahead(const Elements& body, const NumbersInLines& x, const Ahead& ahead
 }
 
 void rotary_inertia(const Elements& body, const NumbersInLines& x, NumbersInLines& out) {
-    out.resize(x.size() / 6 * 9);
+    make_room(out, x.size() / 6 * 9);
     run_in_lanes(lanes_of(body, x), FindInertia{as_rods(body), x, out});
 }
 

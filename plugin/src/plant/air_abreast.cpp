@@ -166,8 +166,11 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
     }
     if (!air.pieces) air.pieces = air_pieces_of(*plants[0]);
     const size_t n = 3 * size_t(count) * size_t(lanes);
-    for (NumbersInLines* numbers : {&air.wind, &air.places, &air.passing, &air.velocities}) numbers->resize(n);
-    for (NumbersInLines* sums : {&air.resistance, &air.lag}) sums->assign(2 * n, 0);
+    for (NumbersInLines* numbers : {&air.wind, &air.places, &air.passing, &air.velocities}) make_room(*numbers, n);
+    for (NumbersInLines* sums : {&air.resistance, &air.lag}) {
+        make_room(*sums, 2 * n);
+        sums->assign(2 * n, 0);
+    }
     look_at_frames(air, plants, plant_count, lanes);
     unsigned unsound = 0;
     if (effects & FROND_WIND) {

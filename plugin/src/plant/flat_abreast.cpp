@@ -60,9 +60,9 @@ void look_at_chains(const Plant* const* plants, int count, const std::vector<int
                     const std::vector<Flat>& flats, ChainsAbreast& out) {
     out.lanes = lanes_for(count);
     const size_t lanes = size_t(out.lanes), numbers = size_t(plants[0]->motion.x.size());
-    out.x.resize(numbers * lanes);
-    out.turns.resize(numbers / 6 * 9 * lanes);
-    out.frames.resize(9 * capsules.size() * lanes);
+    make_room(out.x, numbers * lanes);
+    make_room(out.turns, numbers / 6 * 9 * lanes);
+    make_room(out.frames, 9 * capsules.size() * lanes);
     run_in_lanes(out.lanes, FindFrames{plants, count, capsules, flats, out});
 }
 

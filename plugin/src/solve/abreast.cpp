@@ -166,11 +166,11 @@ void make_room(Abreast& a, std::shared_ptr<const System> system, int lanes) {
     const size_t n = 3 * size_t(lanes) * size_t(pattern.node_count);
     for (NumbersInLines* numbers : {&a.x, &a.v, &a.x_prev, &a.v_prev, &a.x_end, &a.v_end, &a.v_start, &a.x_from,
                                     &a.x_base, &a.v_base, &a.way, &a.elastic, &a.rhs, &a.dv, &a.drag_damping})
-        numbers->assign(n, 0);
-    a.gravity.assign(3 * size_t(lanes), 0);
-    a.drag_force.assign(n / 2, 0);
+        *numbers = NumbersInLines(n);
+    a.gravity = NumbersInLines(3 * size_t(lanes));
+    a.drag_force = NumbersInLines(n / 2);
     a.A.pattern = &pattern;
-    a.A.values.resize(9 * size_t(lanes) * pattern.row.size());
+    a.A.values = NumbersInLines(9 * size_t(lanes) * pattern.row.size());
 }
 
 unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,
@@ -193,7 +193,7 @@ unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vect
 
     lost |= factorize(*system.plan.tree, a.A, a.factor);
     solve(*system.plan.tree, a.factor, a.rhs, a.dv);
-    relative_residuals(a.A, a.rhs, a.dv, a.left, a.residual.data());
+    relative_residuals(a.A, a.rhs, a.dv, a.way, a.residual.data());
     run_in_lanes(a.lanes, Finish{a, pinned, method.step, lost});
     return lost;
 }

@@ -24,7 +24,7 @@ struct Abreast {
     unsigned wound = 0;  // lanes with a rotation vector longer than half a turn, or nearly so, a bit each: see unwind()
 
     // Room for the step.
-    NumbersInLines v_start, x_from, x_base, v_base, way, elastic, rhs, dv, left, inertia;
+    NumbersInLines v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia;
     std::vector<uint8_t> held, filled;
     std::vector<double> element_damping;
     BlockMatrix A;

@@ -244,7 +244,7 @@ static int lanes_of(const BlockMatrix& A) {
 
 unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeAbreast& factor) {
     factor.lanes = lanes_of(A);
-    factor.numbers.resize(size_t(factor.lanes) * NUMBERS * plan.pairs.size());
+    make_room(factor.numbers, size_t(factor.lanes) * NUMBERS * plan.pairs.size());
     unsigned failed = 0;
     factor.begun.assign(plan.pairs.size(), 0);
     run_in_lanes(factor.lanes, Factorize{plan, A, factor.numbers.data(), factor.begun.data(), failed});
