@@ -98,6 +98,19 @@ void jerk(Bench& bench) {
     come_back(bench, corn);
 }
 
+// A hundred times its weight, sideways, with sets that it keeps.
+void fling(Bench& bench) {
+    constexpr double LIES = 1, SLOW = 1;  // mean way over its size, which may lie on the ground [-]; [m/s]
+    bench.plant_def.effects |= FROND_PLASTICITY;
+    const Stand corn = stand_on_ground(bench);
+    must(frond_world_set_gravity(bench.world(), {650, 50, 850}));
+    bench.run(BLOWS);
+    must(frond_world_set_gravity(bench.world(), {0, -9.81, 0}));
+    bench.run(BACK);
+    bench.expect_shape(corn.plant, corn.rest, LIES);
+    bench.expect(bench.fastest() < SLOW, "speed [m/s]", bench.fastest(), SLOW);
+}
+
 }  // namespace
 
 std::vector<Case> corn_cases() {
@@ -109,6 +122,8 @@ std::vector<Case> corn_cases() {
         {"corn_dragged", "a corn plant drawn to and fro by three times its length at 30 rad/s, three times, let go",
          back, drag},
         {"corn_jerked", "the foot of a corn plant put 0.85 of its size away within a step, and back", back, jerk},
+        {"corn_flung", "100 g sideways on a corn plant with plasticity for 0.4 s",
+         "finite; after 5 s no tet inside out, nodes within its size as it may lie, slower than 1 m/s", fling},
     };
 }
 

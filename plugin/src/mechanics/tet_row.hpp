@@ -92,6 +92,24 @@ struct TetRow {
         return add_all(body, x, Tangent::positive, f, K, damp);
     }
 
+    // As much of it as is not too far.
+    static void let_flow(const Yield& yield, const TetShare& share, const Mat3& F, const Strained& now, double h,
+                         const Mat3& rest_inverse, TetLasting& lasting) {
+        double hardening = lasting.hardening;
+        const double elastic = elastic_share(yield, now.strain, 1, h, hardening);
+        for (double part = 1; part > LEAST; part /= 2) {
+            const Mat3 change = flow_of(now.S, 1 - part * (1 - elastic));
+            TetLasting next = lasting;
+            next.inverse *= change;
+            if (!(next.inverse.squaredNorm() < FARTHEST)) continue;
+            next.rest_inverse = rest_inverse * next.inverse;
+            next.hardening += part * (hardening - lasting.hardening);
+            // A change of shape may change the volume's energy at second order: energy never grows.
+            if (Law::energy(share, Law::strain(share, F * change)) <= Law::energy(share, Law::strain(share, F)))
+                lasting = next;
+            return;
+        }
+    }
     static void flow(Elements& body, const VecX& x, double h) {
         TetElements& elements = static_cast<TetElements&>(body);
         Strained now;
@@ -101,22 +119,16 @@ struct TetRow {
                 const TetShare share = Element::share(elements, e, q);
                 const Mat3 F = Element::gradient(share, places, q);
                 if (!exceeds(share, F, elements.yields[e].strain, now)) continue;
-                TetLasting &lasting = elements.lasting[e * Element::POINTS + size_t(q)], next = lasting;
-                const double elastic = elastic_share(elements.yields[e], now.strain, 1, h, next.hardening);
-                const Mat3 change = flow_of(now.S, elastic);
-                next.inverse *= change;
-                next.rest_inverse = elements.rest_inverse[e * Element::POINTS + size_t(q)] * next.inverse;
-                // A change of shape may change the volume's energy at second order: energy never grows.
-                if (next.inverse.squaredNorm() < FARTHEST &&
-                    Law::energy(share, Law::strain(share, F * change)) <= Law::energy(share, Law::strain(share, F)))
-                    lasting = next;
+                const size_t point = e * Element::POINTS + size_t(q);
+                let_flow(elements.yields[e], share, F, now, h, elements.rest_inverse[point], elements.lasting[point]);
             }
         }
     }
 
-    // What flows on and on ends as a needle, which has no inverse: where a lasting stretch nears five, tets stay
-    // elastic.
-    static constexpr double FARTHEST = 25;  // square of the norm of F_p^-1 [-]
+    // What flows on and on ends as a needle, which has no inverse, and no tissue does: it would have broken. Where a
+    // lasting stretch nears 1.5, tets stay elastic.
+    static constexpr double LEAST = 0.1;     // share of a flow that is worth while [-]
+    static constexpr double FARTHEST = 3.5;  // square of the norm of F_p^-1 [-]
 };
 
 // Of the tet that a point sees, a move of corner b at rest by dX acts on F as a move of it in space by -F dX does; it
