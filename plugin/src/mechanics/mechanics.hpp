@@ -86,10 +86,10 @@ struct Ahead {
 // (core/lanes.hpp), and comes out as if its plant were alone.
 struct MechanicsAbreast {
     // As in Mechanics.
-    // f and A hold anything before; `filled` is room for it.
-    void (*set_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
-                      std::vector<uint8_t>& filled);
-    void (*rotary_inertia)(const Elements& elements, const VecX& x, VecX& out);  // row by row
+    // f and A hold anything before; `filled` is room for it. Lanes with inverted tets, a bit each.
+    unsigned (*set_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
+                          std::vector<uint8_t>& filled);
+    void (*rotary_inertia)(const Elements& elements, const VecX& x, VecX& out);  // row by row; null: no node turns
     // Which lanes are not as is_calm() and as yields() ask, or so near to that that they have to be asked themselves; a
     // bit each.
     unsigned (*not_calm)(const Elements& elements, const VecX& from, const VecX& to);

@@ -185,7 +185,7 @@ unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vect
 
     system.row->abreast->rotary_inertia(elements, a.x, a.inertia);
     const double damping = damping_of(system, settings, a.element_damping);
-    system.row->abreast->set_ahead(
+    lost |= system.row->abreast->set_ahead(
         elements, a.x_from, {a.way, a.v_start, method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
         a.elastic, a.A, a.filled);
     run_in_lanes(a.lanes, FormSystem{a, method.step, 1 + method.step * settings.mass_damping});
