@@ -7,6 +7,7 @@
 
 #include "core/lanes.hpp"
 #include "core/timer.hpp"
+#include "mechanics/grip_lanes.hpp"
 #include "plant/air_abreast.hpp"
 #include "plant/guard.hpp"
 #include "plant/lanes_of_plants.hpp"
@@ -55,6 +56,7 @@ struct HandOut {
 struct LookAtWays {
     const Abreast& step;
     double size, h;  // of the plants [m], of the step [s]
+    bool turns;      // every other node
     unsigned &far_away, &off_course;
     template <class S>
     FROND_INLINE void run() const {
@@ -65,13 +67,41 @@ struct LookAtWays {
         for (int i = 0; i < step.system->elements->node_count; i++) {
             const Lanes3<S> way = load3<S>(step.x_end.data(), 3 * i) - load3<S>(step.x.data(), 3 * i);
             const Lanes3<S> off = way - constant<S>(h) * load3<S>(step.v.data(), 3 * i);
-            on_course = select(dot(off, off) < (i % 2 ? turned : far), on_course, S{});
-            if (i % 2 == 0) near = select(dot(way, way) < std::pow(FARTHEST_WAY * size, 2) * NEARLY, near, S{});
+            const bool is_turn = turns && i % 2;
+            on_course = select(dot(off, off) < (is_turn ? turned : far), on_course, S{});
+            if (!is_turn) near = select(dot(way, way) < std::pow(FARTHEST_WAY * size, 2) * NEARLY, near, S{});
         }
         far_away = bits_of(near == 0.0);
         off_course = bits_of(on_course == 0.0);
     }
 };
+
+// Lanes in which a fibre pulls, or nearly so.
+struct LookForTaut {
+    const Abreast& step;
+    const Fibres& fibres;
+    const Chain& chain;
+    unsigned& taut;
+    template <class S>
+    FROND_INLINE void run() const {
+        constexpr double NEARLY = 1 - 1e-9;
+        S slack = constant<S>(1);
+        for (const Fibre& fibre : fibres.list) {
+            const size_t node = size_t(fibre.node), parent = size_t(chain.nodes[node].parent);
+            const std::vector<Grip>& grips = step.system->chain;
+            const Lanes3<S> way = grip_sum<S>(grips[node], step.x_end) - grip_sum<S>(grips[parent], step.x_end);
+            slack = select(dot(way, way) < fibre.length * fibre.length * NEARLY, slack, S{});
+        }
+        taut = bits_of(slack == 0.0);
+    }
+};
+
+unsigned find_taut(const Abreast& step, const Plant& plant, frond_effects effects) {
+    unsigned taut = 0;
+    if (plant.fibres && (effects & FROND_FIBRES))
+        run_in_lanes(step.lanes, LookForTaut{step, *plant.fibres, plant.model->chain, taut});
+    return taut;
+}
 
 std::shared_ptr<PlantsAbreast> lend(WorkspacePool& pool) {
     std::lock_guard<std::mutex> lock(pool.mutex);
@@ -88,12 +118,15 @@ void give_back(WorkspacePool& pool, std::shared_ptr<PlantsAbreast> space) {
 
 void gather_motions(Abreast& step, Plant* const* plants, int count, const Surroundings& surroundings,
                     frond_effects effects) {
+    const bool looks_back = plants[0]->looks_back;
     const auto at = [&](int lane) -> Plant& { return *plants[std::min(lane, count - 1)]; };
     const auto gather_from = [&](const auto& of, VecX& to) { run_in_lanes(step.lanes, Gather<decltype(of)>{of, to}); };
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.x; }, step.x);
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.v; }, step.v);
-    gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.x_prev; }, step.x_prev);
-    gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.v_prev; }, step.v_prev);
+    if (looks_back) {
+        gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.x_prev; }, step.x_prev);
+        gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.v_prev; }, step.v_prev);
+    }
     for (int lane = 0; lane < step.lanes; lane++) {
         const Vec3 gravity = gravity_in(at(lane), surroundings, effects);
         for (int c = 0; c < 3; c++) step.gravity[c * step.lanes + lane] = gravity[c];
@@ -101,13 +134,14 @@ void gather_motions(Abreast& step, Plant* const* plants, int count, const Surrou
 }
 
 // All that solve_plant() leaves of a healthy step. False, with the motion as it was: the plant has to be stepped alone.
-bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings& settings, bool may_be_off, double h) {
+bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings& settings, bool may_be_off,
+               bool may_pull, double h) {
     const Abreast& step = space.step;
     Motion& motion = plant.motion;
     History& history = motion.history;
     VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
     const bool is_wound = (step.wound >> lane & 1) != 0;
-    const bool is_asked = may_be_off || is_wound;
+    const bool is_asked = may_be_off || is_wound || may_pull;
     if (is_asked) {
         plant.x_good = motion.x;
         plant.v_good = motion.v;
@@ -126,10 +160,19 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
     }
     history.x_prev.swap(x);
     history.v_prev.swap(v);
-    // Until the next step nothing moves the plant that does not drop its history.
+    // Until the next step nothing but its fibres moves the plant that does not drop its history.
     history.x_end.resize(0);
     history.v_end.resize(0);
-    history.shaken = false;
+    if (may_pull) {
+        history.x_end = motion.x;
+        history.v_end = motion.v;
+    }
+    history.shaken = !plant.looks_back;
+    if (!plant.looks_back) {
+        history.valid = true;
+        history.integrator = settings.integrator;
+        history.pinned = motion.pinned;
+    }
     history.h = h;
     if (is_wound) unwind(motion);
     plant.is_off_course = is_asked && ends_off_course(plant, h);
@@ -141,28 +184,37 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
     return true;
 }
 
-}  // namespace
-
-// As it may do only with its past and its pins at rest; what has gone abreast since they moved has them so.
-static bool goes_on(const Plant& plant, double h) {
-    const Motion& motion = plant.motion;
-    return history_holds(motion, plant.settings.integrator, h) &&
-           (motion.history.x_end.size() == 0 || is_where_held(motion));
+// Fibres, which ask for the plant's own factor.
+void pull(Plant& plant, const Abreast& step, int lane, frond_effects effects, double h) {
+    plant.blown.setZero();
+    take_drags(step, lane, plant.loads.drags);
+    lend_workspace(plant);
+    take_factor(step, lane, *plant.workspace);
+    finish_solving(plant, effects, h);
 }
 
-bool may_go_abreast(const Plant& plant, const Surroundings& surroundings, double h) {
+}  // namespace
+
+// By its history, or anew and damped, with its pins at rest; what has gone abreast since they moved has them so.
+static bool goes_on(Plant& plant, double h) {
     const Motion& motion = plant.motion;
-    const History& history = motion.history;
-    return plant.follow && !plant.swing && !plant.own_elements && !plant.workspace && !plant.is_touched &&
-           !plant.has_user_force && plant.grabs.empty() && plant.fragments.empty() && plant.pin_springs.empty() &&
-           !plant.pins_changed && plant.recovers_for <= 0 && plant.patience == 1 && plant.max_substeps <= 1 &&
-           history.valid && h > 0 && h <= TRUSTED &&
-           frond::may_go_abreast(*plant.system, settings_for(plant, plant.effects & surroundings.effects), h);
+    plant.looks_back = history_holds(motion, plant.settings.integrator, h);
+    if (plant.looks_back && motion.history.x_end.size() == 0) return true;
+    return (plant.looks_back || motion.history.shaken) && is_where_held(motion);
+}
+
+bool may_go_abreast(Plant& plant, const Surroundings& surroundings, double h) {
+    return !plant.swing && !plant.own_elements && !plant.workspace && !plant.is_touched && !plant.has_user_force &&
+           plant.grabs.empty() && plant.fragments.empty() && plant.pin_springs.empty() && !plant.pins_changed &&
+           plant.recovers_for <= 0 && plant.patience == 1 && plant.max_substeps <= 1 && plant.fibre_give.empty() &&
+           h > 0 && h <= TRUSTED &&
+           frond::may_go_abreast(*plant.system, settings_for(plant, plant.effects & surroundings.effects), h) &&
+           goes_on(plant, h);
 }
 
 bool go_alike(const Plant& a, const Plant& b) {
-    return a.system == b.system && a.effects == b.effects && a.size == b.size &&
-           a.motion.history.h == b.motion.history.h && are_alike(a.settings, b.settings) &&
+    return a.system == b.system && a.effects == b.effects && a.size == b.size && a.looks_back == b.looks_back &&
+           (!a.looks_back || a.motion.history.h == b.motion.history.h) && are_alike(a.settings, b.settings) &&
            a.motion.pinned == b.motion.pinned;
 }
 
@@ -170,16 +222,7 @@ int most_abreast() {
     return lanes_for(MOST_LANES);
 }
 
-void solve_abreast(Plant* const* given, int given_count, const Surroundings& surroundings, double h) {
-    std::array<Plant*, MOST_LANES> plants;
-    int count = 0;
-    for (int i = 0; i < given_count; i++) {
-        Plant& plant = *given[i];
-        if (goes_on(plant, h))
-            plants[size_t(count++)] = &plant;
-        else
-            solve_plant(plant, surroundings, h);
-    }
+void solve_abreast(Plant* const* plants, int count, const Surroundings& surroundings, double h) {
     if (count < 2) {
         if (count == 1) solve_plant(*plants[0], surroundings, h);
         return;
@@ -192,19 +235,21 @@ void solve_abreast(Plant* const* given, int given_count, const Surroundings& sur
     const SolveSettings settings = settings_for(*plants[0], effects);
     make_room(step, plants[0]->system, lanes_for(count));
     Timer timer;
-    gather_motions(step, plants.data(), count, surroundings, effects);
-    const unsigned bad_wind = gather_air(space->air, step, plants.data(), count, surroundings, effects, h);
+    gather_motions(step, plants, count, surroundings, effects);
+    const unsigned bad_wind = gather_air(space->air, step, plants, count, surroundings, effects, h);
     const double ms_air = timer.lap();
 
-    const double h_before = plants[0]->motion.history.h;
+    const double h_before = plants[0]->looks_back ? plants[0]->motion.history.h : 0;
     unsigned alone = step_abreast(step, settings, plants[0]->motion.pinned, h, h_before), far_away, off_course;
     space->half = 0.5 * (step.x + step.x_end);
     alone |= system.row->abreast->not_calm(*system.elements, step.x, space->half);
-    run_in_lanes(step.lanes, LookAtWays{step, double(plants[0]->size), h, far_away, off_course});
+    run_in_lanes(step.lanes,
+                 LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course});
     // Without air the energy of what left its course is looked at; of what is wound that is asked later.
     alone |= far_away | ((off_course | step.wound) & ~air_forces(step, space->forces));
     const bool has_yields = (effects & FROND_PLASTICITY) && !system.elements->yields.empty();
     const unsigned may_yield = has_yields ? system.row->abreast->may_yield(*system.elements, step.x_end) : 0;
+    const unsigned taut = find_taut(step, *plants[0], effects);
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
     run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
     const double ms_solve = timer.lap();
@@ -212,12 +257,12 @@ void solve_abreast(Plant* const* given, int given_count, const Surroundings& sur
     for (int lane = 0; lane < count; lane++) {
         Plant& plant = *plants[size_t(lane)];
         const auto is_in = [&](unsigned bits) { return (bits >> lane & 1) != 0; };
-        if (is_in(alone) || !take_step(plant, *space, lane, settings, is_in(off_course), h)) {
+        if (is_in(alone) || !take_step(plant, *space, lane, settings, is_in(off_course), is_in(taut), h)) {
             solve_plant(plant, surroundings, h);
             continue;
         }
         plant.trouble = is_in(bad_wind) ? FROND_TROUBLE_BAD_WIND : 0;
-        plant.may_yield = is_in(may_yield);
+        plant.may_yield = is_in(may_yield | taut);
         plant.report = {};
         plant.report.ok = true;
         plant.report.iterations = 1;
@@ -225,6 +270,7 @@ void solve_abreast(Plant* const* given, int given_count, const Surroundings& sur
         plant.report.ms_solve = float(ms_solve / count);
         plant.ms_air = plant.ms_effects = float(ms_air / count);
         plant.ms_user_force = plant.ms_fibres = plant.ms_plasticity = 0;
+        if (is_in(taut)) pull(plant, step, lane, effects, h);
     }
     give_back(*pool, space);
 }

@@ -3,12 +3,32 @@
 
 #include <algorithm>
 
+#include "mechanics/grip_lanes.hpp"
 #include "plant/air_push.hpp"
 #include "plant/wind_lanes.hpp"
+#include "solve/system.hpp"
 
 namespace frond {
 
 namespace {
+
+// Where the chain nodes of cages are.
+struct PlaceChain {
+    AirAbreast& air;
+    const Abreast& step;
+    template <class S>
+    FROND_INLINE void run() const {
+        const std::vector<Grip>& grips = step.system->chain;
+        for (size_t i = 0; i < grips.size(); i++) store3(grip_sum<S>(grips[i], step.x), air.chain.data(), 3 * int(i));
+    }
+};
+
+// A chain node's place or velocity, of the numbers of all nodes of the mechanics.
+template <class S>
+FROND_INLINE Lanes3<S> at_chain_node(const Abreast& step, const VecX& of_nodes, int i) {
+    return step.system->chain.empty() ? load3<S>(of_nodes.data(), 6 * i)
+                                      : grip_sum<S>(step.system->chain[size_t(i)], of_nodes);
+}
 
 // Where the chain nodes of all plants are in the world, and the wind there.
 struct LookAtWind {
@@ -16,6 +36,11 @@ struct LookAtWind {
     const Abreast& step;
     const WindNow& now;
     int count;  // of chain nodes
+    template <class S>
+    FROND_INLINE Lanes3<S> place(int i) const {
+        const bool is_cage = air.chain.size() > 0;
+        return load3<S>(is_cage ? air.chain.data() : step.x.data(), is_cage ? 3 * i : 6 * i);
+    }
     template <class S>
     FROND_INLINE void run() const {
         constexpr int MOST = 4;  // nodes at once
@@ -25,7 +50,7 @@ struct LookAtWind {
         for (int begin = 0; begin < count; begin += MOST) {
             const int here = std::min(MOST, count - begin);
             Lanes3<S> places[MOST], velocities[MOST];
-            for (int i = 0; i < here; i++) places[i] = to_world * load3<S>(step.x.data(), 6 * (begin + i)) + position;
+            for (int i = 0; i < here; i++) places[i] = to_world * place<S>(begin + i) + position;
             wind_at(now, places, here, velocities);
             for (int i = 0; i < here; i++) {
                 store3(places[i], air.places.data(), 3 * (begin + i));
@@ -81,7 +106,7 @@ struct GatherPieces {
         const Lanes33<S> to_world = {{load3<S>(turn, 0), load3<S>(turn, 3), load3<S>(turn, 6)}};
         const Lanes33<S> to_model = transposed(to_world);
         for (int i = 0; i < count; i++) {
-            const Lanes3<S> velocity = is_dragged ? load3<S>(step.v.data(), 6 * i) : Lanes3<S>{};
+            const Lanes3<S> velocity = is_dragged ? at_chain_node<S>(step, step.v, i) : Lanes3<S>{};
             store3(velocity, air.velocities.data(), 3 * i);
             store3(to_model * load3<S>(air.wind.data(), 3 * i) - velocity, air.passing.data(), 3 * i);
         }
@@ -112,8 +137,13 @@ struct GatherPieces {
         }
     }
     template <class S>
-    FROND_INLINE void run() const {
-        look_at_air<S>();
+    FROND_INLINE void add_of(const AirPiece& of, const Lanes33<S>& frame) const {
+        const AirLanes<S> piece([&](int) -> const AirPiece& { return of; });
+        add_at(of.parent, of, piece, frame);
+        add_at(of.node, of, piece, frame);
+    }
+    template <class S>
+    FROND_INLINE void add_pieces_of_chains() const {
         const double* x = step.x.data();
         // Pieces mostly go on from the one before.
         int last_node = -1;
@@ -123,13 +153,38 @@ struct GatherPieces {
             if (of.parent != last_node) turn = rotation_by(load3<S>(x, 6 * of.parent + 3));
             last_node = of.node;
             last_turn = rotation_by(load3<S>(x, 6 * of.node + 3));
-            const AirLanes<S> piece([&](int) -> const AirPiece& { return of; });
             const Lanes3<S> wide = {constant<S>(of.wide[0]), constant<S>(of.wide[1]), constant<S>(of.wide[2])};
-            const Lanes33<S> frame =
-                air_frame<S>(load3<S>(x, 6 * of.node) - load3<S>(x, 6 * of.parent), turn * wide + last_turn * wide);
-            add_at(of.parent, of, piece, frame);
-            add_at(of.node, of, piece, frame);
+            add_of(of,
+                   air_frame<S>(load3<S>(x, 6 * of.node) - load3<S>(x, 6 * of.parent), turn * wide + last_turn * wide));
         }
+    }
+    // As wide_now().
+    template <class S>
+    FROND_INLINE Lanes3<S> wide_in_cage(const AirPiece& of) const {
+        const int ends[2] = {of.parent, of.node};
+        Lanes3<S> wide = {};
+        for (size_t k = 0; k < 2; k++) {
+            const Grip& grip = step.system->chain[size_t(ends[k])];
+            for (size_t c = 0; c < 4; c++)
+                wide = wide + constant<S>(of.spread[k][c]) * load3<S>(step.x.data(), 3 * grip.node[c]);
+        }
+        return wide;
+    }
+    template <class S>
+    FROND_INLINE void add_pieces_of_cages() const {
+        const auto place = [&](int i) __attribute__((always_inline)) {
+            return load3<S>(air.chain.data(), 3 * i);
+        };
+        for (const AirPiece& of : *air.pieces)
+            add_of(of, air_frame<S>(place(of.node) - place(of.parent), wide_in_cage<S>(of)));
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        look_at_air<S>();
+        if (air.chain.size() > 0)
+            add_pieces_of_cages<S>();
+        else
+            add_pieces_of_chains<S>();
         for (int i = 0; i < count; i++) put_drag<S>(i);
     }
 };
@@ -147,7 +202,7 @@ struct AddForces {
                             first = load3<S>(step.drag_damping.data(), 6 * i),
                             rest = load3<S>(step.drag_damping.data(), 6 * i + 3);
             const Lanes33<S> damping = {{first, {first.y, rest.x, rest.y}, {first.z, rest.y, rest.z}}};
-            sum = sum + (force - damping * load3<S>(step.v_end.data(), 6 * i));
+            sum = sum + (force - damping * at_chain_node<S>(step, step.v_end, i));
             any += dot(force, force) + dot(first, first) + dot(rest, rest);
         }
         store3(sum, out.data(), 0);
@@ -168,6 +223,8 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
     if (!air.pieces) air.pieces = air_pieces_of(*plants[0]);
     const Eigen::Index n = Eigen::Index(3 * count) * lanes;
     for (VecX* numbers : {&air.wind, &air.places, &air.passing, &air.velocities}) numbers->resize(n);
+    air.chain.resize(step.system->chain.empty() ? 0 : n);
+    run_in_lanes(lanes, PlaceChain{air, step});
     air.resistance.setZero(2 * n);
     air.lag.setZero(2 * n);
     look_at_frames(air, plants, plant_count, lanes);
@@ -189,6 +246,20 @@ unsigned air_forces(const Abreast& step, VecX& out) {
     unsigned dragged = 0;
     run_in_lanes(step.lanes, AddForces{step, out, dragged});
     return dragged;
+}
+
+void take_drags(const Abreast& step, int lane, std::vector<Drag>& out) {
+    const auto number = [&](const VecX& of, Eigen::Index i) { return of[i * step.lanes + lane]; };
+    out.clear();
+    for (Eigen::Index i = 0; i < Eigen::Index(step.system->chain.size()); i++) {
+        Drag drag;
+        SixOf damping;
+        for (int c = 0; c < 3; c++) drag.force[c] = number(step.drag_force, 3 * i + c);
+        for (int k = 0; k < 6; k++) damping[size_t(k)] = number(step.drag_damping, 6 * i + k);
+        drag.damping = matrix_of(damping);
+        drag.grip = step.system->chain[size_t(i)];
+        if (drag.force != Vec3::Zero() || damping != SixOf{}) out.push_back(drag);
+    }
 }
 
 }  // namespace frond

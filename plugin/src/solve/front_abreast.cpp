@@ -326,4 +326,19 @@ void solve(const FrontPlan& plan, FrontAbreast& factor, const VecX& b, VecX& x) 
         std::copy_n(factor.ordered.data() + three * k, three, x.data() + three * size_t(plan.order[k]));
 }
 
+void take_lane(const NumbersInLines& numbers, int lanes, int lane, double* out) {
+    const size_t count = numbers.size() / size_t(lanes);
+    for (size_t i = 0; i < count; ++i) out[i] = numbers[i * size_t(lanes) + size_t(lane)];
+}
+
+void take_lane(const FrontAbreast& factor, int lane, FrontFactor& out) {
+    const auto take = [&](const NumbersInLines& from, double* to) { take_lane(from, factor.lanes, lane, to); };
+    out.columns.resize(factor.columns.size() / size_t(4 * factor.lanes) + 1);
+    out.pivot.resize(Eigen::Index(factor.pivot.size()) / factor.lanes);
+    out.inverse.resize(out.pivot.size());
+    take(factor.columns, numbers_of(out.columns));
+    take(factor.pivot, out.pivot.data());
+    take(factor.inverse, out.inverse.data());
+}
+
 }  // namespace frond
