@@ -12,7 +12,37 @@ namespace frond {
 
 namespace {
 
-// Where the chain nodes of cages are.
+// Where the mechanics move the chain: places and rotations of its nodes.
+struct Chains {
+    template <class S>
+    FROND_INLINE static Lanes3<S> place(const AirAbreast&, const Abreast& step, int i) {
+        return load3<S>(step.x.data(), 6 * i);
+    }
+    template <class S>
+    FROND_INLINE static Lanes3<S> velocity(const Abreast&, const VecX& v, int i) {
+        return load3<S>(v.data(), 6 * i);
+    }
+};
+// Where the chain follows a cage.
+struct Cages {
+    template <class S>
+    FROND_INLINE static Lanes3<S> place(const AirAbreast& air, const Abreast&, int i) {
+        return load3<S>(air.chain.data(), 3 * i);
+    }
+    template <class S>
+    FROND_INLINE static Lanes3<S> velocity(const Abreast& step, const VecX& v, int i) {
+        return grip_sum<S>(step.system->chain[size_t(i)], v);
+    }
+};
+// Runs Job<Chains> or Job<Cages>, whichever the plants are, made of these.
+template <template <class> class Job, class... Parts>
+void run_of(const Abreast& step, Parts&&... parts) {
+    if (step.system->chain.empty())
+        run_in_lanes(step.lanes, Job<Chains>{parts...});
+    else
+        run_in_lanes(step.lanes, Job<Cages>{parts...});
+}
+
 struct PlaceChain {
     AirAbreast& air;
     const Abreast& step;
@@ -23,24 +53,13 @@ struct PlaceChain {
     }
 };
 
-// A chain node's place or velocity, of the numbers of all nodes of the mechanics.
-template <class S>
-FROND_INLINE Lanes3<S> at_chain_node(const Abreast& step, const VecX& of_nodes, int i) {
-    return step.system->chain.empty() ? load3<S>(of_nodes.data(), 6 * i)
-                                      : grip_sum<S>(step.system->chain[size_t(i)], of_nodes);
-}
-
 // Where the chain nodes of all plants are in the world, and the wind there.
+template <class Of>
 struct LookAtWind {
     AirAbreast& air;
     const Abreast& step;
     const WindNow& now;
     int count;  // of chain nodes
-    template <class S>
-    FROND_INLINE Lanes3<S> place(int i) const {
-        const bool is_cage = air.chain.size() > 0;
-        return load3<S>(is_cage ? air.chain.data() : step.x.data(), is_cage ? 3 * i : 6 * i);
-    }
     template <class S>
     FROND_INLINE void run() const {
         constexpr int MOST = 4;  // nodes at once
@@ -50,7 +69,8 @@ struct LookAtWind {
         for (int begin = 0; begin < count; begin += MOST) {
             const int here = std::min(MOST, count - begin);
             Lanes3<S> places[MOST], velocities[MOST];
-            for (int i = 0; i < here; i++) places[i] = to_world * place<S>(begin + i) + position;
+            for (int i = 0; i < here; i++)
+                places[i] = to_world * Of::template place<S>(air, step, begin + i) + position;
             wind_at(now, places, here, velocities);
             for (int i = 0; i < here; i++) {
                 store3(places[i], air.places.data(), 3 * (begin + i));
@@ -93,6 +113,7 @@ unsigned ask_field(AirAbreast& air, const Surroundings& surroundings, int plant_
     return unsound;
 }
 
+template <class Of>
 struct GatherPieces {
     AirAbreast& air;
     Abreast& step;
@@ -106,7 +127,7 @@ struct GatherPieces {
         const Lanes33<S> to_world = {{load3<S>(turn, 0), load3<S>(turn, 3), load3<S>(turn, 6)}};
         const Lanes33<S> to_model = transposed(to_world);
         for (int i = 0; i < count; i++) {
-            const Lanes3<S> velocity = is_dragged ? at_chain_node<S>(step, step.v, i) : Lanes3<S>{};
+            const Lanes3<S> velocity = is_dragged ? Of::template velocity<S>(step, step.v, i) : Lanes3<S>{};
             store3(velocity, air.velocities.data(), 3 * i);
             store3(to_model * load3<S>(air.wind.data(), 3 * i) - velocity, air.passing.data(), 3 * i);
         }
@@ -137,13 +158,17 @@ struct GatherPieces {
         }
     }
     template <class S>
-    FROND_INLINE void add_of(const AirPiece& of, const Lanes33<S>& frame) const {
+    FROND_INLINE void add_of(const AirPiece& of, const Lanes3<S>& wide) const {
+        const auto place = [&](int i) __attribute__((always_inline)) {
+            return Of::template place<S>(air, step, i);
+        };
         const AirLanes<S> piece([&](int) -> const AirPiece& { return of; });
+        const Lanes33<S> frame = air_frame<S>(place(of.node) - place(of.parent), wide);
         add_at(of.parent, of, piece, frame);
         add_at(of.node, of, piece, frame);
     }
     template <class S>
-    FROND_INLINE void add_pieces_of_chains() const {
+    FROND_INLINE void add_pieces(Chains) const {
         const double* x = step.x.data();
         // Pieces mostly go on from the one before.
         int last_node = -1;
@@ -154,41 +179,31 @@ struct GatherPieces {
             last_node = of.node;
             last_turn = rotation_by(load3<S>(x, 6 * of.node + 3));
             const Lanes3<S> wide = {constant<S>(of.wide[0]), constant<S>(of.wide[1]), constant<S>(of.wide[2])};
-            add_of(of,
-                   air_frame<S>(load3<S>(x, 6 * of.node) - load3<S>(x, 6 * of.parent), turn * wide + last_turn * wide));
+            add_of(of, turn * wide + last_turn * wide);
         }
     }
     // As wide_now().
     template <class S>
-    FROND_INLINE Lanes3<S> wide_in_cage(const AirPiece& of) const {
-        const int ends[2] = {of.parent, of.node};
-        Lanes3<S> wide = {};
-        for (size_t k = 0; k < 2; k++) {
-            const Grip& grip = step.system->chain[size_t(ends[k])];
-            for (size_t c = 0; c < 4; c++)
-                wide = wide + constant<S>(of.spread[k][c]) * load3<S>(step.x.data(), 3 * grip.node[c]);
+    FROND_INLINE void add_pieces(Cages) const {
+        for (const AirPiece& of : *air.pieces) {
+            Lanes3<S> wide = {};
+            for (size_t k = 0; k < 2; k++) {
+                const Grip& grip = step.system->chain[size_t(k == 0 ? of.parent : of.node)];
+                for (size_t c = 0; c < 4; c++)
+                    wide = wide + constant<S>(of.spread[k][c]) * load3<S>(step.x.data(), 3 * grip.node[c]);
+            }
+            add_of(of, wide);
         }
-        return wide;
-    }
-    template <class S>
-    FROND_INLINE void add_pieces_of_cages() const {
-        const auto place = [&](int i) __attribute__((always_inline)) {
-            return load3<S>(air.chain.data(), 3 * i);
-        };
-        for (const AirPiece& of : *air.pieces)
-            add_of(of, air_frame<S>(place(of.node) - place(of.parent), wide_in_cage<S>(of)));
     }
     template <class S>
     FROND_INLINE void run() const {
         look_at_air<S>();
-        if (air.chain.size() > 0)
-            add_pieces_of_cages<S>();
-        else
-            add_pieces_of_chains<S>();
+        add_pieces<S>(Of());
         for (int i = 0; i < count; i++) put_drag<S>(i);
     }
 };
 
+template <class Of>
 struct AddForces {
     const Abreast& step;
     VecX& out;
@@ -202,7 +217,7 @@ struct AddForces {
                             first = load3<S>(step.drag_damping.data(), 6 * i),
                             rest = load3<S>(step.drag_damping.data(), 6 * i + 3);
             const Lanes33<S> damping = {{first, {first.y, rest.x, rest.y}, {first.z, rest.y, rest.z}}};
-            sum = sum + (force - damping * at_chain_node<S>(step, step.v_end, i));
+            sum = sum + (force - damping * Of::template velocity<S>(step, step.v_end, i));
             any += dot(force, force) + dot(first, first) + dot(rest, rest);
         }
         store3(sum, out.data(), 0);
@@ -224,27 +239,26 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
     const Eigen::Index n = Eigen::Index(3 * count) * lanes;
     for (VecX* numbers : {&air.wind, &air.places, &air.passing, &air.velocities}) numbers->resize(n);
     air.chain.resize(step.system->chain.empty() ? 0 : n);
-    run_in_lanes(lanes, PlaceChain{air, step});
+    if (air.chain.size() > 0) run_in_lanes(lanes, PlaceChain{air, step});
     air.resistance.setZero(2 * n);
     air.lag.setZero(2 * n);
     look_at_frames(air, plants, plant_count, lanes);
     unsigned unsound = 0;
     if (effects & FROND_WIND) {
         const WindNow now = wind_now(*surroundings.wind, up_of(surroundings.gravity));
-        run_in_lanes(lanes, LookAtWind{air, step, now, count});
+        run_of<LookAtWind>(step, air, step, now, count);
         if (surroundings.wind->field) unsound = ask_field(air, surroundings, plant_count, lanes);
     } else {
         air.wind.setZero();
     }
-    run_in_lanes(lanes,
-                 GatherPieces{air, step, count, surroundings.wind->def.density, h, (effects & FROND_AIR_DRAG) != 0});
+    run_of<GatherPieces>(step, air, step, count, surroundings.wind->def.density, h, (effects & FROND_AIR_DRAG) != 0);
     return unsound;
 }
 
 unsigned air_forces(const Abreast& step, VecX& out) {
     out.resize(3 * step.lanes);
     unsigned dragged = 0;
-    run_in_lanes(step.lanes, AddForces{step, out, dragged});
+    run_of<AddForces>(step, step, out, dragged);
     return dragged;
 }
 
