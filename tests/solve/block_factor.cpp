@@ -109,7 +109,9 @@ void expect_lanes_as_alone(const BlockPattern& pattern, size_t lanes, Dice& dice
         ASSERT_EQ(VecX(found), solutions[lane]) << lane << " of " << lanes;
         if (is_tree) continue;
         FrontFactor own;
-        take_lane(fronts, int(lane), own);
+        std::vector<FrontFactor*> out(lanes);
+        out[lane] = &own;
+        take_apart(fronts, out.data());
         solve(shared.plan.fronts, own, right_sides[lane], x_own);
         ASSERT_EQ(x_own, solutions[lane]) << lane << " of " << lanes;
     }

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "core/lanes.hpp"
+#include "core/lanes_of_plants.hpp"
 #include "core/timer.hpp"
 #include "mechanics/grip_lanes.hpp"
 #include "plant/air_abreast.hpp"
 #include "plant/guard.hpp"
-#include "plant/lanes_of_plants.hpp"
 #include "solve/system.hpp"
 
 namespace frond {
@@ -184,12 +184,21 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
     return true;
 }
 
-// Fibres, which ask for the plant's own factor.
+// Plants whose fibres pull need their own factors.
+void lend_factors(const Abreast& step, Plant* const* plants, unsigned which) {
+    if (which == 0) return;
+    std::array<Workspace*, MOST_LANES> workspaces = {};
+    for (size_t lane = 0; lane < size_t(step.lanes); lane++) {
+        if (!(which >> lane & 1)) continue;
+        lend_workspace(*plants[lane]);
+        workspaces[lane] = plants[lane]->workspace.get();
+    }
+    take_apart(step, workspaces.data());
+}
+
 void pull(Plant& plant, const Abreast& step, int lane, frond_effects effects, double h) {
     plant.blown.setZero();
     take_drags(step, lane, plant.loads.drags);
-    lend_workspace(plant);
-    take_factor(step, lane, *plant.workspace);
     finish_solving(plant, effects, h);
 }
 
@@ -252,6 +261,7 @@ void solve_abreast(Plant* const* plants, int count, const Surroundings& surround
     const unsigned taut = find_taut(step, *plants[0], effects);
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
     run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
+    lend_factors(step, plants, taut & ~alone & ((1u << count) - 1));
     const double ms_solve = timer.lap();
 
     for (int lane = 0; lane < count; lane++) {

@@ -6,7 +6,7 @@
 
 #include "plant/air_push.hpp"
 #include "plant/flat.hpp"
-#include "plant/lanes_of_plants.hpp"
+#include "core/lanes_of_plants.hpp"
 #include "plant/plant.hpp"
 #include "solve/abreast.hpp"
 

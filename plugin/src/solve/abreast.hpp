@@ -45,7 +45,7 @@ void make_room(Abreast& abreast, std::shared_ptr<const System> system, int lanes
 // 0. Pinned nodes stay where they are. Returns the lanes that have to be stepped alone, a bit each.
 unsigned step_abreast(Abreast& abreast, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,
                       double h_before);
-// What respond() and make_answer() ask of a plant's own workspace, of a plan of fronts.
-void take_factor(const Abreast& abreast, int lane, Workspace& workspace);
+// Gives lanes that have a workspace, of a plan of fronts, what respond() and make_answer() ask of it.
+void take_apart(const Abreast& abreast, Workspace* const* workspaces);
 
 }  // namespace frond

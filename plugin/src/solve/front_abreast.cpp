@@ -4,7 +4,9 @@
 #include "solve/front_abreast.hpp"
 
 #include <algorithm>
+#include <array>
 
+#include "core/lanes_of_plants.hpp"
 #include "solve/front_corner.hpp"
 
 namespace frond {
@@ -293,6 +295,20 @@ void make_large_enough(NumbersInLines& numbers, size_t count) {
     if (numbers.size() < count) numbers.resize(count);
 }
 
+struct TakeApart {
+    const NumbersInLines& numbers;
+    double* const* out;
+    template <class S>
+    FROND_INLINE void run() const {
+        static thread_local NumbersInLines nowhere;
+        const size_t count = numbers.size() / size_t(LANES<S>);
+        make_large_enough(nowhere, count);
+        double* to[LANES<S>];
+        for (int lane = 0; lane < LANES<S>; ++lane) to[lane] = out[lane] ? out[lane] : nowhere.data();
+        put_apart<S>(numbers.data(), count, to);
+    }
+};
+
 // Of the memory that only factorize() needs.
 struct Room {
     NumbersInLines updates, products;
@@ -326,19 +342,26 @@ void solve(const FrontPlan& plan, FrontAbreast& factor, const VecX& b, VecX& x) 
         std::copy_n(factor.ordered.data() + three * k, three, x.data() + three * size_t(plan.order[k]));
 }
 
-void take_lane(const NumbersInLines& numbers, int lanes, int lane, double* out) {
-    const size_t count = numbers.size() / size_t(lanes);
-    for (size_t i = 0; i < count; ++i) out[i] = numbers[i * size_t(lanes) + size_t(lane)];
+void take_apart(const NumbersInLines& numbers, int lanes, double* const* out) {
+    run_in_lanes(lanes, TakeApart{numbers, out});
 }
 
-void take_lane(const FrontAbreast& factor, int lane, FrontFactor& out) {
-    const auto take = [&](const NumbersInLines& from, double* to) { take_lane(from, factor.lanes, lane, to); };
-    out.columns.resize(factor.columns.size() / size_t(4 * factor.lanes) + 1);
-    out.pivot.resize(Eigen::Index(factor.pivot.size()) / factor.lanes);
-    out.inverse.resize(out.pivot.size());
-    take(factor.columns, numbers_of(out.columns));
-    take(factor.pivot, out.pivot.data());
-    take(factor.inverse, out.inverse.data());
+void take_apart(const FrontAbreast& factor, FrontFactor* const* out) {
+    std::array<double*, MOST_LANES> columns, pivot, inverse;
+    for (size_t lane = 0; lane < size_t(factor.lanes); ++lane) {
+        columns[lane] = pivot[lane] = inverse[lane] = nullptr;
+        if (!out[lane]) continue;
+        FrontFactor& own = *out[lane];
+        own.columns.resize(factor.columns.size() / size_t(4 * factor.lanes) + 1);
+        own.pivot.resize(Eigen::Index(factor.pivot.size()) / factor.lanes);
+        own.inverse.resize(own.pivot.size());
+        columns[lane] = numbers_of(own.columns);
+        pivot[lane] = own.pivot.data();
+        inverse[lane] = own.inverse.data();
+    }
+    take_apart(factor.columns, factor.lanes, columns.data());
+    take_apart(factor.pivot, factor.lanes, pivot.data());
+    take_apart(factor.inverse, factor.lanes, inverse.data());
 }
 
 }  // namespace frond

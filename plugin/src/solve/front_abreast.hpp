@@ -17,9 +17,9 @@ struct FrontAbreast {
 unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontAbreast& factor);
 // x = A^-1 b
 void solve(const FrontPlan& plan, FrontAbreast& factor, const VecX& b, VecX& x);
-// One lane of it.
-void take_lane(const FrontAbreast& factor, int lane, FrontFactor& out);
+// Of lanes that have a place to go to, each one's own.
+void take_apart(const FrontAbreast& factor, FrontFactor* const* out);
 // Of numbers side by side.
-void take_lane(const NumbersInLines& numbers, int lanes, int lane, double* out);
+void take_apart(const NumbersInLines& numbers, int lanes, double* const* out);
 
 }  // namespace frond
