@@ -295,17 +295,14 @@ unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vect
 }
 
 void take_apart(const Abreast& a, Workspace* const* workspaces) {
-    std::array<double*, MOST_LANES> matrices;
     std::array<FrontFactor*, MOST_LANES> factors;
     for (size_t lane = 0; lane < size_t(a.lanes); ++lane) {
         Workspace* workspace = workspaces[lane];
-        matrices[lane] = workspace ? workspace->A.values.data() : nullptr;
         factors[lane] = workspace ? &workspace->linear.block.fronts : nullptr;
         if (!workspace) continue;
         workspace->held = a.held;
         workspace->reach = a.reach;
     }
-    take_apart(a.A.values, a.lanes, matrices.data());
     take_apart(a.fronts, factors.data());
 }
 

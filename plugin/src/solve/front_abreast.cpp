@@ -342,10 +342,6 @@ void solve(const FrontPlan& plan, FrontAbreast& factor, const VecX& b, VecX& x) 
         std::copy_n(factor.ordered.data() + three * k, three, x.data() + three * size_t(plan.order[k]));
 }
 
-void take_apart(const NumbersInLines& numbers, int lanes, double* const* out) {
-    run_in_lanes(lanes, TakeApart{numbers, out});
-}
-
 void take_apart(const FrontAbreast& factor, FrontFactor* const* out) {
     std::array<double*, MOST_LANES> columns, pivot, inverse;
     for (size_t lane = 0; lane < size_t(factor.lanes); ++lane) {
@@ -359,9 +355,9 @@ void take_apart(const FrontAbreast& factor, FrontFactor* const* out) {
         pivot[lane] = own.pivot.data();
         inverse[lane] = own.inverse.data();
     }
-    take_apart(factor.columns, factor.lanes, columns.data());
-    take_apart(factor.pivot, factor.lanes, pivot.data());
-    take_apart(factor.inverse, factor.lanes, inverse.data());
+    run_in_lanes(factor.lanes, TakeApart{factor.columns, columns.data()});
+    run_in_lanes(factor.lanes, TakeApart{factor.pivot, pivot.data()});
+    run_in_lanes(factor.lanes, TakeApart{factor.inverse, inverse.data()});
 }
 
 }  // namespace frond

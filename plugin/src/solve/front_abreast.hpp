@@ -19,7 +19,5 @@ unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontAbreast& fa
 void solve(const FrontPlan& plan, FrontAbreast& factor, const VecX& b, VecX& x);
 // Of lanes that have a place to go to, each one's own.
 void take_apart(const FrontAbreast& factor, FrontFactor* const* out);
-// Of numbers side by side.
-void take_apart(const NumbersInLines& numbers, int lanes, double* const* out);
 
 }  // namespace frond
