@@ -86,9 +86,9 @@ struct Ahead {
 // (core/lanes.hpp), and comes out as if its plant were alone.
 struct MechanicsAbreast {
     // As in Mechanics.
-    // f and A hold anything before; `filled` is room for it. Lanes with inverted tets, a bit each.
-    unsigned (*set_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
-                          std::vector<uint8_t>& filled);
+    // f and A hold anything before; `filled` is room for it. Each lane's number of inverted tets is put to `inverted`.
+    void (*set_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
+                      std::vector<uint8_t>& filled, int* inverted);
     void (*rotary_inertia)(const Elements& elements, const VecX& x, VecX& out);  // row by row; null: no node turns
     // Which lanes are not as is_calm() and as yields() ask, or so near to that that they have to be asked themselves; a
     // bit each.

@@ -71,8 +71,8 @@ struct FindYielding {
     }
 };
 
-unsigned set_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
-                   std::vector<uint8_t>& filled) {
+void set_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
+               std::vector<uint8_t>& filled, int* inverted) {
     const int lanes = lanes_of(body, x);
     filled.assign(size_t(body.pattern.block_count()), 0);
     f.setZero(x.size());
@@ -80,7 +80,7 @@ unsigned set_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX
     job.filled = &filled;
     run_in_lanes(lanes, job);
     leave_no_gaps(lanes, filled, A);
-    return 0;
+    std::fill_n(inverted, lanes, 0);
 }
 
 void rotary_inertia(const Elements& body, const VecX& x, VecX& out) {

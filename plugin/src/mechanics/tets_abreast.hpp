@@ -37,7 +37,7 @@ struct TetsAbreast {
     VecX& f;
     BlockMatrix& A;
     std::vector<uint8_t>& filled;  // which of its blocks are
-    unsigned& inverted;            // lanes with a tet that is
+    int* inverted;                 // one a lane: how many tets are
 
     // As four tets of one plant add up their blocks.
     template <class S>
@@ -55,11 +55,11 @@ struct TetsAbreast {
             }
     }
     template <class S>
-    FROND_INLINE void take(size_t e, size_t place, WaitingBlocks<S>& waiting) const {
+    FROND_INLINE void take(size_t e, size_t place, WaitingBlocks<S>& waiting, S& inside_out) const {
         const TetOfSeveral<S> tet(elements, e);
         const TetShareLanes<S> share = tet.share();
         const auto strain = Law::strain(tet.edges(x) * share.rest_inverse);
-        inverted |= bits_of(Law::inverted(strain));
+        inside_out += select(Law::inverted(strain), constant<S>(1), S{});
         double damped = ahead.element_damping.empty() ? 0 : ahead.element_damping[e];
         damped += ahead.damping;
         const S by = constant<S>(ahead.step * (ahead.step + damped));
@@ -69,23 +69,23 @@ struct TetsAbreast {
     template <class S>
     FROND_INLINE void run() const {
         WaitingBlocks<S> waiting;
+        S inside_out = {};
         const size_t tets = elements.tets.size();
         for (size_t first = 0; first < tets; first += waiting.MOST) {
             const size_t count = std::min(waiting.MOST, tets - first);
-            for (size_t t = 0; t < count; ++t) take(first + t, t, waiting);
+            for (size_t t = 0; t < count; ++t) take(first + t, t, waiting, inside_out);
             add_up(waiting, first, count);
         }
+        for (int lane = 0; lane < LANES<S>; ++lane) inverted[lane] = int(inside_out[lane]);
     }
     // MechanicsAbreast::set_ahead.
-    static unsigned set_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
-                              std::vector<uint8_t>& filled) {
+    static void set_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
+                          std::vector<uint8_t>& filled, int* inverted) {
         const int lanes = lanes_of(body, x);
         filled.assign(size_t(body.pattern.block_count()), 0);
         f.setZero(x.size());
-        unsigned inverted = 0;
         run_in_lanes(lanes, TetsAbreast{as_tets(body), x, ahead, f, A, filled, inverted});
         leave_no_gaps(lanes, filled, A);
-        return inverted;
     }
 };
 

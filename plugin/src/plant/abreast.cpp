@@ -141,7 +141,7 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
     History& history = motion.history;
     VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
     const bool is_wound = (step.wound >> lane & 1) != 0;
-    const bool is_asked = may_be_off || is_wound || may_pull;
+    const bool is_asked = may_be_off || is_wound || may_pull || step.inverted[size_t(lane)] > 0;
     if (is_asked) {
         plant.x_good = motion.x;
         plant.v_good = motion.v;
@@ -180,7 +180,12 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
     plant.is_sound = true;
     plant.step_settings = settings;
     plant.loads.drags.clear();
-    for (int c = 0; c < 3; c++) plant.blown[c] = space.forces[c * step.lanes + lane];
+    plant.loads.springs.clear();
+    plant.loads.force.resize(0);
+    for (int c = 0; c < 3; c++) {
+        plant.loads.gravity[c] = step.gravity[c * step.lanes + lane];
+        plant.blown[c] = space.forces[c * step.lanes + lane];
+    }
     return true;
 }
 
@@ -276,6 +281,7 @@ void solve_abreast(Plant* const* plants, int count, const Surroundings& surround
         plant.report = {};
         plant.report.ok = true;
         plant.report.iterations = 1;
+        plant.report.inverted = step.inverted[size_t(lane)];
         plant.report.residual = step.residual[size_t(lane)];
         plant.report.ms_solve = float(ms_solve / count);
         plant.ms_air = plant.ms_effects = float(ms_air / count);

@@ -273,9 +273,9 @@ unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vect
     const bool turns = system.row->abreast->rotary_inertia != nullptr;
     if (turns) system.row->abreast->rotary_inertia(elements, a.x, a.inertia);
     const double damping = damping_of(system, settings, a.element_damping);
-    lost |= system.row->abreast->set_ahead(
+    system.row->abreast->set_ahead(
         elements, a.x_from, {a.way, a.v_start, method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
-        a.elastic, a.A, a.filled);
+        a.elastic, a.A, a.filled, a.inverted.data());
     const double mass = 1 + method.step * settings.mass_damping;
     if (turns)
         run_in_lanes(a.lanes, FormPairs{a, method.step, mass});

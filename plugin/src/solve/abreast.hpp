@@ -23,7 +23,8 @@ struct Abreast {
     // Out.
     VecX x_end, v_end;
     std::array<double, MOST_LANES> residual;
-    double reach = 0;    // as in Workspace [s]
+    std::array<int, MOST_LANES> inverted;  // tets, where the forces were taken
+    double reach = 0;                      // as in Workspace [s]
     unsigned wound = 0;  // lanes with a rotation vector longer than half a turn, or nearly so, a bit each: see unwind()
 
     // Room for the step.
