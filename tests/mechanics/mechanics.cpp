@@ -314,7 +314,7 @@ TEST_P(EveryMechanics, OnePassAheadIsMadeOfTheRest) {
             matrix->set_zero();
         }
         VecX f = VecX::Zero(n), expected = f;
-        const int inverted = row.add_ahead(elements, x, {way, v, step, damping, each}, f, A);
+        const int inverted = row.add_ahead(elements, x, {way.data(), v.data(), step, damping, each}, f, A);
         EXPECT_EQ(inverted, each.empty() ? row.add_force_and_stiffness(elements, x, Tangent::positive, expected, K)
                                          : row.add_force_stiffness_and_damping(elements, x, each, expected, K, D));
         const Eigen::MatrixXd damps = damping * dense(K) + dense(D);

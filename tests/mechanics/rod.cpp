@@ -134,7 +134,7 @@ TEST_P(EveryRod, ForceAndStiffnessAheadAreThoseOfTheirParts) {
                 matrix->set_pattern(elements.pattern);
                 matrix->set_zero();
             }
-            row.add_ahead(elements, x, {way, v, step, alike, each}, f, A);
+            row.add_ahead(elements, x, {way.data(), v.data(), step, alike, each}, f, A);
             row.add_force_stiffness_and_damping(
                 elements, x, each.empty() ? std::vector<double>(elements.segments.size(), alike) : each, known, K, D);
             known -= dense(K) * way + dense(D) * v;

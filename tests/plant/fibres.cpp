@@ -128,6 +128,27 @@ TEST_P(Pulled, SlackFibresChangeNoBit) {
     EXPECT_GT((with->motion.x - with->nodes->modelled).norm(), 0.001);
 }
 
+// Pulls are the plant's own: what is taut all the time, as what hangs and is heavy, is not begun anew in every step.
+TEST_P(Pulled, IntegratorsLookBackBeyondTautFibres) {
+    constexpr int STEPS = 60;
+    for (const frond_integrator integrator : {FROND_BDF2, FROND_SDIRK2, FROND_GENERALIZED_ALPHA}) {
+        const auto plant = plant_of(blade(3e7, 3e-4), GetParam());
+        plant->settings.integrator = integrator;
+        const double before = chain_length(*plant);
+        Surroundings surroundings;
+        surroundings.gravity = Vec3(0, 10 * GRAVITY, 0);
+        int begun_anew = 0, taut = 0;
+        for (int i = 0; i < STEPS; i++) {
+            step_plant(*plant, surroundings, H);
+            taut += chain_length(*plant) > 1.03 * before;
+            begun_anew += integrator == FROND_SDIRK2 ? plant->motion.history.shaken
+                                                     : !history_holds(plant->motion, integrator, H);
+        }
+        EXPECT_GT(taut, STEPS / 2) << integrator;
+        EXPECT_LT(begun_anew, STEPS / 4) << integrator;
+    }
+}
+
 TEST(Fibres, AreForCagesThatLackThem) {
     EXPECT_GT(make_fibres(*blade(5e8, 3e-4), 1).list.size(), 4u);
     EXPECT_TRUE(plant_of(blade(5e8, 3e-4), FROND_TET_COROTATIONAL)->fibres);

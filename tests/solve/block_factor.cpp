@@ -67,8 +67,8 @@ struct Factored {
 
 // Numbers of several side by side.
 template <class Numbers>
-Numbers side_by_side(const std::vector<Numbers>& from) {
-    Numbers out(from.size() * from[0].size());
+NumbersInLines side_by_side(const std::vector<Numbers>& from) {
+    NumbersInLines out(from.size() * size_t(from[0].size()));
     size_t i = 0;
     for (double& value : out) {
         value = from[i % from.size()].data()[i / from.size()];
@@ -99,7 +99,8 @@ void expect_lanes_as_alone(const BlockPattern& pattern, size_t lanes, Dice& dice
     const bool is_tree = shared.plan.tree.has_value();
     const unsigned failed = is_tree ? factorize(*shared.plan.tree, A, tree) : factorize(shared.plan.fronts, A, fronts);
     EXPECT_EQ(failed, 1u << wrong);
-    VecX x, x_own;
+    NumbersInLines x;
+    VecX x_own;
     is_tree ? solve(*shared.plan.tree, tree, side_by_side(right_sides), x)
             : solve(shared.plan.fronts, fronts, side_by_side(right_sides), x);
     for (size_t lane = 0; lane < lanes; ++lane) {

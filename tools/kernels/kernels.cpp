@@ -48,7 +48,7 @@ struct Body {
     void assemble() {
         f.setZero();
         A.set_zero();
-        const Ahead ahead = {way, v, STEP, 0, damping};
+        const Ahead ahead = {way.data(), v.data(), STEP, 0, damping};
         if (row.add_ahead)
             row.add_ahead(*elements, elements->modelled, ahead, f, A);
         else

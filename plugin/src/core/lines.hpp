@@ -30,4 +30,9 @@ struct InLines {
 };
 using NumbersInLines = std::vector<double, InLines<double>>;
 
+// For so many numbers, and for no more; zero where there were not as many.
+inline void make_room(NumbersInLines& numbers, std::size_t count) {
+    if (numbers.size() != count) NumbersInLines(count).swap(numbers);
+}
+
 }  // namespace frond

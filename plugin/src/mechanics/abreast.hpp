@@ -8,7 +8,7 @@
 namespace frond {
 
 // Of numbers of nodes side by side.
-inline int lanes_of(const Elements& body, const VecX& x) {
+inline int lanes_of(const Elements& body, const NumbersInLines& x) {
     return int(x.size()) / (3 * body.node_count);
 }
 

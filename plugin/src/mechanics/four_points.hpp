@@ -37,12 +37,12 @@ struct FourPoints {
                 of_tets(elements.mu)};
     }
     // Of what is given at nodes, the differences from the first corner as points see it, as columns.
-    FROND_INLINE Lanes33<S> edges(const VecX& x) const {
+    FROND_INLINE Lanes33<S> edges(const double* x) const {
         const QuadraticTet& nodes = elements.nodes.of_tet[tet];
         Lanes33<S> out;
         for (int r = 0; r < 3; ++r) {
             double at[10];
-            for (size_t n = 0; n < 10; ++n) at[n] = x.data()[3 * nodes[n] + r] - x.data()[3 * nodes[0] + r];
+            for (size_t n = 0; n < 10; ++n) at[n] = x[3 * nodes[n] + r] - x[3 * nodes[0] + r];
             S corner[4];
             for (int c = 0; c < 4; ++c) {
                 double sum = C * at[c];

@@ -43,11 +43,11 @@ struct FourTets {
         return {at_rest(), of_tets(elements.volume), of_tets(elements.lambda), of_tets(elements.mu)};
     }
     // Of what is given at nodes, the differences from the first corner, as columns.
-    FROND_INLINE Lanes33<S> edges(const VecX& x) const {
+    FROND_INLINE Lanes33<S> edges(const double* x) const {
         Lanes33<S> out;
         for (int r = 0; r < 3; ++r) {
             const auto corner = [&](size_t a) __attribute__((always_inline)) {
-                return gather<S>([&](int l) { return x.data()[3 * elements.ordered[tet[l]][a] + r]; });
+                return gather<S>([&](int l) { return x[3 * elements.ordered[tet[l]][a] + r]; });
             };
             const S first = corner(0);
             out.r[r] = {corner(1) - first, corner(2) - first, corner(3) - first};

@@ -76,7 +76,7 @@ enum class Tangent { exact, positive };
 
 // What one solve knows of the end of a step.
 struct Ahead {
-    const VecX &way, &v;                         // from x to where v leads [m], and v [m/s]
+    const double *way, *v;                       // numbers as x: from there to where v leads [m], and v [m/s]
     double step;                                 // [s]
     double damping;                              // times the stiffness: of all elements [s],
     const std::vector<double>& element_damping;  // and beside that of each; empty: none [s]
@@ -87,13 +87,14 @@ struct Ahead {
 struct MechanicsAbreast {
     // As in Mechanics.
     // f and A hold anything before; `filled` is room for it. Each lane's number of inverted tets is put to `inverted`.
-    void (*set_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
-                      std::vector<uint8_t>& filled, int* inverted);
-    void (*rotary_inertia)(const Elements& elements, const VecX& x, VecX& out);  // row by row; null: no node turns
-    // Which lanes are not as is_calm() and as yields() ask, or so near to that that they have to be asked themselves; a
-    // bit each.
-    unsigned (*not_calm)(const Elements& elements, const VecX& from, const VecX& to);
-    unsigned (*may_yield)(const Elements& elements, const VecX& x);
+    void (*set_ahead)(const Elements& elements, const NumbersInLines& x, const Ahead& ahead, NumbersInLines& f,
+                      BlockMatrix& A, std::vector<uint8_t>& filled, int* inverted);
+    // Row by row; null: no node turns.
+    void (*rotary_inertia)(const Elements& elements, const NumbersInLines& x, NumbersInLines& out);
+    // Which lanes are not, on that part of the way, as is_calm() asks, and not as yields() does, or so near to that
+    // that they have to be asked themselves; a bit each.
+    unsigned (*not_calm)(const Elements& elements, const NumbersInLines& from, const NumbersInLines& to, double part);
+    unsigned (*may_yield)(const Elements& elements, const NumbersInLines& x);
 };
 
 // x is in the frame of the rest positions: a plant that is placed turned in a world is not bent by that.

@@ -32,7 +32,7 @@ struct FindStrains {
         out.resize(elements.segments.size());
         for (size_t s = 0; s < elements.segments.size(); s += size_t(LANES<S>)) {
             const PiecesOfOne<S> pieces(elements.segments, s);
-            const Placed<S> at(pieces, x);
+            const Placed<S> at(pieces, x.data());
             for (int lane = 0; lane < pieces.count; ++lane) {
                 store(at.bent.strain, out[s + size_t(lane)].strain.data(), 1, lane);
                 store(at.bent.curvature, out[s + size_t(lane)].curvature.data(), 1, lane);
@@ -49,7 +49,7 @@ struct FindEnergy {
     FROND_INLINE void run() const {
         for (size_t s = 0; s < elements.segments.size(); s += size_t(LANES<S>)) {
             const PiecesOfOne<S> pieces(elements.segments, s);
-            const Placed<S> at(pieces, x);
+            const Placed<S> at(pieces, x.data());
             const S energy = 0.5 * at.piece.length *
                              (dot(at.piece.stretch, scaled(at.bent.strain, at.bent.strain)) +
                               dot(at.piece.bend, scaled(at.bent.curvature, at.bent.curvature)));
@@ -156,23 +156,23 @@ double rod_energy(const Elements& body, const VecX& x) {
 }
 
 int rod_add_force(const Elements& body, const VecX& x, VecX& f) {
-    Assemble<PiecesOfOne> job = {as_rods(body), x};
-    job.f = &f;
+    Assemble<PiecesOfOne> job = {as_rods(body), x.data()};
+    job.f = f.data();
     run_in_lanes(job);
     return 0;
 }
 
 void rod_add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale, BlockMatrix& K) {
     if (tangent == Tangent::exact) return run_in_lanes(AddExactStiffness{as_rods(body), x, scale, K});
-    Assemble<PiecesOfOne> job = {as_rods(body), x};
+    Assemble<PiecesOfOne> job = {as_rods(body), x.data()};
     job.K = &K;
     job.scale = scale;
     run_in_lanes(job);
 }
 
 int rod_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
-    Assemble<PiecesOfOne> job = {as_rods(body), x};
-    job.f = &f;
+    Assemble<PiecesOfOne> job = {as_rods(body), x.data()};
+    job.f = f.data();
     if (tangent == Tangent::exact)
         run_in_lanes(AddExactStiffness{as_rods(body), x, 1, K});
     else
@@ -183,8 +183,8 @@ int rod_add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, 
 
 int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double>& damping, VecX& f, BlockMatrix& K,
                    BlockMatrix& D) {
-    Assemble<PiecesOfOne> job = {as_rods(body), x};
-    job.f = &f;
+    Assemble<PiecesOfOne> job = {as_rods(body), x.data()};
+    job.f = f.data();
     job.K = &K;
     job.damping = &damping;
     job.D = &D;
@@ -193,7 +193,7 @@ int rod_add_damped(const Elements& body, const VecX& x, const std::vector<double
 }
 
 int rod_add_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
-    run_in_lanes(to_add_ahead<PiecesOfOne>(as_rods(body), x, ahead, f, A));
+    run_in_lanes(to_add_ahead<PiecesOfOne>(as_rods(body), x.data(), ahead, f.data(), A));
     return 0;
 }
 

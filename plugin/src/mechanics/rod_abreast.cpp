@@ -12,8 +12,8 @@ constexpr double NEARLY = 1 - 1e-9;
 
 struct FindInertia {
     const RodElements& elements;
-    const VecX& x;
-    VecX& out;
+    const NumbersInLines& x;
+    NumbersInLines& out;
     template <class S>
     FROND_INLINE void run() const {
         for (int i = 0; i < int(elements.inertia.size()); ++i) {
@@ -29,11 +29,12 @@ struct FindInertia {
 
 struct FindWild {
     const RodElements& elements;
-    const VecX &from, &to;
+    const NumbersInLines &from, &to;
+    double part;  // of the way [-]
     unsigned& wild;
     template <class S>
     FROND_INLINE Lanes3<S> way(int i) const {
-        return load3<S>(to.data(), i) - load3<S>(from.data(), i);
+        return constant<S>(part) * (load3<S>(to.data(), i) - load3<S>(from.data(), i));
     }
     template <class S>
     FROND_INLINE void run() const {
@@ -50,7 +51,7 @@ struct FindWild {
 
 struct FindYielding {
     const RodElements& elements;
-    const VecX& x;
+    const NumbersInLines& x;
     unsigned& yielding;
     template <class S>
     FROND_INLINE void run() const {
@@ -59,7 +60,7 @@ struct FindYielding {
         for (size_t s = 0; s < elements.segments.size(); ++s) {
             if (!(elements.yields[s].strain > 0)) continue;
             const PieceOfSeveral<S> pieces(elements.segments, s);
-            const Placed<S> at = last.place(pieces, x);
+            const Placed<S> at = last.place(pieces, x.data());
             last.go_on(pieces, at);
             const S wide = pieces.rod.reach_wide * at.bent.curvature.y,
                     thin = pieces.rod.reach_thin * at.bent.curvature.z;
@@ -71,30 +72,30 @@ struct FindYielding {
     }
 };
 
-void set_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
+void set_ahead(const Elements& body, const NumbersInLines& x, const Ahead& ahead, NumbersInLines& f, BlockMatrix& A,
                std::vector<uint8_t>& filled, int* inverted) {
     const int lanes = lanes_of(body, x);
     filled.assign(size_t(body.pattern.block_count()), 0);
-    f.setZero(x.size());
-    Assemble<PieceOfSeveral> job = to_add_ahead<PieceOfSeveral>(as_rods(body), x, ahead, f, A);
+    f.assign(x.size(), 0);
+    Assemble<PieceOfSeveral> job = to_add_ahead<PieceOfSeveral>(as_rods(body), x.data(), ahead, f.data(), A);
     job.filled = &filled;
     run_in_lanes(lanes, job);
     leave_no_gaps(lanes, filled, A);
     std::fill_n(inverted, lanes, 0);
 }
 
-void rotary_inertia(const Elements& body, const VecX& x, VecX& out) {
-    out.resize(x.size() / 6 * 9);
+void rotary_inertia(const Elements& body, const NumbersInLines& x, NumbersInLines& out) {
+    make_room(out, x.size() / 6 * 9);
     run_in_lanes(lanes_of(body, x), FindInertia{as_rods(body), x, out});
 }
 
-unsigned not_calm(const Elements& body, const VecX& from, const VecX& to) {
+unsigned not_calm(const Elements& body, const NumbersInLines& from, const NumbersInLines& to, double part) {
     unsigned wild = 0;
-    run_in_lanes(lanes_of(body, from), FindWild{as_rods(body), from, to, wild});
+    run_in_lanes(lanes_of(body, from), FindWild{as_rods(body), from, to, part, wild});
     return wild;
 }
 
-unsigned may_yield(const Elements& body, const VecX& x) {
+unsigned may_yield(const Elements& body, const NumbersInLines& x) {
     unsigned yielding = 0;
     run_in_lanes(lanes_of(body, x), FindYielding{as_rods(body), x, yielding});
     return yielding;

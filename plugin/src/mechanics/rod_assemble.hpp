@@ -9,8 +9,8 @@ namespace frond {
 template <template <class> class Pieces>
 struct Assemble {
     const RodElements& elements;
-    const VecX& x;
-    VecX* f = nullptr;
+    const double* x;
+    double* f = nullptr;
     BlockMatrix* K = nullptr;
     double scale = 1;                              // of K
     const std::vector<double>* damping = nullptr;  // of each piece, times its stiffness into D
@@ -20,7 +20,7 @@ struct Assemble {
 
     template <class S>
     FROND_INLINE Lanes3<S> move(const Pieces<S>& pieces, int RodSegment::*end, int first, const S& c) const {
-        return pieces.point(ahead->way.data(), end, first) + c * pieces.point(ahead->v.data(), end, first);
+        return pieces.point(ahead->way, end, first) + c * pieces.point(ahead->v, end, first);
     }
     // Forces of what the stiffness says of the way ahead, on the ends' six numbers each, are taken off.
     template <class S>
@@ -64,16 +64,17 @@ struct Assemble {
                 pieces.add_blocks(blocks, ahead ? S(step * step + step * alike) : constant<S>(scale), *K, filled);
                 if (D) pieces.add_blocks(blocks, c, *D, filled);
             }
-            if (f) pieces.take_off(f->data(), g);
+            if (f) pieces.take_off(f, g);
         }
     }
 };
 
 // To be run: Mechanics::add_ahead of one plant, or of several side by side.
 template <template <class> class Pieces>
-Assemble<Pieces> to_add_ahead(const RodElements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) {
+Assemble<Pieces> to_add_ahead(const RodElements& elements, const double* x, const Ahead& ahead, double* f,
+                              BlockMatrix& A) {
     Assemble<Pieces> job = {elements, x};
-    job.f = &f;
+    job.f = f;
     job.K = &A;
     job.damping = ahead.element_damping.empty() ? nullptr : &ahead.element_damping;
     job.ahead = &ahead;

@@ -150,13 +150,13 @@ struct Placed {
     RodEnd<S> a, b;
     RodBent<S> bent;
     template <class Pieces>
-    FROND_INLINE Placed(const Pieces& pieces, const VecX& x) : Placed(pieces, x, end_of(pieces, x, &RodSegment::a)) {}
+    FROND_INLINE Placed(const Pieces& pieces, const double* x) : Placed(pieces, x, end_of(pieces, x, &RodSegment::a)) {}
     template <class Pieces>
-    FROND_INLINE Placed(const Pieces& pieces, const VecX& x, const RodEnd<S>& a)
+    FROND_INLINE Placed(const Pieces& pieces, const double* x, const RodEnd<S>& a)
         : piece(piece_of(pieces)), a(a), b(end_of(pieces, x, &RodSegment::b)), bent(bend_between(piece, a, b)) {}
     template <class Pieces>
-    FROND_INLINE static RodEnd<S> end_of(const Pieces& pieces, const VecX& x, int RodSegment::*which) {
-        return rod_end(pieces.point(x.data(), which, 0), pieces.point(x.data(), which, 3));
+    FROND_INLINE static RodEnd<S> end_of(const Pieces& pieces, const double* x, int RodSegment::*which) {
+        return rod_end(pieces.point(x, which, 0), pieces.point(x, which, 3));
     }
 };
 
@@ -168,7 +168,7 @@ struct LastEnd {
     Lanes33<S> rate = {};  // rate_of() it, where that is asked for
 
     template <class Pieces>
-    FROND_INLINE Placed<S> place(const Pieces& pieces, const VecX& x) const {
+    FROND_INLINE Placed<S> place(const Pieces& pieces, const double* x) const {
         RodEnd<S> begin = end;
         if (!pieces.begins_at(node)) begin = Placed<S>::end_of(pieces, x, &RodSegment::a);
         return Placed<S>(pieces, x, begin);

@@ -34,7 +34,7 @@ struct TetPass {
         for (size_t first = 0; first < elements.tets.size(); first += Group::TETS) {
             const Group tets(elements, first);
             const TetShareLanes<S> share = tets.share();
-            const auto strain = Law::strain(tets.edges(x) * share.rest_inverse);
+            const auto strain = Law::strain(tets.edges(x.data()) * share.rest_inverse);
             inverted += tets.count_tets(Law::inverted(strain));
             S by = constant<S>(scale), damped = constant<S>(0);
             if (damping) damped = tets.of_tets(*damping);

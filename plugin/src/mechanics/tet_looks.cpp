@@ -25,7 +25,8 @@ struct OfSeveral {
 template <class Of>
 struct LookForWild {
     const TetElements& elements;
-    const VecX &from, &to;
+    const double *from, *to;
+    double part;  // of the way [-]
     unsigned& found;
     template <class Width>
     FROND_INLINE void run() const {
@@ -35,7 +36,7 @@ struct LookForWild {
         S calm = constant<S>(1);
         for (size_t first = 0; first < elements.tets.size(); first += Tets::TETS) {
             const Tets tets(elements, first);
-            const Lanes33<S> change = (tets.edges(to) - tets.edges(from)) * tets.at_rest();
+            const Lanes33<S> change = constant<S>(part) * (tets.edges(to) - tets.edges(from)) * tets.at_rest();
             calm = select(dot(change, change) < MOST, calm, S{});
         }
         found = bits_of(calm == 0.0);
@@ -46,7 +47,7 @@ struct LookForWild {
 template <class Of>
 struct LookForStrained {
     const TetElements& elements;
-    const VecX& x;
+    const double* x;
     unsigned& found;
     template <class Width>
     FROND_INLINE void run() const {
@@ -74,25 +75,25 @@ struct LookForStrained {
 
 bool any_tet_is_wild(const Elements& body, const VecX& from, const VecX& to) {
     unsigned found = 0;
-    run_in_lanes(LookForWild<OfOne>{as_tets(body), from, to, found});
+    run_in_lanes(LookForWild<OfOne>{as_tets(body), from.data(), to.data(), 1, found});
     return found != 0;
 }
 
 bool any_tet_may_yield(const Elements& body, const VecX& x) {
     unsigned found = 0;
-    run_in_lanes(LookForStrained<OfOne>{as_tets(body), x, found});
+    run_in_lanes(LookForStrained<OfOne>{as_tets(body), x.data(), found});
     return found != 0;
 }
 
-unsigned tets_not_calm(const Elements& body, const VecX& from, const VecX& to) {
+unsigned tets_not_calm(const Elements& body, const NumbersInLines& from, const NumbersInLines& to, double part) {
     unsigned found = 0;
-    run_in_lanes(lanes_of(body, from), LookForWild<OfSeveral>{as_tets(body), from, to, found});
+    run_in_lanes(lanes_of(body, from), LookForWild<OfSeveral>{as_tets(body), from.data(), to.data(), part, found});
     return found;
 }
 
-unsigned tets_may_yield(const Elements& body, const VecX& x) {
+unsigned tets_may_yield(const Elements& body, const NumbersInLines& x) {
     unsigned found = 0;
-    run_in_lanes(lanes_of(body, x), LookForStrained<OfSeveral>{as_tets(body), x, found});
+    run_in_lanes(lanes_of(body, x), LookForStrained<OfSeveral>{as_tets(body), x.data(), found});
     return found;
 }
 

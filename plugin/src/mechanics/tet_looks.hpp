@@ -10,7 +10,7 @@ namespace frond {
 bool any_tet_is_wild(const Elements& elements, const VecX& from, const VecX& to);
 bool any_tet_may_yield(const Elements& elements, const VecX& x);
 // The same of several plants, a bit each: MechanicsAbreast.
-unsigned tets_not_calm(const Elements& elements, const VecX& from, const VecX& to);
-unsigned tets_may_yield(const Elements& elements, const VecX& x);
+unsigned tets_not_calm(const Elements& elements, const NumbersInLines& from, const NumbersInLines& to, double part);
+unsigned tets_may_yield(const Elements& elements, const NumbersInLines& x);
 
 }  // namespace frond

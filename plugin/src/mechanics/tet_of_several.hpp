@@ -30,22 +30,22 @@ struct TetOfSeveral {
     FROND_INLINE TetShareLanes<S> share() const {
         return {at_rest(), of_tets(elements.volume), of_tets(elements.lambda), of_tets(elements.mu)};
     }
-    FROND_INLINE Lanes33<S> edges(const VecX& x) const {
+    FROND_INLINE Lanes33<S> edges(const double* x) const {
         const auto corner = [&](size_t a) __attribute__((always_inline)) {
-            return load3<S>(x.data(), 3 * elements.ordered[tet][a]);
+            return load3<S>(x, 3 * elements.ordered[tet][a]);
         };
         const Lanes3<S> first = corner(0);
         return transposed(Lanes33<S>{{corner(1) - first, corner(2) - first, corner(3) - first}});
     }
-    FROND_INLINE void add_force(const TetShareLanes<S>& share, const Lanes33<S>& P, VecX& f) const {
+    FROND_INLINE void add_force(const TetShareLanes<S>& share, const Lanes33<S>& P, double* f) const {
         const Lanes33<S> forces = (share.volume * share.rest_inverse) * transposed(P);  // a row a corner
         const Lanes3<S> first = forces.r[0] + forces.r[1] + forces.r[2];
         const Tet& nodes = elements.ordered[tet];
         const auto at = [&](size_t a) __attribute__((always_inline)) {
-            return load3<S>(f.data(), 3 * nodes[a]);
+            return load3<S>(f, 3 * nodes[a]);
         };
-        for (size_t a = 1; a < 4; ++a) store3(at(a) - forces.r[a - 1], f.data(), 3 * nodes[a]);
-        store3(at(0) + first, f.data(), 3 * nodes[0]);
+        for (size_t a = 1; a < 4; ++a) store3(at(a) - forces.r[a - 1], f, 3 * nodes[a]);
+        store3(at(0) + first, f, 3 * nodes[0]);
     }
 };
 

@@ -32,9 +32,9 @@ struct WaitingBlocks {
 template <class Law>
 struct TetsAbreast {
     const TetElements& elements;
-    const VecX& x;
+    const double* x;
     const Ahead& ahead;
-    VecX& f;
+    double* f;
     BlockMatrix& A;
     std::vector<uint8_t>& filled;  // which of its blocks are
     int* inverted;                 // one a lane: how many tets are
@@ -79,12 +79,12 @@ struct TetsAbreast {
         for (int lane = 0; lane < LANES<S>; ++lane) inverted[lane] = int(inside_out[lane]);
     }
     // MechanicsAbreast::set_ahead.
-    static void set_ahead(const Elements& body, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A,
-                          std::vector<uint8_t>& filled, int* inverted) {
+    static void set_ahead(const Elements& body, const NumbersInLines& x, const Ahead& ahead, NumbersInLines& f,
+                          BlockMatrix& A, std::vector<uint8_t>& filled, int* inverted) {
         const int lanes = lanes_of(body, x);
         filled.assign(size_t(body.pattern.block_count()), 0);
-        f.setZero(x.size());
-        run_in_lanes(lanes, TetsAbreast{as_tets(body), x, ahead, f, A, filled, inverted});
+        f.assign(x.size(), 0);
+        run_in_lanes(lanes, TetsAbreast{as_tets(body), x.data(), ahead, f.data(), A, filled, inverted});
         leave_no_gaps(lanes, filled, A);
     }
 };

@@ -18,7 +18,7 @@ namespace frond {
 struct PlantsAbreast {
     Abreast step;
     AirAbreast air;
-    VecX half, forces;
+    NumbersInLines forces;
     std::array<VecX, MOST_LANES> x, v;  // each plant's at the end of the step
 };
 
@@ -28,7 +28,7 @@ namespace {
 template <class Of>
 struct Gather {
     const Of& of;
-    VecX& to;
+    NumbersInLines& to;
     template <class S>
     FROND_INLINE void run() const {
         const double* from[LANES<S>];
@@ -39,16 +39,16 @@ struct Gather {
 
 // The other way round.
 struct HandOut {
-    const VecX& from;
+    const NumbersInLines& from;
     std::array<VecX, MOST_LANES>& plants;
     template <class S>
     FROND_INLINE void run() const {
         double* to[LANES<S>];
         for (int lane = 0; lane < LANES<S>; lane++) {
-            plants[size_t(lane)].resize(from.size() / LANES<S>);
+            plants[size_t(lane)].resize(Eigen::Index(from.size()) / LANES<S>);
             to[lane] = plants[size_t(lane)].data();
         }
-        put_apart<S>(from.data(), size_t(from.size()) / LANES<S>, to);
+        put_apart<S>(from.data(), from.size() / LANES<S>, to);
     }
 };
 
@@ -89,7 +89,8 @@ struct LookForTaut {
         for (const Fibre& fibre : fibres.list) {
             const size_t node = size_t(fibre.node), parent = size_t(chain.nodes[node].parent);
             const std::vector<Grip>& grips = step.system->chain;
-            const Lanes3<S> way = grip_sum<S>(grips[node], step.x_end) - grip_sum<S>(grips[parent], step.x_end);
+            const Lanes3<S> way =
+                grip_sum<S>(grips[node], step.x_end.data()) - grip_sum<S>(grips[parent], step.x_end.data());
             slack = select(dot(way, way) < fibre.length * fibre.length * NEARLY, slack, S{});
         }
         taut = bits_of(slack == 0.0);
@@ -120,7 +121,9 @@ void gather_motions(Abreast& step, Plant* const* plants, int count, const Surrou
                     frond_effects effects) {
     const bool looks_back = plants[0]->looks_back;
     const auto at = [&](int lane) -> Plant& { return *plants[std::min(lane, count - 1)]; };
-    const auto gather_from = [&](const auto& of, VecX& to) { run_in_lanes(step.lanes, Gather<decltype(of)>{of, to}); };
+    const auto gather_from = [&](const auto& of, NumbersInLines& to) {
+        run_in_lanes(step.lanes, Gather<decltype(of)>{of, to});
+    };
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.x; }, step.x);
     gather_from([&](int lane) -> const VecX& { return at(lane).motion.v; }, step.v);
     if (looks_back) {
@@ -129,7 +132,7 @@ void gather_motions(Abreast& step, Plant* const* plants, int count, const Surrou
     }
     for (int lane = 0; lane < step.lanes; lane++) {
         const Vec3 gravity = gravity_in(at(lane), surroundings, effects);
-        for (int c = 0; c < 3; c++) step.gravity[c * step.lanes + lane] = gravity[c];
+        for (int c = 0; c < 3; c++) step.gravity[size_t(c * step.lanes + lane)] = gravity[c];
     }
 }
 
@@ -183,8 +186,9 @@ bool take_step(Plant& plant, PlantsAbreast& space, int lane, const SolveSettings
     plant.loads.springs.clear();
     plant.loads.force.resize(0);
     for (int c = 0; c < 3; c++) {
-        plant.loads.gravity[c] = step.gravity[c * step.lanes + lane];
-        plant.blown[c] = space.forces[c * step.lanes + lane];
+        const size_t at = size_t(c * step.lanes + lane);
+        plant.loads.gravity[c] = step.gravity[at];
+        plant.blown[c] = space.forces[at];
     }
     return true;
 }
@@ -255,8 +259,7 @@ void solve_abreast(Plant* const* plants, int count, const Surroundings& surround
 
     const double h_before = plants[0]->looks_back ? plants[0]->motion.history.h : 0;
     unsigned alone = step_abreast(step, settings, plants[0]->motion.pinned, h, h_before), far_away, off_course;
-    space->half = 0.5 * (step.x + step.x_end);
-    alone |= system.row->abreast->not_calm(*system.elements, step.x, space->half);
+    alone |= system.row->abreast->not_calm(*system.elements, step.x, step.x_end, 0.5);
     run_in_lanes(step.lanes,
                  LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course});
     // Without air the energy of what left its course is looked at; of what is wound that is asked later.

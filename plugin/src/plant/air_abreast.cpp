@@ -19,7 +19,7 @@ struct Chains {
         return load3<S>(step.x.data(), 6 * i);
     }
     template <class S>
-    FROND_INLINE static Lanes3<S> velocity(const Abreast&, const VecX& v, int i) {
+    FROND_INLINE static Lanes3<S> velocity(const Abreast&, const NumbersInLines& v, int i) {
         return load3<S>(v.data(), 6 * i);
     }
 };
@@ -30,8 +30,8 @@ struct Cages {
         return load3<S>(air.chain.data(), 3 * i);
     }
     template <class S>
-    FROND_INLINE static Lanes3<S> velocity(const Abreast& step, const VecX& v, int i) {
-        return grip_sum<S>(step.system->chain[size_t(i)], v);
+    FROND_INLINE static Lanes3<S> velocity(const Abreast& step, const NumbersInLines& v, int i) {
+        return grip_sum<S>(step.system->chain[size_t(i)], v.data());
     }
 };
 // Runs Job<Chains> or Job<Cages>, whichever the plants are, made of these.
@@ -49,7 +49,8 @@ struct PlaceChain {
     template <class S>
     FROND_INLINE void run() const {
         const std::vector<Grip>& grips = step.system->chain;
-        for (size_t i = 0; i < grips.size(); i++) store3(grip_sum<S>(grips[i], step.x), air.chain.data(), 3 * int(i));
+        for (size_t i = 0; i < grips.size(); i++)
+            store3(grip_sum<S>(grips[i], step.x.data()), air.chain.data(), 3 * int(i));
     }
 };
 
@@ -82,24 +83,24 @@ struct LookAtWind {
 
 // Where plants are.
 void look_at_frames(AirAbreast& air, Plant* const* plants, int plant_count, int lanes) {
-    air.to_world.resize(9 * lanes);
-    air.position.resize(3 * lanes);
+    air.to_world.resize(9 * size_t(lanes));
+    air.position.resize(3 * size_t(lanes));
     for (int lane = 0; lane < lanes; lane++) {
         const Plant& plant = *plants[std::min(lane, plant_count - 1)];
         const Mat3 to_world = plant.rotation.toRotationMatrix();
-        for (int k = 0; k < 9; k++) air.to_world[k * lanes + lane] = to_world(k / 3, k % 3);
-        for (int c = 0; c < 3; c++) air.position[c * lanes + lane] = plant.position[c];
+        for (int k = 0; k < 9; k++) air.to_world[size_t(k * lanes + lane)] = to_world(k / 3, k % 3);
+        for (int c = 0; c < 3; c++) air.position[size_t(c * lanes + lane)] = plant.position[c];
     }
 }
 
 // The host's own field, which is asked plant by plant. Returns those where it was unsound.
 unsigned ask_field(AirAbreast& air, const Surroundings& surroundings, int plant_count, int lanes) {
     unsigned unsound = 0;
-    const size_t count = size_t(air.wind.size()) / (3 * size_t(lanes));
+    const size_t count = air.wind.size() / (3 * size_t(lanes));
     std::vector<frond_vec3> points(count), velocities(count);
     for (int lane = 0; lane < plant_count; lane++) {
         const auto at = [&](auto& of, size_t i, int c) -> auto& {
-            return of[(3 * Eigen::Index(i) + c) * lanes + lane];
+            return of[(3 * i + size_t(c)) * size_t(lanes) + size_t(lane)];
         };
         for (size_t i = 0; i < count; i++) {
             points[i] = {at(air.places, i, 0), at(air.places, i, 1), at(air.places, i, 2)};
@@ -137,7 +138,7 @@ struct GatherPieces {
         const AirPush<S> push = air_push(piece, of.shape, frame, load3<S>(air.passing.data(), 3 * node),
                                          load3<S>(air.velocities.data(), 3 * node), density, h);
         for (int k = 0; k < 6; k++) {
-            const auto add = [&](VecX& to, const S& value) {
+            const auto add = [&](NumbersInLines& to, const S& value) {
                 double* at = to.data() + LANES<S> * (6 * node + k);
                 store(S(load<S>(at) + value), at);
             };
@@ -206,7 +207,7 @@ struct GatherPieces {
 template <class Of>
 struct AddForces {
     const Abreast& step;
-    VecX& out;
+    NumbersInLines& out;
     unsigned& dragged;
     template <class S>
     FROND_INLINE void run() const {
@@ -231,17 +232,18 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
                     const Surroundings& surroundings, frond_effects effects, double h) {
     const int lanes = step.lanes, count = int(plants[0]->chain_positions.size());
     if (!surroundings.wind || !(effects & (FROND_WIND | FROND_AIR_DRAG))) {
-        step.drag_force.setZero();
-        step.drag_damping.setZero();
+        for (NumbersInLines* drags : {&step.drag_force, &step.drag_damping}) drags->assign(drags->size(), 0);
         return 0;
     }
     if (!air.pieces) air.pieces = air_pieces_of(*plants[0]);
-    const Eigen::Index n = Eigen::Index(3 * count) * lanes;
-    for (VecX* numbers : {&air.wind, &air.places, &air.passing, &air.velocities}) numbers->resize(n);
-    air.chain.resize(step.system->chain.empty() ? 0 : n);
-    if (air.chain.size() > 0) run_in_lanes(lanes, PlaceChain{air, step});
-    air.resistance.setZero(2 * n);
-    air.lag.setZero(2 * n);
+    const size_t n = 3 * size_t(count) * size_t(lanes);
+    for (NumbersInLines* numbers : {&air.wind, &air.places, &air.passing, &air.velocities}) make_room(*numbers, n);
+    for (NumbersInLines* sums : {&air.resistance, &air.lag}) {
+        make_room(*sums, 2 * n);
+        sums->assign(2 * n, 0);
+    }
+    make_room(air.chain, step.system->chain.empty() ? 0 : n);
+    if (!air.chain.empty()) run_in_lanes(lanes, PlaceChain{air, step});
     look_at_frames(air, plants, plant_count, lanes);
     unsigned unsound = 0;
     if (effects & FROND_WIND) {
@@ -249,29 +251,29 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
         run_of<LookAtWind>(step, air, step, now, count);
         if (surroundings.wind->field) unsound = ask_field(air, surroundings, plant_count, lanes);
     } else {
-        air.wind.setZero();
+        air.wind.assign(n, 0);
     }
     run_of<GatherPieces>(step, air, step, count, surroundings.wind->def.density, h, (effects & FROND_AIR_DRAG) != 0);
     return unsound;
 }
 
-unsigned air_forces(const Abreast& step, VecX& out) {
-    out.resize(3 * step.lanes);
+unsigned air_forces(const Abreast& step, NumbersInLines& out) {
+    out.resize(3 * size_t(step.lanes));
     unsigned dragged = 0;
     run_of<AddForces>(step, step, out, dragged);
     return dragged;
 }
 
 void take_drags(const Abreast& step, int lane, std::vector<Drag>& out) {
-    const auto number = [&](const VecX& of, Eigen::Index i) { return of[i * step.lanes + lane]; };
+    const auto number = [&](const NumbersInLines& of, size_t i) { return of[i * size_t(step.lanes) + size_t(lane)]; };
     out.clear();
-    for (Eigen::Index i = 0; i < Eigen::Index(step.system->chain.size()); i++) {
+    for (size_t i = 0; i < step.system->chain.size(); i++) {
         Drag drag;
         SixOf damping;
-        for (int c = 0; c < 3; c++) drag.force[c] = number(step.drag_force, 3 * i + c);
-        for (int k = 0; k < 6; k++) damping[size_t(k)] = number(step.drag_damping, 6 * i + k);
+        for (size_t c = 0; c < 3; c++) drag.force[Eigen::Index(c)] = number(step.drag_force, 3 * i + c);
+        for (size_t k = 0; k < 6; k++) damping[k] = number(step.drag_damping, 6 * i + k);
         drag.damping = matrix_of(damping);
-        drag.grip = step.system->chain[size_t(i)];
+        drag.grip = step.system->chain[i];
         if (drag.force != Vec3::Zero() || damping != SixOf{}) out.push_back(drag);
     }
 }

@@ -184,6 +184,15 @@ void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const
     if (answer_to(plant, stretches, pulls, dv)) plant.motion.v += dv;
 }
 
+// Pulls are forces of the plant's own, which its integrator looks back beyond: begun anew after each step that has
+// some, by implicit Euler, it would damp a sway whose leaves are taut.
+void go_on_from_here(Motion& motion, bool was_shaken) {
+    motion.history.shaken = was_shaken;
+    if (!motion.history.valid) return;
+    motion.history.x_end = motion.x;
+    motion.history.v_end = motion.v;
+}
+
 }  // namespace
 
 Fibres make_fibres(const Model& model, int order) {
@@ -213,6 +222,7 @@ void hold_lengths(Plant& plant, double h) {
     const std::vector<Row> rows = find_rows(plant);
     if (rows.empty()) return;
     const Eigen::Index count = Eigen::Index(rows.size());
+    const bool was_shaken = plant.motion.history.shaken;
     const double reach = reach_of(*plant.workspace);
     VecX pulls = VecX::Zero(count), softness(count), dv;  // impulses [N s]; how far each draws its row out [m/(N s)]
     for (Eigen::Index i = 0; i < count; i++) softness[i] = 1 / (reach * rows[size_t(i)].stiffness);
@@ -237,6 +247,7 @@ void hold_lengths(Plant& plant, double h) {
         if (wrong < CLOSE) break;
     }
     stop_lengthening(plant, stretches, W, pulls);
+    go_on_from_here(plant.motion, was_shaken);
 }
 
 }  // namespace frond

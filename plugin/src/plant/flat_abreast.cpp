@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include "core/lanes_of_plants.hpp"
 #include "plant/air_push.hpp"
 #include "plant/flat.hpp"
-#include "core/lanes_of_plants.hpp"
 #include "plant/plant.hpp"
 #include "solve/abreast.hpp"
 
@@ -59,10 +59,10 @@ struct FindFrames {
 void look_at_chains(const Plant* const* plants, int count, const std::vector<int>& capsules,
                     const std::vector<Flat>& flats, ChainsAbreast& out) {
     out.lanes = lanes_for(count);
-    const Eigen::Index numbers = plants[0]->motion.x.size();
-    out.x.resize(numbers * out.lanes);
-    out.turns.resize(numbers / 6 * 9 * out.lanes);
-    out.frames.resize(Eigen::Index(9 * capsules.size()) * out.lanes);
+    const size_t lanes = size_t(out.lanes), numbers = size_t(plants[0]->motion.x.size());
+    make_room(out.x, numbers * lanes);
+    make_room(out.turns, numbers / 6 * 9 * lanes);
+    make_room(out.frames, 9 * capsules.size() * lanes);
     run_in_lanes(out.lanes, FindFrames{plants, count, capsules, flats, out});
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/lines.hpp"
 #include "core/types.hpp"
 
 namespace frond {
@@ -14,8 +15,8 @@ struct ChainsAbreast {
     int lanes = 0;
     // Each number once a lane: six of a node, of which the first three are its place; of each flat capsule the columns
     // axis, thin and wide, zero where it has lost its shape.
-    VecX x, frames;
-    VecX turns;  // room: how nodes are turned
+    NumbersInLines x, frames;
+    NumbersInLines turns;  // room: how nodes are turned
 };
 
 // As many plants as that, whose chains move and have lost nothing; further lanes are as the last one's.

@@ -33,6 +33,7 @@ void relax(Plant& plant) {
     if (!ok || !motion.x.allFinite()) motion.x = start;
     if (!ok || !respond(*plant.workspace, settings, momentum, motion.v)) motion.v = given;
     motion.history.valid = false;
+    motion.history.shaken = true;  // the first step damps what is left
     give_workspace_back(plant);
 }
 

@@ -150,7 +150,7 @@ struct FormPlaces {
         const Lanes33<S> damping = drag_damping<S>(a, drag);
         const Lanes3<S> push = load3<S>(a.drag_force.data(), 3 * drag);
         const auto dragged = is_dragged(push, damping);
-        const Lanes3<S> force = push - damping * grip_sum<S>(grip, a.v_start);
+        const Lanes3<S> force = push - damping * grip_sum<S>(grip, a.v_start.data());
         const Lanes33<S> block = constant<S>(step) * damping;
         for (size_t r = 0; r < size_t(grip.count); ++r) {
             const int i = grip.node[r];
@@ -239,17 +239,17 @@ void make_room(Abreast& a, std::shared_ptr<const System> system, int lanes) {
     a.lanes = lanes;
     a.system = std::move(system);
     const BlockPattern& pattern = a.system->elements->pattern;
-    const Eigen::Index n = 3 * lanes * Eigen::Index(pattern.node_count);
-    for (VecX* numbers : {&a.x, &a.v, &a.x_prev, &a.v_prev, &a.x_end, &a.v_end, &a.v_start, &a.x_from, &a.x_base,
-                          &a.v_base, &a.way, &a.elastic, &a.rhs, &a.dv})
-        numbers->setZero(n);
-    a.gravity.setZero(3 * lanes);
-    const Eigen::Index drags =
-        a.system->row->moves_chain ? pattern.node_count / 2 : Eigen::Index(a.system->chain.size());
-    a.drag_force.setZero(3 * drags * lanes);
-    a.drag_damping.setZero(6 * drags * lanes);
+    const size_t n = 3 * size_t(lanes) * size_t(pattern.node_count);
+    for (NumbersInLines* numbers : {&a.x, &a.v, &a.x_prev, &a.v_prev, &a.x_end, &a.v_end, &a.v_start, &a.x_from,
+                                    &a.x_base, &a.v_base, &a.way, &a.elastic, &a.rhs, &a.dv})
+        *numbers = NumbersInLines(n);
+    a.gravity = NumbersInLines(3 * size_t(lanes));
+    const size_t nodes = size_t(pattern.node_count),
+                 drags = a.system->row->moves_chain ? nodes / 2 : a.system->chain.size();
+    a.drag_force = NumbersInLines(3 * drags * size_t(lanes));
+    a.drag_damping = NumbersInLines(6 * drags * size_t(lanes));
     a.A.pattern = &pattern;
-    a.A.values.resize(9 * size_t(lanes) * pattern.row.size());
+    a.A.values = NumbersInLines(9 * size_t(lanes) * pattern.row.size());
 }
 
 unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,
@@ -265,7 +265,7 @@ unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vect
     unsigned lost = 0;
     if (looks_back) {
         run_in_lanes(a.lanes, look_back);
-        lost = system.row->abreast->not_calm(elements, a.x, a.x_from);
+        lost = system.row->abreast->not_calm(elements, a.x, a.x_from, 1);
     } else {
         run_in_lanes(a.lanes, BeginAnew{look_back});
     }
@@ -274,7 +274,8 @@ unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vect
     if (turns) system.row->abreast->rotary_inertia(elements, a.x, a.inertia);
     const double damping = damping_of(system, settings, a.element_damping);
     system.row->abreast->set_ahead(
-        elements, a.x_from, {a.way, a.v_start, method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
+        elements, a.x_from,
+        {a.way.data(), a.v_start.data(), method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
         a.elastic, a.A, a.filled, a.inverted.data());
     const double mass = 1 + method.step * settings.mass_damping;
     if (turns)
@@ -289,7 +290,7 @@ unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vect
         lost |= factorize(system.plan.fronts, a.A, a.fronts);
         solve(system.plan.fronts, a.fronts, a.rhs, a.dv);
     }
-    relative_residuals(a.A, a.rhs, a.dv, a.residual.data());
+    relative_residuals(a.A, a.rhs, a.dv, a.way, a.residual.data());
     run_in_lanes(a.lanes, Finish{a, pinned, method.step, turns, lost});
     return lost;
 }

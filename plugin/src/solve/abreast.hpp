@@ -15,20 +15,20 @@ struct Abreast {
     std::shared_ptr<const System> system;
     int lanes = 0;
     // In: of each plant.
-    VecX x, v, x_prev, v_prev;  // as in Motion and History
-    VecX gravity;               // [m/s^2]
+    NumbersInLines x, v, x_prev, v_prev;  // as in Motion and History
+    NumbersInLines gravity;               // [m/s^2]
     // Drags of places at rest with the air, one a chain node, which are pairs of nodes or System::chain; zero: there is
     // none there.
-    VecX drag_force, drag_damping;  // three numbers [N], and xx, xy, xz, yy, yz, zz [N s/m]
+    NumbersInLines drag_force, drag_damping;  // three numbers [N], and xx, xy, xz, yy, yz, zz [N s/m]
     // Out.
-    VecX x_end, v_end;
+    NumbersInLines x_end, v_end;
     std::array<double, MOST_LANES> residual;
     std::array<int, MOST_LANES> inverted;  // tets, where the forces were taken
     double reach = 0;                      // as in Workspace [s]
     unsigned wound = 0;  // lanes with a rotation vector longer than half a turn, or nearly so, a bit each: see unwind()
 
     // Room for the step.
-    VecX v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia;
+    NumbersInLines v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia;
     std::vector<uint8_t> held, filled;
     std::vector<double> element_damping;
     BlockMatrix A;

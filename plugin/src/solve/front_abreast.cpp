@@ -322,18 +322,18 @@ unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontAbreast& fa
     factor.lanes = int(lanes);
     make_large_enough(room.updates, lanes * plan.update_size);
     make_large_enough(room.products, lanes * plan.largest);
-    factor.columns.resize(lanes * plan.column_size);
-    factor.pivot.resize(lanes * 3 * plan.order.size());
-    factor.inverse.resize(factor.pivot.size());
+    make_room(factor.columns, lanes * plan.column_size);
+    make_room(factor.pivot, lanes * 3 * plan.order.size());
+    make_room(factor.inverse, factor.pivot.size());
     unsigned failed = 0;
     run_in_lanes(factor.lanes, Factorize{plan, A, factor, room.updates.data(), room.products.data(), failed});
     return failed;
 }
 
-void solve(const FrontPlan& plan, FrontAbreast& factor, const VecX& b, VecX& x) {
+void solve(const FrontPlan& plan, FrontAbreast& factor, const NumbersInLines& b, NumbersInLines& x) {
     const size_t lanes = size_t(factor.lanes), three = 3 * lanes;
-    factor.ordered.resize(size_t(b.size()));
-    factor.front.resize(lanes * plan.longest);
+    make_room(factor.ordered, b.size());
+    make_room(factor.front, lanes * plan.longest);
     for (size_t k = 0; k < plan.order.size(); ++k)
         std::copy_n(b.data() + three * size_t(plan.order[k]), three, factor.ordered.data() + three * k);
     run_in_lanes(factor.lanes, Solve{plan, factor, factor.ordered.data(), factor.front.data()});

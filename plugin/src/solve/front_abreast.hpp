@@ -16,7 +16,7 @@ struct FrontAbreast {
 // Returns the lanes whose matrix is not positive definite, a bit each.
 unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontAbreast& factor);
 // x = A^-1 b
-void solve(const FrontPlan& plan, FrontAbreast& factor, const VecX& b, VecX& x);
+void solve(const FrontPlan& plan, FrontAbreast& factor, const NumbersInLines& b, NumbersInLines& x);
 // Of lanes that have a place to go to, each one's own.
 void take_apart(const FrontAbreast& factor, FrontFactor* const* out);
 

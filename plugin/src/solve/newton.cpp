@@ -100,7 +100,8 @@ void linearize_at_start(Newton& n) {
         move(n, w.v);
         w.dv = w.x - from;
         n.report.inverted = n.body.add_ahead(
-            *w.elements, from, {w.dv, w.v, n.stage.step, n.apart ? 0 : n.rayleigh, w.element_damping}, w.elastic, w.A);
+            *w.elements, from, {w.dv.data(), w.v.data(), n.stage.step, n.apart ? 0 : n.rayleigh, w.element_damping},
+            w.elastic, w.A);
         return start_residual(n, w.v, w.rhs);
     }
     assemble(from);

@@ -198,8 +198,8 @@ struct Solve {
 
 struct FindResiduals {
     const BlockMatrix& A;
-    const VecX &b, &x;
-    VecX& left;
+    const NumbersInLines &b, &x;
+    NumbersInLines& left;
     double* out;
     template <class S>
     FROND_INLINE void run() const {
@@ -244,20 +244,20 @@ static int lanes_of(const BlockMatrix& A) {
 
 unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeAbreast& factor) {
     factor.lanes = lanes_of(A);
-    factor.numbers.resize(size_t(factor.lanes) * NUMBERS * plan.pairs.size());
+    make_room(factor.numbers, size_t(factor.lanes) * NUMBERS * plan.pairs.size());
     unsigned failed = 0;
     factor.begun.assign(plan.pairs.size(), 0);
     run_in_lanes(factor.lanes, Factorize{plan, A, factor.numbers.data(), factor.begun.data(), failed});
     return failed;
 }
 
-void solve(const TreePlan& plan, const TreeAbreast& factor, const VecX& b, VecX& x) {
+void solve(const TreePlan& plan, const TreeAbreast& factor, const NumbersInLines& b, NumbersInLines& x) {
     x = b;
     run_in_lanes(factor.lanes, Solve{plan, factor.numbers.data(), x.data()});
 }
 
-void relative_residuals(const BlockMatrix& A, const VecX& b, const VecX& x, double* out) {
-    VecX left;
+void relative_residuals(const BlockMatrix& A, const NumbersInLines& b, const NumbersInLines& x, NumbersInLines& left,
+                        double* out) {
     run_in_lanes(lanes_of(A), FindResiduals{A, b, x, left, out});
 }
 

@@ -15,8 +15,9 @@ struct TreeAbreast {
 // Returns the lanes whose matrix is not positive definite, a bit each.
 unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeAbreast& factor);
 // x = A^-1 b
-void solve(const TreePlan& plan, const TreeAbreast& factor, const VecX& b, VecX& x);
-// |b - A x| / |b| of each lane.
-void relative_residuals(const BlockMatrix& A, const VecX& b, const VecX& x, double* out);
+void solve(const TreePlan& plan, const TreeAbreast& factor, const NumbersInLines& b, NumbersInLines& x);
+// |b - A x| / |b| of each lane; `left` is room.
+void relative_residuals(const BlockMatrix& A, const NumbersInLines& b, const NumbersInLines& x, NumbersInLines& left,
+                        double* out);
 
 }  // namespace frond

@@ -169,10 +169,10 @@ struct ChildOfSeveral {
     FROND_INLINE PlantShape& shape_of(int lane) const { return *shapes[std::min(lane, count - 1)]; }
     FROND_INLINE static size_t child_of(size_t first, int) { return first; }
     FROND_INLINE static S number(const std::vector<double>& of, size_t first) { return constant<S>(of[first]); }
-    FROND_INLINE S number(const VecX& of, size_t i) const {
+    FROND_INLINE S number(const NumbersInLines& of, size_t i) const {
         return load<S>(of.data() + size_t(chains.lanes) * i + from);
     }
-    FROND_INLINE Lanes3<S> three(const VecX& of, size_t i) const {
+    FROND_INLINE Lanes3<S> three(const NumbersInLines& of, size_t i) const {
         return {number(of, i), number(of, i + 1), number(of, i + 2)};
     }
     template <class Capsule>

@@ -241,14 +241,14 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
     report.detail_count[body.level.now]++;
     if (!body.level.is_due) return;
     add_to_report(world, *body.plant, report);
-    const Timer timer;
     if (!body.plant->swing && body.plant->effects & world.effects & FROND_BREAKING) {
+        const Timer timer;
         report.broken_count += break_overloaded(world, body);
         move_capsules(body);
         add_effect(report, FROND_BREAKING, timer.ms());
     }
     collision_world.updateSingleAabb(&body);
-    report.ms_capsules += timer.ms() + double(body.level.ms_capsules);
+    report.ms_capsules += double(body.level.ms_capsules);
     body.level.pending = 0;
     if (!world.own) clear_user_force(*body.plant);
 }
@@ -305,7 +305,9 @@ void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     run_jobs(*this, touched.size(), [&](size_t i) { finish(*this, *touched[i], surroundings); });
     {
         BT_PROFILE("frond settle");
+        const Timer timer;
         for (PlantBody* body : awake) settle(*this, *body, *collision_world);
+        report.ms_capsules += timer.ms();
     }
     if (sleep_distance > 0) put_to_sleep(*this);
     fold_looked_at(*this);
