@@ -205,6 +205,7 @@ void lend_factors(const Abreast& step, Plant* const* plants, unsigned which) {
     take_apart(step, workspaces.data());
 }
 
+// By its fibres, with what the air does to it told one by one.
 void pull(Plant& plant, const Abreast& step, int lane, frond_effects effects, double h) {
     plant.blown.setZero();
     take_drags(step, lane, plant.loads.drags);
@@ -213,12 +214,20 @@ void pull(Plant& plant, const Abreast& step, int lane, frond_effects effects, do
 
 }  // namespace
 
-// By its history, or anew and damped, with its pins at rest; what has gone abreast since they moved has them so.
-static bool goes_on(Plant& plant, double h) {
+// By its history, or anew and damped. What went abreast last is not looked at closely: that costs a thousand plants as
+// much as what a job then has at hand.
+static bool foresee_method(Plant& plant, double h) {
+    const History& history = plant.motion.history;
+    plant.looks_back =
+        history.valid && (history.x_end.size() == 0 || history_holds(plant.motion, plant.settings.integrator, h));
+    return plant.looks_back || history.shaken;
+}
+
+// As foreseen, with its pins at rest; what has gone abreast since they moved has them so.
+static bool goes_on(const Plant& plant, double h) {
     const Motion& motion = plant.motion;
-    plant.looks_back = history_holds(motion, plant.settings.integrator, h);
-    if (plant.looks_back && motion.history.x_end.size() == 0) return true;
-    return (plant.looks_back || motion.history.shaken) && is_where_held(motion);
+    return history_holds(motion, plant.settings.integrator, h) == plant.looks_back &&
+           ((plant.looks_back && motion.history.x_end.size() == 0) || is_where_held(motion));
 }
 
 bool may_go_abreast(Plant& plant, const Surroundings& surroundings, double h) {
@@ -227,7 +236,7 @@ bool may_go_abreast(Plant& plant, const Surroundings& surroundings, double h) {
            plant.recovers_for <= 0 && plant.patience == 1 && plant.max_substeps <= 1 && plant.fibre_give.empty() &&
            h > 0 && h <= TRUSTED &&
            frond::may_go_abreast(*plant.system, settings_for(plant, plant.effects & surroundings.effects), h) &&
-           goes_on(plant, h);
+           foresee_method(plant, h);
 }
 
 bool go_alike(const Plant& a, const Plant& b) {
@@ -240,7 +249,16 @@ int most_abreast() {
     return lanes_for(MOST_LANES);
 }
 
-void solve_abreast(Plant* const* plants, int count, const Surroundings& surroundings, double h) {
+void solve_abreast(Plant* const* given, int given_count, const Surroundings& surroundings, double h) {
+    std::array<Plant*, MOST_LANES> plants;
+    int count = 0;
+    for (int i = 0; i < given_count; i++) {
+        Plant& plant = *given[i];
+        if (goes_on(plant, h))
+            plants[size_t(count++)] = &plant;
+        else
+            solve_plant(plant, surroundings, h);
+    }
     if (count < 2) {
         if (count == 1) solve_plant(*plants[0], surroundings, h);
         return;
@@ -253,8 +271,8 @@ void solve_abreast(Plant* const* plants, int count, const Surroundings& surround
     const SolveSettings settings = settings_for(*plants[0], effects);
     make_room(step, plants[0]->system, lanes_for(count));
     Timer timer;
-    gather_motions(step, plants, count, surroundings, effects);
-    const unsigned bad_wind = gather_air(space->air, step, plants, count, surroundings, effects, h);
+    gather_motions(step, plants.data(), count, surroundings, effects);
+    const unsigned bad_wind = gather_air(space->air, step, plants.data(), count, surroundings, effects, h);
     const double ms_air = timer.lap();
 
     const double h_before = plants[0]->looks_back ? plants[0]->motion.history.h : 0;
@@ -269,7 +287,7 @@ void solve_abreast(Plant* const* plants, int count, const Surroundings& surround
     const unsigned taut = find_taut(step, *plants[0], effects);
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
     run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
-    lend_factors(step, plants, taut & ~alone & ((1u << count) - 1));
+    lend_factors(step, plants.data(), taut & ~alone & ((1u << count) - 1));
     const double ms_solve = timer.lap();
 
     for (int lane = 0; lane < count; lane++) {
