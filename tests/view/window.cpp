@@ -9,6 +9,7 @@
 #include <string>
 
 #include "studio/studio.hpp"
+#include "view/driver.hpp"
 #include "view/on_plants.hpp"
 #include "view/screen.hpp"
 
@@ -25,6 +26,7 @@ struct User {
     int left = 0, top = 0;
     User(Window& window, UnseenScreen& screen) : window(window), screen(screen) {
         see(3);
+        keep_driver();
         window.get_place(left, top);
     }
     void see(int frames = 2) {

@@ -185,12 +185,18 @@ void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const
 }
 
 // Pulls are forces of the plant's own, which its integrator looks back beyond: begun anew after each step that has
-// some, by implicit Euler, it would damp a sway whose leaves are taut.
+// some, by implicit Euler, it would damp a sway whose leaves are taut. Only rates at the step's end do not know of
+// them.
 void go_on_from_here(Motion& motion, bool was_shaken) {
-    motion.history.shaken = was_shaken;
-    if (!motion.history.valid) return;
-    motion.history.x_end = motion.x;
-    motion.history.v_end = motion.v;
+    History& history = motion.history;
+    history.shaken = was_shaken;
+    if (!history.valid) return;
+    if (history.integrator == FROND_GENERALIZED_ALPHA) {
+        history.valid = history.shaken = false;
+        return;
+    }
+    history.x_end = motion.x;
+    history.v_end = motion.v;
 }
 
 }  // namespace
