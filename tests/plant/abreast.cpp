@@ -54,11 +54,12 @@ struct Field {
     std::vector<std::unique_ptr<Plant>> plants;
     std::unique_ptr<Wind> wind;
     Surroundings surroundings;
-    int abreast = 0, alone = 0;  // steps taken; who goes alone is lent a workspace of its own
+    int abreast = 0, alone = 0;  // steps taken; who goes alone assembles in a workspace of its own
+    int pulled = 0;              // of those abreast, by fibres
 
-    Field(const std::shared_ptr<const Model>& model, int count, double speed) {
+    Field(const std::shared_ptr<const Model>& model, int count, double speed, frond_mechanics which = FROND_ROD) {
         for (int i = 0; i < count; i++) {
-            frond_plant_def def = plant_def(FROND_ROD);
+            frond_plant_def def = plant_def(which);
             def.position = {1.3 * i, 0, 0.7 * i * i};
             const double angle = 0.3 + 0.8 * i;
             def.rotation = {0.1 * i, std::sin(angle), 0, std::cos(angle)};
@@ -96,7 +97,9 @@ struct Field {
         for (size_t i = 0; i < together.size(); i += most)
             solve_abreast(together.data() + i, int(std::min(most, together.size() - i)), surroundings, H);
         for (const auto& plant : plants) {
-            ++(plant->workspace ? alone : abreast);
+            const bool is_alone = plant->workspace && plant->report.ms_assembly > 0;
+            ++(is_alone ? alone : abreast);
+            pulled += plant->workspace && !is_alone;
             accept_step(*plant, surroundings, H);
             clear_user_force(*plant);
         }
@@ -143,17 +146,19 @@ void expect_same(const Plant& a, const Plant& b) {
     ASSERT_NEAR(a.report.residual, b.report.residual, 1e-12);
 }
 
-// (blade, wind [m/s], lanes)
-struct Abreast : testing::TestWithParam<std::tuple<bool, double, int>> {};
+// (mechanics, blade, wind [m/s], lanes)
+struct Abreast : testing::TestWithParam<std::tuple<frond_mechanics, bool, double, int>> {};
 INSTANTIATE_TEST_SUITE_P(Plants, Abreast,
-                         testing::Combine(testing::Bool(), testing::Values(0.0, 3.0, 25.0), testing::Values(2, 4, 8)));
+                         testing::Combine(testing::Values(FROND_ROD, FROND_TET_COROTATIONAL, FROND_TET_LINEAR),
+                                          testing::Bool(), testing::Values(0.0, 3.0, 25.0), testing::Values(2, 4, 8)));
 
 TEST_P(Abreast, GoAsAlone) {
-    const auto [is_blade, speed, lanes] = GetParam();
+    const auto [which, is_blade, speed, lanes] = GetParam();
     const Width width(lanes);
+    const int steps = which == FROND_ROD ? 240 : 150;
     const auto model = model_of(is_blade);
-    Field together(model, 11, speed), apart(model, 11, speed);
-    for (int step = 0; step < 240; ++step) {
+    Field together(model, 11, speed, which), apart(model, 11, speed, which);
+    for (int step = 0; step < steps; ++step) {
         for (Field* field : {&together, &apart}) disturb(*field, step);
         together.step(true);
         apart.step(false);
@@ -162,9 +167,14 @@ TEST_P(Abreast, GoAsAlone) {
             if (HasFatalFailure()) FAIL() << "plant " << i << " in step " << step;
         }
     }
-    EXPECT_GT(together.abreast, speed > 10 ? 40 : 240 * 9);  // a gale takes most out
+    // A gale takes most chains out, and stems as cages yield.
+    const bool is_calm = which == FROND_ROD ? speed <= 10 : is_blade;
+    EXPECT_GT(together.abreast, is_calm ? steps * 9 : 40);
     EXPECT_GT(together.alone, 11);
     EXPECT_EQ(apart.abreast, 0);
+    if (which == FROND_TET_COROTATIONAL && !is_blade && speed > 10) {
+        EXPECT_GT(together.pulled, 100);
+    }
 }
 
 // A host's field, which turns with the place.

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "mechanics/mechanics.hpp"
+#include "solve/front_abreast.hpp"
+#include "solve/tree_abreast.hpp"
 #include "support/dense.hpp"
 #include "support/meshes.hpp"
 
@@ -62,6 +64,68 @@ struct Factored {
     BlockFactor factor;
     explicit Factored(const BlockPattern& pattern) : plan(make_block_plan(pattern)) { factor.plan = &plan; }
 };
+
+// Numbers of several side by side.
+template <class Numbers>
+NumbersInLines side_by_side(const std::vector<Numbers>& from) {
+    NumbersInLines out(from.size() * size_t(from[0].size()));
+    size_t i = 0;
+    for (double& value : out) {
+        value = from[i % from.size()].data()[i / from.size()];
+        ++i;
+    }
+    return out;
+}
+
+// One of the matrices is not positive definite.
+void expect_lanes_as_alone(const BlockPattern& pattern, size_t lanes, Dice& dice) {
+    const Factored shared(pattern);
+    const size_t wrong = size_t(dice.uniform(0, double(lanes) - 1e-9));
+    std::vector<NumbersInLines> matrices;
+    std::vector<VecX> right_sides, solutions(lanes);
+    for (size_t lane = 0; lane < lanes; ++lane) {
+        Factored own(pattern);
+        const BlockMatrix A = random_matrix(pattern, dice, lane == wrong ? -60 : 60);
+        matrices.push_back(A.values);
+        right_sides.push_back(dice.vector(3 * pattern.node_count, 1));
+        ASSERT_EQ(factorize(own.factor, A), lane != wrong);
+        if (lane != wrong) solve(own.factor, right_sides[lane], solutions[lane]);
+    }
+    BlockMatrix A;
+    A.pattern = &pattern;
+    A.values = side_by_side(matrices);
+    TreeAbreast tree;
+    FrontAbreast fronts;
+    const bool is_tree = shared.plan.tree.has_value();
+    const unsigned failed = is_tree ? factorize(*shared.plan.tree, A, tree) : factorize(shared.plan.fronts, A, fronts);
+    EXPECT_EQ(failed, 1u << wrong);
+    NumbersInLines x;
+    VecX x_own;
+    is_tree ? solve(*shared.plan.tree, tree, side_by_side(right_sides), x)
+            : solve(shared.plan.fronts, fronts, side_by_side(right_sides), x);
+    for (size_t lane = 0; lane < lanes; ++lane) {
+        if (lane == wrong) continue;
+        const Eigen::Map<const VecX, 0, Eigen::InnerStride<>> found(x.data() + lane, solutions[lane].size(),
+                                                                    Eigen::InnerStride<>(Eigen::Index(lanes)));
+        ASSERT_EQ(VecX(found), solutions[lane]) << lane << " of " << lanes;
+        if (is_tree) continue;
+        FrontFactor own;
+        std::vector<FrontFactor*> out(lanes);
+        out[lane] = &own;
+        take_apart(fronts, out.data());
+        solve(shared.plan.fronts, own, right_sides[lane], x_own);
+        ASSERT_EQ(x_own, solutions[lane]) << lane << " of " << lanes;
+    }
+}
+
+TEST(BlockFactor, IsInLanesAsAlone) {
+    for (uint64_t seed = 1; seed < 60; ++seed) {
+        Dice dice(seed);
+        const BlockPattern pattern = random_pattern(seed, dice);
+        for (size_t lanes = 2; lanes <= size_t(most_lanes()); lanes *= 2) expect_lanes_as_alone(pattern, lanes, dice);
+        if (HasFatalFailure()) FAIL() << seed;
+    }
+}
 
 TEST(BlockFactor, SolvesAsDenseAlgebraDoes) {
     for (uint64_t seed = 1; seed < 60; ++seed) {

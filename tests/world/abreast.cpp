@@ -18,7 +18,7 @@
 namespace {
 
 constexpr double H = 1.0 / 60;
-constexpr int COUNT = 7, HIT = 3, STEPS = 200;
+constexpr int COUNT = 7, HIT = 3;
 
 void parallel_for(int count, frond_job_fn* job, void* data, void* user) {
     std::atomic<int> next{0};
@@ -38,7 +38,7 @@ struct Garden {
     std::vector<int> which;
     int contacts = 0;
 
-    Garden(frond_model model, const std::vector<int>& of, int* threads) : which(of) {
+    Garden(frond_model model, const std::vector<int>& of, int* threads, frond_mechanics mechanics) : which(of) {
         frond_world_def def = frond_default_world_def();
         if (threads) {
             def.parallel_for = parallel_for;
@@ -47,7 +47,7 @@ struct Garden {
         EXPECT_EQ(frond_world_create(&def, &world), FROND_OK);
         for (const int i : of) {
             frond_plant_def plant_def = frond_default_plant_def();
-            plant_def.mechanics = FROND_ROD;
+            plant_def.mechanics = mechanics;
             plant_def.position = {3.0 * i, 0, 0.5 * i};
             plant_def.rotation = {0, std::sin(0.4 * i), 0, std::cos(0.4 * i)};
             plant_def.starts_asleep = true;
@@ -91,20 +91,24 @@ struct Garden {
     }
 };
 
-TEST(Abreast, PlantsOfAWorldGoAsEachAlone) {
+struct AbreastBy : testing::TestWithParam<frond_mechanics> {};
+INSTANTIATE_TEST_SUITE_P(Abreast, AbreastBy, testing::Values(FROND_ROD, FROND_TET_COROTATIONAL));
+
+TEST_P(AbreastBy, PlantsOfAWorldGoAsEachAlone) {
+    const int steps = GetParam() == FROND_ROD ? 200 : 100;
     const frond_model model = make_small_model(2e6, FROND_REST_STANDS_AS_MODELLED);
     std::vector<std::vector<double>> alone;
     for (int i = 0; i < COUNT; i++) {
-        Garden garden(model, {i}, nullptr);
-        for (int k = 0; k < STEPS; k++) garden.step(k);
+        Garden garden(model, {i}, nullptr, GetParam());
+        for (int k = 0; k < steps; k++) garden.step(k);
         alone.push_back(garden.state(0));
         EXPECT_EQ(garden.contacts > 0, i == HIT);
     }
     std::vector<int> all;
     for (int i = 0; i < COUNT; i++) all.push_back(i);
     for (int threads : {1, 2, 3, 4}) {
-        Garden garden(model, all, &threads);
-        for (int k = 0; k < STEPS; k++) garden.step(k);
+        Garden garden(model, all, &threads, GetParam());
+        for (int k = 0; k < steps; k++) garden.step(k);
         for (size_t i = 0; i < COUNT; i++)
             EXPECT_EQ(garden.state(i), alone[i]) << "plant " << i << ", threads " << threads;
     }
@@ -117,7 +121,7 @@ struct Row {
     frond_model model = {};
     std::vector<frond_plant> plants;
 
-    explicit Row(bool is_abreast) {
+    explicit Row(bool is_abreast, frond_mechanics which = FROND_ROD) {
         frond_model_def model_def = frond_default_model_def();
         model_def.capsule_height = 0.4;
         EXPECT_EQ(frond_model_load(FROND_SOURCE_DIR "/models/corn/corn.obj", &model_def, &model), FROND_OK);
@@ -128,7 +132,7 @@ struct Row {
         EXPECT_EQ(frond_world_set_wind(world, &wind), FROND_OK);
         for (int i = 0; i < COUNT; i++) {
             frond_plant_def plant_def = frond_default_plant_def();
-            plant_def.mechanics = FROND_ROD;
+            plant_def.mechanics = which;
             plant_def.effects &= ~uint32_t(FROND_PLANT_CONTACT);
             plant_def.position = {0.7 * i, 0, 0};
             plant_def.rotation = {0, std::sin(0.4 * i), 0, std::cos(0.4 * i)};
@@ -143,6 +147,11 @@ struct Row {
     }
     btCompoundShape& shape(size_t i) const {
         return static_cast<btCompoundShape&>(*frond::bullet_object(plants[i])->getCollisionShape());
+    }
+    uint64_t hash() const {
+        uint64_t hash = 0;
+        EXPECT_EQ(frond_world_get_state_hash(world, &hash), FROND_OK);
+        return hash;
     }
     // Frames of all pieces, and the box around them.
     std::vector<btScalar> pieces(size_t i) const {
@@ -177,8 +186,8 @@ struct Row {
     }
 };
 
-TEST(Abreast, PiecesAreWhereThoseOfEachAloneAre) {
-    Row abreast(true), alone(false);
+TEST_P(AbreastBy, PiecesAreWhereThoseOfEachAloneAre) {
+    Row abreast(true, GetParam()), alone(false, GetParam());
     ASSERT_GT(abreast.shape(0).getNumChildShapes(), frond_plant_get_capsule_count(abreast.plants[0])) << "no plates";
     for (int k = 0; k < 90; k++) {
         for (Row* row : {&abreast, &alone}) ASSERT_EQ(frond_world_step(row->world, H), FROND_OK);
@@ -190,15 +199,10 @@ TEST(Abreast, PiecesAreWhereThoseOfEachAloneAre) {
 }
 
 // Where their last step ended is kept once of those that go abreast, and twice of others: snapshots tell it alike.
-TEST(Abreast, PlantsThatGoBackToASnapshotGoTheSameWayAgain) {
-    Row abreast(true), alone(false);
+TEST_P(AbreastBy, PlantsThatGoBackToASnapshotGoTheSameWayAgain) {
+    Row abreast(true, GetParam()), alone(false, GetParam());
     const auto step = [](const Row& row, int count) {
         for (int k = 0; k < count; k++) ASSERT_EQ(frond_world_step(row.world, H), FROND_OK) << frond_last_error();
-    };
-    const auto hash_of = [](const Row& row) {
-        uint64_t hash = 0;
-        EXPECT_EQ(frond_world_get_state_hash(row.world, &hash), FROND_OK);
-        return hash;
     };
     for (const Row* row : {&abreast, &alone}) step(*row, 20);
     std::vector<char> bytes(frond_world_get_snapshot_size(abreast.world));
@@ -207,7 +211,29 @@ TEST(Abreast, PlantsThatGoBackToASnapshotGoTheSameWayAgain) {
     for (const Row* row : {&abreast, &alone}) step(*row, 20);
     ASSERT_EQ(frond_world_restore(abreast.world, bytes.data(), bytes.size()), FROND_OK) << frond_last_error();
     step(abreast, 20);
-    EXPECT_EQ(hash_of(abreast), hash_of(alone));
+    EXPECT_EQ(abreast.hash(), alone.hash());
+}
+
+// Cages near the viewer and rods farther away, each kind side by side, while the viewer comes and goes.
+TEST(Abreast, PlantsGoAsAloneWhileTheirDetailChanges) {
+    Row abreast(true, FROND_TET_COROTATIONAL), alone(false, FROND_TET_COROTATIONAL);
+    const double far = frond_default_detail_def().rod_from;
+    int rods = 0, cages = 0;
+    for (int k = 0; k < 80; k++) {
+        for (const Row* row : {&abreast, &alone}) {
+            ASSERT_EQ(frond_world_set_viewer(row->world, {0.35 * COUNT, 0, far * (0.7 + 0.6 * (k / 10 % 2))}),
+                      FROND_OK);
+            ASSERT_EQ(frond_world_step(row->world, H), FROND_OK) << frond_last_error();
+        }
+        ASSERT_EQ(abreast.hash(), alone.hash()) << "step " << k;
+        for (frond_plant plant : abreast.plants) {
+            frond_detail detail = {};
+            ASSERT_EQ(frond_plant_get_detail(plant, &detail), FROND_OK);
+            ++(detail == FROND_DETAIL_FULL ? cages : rods);
+        }
+    }
+    EXPECT_GT(rods, 10 * COUNT);
+    EXPECT_GT(cages, 10 * COUNT);
 }
 
 }  // namespace

@@ -20,10 +20,13 @@ struct BenchOptions {
 void bench_solver(const BenchOptions& options);
 void bench_versus_bullet(const BenchOptions& options);
 void bench_field(const BenchOptions& options);
+void bench_kinds();
 void bench_effects(const BenchOptions& options);
 void bench_guard();
 void step_for_guard();  // for valgrind to count
 // What the latter has counted.
 void step_all_effects();
+
+double now();  // [ms]
 
 }  // namespace frond::tools

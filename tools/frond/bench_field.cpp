@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <sstream>
@@ -15,12 +14,12 @@
 
 namespace frond::tools {
 
-namespace {
-
-double now() {  // [ms]
+double now() {
     using namespace std::chrono;
     return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
 }
+
+namespace {
 
 // What the process has allocated [kB].
 double memory() {
@@ -203,54 +202,6 @@ void bench_wind(const BenchOptions& options) {
     }
 }
 
-// A thousand of one kind in a wind of 6 m/s: each by itself, then in lanes.
-void bench_abreast() {
-    constexpr int WARM_UP = 20, STEPS = 60, COUNT = 1000, SIDE = 32;
-    constexpr double H = 1.0 / 60;
-    frond_model_def model_def = frond_default_model_def();
-    model_def.capsule_height = 0.4;
-    frond_model model = {};
-    must(frond_model_load(model_path("corn/corn.obj").c_str(), &model_def, &model));
-    std::printf("\n%d corn plants as rods, median of a step [ms]\n%18s %9s %9s\n", COUNT, "", "segments", "world");
-    double medians[2];
-    uint64_t hashes[2];
-    for (const bool in_lanes : {false, true}) {
-        const frond_world_def world_def = frond_default_world_def();
-        frond_world world = {};
-        must(frond_world_create(&world_def, &world));
-        frond_wind_def wind = frond_default_wind_def();
-        wind.velocity = {6, 0, 0};
-        must(frond_world_set_wind(world, &wind));
-        int segments = 0;
-        for (int i = 0; i < COUNT; i++) {
-            frond_plant_def def = frond_default_plant_def();
-            def.mechanics = FROND_ROD;
-            def.effects &= ~uint32_t(FROND_PLANT_CONTACT);
-            def.position = {0.7 * (i % SIDE), 0, 0.7 * (i / SIDE)};
-            def.rotation = {0, std::sin(0.1 * i), 0, std::cos(0.1 * i)};
-            // Only plants of the same settings share lanes; a direct solver does not ask for this one.
-            if (!in_lanes) def.tolerance *= 1 + 1e-3 * i;
-            frond_plant plant = {};
-            must(frond_plant_create(world, model, &def, &plant));
-            segments = frond_plant_get_capsule_count(plant);
-        }
-        std::vector<double> ms;
-        for (int i = 0; i < WARM_UP + STEPS; i++) {
-            const double begin = now();
-            must(frond_world_step(world, H));
-            if (i >= WARM_UP) ms.push_back(now() - begin);
-        }
-        medians[in_lanes] = median(ms);
-        must(frond_world_get_state_hash(world, &hashes[in_lanes]));
-        std::printf("%18s %9d %9.2f\n", in_lanes ? "in lanes" : "one at a time", segments, medians[in_lanes]);
-        std::fflush(stdout);
-        frond_world_destroy(world);
-    }
-    std::printf("%.2f times as quick, %s\n", medians[0] / medians[1],
-                hashes[0] == hashes[1] ? "bits are the same" : "bits DIFFER");
-    frond_model_destroy(model);
-}
-
 // Fifty come in; with and without a budget.
 void bench_crowd(const BenchOptions& options, double budget) {
     constexpr int STEPS = 600;
@@ -301,7 +252,7 @@ void bench_field(const BenchOptions& options) {
         std::fflush(stdout);
     }
     bench_wind(options);
-    bench_abreast();
+    bench_kinds();
     std::printf("\na crowd of 50 comes into %d plants, Frond's time of a step [ms]\n%8s %9s %9s %9s %9s %9s %9s\n",
                 options.most, "budget", "median", "95 %", "99 %", "most", "awake", "simulated");
     for (const double budget : {0.0, 8.0, 4.0, 2.0}) bench_crowd(options, budget);

@@ -18,8 +18,12 @@ struct FourTets {
         for (int lane = 0; lane < int(TETS); ++lane) tet[lane] = first + size_t(std::min(lane, count - 1));
     }
 
+    template <class Value>
+    FROND_INLINE S of_each(const Value& value) const {
+        return gather<S>([&](int l) { return value(tet[l]); });
+    }
     FROND_INLINE S of_tets(const std::vector<double>& numbers) const {
-        return gather<S>([&](int l) { return numbers[tet[l]]; });
+        return of_each([&](size_t e) { return numbers[e]; });
     }
     template <class Mask>
     FROND_INLINE int count_tets(const Mask& mask) const {
@@ -27,16 +31,16 @@ struct FourTets {
         for (int l = 0; l < count; ++l) sum += mask[l] != 0;
         return sum;
     }
-    FROND_INLINE TetShareLanes<S> share() const {
+    FROND_INLINE Lanes33<S> at_rest() const {
         const double* inverse[TETS];
         for (size_t l = 0; l < TETS; ++l) inverse[l] = rest_inverse(elements, tet[l], 0, 1).data();
         const auto at = [&](int i) __attribute__((always_inline)) {
             return gather<S>([&](int l) { return inverse[l][i]; });
         };
-        return {{{{at(0), at(3), at(6)}, {at(1), at(4), at(7)}, {at(2), at(5), at(8)}}},
-                of_tets(elements.volume),
-                of_tets(elements.lambda),
-                of_tets(elements.mu)};
+        return {{{at(0), at(3), at(6)}, {at(1), at(4), at(7)}, {at(2), at(5), at(8)}}};
+    }
+    FROND_INLINE TetShareLanes<S> share() const {
+        return {at_rest(), of_tets(elements.volume), of_tets(elements.lambda), of_tets(elements.mu)};
     }
     // Of what is given at nodes, the differences from the first corner, as columns.
     FROND_INLINE Lanes33<S> edges(const double* x) const {

@@ -86,10 +86,11 @@ struct Ahead {
 // (core/lanes.hpp), and comes out as if its plant were alone.
 struct MechanicsAbreast {
     // As in Mechanics.
-    // f and A hold anything before; `filled` is room for it.
+    // f and A hold anything before; `filled` is room for it. Each lane's number of inverted tets is put to `inverted`.
     void (*set_ahead)(const Elements& elements, const NumbersInLines& x, const Ahead& ahead, NumbersInLines& f,
-                      BlockMatrix& A, std::vector<uint8_t>& filled);
-    void (*rotary_inertia)(const Elements& elements, const NumbersInLines& x, NumbersInLines& out);  // row by row
+                      BlockMatrix& A, std::vector<uint8_t>& filled, int* inverted);
+    // Row by row; null: no node turns.
+    void (*rotary_inertia)(const Elements& elements, const NumbersInLines& x, NumbersInLines& out);
     // Which lanes are not, on that part of the way, as is_calm() asks, and not as yields() does, or so near to that
     // that they have to be asked themselves; a bit each.
     unsigned (*not_calm)(const Elements& elements, const NumbersInLines& from, const NumbersInLines& to, double part);

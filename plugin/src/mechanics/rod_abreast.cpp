@@ -1,4 +1,5 @@
 // In: rods of several plants, one a lane, and where their nodes are. Out: what rod.cpp tells of one plant.
+#include "mechanics/abreast.hpp"
 #include "mechanics/rod_assemble.hpp"
 #include "mechanics/rows.hpp"
 
@@ -71,21 +72,16 @@ struct FindYielding {
     }
 };
 
-// Of numbers of nodes side by side.
-int lanes_of(const Elements& body, const NumbersInLines& x) {
-    return int(x.size()) / (3 * body.node_count);
-}
-
 void set_ahead(const Elements& body, const NumbersInLines& x, const Ahead& ahead, NumbersInLines& f, BlockMatrix& A,
-               std::vector<uint8_t>& filled) {
+               std::vector<uint8_t>& filled, int* inverted) {
     const int lanes = lanes_of(body, x);
     filled.assign(size_t(body.pattern.block_count()), 0);
     f.assign(x.size(), 0);
     Assemble<PieceOfSeveral> job = to_add_ahead<PieceOfSeveral>(as_rods(body), x.data(), ahead, f.data(), A);
     job.filled = &filled;
     run_in_lanes(lanes, job);
-    for (size_t slot = 0; slot < filled.size(); ++slot)
-        if (!filled[slot]) std::fill_n(A.values.begin() + std::ptrdiff_t(9 * slot) * lanes, 9 * lanes, 0.0);
+    leave_no_gaps(lanes, filled, A);
+    std::fill_n(inverted, lanes, 0);
 }
 
 void rotary_inertia(const Elements& body, const NumbersInLines& x, NumbersInLines& out) {

@@ -16,6 +16,8 @@ std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics wh
 Masses tet_masses(const Elements&, frond_mass mass);
 void tet_section_strains(const Elements&, const VecX& x, std::vector<double>& out);
 std::unique_ptr<Elements> without_tets(const Elements&, const std::vector<uint8_t>& gone);
+// Beyond which tets are not calm: the change of the deformation gradient; as a turn, about 20 degrees [-].
+constexpr double LARGEST_CHANGE = 0.5;
 template <class Element>
 bool tets_are_calm(const Elements&, const VecX& from, const VecX& to);
 

@@ -8,6 +8,7 @@
 #include "mechanics/four_points.hpp"
 #include "mechanics/four_tets.hpp"
 #include "mechanics/tet_row.hpp"
+#include "mechanics/tets_abreast.hpp"
 
 namespace frond {
 
@@ -41,14 +42,10 @@ struct TetPass {
                 damped += ahead->damping;
                 by = ahead->step * (ahead->step + damped);
             }
-            if (f) {
-                Lanes33<S> P = Law::stress(share, strain);
-                if (ahead) {
-                    const Lanes33<S> change = tets.edges(ahead->way) + damped * tets.edges(ahead->v);
-                    P = P + Law::stress_of_change(share, strain, change * share.rest_inverse);
-                }
-                tets.add_force(share, P, *f);
-            }
+            if (f && ahead)
+                tets.add_force(share, stress_ahead<Law>(tets, share, strain, *ahead, damped), *f);
+            else if (f)
+                tets.add_force(share, Law::stress(share, strain), *f);
             if (!K) continue;
             const TetStiffnessLanes<S> stiffness = Law::stiffness(share, strain, tangent, by);
             tets.add_stiffness(stiffness, *K);
@@ -116,10 +113,13 @@ Mechanics tet_row_in_lanes(const char* name, int order) {
         row.add_force_stiffness_and_damping = rows.add_damped;
         row.add_ahead = rows.add_ahead;
     };
-    if (order == 1)
-        take(TetRowInLanes<Law, FourTets>());
-    else
+    if (order == 2) {
         take(TetRowInLanes<Law, FourPoints>());
+        return row;
+    }
+    take(TetRowInLanes<Law, FourTets>());
+    static const MechanicsAbreast ABREAST = {TetsAbreast<Law>::set_ahead, nullptr, tets_not_calm, tets_may_yield};
+    row.abreast = &ABREAST;
     return row;
 }
 

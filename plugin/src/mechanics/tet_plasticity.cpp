@@ -13,9 +13,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/lanes.hpp"
 #include "mechanics/polar.hpp"
 #include "mechanics/sections.hpp"
+#include "mechanics/tet_looks.hpp"
 #include "model/tet_geometry.hpp"
 
 namespace frond {
@@ -118,63 +118,17 @@ void let_tets_yield(const Model& model, TetElements& elements) {
     elements.yields = std::move(yields);
 }
 
-namespace {
-
-// Whether any tet of four nodes is near its yield, by Green's strain; several at once.
-struct LookForStrained {
-    const TetElements& elements;
-    const VecX& x;
-    bool& found;
-    template <class S>
-    FROND_INLINE bool any(size_t first) const {
-        const auto tet = [&](int lane) { return std::min(first + size_t(lane), elements.tets.size() - 1); };
-        S f[3][3] = {};  // by rows: edges times the inverse of those at rest
-        for (int k = 0; k < 3; ++k) {
-            S edge[3];
-            for (int c = 0; c < 3; ++c)
-                edge[c] = gather<S>([&](int l) {
-                    const Tet& nodes = elements.ordered[tet(l)];
-                    return x.data()[3 * nodes[size_t(k) + 1] + c] - x.data()[3 * nodes[0] + c];
-                });
-            for (int j = 0; j < 3; ++j) {
-                const S inverse = gather<S>([&](int l) { return elements.rest_inverse[tet(l)].data()[k + 3 * j]; });
-                for (int c = 0; c < 3; ++c) f[c][j] += edge[c] * inverse;
-            }
-        }
-        const auto green = [&](int i, int j) __attribute__((always_inline)) {
-            return S(0.5 * (f[0][i] * f[0][j] + f[1][i] * f[1][j] + f[2][i] * f[2][j]));
-        };
-        const S xx = green(0, 0), yy = green(1, 1), zz = green(2, 2), xy = green(0, 1), yz = green(1, 2),
-                zx = green(2, 0);
-        const S mean = (xx + yy + zz) * (1.0 / 3), a = xx - mean, b = yy - mean, c = zz - mean;
-        const S square = a * a + b * b + c * c + 2.0 * (xy * xy + yz * yz + zx * zx);
-        const S allowed = gather<S>([&](int l) {
-            // As a pulled bar, see as_pulled().
-            const double sum = elements.lambda[tet(l)] + elements.mu[tet(l)];
-            const double most =
-                elements.yields[tet(l)].strain / LOG_OVER_GREEN * (1 + elements.lambda[tet(l)] / (2 * sum));
-            return most > 0 ? most * most / 1.5 : INFINITY;
-        });
-        for (int lane = 0; lane < LANES<S>; ++lane)
-            if (!(square[lane] <= allowed[lane])) return true;
-        return false;
-    }
-    template <class S>
-    FROND_INLINE void run() const {
-        for (size_t e = 0; e < elements.tets.size() && !found; e += size_t(LANES<S>)) found = any<S>(e);
-    }
-};
-
-}  // namespace
+// As a pulled bar, see as_pulled().
+double green_square_allowed(const TetElements& elements, size_t e) {
+    const double sum = elements.lambda[e] + elements.mu[e];
+    const double most = elements.yields[e].strain / LOG_OVER_GREEN * (1 + elements.lambda[e] / (2 * sum));
+    return most > 0 ? most * most / 1.5 : INFINITY;
+}
 
 template <class Element>
 bool tets_yield(const Elements& body, const VecX& x) {
     const TetElements& elements = as_tets(body);
-    if (Element::POINTS == 1) {
-        bool found = false;
-        run_in_lanes(LookForStrained{elements, x, found});
-        if (!found) return false;
-    }
+    if (Element::POINTS == 1 && !any_tet_may_yield(body, x)) return false;
     Strained strained;
     for (size_t e = 0; e < elements.tets.size(); ++e) {
         const auto places = Element::places(elements, e, x);

@@ -16,6 +16,8 @@ double green_strain(const TetShare& share, const Mat3& F);
 Strained strained_at(const TetShare& share, const Mat3& F);
 // Whether that strain is beyond `most`, which is never where `most` is zero. Most tets are told without a rotation.
 bool exceeds(const TetShare& share, const Mat3& F, double most, Strained& out);
+// Up to which square of its deviator, of Green's strain, a tet is far from its yield; infinite where it has none.
+double green_square_allowed(const TetElements& elements, size_t e);
 // Makes 1 - `elastic` of the distortion of S lasting: F becomes F times this, of determinant one.
 Mat3 flow_of(const Mat3& S, double elastic);
 

@@ -37,6 +37,14 @@ FROND_INLINE FirstCorner<S> first_corner(const TetStiffnessLanes<S>& k) {
     return {-(k10 + k20 + k30), k10, k20, k30};
 }
 
+// Stress with what the stiffness says of the way ahead.
+template <class Law, class Group, class S, class Strain>
+FROND_INLINE Lanes33<S> stress_ahead(const Group& tets, const TetShareLanes<S>& share, const Strain& strain,
+                                     const Ahead& ahead, const S& damped) {
+    const Lanes33<S> change = tets.edges(ahead.way) + damped * tets.edges(ahead.v);
+    return Law::stress(share, strain) + Law::stress_of_change(share, strain, change * share.rest_inverse);
+}
+
 template <class S>
 FROND_INLINE Mat3 lane_of(const Lanes33<S>& a, int lane) {
     Mat3 out;

@@ -7,8 +7,9 @@
 
 namespace frond {
 
-// What goes on in a step of h [s] is what goes on in every healthy one, as far as that is known before it.
-bool may_go_abreast(const Plant& plant, const Surroundings& surroundings, double h);
+// What goes on in a step of h [s] is what goes on in every healthy one, as far as that is known before it. Leaves in
+// the plant which method that will be.
+bool may_go_abreast(Plant& plant, const Surroundings& surroundings, double h);
 // Both of them may: whether they may with each other, in steps of a length.
 bool go_alike(const Plant& a, const Plant& b);
 // As many as go at once on this processor.

@@ -3,14 +3,59 @@
 
 #include <algorithm>
 
+#include "mechanics/grip_lanes.hpp"
 #include "plant/air_push.hpp"
 #include "plant/wind_lanes.hpp"
+#include "solve/system.hpp"
 
 namespace frond {
 
 namespace {
 
+// Where the mechanics move the chain: places and rotations of its nodes.
+struct Chains {
+    template <class S>
+    FROND_INLINE static Lanes3<S> place(const AirAbreast&, const Abreast& step, int i) {
+        return load3<S>(step.x.data(), 6 * i);
+    }
+    template <class S>
+    FROND_INLINE static Lanes3<S> velocity(const Abreast&, const NumbersInLines& v, int i) {
+        return load3<S>(v.data(), 6 * i);
+    }
+};
+// Where the chain follows a cage.
+struct Cages {
+    template <class S>
+    FROND_INLINE static Lanes3<S> place(const AirAbreast& air, const Abreast&, int i) {
+        return load3<S>(air.chain.data(), 3 * i);
+    }
+    template <class S>
+    FROND_INLINE static Lanes3<S> velocity(const Abreast& step, const NumbersInLines& v, int i) {
+        return grip_sum<S>(step.system->chain[size_t(i)], v.data());
+    }
+};
+// Runs Job<Chains> or Job<Cages>, whichever the plants are, made of these.
+template <template <class> class Job, class... Parts>
+void run_of(const Abreast& step, Parts&&... parts) {
+    if (step.system->chain.empty())
+        run_in_lanes(step.lanes, Job<Chains>{parts...});
+    else
+        run_in_lanes(step.lanes, Job<Cages>{parts...});
+}
+
+struct PlaceChain {
+    AirAbreast& air;
+    const Abreast& step;
+    template <class S>
+    FROND_INLINE void run() const {
+        const std::vector<Grip>& grips = step.system->chain;
+        for (size_t i = 0; i < grips.size(); i++)
+            store3(grip_sum<S>(grips[i], step.x.data()), air.chain.data(), 3 * int(i));
+    }
+};
+
 // Where the chain nodes of all plants are in the world, and the wind there.
+template <class Of>
 struct LookAtWind {
     AirAbreast& air;
     const Abreast& step;
@@ -25,7 +70,8 @@ struct LookAtWind {
         for (int begin = 0; begin < count; begin += MOST) {
             const int here = std::min(MOST, count - begin);
             Lanes3<S> places[MOST], velocities[MOST];
-            for (int i = 0; i < here; i++) places[i] = to_world * load3<S>(step.x.data(), 6 * (begin + i)) + position;
+            for (int i = 0; i < here; i++)
+                places[i] = to_world * Of::template place<S>(air, step, begin + i) + position;
             wind_at(now, places, here, velocities);
             for (int i = 0; i < here; i++) {
                 store3(places[i], air.places.data(), 3 * (begin + i));
@@ -68,6 +114,7 @@ unsigned ask_field(AirAbreast& air, const Surroundings& surroundings, int plant_
     return unsound;
 }
 
+template <class Of>
 struct GatherPieces {
     AirAbreast& air;
     Abreast& step;
@@ -81,7 +128,7 @@ struct GatherPieces {
         const Lanes33<S> to_world = {{load3<S>(turn, 0), load3<S>(turn, 3), load3<S>(turn, 6)}};
         const Lanes33<S> to_model = transposed(to_world);
         for (int i = 0; i < count; i++) {
-            const Lanes3<S> velocity = is_dragged ? load3<S>(step.v.data(), 6 * i) : Lanes3<S>{};
+            const Lanes3<S> velocity = is_dragged ? Of::template velocity<S>(step, step.v, i) : Lanes3<S>{};
             store3(velocity, air.velocities.data(), 3 * i);
             store3(to_model * load3<S>(air.wind.data(), 3 * i) - velocity, air.passing.data(), 3 * i);
         }
@@ -112,8 +159,17 @@ struct GatherPieces {
         }
     }
     template <class S>
-    FROND_INLINE void run() const {
-        look_at_air<S>();
+    FROND_INLINE void add_of(const AirPiece& of, const Lanes3<S>& wide) const {
+        const auto place = [&](int i) __attribute__((always_inline)) {
+            return Of::template place<S>(air, step, i);
+        };
+        const AirLanes<S> piece([&](int) -> const AirPiece& { return of; });
+        const Lanes33<S> frame = air_frame<S>(place(of.node) - place(of.parent), wide);
+        add_at(of.parent, of, piece, frame);
+        add_at(of.node, of, piece, frame);
+    }
+    template <class S>
+    FROND_INLINE void add_pieces(Chains) const {
         const double* x = step.x.data();
         // Pieces mostly go on from the one before.
         int last_node = -1;
@@ -123,17 +179,32 @@ struct GatherPieces {
             if (of.parent != last_node) turn = rotation_by(load3<S>(x, 6 * of.parent + 3));
             last_node = of.node;
             last_turn = rotation_by(load3<S>(x, 6 * of.node + 3));
-            const AirLanes<S> piece([&](int) -> const AirPiece& { return of; });
             const Lanes3<S> wide = {constant<S>(of.wide[0]), constant<S>(of.wide[1]), constant<S>(of.wide[2])};
-            const Lanes33<S> frame =
-                air_frame<S>(load3<S>(x, 6 * of.node) - load3<S>(x, 6 * of.parent), turn * wide + last_turn * wide);
-            add_at(of.parent, of, piece, frame);
-            add_at(of.node, of, piece, frame);
+            add_of(of, turn * wide + last_turn * wide);
         }
+    }
+    // As wide_now().
+    template <class S>
+    FROND_INLINE void add_pieces(Cages) const {
+        for (const AirPiece& of : *air.pieces) {
+            Lanes3<S> wide = {};
+            for (size_t k = 0; k < 2; k++) {
+                const Grip& grip = step.system->chain[size_t(k == 0 ? of.parent : of.node)];
+                for (size_t c = 0; c < 4; c++)
+                    wide = wide + constant<S>(of.spread[k][c]) * load3<S>(step.x.data(), 3 * grip.node[c]);
+            }
+            add_of(of, wide);
+        }
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        look_at_air<S>();
+        add_pieces<S>(Of());
         for (int i = 0; i < count; i++) put_drag<S>(i);
     }
 };
 
+template <class Of>
 struct AddForces {
     const Abreast& step;
     NumbersInLines& out;
@@ -147,7 +218,7 @@ struct AddForces {
                             first = load3<S>(step.drag_damping.data(), 6 * i),
                             rest = load3<S>(step.drag_damping.data(), 6 * i + 3);
             const Lanes33<S> damping = {{first, {first.y, rest.x, rest.y}, {first.z, rest.y, rest.z}}};
-            sum = sum + (force - damping * load3<S>(step.v_end.data(), 6 * i));
+            sum = sum + (force - damping * Of::template velocity<S>(step, step.v_end, i));
             any += dot(force, force) + dot(first, first) + dot(rest, rest);
         }
         store3(sum, out.data(), 0);
@@ -171,25 +242,40 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
         make_room(*sums, 2 * n);
         sums->assign(2 * n, 0);
     }
+    make_room(air.chain, step.system->chain.empty() ? 0 : n);
+    if (!air.chain.empty()) run_in_lanes(lanes, PlaceChain{air, step});
     look_at_frames(air, plants, plant_count, lanes);
     unsigned unsound = 0;
     if (effects & FROND_WIND) {
         const WindNow now = wind_now(*surroundings.wind, up_of(surroundings.gravity));
-        run_in_lanes(lanes, LookAtWind{air, step, now, count});
+        run_of<LookAtWind>(step, air, step, now, count);
         if (surroundings.wind->field) unsound = ask_field(air, surroundings, plant_count, lanes);
     } else {
         air.wind.assign(n, 0);
     }
-    run_in_lanes(lanes,
-                 GatherPieces{air, step, count, surroundings.wind->def.density, h, (effects & FROND_AIR_DRAG) != 0});
+    run_of<GatherPieces>(step, air, step, count, surroundings.wind->def.density, h, (effects & FROND_AIR_DRAG) != 0);
     return unsound;
 }
 
 unsigned air_forces(const Abreast& step, NumbersInLines& out) {
     out.resize(3 * size_t(step.lanes));
     unsigned dragged = 0;
-    run_in_lanes(step.lanes, AddForces{step, out, dragged});
+    run_of<AddForces>(step, step, out, dragged);
     return dragged;
+}
+
+void take_drags(const Abreast& step, int lane, std::vector<Drag>& out) {
+    const auto number = [&](const NumbersInLines& of, size_t i) { return of[i * size_t(step.lanes) + size_t(lane)]; };
+    out.clear();
+    for (size_t i = 0; i < step.system->chain.size(); i++) {
+        Drag drag;
+        SixOf damping;
+        for (size_t c = 0; c < 3; c++) drag.force[Eigen::Index(c)] = number(step.drag_force, 3 * i + c);
+        for (size_t k = 0; k < 6; k++) damping[k] = number(step.drag_damping, 6 * i + k);
+        drag.damping = matrix_of(damping);
+        drag.grip = step.system->chain[i];
+        if (drag.force != Vec3::Zero() || damping != SixOf{}) out.push_back(drag);
+    }
 }
 
 }  // namespace frond

@@ -9,6 +9,7 @@ namespace frond {
 // Room for it: of each vector every number is there once a lane.
 struct AirAbreast {
     std::shared_ptr<const AirPieces> pieces;
+    NumbersInLines chain;                // where chain nodes of cages are, model frame [m]
     NumbersInLines places, wind;         // of chain nodes, and there, world frame [m], [m/s]
     NumbersInLines passing, velocities;  // of the air past chain nodes, and of these, model frame [m/s]
     NumbersInLines resistance, lag;      // six numbers a chain node [N s/m]
@@ -21,5 +22,7 @@ unsigned gather_air(AirAbreast& air, Abreast& step, Plant* const* plants, int pl
                     const Surroundings& surroundings, frond_effects effects, double h);
 // Force of the drags at the end of the step, model frames, three numbers [N]; lanes in which there are any, a bit each.
 unsigned air_forces(const Abreast& step, NumbersInLines& out);
+// Those of one lane, as gather_air() leaves them.
+void take_drags(const Abreast& step, int lane, std::vector<Drag>& out);
 
 }  // namespace frond

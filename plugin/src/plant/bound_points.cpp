@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "plant/plant.hpp"
+#include "solve/system.hpp"
 
 namespace frond {
 
@@ -74,7 +75,7 @@ std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule) {
 }
 
 Grip chain_grip(const Plant& plant, int node) {
-    return tet_grip(bound_place(plant, plant.model->chain_embedding, size_t(node)));
+    return plant.system->chain[size_t(node)];
 }
 
 // Of a chain: the corner of the vertex's tet that it is nearest to stands for it, and a rigid arm reaches the rest.

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include "core/lanes_of_plants.hpp"
 #include "plant/air_push.hpp"
 #include "plant/flat.hpp"
-#include "plant/lanes_of_plants.hpp"
 #include "plant/plant.hpp"
 #include "solve/abreast.hpp"
 

@@ -134,6 +134,7 @@ struct Plant {
     bool is_off_course = false;  // in the running step something went elsewhere than it was heading
     float patience = 1;          // share of the work that searches are given [-]
     bool may_yield = true;       // in the running step, for all that is known
+    bool looks_back = false;     // the running step does, as far as it may be taken abreast
     // From a shape to which nothing can have bent it; below zero: was so long caught where searches find no way [s].
     float recovers_for = 0;
     float size;  // of the modelled surface, from corner to corner [m]
@@ -161,6 +162,8 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 // A step in two halves, between which contacts may change what the first one found: effects and solve; then accept,
 // with what becomes lasting, or rewind, and the chain.
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
+// The end of the first half: what is drawn out is held, and whether what was found can be the next state is told.
+void finish_solving(Plant& plant, frond_effects effects, double h);
 // The middle of the first half: plant.motion goes on by h under plant.loads.
 SolveReport solve_in_substeps(Plant& plant, double h);
 // Of the running step; gravity in the model's frame [m/s^2].

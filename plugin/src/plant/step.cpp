@@ -236,6 +236,10 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
         solve_carefully(plant, h, contacts_of(plant), work_allowed(plant));
     else
         gain_patience(plant);
+    finish_solving(plant, effects, h);
+}
+
+void finish_solving(Plant& plant, frond_effects effects, double h) {
     hold_what_is_drawn_out(plant, effects, h);
     // Chains have no fibres: nothing of them has moved since they were found plausible. What goes on as it was heading
     // is not being stretched.

@@ -34,16 +34,16 @@ void half_solve_block(LinearScratch& scratch, const std::vector<NodeBlock>& righ
     half_solve(scratch.block, right_side, answer);
 }
 
-LinearResult solve_block(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
-                         VecX& x) {
+LinearResult solve_block(const BlockMatrix& A, const VecX& b, const LinearLimits&, LinearScratch& scratch, VecX& x) {
     if (!factorize(scratch.block, A)) return {};
-    return solve_block_again(A, b, limits, scratch, x);
-}
-
-LinearResult solve_block_again(const BlockMatrix& A, const VecX& b, const LinearLimits&, LinearScratch& scratch,
-                               VecX& x) {
     solve(scratch.block, b, x);
     return checked_once(A, b, x, scratch);
+}
+
+LinearResult solve_block_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch& scratch,
+                               VecX& x) {
+    solve(scratch.block, b, x);
+    return unchecked(x);
 }
 
 }  // namespace frond

@@ -107,17 +107,17 @@ void solve(DirectFactor& factor, const VecX& b, VecX& x) {
     for (size_t k = 0; k < factor.order.size(); ++k) point(x, factor.order[k]) = point(factor.solution, int(k));
 }
 
-LinearResult solve_direct(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
-                          VecX& x) {
+LinearResult solve_direct(const BlockMatrix& A, const VecX& b, const LinearLimits&, LinearScratch& scratch, VecX& x) {
     if (!scratch.direct) scratch.direct = make_direct_factor(*A.pattern);
     if (!factorize(*scratch.direct, A)) return {};
-    return solve_direct_again(A, b, limits, scratch, x);
-}
-
-LinearResult solve_direct_again(const BlockMatrix& A, const VecX& b, const LinearLimits&, LinearScratch& scratch,
-                                VecX& x) {
     solve(*scratch.direct, b, x);
     return checked_once(A, b, x, scratch);
+}
+
+LinearResult solve_direct_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch& scratch,
+                                VecX& x) {
+    solve(*scratch.direct, b, x);
+    return unchecked(x);
 }
 
 }  // namespace frond

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/lanes.hpp"
+#include "solve/front_corner.hpp"
 #include "solve/fronts.hpp"
 
 namespace frond {
@@ -59,24 +60,13 @@ FROND_INLINE void for_rows(int begin, int end, const Work& work) {
         work.template tile<1>(row);
 }
 
-// The triangle of three columns: what is below its diagonal, D and 1/D.
-struct Corner {
-    double below[3];  // unscaled: (1, 0), (2, 0), (2, 1)
-    double pivot[3], inverse[3];
-};
-
-FROND_INLINE bool is_pivot(double d) {
-    return d > 0 && d <= 1e300;
+bool is_pivot(double d) {
+    return d > 0 && d <= LARGEST_PIVOT;
 }
 
-FROND_INLINE bool factorize_corner(const Tile<1>& a, Corner& out) {
-    const double a10 = a.at[0][0][1], a20 = a.at[0][0][2];
-    const double d0 = a.at[0][0][0], i0 = 1 / d0, l10 = a10 * i0, l20 = a20 * i0;
-    const double a21 = a.at[1][0][2] - l20 * a10;
-    const double d1 = a.at[1][0][1] - l10 * a10, i1 = 1 / d1;
-    const double d2 = (a.at[2][0][2] - l20 * a20) - a21 * i1 * a21;
-    out = {{a10, a20, a21}, {d0, d1, d2}, {i0, i1, 1 / d2}};
-    return is_pivot(d0) && is_pivot(d1) && is_pivot(d2);
+FROND_INLINE bool factorize_corner(const Tile<1>& a, Corner<double>& out) {
+    out = corner_of<double>(a.at[0][0][0], a.at[0][0][1], a.at[0][0][2], a.at[1][0][1], a.at[1][0][2], a.at[2][0][2]);
+    return is_pivot(out.pivot[0]) && is_pivot(out.pivot[1]) && is_pivot(out.pivot[2]);
 }
 
 // Three columns of a front, at `column`: what the columns before them take off, and division by their triangle. Beside
@@ -84,7 +74,7 @@ FROND_INLINE bool factorize_corner(const Tile<1>& a, Corner& out) {
 struct Panel {
     double *L, *LD;
     int stride, column;
-    const Corner& corner;
+    const Corner<double>& corner;
     template <int V>
     FROND_INLINE void tile(int row) const {
         double* at = L + column * stride + row;
@@ -184,7 +174,7 @@ struct Factorize {
         for (int column = 0; column < 3 * front.own; column += 3) {
             Tile<1> a = load_tile<1>(L + column * stride + column, stride);
             take_off(a, L + column, products + column, stride, column);
-            Corner corner;
+            Corner<double> corner;
             if (!factorize_corner(a, corner)) return false;
             for_rows(floor_to_rows(column), stride, Panel{L, products, stride, column, corner});
             // Rows above the diagonal came along.

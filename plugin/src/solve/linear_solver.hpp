@@ -33,7 +33,8 @@ struct LinearSolver {
     const char* name;
     LinearResult (*solve)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
                           VecX& x);
-    // The same with the matrix of the last solve, which need not be factorized again.
+    // The same with the matrix of the last solve, which need not be factorized again; what has factors does not look at
+    // the residual either.
     LinearResult (*again)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
                           VecX& x);
     // Half of that for a right side of few nodes, from which an answer is made; null: the solver has no such thing.
@@ -54,7 +55,8 @@ LinearResult solve_pcg_incomplete_cholesky(const BlockMatrix&, const VecX& b, co
 
 // |b - A x| / |b|; leaves b - A x in `residual`. Zero for b = 0 and x = 0.
 double relative_residual(const BlockMatrix& A, const VecX& b, const VecX& x, VecX& residual);
-// What a direct solve came to.
+// What a direct solve came to; without a look at the residual only whether it is finite.
 LinearResult checked_once(const BlockMatrix& A, const VecX& b, const VecX& x, LinearScratch& scratch);
+LinearResult unchecked(const VecX& x);
 
 }  // namespace frond

@@ -27,6 +27,12 @@ static void finish(System& system, frond_mass mass) {
         upper = upper.cwiseMax(point(system.elements->rest_positions, i));
     }
     system.size = (upper - lower).maxCoeff();
+
+    if (system.row->moves_chain) return;
+    const TetNodes& nodes = static_cast<const TetElements&>(*system.elements).nodes;
+    const Embedding& chain = system.model->chain_embedding;
+    for (size_t i = 0; i < chain.tet.size(); ++i)
+        system.chain.push_back(tet_grip(place_in_tet(nodes, system.model->cage.tets, chain.tet[i], chain.weights[i])));
 }
 
 std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass,
