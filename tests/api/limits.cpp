@@ -1,12 +1,11 @@
 // Absurd sizes from a caller: refused with a text, before time or memory is spent on them.
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <cstring>
 #include <string>
 #include <vector>
 
-#include "frond/frond.h"
+#include "frond/frond_robot.h"
+#include "support/stems.hpp"
 
 namespace {
 
@@ -68,6 +67,12 @@ TEST(Limits, EndlessNamesAreRefused) {
     def.organs = &organ;
     def.organ_count = 1;
     expect_refused([&] { return frond_model_load("x.obj", &def, &model); }, FROND_BAD_ARGUMENT, "organ");
+    const SmallWorld small;
+    const frond_robot_def robot_def = frond_default_robot_def();
+    frond_robot robot = {};
+    expect_refused([&] { return frond_robot_load(small.world, endless.c_str(), &robot_def, &robot); },
+                   FROND_BAD_ARGUMENT, "path");
+    expect_refused([&] { return frond_model_write_urdf(small.model, endless.c_str()); }, FROND_BAD_ARGUMENT, "path");
     frond_material material;
     expect_refused([&] { return frond_material_preset(endless.c_str(), &material); }, FROND_BAD_ARGUMENT,
                    "no material");

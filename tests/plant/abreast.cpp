@@ -111,6 +111,10 @@ void disturb(Field& field, int step) {
     Plant& third = *field.plants[2];
     if (step == 60) pin_node(third, node_count_of(third) - 1);
     if (step == 90) unpin_node(third, node_count_of(third) - 1);
+    if (step == 95) {
+        pin_node(third, node_count_of(third) - 2);
+        unpin_node(third, node_count_of(third) - 2);
+    }
     if (step >= 100 && step < 110) {
         field.plants[0]->user_force = VecX::Constant(3 * node_count_of(*field.plants[0]), 0.02);
         field.plants[0]->has_user_force = true;

@@ -338,6 +338,41 @@ TEST(Wake, ComesWhenWhatLayOnAPlantIsTakenAway) {
     EXPECT_GT(sprung, 2e-4);
 }
 
+TEST(Wake, DoesNotComeFromWhatIsRefused) {
+    Stand stand;
+    const frond_plant plant = stand.add(0);
+    const std::vector<double> places = stand.places(plant);
+    const int count = int(places.size() / 3);
+    const frond_vec3 none = {NAN, 0, 0};
+    frond_grab grab = {};
+    frond_bond bond = {};
+    ASSERT_TRUE(stand.rests_within(10));
+    const std::vector<std::pair<const char*, std::function<frond_result()>>> calls = {
+        {"effects", [&] { return frond_plant_set_effects(plant, ~0u); }},
+        {"mechanics", [&] { return frond_plant_set_mechanics(plant, FROND_MECHANICS_COUNT); }},
+        {"integrator", [&] { return frond_plant_set_integrator(plant, FROND_INTEGRATOR_COUNT); }},
+        {"state", [&] { return frond_plant_set_state(plant, places.data(), nullptr, count - 1); }},
+        {"lasting", [&] { return frond_plant_set_lasting(plant, nullptr, 1); }},
+        {"pin", [&] { return frond_plant_pin(plant, -1); }},
+        {"unpin", [&] { return frond_plant_unpin(plant, count); }},
+        {"move_pin",
+         [&] {
+             return frond_plant_move_pin(plant, count - 1, {0, 0, 0});
+         }},
+        {"add_force", [&] { return frond_plant_add_force(plant, count - 1, none); }},
+        {"break", [&] { return frond_plant_break(plant, 1000); }},
+        {"grab", [&] { return frond_grab_create(plant, none, 10, &grab); }},
+        {"bond", [&] { return frond_bond_create(plant, none, {}, &bond); }},
+    };
+    for (const auto& [name, refused] : calls) {
+        EXPECT_NE(refused(), FROND_OK) << name;
+        EXPECT_FALSE(frond_plant_is_awake(plant)) << name;
+    }
+    // What is pinned is told while it sleeps too.
+    EXPECT_EQ(frond_plant_move_pin(plant, 0, {places[0], places[1], places[2]}), FROND_OK);
+    EXPECT_TRUE(frond_plant_is_awake(plant));
+}
+
 TEST(Wake, TakesNoStaleHandleAndNoAbsurdDistance) {
     EXPECT_FALSE(frond_plant_is_awake({}));
     EXPECT_EQ(frond_plant_wake({}), FROND_BAD_HANDLE);

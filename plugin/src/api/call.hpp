@@ -52,6 +52,13 @@ inline void check_range(double value, double low, double high, const char* name)
 inline void check_vec(const frond_vec3& p, const char* name) {
     for (double value : {p.x, p.y, p.z}) check_range(value, -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
 }
+// Names and paths that no file system and no mesh has.
+inline void check_text(const char* text, const char* name) {
+    constexpr size_t LONGEST = 4096;
+    check_pointer(text, name);
+    if (strnlen(text, LONGEST + 1) > LONGEST)
+        fail(FROND_BAD_ARGUMENT, "%s has more than %zu characters; pass a shorter one", name, LONGEST);
+}
 // The number in an enum that a caller wrote: it may be none of the enum's own, so it is not read as one.
 template <class Enum>
 int number_of(const Enum& value) {

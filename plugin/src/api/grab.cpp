@@ -10,10 +10,10 @@ frond_result frond_grab_create(frond_plant plant, frond_vec3 near_point, double 
     return call([&] {
         check_pointer(out, "out");
         *out = {};
-        PlantBody& body = get_awake(plant);
+        PlantBody& body = get(plant);
         check_vec(near_point, "point [m]");
         check_range(stiffness, 1e-9, 1e12, "stiffness [N/m]");
-        Plant& p = *body.plant;
+        Plant& p = awaken(body);
         const int vertex = nearest_vertex(p, to_vec(near_point));
         p.grabs.push_back({vertex, vertex_position(p, vertex), stiffness, 0});
         p.grabs.back().handle = grab_slots().insert({&body, &p.grabs.back()});

@@ -53,12 +53,6 @@ PlantBody& get(frond_plant plant) {
     require(found, plant.id, "plant");
     return *found;
 }
-PlantBody& get_awake(frond_plant plant) {
-    PlantBody& body = get(plant);
-    wake(body);
-    end_sway(body);
-    return body;
-}
 GrabEntry get(frond_grab grab) {
     const GrabEntry found = grab_slots().find(grab.id);
     require(found.grab, grab.id, "grab");
@@ -75,6 +69,12 @@ Bond& get(frond_bond bond) {
     Bond* found = bond_slots().find(bond.id);
     require(found, bond.id, "bond");
     return *found;
+}
+
+Plant& awaken(PlantBody& body) {
+    wake(body);
+    end_sway(body);
+    return *body.plant;
 }
 
 void forget(PlantBody& body) {

@@ -29,11 +29,12 @@ BondSlots& bond_slots();
 World& get(frond_world world);
 const std::shared_ptr<const Model> get(frond_model model);
 PlantBody& get(frond_plant plant);
-// Likewise, of what is about to be changed: it wakes.
-PlantBody& get_awake(frond_plant plant);
 GrabEntry get(frond_grab grab);
 Rigid& get(frond_rigid rigid);
 Bond& get(frond_bond bond);
+
+// Of what is about to be changed, after all that the caller gave was checked: stepped in full again.
+Plant& awaken(PlantBody& body);
 
 // Takes the handles of a plant, its grabs and its bonds back; the plant itself is the world's.
 void forget(PlantBody& body);

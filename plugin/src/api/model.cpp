@@ -10,14 +10,6 @@ using namespace frond;
 
 constexpr int LARGEST_COUNT = 20'000'000;  // of vertices or triangles that a caller may pass
 
-// Names and paths that no file system and no mesh has.
-static void check_text(const char* text, const char* name) {
-    constexpr size_t LONGEST = 4096;
-    check_pointer(text, name);
-    if (strnlen(text, LONGEST + 1) > LONGEST)
-        fail(FROND_BAD_ARGUMENT, "%s has more than %zu characters; pass a shorter one", name, LONGEST);
-}
-
 static void check_model_def(const frond_model_def* def) {
     check_def(def, MODEL_DEF_COOKIE, "model");
     check_vec(def->up, "def.up");

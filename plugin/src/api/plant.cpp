@@ -170,19 +170,19 @@ void* frond_plant_get_user(frond_plant plant) {
 
 frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects) {
     return call([&] {
-        PlantBody& body = get_awake(plant);
+        PlantBody& body = get(plant);
         check_effects(effects);
-        body.plant->effects = effects;
-        body.plant->surface_stale = true;
+        Plant& p = awaken(body);
+        p.effects = effects;
+        p.surface_stale = true;
     });
 }
 
 frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics which) {
     return call([&] {
-        PlantBody& body = get_awake(plant);
+        PlantBody& body = get(plant);
         check_row(number_of(which), FROND_MECHANICS_COUNT, "mechanics");
-        end_swing(*body.plant);
-        set_mechanics(*body.plant, which);
+        set_mechanics(awaken(body), which);
         body.level.own = which;
         body.level.now = FROND_DETAIL_FULL;
         show(body);
@@ -191,9 +191,9 @@ frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics which)
 
 frond_result frond_plant_set_integrator(frond_plant plant, frond_integrator integrator) {
     return call([&] {
-        PlantBody& body = get_awake(plant);
+        PlantBody& body = get(plant);
         check_row(number_of(integrator), FROND_INTEGRATOR_COUNT, "integrator");
-        body.plant->settings.integrator = integrator;
+        awaken(body).settings.integrator = integrator;
     });
 }
 
@@ -222,11 +222,11 @@ frond_result frond_plant_get_state(frond_plant plant, double* positions, double*
 frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
                                    int node_count) {
     return call([&] {
-        PlantBody& body = get_awake(plant);
+        PlantBody& body = get(plant);
         check_count(node_count, node_count_of(*body.plant), "node_count");
         check_numbers(positions, 3 * node_count, "positions");
         check_numbers(velocities, 3 * node_count, "velocities");
-        set_state(*body.plant, positions, velocities);
+        set_state(awaken(body), positions, velocities);
         show(body);
     });
 }
@@ -247,45 +247,47 @@ frond_result frond_plant_get_lasting(frond_plant plant, double* values, int coun
 
 frond_result frond_plant_set_lasting(frond_plant plant, const double* values, int count) {
     return call([&] {
-        Plant& p = *get_awake(plant).plant;
+        PlantBody& body = get(plant);
         check_range(count, 0, INT_MAX, "count");
         if (count > 0) check_pointer(values, "values");
         check_numbers(values, count, "values");
-        set_lasting(p, std::vector<double>(values, values + count));
+        set_lasting(awaken(body), std::vector<double>(values, values + count));
     });
 }
 
 frond_result frond_plant_pin(frond_plant plant, int node) {
     return call([&] {
-        Plant& p = *get_awake(plant).plant;
-        check_node(p, node);
-        pin_node(p, node);
+        PlantBody& body = get(plant);
+        check_node(*body.plant, node);
+        pin_node(awaken(body), node);
     });
 }
 
 frond_result frond_plant_unpin(frond_plant plant, int node) {
     return call([&] {
-        Plant& p = *get_awake(plant).plant;
-        check_node(p, node);
-        unpin_node(p, node);
+        PlantBody& body = get(plant);
+        check_node(*body.plant, node);
+        unpin_node(awaken(body), node);
     });
 }
 
 frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 position) {
     return call([&] {
-        Plant& p = *get_awake(plant).plant;
-        check_node(p, node);
+        PlantBody& body = get(plant);
+        check_node(*body.plant, node);
         check_vec(position, "position [m]");
-        if (!p.pinned[size_t(node)]) fail(FROND_BAD_ARGUMENT, "node %d is not pinned; call frond_plant_pin", node);
-        move_pin(p, node, p.to_model(to_vec(position)));
+        if (!is_pinned(*body.plant, node))
+            fail(FROND_BAD_ARGUMENT, "node %d is not pinned; call frond_plant_pin", node);
+        move_pin(awaken(body), node, body.plant->to_model(to_vec(position)));
     });
 }
 
 frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force) {
     return call([&] {
-        Plant& p = *get_awake(plant).plant;
-        check_node(p, node);
+        PlantBody& body = get(plant);
+        check_node(*body.plant, node);
         check_vec(force, "force [N]");
+        Plant& p = awaken(body);
         if (p.user_force.size() == 0) p.user_force = VecX::Zero(3 * Eigen::Index(node_count_of(p)));
         point(p.user_force, node) += to_vec(force);
         p.has_user_force = true;
@@ -384,14 +386,14 @@ frond_result frond_plant_get_broken(frond_plant plant, int fragment, frond_broke
 
 frond_result frond_plant_break(frond_plant plant, int capsule) {
     return call([&] {
-        PlantBody& body = get_awake(plant);
+        PlantBody& body = get(plant);
         const Plant& p = *body.plant;
         check_range(capsule, 0, double(body.capsules().size()) - 1, "capsule");
         const auto& [begin, end] = p.model->capsules[size_t(capsule)];
         if (begin == end) fail(FROND_BAD_ARGUMENT, "capsule %d is a root of its own; nothing grows beyond it", capsule);
         if (fragment_of_chain_node(p, size_t(end)))
             fail(FROND_BAD_ARGUMENT, "capsule %d has come off already; mend the plant first", capsule);
-        end_swing(*body.plant);
+        awaken(body);
         break_off(*body.world, body, end);
         show(body);
     });
@@ -399,7 +401,8 @@ frond_result frond_plant_break(frond_plant plant, int capsule) {
 
 frond_result frond_plant_mend(frond_plant plant) {
     return call([&] {
-        PlantBody& body = get_awake(plant);
+        PlantBody& body = get(plant);
+        awaken(body);
         for (const Rigid* fragment : body.fragment_bodies) rigid_slots().erase(fragment->handle.id);
         mend(*body.world, body);
         show(body);

@@ -129,7 +129,7 @@ frond_result frond_robot_load(frond_world world, const char* path, const frond_r
         check_pointer(out, "out");
         *out = {};
         World& w = get(world);
-        check_pointer(path, "path");
+        check_text(path, "path");
         check_robot_def(def);
         Robot* robot = add_robot(w, import_urdf(path, UrdfUse::COLLIDES), *def);
         robot->handle = robot_slots().insert(robot);

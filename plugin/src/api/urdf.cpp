@@ -16,7 +16,7 @@ extern "C" {
 frond_result frond_model_write_urdf(frond_model model, const char* path) {
     return call([&] {
         const std::shared_ptr<const Model> found = get(model);
-        check_pointer(path, "path");
+        check_text(path, "path");
         std::string name = path;
         name = name.substr(name.rfind('/') + 1);
         const std::string text = urdf_of(*found, name.substr(0, name.rfind('.')));

@@ -132,6 +132,7 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.motion.x = plant.motion.pin_target = start;
     plant.motion.v = VecX::Zero(start.size());
     plant.loads = {};
+    plant.blown.setZero();
     plant.motion.pinned.assign(size_t(start.size() / 3), 0);
     plant.pins_changed = plant.cage_stale = true;
     plant.substeps = 1;

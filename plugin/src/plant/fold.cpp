@@ -44,6 +44,7 @@ void fold(Plant& plant, double tolerance, bool keep_surface) {
     plant.motion = {};
     plant.trend = {};
     plant.loads = {};
+    plant.blown.setZero();
     plant.air = nullptr;
     for (VecX* numbers :
          {&plant.x_good, &plant.v_good, &plant.contact_impulse, &plant.contact_shift, &plant.user_force, &plant.cage_x})

@@ -9,12 +9,17 @@
 
 namespace frond {
 
+bool is_pinned(const Plant& plant, int node) {
+    return (plant.pinned.empty() ? plant.foot->pinned : plant.pinned)[size_t(node)];
+}
+
 void pin_node(Plant& plant, int node) {
     point(plant.pin_target, node) = point(cage_places(plant), node);
     plant.pinned[size_t(node)] = 1;
     plant.pins_changed = plant.pins_are_own = true;
     if (plant.follow) return;
     point(plant.motion.v, node).setZero();
+    plant.motion.history.valid = false;
     point(plant.motion.pin_target, node) = point(plant.motion.x, node);
 }
 

@@ -226,6 +226,7 @@ Grip vertex_grip(const Plant& plant, int vertex);
 Grip chain_grip(const Plant& plant, int node);
 
 // Holds a cage node where it is, lets it go, or moves where it is held to (model frame).
+bool is_pinned(const Plant& plant, int node);
 void pin_node(Plant& plant, int node);
 void unpin_node(Plant& plant, int node);
 void move_pin(Plant& plant, int node, const Vec3& target);

@@ -130,6 +130,7 @@ void begin_swing(Plant& plant) {
     plant.report.ok = true;
     plant.loads.drags.clear();
     plant.blown.setZero();
+    plant.stepped_by = 0;
 }
 
 void keep_only_swing(Plant& plant) {
