@@ -63,5 +63,58 @@ TEST(LongSteps, LetACucumberComeToRest) {
     for (double h : {0.1, 0.5}) swing(*plant_of(model), h);
 }
 
+// Of a stem as a cage, bent far by a wind of gravity and let go.
+struct Swung {
+    double kept = 0;  // of its energy after half a second [-]
+    int retried = 0;  // steps
+};
+Swung let_go(frond_integrator integrator, double h) {
+    const frond_stem stem = {-1, {0, 0, 0}, {0, 1, 0}, 0.01, 0.01};
+    const frond_organ_material organ = {"stem", plain_material(1000, 2e8, 0.3, 1e-4)};
+    frond_model_def def = model_def();
+    def.cage_size = 0.1;
+    def.rest = FROND_REST_WITHOUT_GRAVITY;
+    def.organs = &organ;
+    def.organ_count = 1;
+    frond_plant_def undamped = plant_def(FROND_TET_COROTATIONAL);
+    undamped.mass_damping = undamped.stiffness_damping = 0;
+    undamped.effects = FROND_GRAVITY;
+    const auto plant = create_plant(build_from_stems(&stem, 1, def), undamped);
+    Surroundings surroundings;
+    surroundings.gravity = {80, 0, 0};
+    plant->settings.integrator = FROND_IMPLICIT_EULER;
+    for (int i = 0; i < 200; i++) step_plant(*plant, surroundings, 0.05);
+    surroundings.gravity.setZero();
+    plant->settings.integrator = integrator;
+    const double before = energy_of(*plant, Vec3::Zero()).elastic;
+    Swung swung;
+    for (double time = 0; time < 0.5; time += h) {
+        step_plant(*plant, surroundings, h);
+        swung.retried += (plant->trouble & FROND_TROUBLE_RETRIED) != 0;
+    }
+    const frond_energy after = energy_of(*plant, Vec3::Zero());
+    swung.kept = (after.elastic + after.kinetic) / before;
+    return swung;
+}
+
+// Where one solve does not balance forces, more do; a step by implicit Euler would end the swing.
+TEST(LongSteps, KeepASwingThatOneSolveCannotFollow) {
+    for (const frond_integrator integrator : {FROND_BDF2, FROND_SDIRK2, FROND_TR_BDF2}) {
+        const Swung far = let_go(integrator, 1.0 / 30);
+        EXPECT_GT(far.retried, 2) << integrator;
+        EXPECT_GT(far.kept, integrator == FROND_BDF2 ? 0.45 : 0.7) << integrator;
+        EXPECT_LT(far.kept, 1.02) << integrator;
+        const Swung near = let_go(integrator, 1.0 / 60);
+        EXPECT_EQ(near.retried, 0) << integrator;
+        EXPECT_GT(near.kept, 0.85) << integrator;
+        EXPECT_LT(near.kept, 1.02) << integrator;
+    }
+}
+
+// Its energy at the ends of steps swings about the one where forces balance: that is not out of nothing.
+TEST(LongSteps, OfGeneralizedAlphaAreNotTakenForWrong) {
+    for (double h : {1.0 / 30, 1.0 / 60}) EXPECT_EQ(let_go(FROND_GENERALIZED_ALPHA, h).retried, 0) << h;
+}
+
 }  // namespace
 }  // namespace frond::test

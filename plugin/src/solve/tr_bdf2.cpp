@@ -1,7 +1,7 @@
 // TR-BDF2 (Bank et al. 1985; Hosea, Shampine 1996, "Analysis and implementation of TR-BDF2"): the trapezoidal rule over
 // g h with g = 2 - sqrt 2, then BDF2 from both ends of that to the end of the step; L-stable. Both stages have the
-// same length g h / 2, yet each has its own factor: with the first one's in the second it blows up. What is pushed by
-// contacts, or moves too wildly for forces at its start to tell where it goes, goes by implicit Euler.
+// same length g h / 2, yet each has its own factor: with the first one's in the second it blows up. What moves
+// too wildly for forces at its start to tell where it goes, goes by SDIRK2, as does what is pushed by contacts.
 #include <cmath>
 
 #include "solve/integrator.hpp"
@@ -13,7 +13,7 @@ bool step_tr_bdf2(Workspace& workspace, const StepInput& input, SolveReport& rep
     const VecX &x = input.motion.x, &v = w.v_start;
     const double g = 2 - std::sqrt(2.0), step = g * input.h / 2;
     w.x_from = x + input.h * v;
-    if (is_pushed(input) || !is_calm(*w.system, x, w.x_from)) return step_implicit_euler(w, input, report);
+    if (is_pushed(input) || !is_calm(*w.system, x, w.x_from)) return step_sdirk2(w, input, report);
 
     // Trapezoidal: half of the change comes from the forces at the start.
     force_at_start(w, input, report);
@@ -28,7 +28,7 @@ bool step_tr_bdf2(Workspace& workspace, const StepInput& input, SolveReport& rep
     w.v_base = w.v + back * (w.v - v);
     w.x_from = w.x + (1 - g) * input.h * w.v;
     return solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from}, report) &&
-           (is_calm(*w.system, x, w.x) || step_implicit_euler(w, input, report));
+           (is_calm(*w.system, x, w.x) || step_sdirk2(w, input, report));
 }
 
 }  // namespace frond
