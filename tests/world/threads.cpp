@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <new>
 #include <set>
 #include <thread>
 #include <vector>
@@ -102,6 +103,79 @@ TEST(Threads, OfAnyNumberGiveTheSameBits) {
         EXPECT_EQ(hash_with(&team), alone) << size << " threads";
         EXPECT_GE(team.calls, 60);
         EXPECT_GT(team.jobs, 60 * 4);
+    }
+}
+
+// Has memory for half of the jobs, in one call.
+struct PoorTeam {
+    int fails_in, calls = 0;
+};
+void poor_parallel_for(int count, frond_job_fn* job, void* data, void* user) {
+    PoorTeam& team = *static_cast<PoorTeam*>(user);
+    const bool fails = ++team.calls == team.fails_in;
+    for (int i = 0; i < (fails ? count / 2 : count); i++) job(data, i);
+    if (fails) throw std::bad_alloc();
+}
+
+// Three pairs of plants that lean on each other, and a ball that falls beside them.
+struct Leaning {
+    frond_world world = {};
+    frond_model model = make_small_model(0, FROND_REST_STANDS_AS_MODELLED);
+    std::vector<frond_plant> plants = std::vector<frond_plant>(6);
+    frond_rigid ball = {};
+    explicit Leaning(PoorTeam& team) {
+        frond_world_def def = frond_default_world_def();
+        def.parallel_for = poor_parallel_for;
+        def.parallel_user = &team;
+        must(frond_world_create(&def, &world));
+        for (size_t i = 0; i < plants.size(); i++) {
+            frond_plant_def plant_def = frond_default_plant_def();
+            plant_def.mechanics = i % 3 ? FROND_ROD : FROND_TET_COROTATIONAL;
+            plant_def.position = {double(i / 2) + 0.03 * double(i % 2), 0, 0};
+            must(frond_plant_create(world, model, &plant_def, &plants[i]));
+        }
+        frond_rigid_def ball_def = frond_default_rigid_def();
+        ball_def.mass = 0.1;
+        ball_def.state.position = {0, 100, 3};
+        must(frond_rigid_create(world, &ball_def, &ball));
+    }
+    ~Leaning() {
+        frond_world_destroy(world);
+        frond_model_destroy(model);
+    }
+    double height() const {
+        frond_rigid_state state;
+        must(frond_rigid_get_state(ball, &state));
+        return state.position.y;
+    }
+    std::vector<double> places(frond_plant plant) const {
+        std::vector<double> places(size_t(3 * frond_plant_get_node_count(plant)));
+        must(frond_plant_get_state(plant, places.data(), nullptr, int(places.size() / 3)));
+        return places;
+    }
+};
+
+// Both of the plants' halves of a step.
+TEST(Threads, ThatFailBreakOffOneStepAndNoMore) {
+    constexpr int STEPS = 240;
+    PoorTeam rich = {0};
+    Leaning whole(rich);
+    for (int i = 0; i < STEPS; i++) must(frond_world_step(whole.world, H));
+    for (const int fails_in : {21, 22}) {
+        PoorTeam poor = {fails_in};
+        Leaning broken(poor);
+        int failed = 0;
+        for (int i = 0; i < STEPS; i++) {
+            const frond_result result = frond_world_step(broken.world, H);
+            failed += result != FROND_OK;
+            if (result != FROND_OK) EXPECT_EQ(result, FROND_OUT_OF_MEMORY);
+        }
+        EXPECT_EQ(failed, 1);
+        EXPECT_NEAR(broken.height(), whole.height(), 1e-9);
+        for (size_t k = 0; k < whole.plants.size(); k++) {
+            const std::vector<double> a = whole.places(whole.plants[k]), b = broken.places(broken.plants[k]);
+            for (size_t i = 0; i < a.size(); i++) ASSERT_NEAR(a[i], b[i], 2e-3) << fails_in << ", plant " << k;
+        }
     }
 }
 

@@ -213,7 +213,7 @@ typedef void frond_parallel_for_fn(int count, frond_job_fn* job, void* data, voi
 typedef struct frond_world_def {
     frond_vec3 gravity;    /* [m/s^2], default (0, -9.81, 0) */
     frond_effects effects; /* a mask over every plant's, default FROND_ALL_EFFECTS */
-    double max_substep;    /* longest step that the solver takes [s], default 1/60 */
+    double max_substep;    /* longest step that the solver takes [s], 1e-6 .. 1, default 1/60 */
     /* Plants against plants and themselves. */
     frond_hash_layout hash_layout; /* default FROND_HASH_GRID */
     int hash_table_size;   /* n of FROND_HASH_PAPER, 0 .. 1e8; 0 (default) takes twice the number of things in it */
@@ -285,15 +285,18 @@ typedef struct frond_ray_hit {
 } frond_ray_hit;
 
 FROND_API frond_world_def frond_default_world_def(void);
-/* Makes a btDiscreteDynamicsWorld of its own with nothing in it. To use a world that you have, see frond_bullet.hpp. */
+/* Makes a btMultiBodyDynamicsWorld of its own with nothing in it. To use one that you have, see frond_bullet.hpp. */
 FROND_API frond_result frond_world_create(const frond_world_def* def, frond_world* out);
 /* Destroys its plants and grabs too. Null and stale handles are ignored. */
 FROND_API void frond_world_destroy(frond_world world);
 FROND_API bool frond_world_is_valid(frond_world world);
 /* Advances by exactly dt [s], 0..1, in equal substeps no longer than max_substep. The same calls give the same bits.
- * UNSUPPORTED for a world that was attached: its owner steps it. */
+ * UNSUPPORTED for a world that was attached: its owner steps it. A step in which memory runs out, or a function of the
+ * host throws, is broken off: plants that were not done with it stand where it began, and the next one goes on. */
 FROND_API frond_result frond_world_step(frond_world world, double dt);
+/* [m/s^2]. Of an attached world this sets the host's own gravity, of its bodies too. Plants that sleep wake. */
 FROND_API frond_result frond_world_set_gravity(frond_world world, frond_vec3 gravity);
+/* A mask over every plant's effects, for all of them at once. Plants that sleep wake. */
 FROND_API frond_result frond_world_set_effects(frond_world world, frond_effects effects);
 /* For pictures that are drawn between steps of a fixed length, so that what moves evenly looks so.
  * frond_plant_get_surface then shows plants where they were between the last two substeps: fraction 1 (default) at the
@@ -417,7 +420,8 @@ typedef struct frond_model_def {
     double cage_offset;     /* how far the cage reaches outside the surface [m]; 0 is the default */
     double cage_smoothness; /* 0 cells as they are .. 1 (default 0.5) boundary drawn close to the surface */
     frond_rest rest; /* default FROND_REST_STANDS_AS_MODELLED; tets of the caller's are taken as without gravity */
-    const frond_organ_material* organs; /* override presets, by organ name or kind; the last match wins */
+    const frond_organ_material* organs; /* override presets, by organ name or kind; the last match wins; BAD_ARGUMENT
+                                         * for one that no organ has */
     int organ_count;
     uint32_t cookie; /* do not set */
 } frond_model_def;
@@ -506,8 +510,8 @@ typedef struct frond_chain_view {
 
 FROND_API frond_model_def frond_default_model_def(void);
 /* Mesh files that assimp reads (.obj .ply .glb .gltf .fbx .dae .stl), tet meshes (.msh .vtk) and plants as links and
- * joints (.urdf). Reading runs in a process of its own with limits on time and memory, so that a damaged file cannot
- * bring down the program. */
+ * joints (.urdf). What assimp and urdfdom read is read in a process of its own with limits on time and memory, so that
+ * a damaged file cannot bring down the program; tet meshes are lists of numbers, read here and checked one by one. */
 FROND_API frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out);
 /* xyz: vertex_count*3. indices: triangle_count*3, each in 0..vertex_count-1. The triangles may be a soup. */
 FROND_API frond_result frond_model_from_triangles(const float* xyz, int vertex_count, const int32_t* indices,
@@ -609,6 +613,7 @@ typedef struct frond_contact {
 } frond_contact;
 
 FROND_API frond_plant_def frond_default_plant_def(void);
+/* Stands in the world from its next step on, until it or the world is destroyed. Keeps what it needs of the model. */
 FROND_API frond_result frond_plant_create(frond_world world, frond_model model, const frond_plant_def* def,
                                           frond_plant* out);
 /* Destroys its grabs too. Null and stale handles are ignored. */
@@ -620,6 +625,7 @@ FROND_API bool frond_plant_is_awake(frond_plant plant);
 FROND_API frond_result frond_plant_wake(frond_plant plant);
 /* Null for an invalid handle. */
 FROND_API void* frond_plant_get_user(frond_plant plant);
+/* Switches what acts on this plant, which wakes; what is off costs nothing from the next step on. */
 FROND_API frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects);
 /* Goes on with other mechanics, from the same shape and velocities: exactly between tets; between cage and chain as
  * near as the one can take the other's shape. What the plant stands on and is held by stays. */
@@ -651,7 +657,10 @@ FROND_API frond_result frond_plant_unpin(frond_plant plant, int node);
 FROND_API frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 position);
 /* [N], for the next frond_world_step (all its substeps) only. Forces on one node add up. */
 FROND_API frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force);
+/* Of the plant as it is now. */
 FROND_API frond_result frond_plant_get_energy(frond_plant plant, frond_energy* out);
+/* Made when somebody asks for it, once a step; the arrays are the plant's own until its next step. With FROND_SURFACE
+ * off, in the plant or its world, it stays as it was, and normals do with FROND_NORMALS off. */
 FROND_API frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out);
 /* capsule_count must be the plant's; out: capsule_count. */
 FROND_API frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int capsule_count);
@@ -735,9 +744,11 @@ FROND_API frond_result frond_plant_mend(frond_plant plant);
 
 /* Takes hold of the surface vertex nearest to `point` [m]. stiffness [N/m] > 0. The target starts at that vertex. */
 FROND_API frond_result frond_grab_create(frond_plant plant, frond_vec3 point, double stiffness, frond_grab* out);
+/* Where it pulls to [m], in the world. */
 FROND_API frond_result frond_grab_move(frond_grab grab, frond_vec3 target);
 /* Where it holds the plant now, where it pulls to [m], and with what force on the plant [N]. Any may be null. */
 FROND_API frond_result frond_grab_get(frond_grab grab, frond_vec3* point, frond_vec3* target, frond_vec3* force);
+/* Lets go. Null and stale handles are ignored. */
 FROND_API void frond_grab_destroy(frond_grab grab);
 FROND_API bool frond_grab_is_valid(frond_grab grab);
 

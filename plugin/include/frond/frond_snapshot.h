@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-/* What frond_world_save writes now [bytes]; 0 for an invalid handle. */
+/* What frond_world_save writes now [bytes]; 0 for an invalid handle and for a world with robots, which it refuses. */
 FROND_API size_t frond_world_get_snapshot_size(frond_world world);
 /* size must be what the function above says. */
 FROND_API frond_result frond_world_save(frond_world world, void* snapshot, size_t size);

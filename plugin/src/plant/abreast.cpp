@@ -1,5 +1,5 @@
 // In: plants that go alike and a time h. Out: what solve_plant() finds for each. Gathered into lanes, solved, looked
-// at, and handed out again; nothing of a plant is changed before all looks at its lane are done.
+// at, and handed out again. A plant whose step cannot stand is put back where it was and stepped alone.
 #include "plant/abreast.hpp"
 
 #include <algorithm>
@@ -104,11 +104,16 @@ unsigned find_taut(const Abreast& step, const Plant& plant, frond_effects effect
     return taut;
 }
 
-std::shared_ptr<PlantsAbreast> lend(WorkspacePool& pool) {
+// One that had as many lanes before: to make room for another number of them takes longer than a step.
+std::shared_ptr<PlantsAbreast> lend(WorkspacePool& pool, int lanes) {
     std::lock_guard<std::mutex> lock(pool.mutex);
-    if (pool.abreast.empty()) return std::make_shared<PlantsAbreast>();
-    std::shared_ptr<PlantsAbreast> space = std::move(pool.abreast.back());
-    pool.abreast.pop_back();
+    auto& free = pool.abreast;
+    const auto found = std::find_if(free.begin(), free.end(), [&](const std::shared_ptr<PlantsAbreast>& space) {
+        return space->step.lanes == lanes;
+    });
+    if (found == free.end()) return std::make_shared<PlantsAbreast>();
+    std::shared_ptr<PlantsAbreast> space = std::move(*found);
+    free.erase(found);
     return space;
 }
 
@@ -259,17 +264,19 @@ void solve_abreast(Plant* const* given, int given_count, const Surroundings& sur
         else
             solve_plant(plant, surroundings, h);
     }
-    if (count < 2) {
-        if (count == 1) solve_plant(*plants[0], surroundings, h);
+    // Lanes of which half are empty take longer than plants one by one.
+    const int lanes = lanes_for(count);
+    if (count < lanes / 2 + 1) {
+        for (int i = 0; i < count; i++) solve_plant(*plants[size_t(i)], surroundings, h);
         return;
     }
     const std::shared_ptr<WorkspacePool> pool = plants[0]->seat.pool;
-    const std::shared_ptr<PlantsAbreast> space = lend(*pool);
+    const std::shared_ptr<PlantsAbreast> space = lend(*pool, lanes);
     Abreast& step = space->step;
     const System& system = *plants[0]->system;
     const frond_effects effects = plants[0]->effects & surroundings.effects;
     const SolveSettings settings = settings_for(*plants[0], effects);
-    make_room(step, plants[0]->system, lanes_for(count));
+    make_room(step, plants[0]->system, lanes);
     Timer timer;
     gather_motions(step, plants.data(), count, surroundings, effects);
     const unsigned bad_wind = gather_air(space->air, step, plants.data(), count, surroundings, effects, h);

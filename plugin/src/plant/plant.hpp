@@ -173,6 +173,8 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects);
 // now its energy tells whether the step went wrong. `lost`: by bodies that push it [J].
 void add_contacts(Plant& plant, double h, double lost);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
+// Instead of the second half, if the step was broken off: the plant stands where it stood before the first one.
+void drop_step(Plant& plant);
 // Both.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);
 // Before and after a step.

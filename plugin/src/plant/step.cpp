@@ -333,6 +333,21 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     give_workspace_back(plant);
 }
 
+void drop_step(Plant& plant) {
+    if (!plant.workspace) return;  // not begun, or done
+    Motion& motion = plant.motion;
+    if (plant.x_good.size() == motion.x.size()) {
+        motion.x = plant.x_good;
+        motion.v = plant.v_good;
+    }
+    motion.history.valid = false;
+    plant.contact_impulse.resize(0);
+    plant.contact_shift.resize(0);
+    plant.stepped_by = 0;
+    moved(plant);
+    give_workspace_back(plant);
+}
+
 void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
     solve_plant(plant, surroundings, h);
     accept_step(plant, surroundings, h);

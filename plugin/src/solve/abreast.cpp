@@ -1,5 +1,5 @@
-// In: the motions of several plants, a lane each. Out: their motions a step of bdf2 with one solve later: what
-// step_bdf2() and solve_stage() do to each, in the same order.
+// In: the motions of several plants, a lane each. Out: their motions a step of bdf2 with one solve later, or of
+// implicit Euler where that begins anew: what step_bdf2() and solve_stage() do to each, in the same order.
 #include "solve/abreast.hpp"
 
 #include <algorithm>

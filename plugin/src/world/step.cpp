@@ -253,70 +253,108 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
     if (!world.own) clear_user_force(*body.plant);
 }
 
+Surroundings begin_step(World& world, btCollisionWorld& collision_world, double h) {
+    world.substep++;
+    world.substep_length = h;
+    end_hold(world.gravity_ahead, collision_world);
+    world.report = {};
+    Surroundings surroundings;
+    surroundings.gravity = gravity_of(world);
+    surroundings.effects = world.effects;
+    if (world.wind) pass_time(*world.wind, h);
+    surroundings.wind = world.wind.get();
+    surroundings.time = world.time + h;
+    return surroundings;
+}
+
+void carry_what_came_off(World& world, double h) {
+    for (PlantBody* body : world.awake) {
+        if (body->fragment_bodies.empty()) continue;
+        carry_fragments(*body);
+        if (body->plant->effects & world.effects & FROND_USER_FORCE) pull_fragments(*body, h);
+    }
+}
+
+void answer_contacts(World& world, double h) {
+    const Timer timer;
+    let_go_of_gone(world);
+    frond_report& report = world.report;
+    if (!world.contacts.empty() || !world.plant_contacts.empty() || !world.bonds.empty()) {
+        BT_PROFILE("frond respond");
+        respond_to_contacts(world, h);
+        report.effects_run |= world.effects & (FROND_FRICTION | (world.contacts.empty() ? 0 : FROND_TWO_WAY));
+    }
+    report.ms_response = timer.ms();
+    report.contact_count = int(world.contacts.size());
+    report.plant_contact_count = int(world.plant_contacts.size());
+    report.awake_count = int(world.awake.size());
+}
+
+void finish_touched(World& world, const Surroundings& surroundings) {
+    std::vector<PlantBody*> touched;
+    for (PlantBody* body : world.awake)
+        if (body->plant->is_touched && !body->plant->swing) touched.push_back(body);
+    run_jobs(world, touched.size(), [&](size_t i) { finish(world, *touched[i], surroundings); });
+}
+
+void take_step(World& world, btCollisionWorld& collision_world, double h) {
+    const Timer step_timer;
+    const Surroundings surroundings = begin_step(world, collision_world, h);
+    call_roll(world);
+    carry_what_came_off(world, h);
+    find_touches(world, h);
+    call_roll(world);
+    note_touches(world);
+    choose_details(world);
+    mark_touched(world);
+    {
+        BT_PROFILE("frond solve");
+        const std::vector<StepJob> jobs = share_out(world, surroundings, h);
+        run_jobs(world, jobs.size(), [&](size_t i) { run_job(world, jobs[i], surroundings, h); });
+    }
+    answer_contacts(world, h);
+    finish_touched(world, surroundings);
+    {
+        BT_PROFILE("frond settle");
+        const Timer timer;
+        for (PlantBody* body : world.awake) settle(world, *body, collision_world);
+        world.report.ms_capsules += timer.ms();
+    }
+    if (world.sleep_distance > 0) put_to_sleep(world);
+    fold_looked_at(world);
+    limit_motors(world, h);
+    world.time += h;
+    world.report.ms_step = step_timer.ms();
+    learn_times(world);
+}
+
+// Of a step that cannot be ended: who was not done with it stands where it began.
+void break_off_step(World& world) {
+    for (PlantBody* body : world.awake) {
+        drop_step(*body->plant);
+        body->level.pending = 0;
+    }
+}
+
 }  // namespace
 
 void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     const double h = double(step);
     if (!(h > 0) || !std::isfinite(h)) return;
     BT_PROFILE("frond");
-    const Timer step_timer;
     is_stepping = true;
-    substep++;
-    substep_length = h;
-    end_hold(gravity_ahead, *collision_world);
-    report = {};
-    Surroundings surroundings;
-    surroundings.gravity = gravity_of(*this);
-    surroundings.effects = effects;
-    if (wind) pass_time(*wind, h);
-    surroundings.wind = wind.get();
-    surroundings.time = time + h;
-    call_roll(*this);
-    for (PlantBody* body : awake) {
-        if (body->fragment_bodies.empty()) continue;
-        carry_fragments(*body);
-        if (body->plant->effects & effects & FROND_USER_FORCE) pull_fragments(*body, h);
+    const auto end = [&] {
+        end_detection(*bullet);
+        is_stepping = false;
+    };
+    try {
+        take_step(*this, *collision_world, h);
+    } catch (...) {
+        break_off_step(*this);
+        end();
+        throw;
     }
-    find_touches(*this, h);
-    call_roll(*this);
-    note_touches(*this);
-    choose_details(*this);
-    mark_touched(*this);
-
-    {
-        BT_PROFILE("frond solve");
-        const std::vector<StepJob> jobs = share_out(*this, surroundings, h);
-        run_jobs(*this, jobs.size(), [&](size_t i) { run_job(*this, jobs[i], surroundings, h); });
-    }
-    const Timer response_timer;
-    let_go_of_gone(*this);
-    if (!contacts.empty() || !plant_contacts.empty() || !bonds.empty()) {
-        BT_PROFILE("frond respond");
-        respond_to_contacts(*this, h);
-        report.effects_run |= effects & (FROND_FRICTION | (contacts.empty() ? 0 : FROND_TWO_WAY));
-    }
-    report.ms_response = response_timer.ms();
-    report.contact_count = int(contacts.size());
-    report.plant_contact_count = int(plant_contacts.size());
-    report.awake_count = int(awake.size());
-    std::vector<PlantBody*> touched;
-    for (PlantBody* body : awake)
-        if (body->plant->is_touched && !body->plant->swing) touched.push_back(body);
-    run_jobs(*this, touched.size(), [&](size_t i) { finish(*this, *touched[i], surroundings); });
-    {
-        BT_PROFILE("frond settle");
-        const Timer timer;
-        for (PlantBody* body : awake) settle(*this, *body, *collision_world);
-        report.ms_capsules += timer.ms();
-    }
-    if (sleep_distance > 0) put_to_sleep(*this);
-    fold_looked_at(*this);
-    limit_motors(*this, h);
-    time += h;
-    report.ms_step = step_timer.ms();
-    learn_times(*this);
-    end_detection(*bullet);
-    is_stepping = false;
+    end();
 }
 
 void advance(World& world, double dt) {
