@@ -85,9 +85,12 @@ int main(int, char** argv) {
     frond_plant plant = {};
     const frond_model_def model_def = frond_default_model_def();
     frond_plant_def plant_def = frond_default_plant_def();
-    frond::attach(&game.world, nullptr, &plants);
-    frond_model_load(argv[1], &model_def, &corn);
-    if (frond_plant_create(plants, corn, &plant_def, &plant)) std::fprintf(stderr, "%s\n", frond_last_error());
+    if (frond::attach(&game.world, nullptr, &plants) || frond_model_load(argv[1], &model_def, &corn) ||
+        frond_plant_create(plants, corn, &plant_def, &plant)) {
+        std::fprintf(stderr, "%s\n", frond_last_error());
+        frond_world_destroy(plants);
+        return 1;
+    }
     for (int frame = 0; frame < 300; frame++) game.world.stepSimulation(btScalar(1.0 / 60));
     game.world.debugDrawWorld();
     const btVector3 at = game.ghost.getWorldTransform().getOrigin();

@@ -238,6 +238,7 @@ std::string plot_of(const std::vector<PathFigures>& path, const std::string& bas
 }  // namespace
 
 void bench_field(const BenchOptions& options) {
+    study::prepare_diagrams(options.out);
     std::printf("scene field; one core unless told\n%s, %s, frond %s %s\n", study::processor_name().c_str(),
                 FROND_COMPILER, frond_version_string(), FROND_COMMIT);
     std::printf("one more plant that sleeps keeps %.2f kB beyond its model\n", memory_of_sleeper(options));
@@ -257,8 +258,6 @@ void bench_field(const BenchOptions& options) {
                 options.most, "budget", "median", "95 %", "99 %", "most", "awake", "simulated");
     for (const double budget : {0.0, 8.0, 4.0, 2.0}) bench_crowd(options, budget);
     if (options.out.empty()) return;
-    study::require_gnuplot();
-    study::prepare_folder(options.out);
     study::write_file(options.out + "/field.gp", plot_of(path, options.out + "/field"));
     study::run_gnuplot(options.out + "/field.gp");
 }

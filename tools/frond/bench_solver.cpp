@@ -156,7 +156,7 @@ std::string plot_of(const std::vector<SolverRow>& rows, const std::string& base)
 }  // namespace
 
 void bench_solver(const BenchOptions& options) {
-    if (!options.out.empty()) study::require_gnuplot();
+    study::prepare_diagrams(options.out);
     if (!options.csv)
         std::printf(
             "plants in light air (2 m/s), median of %d steps [ms], one core; pieces are tets or rods\n%s, %s, frond %s "
@@ -179,7 +179,6 @@ void bench_solver(const BenchOptions& options) {
     }
     if (options.csv) std::printf("%s", csv_of(rows).c_str());
     if (options.out.empty()) return;
-    study::prepare_folder(options.out);
     study::write_file(options.out + "/solver.csv", csv_of(rows));
     study::write_file(options.out + "/solver.gp", plot_of(rows, options.out + "/solver"));
     study::run_gnuplot(options.out + "/solver.gp");

@@ -104,13 +104,13 @@ void run(const ExportOptions& options) {
     if (!options.csv.empty()) table = std::make_unique<Table>(options.csv);
     if (!options.cache.empty()) cache = std::make_unique<PointCache>(options.cache, 1 / (24 * settings.dt));
     std::vector<Sample> samples;
-    const auto note = [&](int step) {
+    const auto note = [&](long step) {
         if (table) table->add(play.stage);
         if (cache) cache->add(play.stage);
         if (!options.animation.empty() && step % options.every == 0) samples.push_back(sample_of(play.stage));
     };
     note(0);
-    for (int i = 1; i <= int(std::lround(options.at / settings.dt)); i++) {
+    for (long i = 1; i <= std::lround(options.at / settings.dt); i++) {
         play.step();
         note(i);
     }
@@ -128,13 +128,15 @@ void add_export(CLI::App& app) {
     CLI::App* command = app.add_subcommand("export", "write what becomes of a scene or plant file, for other programs");
     command->add_option("what", options->what, "a mesh file, or a scene as for run")->required();
     command->add_option("--out", options->out, "surface of all plants: .gltf .glb .obj .ply");
-    command->add_option("--at", options->at, "when [s], default 0")->check(CLI::Range(0.0, 1e6));
+    command->add_option("--at", options->at, "when [s], default 0")->check(real_in(0, 1e6));
     command->add_option("--animation", options->animation, "the way until then, as morph targets: .gltf .glb");
     command->add_option("--every", options->every, "steps from target to target, default 2")
         ->check(CLI::Range(1, 1000000));
-    command->add_option("--cache", options->cache, "places of all vertices at each step until then: .pc2");
+    command->add_option("--cache", options->cache, "places of all vertices at each step until then: .pc2")
+        ->check(file_ending_in(".pc2"));
     command->add_option("--csv", options->csv, "tip, forces at the root, energies at each step until then");
-    command->add_option("--urdf", options->urdf, "the first plant as it was modelled, as links and joints");
+    command->add_option("--urdf", options->urdf, "the first plant as it was modelled, as links and joints: .urdf")
+        ->check(file_ending_in(".urdf"));
     command->add_option("--set", options->assignments, "key=value, may be repeated");
     command->footer("Keys of --set:\n" + settings_help());
     command->callback([options] { run(*options); });

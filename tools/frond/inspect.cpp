@@ -199,10 +199,11 @@ void add_inspect(CLI::App& app) {
     auto options = std::make_shared<InspectOptions>();
     options->view.overlays = {"cage", "capsules"};
     CLI::App* command = app.add_subcommand("inspect", "what a plant file holds and what Frond makes of it");
-    command->add_option("file", options->file, "a mesh file: .obj .ply .glb .gltf .fbx .dae .stl .msh .vtk")
+    command->add_option("file", options->file, "a plant file: .obj .ply .glb .gltf .fbx .dae .stl .msh .vtk .urdf")
         ->required();
     command->add_flag("--json", options->json, "print JSON");
-    command->add_option("--shot", options->shot, "write a picture (PNG) with cage and capsules");
+    command->add_option("--shot", options->shot, "write a picture (PNG) with cage and capsules")
+        ->check(file_ending_in(".png"));
     command->add_option("--overlay", options->view.overlays, "cage, faces, capsules")->delimiter(',');
     command->add_option("--set", options->assignments, "key=value, may be repeated; see frond run --help");
     command->callback([options] { inspect(*options); });

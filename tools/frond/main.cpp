@@ -4,6 +4,24 @@
 #include "commands.hpp"
 #include "scenes/scene.hpp"
 
+namespace {
+
+// CLI11 tells that a command is missing where one is named that there is not.
+int explain(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<std::string> words = app.remaining(true);
+    if (!dynamic_cast<const CLI::RequiredError*>(&error) || words.empty()) return app.exit(error);
+    const CLI::App* last = &app;
+    while (!last->get_subcommands().empty()) last = last->get_subcommands().front();
+    std::string names;
+    for (const CLI::App* command : last->get_subcommands([](const CLI::App*) { return true; }))
+        names += (names.empty() ? "" : ", ") + command->get_name();
+    if (names.empty()) return app.exit(error);
+    std::fprintf(stderr, "frond: there is no command \"%s\"; there are %s\n", words.front().c_str(), names.c_str());
+    return error.get_exit_code();
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
     CLI::App app{"Plants that bend, for worlds simulated by the Bullet physics engine."};
     app.name("frond");
@@ -22,7 +40,7 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
         return 0;
     } catch (const CLI::ParseError& error) {
-        return app.exit(error);
+        return explain(app, error);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "frond: %s\n", error.what());
         return 1;

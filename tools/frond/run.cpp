@@ -163,9 +163,7 @@ frond_vec3 vertex_place(frond_plant plant, int vertex) {
 
 nlohmann::ordered_json play_once(const RunOptions& options, const Casting& casting) {
     const Settings settings = settings_of(casting, options.assignments);
-    if (!(settings.dt > 0 && settings.dt <= 1)) throw SceneError("dt must be above 0 and at most 1 s");
     const int steps = options.steps >= 0 ? options.steps : int(std::lround(casting.scene->duration / settings.dt));
-    if (options.every < 1) throw SceneError("--every must be at least 1");
 
     Play play(casting, settings);
     std::unique_ptr<Studio> studio;
@@ -242,18 +240,25 @@ void run(const RunOptions& options) {
 void add_run(CLI::App& app) {
     auto options = std::make_shared<RunOptions>();
     CLI::App* command = app.add_subcommand("run", "run a scene, or a plant file that is pulled aside and let go");
-    std::string text = "a mesh file, or a scene:";
-    for (const Scene& scene : scenes())
+    std::string text = "a mesh file, or a scene:", compared;
+    for (const Scene& scene : scenes()) {
         if (scene.build) text += std::string(" ") + scene.name + " (" + scene.text + ")";
+        if (scene.without) compared += std::string(compared.empty() ? "" : ", ") + scene.name;
+    }
     command->add_option("what", options->what, text)->required();
     command->add_option("--steps", options->steps, "default: the scene's own length")->check(CLI::Range(0, 1000000000));
-    command->add_option("--shot", options->shot, "write a picture (PNG) of the end");
+    command
+        ->add_option("--shot", options->shot,
+                     "write a picture (PNG) of the end; what is played for comparison (" + compared +
+                         ") always writes two, NAME_a.png and NAME_b.png, into the current folder by default")
+        ->check(file_ending_in(".png"));
     command->add_option("--frames", options->frames,
                         "write frames, a contact sheet and a moving picture to this folder");
-    command->add_option("--every", options->every, "steps from frame to frame, default 2");
+    command->add_option("--every", options->every, "steps from frame to frame, default 2")
+        ->check(CLI::Range(1, 1000000));
     command->add_option("--overlay", options->view.overlays, "cage, faces, capsules, contacts")->delimiter(',');
-    command->add_option("--azimuth", options->view.azimuth, "of the camera [rad]");
-    command->add_option("--elevation", options->view.elevation, "of the camera [rad]");
+    command->add_option("--azimuth", options->view.azimuth, "of the camera [rad]")->check(real_in(-1e3, 1e3));
+    command->add_option("--elevation", options->view.elevation, "of the camera [rad]")->check(real_in(-1e3, 1e3));
     command->add_option("--width", options->view.width, "of pictures [pixel]");
     command->add_option("--height", options->view.height, "of pictures [pixel]");
     command->add_flag("--json", options->json, "print JSON");

@@ -97,8 +97,7 @@ private:
 void run_study(const StudyOptions& options) {
     if (options.names.empty()) return list_problems();
     const Chosen chosen = choose(options.names);
-    study::require_gnuplot();
-    study::prepare_folder(options.out);
+    study::prepare_diagrams(options.out);
     study::prepare_folder(options.out + "/gnuplot");
     const study::Provenance provenance = {study::processor_name(), FROND_COMPILER, FROND_COMMIT,
                                           frond_version_string()};

@@ -55,7 +55,7 @@ void add_view(CLI::App& app) {
     command->add_option("--height", options->view.height, "of the window")->check(CLI::Range(64, 8192));
     command->add_flag("--paused", options->is_paused, "begin with a pause");
     command->add_option("--frames", options->frames, "close it after so many")->check(CLI::Range(1, 1000000000));
-    command->add_option("--shot", options->shot, "write what it showed last (PNG)");
+    command->add_option("--shot", options->shot, "write what it showed last (PNG)")->check(file_ending_in(".png"));
     command->add_option("--set", options->assignments, "key=value, may be repeated");
     command->footer(
         "Drag a plant with the left button, everything else with the right one, the view with the middle one;\n"

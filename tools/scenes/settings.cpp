@@ -1,8 +1,10 @@
 // key=value assignments for every public choice.
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <limits>
 
 #include "scenes/scene.hpp"
 
@@ -26,6 +28,20 @@ double number(const std::string& text) {
     const double value = std::strtod(text.c_str(), &end);
     if (text.empty() || *end || errno || !std::isfinite(value)) throw SceneError("\"" + text + "\" is not a number");
     return value;
+}
+
+double number(const std::string& text, double least, double most) {
+    const double value = number(text);
+    if (value >= least && value <= most) return value;
+    char range[80];
+    std::snprintf(range, sizeof range, " is not between %.10g and %.10g", least, most);
+    throw SceneError(text + range);
+}
+
+int whole(const std::string& text, int least, int most) {
+    const double value = number(text, least, most);
+    if (value != std::floor(value)) throw SceneError(text + " is not a whole number");
+    return int(value);
 }
 
 frond_vec3 vector(const std::string& text) {
@@ -54,7 +70,9 @@ Key real(const char* name, const char* text, Owner Settings::*owner, double Owne
 }
 template <class Owner>
 Key count(const char* name, const char* text, Owner Settings::*owner, int Owner::*field) {
-    return {name, text, [=](Settings& s, const std::string& value) { s.*owner.*field = int(number(value)); }};
+    return {name, text, [=](Settings& s, const std::string& value) {
+                s.*owner.*field = whole(value, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+            }};
 }
 template <class Owner>
 Key triple(const char* name, const char* text, Owner Settings::*owner, frond_vec3 Owner::*field) {
@@ -81,19 +99,20 @@ Key effect(const char* name, const char* text, frond_effects bit) {
 
 const std::vector<Key>& keys() {
     static const std::vector<Key> table = {
-        {"dt", "time step [s]", [](Settings& s, const std::string& value) { s.dt = number(value); }},
+        {"dt", "time step [s]", [](Settings& s, const std::string& value) { s.dt = number(value, 1e-6, 1); }},
         {"pull", "how far the user drags, share of the height",
          [](Settings& s, const std::string& value) { s.pull = number(value); }},
         {"plants", "of corn_field, 0: 17, or of field, 0: 10000",
-         [](Settings& s, const std::string& value) { s.plants = int(number(value)); }},
-        {"walkers", "of field", [](Settings& s, const std::string& value) { s.walkers = int(number(value)); }},
+         [](Settings& s, const std::string& value) { s.plants = whole(value, 0, 100000); }},
+        {"walkers", "of field", [](Settings& s, const std::string& value) { s.walkers = whole(value, 0, 1000); }},
         {"patch_wind", "over a patch of field [m/s]",
          [](Settings& s, const std::string& value) { s.patch_wind = number(value); }},
         {"detail", "0 or 1: far plants of field are simulated for less",
-         [](Settings& s, const std::string& value) { s.detail = number(value) != 0; }},
+         [](Settings& s, const std::string& value) { s.detail = whole(value, 0, 1) != 0; }},
         {"budget", "of a step of all plants of field [ms], 0: any",
-         [](Settings& s, const std::string& value) { s.budget = number(value); }},
-        {"threads", "that step plants", [](Settings& s, const std::string& value) { s.threads = int(number(value)); }},
+         [](Settings& s, const std::string& value) { s.budget = number(value, 0, 1000); }},
+        {"threads", "that step plants",
+         [](Settings& s, const std::string& value) { s.threads = whole(value, 1, 256); }},
         {"grab_stiffness", "of the user's spring [N/m], 0: as it takes",
          [](Settings& s, const std::string& value) { s.grab_stiffness = number(value); }},
         triple("gravity", "x,y,z [m/s^2]", &Settings::world, &frond_world_def::gravity),

@@ -1,4 +1,4 @@
-// The table of cases, and what of it some methods cannot pass.
+// The table of cases, and the cells of a scope.
 #include <algorithm>
 
 #include "stability/bench.hpp"
@@ -49,14 +49,6 @@ std::vector<Result> cells_of(const Scope& scope) {
                 }
     }
     return cells;
-}
-
-int unexplained(const std::vector<Result>& results, bool default_only) {
-    int count = 0;
-    for (const Result& result : results)
-        count += result.verdict.color == Color::RED && !known_limit(result.of->name, result.cell) &&
-                 (!default_only || result.cell.integrator == FROND_BDF2);
-    return count;
 }
 
 }  // namespace frond::stability

@@ -36,16 +36,25 @@ constexpr Limit LIMITS[] = {
      "it forgets with each step what the last one was heading for: rough solves lag behind by some per cent more"},
     {"loose_solver", ANY, FROND_GENERALIZED_ALPHA,
      "it has to be iterated to convergence, which rough solves do not come to"},
+    {"corn_flung", FROND_TET_LINEAR, FROND_GENERALIZED_ALPHA,
+     "it damps sways least, and what was strained by turning sways far: a leaf's tip needs a second more to slow down"},
 };
 
 }  // namespace
 
-const char* known_limit(const std::string& name, const Cell& cell) {
+const char* known_limit(const Result& result) {
+    if (!result.verdict.is_missed) return nullptr;
+    const Cell& cell = result.cell;
     for (const Limit& limit : LIMITS)
-        if (name == limit.name && (limit.mechanics == ANY || limit.mechanics == cell.mechanics) &&
+        if (std::string(limit.name) == result.of->name &&
+            (limit.mechanics == ANY || limit.mechanics == cell.mechanics) &&
             (limit.integrator == ANY || limit.integrator == cell.integrator))
             return limit.why;
     return nullptr;
+}
+
+bool is_unexplained(const Result& result) {
+    return result.verdict.color == Color::RED && !known_limit(result);
 }
 
 }  // namespace frond::stability

@@ -1,4 +1,5 @@
 // In: verdicts. Out: the table as text, as JSON, and as one HTML page that needs nothing else.
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -12,15 +13,15 @@ namespace {
 // A summary cell: all that a case gave with some mechanics.
 struct Tally {
     int green = 0, red = 0, grey = 0;
-    const Result* worst = nullptr;  // the first red one, of the default integrator if there is one
+    const Result* worst = nullptr;  // the first red one; unexplained ones, then the default integrator's, come before
     void add(const Result& result) {
         const Color color = result.verdict.color;
         green += color == Color::GREEN;
         grey += color == Color::GREY;
         if (color != Color::RED) return;
         red++;
-        const bool is_default = result.cell.integrator == FROND_BDF2;
-        if (!worst || (is_default && worst->cell.integrator != FROND_BDF2)) worst = &result;
+        const auto rank = [](const Result& of) { return 2 * is_unexplained(of) + (of.cell.integrator == FROND_BDF2); };
+        if (!worst || rank(result) > rank(*worst)) worst = &result;
     }
 };
 using Key = std::pair<const Case*, int>;
@@ -107,12 +108,19 @@ std::string text_of(const std::vector<Result>& results) {
     }
     for (const auto& [key, one] : tallies) {
         if (!one.worst) continue;
-        const char* known = known_limit(key.first->name, one.worst->cell);
+        const char* known = known_limit(*one.worst);
         std::snprintf(line, sizeof line, "red: %s, %s: %s%s%s\n", key.first->name, text_of(one.worst->cell).c_str(),
                       one.worst->verdict.text.c_str(), known ? " | known: " : "", known ? known : "");
         text += line;
     }
-    return text;
+    const auto count_of = [&](Color color) {
+        return int(std::count_if(results.begin(), results.end(),
+                                 [&](const Result& result) { return result.verdict.color == color; }));
+    };
+    std::snprintf(line, sizeof line, "%zu cells: %d green, %d grey (not applicable), %d red, %d of them unexplained\n",
+                  results.size(), count_of(Color::GREEN), count_of(Color::GREY), count_of(Color::RED),
+                  int(std::count_if(results.begin(), results.end(), is_unexplained)));
+    return text + line;
 }
 
 std::string json_of(const std::vector<Result>& results) {
@@ -126,7 +134,7 @@ std::string json_of(const std::vector<Result>& results) {
         cell["time_step"] = result.cell.dt;
         cell["color"] = color_name(result.verdict.color);
         cell["why"] = result.verdict.text;
-        if (const char* known = known_limit(result.of->name, result.cell)) cell["known_limit"] = known;
+        if (const char* known = known_limit(result)) cell["known_limit"] = known;
         cell["trouble"] = result.verdict.trouble;
         cell["cpu_seconds"] = result.verdict.seconds;
         root["cells"].push_back(cell);
@@ -159,7 +167,7 @@ std::string html_of(const std::vector<Result>& results) {
                 const Result& result = results[next];
                 if (row >= 0 && row != result.cell.integrator) page += "<br>";
                 row = result.cell.integrator;
-                const bool known = result.verdict.color == Color::RED && known_limit(one->name, result.cell);
+                const bool known = known_limit(result);
                 page += "<i class=\"" + std::string(known ? "known" : color_name(result.verdict.color)) +
                         "\" title=\"" + escaped(text_of(result.cell) + ": " + result.verdict.text) + "\"></i>";
             }

@@ -22,11 +22,12 @@ double cpu_seconds() {
     return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-// What a child tells: color, trouble, seconds, text.
+// What a child tells, and then the text.
 struct Head {
     Color color;
     uint32_t trouble;
     double seconds;
+    bool is_missed;
 };
 
 [[noreturn]] void run_child(const std::function<Verdict()>& job, int seconds, int out) {
@@ -36,7 +37,7 @@ struct Head {
     alarm(unsigned(20 * seconds));  // one that sleeps for ever
     frond_set_log(nullptr, nullptr);
     const Verdict verdict = job();
-    const Head head = {verdict.color, verdict.trouble, verdict.seconds};
+    const Head head = {verdict.color, verdict.trouble, verdict.seconds, verdict.is_missed};
     bool written = write(out, &head, sizeof head) == ssize_t(sizeof head);
     written &= write(out, verdict.text.data(), verdict.text.size()) == ssize_t(verdict.text.size());
     _exit(written ? 0 : 1);
@@ -50,6 +51,7 @@ Verdict read_verdict(int in, int status, int seconds) {
         verdict.color = head.color;
         verdict.trouble = head.trouble;
         verdict.seconds = head.seconds;
+        verdict.is_missed = head.is_missed;
         const ssize_t length = read(in, text, sizeof text);
         verdict.text.assign(text, size_t(length > 0 ? length : 0));
     } else if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGKILL || WTERMSIG(status) == SIGXCPU)) {
@@ -82,6 +84,9 @@ Verdict verdict_of(const std::function<void()>& run) {
     } catch (const DoesNotApply& reason) {
         verdict.color = Color::GREY;
         verdict.text = reason.what();
+    } catch (const Broken& criterion) {
+        verdict.is_missed = true;
+        verdict.text = criterion.what();
     } catch (const std::exception& error) {
         verdict.text = error.what();
     }

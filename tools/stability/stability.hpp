@@ -39,15 +39,13 @@ const std::vector<Case>& cases();
 // Throws a SceneError that names the cases there are.
 const Case& find_case(const std::string& name);
 
-// What a method cannot pass, and why; null: it has to.
-const char* known_limit(const std::string& name, const Cell& cell);
-
 enum class Color { GREEN, RED, GREY };
 struct Verdict {
     Color color = Color::RED;
-    std::string text;      // why it is red or grey
-    uint32_t trouble = 0;  // bits of all reports
-    double seconds = 0;    // of CPU
+    std::string text;        // why it is red or grey
+    uint32_t trouble = 0;    // bits of all reports
+    double seconds = 0;      // of CPU
+    bool is_missed = false;  // red by its criterion, rather than by a crash, a hang or a call that failed
 };
 struct Result {
     const Case* of;
@@ -76,8 +74,9 @@ Verdict verdict_of(const std::function<void()>& run);
 void run_cells(std::vector<Result>& results, const Limits& limits, const std::function<void(int done)>& tell);
 Verdict run_cell(const Case& of, const Cell& cell);  // in this process
 
-// Red cells that no known limit explains, of the default integrator or of any.
-int unexplained(const std::vector<Result>& results, bool default_only);
+// Why a method cannot meet the criterion that a red cell missed; null: it should.
+const char* known_limit(const Result& result);
+bool is_unexplained(const Result& result);  // red, and without one
 
 // Bullet's own soft bodies in the cases that they can be put through, beside what Frond's cells of these are, at 1/60 s
 // and, unless it is to be quick, at 1/240 s.

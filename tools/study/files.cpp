@@ -53,6 +53,12 @@ void require_gnuplot() {
             "gnuplot draws the diagrams and is not there; install it (Debian: apt-get install gnuplot-nox)");
 }
 
+void prepare_diagrams(const std::string& folder) {
+    if (folder.empty()) return;
+    require_gnuplot();
+    prepare_folder(folder);
+}
+
 void run_gnuplot(const std::string& script_path) {
     const int status = std::system(("gnuplot " + shell_word(script_path)).c_str());
     if (status == -1 || !WIFEXITED(status) || WEXITSTATUS(status) != 0)

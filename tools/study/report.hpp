@@ -33,6 +33,8 @@ std::string drawn_twice(const std::string& plot, const std::string& picture_base
 // Throw a SceneError with the remedy: the folder cannot be made or written to; gnuplot is missing or failed.
 void prepare_folder(const std::string& folder);
 void require_gnuplot();
+// Both, before anything is measured; nothing where no folder was asked for.
+void prepare_diagrams(const std::string& folder);
 void write_file(const std::string& path, const std::string& text);
 void run_gnuplot(const std::string& script_path);
 
