@@ -168,7 +168,9 @@ TEST(Threads, ThatFailBreakOffOneStepAndNoMore) {
         for (int i = 0; i < STEPS; i++) {
             const frond_result result = frond_world_step(broken.world, H);
             failed += result != FROND_OK;
-            if (result != FROND_OK) EXPECT_EQ(result, FROND_OUT_OF_MEMORY);
+            if (result != FROND_OK) {
+                EXPECT_EQ(result, FROND_OUT_OF_MEMORY);
+            }
         }
         EXPECT_EQ(failed, 1);
         EXPECT_NEAR(broken.height(), whole.height(), 1e-9);
