@@ -155,7 +155,7 @@ struct Leaning {
     }
 };
 
-// Both of the plants' halves of a step.
+// Both of the plants' halves of a step. Whoever missed one sways on behind by a sixtieth of a second.
 TEST(Threads, ThatFailBreakOffOneStepAndNoMore) {
     constexpr int STEPS = 240;
     PoorTeam rich = {0};
@@ -176,7 +176,7 @@ TEST(Threads, ThatFailBreakOffOneStepAndNoMore) {
         EXPECT_NEAR(broken.height(), whole.height(), 1e-9);
         for (size_t k = 0; k < whole.plants.size(); k++) {
             const std::vector<double> a = whole.places(whole.plants[k]), b = broken.places(broken.plants[k]);
-            for (size_t i = 0; i < a.size(); i++) ASSERT_NEAR(a[i], b[i], 2e-3) << fails_in << ", plant " << k;
+            for (size_t i = 0; i < a.size(); i++) ASSERT_NEAR(a[i], b[i], 5e-3) << fails_in << ", plant " << k;
         }
     }
 }

@@ -30,9 +30,9 @@ struct InLines {
 };
 using NumbersInLines = std::vector<double, InLines<double>>;
 
-// For so many numbers, and for no more; zero where there were not as many.
+// For so many numbers: as before, then zeros. To give memory back and ask for it again takes longer than a step.
 inline void make_room(NumbersInLines& numbers, std::size_t count) {
-    if (numbers.size() != count) NumbersInLines(count).swap(numbers);
+    numbers.resize(count);
 }
 
 }  // namespace frond

@@ -104,16 +104,11 @@ unsigned find_taut(const Abreast& step, const Plant& plant, frond_effects effect
     return taut;
 }
 
-// One that had as many lanes before: to make room for another number of them takes longer than a step.
-std::shared_ptr<PlantsAbreast> lend(WorkspacePool& pool, int lanes) {
+std::shared_ptr<PlantsAbreast> lend(WorkspacePool& pool) {
     std::lock_guard<std::mutex> lock(pool.mutex);
-    auto& free = pool.abreast;
-    const auto found = std::find_if(free.begin(), free.end(), [&](const std::shared_ptr<PlantsAbreast>& space) {
-        return space->step.lanes == lanes;
-    });
-    if (found == free.end()) return std::make_shared<PlantsAbreast>();
-    std::shared_ptr<PlantsAbreast> space = std::move(*found);
-    free.erase(found);
+    if (pool.abreast.empty()) return std::make_shared<PlantsAbreast>();
+    std::shared_ptr<PlantsAbreast> space = std::move(pool.abreast.back());
+    pool.abreast.pop_back();
     return space;
 }
 
@@ -264,14 +259,14 @@ void solve_abreast(Plant* const* given, int given_count, const Surroundings& sur
         else
             solve_plant(plant, surroundings, h);
     }
-    // Lanes of which half are empty take longer than plants one by one.
+    // Lanes of which half are empty take no less time than plants one by one.
     const int lanes = lanes_for(count);
     if (count < lanes / 2 + 1) {
         for (int i = 0; i < count; i++) solve_plant(*plants[size_t(i)], surroundings, h);
         return;
     }
     const std::shared_ptr<WorkspacePool> pool = plants[0]->seat.pool;
-    const std::shared_ptr<PlantsAbreast> space = lend(*pool, lanes);
+    const std::shared_ptr<PlantsAbreast> space = lend(*pool);
     Abreast& step = space->step;
     const System& system = *plants[0]->system;
     const frond_effects effects = plants[0]->effects & surroundings.effects;

@@ -242,14 +242,14 @@ void make_room(Abreast& a, std::shared_ptr<const System> system, int lanes) {
     const size_t n = 3 * size_t(lanes) * size_t(pattern.node_count);
     for (NumbersInLines* numbers : {&a.x, &a.v, &a.x_prev, &a.v_prev, &a.x_end, &a.v_end, &a.v_start, &a.x_from,
                                     &a.x_base, &a.v_base, &a.way, &a.elastic, &a.rhs, &a.dv})
-        *numbers = NumbersInLines(n);
-    a.gravity = NumbersInLines(3 * size_t(lanes));
+        make_room(*numbers, n);
+    make_room(a.gravity, 3 * size_t(lanes));
     const size_t nodes = size_t(pattern.node_count),
                  drags = a.system->row->moves_chain ? nodes / 2 : a.system->chain.size();
-    a.drag_force = NumbersInLines(3 * drags * size_t(lanes));
-    a.drag_damping = NumbersInLines(6 * drags * size_t(lanes));
+    make_room(a.drag_force, 3 * drags * size_t(lanes));
+    make_room(a.drag_damping, 6 * drags * size_t(lanes));
     a.A.pattern = &pattern;
-    a.A.values = NumbersInLines(9 * size_t(lanes) * pattern.row.size());
+    make_room(a.A.values, 9 * size_t(lanes) * pattern.row.size());
 }
 
 unsigned step_abreast(Abreast& a, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,

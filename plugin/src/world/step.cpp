@@ -328,8 +328,8 @@ void take_step(World& world, btCollisionWorld& collision_world, double h) {
     learn_times(world);
 }
 
-// Of a step that cannot be ended: who was not done with it stands where it began. Bullet, which has moved its bodies and
-// will not come to the end of stepSimulation, forgets the forces that moved them.
+// Of a step that cannot be ended: who was not done with it stands where it began. Bullet, which has moved its bodies
+// and will not come to the end of stepSimulation, forgets the forces that moved them.
 void break_off_step(World& world) {
     world.bullet->clearForces();
     for (PlantBody* body : world.awake) {
