@@ -74,7 +74,7 @@ TEST(Instances, OfRodsThatSleepKeepLittleWhetherTheyEverMovedOrNot) {
     if (SANITIZED) GTEST_SKIP() << "another allocator";
     constexpr int COUNT = 100;
     Rows rows(FEW_PIECES);
-    rows.add(2, FROND_ROD, false);
+    rows.add(8, FROND_ROD, false);  // abreast, so that what a thread needs once is there
     rows.settle();
     ASSERT_NEAR(frond_plant_get_capsule_count(rows.plants[0]), 41, 5);
     const double before = kilobytes();
