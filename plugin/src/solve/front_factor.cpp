@@ -113,6 +113,19 @@ int floor_to_rows(int row) {
     return row / ROWS * ROWS;
 }
 
+// Adds the rows of some nodes in three columns; how many is known beforehand, so that nothing is asked on the way.
+template <int NODES>
+FROND_INLINE void add_block(const double* from, int stride, double* to, int to_stride) {
+    constexpr int COUNT = 3 * NODES, BY_FOURS = COUNT / ROWS * ROWS, BY_TWOS = COUNT / 2 * 2;
+    for (int c = 0; c < 3; ++c, from += stride, to += to_stride) {
+        for (int i = 0; i < BY_FOURS; i += ROWS)
+            store(FourLanes(load<FourLanes>(to + i) + load<FourLanes>(from + i)), to + i);
+        if (BY_FOURS < BY_TWOS)
+            store(TwoLanes(load<TwoLanes>(to + BY_FOURS) + load<TwoLanes>(from + BY_FOURS)), to + BY_FOURS);
+        if (BY_TWOS < COUNT) to[BY_TWOS] += from[BY_TWOS];
+    }
+}
+
 // Of the memory that only factorize() needs.
 struct Room {
     std::vector<Quad> updates, products;
@@ -143,15 +156,13 @@ struct Factorize {
         for (int k = column; k < child.rows;) {
             const FrontPlan::Landing& landing = plan.landings[size_t(child.row + k)];
             const int row = landing.to < front.own ? 3 * landing.to : own + 3 * (landing.to - front.own);
-            const int count = 3 * landing.count;
             const double* source = from + 3 * k;
             double* target = to + row - skipped;
-            for (int c = 0; c < 3; ++c, source += stride, target += to_stride) {
-                int i = 0;
-                for (; i + ROWS <= count; i += ROWS)
-                    store(FourLanes(load<FourLanes>(target + i) + load<FourLanes>(source + i)), target + i);
-                for (; i < count; ++i) target[i] += source[i];
-            }
+            int left = landing.count;
+            for (; left >= 4; left -= 4, source += 12, target += 12) add_block<4>(source, stride, target, to_stride);
+            if (left == 3) add_block<3>(source, stride, target, to_stride);
+            if (left == 2) add_block<2>(source, stride, target, to_stride);
+            if (left == 1) add_block<1>(source, stride, target, to_stride);
             k += landing.count;
         }
     }
