@@ -111,10 +111,5 @@ TEST(LongSteps, KeepASwingThatOneSolveCannotFollow) {
     }
 }
 
-// Its energy at the ends of steps swings about the one where forces balance: that is not out of nothing.
-TEST(LongSteps, OfGeneralizedAlphaAreNotTakenForWrong) {
-    for (double h : {1.0 / 30, 1.0 / 60}) EXPECT_EQ(let_go(FROND_GENERALIZED_ALPHA, h).retried, 0) << h;
-}
-
 }  // namespace
 }  // namespace frond::test

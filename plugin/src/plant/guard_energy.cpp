@@ -1,14 +1,12 @@
 // In: a plant before and after a solve. Out: whether energy came out of nothing.
 //
 // One solve takes forces and stiffness of one place; where a plant turns far within the step they point elsewhere, and
-// a stiff, light one ends strained by many times what it was. Asked where forces balance: what an integrator draws on
-// from there may swing about the end.
+// a stiff, light one ends strained by many times what it was.
 #include <algorithm>
 #include <cmath>
 
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
-#include "solve/integrator.hpp"
 #include "solve/workspace.hpp"
 
 namespace frond {
@@ -72,26 +70,14 @@ double lifting_energy(const Plant& plant) {
     return node_mass_of(*plant.system).sum() * GRAVITY * double(plant.size);
 }
 
-struct State {
-    VecX x, v;
-};
-// Of the step, as far as all went evenly.
-static State after_share(const Plant& plant, double share) {
-    const VecX &from = plant.x_good, end = plant.follow ? wound_as(from, plant.motion.x) : plant.motion.x;
-    return {from + share * (end - from), plant.v_good + share * (plant.motion.v - plant.v_good)};
-}
-
 EnergyLook look_at_energy(const Plant& plant, double h, double work) {
     constexpr double SHARE = 0.05;  // of what moves and strains it [-]
     constexpr double LIFT = 0.01;   // and what lifts it so far, in its sizes [-]
     constexpr double CARRIED = 2;   // and what carries all of it so many times as fast as what holds it [-]
     EnergyLook look;
     if (!plant.loads.drags.empty()) return look;
-    const VecX& x_good = plant.x_good;
-    const double share = balanced_share(plant.step_settings, plant.motion.history);
-    const State on_way = share < 1 ? after_share(plant, share) : State();
-    const VecX &x = share < 1 ? on_way.x : plant.motion.x, &v = share < 1 ? on_way.v : plant.motion.v;
-    const double after = kinetic_in_step(plant, v) + elastic_energy(plant, x);
+    const VecX &x = plant.motion.x, &x_good = plant.x_good;
+    const double after = kinetic_in_step(plant, plant.motion.v) + elastic_energy(plant, x);
     const double speed = CARRIED * way_of_pins(plant) / h, lifting = lifting_energy(plant);
     double given = work + work_along(plant, x - x_good) + spring_energy(plant, x_good, Held::BY_GRABS) -
                    spring_energy(plant, x, Held::BY_GRABS) + 0.5 * node_mass_of(*plant.system).sum() * speed * speed;

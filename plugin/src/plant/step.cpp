@@ -111,8 +111,9 @@ static int work_allowed(const Plant& plant) {
 // damped step would end it.
 static bool solve_to_balance(Plant& plant, double h) {
     constexpr int ITERATIONS = 30;
+    constexpr double LONGEST = 1.001 / 30;  // [s]; in longer ones a step that is not damped leads anywhere
     const bool is_free = !plant.is_touched && plant.loads.drags.empty() && plant.recovers_for <= 0;
-    if (!is_free || plant.patience < 1 || integrator(plant.step_settings.integrator).is_explicit) return false;
+    if (!is_free || h > LONGEST || plant.patience < 1 || integrator(plant.step_settings.integrator).is_explicit) return false;
     SolveSettings settings = plant.step_settings;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     plant.trouble |= FROND_TROUBLE_RETRIED;

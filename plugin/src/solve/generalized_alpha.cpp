@@ -15,10 +15,6 @@ namespace {
 
 constexpr int LEAST_ITERATIONS = 30;
 
-double stage_share(const SolveSettings& settings) {
-    return 1 / (1 + settings.spectral_radius);
-}
-
 // Rates at the end of a first step: the velocity, and what the second stage of SDIRK2 found, or the step if there is
 // one.
 bool start(Workspace& w, const StepInput& input, SolveReport& report) {
@@ -32,11 +28,6 @@ bool start(Workspace& w, const StepInput& input, SolveReport& report) {
 }
 
 }  // namespace
-
-double balanced_share(const SolveSettings& settings, const History& history) {
-    const bool is_first = history.shaken;
-    return history.valid && !is_first && history.integrator == FROND_GENERALIZED_ALPHA ? stage_share(settings) : 1;
-}
 
 bool step_generalized_alpha(Workspace& workspace, const StepInput& input, SolveReport& report) {
     Workspace& w = workspace;
@@ -55,7 +46,7 @@ bool step_generalized_alpha(Workspace& workspace, const StepInput& input, SolveR
 
     // The stage is at y_f.
     const double s = input.settings.spectral_radius, h = input.h;
-    const double m = (3 - s) / (2 * (1 + s)), a = stage_share(input.settings), g = 0.5 + m - a;
+    const double m = (3 - s) / (2 * (1 + s)), a = 1 / (1 + s), g = 0.5 + m - a;
     const double step = a * g * h / m, old = a * h * (1 - g / m);
     w.x_base = x + old * w.x_rate;
     w.v_base = v + old * w.v_rate;

@@ -46,9 +46,6 @@ inline bool is_pushed(const StepInput& input) {
     return !input.motion.history.valid && input.motion.history.shaken;
 }
 
-// The share of the last step at which its forces balance; where that is not its end, the end is drawn on from there.
-double balanced_share(const SolveSettings& settings, const History& history);
-
 // Whether a guess of where a plant will be is near enough to be used.
 inline bool is_calm(const System& system, const VecX& from, const VecX& to) {
     return system.row->is_calm(*system.elements, from, to);
