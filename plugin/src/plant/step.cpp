@@ -108,12 +108,13 @@ static int work_allowed(const Plant& plant) {
 }
 
 // A free plant by its own integrator, until forces balance: one solve may not tell where so fast a sway goes, yet a
-// damped step would end it.
+// damped step would end it. Not in long steps, nor where forces at the start count: those may lead anywhere.
 static bool solve_to_balance(Plant& plant, double h) {
     constexpr int ITERATIONS = 30;
-    constexpr double LONGEST = 1.001 / 30;  // [s]; in longer ones a step that is not damped leads anywhere
+    constexpr double LONGEST = 1.001 / 30;  // [s]
     const bool is_free = !plant.is_touched && plant.loads.drags.empty() && plant.recovers_for <= 0;
-    if (!is_free || h > LONGEST || plant.patience < 1 || integrator(plant.step_settings.integrator).is_explicit) return false;
+    if (!is_free || plant.patience < 1 || h > LONGEST || integrator(plant.step_settings.integrator).trusts_start)
+        return false;
     SolveSettings settings = plant.step_settings;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     plant.trouble |= FROND_TROUBLE_RETRIED;

@@ -66,8 +66,9 @@ struct Integrator {
     const char* name;
     // Leaves the end of the step in workspace.x and .v.
     bool (*step)(Workspace& workspace, const StepInput& input, SolveReport& report);
-    bool looks_back;   // uses and needs the motion's history
-    bool is_explicit;  // stable only for steps below about two over the highest frequency
+    bool looks_back;    // uses and needs the motion's history
+    bool trusts_start;  // takes the change, or half of it, from the forces at the step's start
+    bool is_explicit;   // stable only for steps below about two over the highest frequency
 };
 const Integrator& integrator(frond_integrator which);
 
