@@ -12,6 +12,8 @@ namespace frond {
 namespace {
 
 struct Corotational {
+    static constexpr bool GOES_AHEAD = true;
+
     template <class S>
     struct Strain {
         Lanes33<S> F;
@@ -99,7 +101,7 @@ struct Corotational {
 }  // namespace
 
 Mechanics tet_corotational(int order) {
-    return tet_row_in_lanes<Corotational>("tet_corotational", order);
+    return tet_row_abreast<Corotational>("tet_corotational", order);
 }
 
 }  // namespace frond

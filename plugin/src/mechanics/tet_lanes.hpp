@@ -1,5 +1,6 @@
 // Rows of the table of mechanics from a material that is written for lanes. Beside what tet_row.hpp asks for, such a
 // material ("law") says
+//   GOES_AHEAD                                       whether it has what follows, for Mechanics::add_ahead
 //   Lanes33<S> stress_of_change(share, strain, dF)   the positive stiffness times a change of F [Pa]
 // Four points of integration are taken at once: of four tets with straight edges, or of one quadratic tet. Each comes
 // out as if it were alone, and they are added up in the order of tets.
@@ -42,10 +43,12 @@ struct TetPass {
                 damped += ahead->damping;
                 by = ahead->step * (ahead->step + damped);
             }
-            if (f && ahead)
-                tets.add_force(share, stress_ahead<Law>(tets, share, strain, *ahead, damped), *f);
-            else if (f)
-                tets.add_force(share, Law::stress(share, strain), *f);
+            if (f) {
+                auto stress = Law::stress(share, strain);
+                if constexpr (Law::GOES_AHEAD)
+                    if (ahead) stress = stress_ahead<Law>(tets, share, strain, *ahead, damped);
+                tets.add_force(share, stress, *f);
+            }
             if (!K) continue;
             const TetStiffnessLanes<S> stiffness = Law::stiffness(share, strain, tangent, by);
             tets.add_stiffness(stiffness, *K);
@@ -104,20 +107,27 @@ struct TetRowInLanes {
 };
 
 template <class Law>
-Mechanics tet_row_in_lanes(const char* name, int order) {
-    Mechanics row = tet_row<PointByPoint<Law>>(name, order, false);
+Mechanics tet_row_in_lanes(const char* name, int order, bool needs_search) {
+    Mechanics row = tet_row<PointByPoint<Law>>(name, order, needs_search);
     const auto take = [&](auto rows) {
         row.add_force = rows.add_force;
         row.add_stiffness = rows.add_stiffness;
         row.add_force_and_stiffness = rows.add_both;
         row.add_force_stiffness_and_damping = rows.add_damped;
-        row.add_ahead = rows.add_ahead;
+        if (Law::GOES_AHEAD) row.add_ahead = rows.add_ahead;
     };
-    if (order == 2) {
+    if (order == 2)
         take(TetRowInLanes<Law, FourPoints>());
-        return row;
-    }
-    take(TetRowInLanes<Law, FourTets>());
+    else
+        take(TetRowInLanes<Law, FourTets>());
+    return row;
+}
+
+// Of which plants go abreast too.
+template <class Law>
+Mechanics tet_row_abreast(const char* name, int order) {
+    Mechanics row = tet_row_in_lanes<Law>(name, order, false);
+    if (order == 2) return row;
     static const MechanicsAbreast ABREAST = {TetsAbreast<Law>::set_ahead, nullptr, tets_not_calm, tets_may_yield};
     row.abreast = &ABREAST;
     return row;

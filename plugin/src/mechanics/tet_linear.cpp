@@ -8,6 +8,8 @@ namespace frond {
 namespace {
 
 struct Linear {
+    static constexpr bool GOES_AHEAD = true;
+
     template <class S>
     struct Strain {
         Lanes33<S> F, small;
@@ -62,7 +64,7 @@ struct Linear {
 }  // namespace
 
 Mechanics tet_linear(int order) {
-    Mechanics row = tet_row_in_lanes<Linear>("tet_linear", order);
+    Mechanics row = tet_row_abreast<Linear>("tet_linear", order);
     row.turns = false;
     return row;
 }

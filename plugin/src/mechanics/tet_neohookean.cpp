@@ -10,87 +10,89 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "mechanics/tet_row.hpp"
+#include "mechanics/tet_lanes.hpp"
 
 namespace frond {
 
 namespace {
 
-// What energy and its derivatives are made of.
-struct Strain {
-    Mat3 F, cofactor;
-    double m, l;     // the material's own constants [Pa]
-    double I, J;     // |F|^2, det F
-    double pull;     // m (1 - 1/(I+1)): stress along F
-    double bend;     // 2 m / (I+1)^2: its derivative by I, doubled
-    double squeeze;  // l (J - a): stress along the cofactor
-};
-
-Strain strain_of(const TetShare& tet, const Mat3& F) {
-    Strain s;
-    s.F = F;
-    s.cofactor.col(0) = s.F.col(1).cross(s.F.col(2));
-    s.cofactor.col(1) = s.F.col(2).cross(s.F.col(0));
-    s.cofactor.col(2) = s.F.col(0).cross(s.F.col(1));
-    s.m = 4.0 / 3 * tet.mu;
-    s.l = tet.lambda + 5.0 / 6 * tet.mu;
-    s.I = s.F.squaredNorm();
-    s.J = s.F.col(0).dot(s.cofactor.col(0));
-    s.pull = s.m * s.I / (s.I + 1);
-    s.bend = 2 * s.m / ((s.I + 1) * (s.I + 1));
-    s.squeeze = s.l * (s.J - 1) - 0.75 * s.m;
-    return s;
-}
-
-// The constants of rest are taken out term by term, so that little is lost to rounding near rest.
-double energy_density(const Strain& s) {
-    const double stretch = s.I - 3, swell = s.J - 1;
-    return 0.5 * s.m * (stretch - std::log1p(stretch / 4)) + 0.5 * s.l * swell * swell - 0.75 * s.m * swell;
-}
-
-// K_ab = V (pull b_a.b_b I + bend (F b_a)(F b_b)^T + l (C b_a)(C b_b)^T - squeeze [F (b_a x b_b)]), C the cofactor and
-// [.] the cross product: the derivative of C.
-TetStiffness exact_stiffness(const TetShare& tet, const Strain& s, double scale) {
-    const Mat3& B = tet.rest_inverse;
-    const double V = scale * tet.volume;
-    const Mat3 FB = s.F * B.transpose(), CB = s.cofactor * B.transpose();
-    const auto block = [&](int a, int b) {
-        Mat3 k = FB.col(a) * (V * s.bend * FB.col(b)).transpose() + CB.col(a) * (V * s.l * CB.col(b)).transpose();
-        k.diagonal().array() += V * s.pull * B.row(a).dot(B.row(b));
-        if (a != b) {
-            const Vec3 w = V * s.squeeze * (s.F * B.row(a).transpose().cross(B.row(b).transpose()));
-            k(0, 1) += w.z(), k(1, 0) -= w.z();
-            k(0, 2) -= w.y(), k(2, 0) += w.y();
-            k(1, 2) += w.x(), k(2, 1) -= w.x();
-        }
-        return k;
-    };
-    return {block(0, 0), block(1, 0), block(2, 0), block(1, 1), block(2, 1), block(2, 2)};
-}
-
-// F = U diag(stretch) V^T with U and V of determinant one, so that the stretches' product is J.
+// F = U diag(stretch) V^T with U and V of determinant one, so that the stretches' product is J. U and V by columns.
+template <class S>
 struct Frame {
-    Mat3 U, V;
-    Vec3 stretch;
+    Lanes33<S> U, V;
+    Lanes3<S> stretch;
 };
 
-Frame principal_frame(const Mat3& F) {
-    Frame frame;
-    const Eigen::SelfAdjointEigenSolver<Mat3> squares(F.transpose() * F);
-    const Vec3 values = squares.eigenvalues();
-    if (values[0] > 1e-6 * values[2] && values[2] > 0) {
-        frame.V = squares.eigenvectors();
-        frame.U = F * frame.V * values.cwiseSqrt().cwiseInverse().asDiagonal();
-    } else {
-        // Nearly flat: the squares have lost the digits of the smallest stretch.
-        const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
-        frame.U = svd.matrixU();
-        frame.V = svd.matrixV();
+// Of what is nearly flat: the squares of F have lost the digits of the smallest stretch.
+Frame<double> frame_of_flat(const Mat3& F) {
+    const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Mat3 U = svd.matrixU(), V = svd.matrixV();
+    if (U.determinant() < 0) U.col(2) *= -1;
+    if (V.determinant() < 0) V.col(2) *= -1;
+    const Vec3 stretch = (U.transpose() * F * V).diagonal();
+    return {one_lane(U.transpose()), one_lane(V.transpose()), {stretch[0], stretch[1], stretch[2]}};
+}
+
+// A turn in the plane of p and q that leaves nothing at c_pq of a symmetric matrix, whose third row is r (Jacobi 1846).
+// False where all lanes had arrived, which then stay.
+template <class S>
+FROND_INLINE bool turn_plane(S& pp, S& qq, S& pq, S& pr, S& qr, Lanes3<S>& p, Lanes3<S>& q, const S& least) {
+    const auto is_left = (pq > least) | (pq < -least);
+    if (!any(is_left)) return false;
+    const S twice = 2.0 * pq, gap = qq - pp, root = sqrt(S(gap * gap + twice * twice));
+    const S t = select(is_left, S(twice / select(gap < 0.0, S(gap - root), S(gap + root))), constant<S>(0));
+    const S c = 1.0 / sqrt(S(1.0 + t * t)), s = t * c;
+    pp -= t * pq, qq += t * pq;
+    pq = select(is_left, constant<S>(0), pq);
+    const S pr_before = pr;
+    pr = c * pr - s * qr, qr = s * pr_before + c * qr;
+    const Lanes3<S> p_before = p;
+    p = c * p - s * q, q = s * p_before + c * q;
+    return true;
+}
+
+template <class S>
+FROND_INLINE Frame<S> principal_frame(const Lanes33<S>& F) {
+    constexpr double ROUNDING = 1e-17, FLAT = 1e-6;  // of the squares
+    constexpr int MOST_SWEEPS = 12;
+    const Lanes33<S> C = transposed_times(F, F);
+    const S size = trace(C), least = ROUNDING * size;
+    S c00 = C.r[0].x, c11 = C.r[1].y, c22 = C.r[2].z, c01 = C.r[0].y, c02 = C.r[0].z, c12 = C.r[1].z;
+    Frame<S> out = {};
+    Lanes33<S>& V = out.V;
+    add_to_diagonal(constant<S>(1), V);
+    for (int sweep = 0; sweep < MOST_SWEEPS; ++sweep) {
+        bool is_left = turn_plane(c00, c11, c01, c02, c12, V.r[0], V.r[1], least);
+        is_left |= turn_plane(c00, c22, c02, c01, c12, V.r[0], V.r[2], least);
+        is_left |= turn_plane(c11, c22, c12, c01, c02, V.r[1], V.r[2], least);
+        if (!is_left) break;
     }
-    if (frame.U.determinant() < 0) frame.U.col(0) *= -1;
-    if (frame.V.determinant() < 0) frame.V.col(0) *= -1;
-    frame.stretch = (frame.U.transpose() * F * frame.V).diagonal();
-    return frame;
+    for (int i = 0; i < 3; ++i) {
+        const Lanes3<S> drawn = F * V.r[i];
+        out.U.r[i] = (1.0 / sqrt(dot(drawn, drawn))) * drawn;
+    }
+    // Where a tet is inside out the smallest stretch is the negative one.
+    const S turned = select(dot(out.U.r[0], cross(out.U.r[1], out.U.r[2])) < 0.0, constant<S>(-1), constant<S>(1));
+    const S one = constant<S>(1), c_least = select(c00 < c11, c00, c11), smallest = select(c22 < c_least, c22, c_least);
+    const S sign0 = select(c00 == smallest, turned, one), sign1 = select(c00 == smallest, one, turned);
+    out.U.r[0] = sign0 * out.U.r[0];
+    out.U.r[1] = select(c11 == smallest, sign1, one) * out.U.r[1];
+    out.U.r[2] = select((c00 == smallest) | (c11 == smallest), one, turned) * out.U.r[2];
+    const S c_most = select(c00 > c11, c00, c11), largest = select(c22 > c_most, c22, c_most);
+    const auto is_flat = !(smallest > FLAT * largest);
+    if (any(is_flat))
+        for (int lane = 0; lane < LANES<S>; ++lane) {
+            const Mat3 of_lane = lane_of(F, lane);
+            if (!lane_of(is_flat, lane) || !of_lane.allFinite()) continue;
+            const Frame<double> flat = frame_of_flat(of_lane);
+            set_lane(out.U, lane, lane_of(flat.U, 0));
+            set_lane(out.V, lane, lane_of(flat.V, 0));
+        }
+    const auto along = [&](int i) __attribute__((always_inline)) {
+        return S(dot(out.U.r[i], F * out.V.r[i]));
+    };
+    out.stretch = {along(0), along(1), along(2)};
+    return out;
 }
 
 Mat3 without_negative_part(const Mat3& A) {
@@ -99,61 +101,149 @@ Mat3 without_negative_part(const Mat3& A) {
     return parts.eigenvectors() * parts.eigenvalues().cwiseMax(0).asDiagonal() * parts.eigenvectors().transpose();
 }
 
-// Tension resists turning. A solve far from rest needs that; but damping is made of this stiffness too, and must let a
-// body turn as a whole. So tension counts only beyond this share of the modulus.
-constexpr double FREE_TURN = 0.05;
-
-TetStiffness positive_stiffness(const TetShare& tet, const Strain& s, double scale) {
-    const Frame frame = principal_frame(s.F);
-    const Vec3& z = frame.stretch;
-
-    // Stretches: second derivatives of W by z. Shears and turns in the plane of i and j: pull -+ squeeze z_k.
-    Mat3 A, straight = Mat3::Zero(), crossed = Mat3::Zero();
-    const Vec3 c(z[1] * z[2], z[2] * z[0], z[0] * z[1]);
-    A = s.bend * z * z.transpose() + s.l * c * c.transpose();
-    A.diagonal().array() += s.pull;
-    for (int k = 0; k < 3; ++k) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        A(i, j) += s.squeeze * z[k];
-        A(j, i) += s.squeeze * z[k];
-        const double shear = std::max(s.pull - s.squeeze * z[k], 0.0);
-        const double turn = std::max(s.pull + s.squeeze * z[k] - FREE_TURN * s.m, 0.0);
-        straight(i, j) = straight(j, i) = 0.5 * (shear + turn);
-        crossed(i, j) = crossed(j, i) = 0.5 * (shear - turn);
+template <class S>
+FROND_INLINE void take_negative_part_out(Lanes33<S>& A) {
+    const S minor = A.r[0].x * A.r[1].y - A.r[0].y * A.r[1].x;
+    const auto is_positive = (A.r[0].x > 0.0) & (minor > 0.0) & (dot(A.r[0], cross(A.r[1], A.r[2])) > 0.0);
+    if (!any(!is_positive)) return;
+    for (int lane = 0; lane < LANES<S>; ++lane) {
+        const Mat3 of_lane = lane_of(A, lane);
+        if (!lane_of(is_positive, lane) && of_lane.allFinite()) set_lane(A, lane, without_negative_part(of_lane));
     }
-    A = without_negative_part(A);
-
-    // With b in that frame: K_ij = A_ij b_i b'_j + crossed_ij b_j b'_i, and straight_ij b_j b'_j on the diagonal.
-    const Mat3 G = frame.V.transpose() * tet.rest_inverse.transpose();
-    const double V = scale * tet.volume;
-    const auto block = [&](int a, int b) {
-        Mat3 k = G.col(a) * (V * G.col(b)).transpose();
-        const Vec3 diagonal = straight * k.diagonal();
-        k = Mat3(A.cwiseProduct(k) + crossed.cwiseProduct(k.transpose()));
-        k.diagonal() += diagonal;
-        return Mat3(frame.U * k * frame.U.transpose());
-    };
-    return {block(0, 0), block(1, 0), block(2, 0), block(1, 1), block(2, 1), block(2, 2)};
 }
 
 struct Neohookean {
-    static Strain strain(const TetShare& tet, const Mat3& F) { return strain_of(tet, F); }
-    static double energy(const TetShare&, const Strain& s) { return energy_density(s); }
-    static Mat3 stress(const TetShare&, const Strain& s) { return s.pull * s.F + s.squeeze * s.cofactor; }
+    static constexpr bool GOES_AHEAD = false;
 
-    static TetStiffness stiffness(const TetShare& tet, const Strain& s, Tangent tangent, double scale) {
-        // Not finite: the exact one says so too, and needs no frame.
-        if (tangent == Tangent::exact || !std::isfinite(s.I)) return exact_stiffness(tet, s, scale);
-        return positive_stiffness(tet, s, scale);
+    template <class S>
+    struct Strain {
+        Lanes33<S> F, cofactor;
+        S I, J;  // |F|^2, det F
+    };
+
+    template <class S>
+    FROND_INLINE static Strain<S> strain(const Lanes33<S>& F) {
+        const Lanes33<S> cof = cofactor(F);
+        return {F, cof, dot(F, F), dot(F.r[0], cof.r[0])};
     }
 
-    static bool inverted(const Strain& s) { return s.J < 0; }
+    // What stress and stiffness are made of.
+    template <class S>
+    struct Slopes {
+        S m, l;     // the material's own constants [Pa]
+        S pull;     // m (1 - 1/(I+1)): stress along F
+        S bend;     // 2 m / (I+1)^2: its derivative by I, doubled
+        S squeeze;  // l (J - a): stress along the cofactor
+    };
+    template <class S>
+    FROND_INLINE static Slopes<S> slopes(const TetShareLanes<S>& tet, const Strain<S>& s) {
+        const S m = (4.0 / 3) * tet.mu, l = tet.lambda + (5.0 / 6) * tet.mu, more = s.I + 1.0;
+        return {m, l, m * s.I / more, 2.0 * m / (more * more), l * (s.J - 1.0) - 0.75 * m};
+    }
+
+    // The constants of rest are taken out term by term, so that little is lost to rounding near rest.
+    static double energy(const TetShareLanes<double>& tet, const Strain<double>& s) {
+        const Slopes<double> of = slopes(tet, s);
+        const double stretch = s.I - 3, swell = s.J - 1;
+        return 0.5 * of.m * (stretch - std::log1p(stretch / 4)) + 0.5 * of.l * swell * swell - 0.75 * of.m * swell;
+    }
+
+    template <class S>
+    FROND_INLINE static Lanes33<S> stress(const TetShareLanes<S>& tet, const Strain<S>& s) {
+        const Slopes<S> of = slopes(tet, s);
+        return of.pull * s.F + of.squeeze * s.cofactor;
+    }
+
+    // K_ab = V (pull b_a.b_b I + bend (F b_a)(F b_b)^T + l (C b_a)(C b_b)^T - squeeze [F (b_a x b_b)]), C the cofactor
+    // and [.] the cross product: the derivative of C.
+    template <class S>
+    FROND_INLINE static TetStiffnessLanes<S> exact_stiffness(const TetShareLanes<S>& tet, const Strain<S>& s,
+                                                             const S& scale) {
+        const Slopes<S> of = slopes(tet, s);
+        const Lanes33<S>& B = tet.rest_inverse;
+        const S V = scale * tet.volume;
+        const Lanes33<S> FB = B * transposed(s.F), CB = B * transposed(s.cofactor);  // a row a corner
+        const auto block = [&](int a, int b) __attribute__((always_inline)) {
+            Lanes33<S> k = outer(FB.r[a], S(V * of.bend) * FB.r[b]) + outer(CB.r[a], S(V * of.l) * CB.r[b]);
+            add_to_diagonal(S(V * of.pull * dot(B.r[a], B.r[b])), k);
+            if (a == b) return k;
+            const Lanes3<S> w = S(V * of.squeeze) * (s.F * cross(B.r[a], B.r[b]));
+            k.r[0].y += w.z, k.r[1].x -= w.z;
+            k.r[0].z -= w.y, k.r[2].x += w.y;
+            k.r[1].z += w.x, k.r[2].y -= w.x;
+            return k;
+        };
+        return {block(0, 0), block(1, 0), block(2, 0), block(1, 1), block(2, 1), block(2, 2)};
+    }
+
+    // Tension resists turning. A solve far from rest needs that; but damping is made of this stiffness too, and must
+    // let a body turn as a whole. So tension counts only beyond this share of the modulus.
+    static constexpr double FREE_TURN = 0.05;
+
+    template <class S>
+    FROND_INLINE static TetStiffnessLanes<S> positive_stiffness(const TetShareLanes<S>& tet, const Strain<S>& s,
+                                                                const S& scale) {
+        const Slopes<S> of = slopes(tet, s);
+        const Frame<S> frame = principal_frame(s.F);
+        const Lanes3<S>& z = frame.stretch;
+
+        // Stretches: second derivatives of W by z. Shears and turns in the plane of i and j: pull -+ squeeze z_k.
+        const Lanes3<S> c = {z.y * z.z, z.z * z.x, z.x * z.y}, squeezed = of.squeeze * z;
+        Lanes33<S> A = outer(z, of.bend * z) + outer(c, of.l * c);
+        add_to_diagonal(of.pull, A);
+        A.r[0].y += squeezed.z, A.r[1].x += squeezed.z;
+        A.r[1].z += squeezed.x, A.r[2].y += squeezed.x;
+        A.r[0].z += squeezed.y, A.r[2].x += squeezed.y;
+        take_negative_part_out(A);
+        const auto positive = [](const S& a) __attribute__((always_inline)) {
+            return select(a < 0.0, constant<S>(0), a);
+        };
+        const auto shear = [&](const S& by) __attribute__((always_inline)) {
+            return positive(of.pull - by);
+        };
+        const auto turn = [&](const S& by) __attribute__((always_inline)) {
+            return positive((of.pull + by) - FREE_TURN * of.m);
+        };
+        const auto planes = [&](double sign) __attribute__((always_inline)) {
+            const auto of_plane = [&](const S& by) __attribute__((always_inline)) {
+                return S(0.5 * (shear(by) + sign * turn(by)));
+            };
+            const S xy = of_plane(squeezed.z), yz = of_plane(squeezed.x), zx = of_plane(squeezed.y);
+            const S none = constant<S>(0);
+            return Lanes33<S>{{{none, xy, zx}, {xy, none, yz}, {zx, yz, none}}};
+        };
+        const Lanes33<S> straight = planes(1), crossed = planes(-1);
+
+        // With b in that frame: K_ij = A_ij b_i b'_j + crossed_ij b_j b'_i, and straight_ij b_j b'_j on the diagonal.
+        const Lanes33<S> G = tet.rest_inverse * transposed(frame.V);  // a row a corner
+        const S V = scale * tet.volume;
+        const auto block = [&](int a, int b) __attribute__((always_inline)) {
+            const Lanes33<S> outside = outer(G.r[a], V * G.r[b]), across = transposed(outside);
+            const Lanes3<S> diagonal = straight * Lanes3<S>{outside.r[0].x, outside.r[1].y, outside.r[2].z};
+            Lanes33<S> k;
+            for (int i = 0; i < 3; ++i) k.r[i] = scaled(A.r[i], outside.r[i]) + scaled(crossed.r[i], across.r[i]);
+            k.r[0].x += diagonal.x, k.r[1].y += diagonal.y, k.r[2].z += diagonal.z;
+            return transposed_times(frame.U, k * frame.U);
+        };
+        return {block(0, 0), block(1, 0), block(2, 0), block(1, 1), block(2, 1), block(2, 2)};
+    }
+
+    template <class S>
+    FROND_INLINE static TetStiffnessLanes<S> stiffness(const TetShareLanes<S>& tet, const Strain<S>& s, Tangent tangent,
+                                                       const S& scale) {
+        return tangent == Tangent::exact ? exact_stiffness(tet, s, scale) : positive_stiffness(tet, s, scale);
+    }
+
+    template <class S>
+    FROND_INLINE static auto inverted(const Strain<S>& s) {
+        return s.J < 0.0;
+    }
 };
 
 }  // namespace
 
 Mechanics tet_neohookean(int order) {
-    return tet_row<Neohookean>("tet_neohookean", order, true);
+    return tet_row_in_lanes<Neohookean>("tet_neohookean", order, true);
 }
 
 }  // namespace frond
