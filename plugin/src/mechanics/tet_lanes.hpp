@@ -43,12 +43,12 @@ struct TetPass {
                 damped += ahead->damping;
                 by = ahead->step * (ahead->step + damped);
             }
-            if (f) {
-                auto stress = Law::stress(share, strain);
+            const auto stress = [&]() __attribute__((always_inline)) {
                 if constexpr (Law::GOES_AHEAD)
-                    if (ahead) stress = stress_ahead<Law>(tets, share, strain, *ahead, damped);
-                tets.add_force(share, stress, *f);
-            }
+                    if (ahead) return stress_ahead<Law>(tets, share, strain, *ahead, damped);
+                return Law::stress(share, strain);
+            };
+            if (f) tets.add_force(share, stress(), *f);
             if (!K) continue;
             const TetStiffnessLanes<S> stiffness = Law::stiffness(share, strain, tangent, by);
             tets.add_stiffness(stiffness, *K);

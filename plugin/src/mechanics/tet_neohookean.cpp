@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
+#include <utility>
 
 #include "mechanics/tet_lanes.hpp"
 
@@ -23,14 +24,13 @@ struct Frame {
     Lanes3<S> stretch;
 };
 
-// Of what is nearly flat: the squares of F have lost the digits of the smallest stretch.
-Frame<double> frame_of_flat(const Mat3& F) {
+// U and V of what is nearly flat: the squares of F have lost the digits of the smallest stretch.
+std::pair<Mat3, Mat3> turns_of_flat(const Mat3& F) {
     const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
     Mat3 U = svd.matrixU(), V = svd.matrixV();
     if (U.determinant() < 0) U.col(2) *= -1;
     if (V.determinant() < 0) V.col(2) *= -1;
-    const Vec3 stretch = (U.transpose() * F * V).diagonal();
-    return {one_lane(U.transpose()), one_lane(V.transpose()), {stretch[0], stretch[1], stretch[2]}};
+    return {U, V};
 }
 
 // A turn in the plane of p and q that leaves nothing at c_pq of a symmetric matrix, whose third row is r (Jacobi 1846).
@@ -59,16 +59,15 @@ FROND_INLINE Frame<S> principal_frame(const Lanes33<S>& F) {
     const S size = trace(C), least = ROUNDING * size;
     S c00 = C.r[0].x, c11 = C.r[1].y, c22 = C.r[2].z, c01 = C.r[0].y, c02 = C.r[0].z, c12 = C.r[1].z;
     Frame<S> out = {};
-    Lanes33<S>& V = out.V;
-    add_to_diagonal(constant<S>(1), V);
+    add_to_diagonal(constant<S>(1), out.V);
     for (int sweep = 0; sweep < MOST_SWEEPS; ++sweep) {
-        bool is_left = turn_plane(c00, c11, c01, c02, c12, V.r[0], V.r[1], least);
-        is_left |= turn_plane(c00, c22, c02, c01, c12, V.r[0], V.r[2], least);
-        is_left |= turn_plane(c11, c22, c12, c01, c02, V.r[1], V.r[2], least);
+        bool is_left = turn_plane(c00, c11, c01, c02, c12, out.V.r[0], out.V.r[1], least);
+        is_left |= turn_plane(c00, c22, c02, c01, c12, out.V.r[0], out.V.r[2], least);
+        is_left |= turn_plane(c11, c22, c12, c01, c02, out.V.r[1], out.V.r[2], least);
         if (!is_left) break;
     }
     for (int i = 0; i < 3; ++i) {
-        const Lanes3<S> drawn = F * V.r[i];
+        const Lanes3<S> drawn = F * out.V.r[i];
         out.U.r[i] = (1.0 / sqrt(dot(drawn, drawn))) * drawn;
     }
     // Where a tet is inside out the smallest stretch is the negative one.
@@ -79,14 +78,15 @@ FROND_INLINE Frame<S> principal_frame(const Lanes33<S>& F) {
     out.U.r[1] = select(c11 == smallest, sign1, one) * out.U.r[1];
     out.U.r[2] = select((c00 == smallest) | (c11 == smallest), one, turned) * out.U.r[2];
     const S c_most = select(c00 > c11, c00, c11), largest = select(c22 > c_most, c22, c_most);
+    // What is not finite stays so, and no solver is asked for it.
     const auto is_flat = !(smallest > FLAT * largest);
     if (any(is_flat))
         for (int lane = 0; lane < LANES<S>; ++lane) {
             const Mat3 of_lane = lane_of(F, lane);
             if (!lane_of(is_flat, lane) || !of_lane.allFinite()) continue;
-            const Frame<double> flat = frame_of_flat(of_lane);
-            set_lane(out.U, lane, lane_of(flat.U, 0));
-            set_lane(out.V, lane, lane_of(flat.V, 0));
+            const auto [U, V] = turns_of_flat(of_lane);
+            set_lane(out.U, lane, U.transpose());
+            set_lane(out.V, lane, V.transpose());
         }
     const auto along = [&](int i) __attribute__((always_inline)) {
         return S(dot(out.U.r[i], F * out.V.r[i]));
