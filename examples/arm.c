@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
     check(frond_world_create(&world_def, &world));
     snprintf(path, sizeof path, "%s/corn/corn.obj", models);
     check(frond_model_load(path, &model_def, &corn));
-    plant_def.mechanics = FROND_ROD;
+    plant_def.mechanics = FROND_MECHANICS_ROD;
     for (int i = 0; i < PLANTS; i++) {
         plant_def.position = (frond_vec3){0.7 + 0.35 * i, 0, 0};
         check(frond_plant_create(world, corn, &plant_def, &plants[i]));

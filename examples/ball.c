@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     check(frond_model_load(argc > 1 ? argv[1] : "models/corn/corn.obj", &model_def, &model));
     check(frond_plant_create(world, model, &plant_def, &plant));
     check(frond_model_get_info(model, &info));
-    ground_def.shape = FROND_PLANE;
+    ground_def.shape = FROND_SHAPE_PLANE;
     check(frond_rigid_create(world, &ground_def, &ground));
 
     /* The ball: 11 cm, 430 g, 7 m/s. */

@@ -55,9 +55,10 @@ int main(int argc, char** argv) {
         snprintf(path, sizeof path, "%s/%s", argc > 1 ? argv[1] : "models", FILES[i]);
         check(frond_model_load(path, &model_def, &models[i]));
     }
-    plant_def.mechanics = FROND_ROD;
+    plant_def.mechanics = FROND_MECHANICS_ROD;
     plant_def.starts_asleep = true;
-    plant_def.effects &= ~FROND_PLANT_CONTACT; /* leaves stand in each other: one plant would wake the whole field */
+    plant_def.effects &=
+        ~FROND_EFFECT_PLANT_CONTACT; /* leaves stand in each other: one plant would wake the whole field */
     for (i = 0; i < PLANTS; i++) {
         const double x = apart * (i % SIDE), z = apart * (i / SIDE - SIDE / 2 + 0.5);
         const int strip = (int)(x / 4) % KINDS;
@@ -68,15 +69,15 @@ int main(int argc, char** argv) {
         check(frond_plant_create(world, models[kinds[i]], &plant_def, &plants[i]));
     }
 
-    ground_def.shape = FROND_PLANE;
+    ground_def.shape = FROND_SHAPE_PLANE;
     check(frond_rigid_create(world, &ground_def, &ground));
     ball_def.size.x = 0.2;
     ball_def.mass = 2;
     ball_def.state.position = (frond_vec3){1.5, 0.2, 0.05};
     ball_def.state.velocity = (frond_vec3){2, 0, 0};
-    ball_def.state.spin = (frond_vec3){0, 0, -10};
+    ball_def.state.angular_velocity = (frond_vec3){0, 0, -10};
     check(frond_rigid_create(world, &ball_def, &ball));
-    walker_def.shape = FROND_CAPSULE;
+    walker_def.shape = FROND_SHAPE_CAPSULE;
     walker_def.size = (frond_vec3){0.22, 0.62, 0};
     walker_def.mass = 0;
     walker_def.state.position = (frond_vec3){-0.5, 0.86, 0};

@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     frond_plant plant;
     frond_robot hand;
     frond_link_state palm, finger;
-    frond_broken broken = {0};
+    frond_fragment broken = {0};
     frond_rigid_state fruit = {0};
     frond_vec3 end;
     frond_picture* picture;
@@ -78,8 +78,8 @@ int main(int argc, char** argv) {
     check(frond_world_create(&world_def, &world));
     snprintf(path, sizeof path, "%s/cucumber/cucumber.obj", models);
     check(frond_model_load(path, &model_def, &cucumber));
-    plant_def.mechanics = FROND_ROD;
-    plant_def.effects |= FROND_BREAKING;
+    plant_def.mechanics = FROND_MECHANICS_ROD;
+    plant_def.effects |= FROND_EFFECT_BREAKING;
     check(frond_plant_create(world, cucumber, &plant_def, &plant));
     end = lower_end(plant, cucumber, "fruit_3");
 
@@ -120,7 +120,7 @@ int main(int argc, char** argv) {
             check(frond_robot_get_link_state(hand, link, &finger));
             if (step >= DRAW && broken_at < 0) strongest = fmax(strongest, sqrt(dot(finger.force, finger.force)));
         }
-        if (broken_at < 0 && frond_plant_get_broken_count(plant)) broken_at = step;
+        if (broken_at < 0 && frond_plant_get_fragment_count(plant)) broken_at = step;
 
         if (step % STEPS_A_FRAME) continue;
         check_picture(frond_picture_begin(picture, &scene));
@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
     /* What came off is in the hand. */
     check(frond_robot_get_link_state(hand, left, &palm));
     if (broken_at >= 0) {
-        check(frond_plant_get_broken(plant, 0, &broken));
+        check(frond_plant_get_fragment(plant, 0, &broken));
         check(frond_rigid_get_state(broken.rigid, &fruit));
     }
     printf("a fruit of %.0f g came off after %.2f s; a finger felt up to %.1f N; it is %.2f m above the hand\n",

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
 
     /* The chain alone: drawn as it grew, it gives way to its weight, with more capsules the more smoothly. */
     model_def.rest = FROND_REST_WITHOUT_GRAVITY;
-    plant_def.mechanics = FROND_ROD;
+    plant_def.mechanics = FROND_MECHANICS_ROD;
     plant_def.mass_damping = 4; /* come to rest soon */
     check(frond_world_create(&world_def, &world));
     for (i = 0; i < PLANTS; i++) {

@@ -49,13 +49,13 @@ int main(int argc, char** argv) {
     check(frond_model_get_info(model, &info));
     plant_def.rotation = (frond_quat){0, 0, -sin(lean / 2), cos(lean / 2)};
     check(frond_plant_create(world, model, &plant_def, &plant));
-    ground_def.shape = FROND_PLANE;
+    ground_def.shape = FROND_SHAPE_PLANE;
     check(frond_rigid_create(world, &ground_def, &ground));
 
     /* Two posts and four slats, which nothing moves. */
     for (i = 0; i < POSTS + SLATS; i++) {
         defs[i] = frond_default_rigid_def();
-        defs[i].shape = FROND_BOX;
+        defs[i].shape = FROND_SHAPE_BOX;
         defs[i].mass = 0;
         defs[i].size = i < POSTS ? (frond_vec3){0.02, 1.1, 0.02} : (frond_vec3){0.01, 0.02, wide + 0.05};
         defs[i].state.position =

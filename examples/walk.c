@@ -53,11 +53,11 @@ int main(int argc, char** argv) {
         check(frond_plant_create(world, model, &plant_def, &plants[i]));
         check(frond_plant_get_tip(plants[i], &tips[i]));
     }
-    ground_def.shape = FROND_PLANE;
+    ground_def.shape = FROND_SHAPE_PLANE;
     check(frond_rigid_create(world, &ground_def, &ground));
 
     /* The character: 1.68 m, moved by the program, not by forces. */
-    walker_def.shape = FROND_CAPSULE;
+    walker_def.shape = FROND_SHAPE_CAPSULE;
     walker_def.size = (frond_vec3){0.22, 0.62, 0};
     walker_def.mass = 0;
     walker_def.state.position = (frond_vec3){-1, 0.86, 0};

@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     check(frond_world_create(&world_def, &world));
     check(frond_model_load(argc > 1 ? argv[1] : "models/corn/corn.obj", &model_def, &model));
     check(frond_model_get_info(model, &info));
-    plant_def.mechanics = FROND_ROD;
+    plant_def.mechanics = FROND_MECHANICS_ROD;
     for (i = 0; i < PLANTS; i++) {
         plant_def.position.x = 0.9 * (i - 1);
         plant_def.position.z = i == 1 ? -0.4 : 0;

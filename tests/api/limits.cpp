@@ -32,19 +32,20 @@ TEST(Limits, AMillionTrianglesInAPointAreNoPlant) {
     const std::vector<float> xyz(3000000, 0.25f);
     std::vector<int32_t> indices(3000000);
     for (size_t i = 0; i < indices.size(); i++) indices[i] = int32_t(i % 1000000);
-    expect_refused([&] { return from_triangles(xyz, indices); }, FROND_BAD_GEOMETRY, "triangles");
+    expect_refused([&] { return from_triangles(xyz, indices); }, FROND_RESULT_BAD_GEOMETRY, "triangles");
 }
 
 TEST(Limits, CoordinatesBeyondAllPlantsAreRefused) {
     for (float huge : {1e30f, -3e38f}) {
         std::vector<float> xyz = {0, 0, 0, huge, 0, 0, 0, huge, 0};
-        expect_refused([&] { return from_triangles(xyz, {0, 1, 2}); }, FROND_BAD_GEOMETRY, "1e9");
+        expect_refused([&] { return from_triangles(xyz, {0, 1, 2}); }, FROND_RESULT_BAD_GEOMETRY, "1e9");
     }
     const double nodes[] = {0, 0, 0, 1e30, 0, 0, 0, 1, 0, 0, 0, 1};
     const int32_t tet[] = {0, 1, 2, 3};
     const frond_model_def def = frond_default_model_def();
     frond_model model = {};
-    expect_refused([&] { return frond_model_from_tets(nodes, 4, tet, 1, &def, &model); }, FROND_BAD_GEOMETRY, "1e9");
+    expect_refused([&] { return frond_model_from_tets(nodes, 4, tet, 1, &def, &model); }, FROND_RESULT_BAD_GEOMETRY,
+                   "1e9");
 }
 
 TEST(Limits, CountsThatNoMemoryHoldsAreRefusedUnread) {
@@ -53,28 +54,29 @@ TEST(Limits, CountsThatNoMemoryHoldsAreRefusedUnread) {
     const frond_model_def def = frond_default_model_def();
     frond_model model = {};
     expect_refused([&] { return frond_model_from_triangles(xyz, 2147483647, indices, 1, &def, &model); },
-                   FROND_BAD_ARGUMENT, "vertex_count");
+                   FROND_RESULT_BAD_ARGUMENT, "vertex_count");
     expect_refused([&] { return frond_model_from_triangles(xyz, 3, indices, 2147483647, &def, &model); },
-                   FROND_BAD_ARGUMENT, "triangle_count");
+                   FROND_RESULT_BAD_ARGUMENT, "triangle_count");
 }
 
 TEST(Limits, EndlessNamesAreRefused) {
     const std::string endless(64u << 20, 'x');
     frond_model_def def = frond_default_model_def();
     frond_model model = {};
-    expect_refused([&] { return frond_model_load(endless.c_str(), &def, &model); }, FROND_BAD_ARGUMENT, "path");
+    expect_refused([&] { return frond_model_load(endless.c_str(), &def, &model); }, FROND_RESULT_BAD_ARGUMENT, "path");
     frond_organ_material organ = {endless.c_str(), {}};
     def.organs = &organ;
     def.organ_count = 1;
-    expect_refused([&] { return frond_model_load("x.obj", &def, &model); }, FROND_BAD_ARGUMENT, "organ");
+    expect_refused([&] { return frond_model_load("x.obj", &def, &model); }, FROND_RESULT_BAD_ARGUMENT, "organ");
     const SmallWorld small;
     const frond_robot_def robot_def = frond_default_robot_def();
     frond_robot robot = {};
     expect_refused([&] { return frond_robot_load(small.world, endless.c_str(), &robot_def, &robot); },
-                   FROND_BAD_ARGUMENT, "path");
-    expect_refused([&] { return frond_model_write_urdf(small.model, endless.c_str()); }, FROND_BAD_ARGUMENT, "path");
+                   FROND_RESULT_BAD_ARGUMENT, "path");
+    expect_refused([&] { return frond_model_write_urdf(small.model, endless.c_str()); }, FROND_RESULT_BAD_ARGUMENT,
+                   "path");
     frond_material material;
-    expect_refused([&] { return frond_material_preset(endless.c_str(), &material); }, FROND_BAD_ARGUMENT,
+    expect_refused([&] { return frond_material_preset(endless.c_str(), &material); }, FROND_RESULT_BAD_ARGUMENT,
                    "no material");
 }
 

@@ -28,19 +28,19 @@ TEST(Header, EveryEnumHasANameAndOutOfRangeHasOneToo) {
     for (int i = 0; i < FROND_RESULT_COUNT; i++) EXPECT_GT(std::strlen(frond_result_name(frond_result(i))), 1u);
     EXPECT_STREQ(frond_result_name(frond_result(-1)), "unknown result");
     EXPECT_STREQ(frond_result_name(FROND_RESULT_COUNT), "unknown result");
-    EXPECT_STREQ(frond_mechanics_name(FROND_TET_COROTATIONAL), "tet_corotational");
+    EXPECT_STREQ(frond_mechanics_name(FROND_MECHANICS_TET_COROTATIONAL), "tet_corotational");
     EXPECT_STREQ(frond_mechanics_name(frond_mechanics(99)), "?");
     EXPECT_STREQ(frond_integrator_name(frond_integrator(-5)), "?");
-    EXPECT_STREQ(frond_linear_solver_name(FROND_BLOCK), "block");
-    EXPECT_STREQ(frond_mass_name(FROND_CONSISTENT), "consistent");
-    EXPECT_STREQ(frond_hash_layout_name(FROND_HASH_PAPER), "paper");
+    EXPECT_STREQ(frond_linear_solver_name(FROND_LINEAR_SOLVER_BLOCK), "block");
+    EXPECT_STREQ(frond_mass_name(FROND_MASS_CONSISTENT), "consistent");
+    EXPECT_STREQ(frond_hash_layout_name(FROND_HASH_LAYOUT_PAPER), "paper");
     EXPECT_STREQ(frond_hash_layout_name(frond_hash_layout(-1)), "?");
     EXPECT_STREQ(frond_response_name(FROND_RESPONSE_IMPULSE), "impulse");
     EXPECT_STREQ(frond_response_name(FROND_RESPONSE_COUNT), "?");
-    EXPECT_STREQ(frond_detail_name(FROND_DETAIL_SWAY), "sway");
+    EXPECT_STREQ(frond_detail_name(FROND_DETAIL_MODAL), "modal");
     EXPECT_STREQ(frond_detail_name(FROND_DETAIL_COUNT), "?");
-    EXPECT_STREQ(frond_effect_name(FROND_WIND), "wind");
-    EXPECT_STREQ(frond_effect_name(FROND_WIND | FROND_GRAVITY), "?");
+    EXPECT_STREQ(frond_effect_name(FROND_EFFECT_WIND), "wind");
+    EXPECT_STREQ(frond_effect_name(FROND_EFFECT_WIND | FROND_EFFECT_GRAVITY), "?");
     EXPECT_STREQ(frond_effect_name(1u << FROND_EFFECT_COUNT), "?");
     EXPECT_GT(std::strlen(frond_version_string()), 2u);
 }
@@ -48,46 +48,46 @@ TEST(Header, EveryEnumHasANameAndOutOfRangeHasOneToo) {
 TEST(Misuse, OfDetailIsRefused) {
     SmallWorld small;
     frond_detail_def def = {};
-    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_BAD_DEF);
+    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_RESULT_BAD_DEF);
     EXPECT_TRUE(error_names("frond_default_detail_def"));
     def = frond_default_detail_def();
-    EXPECT_EQ(frond_world_set_detail({}, &def), FROND_BAD_HANDLE);
-    def.sway_from = def.half_from - 1;
-    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_BAD_ARGUMENT);
-    EXPECT_TRUE(error_names("sway_from"));
+    EXPECT_EQ(frond_world_set_detail({}, &def), FROND_RESULT_BAD_HANDLE);
+    def.modal_from = def.half_from - 1;
+    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_TRUE(error_names("modal_from"));
     def = frond_default_detail_def();
     def.hysteresis = 1;
-    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_RESULT_BAD_ARGUMENT);
     def = frond_default_detail_def();
     def.budget = NOT_A_NUMBER;
-    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_set_detail(small.world, &def), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_TRUE(error_names("budget"));
-    EXPECT_EQ(frond_world_set_viewer(small.world, {0, INFINITE, 0}), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_set_viewer(small.world, {0, INFINITE, 0}), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_TRUE(error_names("position"));
     frond_detail detail = FROND_DETAIL_STILL;
-    EXPECT_EQ(frond_plant_get_detail({}, &detail), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_get_detail({}, &detail), FROND_RESULT_BAD_HANDLE);
     EXPECT_EQ(detail, FROND_DETAIL_FULL);
-    EXPECT_EQ(frond_plant_get_detail(small.plant, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_detail(small.plant, nullptr), FROND_RESULT_BAD_ARGUMENT);
 }
 
 TEST(Misuse, OfWorldsIsRefused) {
     frond_world_def def = frond_default_world_def();
     frond_world world = {7};
-    EXPECT_EQ(frond_world_create(nullptr, &world), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_create(nullptr, &world), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(world.id, 0u);
-    EXPECT_EQ(frond_world_create(&def, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_create(&def, nullptr), FROND_RESULT_BAD_ARGUMENT);
     frond_world_def zero = {};
-    EXPECT_EQ(frond_world_create(&zero, &world), FROND_BAD_DEF);
+    EXPECT_EQ(frond_world_create(&zero, &world), FROND_RESULT_BAD_DEF);
     EXPECT_TRUE(error_names("frond_default_world_def"));
     def.gravity.y = NOT_A_NUMBER;
-    EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_create(&def, &world), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_TRUE(error_names("gravity"));
     def = frond_default_world_def();
     def.max_substep = 0;
-    EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_create(&def, &world), FROND_RESULT_BAD_ARGUMENT);
     def = frond_default_world_def();
     def.effects = ~0u;
-    EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_create(&def, &world), FROND_RESULT_BAD_ARGUMENT);
     const std::pair<const char*, void (*)(frond_world_def&)> wrong[] = {
         {"hash_layout", [](frond_world_def& d) { d.hash_layout = frond_hash_layout(FROND_HASH_LAYOUT_COUNT); }},
         {"hash_table_size", [](frond_world_def& d) { d.hash_table_size = -1; }},
@@ -99,7 +99,7 @@ TEST(Misuse, OfWorldsIsRefused) {
     for (const auto& [word, change] : wrong) {
         def = frond_default_world_def();
         change(def);
-        EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT) << word;
+        EXPECT_EQ(frond_world_create(&def, &world), FROND_RESULT_BAD_ARGUMENT) << word;
         EXPECT_TRUE(error_names(word));
     }
 
@@ -108,13 +108,13 @@ TEST(Misuse, OfWorldsIsRefused) {
     uint64_t hash = 5;
     frond_ray_hit hit;
     for (frond_world bad : {null_world, nonsense}) {
-        EXPECT_EQ(frond_world_step(bad, 0.01), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_world_set_gravity(bad, {0, 0, 0}), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_world_set_effects(bad, 0), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_world_get_report(bad, &report), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_world_get_state_hash(bad, &hash), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_world_step(bad, 0.01), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_world_set_gravity(bad, {0, 0, 0}), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_world_set_effects(bad, 0), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_world_get_report(bad, &report), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_world_get_state_hash(bad, &hash), FROND_RESULT_BAD_HANDLE);
         EXPECT_EQ(hash, 0u);
-        EXPECT_EQ(frond_world_cast_ray(bad, {0, 0, 0}, {1, 0, 0}, 1, &hit), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_world_cast_ray(bad, {0, 0, 0}, {1, 0, 0}, 1, &hit), FROND_RESULT_BAD_HANDLE);
         EXPECT_FALSE(frond_world_is_valid(bad));
         frond_world_destroy(bad);
     }
@@ -125,16 +125,16 @@ TEST(Misuse, OfAStepIsRefusedAndChangesNothing) {
     uint64_t before = 0, after = 0;
     frond_world_get_state_hash(small.world, &before);
     for (double dt : {-0.1, 1.5, NOT_A_NUMBER, INFINITE})
-        EXPECT_EQ(frond_world_step(small.world, dt), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_world_set_gravity(small.world, {0, INFINITE, 0}), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_world_set_effects(small.world, 1u << 31), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_world_get_report(small.world, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_world_get_state_hash(small.world, nullptr), FROND_BAD_ARGUMENT);
+        EXPECT_EQ(frond_world_step(small.world, dt), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_set_gravity(small.world, {0, INFINITE, 0}), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_set_effects(small.world, 1u << 31), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_get_report(small.world, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_get_state_hash(small.world, nullptr), FROND_RESULT_BAD_ARGUMENT);
     frond_ray_hit hit;
-    EXPECT_EQ(frond_world_cast_ray(small.world, {0, 0, 0}, {0, 0, 0}, 1, &hit), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_world_cast_ray(small.world, {0, 0, 0}, {1, 0, 0}, -1, &hit), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_world_cast_ray(small.world, {NOT_A_NUMBER, 0, 0}, {1, 0, 0}, 1, &hit), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_world_cast_ray(small.world, {0, 0, 0}, {1, 0, 0}, 1, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_cast_ray(small.world, {0, 0, 0}, {0, 0, 0}, 1, &hit), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_cast_ray(small.world, {0, 0, 0}, {1, 0, 0}, -1, &hit), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_cast_ray(small.world, {NOT_A_NUMBER, 0, 0}, {1, 0, 0}, 1, &hit), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_cast_ray(small.world, {0, 0, 0}, {1, 0, 0}, 1, nullptr), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(frond_world_step(small.world, 0), FROND_OK);
     frond_world_get_state_hash(small.world, &after);
     EXPECT_EQ(before, after);
@@ -143,25 +143,25 @@ TEST(Misuse, OfAStepIsRefusedAndChangesNothing) {
 TEST(Misuse, OfModelsIsRefused) {
     const frond_model_def def = frond_default_model_def();
     frond_model model = {};
-    EXPECT_EQ(frond_model_load(nullptr, &def, &model), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_model_load("no/such/plant.obj", &def, &model), FROND_FILE_NOT_FOUND);
+    EXPECT_EQ(frond_model_load(nullptr, &def, &model), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_load("no/such/plant.obj", &def, &model), FROND_RESULT_FILE_NOT_FOUND);
     EXPECT_TRUE(error_names("no/such/plant.obj"));
-    EXPECT_EQ(frond_model_load("x.obj", nullptr, &model), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_model_load("x.obj", &def, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_load("x.obj", nullptr, &model), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_load("x.obj", &def, nullptr), FROND_RESULT_BAD_ARGUMENT);
     frond_model_def zero = {};
-    EXPECT_EQ(frond_model_load("x.obj", &zero, &model), FROND_BAD_DEF);
+    EXPECT_EQ(frond_model_load("x.obj", &zero, &model), FROND_RESULT_BAD_DEF);
 
     const float xyz[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     const int32_t indices[] = {0, 1, 2}, wild[] = {0, 1, 300};
-    EXPECT_EQ(frond_model_from_triangles(nullptr, 3, indices, 1, &def, &model), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_model_from_triangles(xyz, 3, nullptr, 1, &def, &model), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_model_from_triangles(xyz, -3, indices, 1, &def, &model), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_model_from_triangles(xyz, 3, indices, 2000000000, &def, &model), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_model_from_triangles(xyz, 3, wild, 1, &def, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_triangles(nullptr, 3, indices, 1, &def, &model), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_triangles(xyz, 3, nullptr, 1, &def, &model), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_triangles(xyz, -3, indices, 1, &def, &model), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_triangles(xyz, 3, indices, 2000000000, &def, &model), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_triangles(xyz, 3, wild, 1, &def, &model), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_TRUE(error_names("300"));
     const float nan_xyz[] = {NAN, 0, 0, 1, 0, 0, 0, 1, 0}, point_xyz[9] = {};
-    EXPECT_EQ(frond_model_from_triangles(nan_xyz, 3, indices, 1, &def, &model), FROND_BAD_GEOMETRY);
-    EXPECT_EQ(frond_model_from_triangles(point_xyz, 3, indices, 1, &def, &model), FROND_BAD_GEOMETRY);
+    EXPECT_EQ(frond_model_from_triangles(nan_xyz, 3, indices, 1, &def, &model), FROND_RESULT_BAD_GEOMETRY);
+    EXPECT_EQ(frond_model_from_triangles(point_xyz, 3, indices, 1, &def, &model), FROND_RESULT_BAD_GEOMETRY);
 
     const frond_stem good = {-1, {0, 0, 0}, {0, 1, 0}, 0.1, 0.1};
     for (frond_stem stem :
@@ -169,32 +169,32 @@ TEST(Misuse, OfModelsIsRefused) {
           frond_stem{-1, good.begin, good.end, -0.1, 0.1}, frond_stem{-1, good.begin, {NOT_A_NUMBER, 0, 0}, 0.1, 0.1},
           frond_stem{-1, good.begin, good.begin, 0.1, 0.1}})
         EXPECT_NE(frond_model_from_stems(&stem, 1, &def, &model), FROND_OK);
-    EXPECT_EQ(frond_model_from_stems(nullptr, 1, &def, &model), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_model_from_stems(&good, 0, &def, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_stems(nullptr, 1, &def, &model), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_stems(&good, 0, &def, &model), FROND_RESULT_BAD_ARGUMENT);
 
     const double nodes[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, flat[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
     const int32_t tet[] = {0, 1, 2, 3}, wild_tet[] = {0, 1, 2, 9}, double_tet[] = {0, 1, 2, 2};
-    EXPECT_EQ(frond_model_from_tets(nodes, 4, wild_tet, 1, &def, &model), FROND_BAD_GEOMETRY);
-    EXPECT_EQ(frond_model_from_tets(nodes, 4, double_tet, 1, &def, &model), FROND_BAD_GEOMETRY);
-    EXPECT_EQ(frond_model_from_tets(flat, 4, tet, 1, &def, &model), FROND_BAD_GEOMETRY);
-    EXPECT_EQ(frond_model_from_tets(nullptr, 4, tet, 1, &def, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_tets(nodes, 4, wild_tet, 1, &def, &model), FROND_RESULT_BAD_GEOMETRY);
+    EXPECT_EQ(frond_model_from_tets(nodes, 4, double_tet, 1, &def, &model), FROND_RESULT_BAD_GEOMETRY);
+    EXPECT_EQ(frond_model_from_tets(flat, 4, tet, 1, &def, &model), FROND_RESULT_BAD_GEOMETRY);
+    EXPECT_EQ(frond_model_from_tets(nullptr, 4, tet, 1, &def, &model), FROND_RESULT_BAD_ARGUMENT);
 
     frond_model_def wrong = def;
     wrong.cage_smoothness = 2;
-    EXPECT_EQ(frond_model_from_stems(&good, 1, &wrong, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_stems(&good, 1, &wrong, &model), FROND_RESULT_BAD_ARGUMENT);
     wrong = def;
     wrong.cage_size = NOT_A_NUMBER;
-    EXPECT_EQ(frond_model_from_stems(&good, 1, &wrong, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_stems(&good, 1, &wrong, &model), FROND_RESULT_BAD_ARGUMENT);
     const frond_organ_material unknown = {"pancake", plain_material(1000, 1e8, 0.3, 1e-3)};
     wrong = def;
     wrong.organs = &unknown;
     wrong.organ_count = 1;
-    EXPECT_EQ(frond_model_from_stems(&good, 1, &wrong, &model), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_from_stems(&good, 1, &wrong, &model), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_TRUE(error_names("pancake"));
     frond_material material;
-    EXPECT_EQ(frond_material_preset("pancake", &material), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_material_preset("pancake", &material), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_TRUE(error_names("blade"));
-    EXPECT_EQ(frond_material_preset(nullptr, &material), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_material_preset(nullptr, &material), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(model.id, 0u);
 
     frond_model_info info;
@@ -203,44 +203,44 @@ TEST(Misuse, OfModelsIsRefused) {
     frond_texture_view texture;
     frond_cage_view cage;
     frond_chain_view chain;
-    EXPECT_EQ(frond_model_get_info({}, &info), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_model_get_part({}, 0, &part), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_model_get_organ({}, 0, &organ), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_model_get_texture({}, 0, &texture), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_model_get_cage({}, &cage), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_model_get_chain({}, &chain), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_info({}, &info), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_part({}, 0, &part), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_organ({}, 0, &organ), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_texture({}, 0, &texture), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_cage({}, &cage), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_chain({}, &chain), FROND_RESULT_BAD_HANDLE);
     frond_model_destroy({});
     ASSERT_EQ(frond_model_from_stems(&good, 1, &def, &model), FROND_OK) << frond_last_error();
-    EXPECT_EQ(frond_model_get_info(model, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_model_get_part(model, 1000, &part), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_model_get_part(model, -1, &part), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_get_info(model, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_get_part(model, 1000, &part), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_get_part(model, -1, &part), FROND_RESULT_BAD_ARGUMENT);
     ASSERT_EQ(frond_model_get_info(model, &info), FROND_OK);
-    EXPECT_EQ(frond_model_get_organ(model, 0, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_get_organ(model, 0, nullptr), FROND_RESULT_BAD_ARGUMENT);
     for (int none : {-1, info.organ_count, 1 << 30}) {
         organ.name = "old";
-        EXPECT_EQ(frond_model_get_organ(model, none, &organ), FROND_BAD_ARGUMENT);
+        EXPECT_EQ(frond_model_get_organ(model, none, &organ), FROND_RESULT_BAD_ARGUMENT);
         EXPECT_EQ(organ.name, nullptr);
     }
-    EXPECT_EQ(frond_model_get_texture(model, 0, &texture), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_get_texture(model, 0, &texture), FROND_RESULT_BAD_ARGUMENT);
     frond_model_destroy(model);
     frond_model_destroy(model);
     EXPECT_FALSE(frond_model_is_valid(model));
-    EXPECT_EQ(frond_model_get_info(model, &info), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_info(model, &info), FROND_RESULT_BAD_HANDLE);
 }
 
 TEST(Misuse, OfPlantsIsRefused) {
     SmallWorld small;
     frond_plant plant = {};
     frond_plant_def def = frond_default_plant_def();
-    EXPECT_EQ(frond_plant_create({}, small.model, &def, &plant), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_plant_create(small.world, {}, &def, &plant), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_plant_create(small.world, {small.world.id}, &def, &plant), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_plant_create(small.world, small.model, nullptr, &plant), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_create(small.world, small.model, &def, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_create({}, small.model, &def, &plant), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_create(small.world, {}, &def, &plant), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_create(small.world, {small.world.id}, &def, &plant), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_create(small.world, small.model, nullptr, &plant), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_create(small.world, small.model, &def, nullptr), FROND_RESULT_BAD_ARGUMENT);
     const auto refuses = [&](auto change) {
         frond_plant_def changed = def;
         change(changed);
-        return frond_plant_create(small.world, small.model, &changed, &plant) == FROND_BAD_ARGUMENT;
+        return frond_plant_create(small.world, small.model, &changed, &plant) == FROND_RESULT_BAD_ARGUMENT;
     };
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.position.x = NOT_A_NUMBER; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.rotation = {0, 0, 0, 0}; }));
@@ -261,7 +261,7 @@ TEST(Misuse, OfPlantsIsRefused) {
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.spectral_radius = NOT_A_NUMBER; }));
     EXPECT_TRUE(refuses([](frond_plant_def& d) { d.effects = ~0u; }));
     def.cookie = 0;
-    EXPECT_EQ(frond_plant_create(small.world, small.model, &def, &plant), FROND_BAD_DEF);
+    EXPECT_EQ(frond_plant_create(small.world, small.model, &def, &plant), FROND_RESULT_BAD_DEF);
     EXPECT_EQ(plant.id, 0u);
     frond_report report;
     frond_world_get_report(small.world, &report);
@@ -269,33 +269,33 @@ TEST(Misuse, OfPlantsIsRefused) {
 
     const int count = frond_plant_get_node_count(small.plant);
     std::vector<double> numbers(size_t(3 * count), 0.0);
-    EXPECT_EQ(frond_plant_get_state(small.plant, numbers.data(), nullptr, count - 1), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_set_state(small.plant, numbers.data(), nullptr, count + 1), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_state(small.plant, numbers.data(), nullptr, count - 1), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_state(small.plant, numbers.data(), nullptr, count + 1), FROND_RESULT_BAD_ARGUMENT);
     numbers[4] = NOT_A_NUMBER;
-    EXPECT_EQ(frond_plant_set_state(small.plant, nullptr, numbers.data(), count), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_lasting_count(small.plant), 0);
-    EXPECT_EQ(frond_plant_get_lasting(small.plant, numbers.data(), 1), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_set_lasting(small.plant, numbers.data(), 1), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_set_lasting(small.plant, nullptr, 10), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_set_lasting(small.plant, nullptr, -1), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_set_lasting(small.plant, nullptr, 0), FROND_OK);
+    EXPECT_EQ(frond_plant_set_state(small.plant, nullptr, numbers.data(), count), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_plastic_count(small.plant), 0);
+    EXPECT_EQ(frond_plant_get_plastic(small.plant, numbers.data(), 1), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_plastic(small.plant, numbers.data(), 1), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_plastic(small.plant, nullptr, 10), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_plastic(small.plant, nullptr, -1), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_plastic(small.plant, nullptr, 0), FROND_OK);
     for (int node : {-1, count, 1 << 30}) {
-        EXPECT_EQ(frond_plant_pin(small.plant, node), FROND_BAD_ARGUMENT);
-        EXPECT_EQ(frond_plant_unpin(small.plant, node), FROND_BAD_ARGUMENT);
-        EXPECT_EQ(frond_plant_move_pin(small.plant, node, {0, 0, 0}), FROND_BAD_ARGUMENT);
-        EXPECT_EQ(frond_plant_add_force(small.plant, node, {0, 0, 0}), FROND_BAD_ARGUMENT);
+        EXPECT_EQ(frond_plant_pin(small.plant, node), FROND_RESULT_BAD_ARGUMENT);
+        EXPECT_EQ(frond_plant_unpin(small.plant, node), FROND_RESULT_BAD_ARGUMENT);
+        EXPECT_EQ(frond_plant_move_pin(small.plant, node, {0, 0, 0}), FROND_RESULT_BAD_ARGUMENT);
+        EXPECT_EQ(frond_plant_add_force(small.plant, node, {0, 0, 0}), FROND_RESULT_BAD_ARGUMENT);
     }
     EXPECT_EQ(frond_plant_unpin(small.plant, 0), FROND_OK);
-    EXPECT_EQ(frond_plant_move_pin(small.plant, 0, {0, 0, 0}), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_move_pin(small.plant, 0, {0, 0, 0}), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_TRUE(error_names("frond_plant_pin"));
-    EXPECT_EQ(frond_plant_add_force(small.plant, 0, {0, NOT_A_NUMBER, 0}), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_set_effects(small.plant, ~0u), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_energy(small.plant, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_surface(small.plant, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_capsules(small.plant, nullptr, 3), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_add_force(small.plant, 0, {0, NOT_A_NUMBER, 0}), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_effects(small.plant, ~0u), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_energy(small.plant, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_surface(small.plant, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_capsules(small.plant, nullptr, 3), FROND_RESULT_BAD_ARGUMENT);
     frond_capsule capsule;
-    EXPECT_EQ(frond_plant_get_capsules(small.plant, &capsule, 1000), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_tip(small.plant, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_capsules(small.plant, &capsule, 1000), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_tip(small.plant, nullptr), FROND_RESULT_BAD_ARGUMENT);
 }
 
 TEST(Misuse, OfStalePlantsIsRecognised) {
@@ -314,42 +314,42 @@ TEST(Misuse, OfStalePlantsIsRecognised) {
         EXPECT_EQ(frond_plant_get_node_count(bad), 0);
         EXPECT_EQ(frond_plant_get_capsule_count(bad), 0);
         EXPECT_EQ(frond_plant_get_user(bad), nullptr);
-        EXPECT_EQ(frond_plant_set_effects(bad, 0), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_get_lasting_count(bad), 0);
-        EXPECT_EQ(frond_plant_get_lasting(bad, nullptr, 0), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_set_lasting(bad, nullptr, 0), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_get_state(bad, nullptr, nullptr, 0), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_set_state(bad, nullptr, nullptr, 0), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_pin(bad, 0), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_unpin(bad, 0), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_move_pin(bad, 0, {0, 0, 0}), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_add_force(bad, 0, {0, 0, 0}), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_get_energy(bad, &energy), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_get_surface(bad, &view), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_set_effects(bad, 0), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_plastic_count(bad), 0);
+        EXPECT_EQ(frond_plant_get_plastic(bad, nullptr, 0), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_set_plastic(bad, nullptr, 0), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_state(bad, nullptr, nullptr, 0), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_set_state(bad, nullptr, nullptr, 0), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_pin(bad, 0), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_unpin(bad, 0), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_move_pin(bad, 0, {0, 0, 0}), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_add_force(bad, 0, {0, 0, 0}), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_energy(bad, &energy), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_surface(bad, &view), FROND_RESULT_BAD_HANDLE);
         EXPECT_EQ(view.positions, nullptr);
-        EXPECT_EQ(frond_plant_get_capsules(bad, &capsule, 1), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_plant_get_tip(bad, &tip), FROND_BAD_HANDLE);
-        EXPECT_EQ(frond_grab_create(bad, {0, 0, 0}, 10, &grab), FROND_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_capsules(bad, &capsule, 1), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_plant_get_tip(bad, &tip), FROND_RESULT_BAD_HANDLE);
+        EXPECT_EQ(frond_grab_create(bad, {0, 0, 0}, 10, &grab), FROND_RESULT_BAD_HANDLE);
     }
 }
 
 TEST(Misuse, OfGrabsIsRefused) {
     SmallWorld small;
     frond_grab grab = {};
-    EXPECT_EQ(frond_grab_create(small.plant, {0, NOT_A_NUMBER, 0}, 10, &grab), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_grab_create(small.plant, {0, NOT_A_NUMBER, 0}, 10, &grab), FROND_RESULT_BAD_ARGUMENT);
     for (double stiffness : {0.0, -5.0, NOT_A_NUMBER, INFINITE})
-        EXPECT_EQ(frond_grab_create(small.plant, {0, 1, 0}, stiffness, &grab), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_grab_create(small.plant, {0, 1, 0}, 10, nullptr), FROND_BAD_ARGUMENT);
+        EXPECT_EQ(frond_grab_create(small.plant, {0, 1, 0}, stiffness, &grab), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_grab_create(small.plant, {0, 1, 0}, 10, nullptr), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(grab.id, 0u);
-    EXPECT_EQ(frond_grab_move(grab, {0, 0, 0}), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_grab_move(grab, {0, 0, 0}), FROND_RESULT_BAD_HANDLE);
     frond_grab_destroy(grab);
 
     ASSERT_EQ(frond_grab_create(small.plant, {0, 1, 0}, 10, &grab), FROND_OK) << frond_last_error();
-    EXPECT_EQ(frond_grab_move(grab, {0, INFINITE, 0}), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_grab_move(grab, {0, INFINITE, 0}), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(frond_grab_get(grab, nullptr, nullptr, nullptr), FROND_OK);
     frond_plant_destroy(small.plant);  // takes its grabs along
     EXPECT_FALSE(frond_grab_is_valid(grab));
-    EXPECT_EQ(frond_grab_move(grab, {0, 0, 0}), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_grab_move(grab, {0, 0, 0}), FROND_RESULT_BAD_HANDLE);
     frond_grab_destroy(grab);
 }
 
@@ -390,10 +390,10 @@ TEST(Misuse, OfRigidBodiesIsRefused) {
     SmallWorld small;
     const frond_rigid_def good = frond_default_rigid_def();
     frond_rigid rigid = {7};
-    EXPECT_EQ(frond_rigid_create(small.world, nullptr, &rigid), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_rigid_create(small.world, nullptr, &rigid), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(rigid.id, 0u);
-    EXPECT_EQ(frond_rigid_create(small.world, &good, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_rigid_create({}, &good, &rigid), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_rigid_create(small.world, &good, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_rigid_create({}, &good, &rigid), FROND_RESULT_BAD_HANDLE);
     const auto refused = [&](const frond_rigid_def& def, const char* word) {
         EXPECT_NE(frond_rigid_create(small.world, &def, &rigid), FROND_OK) << word;
         EXPECT_TRUE(error_names(word));
@@ -424,26 +424,26 @@ TEST(Misuse, OfRigidBodiesIsRefused) {
     EXPECT_TRUE(frond_rigid_is_valid(rigid));
     EXPECT_NE(frond_rigid_get_body(rigid), nullptr);
     frond_rigid_state state;
-    EXPECT_EQ(frond_rigid_get_state(rigid, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_rigid_set_state(rigid, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_rigid_get_state(rigid, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_rigid_set_state(rigid, nullptr), FROND_RESULT_BAD_ARGUMENT);
     ASSERT_EQ(frond_rigid_get_state(rigid, &state), FROND_OK);
     state.position.x = INFINITE;
-    EXPECT_EQ(frond_rigid_set_state(rigid, &state), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_rigid_set_state(rigid, &state), FROND_RESULT_BAD_ARGUMENT);
     frond_rigid_destroy(rigid);
     frond_rigid_destroy(rigid);
     EXPECT_FALSE(frond_rigid_is_valid(rigid));
     EXPECT_EQ(frond_rigid_get_body(rigid), nullptr);
-    EXPECT_EQ(frond_rigid_get_state(rigid, &state), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_rigid_get_state(rigid, &state), FROND_RESULT_BAD_HANDLE);
 
     // A plane stays where it is, and a world takes its bodies along.
     def = good;
-    def.shape = FROND_PLANE;
+    def.shape = FROND_SHAPE_PLANE;
     ASSERT_EQ(frond_rigid_create(small.world, &def, &rigid), FROND_OK) << frond_last_error();
     ASSERT_EQ(frond_rigid_get_state(rigid, &state), FROND_OK);
-    EXPECT_EQ(frond_rigid_set_state(rigid, &state), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_rigid_set_state(rigid, &state), FROND_RESULT_BAD_ARGUMENT);
     frond_world_destroy(small.world);
     EXPECT_FALSE(frond_rigid_is_valid(rigid));
-    EXPECT_EQ(frond_rigid_set_state(rigid, &state), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_rigid_set_state(rigid, &state), FROND_RESULT_BAD_HANDLE);
 }
 
 TEST(Misuse, OfContactsIsRefused) {
@@ -453,9 +453,9 @@ TEST(Misuse, OfContactsIsRefused) {
     EXPECT_EQ(frond_plant_get_contact_count(small.plant), 0);
     EXPECT_EQ(frond_plant_get_contact_count({}), 0);
     EXPECT_EQ(frond_plant_get_contacts(small.plant, nullptr, 0), FROND_OK);
-    EXPECT_EQ(frond_plant_get_contacts(small.plant, &contact, 1), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_contacts({}, &contact, 0), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_plant_get_momentum(small.plant, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_momentum({}, &momentum), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_get_contacts(small.plant, &contact, 1), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_contacts({}, &contact, 0), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_get_momentum(small.plant, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_momentum({}, &momentum), FROND_RESULT_BAD_HANDLE);
     EXPECT_EQ(momentum.x, 0);
 }

@@ -156,7 +156,7 @@ TEST(Robot, MovesLinksThatTouchNothing) {
 
 // A stem is bent by the forearm, which then stays where it is.
 struct Pressed : testing::TestWithParam<frond_mechanics> {};
-INSTANTIATE_TEST_SUITE_P(Robot, Pressed, testing::Values(FROND_TET_COROTATIONAL, FROND_ROD),
+INSTANTIATE_TEST_SUITE_P(Robot, Pressed, testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
 TEST_P(Pressed, LinksFeelWhatHoldsThePlant) {
@@ -195,36 +195,37 @@ TEST(Robot, MisuseIsToldAndChangesNothing) {
     const RobotWorld arm(ARM);
     frond_robot_def def = frond_default_robot_def();
     frond_robot robot = {5};
-    EXPECT_EQ(frond_robot_load(arm.world, "none.urdf", &def, &robot), FROND_FILE_NOT_FOUND);
+    EXPECT_EQ(frond_robot_load(arm.world, "none.urdf", &def, &robot), FROND_RESULT_FILE_NOT_FOUND);
     EXPECT_EQ(robot.id, 0u);
-    EXPECT_EQ(frond_robot_load(arm.world, FROND_SOURCE_DIR "/models/corn/corn.obj", &def, &robot), FROND_FILE_FORMAT);
-    EXPECT_EQ(frond_robot_load({}, ARM, &def, &robot), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_robot_load(arm.world, ARM, nullptr, &robot), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_robot_load(arm.world, ARM, &def, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_load(arm.world, FROND_SOURCE_DIR "/models/corn/corn.obj", &def, &robot),
+              FROND_RESULT_FILE_FORMAT);
+    EXPECT_EQ(frond_robot_load({}, ARM, &def, &robot), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_robot_load(arm.world, ARM, nullptr, &robot), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_load(arm.world, ARM, &def, nullptr), FROND_RESULT_BAD_ARGUMENT);
     def.rotation = {0, 0, 0, 0};
-    EXPECT_EQ(frond_robot_load(arm.world, ARM, &def, &robot), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_load(arm.world, ARM, &def, &robot), FROND_RESULT_BAD_ARGUMENT);
     def = {};
-    EXPECT_EQ(frond_robot_load(arm.world, ARM, &def, &robot), FROND_BAD_DEF);
+    EXPECT_EQ(frond_robot_load(arm.world, ARM, &def, &robot), FROND_RESULT_BAD_DEF);
     const int elbow = arm.link("elbow");
-    EXPECT_EQ(frond_robot_set_joint(arm.robot, 0, 0), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_robot_set_joint(arm.robot, elbow, 9), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_robot_drive_to(arm.robot, elbow, std::nan(""), 0, 0), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_robot_drive_to(arm.robot, elbow, 0, -1, 0), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_robot_drive_at(arm.robot, 99, 0, 0), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_robot_drive_at(arm.robot, elbow, 0, INFINITY), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_robot_release({}, elbow), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_robot_set_joint(arm.robot, 0, 0), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_set_joint(arm.robot, elbow, 9), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_drive_to(arm.robot, elbow, std::nan(""), 0, 0), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_drive_to(arm.robot, elbow, 0, -1, 0), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_drive_at(arm.robot, 99, 0, 0), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_drive_at(arm.robot, elbow, 0, INFINITY), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_release({}, elbow), FROND_RESULT_BAD_HANDLE);
     frond_robot_link link;
     frond_link_state state;
-    EXPECT_EQ(frond_robot_get_link(arm.robot, -1, &link), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_robot_get_link_state(arm.robot, 7, &state), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_robot_get_link_state(arm.robot, 0, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_root_force({}, {0, 0, 0}, nullptr, nullptr), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_robot_get_link(arm.robot, -1, &link), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_get_link_state(arm.robot, 7, &state), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_robot_get_link_state(arm.robot, 0, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_root_force({}, {0, 0, 0}, nullptr, nullptr), FROND_RESULT_BAD_HANDLE);
     frond_bond bond;
-    EXPECT_EQ(frond_robot_bond({}, {0, 0, 0}, arm.robot, elbow, &bond), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_robot_bond({}, {0, 0, 0}, arm.robot, elbow, &bond), FROND_RESULT_BAD_HANDLE);
     frond_robot_destroy(arm.robot);
     EXPECT_FALSE(frond_robot_is_valid(arm.robot));
     EXPECT_EQ(frond_robot_get_link_count(arm.robot), 0);
-    EXPECT_EQ(frond_robot_release(arm.robot, elbow), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_robot_release(arm.robot, elbow), FROND_RESULT_BAD_HANDLE);
     frond_robot_destroy(arm.robot);
     arm.step(2);
 }
@@ -239,7 +240,7 @@ TEST(Robot, AsksForAWorldThatTakesMultiBodies) {
     ASSERT_EQ(frond::attach(&bullet, nullptr, &world), FROND_OK);
     const frond_robot_def def = frond_default_robot_def();
     frond_robot robot;
-    EXPECT_EQ(frond_robot_load(world, ARM, &def, &robot), FROND_UNSUPPORTED);
+    EXPECT_EQ(frond_robot_load(world, ARM, &def, &robot), FROND_RESULT_UNSUPPORTED);
     EXPECT_NE(std::strstr(frond_last_error(), "btMultiBodyDynamicsWorld"), nullptr);
     frond_world_destroy(world);
 }

@@ -20,8 +20,8 @@ TEST(UrdfPlant, OfCylindersAndCapsulesHasTheirSections) {
     ASSERT_EQ(frond_material_preset("stem", &stem), FROND_OK);
     EXPECT_EQ(sapling.organs.at("shoot_left").material.young, stem.young);
     const double pi = 3.14159265358979;
-    EXPECT_NEAR(sapling.organs.at("stem_low").area.most, pi * 0.008 * 0.008, 1e-12);
-    EXPECT_NEAR(sapling.organs.at("shoot_right").area.least, pi * 0.004 * 0.004, 1e-12);
+    EXPECT_NEAR(sapling.organs.at("stem_low").area.upper, pi * 0.008 * 0.008, 1e-12);
+    EXPECT_NEAR(sapling.organs.at("shoot_right").area.lower, pi * 0.004 * 0.004, 1e-12);
     EXPECT_NEAR(sapling.organs.at("stem_low").length, 0.3, 1e-9);
     EXPECT_NEAR(sapling.info.chain_length, 0.3 + 0.25 + 0.2 + 0.2 + 0.16, 1e-9);
     EXPECT_EQ(sapling.info.root_count, 1);
@@ -29,7 +29,7 @@ TEST(UrdfPlant, OfCylindersAndCapsulesHasTheirSections) {
     // +z of the file is up.
     EXPECT_NEAR(sapling.info.upper.y, 0.755, 1e-6);
     EXPECT_EQ(sapling.info.up.z, 1);
-    EXPECT_LT(wandering(sapling.model, FROND_ROD), 1e-4);
+    EXPECT_LT(wandering(sapling.model, FROND_MECHANICS_ROD), 1e-4);
 }
 
 TEST(UrdfPlant, OfEveryShapeStands) {
@@ -45,8 +45,8 @@ TEST(UrdfPlant, OfEveryShapeStands) {
     EXPECT_EQ(seedling.organs.at("part_7").material.young, grass.young);
     EXPECT_GT(seedling.info.upper.y, 0.5);
     EXPECT_EQ(seedling.info.contained, 1);
-    EXPECT_LT(wandering(seedling.model, FROND_ROD), 0.003);
-    EXPECT_LT(wandering(seedling.model, FROND_TET_COROTATIONAL), 0.003);
+    EXPECT_LT(wandering(seedling.model, FROND_MECHANICS_ROD), 0.003);
+    EXPECT_LT(wandering(seedling.model, FROND_MECHANICS_TET_COROTATIONAL), 0.003);
 }
 
 // A leaf that hangs on one stem by its joint, and all but touches another one.
@@ -89,7 +89,7 @@ TEST(UrdfPlant, MeshesAreFoundByPackagePath) {
                    urdf_joint("stem", "leaf", "0 0 0.4")));
     const frond_model_def def = frond_default_model_def();
     frond_model model = {};
-    EXPECT_EQ(frond_model_load(file.c_str(), &def, &model), FROND_FILE_NOT_FOUND);
+    EXPECT_EQ(frond_model_load(file.c_str(), &def, &model), FROND_RESULT_FILE_NOT_FOUND);
     EXPECT_NE(std::strstr(frond_last_error(), "FROND_PACKAGE_PATH"), nullptr) << frond_last_error();
     ASSERT_EQ(setenv("FROND_PACKAGE_PATH", ("/none:" + folder.path + "/elsewhere").c_str(), 1), 0);
     const Loaded found(file);
@@ -174,7 +174,7 @@ TEST(UrdfPlant, WhatIsWrongWithAFileIsSaid) {
         frond_model model = {7};
         const frond_result result = frond_model_load(file.c_str(), &def, &model);
         EXPECT_NE(result, FROND_OK) << damage.name;
-        EXPECT_NE(result, FROND_INTERNAL) << damage.name;
+        EXPECT_NE(result, FROND_RESULT_INTERNAL) << damage.name;
         EXPECT_EQ(model.id, 0u);
         EXPECT_NE(std::strstr(frond_last_error(), "broken.urdf"), nullptr) << damage.name << ": " << frond_last_error();
         EXPECT_NE(std::strstr(frond_last_error(), damage.said), nullptr) << damage.name << ": " << frond_last_error();

@@ -45,23 +45,23 @@ TEST(Misuse, OfWindIsRefused) {
     for (const auto& c : cases) {
         frond_wind_def def = breeze();
         c.spoil(def);
-        EXPECT_EQ(frond_world_set_wind(small.world, &def), FROND_BAD_ARGUMENT) << c.name;
+        EXPECT_EQ(frond_world_set_wind(small.world, &def), FROND_RESULT_BAD_ARGUMENT) << c.name;
         EXPECT_NE(std::strstr(frond_last_error(), c.name), nullptr) << frond_last_error();
     }
     ASSERT_EQ(frond_world_get_wind_at(small.world, {0, 10, 0}, &after), FROND_OK);
     EXPECT_EQ(before.x, after.x);
     const frond_wind_def zero = {};
-    EXPECT_EQ(frond_world_set_wind(small.world, &zero), FROND_BAD_DEF);
+    EXPECT_EQ(frond_world_set_wind(small.world, &zero), FROND_RESULT_BAD_DEF);
     EXPECT_NE(std::strstr(frond_last_error(), "frond_default_wind_def"), nullptr);
-    EXPECT_EQ(frond_world_get_wind_at(small.world, {NAN, 0, 0}, &after), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_world_get_wind_at(small.world, {0, 0, 0}, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_air_force(small.plant, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_get_wind_at(small.world, {NAN, 0, 0}, &after), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_get_wind_at(small.world, {0, 0, 0}, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_air_force(small.plant, nullptr), FROND_RESULT_BAD_ARGUMENT);
     const frond_world stale = {0x1234567890abcdefu};
-    EXPECT_EQ(frond_world_set_wind(stale, &good), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_world_set_wind(stale, nullptr), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_world_set_wind_field(stale, nullptr, nullptr), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_world_get_wind_at(stale, {0, 0, 0}, &after), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_plant_get_air_force({5}, &after), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_world_set_wind(stale, &good), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_world_set_wind(stale, nullptr), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_world_set_wind_field(stale, nullptr, nullptr), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_world_get_wind_at(stale, {0, 0, 0}, &after), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_get_air_force({5}, &after), FROND_RESULT_BAD_HANDLE);
 }
 
 TEST(Wind, BendsAPlantAndEnds) {
@@ -95,9 +95,9 @@ TEST(Wind, SameSeedGivesTheSameBitsAndAnotherOneOthers) {
         step(small.world, 40);
         return hash_of(small);
     };
-    EXPECT_EQ(run(1, FROND_ALL_EFFECTS), run(1, FROND_ALL_EFFECTS));
-    EXPECT_NE(run(1, FROND_ALL_EFFECTS), run(2, FROND_ALL_EFFECTS));
-    const frond_effects none = FROND_ALL_EFFECTS & ~(frond_effects)(FROND_WIND | FROND_AIR_DRAG);
+    EXPECT_EQ(run(1, FROND_EFFECT_ALL), run(1, FROND_EFFECT_ALL));
+    EXPECT_NE(run(1, FROND_EFFECT_ALL), run(2, FROND_EFFECT_ALL));
+    const frond_effects none = FROND_EFFECT_ALL & ~(frond_effects)(FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG);
     EXPECT_EQ(run(1, none), run(2, none));
     SmallWorld without;
     step(without.world, 40);
@@ -167,7 +167,7 @@ TEST(Wind, NonsenseOfAFieldIsReportedAndHarmsNothing) {
     ASSERT_EQ(frond_world_get_report(small.world, &report), FROND_OK);
     EXPECT_EQ(report.trouble, uint32_t(FROND_TROUBLE_BAD_WIND));
     frond_vec3 air, tip;
-    EXPECT_EQ(frond_world_get_wind_at(small.world, {0, 1, 0}, &air), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_get_wind_at(small.world, {0, 1, 0}, &air), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_NE(std::strstr(frond_last_error(), "wind field"), nullptr);
     EXPECT_EQ(air.x, 0);
     ASSERT_EQ(frond_plant_get_tip(small.plant, &tip), FROND_OK);

@@ -22,14 +22,14 @@ TEST(WrittenUrdf, IsTheSamePlantWhenItIsReadAgain) {
         const frond_organ& other = again.organs.at(organ.name);
         EXPECT_STREQ(other.kind, organ.kind);
         EXPECT_NEAR(other.mass, organ.mass, 1e-4 * organ.mass) << organ.name;
-        EXPECT_NEAR(other.bending_thin.least, organ.bending_thin.least, 1e-4 * organ.bending_thin.least) << organ.name;
-        EXPECT_NEAR(other.bending_wide.most, organ.bending_wide.most, 1e-4 * organ.bending_wide.most) << organ.name;
-        EXPECT_NEAR(other.torsion.most, organ.torsion.most, 1e-4 * organ.torsion.most) << organ.name;
+        EXPECT_NEAR(other.bending_thin.lower, organ.bending_thin.lower, 1e-4 * organ.bending_thin.lower) << organ.name;
+        EXPECT_NEAR(other.bending_wide.upper, organ.bending_wide.upper, 1e-4 * organ.bending_wide.upper) << organ.name;
+        EXPECT_NEAR(other.torsion.upper, organ.torsion.upper, 1e-4 * organ.torsion.upper) << organ.name;
         compared++;
     }
     EXPECT_GT(compared, 5);
-    EXPECT_LT(wandering(again.model, FROND_ROD), 0.003);
-    EXPECT_EQ(frond_model_write_urdf(corn, "/none/corn.urdf"), FROND_FILE_NOT_FOUND);
-    EXPECT_EQ(frond_model_write_urdf({}, file.c_str()), FROND_BAD_HANDLE);
+    EXPECT_LT(wandering(again.model, FROND_MECHANICS_ROD), 0.003);
+    EXPECT_EQ(frond_model_write_urdf(corn, "/none/corn.urdf"), FROND_RESULT_FILE_NOT_FOUND);
+    EXPECT_EQ(frond_model_write_urdf({}, file.c_str()), FROND_RESULT_BAD_HANDLE);
     frond_model_destroy(corn);
 }

@@ -80,7 +80,8 @@ struct Cantilever {
 
     explicit Cantilever(const Model& model)
         : model(model), elements(make_tet_elements(model)), stiffness(elements.pattern) {
-        EXPECT_TRUE(stiffness.set(elements, model.root, FROND_TET_LINEAR, Tangent::positive, elements.rest_positions));
+        EXPECT_TRUE(stiffness.set(elements, model.root, FROND_MECHANICS_TET_LINEAR, Tangent::positive,
+                                  elements.rest_positions));
         load = moved = VecX::Zero(elements.rest_positions.size());
     }
     void solve_load() {
@@ -159,7 +160,7 @@ TEST_P(EveryStem, SagsUnderItsOwnWeightAsTheBeamFormulaSays) {
     const auto model = build(stem);
     const double wanted = beam_answer(stem).weight;
     Cantilever cage(*model);
-    const VecX masses = mechanics(FROND_TET_LINEAR).masses(cage.elements, FROND_LUMPED).node;
+    const VecX masses = mechanics(FROND_MECHANICS_TET_LINEAR).masses(cage.elements, FROND_MASS_LUMPED).node;
     const Vec3 across = stem.axis().unitOrthogonal();
     for (int k = 0; k < 4; k++) {
         const Vec3 direction = Eigen::AngleAxisd(k * M_PI / 4, stem.axis()) * across;
@@ -172,7 +173,7 @@ TEST_P(EveryStem, SagsUnderItsOwnWeightAsTheBeamFormulaSays) {
 // Inverse iteration from a move across.
 static double first_frequency(const Model& model, const Vec3& across) {
     Cantilever cage(model);
-    const VecX masses = mechanics(FROND_TET_LINEAR).masses(cage.elements, FROND_LUMPED).node;
+    const VecX masses = mechanics(FROND_MECHANICS_TET_LINEAR).masses(cage.elements, FROND_MASS_LUMPED).node;
     for (int i = 0; i < cage.elements.node_count; i++) point(cage.moved, i) = across;
     double square = 0;
     for (int round = 0; round < 12; round++) {
@@ -256,7 +257,8 @@ TEST(Calibration, HoldsUnderALargeLoad) {
         const double L = stem.length();
         const Vec3 start = model->chain.nodes[end_node(*model)].position;
         for (const Vec3& direction : {across, Vec3(stem.axis().cross(across))}) {
-            const Vec3 end = pulled_end(*model, FROND_TET_COROTATIONAL, stem.bending(0) / (L * L) * direction) - start;
+            const Vec3 end =
+                pulled_end(*model, FROND_MECHANICS_TET_COROTATIONAL, stem.bending(0) / (L * L) * direction) - start;
             const Vec3 wanted = L * (0.30172 * direction - 0.05643 * stem.axis());
             EXPECT_LT((end - wanted).norm(), 0.05 * wanted.norm()) << stem.name;
         }
@@ -307,8 +309,8 @@ static double largest_unbalance(const Model& model, frond_mechanics which) {
 TEST(RestShape, BalancesWeightInTheModelledShapeForEveryMechanics) {
     const std::vector<frond_stem> stems = boughs();
     const auto model = build_from_stems(stems.data(), int(stems.size()), model_def());
-    EXPECT_LT(model->stiffened, 1.7);
-    for (int which = 0; which <= FROND_TET_NEOHOOKEAN; which++) {
+    EXPECT_LT(model->stiffening_factor, 1.7);
+    for (int which = 0; which <= FROND_MECHANICS_TET_NEOHOOKEAN; which++) {
         ensure_rest_shape(*model, frond_mechanics(which), 1);
         ASSERT_GT(model->rest_shapes->positions[0][size_t(which)].size(), 0) << frond_mechanics(which);
         EXPECT_LT(largest_unbalance(*model, frond_mechanics(which)), 1e-6) << frond_mechanics(which);
@@ -323,8 +325,8 @@ TEST(RestShape, StiffensAPlantThatCannotCarryItselfAndSaysSo) {
     def.organs = &organ;
     def.organ_count = 1;
     const auto model = build_from_stems(stems.data(), int(stems.size()), def);
-    EXPECT_GT(model->stiffened, 1);
-    EXPECT_LT(largest_unbalance(*model, FROND_TET_COROTATIONAL), 1e-6);
+    EXPECT_GT(model->stiffening_factor, 1);
+    EXPECT_LT(largest_unbalance(*model, FROND_MECHANICS_TET_COROTATIONAL), 1e-6);
 }
 
 // Greenhill (1881): a column of weight w per length topples above w L^3 / EI = 7.8373. The factor by which a softer

@@ -29,8 +29,8 @@ struct EveryTets : testing::TestWithParam<std::tuple<frond_mechanics, int>> {
     const int order = std::get<1>(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(RestShape, EveryTets,
-                         testing::Combine(testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL,
-                                                          FROND_TET_NEOHOOKEAN),
+                         testing::Combine(testing::Values(FROND_MECHANICS_TET_LINEAR, FROND_MECHANICS_TET_COROTATIONAL,
+                                                          FROND_MECHANICS_TET_NEOHOOKEAN),
                                           testing::Values(1, 2)),
                          [](const auto& info) {
                              return std::string(mechanics(std::get<0>(info.param)).name) +
@@ -54,7 +54,7 @@ TEST_P(EveryTets, WeightBendsItToTheShapeThatWasModelled) {
 }
 
 TEST_P(EveryTets, NewtonsMethodFindsItInAFewRounds) {
-    if (which == FROND_TET_LINEAR) GTEST_SKIP() << "swells where it turns far, so that whole moves overshoot";
+    if (which == FROND_MECHANICS_TET_LINEAR) GTEST_SKIP() << "swells where it turns far, so that whole moves overshoot";
     const auto model = gallows(2e8);
     ensure_rest_shape(*model, which, order);  // and the moduli
     TetElements elements = make_tet_elements(*model, nullptr, order);
@@ -79,7 +79,7 @@ TEST(Strengthen, FindsTheOrganThatGivesWay) {
                                 {0, {0, 0.4, 0}, {0, 0.9, 0}, 0.004, 0.004},
                                 {1, {0, 0.9, 0}, {0, 1.0, 0}, 0.04, 0.04}};
     const auto model = build_from_stems(stems, 3, model_def());
-    EXPECT_GT(model->stiffened, 2);
+    EXPECT_GT(model->stiffening_factor, 2);
     const Chain& chain = model->chain;
     for (size_t i = 0; i < chain.nodes.size(); i++) {
         if (chain.nodes[i].parent < 0) continue;

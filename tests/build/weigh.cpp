@@ -58,7 +58,7 @@ TEST_P(WeighedPlant, GivesOrgansOfTheChainTheMassOfTheirTets) {
 TEST_P(WeighedPlant, WeighsTheSameInAllMechanics) {
     for (int which = 0; which < FROND_MECHANICS_COUNT; which++) {
         ensure_rest_shape(*model, frond_mechanics(which), 1);
-        const auto system = make_system(model, frond_mechanics(which), FROND_LUMPED);
+        const auto system = make_system(model, frond_mechanics(which), FROND_MASS_LUMPED);
         EXPECT_NEAR(node_mass_of(*system).sum(), model->mass(), 0.01 * model->mass())
             << mechanics(frond_mechanics(which)).name;
     }

@@ -64,13 +64,13 @@ TEST(CageContact, EveryLayoutGivesTheSameContacts) {
             t.move(0.1 * Vec3(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)));
             bodies.push_back(t.body(bodies.size() != 1));
         }
-        const std::vector<CageContact> expected = contacts_of(bodies, {FROND_HASH_BRUTE_FORCE});
+        const std::vector<CageContact> expected = contacts_of(bodies, {FROND_HASH_LAYOUT_BRUTE_FORCE});
         expect_sound(bodies, expected);
         found += expected.size();
         for (int layout = 0; layout < FROND_HASH_LAYOUT_COUNT; ++layout)
             for (const double cell_size : {0.0, 0.02, 0.07, 0.5})
                 for (const int table_size : {0, 7, 4001}) {
-                    if (layout == FROND_HASH_BRUTE_FORCE && (cell_size > 0 || table_size > 0)) continue;
+                    if (layout == FROND_HASH_LAYOUT_BRUTE_FORCE && (cell_size > 0 || table_size > 0)) continue;
                     const auto contacts = contacts_of(bodies, {frond_hash_layout(layout), table_size, cell_size});
                     ASSERT_EQ(contacts.size(), expected.size()) << hash_row(frond_hash_layout(layout)).name;
                     for (size_t k = 0; k < contacts.size(); ++k) EXPECT_TRUE(same(contacts[k], expected[k]));
@@ -276,7 +276,7 @@ TEST(CageContact, SeventeenPlantsOfTwentyThousandTetsAgreeInEveryLayout) {
     }
     EXPECT_GT(tets, 19000u);
     std::vector<CageContact> expected;
-    for (const frond_hash_layout layout : {FROND_HASH_GRID, FROND_HASH_PAPER}) {
+    for (const frond_hash_layout layout : {FROND_HASH_LAYOUT_GRID, FROND_HASH_LAYOUT_PAPER}) {
         const ContactSearchPtr search = make_contact_search();
         OverlapSearch overlaps;
         std::vector<CageContact> contacts;

@@ -51,7 +51,7 @@ TEST(Hash, EveryLayoutFindsThePairsThatTryingFinds) {
                 box.lower[1] += shift;
                 box.upper[1] += shift;
             }
-        const Pairs expected = pairs_of(FROND_HASH_BRUTE_FORCE, items, queries, 0, 0.1);
+        const Pairs expected = pairs_of(FROND_HASH_LAYOUT_BRUTE_FORCE, items, queries, 0, 0.1);
         found += expected.size();
         for (int layout = 0; layout < FROND_HASH_LAYOUT_COUNT; ++layout)
             for (const double cell_size : {0.1, 0.37, 10.0})
@@ -59,7 +59,7 @@ TEST(Hash, EveryLayoutFindsThePairsThatTryingFinds) {
                     EXPECT_EQ(pairs_of(frond_hash_layout(layout), items, queries, table_size, cell_size), expected)
                         << hash_row(frond_hash_layout(layout)).name << ", cells of " << cell_size << ", table of "
                         << table_size;
-        EXPECT_EQ(pairs_of(FROND_HASH_PAPER, items, queries, 1, 10), expected);
+        EXPECT_EQ(pairs_of(FROND_HASH_LAYOUT_PAPER, items, queries, 1, 10), expected);
     }
     EXPECT_GT(found, 300u);
 }
@@ -80,9 +80,9 @@ TEST(Hash, EveryLayoutTakesBoxesWhoseWayApartIsNoNumber) {
     for (const double farthest : {1e18, far, double(INFINITY)}) {
         const BoxSet items = {{{{-farthest, 0, 0}, {farthest, 1, 1}, 0}, {{0, 0, 0}, {1, 1, 1}, 1}}};
         const BoxSet queries = {{{{-farthest, 0, 0}, {farthest, 1, 1}, 5}, {{0, 5, 0}, {1, 6, 1}, 6}}};
-        const Pairs expected = pairs_of(FROND_HASH_BRUTE_FORCE, items, queries, 0, 0.25);
-        EXPECT_EQ(pairs_of(FROND_HASH_GRID, items, queries, 0, 0.25), expected);
-        EXPECT_EQ(pairs_of(FROND_HASH_PAPER, items, queries, 0, 0.25), expected);
+        const Pairs expected = pairs_of(FROND_HASH_LAYOUT_BRUTE_FORCE, items, queries, 0, 0.25);
+        EXPECT_EQ(pairs_of(FROND_HASH_LAYOUT_GRID, items, queries, 0, 0.25), expected);
+        EXPECT_EQ(pairs_of(FROND_HASH_LAYOUT_PAPER, items, queries, 0, 0.25), expected);
         EXPECT_EQ(expected.size(), 2u);
     }
 }
@@ -91,9 +91,9 @@ TEST(Hash, EveryLayoutTakesBoxesWhoseWayApartIsNoNumber) {
 TEST(Hash, BoxesOfAPlantThatIsDrawnOutToAThousandTimesItsSizeAreFoundInAWhile) {
     Dice dice(2);
     const BoxSet items = random_boxes(dice, 1500, 1e3, 1e3, 2), queries = random_boxes(dice, 1500, 1e3, 1e3, 2);
-    const Pairs expected = pairs_of(FROND_HASH_BRUTE_FORCE, items, queries, 0, 0.1);
+    const Pairs expected = pairs_of(FROND_HASH_LAYOUT_BRUTE_FORCE, items, queries, 0, 0.1);
     EXPECT_GT(expected.size(), 10000u);
-    for (const frond_hash_layout layout : {FROND_HASH_GRID, FROND_HASH_PAPER}) {
+    for (const frond_hash_layout layout : {FROND_HASH_LAYOUT_GRID, FROND_HASH_LAYOUT_PAPER}) {
         const auto start = std::chrono::steady_clock::now();
         EXPECT_EQ(pairs_of(layout, items, queries, 0, 0.1), expected);
         EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10)
@@ -105,7 +105,7 @@ TEST(Hash, BoxesOfAPlantThatIsDrawnOutToAThousandTimesItsSizeAreFoundInAWhile) {
 TEST(Hash, ATableOfOneBucketTellsEachPairOnce) {
     Dice dice(3);
     const BoxSet items = random_boxes(dice, 50, 1, 1, 2), queries = random_boxes(dice, 50, 1, 1, 2);
-    const Pairs expected = pairs_of(FROND_HASH_BRUTE_FORCE, items, queries, 0, 0.3);
+    const Pairs expected = pairs_of(FROND_HASH_LAYOUT_BRUTE_FORCE, items, queries, 0, 0.3);
     for (const int table_size : {1, 7, 1009}) {
         HashMemory memory;
         Pairs pairs;

@@ -49,10 +49,10 @@ TEST(Slots, MayBeUsedFromManyThreads) {
 
 TEST(Error, CarriesCodeAndText) {
     try {
-        fail(FROND_FILE_FORMAT, "%s: line %d", "corn.obj", 7);
+        fail(FROND_RESULT_FILE_FORMAT, "%s: line %d", "corn.obj", 7);
         FAIL();
     } catch (const Error& error) {
-        EXPECT_EQ(error.code, FROND_FILE_FORMAT);
+        EXPECT_EQ(error.code, FROND_RESULT_FILE_FORMAT);
         EXPECT_STREQ(error.what(), "corn.obj: line 7");
     }
 }

@@ -109,7 +109,7 @@ void set_detail(Stage& s) {
     frond_detail_def def = frond_default_detail_def();
     def.rod_from = s.input.number();
     def.by_size = s.input.below(2) != 0;
-    if (s.input.below(4) == 0) def.sway_from = def.still_from = s.input.number();
+    if (s.input.below(4) == 0) def.modal_from = def.still_from = s.input.number();
     if (s.input.below(4) == 0) def.distance = [](frond_plant, double distance, void*) { return -distance; };
     if (s.input.below(2)) frond_world_set_detail(s.world, s.input.below(3) ? &def : nullptr);
     frond_world_set_viewer(s.world, s.input.vec());
@@ -125,13 +125,13 @@ void save_or_restore(Stage& s) {
     frond_world_restore(s.world, s.snapshot.data(), s.snapshot.size());
 }
 
-void set_lasting(Stage& s) {
+void set_plastic(Stage& s) {
     const frond_plant plant = s.plant();
-    std::vector<double> values(size_t(frond_plant_get_lasting_count(plant)));
-    frond_plant_get_lasting(plant, values.data(), int(values.size()));
+    std::vector<double> values(size_t(frond_plant_get_plastic_count(plant)));
+    frond_plant_get_plastic(plant, values.data(), int(values.size()));
     for (double& value : values)
         if (s.input.below(4) == 0) value = s.input.number();
-    frond_plant_set_lasting(plant, values.data(), s.input.byte() < 200 ? int(values.size()) : 0);
+    frond_plant_set_plastic(plant, values.data(), s.input.byte() < 200 ? int(values.size()) : 0);
 }
 
 void look_at_plant(Stage& s) {
@@ -140,7 +140,7 @@ void look_at_plant(Stage& s) {
     frond_energy energy;
     frond_vec3 vec, moment;
     frond_detail detail;
-    frond_broken broken;
+    frond_fragment broken;
     frond_plant_get_surface(plant, &view);
     frond_plant_get_energy(plant, &energy);
     frond_plant_get_tip(plant, &vec);
@@ -148,7 +148,7 @@ void look_at_plant(Stage& s) {
     frond_plant_get_momentum(plant, &vec);
     frond_plant_get_root_force(plant, s.input.vec(), &vec, &moment);
     frond_plant_get_detail(plant, &detail);
-    if (frond_plant_get_broken_count(plant) > 0) frond_plant_get_broken(plant, s.input.integer(), &broken);
+    if (frond_plant_get_fragment_count(plant) > 0) frond_plant_get_fragment(plant, s.input.integer(), &broken);
     std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
     frond_plant_get_contacts(plant, contacts.data(), int(contacts.size()));
     std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
@@ -178,7 +178,7 @@ void look_at_world(Stage& s) {
     require((frond_bond_get(bond, &vec, &vec) == FROND_OK) == frond_bond_is_valid(bond), "a bond is and is not");
     require((frond_rigid_get_body(rigid) != nullptr) == frond_rigid_is_valid(rigid), "a body is and is not");
     if (frond_rigid_get_state(rigid, &state) == FROND_OK)
-        require(std::isfinite(state.position.x + state.rotation.w + state.velocity.y + state.spin.z),
+        require(std::isfinite(state.position.x + state.rotation.w + state.velocity.y + state.angular_velocity.z),
                 "a body is not finite");
 }
 
@@ -249,7 +249,7 @@ void hold(Stage& s) {
 void change(Stage& s) {
     switch (s.input.below(11)) {
         case 0:
-            frond_plant_set_effects(s.plant(), s.input.raw<uint32_t>() & FROND_ALL_EFFECTS);
+            frond_plant_set_effects(s.plant(), s.input.raw<uint32_t>() & FROND_EFFECT_ALL);
             break;
         case 1:
             frond_plant_set_mechanics(s.plant(), frond_mechanics(s.input.below(FROND_MECHANICS_COUNT)));
@@ -258,7 +258,7 @@ void change(Stage& s) {
             frond_plant_break(s.plant(), s.input.integer());
             break;
         case 3:
-            frond_plant_mend(s.plant());
+            frond_plant_reset(s.plant());
             break;
         case 4:
             frond_plant_wake(s.plant());
@@ -291,7 +291,7 @@ void step(Stage& s) {
 using Call = void (*)(Stage&);
 constexpr Call CALLS[] = {
     create_plant, create_rigid,  set_rigid,     set_state,     set_wind, set_detail, save_or_restore,
-    set_lasting,  look_at_plant, look_at_world, look_at_model, hold,     hold,       change,
+    set_plastic,  look_at_plant, look_at_world, look_at_model, hold,     hold,       change,
     change,       step,          step,          step};
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 void try_model(frond_result result, frond_model model) {
     if (result != FROND_OK) {
         require(model.id == 0 && frond_last_error()[0] != 0, "a failed call left a model, or no text");
-        require(result != FROND_INTERNAL, "an internal error");
+        require(result != FROND_RESULT_INTERNAL, "an internal error");
         return;
     }
     static const frond_world world = [] {

@@ -20,7 +20,7 @@ struct Garden {
         const frond_model_def model_def = frond_default_model_def();
         frond_model model = {};
         require(frond_model_from_tets(nodes, 4, tets, 1, &model_def, &model) == FROND_OK, "no model");
-        for (frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_ROD}) {
+        for (frond_mechanics mechanics : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD}) {
             frond_plant_def plant_def = frond_default_plant_def();
             plant_def.mechanics = mechanics;
             plant_def.position = {0.05 * double(plants.size()), 0, 0};
@@ -71,7 +71,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         std::memcpy(&bytes[CHECKSUM_AT], &checksum, sizeof checksum);
     }
     const frond_result result = frond_world_restore(garden.world, bytes.data(), bytes.size());
-    require(result == FROND_OK || result == FROND_FILE_FORMAT || result == FROND_BAD_ARGUMENT, "an unexpected result");
+    require(result == FROND_OK || result == FROND_RESULT_FILE_FORMAT || result == FROND_RESULT_BAD_ARGUMENT,
+            "an unexpected result");
     for (int i = 0; i < 2; i++)
         require(frond_world_step(garden.world, 1.0 / 60) == FROND_OK, "the world does not step any more");
     for (frond_plant plant : garden.plants) require_finite(plant);

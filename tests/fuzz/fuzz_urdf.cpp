@@ -87,14 +87,14 @@ void try_plant(const std::string& path) {
     const frond_result result = frond_model_load(path.c_str(), &def, &model);
     require(result == FROND_OK || (model.id == 0 && frond_last_error()[0] != 0),
             "a failed call left a model, or no text");
-    require(result != FROND_INTERNAL, "an internal error");
+    require(result != FROND_RESULT_INTERNAL, "an internal error");
     if (result != FROND_OK) return;
     if (frond_plant_create(world_of_all(), model, &plant_def, &plant) == FROND_OK) {
         require(frond_world_step(world_of_all(), 1.0 / 60) == FROND_OK, "no step");
         require_finite(plant);
         frond_plant_destroy(plant);
     }
-    require(frond_model_write_urdf(model, path.c_str()) != FROND_INTERNAL, "an internal error");
+    require(frond_model_write_urdf(model, path.c_str()) != FROND_RESULT_INTERNAL, "an internal error");
     frond_model_destroy(model);
 }
 
@@ -147,7 +147,7 @@ void try_robot(Input& input, const std::string& path) {
         const frond_stem stem = {-1, {0, 0, 0}, {0, 0.4, 0}, 0.02, 0.01};
         const frond_model_def def = frond_default_model_def();
         frond_plant_def plant_def = frond_default_plant_def();
-        plant_def.mechanics = FROND_ROD;
+        plant_def.mechanics = FROND_MECHANICS_ROD;
         frond_model model = {};
         frond_plant made = {};
         require(frond_model_from_stems(&stem, 1, &def, &model) == FROND_OK, "no model");
@@ -159,7 +159,7 @@ void try_robot(Input& input, const std::string& path) {
     const frond_result result = frond_robot_load(world_of_all(), path.c_str(), &def, &robot);
     require(result == FROND_OK || (robot.id == 0 && frond_last_error()[0] != 0),
             "a failed call left a robot, or no text");
-    require(result != FROND_INTERNAL, "an internal error");
+    require(result != FROND_RESULT_INTERNAL, "an internal error");
     if (result != FROND_OK) return;
     for (int i = 0; i < 3; i++) require(frond_world_step(world_of_all(), 1.0 / 60) == FROND_OK, "no step");
     look(robot);

@@ -16,8 +16,8 @@ struct EveryMechanics : testing::TestWithParam<std::tuple<int, int>> {
     const int order = std::get<1>(GetParam());
     const Mechanics& row = mechanics(which, order);
     TetElements elements_of(const Model& model) const { return make_tet_elements(model, nullptr, order); }
-    bool is_linear() const { return which == FROND_TET_LINEAR; }
-    bool is_hookean() const { return which != FROND_TET_NEOHOOKEAN; }
+    bool is_linear() const { return which == FROND_MECHANICS_TET_LINEAR; }
+    bool is_hookean() const { return which != FROND_MECHANICS_TET_NEOHOOKEAN; }
 
     VecX force(const TetElements& elements, const VecX& x) const {
         VecX f = VecX::Zero(x.size());
@@ -38,7 +38,8 @@ std::string row_name(const testing::TestParamInfo<std::tuple<int, int>>& info) {
     return std::string(mechanics(frond_mechanics(which), order).name) + (order == 1 ? "" : "_quadratic");
 }
 INSTANTIATE_TEST_SUITE_P(Mechanics, EveryMechanics,
-                         testing::Combine(testing::Range(0, int(FROND_TET_NEOHOOKEAN) + 1), testing::Values(1, 2)),
+                         testing::Combine(testing::Range(0, int(FROND_MECHANICS_TET_NEOHOOKEAN) + 1),
+                                          testing::Values(1, 2)),
                          row_name);
 
 // Gradients of deformation at all points of all tets.
@@ -194,7 +195,7 @@ TEST(Corotational, ExactStiffnessTurnsNegativeUnderCompression) {
     BlockMatrix K;
     K.set_pattern(elements.pattern);
     K.set_zero();
-    mechanics(FROND_TET_COROTATIONAL).add_stiffness(elements, x, Tangent::exact, 1, K);
+    mechanics(FROND_MECHANICS_TET_COROTATIONAL).add_stiffness(elements, x, Tangent::exact, 1, K);
     EXPECT_LT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(K)).eigenvalues().minCoeff(), -1);
 }
 
@@ -205,7 +206,7 @@ TEST(Neohookean, PushesATetThatIsInsideOutBackThroughItself) {
     for (double z = -1; z < 0.9; z += 0.05) {
         point(x, 3).z() = z;
         VecX f = VecX::Zero(x.size());
-        mechanics(FROND_TET_NEOHOOKEAN).add_force(elements, x, f);
+        mechanics(FROND_MECHANICS_TET_NEOHOOKEAN).add_force(elements, x, f);
         EXPECT_GT(f[11], 1) << z;
     }
 }
@@ -224,7 +225,7 @@ TEST(Neohookean, HasTheEnergyOfItsFormula) {
         const double a = dice.uniform(-0.5, 3), b = dice.uniform(0.1, 2), c = dice.uniform(0.1, 2);
         VecX x = elements.rest_positions;
         for (int i = 0; i < 4; ++i) point(x, i) = Vec3(a, b, c).cwiseProduct(point(x, i));
-        EXPECT_NEAR(mechanics(FROND_TET_NEOHOOKEAN).energy(elements, x),
+        EXPECT_NEAR(mechanics(FROND_MECHANICS_TET_NEOHOOKEAN).energy(elements, x),
                     elements.volume[0] * (energy(a, b, c) - energy(1, 1, 1)), 1e-10 * E);
     }
 }
@@ -257,7 +258,7 @@ TEST(Linear, MistakesALargeTurnForAStretch) {
     VecX x = elements.rest_positions;
     const Mat3 R = Eigen::AngleAxisd(1, Vec3::UnitX()).toRotationMatrix();
     for (int i = 0; i < 4; ++i) point(x, i) = R * point(elements.rest_positions, i);
-    EXPECT_GT(mechanics(FROND_TET_LINEAR).energy(elements, x), 1e3);
+    EXPECT_GT(mechanics(FROND_MECHANICS_TET_LINEAR).energy(elements, x), 1e3);
 }
 
 TEST_P(EveryMechanics, ForcesAddUpToNothing) {
@@ -362,25 +363,25 @@ TEST(TetElements, RefuseWhatHasNoVolumeOrNoSense) {
     EXPECT_EQ(code_of(good), FROND_OK);
     Model bad = good;
     bad.cage.nodes[3] = {0.3, 0.3, 0};
-    EXPECT_EQ(code_of(bad), FROND_BAD_GEOMETRY);
+    EXPECT_EQ(code_of(bad), FROND_RESULT_BAD_GEOMETRY);
     bad = good;
     bad.cage.nodes[3].x() = std::nan("");
-    EXPECT_EQ(code_of(bad), FROND_BAD_GEOMETRY);
+    EXPECT_EQ(code_of(bad), FROND_RESULT_BAD_GEOMETRY);
     bad = good;
     bad.cage.tets[0][2] = 4;
-    EXPECT_EQ(code_of(bad), FROND_BAD_GEOMETRY);
+    EXPECT_EQ(code_of(bad), FROND_RESULT_BAD_GEOMETRY);
     bad = good;
     bad.cage.tets.clear();
-    EXPECT_EQ(code_of(bad), FROND_BAD_GEOMETRY);
+    EXPECT_EQ(code_of(bad), FROND_RESULT_BAD_GEOMETRY);
     for (double nu : {-0.1, 0.5, std::nan("")}) {
         bad = good;
         bad.tet_poisson[0] = nu;
-        EXPECT_EQ(code_of(bad), FROND_BAD_ARGUMENT) << nu;
+        EXPECT_EQ(code_of(bad), FROND_RESULT_BAD_ARGUMENT) << nu;
     }
     for (double E : {0.0, -1.0, HUGE_VAL}) {
         bad = good;
         bad.tet_young[0] = E;
-        EXPECT_EQ(code_of(bad), FROND_BAD_ARGUMENT) << E;
+        EXPECT_EQ(code_of(bad), FROND_RESULT_BAD_ARGUMENT) << E;
     }
 }
 

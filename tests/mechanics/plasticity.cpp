@@ -97,8 +97,8 @@ VecX arc(const Elements& elements, double curvature) {
 }
 
 std::unique_ptr<Elements> bend_beyond(const Model& model, double curvature, double time) {
-    const Mechanics& row = mechanics(FROND_ROD);
-    const auto shared = row.make(model, FROND_ROD);
+    const Mechanics& row = mechanics(FROND_MECHANICS_ROD);
+    const auto shared = row.make(model, FROND_MECHANICS_ROD);
     EXPECT_TRUE(row.yields(*shared, arc(*shared, curvature)));
     auto own = row.copy(*shared);
     row.flow(*own, arc(*own, curvature), time);
@@ -110,39 +110,39 @@ TEST(RodPlasticity, KeepsTheSetOfElasticPerfectlyPlasticBending) {
     for (double k : {1.2, 2.0, 5.0}) {
         const auto own = bend_beyond(stem_model(0.02), k * first, NEVER);
         const double set = k * first - first * section_limit({0.02, 0, 0, false}, k);
-        for (const RodLasting& lasting : static_cast<const RodElements&>(*own).lasting) {
-            EXPECT_NEAR(std::hypot(lasting.bend_thin, lasting.bend_wide), set, 0.01 * k * first);
-            EXPECT_NEAR(lasting.hardening * first, set, 0.01 * k * first);
+        for (const RodPlastic& plastic : static_cast<const RodElements&>(*own).plastic) {
+            EXPECT_NEAR(std::hypot(plastic.bend_thin, plastic.bend_wide), set, 0.01 * k * first);
+            EXPECT_NEAR(plastic.hardening * first, set, 0.01 * k * first);
         }
         // Its shape without load is that arc.
         VecX f = VecX::Zero(own->modelled.size());
-        mechanics(FROND_ROD).add_force(*own, arc(*own, set), f);
+        mechanics(FROND_MECHANICS_ROD).add_force(*own, arc(*own, set), f);
         VecX whole = VecX::Zero(f.size());
-        mechanics(FROND_ROD).add_force(*own, arc(*own, k * first), whole);
+        mechanics(FROND_MECHANICS_ROD).add_force(*own, arc(*own, k * first), whole);
         EXPECT_LT(f.norm(), 0.03 * whole.norm());
     }
 }
 
 TEST(RodPlasticity, KeepsNothingBelowItsYield) {
-    const Mechanics& row = mechanics(FROND_ROD);
-    const auto shared = row.make(stem_model(0.02), FROND_ROD);
+    const Mechanics& row = mechanics(FROND_MECHANICS_ROD);
+    const auto shared = row.make(stem_model(0.02), FROND_MECHANICS_ROD);
     const VecX x = arc(*shared, 0.99 * 2);
     EXPECT_FALSE(row.yields(*shared, x));
     const auto own = row.copy(*shared);
     for (int n = 0; n < 100; ++n) row.flow(*own, x, 1.0 / 60);
-    for (double value : row.get_lasting(*own)) EXPECT_EQ(value, 0);
+    for (double value : row.get_plastic(*own)) EXPECT_EQ(value, 0);
     EXPECT_EQ(row.energy(*own, x), row.energy(*shared, x));
-    EXPECT_TRUE(row.make(stem_model(0), FROND_ROD)->yields.empty());
+    EXPECT_TRUE(row.make(stem_model(0), FROND_MECHANICS_ROD)->yields.empty());
 }
 
 TEST(RodPlasticity, CreepsAtItsRateTowardsTheYield) {
-    const Mechanics& row = mechanics(FROND_ROD);
+    const Mechanics& row = mechanics(FROND_MECHANICS_ROD);
     const double first = 2, curvature = 1.4 * first;
     auto own = bend_beyond(stem_model(0.02, 0.5), curvature, 1e-9);
     const VecX x = arc(*own, curvature);
     const auto excess = [&] {
-        const auto& lasting = static_cast<const RodElements&>(*own).lasting[10];
-        return (curvature - std::hypot(lasting.bend_thin, lasting.bend_wide)) / first - 1;
+        const auto& plastic = static_cast<const RodElements&>(*own).plastic[10];
+        return (curvature - std::hypot(plastic.bend_thin, plastic.bend_wide)) / first - 1;
     };
     const double start = excess();
     EXPECT_GT(start, 0.2);
@@ -155,8 +155,8 @@ TEST(RodPlasticity, CreepsAtItsRateTowardsTheYield) {
 }
 
 TEST(RodPlasticity, BentToAndFroAThousandTimesItHoldsNoMoreEnergy) {
-    const Mechanics& row = mechanics(FROND_ROD);
-    const auto shared = row.make(stem_model(0.02, 0.1), FROND_ROD);
+    const Mechanics& row = mechanics(FROND_MECHANICS_ROD);
+    const auto shared = row.make(stem_model(0.02, 0.1), FROND_MECHANICS_ROD);
     const auto own = row.copy(*shared);
     double most = 0;
     for (int cycle = 0; cycle < 1000; ++cycle)
@@ -169,7 +169,7 @@ TEST(RodPlasticity, BentToAndFroAThousandTimesItHoldsNoMoreEnergy) {
             if (cycle == 0) most = std::max(most, after);
             ASSERT_LE(after, 1.8 * most) << "cycle " << cycle;
         }
-    for (double value : row.get_lasting(*own)) ASSERT_TRUE(std::isfinite(value));
+    for (double value : row.get_plastic(*own)) ASSERT_TRUE(std::isfinite(value));
 }
 
 // ---- tets -------------------------------------------------------------------------------------------------------
@@ -270,13 +270,13 @@ TEST_P(EveryTet, TakesBackTheNumbersThatItGave) {
     const auto own = row.copy(*shared), other = row.copy(*shared);
     const VecX x = own->modelled + dice.vector(own->modelled.size(), 0.03);
     row.flow(*own, x, NEVER);
-    std::vector<double> values = row.get_lasting(*own);
-    row.set_lasting(*other, values);
+    std::vector<double> values = row.get_plastic(*own);
+    row.set_plastic(*other, values);
     EXPECT_EQ(row.energy(*other, x), row.energy(*own, x));
     values[0] *= 2;
-    EXPECT_ANY_THROW(row.set_lasting(*other, values));
+    EXPECT_ANY_THROW(row.set_plastic(*other, values));
     values.pop_back();
-    EXPECT_ANY_THROW(row.set_lasting(*other, values));
+    EXPECT_ANY_THROW(row.set_plastic(*other, values));
     EXPECT_EQ(row.energy(*other, x), row.energy(*own, x));
 }
 

@@ -69,9 +69,9 @@ protected:
         return dense(K);
     }
 };
-INSTANTIATE_TEST_SUITE_P(Rods, EveryRod, testing::Values(int(FROND_ROD), int(FROND_SPRING_CHAIN)),
+INSTANTIATE_TEST_SUITE_P(Rods, EveryRod, testing::Values(int(FROND_MECHANICS_ROD), int(FROND_MECHANICS_SPRING_CHAIN)),
                          [](const auto& info) {
-                             return frond_mechanics(info.param) == FROND_ROD ? "rod" : "spring_chain";
+                             return frond_mechanics(info.param) == FROND_MECHANICS_ROD ? "rod" : "spring_chain";
                          });
 
 TEST_P(EveryRod, ForceIsMinusTheGradientOfEnergy) {
@@ -174,9 +174,9 @@ TEST_P(EveryRod, ForcesOnPlacesAddUpToNothing) {
 }
 
 TEST(Rod, StandsInBalanceAsModelled) {
-    const RodElements elements = make_rod_elements(chain_model(true), FROND_ROD);
+    const RodElements elements = make_rod_elements(chain_model(true), FROND_MECHANICS_ROD);
     VecX f = VecX::Zero(elements.modelled.size());
-    mechanics(FROND_ROD).add_force(elements, elements.modelled, f);
+    mechanics(FROND_MECHANICS_ROD).add_force(elements, elements.modelled, f);
     double weight = 0;
     for (size_t i = 0; i < elements.mass.size(); ++i) {
         f[Eigen::Index(6 * i) + 1] -= GRAVITY * elements.mass[i];

@@ -46,7 +46,7 @@ void expect_valid(const Surface& surface, const Made& made, double least_angle =
     EXPECT_GT(made.report.min_volume, 0);
     EXPECT_GE(made.report.min_dihedral, least_angle);
     EXPECT_EQ(made.report.contained, 1);
-    EXPECT_LE(made.report.binding_error, 1e-12 * (surface.size() + surface.upper().cwiseAbs().maxCoeff()));
+    EXPECT_LE(made.report.attachment_error, 1e-12 * (surface.size() + surface.upper().cwiseAbs().maxCoeff()));
     EXPECT_EQ(count_bodies(made.cage), 1);
     ASSERT_EQ(made.cage.tet_fill.size(), made.cage.tets.size());
     ASSERT_EQ(made.cage.tet_organ.size(), made.cage.tets.size());
@@ -324,7 +324,7 @@ TEST(Cage, RefusesBadOptions) {
             make(surface, options);
             ADD_FAILURE() << options.cell_size << " " << options.offset << " " << options.smoothness;
         } catch (const Error& error) {
-            EXPECT_EQ(error.code, FROND_BAD_ARGUMENT);
+            EXPECT_EQ(error.code, FROND_RESULT_BAD_ARGUMENT);
         }
     }
 }

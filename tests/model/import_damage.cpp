@@ -55,8 +55,8 @@ bool is_refused(const std::string& path, const std::string& name) {
         expect_valid(surface);
         return false;
     } catch (const Error& error) {
-        EXPECT_TRUE(error.code == FROND_FILE_FORMAT || error.code == FROND_BAD_GEOMETRY) << error.what();
-        if (error.code == FROND_FILE_FORMAT) {
+        EXPECT_TRUE(error.code == FROND_RESULT_FILE_FORMAT || error.code == FROND_RESULT_BAD_GEOMETRY) << error.what();
+        if (error.code == FROND_RESULT_FILE_FORMAT) {
             EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
         }
         EXPECT_GT(std::string(error.what()).size(), name.size() + 10);

@@ -266,7 +266,7 @@ TEST(Import, NamesTheGltfExtensionThatItDoesNotRead) {
         import_surface(folder.write("plant.glb", files::glb_of(json, files::glb_binary())), {});
         FAIL();
     } catch (const Error& error) {
-        EXPECT_EQ(error.code, FROND_FILE_FORMAT);
+        EXPECT_EQ(error.code, FROND_RESULT_FILE_FORMAT);
         EXPECT_NE(std::string(error.what()).find("VENDOR_secret_meshes"), std::string::npos) << error.what();
     }
 }

@@ -17,7 +17,7 @@ std::string refusal(const Material& material) {
     try {
         check_material(material, "leaf_7");
     } catch (const Error& error) {
-        EXPECT_EQ(error.code, FROND_BAD_ARGUMENT);
+        EXPECT_EQ(error.code, FROND_RESULT_BAD_ARGUMENT);
         return error.what();
     }
     return "";

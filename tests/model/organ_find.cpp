@@ -364,7 +364,7 @@ std::string failure(Sketch sketch, const std::vector<frond_organ_material>& over
     try {
         find_organs(sketch.surface, topology, overrides.data(), count < 0 ? int(overrides.size()) : count);
     } catch (const Error& error) {
-        EXPECT_EQ(error.code, FROND_BAD_ARGUMENT);
+        EXPECT_EQ(error.code, FROND_RESULT_BAD_ARGUMENT);
         return error.what();
     }
     return "";

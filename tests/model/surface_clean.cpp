@@ -86,7 +86,7 @@ TEST(Clean, RefusesWhenNothingIsLeft) {
             clean_surface(surface);
             FAIL();
         } catch (const Error& error) {
-            EXPECT_EQ(error.code, FROND_BAD_GEOMETRY);
+            EXPECT_EQ(error.code, FROND_RESULT_BAD_GEOMETRY);
         }
     }
 }
@@ -110,7 +110,7 @@ TEST(Clean, RefusesFarMoreFacesThanAPlantHasAtOnce) {
         clean_surface(too_many);
         FAIL();
     } catch (const Error& error) {
-        EXPECT_EQ(error.code, FROND_BAD_GEOMETRY);
+        EXPECT_EQ(error.code, FROND_RESULT_BAD_GEOMETRY);
     }
 }
 

@@ -242,7 +242,7 @@ TEST_F(TetFiles, CutFilesAreRefused) {
                 // What is missing can only be what is not needed: region numbers, or the end of the last section.
                 EXPECT_EQ(mesh.tets.size(), 5u) << row.name << " cut to " << count;
             } catch (const Error& error) {
-                EXPECT_EQ(error.code, FROND_FILE_FORMAT);
+                EXPECT_EQ(error.code, FROND_RESULT_FILE_FORMAT);
                 EXPECT_NE(std::string(error.what()).find(row.name), std::string::npos) << error.what();
             }
         }
@@ -269,7 +269,8 @@ TEST_F(TetFiles, MutantsNeverCrash) {
                 for (const Tet& tet : cage.tets)
                     for (int node : tet) ASSERT_TRUE(node >= 0 && size_t(node) < cage.nodes.size());
             } catch (const Error& error) {
-                EXPECT_TRUE(error.code == FROND_FILE_FORMAT || error.code == FROND_BAD_GEOMETRY) << error.what();
+                EXPECT_TRUE(error.code == FROND_RESULT_FILE_FORMAT || error.code == FROND_RESULT_BAD_GEOMETRY)
+                    << error.what();
             }
         }
 }
@@ -365,7 +366,7 @@ TEST_F(TetFiles, BadTetsAreNamed) {
         try {
             take_tets(mesh, {}, surface, cage, embedding);
         } catch (const Error& error) {
-            EXPECT_EQ(error.code, FROND_BAD_GEOMETRY);
+            EXPECT_EQ(error.code, FROND_RESULT_BAD_GEOMETRY);
             return error.what();
         }
         return "";

@@ -151,7 +151,7 @@ TEST(Topology, RefusesAPointAndNothing) {
         make_topology(surface);
         FAIL();
     } catch (const Error& error) {
-        EXPECT_EQ(error.code, FROND_BAD_GEOMETRY);
+        EXPECT_EQ(error.code, FROND_RESULT_BAD_GEOMETRY);
     }
     Surface bad;
     add_part(bad, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 7}});

@@ -26,7 +26,8 @@ Placement draw_placement(std::mt19937& random) {
         const double away = between(random, NEAREST, FARTHEST), angle = between(random, 0, 2 * M_PI);
         const double first = between(random, 0, 2 * M_PI), second = between(random, 0, 2 * M_PI);
         const Placement placement = {{away * std::cos(angle), 0, away * std::sin(angle)}, {first, second}};
-        if (CornPair(FROND_RESPONSE_NONE, FROND_TET_COROTATIONAL, H, placement).cage_depth() > IN) return placement;
+        if (CornPair(FROND_RESPONSE_NONE, FROND_MECHANICS_TET_COROTATIONAL, H, placement).cage_depth() > IN)
+            return placement;
     }
 }
 
@@ -38,7 +39,7 @@ struct Deepest {
 // Of all steps from 2 to 4 s. Rods do not touch by their cages.
 Deepest play(const Placement& placement, frond_mechanics mechanics, int steps_a_second) {
     CornPair pair(FROND_RESPONSE_IMPULSE, mechanics, 1.0 / steps_a_second, placement);
-    const bool by_cages = mechanics != FROND_ROD && mechanics != FROND_SPRING_CHAIN;
+    const bool by_cages = mechanics != FROND_MECHANICS_ROD && mechanics != FROND_MECHANICS_SPRING_CHAIN;
     Deepest deepest;
     pair.steps(2 * steps_a_second - 1);
     for (int i = 0; i <= 2 * steps_a_second; i++) {
@@ -75,7 +76,7 @@ int run(int count, int steps_a_second, frond_mechanics mechanics, int at_least) 
 
 int main(int argc, char** argv) {
     const auto number = [&](int k, int otherwise) { return argc > k ? std::atoi(argv[k]) : otherwise; };
-    const std::string wanted = argc > 3 ? argv[3] : frond_mechanics_name(FROND_TET_COROTATIONAL);
+    const std::string wanted = argc > 3 ? argv[3] : frond_mechanics_name(FROND_MECHANICS_TET_COROTATIONAL);
     for (int which = 0; which < FROND_MECHANICS_COUNT; which++)
         if (wanted == frond_mechanics_name(frond_mechanics(which)))
             return frond::test::run(number(1, 30), std::max(1, number(2, 60)), frond_mechanics(which), number(4, 0));

@@ -30,7 +30,7 @@ std::shared_ptr<const Model> load(const std::string& name, double capsule_radius
 // Of the first sways [Hz].
 std::array<double, 2> frequencies(const std::shared_ptr<const Model>& model, frond_mechanics which, int order = 1) {
     ensure_rest_shape(*model, which, order);
-    const auto system = make_system(model, which, FROND_LUMPED, order);
+    const auto system = make_system(model, which, FROND_MASS_LUMPED, order);
     const Elements& elements = elements_of(*system);
     const std::vector<uint8_t> still = still_nodes(*model, elements, mechanics(which).moves_chain);
     StaticStiffness stiffness(elements.pattern);
@@ -68,12 +68,12 @@ Standing watch(const std::shared_ptr<const Model>& model, frond_mechanics which)
     def.rotation = {0, 0, 0, 1};
     def.mechanics = which;
     def.element_order = 1;
-    def.integrator = FROND_IMPLICIT_EULER;
+    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     def.newton_iterations = 2;
     def.newton_tolerance = 1e-6;
     def.max_iterations = 100;
     def.tolerance = 1e-6;
-    def.effects = FROND_GRAVITY;
+    def.effects = FROND_EFFECT_GRAVITY;
     const auto plant = create_plant(model, def);
     Surroundings surroundings;
     Standing standing;
@@ -87,7 +87,7 @@ Standing watch(const std::shared_ptr<const Model>& model, frond_mechanics which)
     surroundings.gravity.x() = ASIDE * GRAVITY;
     for (int i = 0; i < LONG_STEPS; i++) step_plant(*plant, surroundings, LONG_STEP);
     surroundings.gravity.x() = 0;
-    plant->settings.integrator = FROND_BDF2;
+    plant->settings.integrator = FROND_INTEGRATOR_BDF2;
     std::vector<double> sway;
     for (double t = 0; t < DURATION; t += H) {
         step_plant(*plant, surroundings, H);
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Agree, EveryPlant, testing::Values("corn", "cucumber"),
 
 TEST_P(EveryPlant, HasTheSameFirstSwaysInAllMechanics) {
     const auto model = load(GetParam());
-    const auto rods = frequencies(model, FROND_ROD);
+    const auto rods = frequencies(model, FROND_MECHANICS_ROD);
     ASSERT_GT(rods[0], 0);
     for (int which = 0; which < FROND_MECHANICS_COUNT; which++) {
         const auto own = frequencies(model, frond_mechanics(which));
@@ -118,11 +118,12 @@ TEST_P(EveryPlant, HasTheSameFirstSwaysInAllMechanics) {
 TEST(QuadraticTets, SwayAsTheRodsOfTheirPlantDo) {
     if (SANITIZED) GTEST_SKIP() << "takes minutes";
     const auto model = load("corn");
-    const auto rods = frequencies(model, FROND_ROD);
-    for (const frond_mechanics which : {FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN}) {
+    const auto rods = frequencies(model, FROND_MECHANICS_ROD);
+    for (const frond_mechanics which :
+         {FROND_MECHANICS_TET_LINEAR, FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN}) {
         const auto own = frequencies(model, which, 2);
         // Measured: 0.8, 5.2 (leaves in tune with the stem) and 0.5 %.
-        const double alike = which == FROND_TET_COROTATIONAL ? 0.06 : 0.02;
+        const double alike = which == FROND_MECHANICS_TET_COROTATIONAL ? 0.06 : 0.02;
         for (size_t i : {0, 1}) EXPECT_NEAR(own[i], rods[i], alike * rods[i]) << mechanics(which).name << " sway " << i;
     }
 }
@@ -130,8 +131,9 @@ TEST(QuadraticTets, SwayAsTheRodsOfTheirPlantDo) {
 struct EveryKind : testing::TestWithParam<std::tuple<const char*, frond_mechanics>> {};
 INSTANTIATE_TEST_SUITE_P(Agree, EveryKind,
                          testing::Combine(testing::Values("corn", "cucumber"),
-                                          testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL,
-                                                          FROND_TET_NEOHOOKEAN, FROND_SPRING_CHAIN)),
+                                          testing::Values(FROND_MECHANICS_TET_LINEAR, FROND_MECHANICS_TET_COROTATIONAL,
+                                                          FROND_MECHANICS_TET_NEOHOOKEAN,
+                                                          FROND_MECHANICS_SPRING_CHAIN)),
                          [](const auto& info) {
                              return std::string(std::get<0>(info.param)) + "_" +
                                     mechanics(std::get<1>(info.param)).name;
@@ -141,15 +143,15 @@ TEST_P(EveryKind, StandsAndSwaysLikeRods) {
     if (SANITIZED) GTEST_SKIP() << "takes minutes";
     const auto [name, which] = GetParam();
     const auto model = load(name);
-    const Standing rods = watch(model, FROND_ROD), standing = watch(model, which);
+    const Standing rods = watch(model, FROND_MECHANICS_ROD), standing = watch(model, which);
     EXPECT_LT((standing.tip - rods.tip).norm(), ALIKE * model->surface.height());
     EXPECT_NEAR(standing.frequency, rods.frequency, ALIKE * rods.frequency);
 }
 
 // Fig 7 of the paper: the radius drives the springs.
 TEST(SpringChain, IsStifferWithThickerCapsules) {
-    const auto as_shape = frequencies(load("corn"), FROND_SPRING_CHAIN);
-    EXPECT_GT(frequencies(load("corn", 0.02), FROND_SPRING_CHAIN)[0], 1.2 * as_shape[0]);
+    const auto as_shape = frequencies(load("corn"), FROND_MECHANICS_SPRING_CHAIN);
+    EXPECT_GT(frequencies(load("corn", 0.02), FROND_MECHANICS_SPRING_CHAIN)[0], 1.2 * as_shape[0]);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ frond_wind_def wind_def(double speed, double turbulence = 0) {
     def.turbulence = turbulence;
     def.length_scale = 10;
     def.seed = 3;
-    def.profile = FROND_WIND_UNIFORM;
+    def.profile = FROND_WIND_PROFILE_UNIFORM;
     def.reference_height = 10;
     def.roughness = 0.03;
     def.density = DENSITY;
@@ -61,11 +61,11 @@ struct Blown {
     Surroundings surroundings;
 
     Blown(const std::shared_ptr<const Model>& model, frond_mechanics which, const frond_wind_def& air,
-          frond_integrator integrator = FROND_BDF2, double root_height = 0) {
+          frond_integrator integrator = FROND_INTEGRATOR_BDF2, double root_height = 0) {
         frond_plant_def def = plant_def(which);
         def.integrator = integrator;
         def.root_height = root_height;
-        def.effects = FROND_ALL_EFFECTS & ~uint32_t(FROND_PLASTICITY);
+        def.effects = FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_PLASTICITY);
         plant = create_plant(model, def);
         wind = make_wind(air);
         surroundings.wind = wind.get();
@@ -174,7 +174,8 @@ struct EveryAir : testing::TestWithParam<int> {
     const frond_mechanics which = frond_mechanics(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Mechanics, EveryAir,
-                         testing::Values(int(FROND_TET_COROTATIONAL), int(FROND_TET_NEOHOOKEAN), int(FROND_ROD)),
+                         testing::Values(int(FROND_MECHANICS_TET_COROTATIONAL), int(FROND_MECHANICS_TET_NEOHOOKEAN),
+                                         int(FROND_MECHANICS_ROD)),
                          [](const auto& info) { return mechanics(frond_mechanics(info.param)).name; });
 
 TEST_P(EveryAir, PoleHasTheDragOfTheFormulaAndItsRootHoldsIt) {
@@ -190,8 +191,9 @@ TEST_P(EveryAir, PoleHasTheDragOfTheFormulaAndItsRootHoldsIt) {
     // What holds the root: all that its elements and the air do there.
     VecX f = VecX::Zero(pole.plant->motion.x.size());
     mechanics(which).add_force(elements_of(*pole.plant->system), pole.plant->motion.x, f);
-    add_grip_force(pole.plant->loads.drags[0].grip, pole.plant->motion.x, Vec3::Zero(), f);
-    for (const Drag& drag : pole.plant->loads.drags) add_grip_force(drag.grip, pole.plant->motion.x, drag.force, f);
+    add_attachment_force(pole.plant->loads.drags[0].attachment, pole.plant->motion.x, Vec3::Zero(), f);
+    for (const Drag& drag : pole.plant->loads.drags)
+        add_attachment_force(drag.attachment, pole.plant->motion.x, drag.force, f);
     Vec3 reaction = Vec3::Zero();
     const int next = pole.plant->follow ? 2 : 1;
     for (int i = 0; i < f.size() / 3; i += next)
@@ -203,14 +205,15 @@ TEST_P(EveryAir, PoleHasTheDragOfTheFormulaAndItsRootHoldsIt) {
 TEST_P(EveryAir, FreePlateAndStemFallWithTheirTerminalVelocities) {
     Material leaf = plain_material(900, 1e11, 0.3, 0.5e-3);  // or its tips would bend away
     leaf.drag = 1.5;
-    Blown plate(sheet_model("leaf", 0.8, 0.08, leaf), which, wind_def(0), FROND_BDF2, -1);
+    Blown plate(sheet_model("leaf", 0.8, 0.08, leaf), which, wind_def(0), FROND_INTEGRATOR_BDF2, -1);
     plate.lay_down();
     plate.surroundings.gravity = {0, -GRAVITY, 0};
     plate.run(0.9, 1.0 / 120);  // four times as long as it takes; it will begin to glide
     const double weight = node_mass_of(*plate.plant->system).sum() * GRAVITY;
     EXPECT_NEAR(-plate.mean_velocity().y() / std::sqrt(2 * weight / (DENSITY * 1.5 * 0.8 * 0.08)), 1, 0.03);
 
-    Blown stem(stem_model(0.6, 0.01, plain_material(50, 1e9, 0.3, 1e-3)), which, wind_def(0), FROND_BDF2, -1);
+    Blown stem(stem_model(0.6, 0.01, plain_material(50, 1e9, 0.3, 1e-3)), which, wind_def(0), FROND_INTEGRATOR_BDF2,
+               -1);
     stem.lay_down();
     stem.surroundings.gravity = {0, -GRAVITY, 0};
     stem.run(6, 1.0 / 120);
@@ -236,7 +239,7 @@ TEST(Reconfiguration, OfABladeOfRodsFollowsThePublishedCurve) {
     EXPECT_NEAR(EI, 1e9 * W * 8e-9 / 12, 0.02 * EI);
     for (const Reconfigured& known : PUBLISHED) {
         const double speed = std::sqrt(known.C * EI / (0.5 * DENSITY * CD * W * L * L * L));
-        Blown blade(model, FROND_ROD, wind_def(speed));
+        Blown blade(model, FROND_MECHANICS_ROD, wind_def(speed));
         blade.plant->settings.mass_damping = 10;
         blade.run(3, 1.0 / 480);
         const double R = air_force(*blade.plant).x() / (0.5 * DENSITY * CD * W * L * speed * speed);
@@ -246,7 +249,8 @@ TEST(Reconfiguration, OfABladeOfRodsFollowsThePublishedCurve) {
 
 TEST_P(EveryAir, StillAirOnlyTakesEnergyFromASway) {
     const auto model = sheet_model("leaf", 0.5, 0.06, plain_material(100, 1e8, 0.3, 1e-3));
-    Blown with(model, which, wind_def(0), FROND_TR_BDF2), without(model, which, wind_def(0), FROND_TR_BDF2);
+    Blown with(model, which, wind_def(0), FROND_INTEGRATOR_TR_BDF2),
+        without(model, which, wind_def(0), FROND_INTEGRATOR_TR_BDF2);
     without.surroundings.wind = nullptr;
     for (Blown* one : {&with, &without}) {
         one->plant->settings.newton_iterations = 3;
@@ -263,7 +267,7 @@ TEST_P(EveryAir, StillAirOnlyTakesEnergyFromASway) {
         without.step(1.0 / 240);
         double power = 0;
         for (const Drag& drag : with.plant->loads.drags) {
-            const Vec3 velocity = grip_velocity(drag.grip, with.plant->motion.x, with.plant->motion.v);
+            const Vec3 velocity = attachment_velocity(drag.attachment, with.plant->motion.x, with.plant->motion.v);
             power += velocity.dot(drag.force - drag.damping * velocity);
         }
         EXPECT_LE(power, 0) << "step " << n;
@@ -276,7 +280,7 @@ TEST_P(EveryAir, StillAirOnlyTakesEnergyFromASway) {
 TEST_P(EveryAir, LightLeafInAGaleIsStableAtLongSteps) {
     const Material leaf = *material_preset("grass_blade");
     const auto model = sheet_model("leaf", 0.8, 0.06, leaf);
-    for (frond_integrator method : {FROND_IMPLICIT_EULER, FROND_BDF2}) {
+    for (frond_integrator method : {FROND_INTEGRATOR_IMPLICIT_EULER, FROND_INTEGRATOR_BDF2}) {
         Blown blade(model, which, wind_def(60, 0.3), method);
         blade.plant->settings.mass_damping = 0.1;
         blade.plant->settings.stiffness_damping = 0.002;
@@ -298,7 +302,7 @@ TEST_P(EveryAir, LightLeafInAGaleIsStableAtLongSteps) {
 TEST(Air, BlownAboutALeafIsSteppedInPartsWithoutASearch) {
     const auto model = sheet_model("leaf", 0.8, 0.06, *material_preset("grass_blade"));
     for (const double speed : {11, 12, 13}) {
-        Blown blade(model, FROND_ROD, wind_def(speed));
+        Blown blade(model, FROND_MECHANICS_ROD, wind_def(speed));
         int parted = 0;
         for (int n = 0; n < 12; ++n) {
             blade.step(1.0 / 60);
@@ -314,9 +318,9 @@ TEST(Air, BlownAboutALeafIsSteppedInPartsWithoutASearch) {
 TEST(Air, WithoutOneOfBothEffectsTheOtherHalfIsLeftOut) {
     const auto model = stem_model(0.6, 0.01, plain_material(100, 1e7, 0.3, 1e-3));
     // The wind alone pushes, however fast the plant moves; drag alone does not know of the wind.
-    Blown pushed(model, FROND_ROD, wind_def(5)), dragged(model, FROND_ROD, wind_def(5));
-    pushed.plant->effects &= ~uint32_t(FROND_AIR_DRAG);
-    dragged.plant->effects &= ~uint32_t(FROND_WIND);
+    Blown pushed(model, FROND_MECHANICS_ROD, wind_def(5)), dragged(model, FROND_MECHANICS_ROD, wind_def(5));
+    pushed.plant->effects &= ~uint32_t(FROND_EFFECT_AIR_DRAG);
+    dragged.plant->effects &= ~uint32_t(FROND_EFFECT_WIND);
     pushed.step(1.0 / 60);
     dragged.step(1.0 / 60);
     EXPECT_GT(pushed.plant->chain_positions.back().x(), 0);
@@ -328,7 +332,7 @@ TEST(Air, WithoutOneOfBothEffectsTheOtherHalfIsLeftOut) {
 TEST(Air, OffOrAbsentChangesNoBitAndAllocatesNothing) {
     const auto model = stem_model(0.6, 0.01, plain_material(100, 1e7, 0.3, 1e-3));
     const auto run = [&](bool air, frond_effects without) {
-        Blown blown(model, FROND_ROD, wind_def(5));
+        Blown blown(model, FROND_MECHANICS_ROD, wind_def(5));
         if (!air) blown.surroundings.wind = nullptr;
         blown.plant->effects &= ~without;
         blown.surroundings.gravity = {1, -GRAVITY, 0};
@@ -338,20 +342,20 @@ TEST(Air, OffOrAbsentChangesNoBitAndAllocatesNothing) {
         return blown.plant->motion.x;
     };
     const VecX none = run(false, 0);
-    EXPECT_EQ(run(true, FROND_WIND | FROND_AIR_DRAG), none);
+    EXPECT_EQ(run(true, FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG), none);
     EXPECT_NE(run(true, 0), none);
     EXPECT_EQ(run(true, 0), run(true, 0));
 }
 
 TEST(Air, IsSwitchedWhileAPlantStands) {
     const auto model = stem_model(0.6, 0.01, plain_material(100, 1e7, 0.3, 1e-3));
-    Blown blown(model, FROND_ROD, wind_def(5));
+    Blown blown(model, FROND_MECHANICS_ROD, wind_def(5));
     blown.run(0.2, 1.0 / 60);
     EXPECT_GT(air_force(*blown.plant).x(), 0);
-    set_mechanics(*blown.plant, FROND_TET_COROTATIONAL);
+    set_mechanics(*blown.plant, FROND_MECHANICS_TET_COROTATIONAL);
     blown.run(0.2, 1.0 / 60);
     EXPECT_GT(air_force(*blown.plant).x(), 0);
-    blown.plant->effects &= ~uint32_t(FROND_WIND | FROND_AIR_DRAG);
+    blown.plant->effects &= ~uint32_t(FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG);
     blown.step(1.0 / 60);
     EXPECT_EQ(air_force(*blown.plant).norm(), 0);
 }
@@ -359,7 +363,7 @@ TEST(Air, IsSwitchedWhileAPlantStands) {
 // A plant that stands turned feels the wind of the world.
 TEST(Air, BlowsInTheFrameOfTheWorld) {
     const auto model = stem_model(0.6, 0.01, plain_material(100, 1e8, 0.3, 1e-3));
-    Blown straight(model, FROND_ROD, wind_def(5)), turned(model, FROND_ROD, wind_def(5));
+    Blown straight(model, FROND_MECHANICS_ROD, wind_def(5)), turned(model, FROND_MECHANICS_ROD, wind_def(5));
     turned.plant->rotation = Eigen::AngleAxisd(2, Vec3::UnitY());
     turned.plant->position = {0, 3, 0};
     straight.run(0.5, 1.0 / 60);

@@ -41,7 +41,7 @@ struct Swaying {
 
     Swaying(const std::shared_ptr<const Model>& model, frond_mechanics which, double scale, bool heavy) {
         frond_plant_def def = plant_def(which);
-        def.integrator = FROND_TR_BDF2;
+        def.integrator = FROND_INTEGRATOR_TR_BDF2;
         def.newton_iterations = 2;
         def.material_damping = scale;
         plant = create_plant(model, def);
@@ -88,16 +88,17 @@ struct EveryDamping : testing::TestWithParam<int> {
     const frond_mechanics which = frond_mechanics(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Mechanics, EveryDamping,
-                         testing::ValuesIn(SANITIZED ? std::vector<int>{FROND_ROD}
-                                                     : std::vector<int>{FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN,
-                                                                        FROND_ROD}),
+                         testing::ValuesIn(SANITIZED
+                                               ? std::vector<int>{FROND_MECHANICS_ROD}
+                                               : std::vector<int>{FROND_MECHANICS_TET_COROTATIONAL,
+                                                                  FROND_MECHANICS_TET_NEOHOOKEAN, FROND_MECHANICS_ROD}),
                          [](const auto& info) { return mechanics(frond_mechanics(info.param)).name; });
 
 TEST_P(EveryDamping, FirstSwayDecaysWithTheRatioThatIsGiven) {
     for (double ratio : {0.02, 0.1}) {
         const auto model = stem_model(ratio, ratio, FROND_REST_WITHOUT_GRAVITY);
         // A cage of one cell across sways in a shape of its own.
-        const double few_per_cent = which == FROND_ROD ? 0.03 : 0.06;
+        const double few_per_cent = which == FROND_MECHANICS_ROD ? 0.03 : 0.06;
         EXPECT_NEAR(Swaying(model, which, 1, false).decay(), ratio, few_per_cent * ratio);
         EXPECT_NEAR(Swaying(model, which, 0.5, false).decay(), 0.5 * ratio, few_per_cent * ratio);
     }
@@ -136,7 +137,8 @@ TEST_P(EveryDamping, RatioOfZeroChangesNoBit) {
 
 // Elements that all damp alike take the short way; the long way gives the same.
 TEST_P(EveryDamping, OneRatioOrTwoAlmostAlikeMoveAlike) {
-    for (frond_integrator method : {FROND_IMPLICIT_EULER, FROND_BDF2, FROND_SDIRK2, FROND_GENERALIZED_ALPHA}) {
+    for (frond_integrator method : {FROND_INTEGRATOR_IMPLICIT_EULER, FROND_INTEGRATOR_BDF2, FROND_INTEGRATOR_SDIRK2,
+                                    FROND_INTEGRATOR_GENERALIZED_ALPHA}) {
         const auto run = [&](double high) {
             Swaying swaying(stem_model(0.1, high, FROND_REST_WITHOUT_GRAVITY), which, 1, false);
             swaying.plant->settings.integrator = method;
@@ -151,7 +153,7 @@ TEST_P(EveryDamping, OneRatioOrTwoAlmostAlikeMoveAlike) {
 TEST_P(EveryDamping, DampsNothingWhereTheEffectIsOff) {
     const auto model = stem_model(0.3, 0.3, FROND_REST_WITHOUT_GRAVITY);
     Swaying off(model, which, 1, false), none(model, which, 0, false);
-    off.plant->effects &= ~uint32_t(FROND_DAMPING);
+    off.plant->effects &= ~uint32_t(FROND_EFFECT_DAMPING);
     for (int n = 0; n < 50; ++n) {
         off.step();
         none.step();

@@ -30,7 +30,7 @@ std::shared_ptr<const Model> blade(double young, double thickness) {
 }
 
 std::unique_ptr<Plant> plant_of(const std::shared_ptr<const Model>& model, frond_mechanics which,
-                                frond_effects effects = FROND_ALL_EFFECTS & ~uint32_t(FROND_PLASTICITY)) {
+                                frond_effects effects = FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_PLASTICITY)) {
     frond_plant_def def = plant_def(which);
     def.mass_damping = 2;
     def.stiffness_damping = 0.002;
@@ -65,7 +65,8 @@ double drawn(Plant& plant, const Vec3& way, double force, double& held) {
 }
 
 class Pulled : public testing::TestWithParam<frond_mechanics> {};
-INSTANTIATE_TEST_SUITE_P(Tets, Pulled, testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN));
+INSTANTIATE_TEST_SUITE_P(Tets, Pulled,
+                         testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN));
 
 TEST_P(Pulled, BladeIsNotDrawnOut) {
     const auto model = blade(5e8, 3e-4);
@@ -77,7 +78,8 @@ TEST_P(Pulled, BladeIsNotDrawnOut) {
     const Vec3 tip = plant->to_world(plant->chain_positions.back());
     EXPECT_LT((vertex_position(*plant, plant->grabs.back().vertex) - tip).norm(), 1.3 * WIDTH);
 
-    const auto rubber = plant_of(model, GetParam(), FROND_ALL_EFFECTS & ~uint32_t(FROND_FIBRES | FROND_PLASTICITY));
+    const auto rubber =
+        plant_of(model, GetParam(), FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_FIBRES | FROND_EFFECT_PLASTICITY));
     EXPECT_GT(drawn(*rubber, {0, 0.2, 0}, 5, force), 1.12);
 }
 
@@ -117,7 +119,8 @@ TEST_P(Pulled, SoftTissueGivesAsItShould) {
 TEST_P(Pulled, SlackFibresChangeNoBit) {
     const auto model = blade(5e8, 3e-4);
     const auto with = plant_of(model, GetParam());
-    const auto without = plant_of(model, GetParam(), FROND_ALL_EFFECTS & ~uint32_t(FROND_FIBRES | FROND_PLASTICITY));
+    const auto without =
+        plant_of(model, GetParam(), FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_FIBRES | FROND_EFFECT_PLASTICITY));
     Surroundings surroundings;
     surroundings.gravity = {0.2, 0, 0};
     for (int i = 0; i < 60; i++) {
@@ -131,7 +134,8 @@ TEST_P(Pulled, SlackFibresChangeNoBit) {
 // Pulls are the plant's own: what is taut all the time, as what hangs and is heavy, is not begun anew in every step.
 TEST_P(Pulled, IntegratorsLookBackBeyondTautFibres) {
     constexpr int STEPS = 60;
-    for (const frond_integrator integrator : {FROND_BDF2, FROND_SDIRK2, FROND_GENERALIZED_ALPHA}) {
+    for (const frond_integrator integrator :
+         {FROND_INTEGRATOR_BDF2, FROND_INTEGRATOR_SDIRK2, FROND_INTEGRATOR_GENERALIZED_ALPHA}) {
         const auto plant = plant_of(blade(3e7, 3e-4), GetParam());
         plant->settings.integrator = integrator;
         const double before = chain_length(*plant);
@@ -141,8 +145,8 @@ TEST_P(Pulled, IntegratorsLookBackBeyondTautFibres) {
         for (int i = 0; i < STEPS; i++) {
             step_plant(*plant, surroundings, H);
             taut += chain_length(*plant) > 1.03 * before;
-            begun_anew +=
-                integrator == FROND_BDF2 ? !history_holds(plant->motion, integrator, H) : plant->motion.history.shaken;
+            begun_anew += integrator == FROND_INTEGRATOR_BDF2 ? !history_holds(plant->motion, integrator, H)
+                                                              : plant->motion.history.shaken;
         }
         EXPECT_GT(taut, STEPS / 2) << integrator;
         EXPECT_LT(begun_anew, STEPS / 4) << integrator;
@@ -151,9 +155,9 @@ TEST_P(Pulled, IntegratorsLookBackBeyondTautFibres) {
 
 TEST(Fibres, AreForCagesThatLackThem) {
     EXPECT_GT(make_fibres(*blade(5e8, 3e-4), 1).list.size(), 4u);
-    EXPECT_TRUE(plant_of(blade(5e8, 3e-4), FROND_TET_COROTATIONAL)->fibres);
-    EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_TET_LINEAR)->fibres);  // grows when it turns
-    EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_ROD)->fibres);
+    EXPECT_TRUE(plant_of(blade(5e8, 3e-4), FROND_MECHANICS_TET_COROTATIONAL)->fibres);
+    EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_MECHANICS_TET_LINEAR)->fibres);  // grows when it turns
+    EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_MECHANICS_ROD)->fibres);
     Model tet;
     tet.calibrated = false;
     EXPECT_TRUE(make_fibres(tet, 1).list.empty());

@@ -29,14 +29,14 @@ static void swing(Plant& plant, int steps) {
 }
 
 TEST(Follow, CageIsWhereItWasModelledAtRest) {
-    const auto plant = make_plant(FROND_ROD);
+    const auto plant = make_plant(FROND_MECHANICS_ROD);
     const VecX& x = cage_places(*plant);
     for (size_t n = 0; n < plant->model->cage.nodes.size(); n++)
         EXPECT_LT((point(x, int(n)) - plant->model->cage.nodes[n]).norm(), 1e-12);
 }
 
 TEST(Follow, AStateThatWasReadIsSetAgain) {
-    const auto plant = make_plant(FROND_ROD);
+    const auto plant = make_plant(FROND_MECHANICS_ROD);
     swing(*plant, 20);
     const VecX x = cage_places(*plant), v = cage_velocities(*plant);
     swing(*plant, 30);
@@ -47,22 +47,22 @@ TEST(Follow, AStateThatWasReadIsSetAgain) {
 }
 
 TEST(Follow, ChangingMechanicsDoesNotMakeThePlantJump) {
-    const auto plant = make_plant(FROND_ROD);
+    const auto plant = make_plant(FROND_MECHANICS_ROD);
     swing(*plant, 20);
     const VecX x = cage_places(*plant), v = cage_velocities(*plant);
-    set_mechanics(*plant, FROND_TET_COROTATIONAL);
+    set_mechanics(*plant, FROND_MECHANICS_TET_COROTATIONAL);
     EXPECT_EQ((cage_places(*plant) - x).norm(), 0);
     EXPECT_EQ((cage_velocities(*plant) - v).norm(), 0);
     swing(*plant, 20);
     const VecX cage = cage_places(*plant);
-    set_mechanics(*plant, FROND_ROD);
+    set_mechanics(*plant, FROND_MECHANICS_ROD);
     // The chain cannot take every shape of the cage; it comes within a hundredth of the plant's height.
     EXPECT_LT((cage_places(*plant) - cage).lpNorm<Eigen::Infinity>(), 0.01);
     swing(*plant, 20);
 }
 
 TEST(Follow, PinsHoldCageNodesAndTheRootStaysWhereItIs) {
-    const auto plant = make_plant(FROND_ROD);
+    const auto plant = make_plant(FROND_MECHANICS_ROD);
     const std::vector<Vec3>& nodes = plant->model->cage.nodes;
     size_t top = 0;
     for (size_t n = 0; n < nodes.size(); n++)

@@ -31,7 +31,7 @@ std::shared_ptr<const Model> stem_model() {
 
 std::unique_ptr<Plant> stem(frond_mechanics which) {
     frond_plant_def def = plant_def(which);
-    def.integrator = FROND_BDF2;
+    def.integrator = FROND_INTEGRATOR_BDF2;
     return create_plant(stem_model(), def);
 }
 
@@ -74,7 +74,9 @@ void bend(Plant& plant) {
 }
 
 struct EveryShape : testing::TestWithParam<frond_mechanics> {};
-INSTANTIATE_TEST_SUITE_P(Guard, EveryShape, testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD),
+INSTANTIATE_TEST_SUITE_P(Guard, EveryShape,
+                         testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN,
+                                         FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(mechanics(info.param, 1).name); });
 
 TEST_P(EveryShape, ScrambledComesBackWithinTwoSecondsAndKeepsNoSet) {
@@ -89,7 +91,7 @@ TEST_P(EveryShape, ScrambledComesBackWithinTwoSecondsAndKeepsNoSet) {
     EXPECT_TRUE(trouble & FROND_TROUBLE_RETRIED);
     EXPECT_LT(away(*plant), 0.02);
     EXPECT_EQ(plant->report.inverted, 0);
-    EXPECT_TRUE(lasting_of(*plant).empty());
+    EXPECT_TRUE(plastic_of(*plant).empty());
     for (int i = 0; i < 120; i++) step_plant(*plant, earth(), H);
     EXPECT_LE(plant->recovers_for, 0);
 }
@@ -114,7 +116,7 @@ TEST_P(EveryShape, EnergyOutOfNothingIsTold) {
     step_plant(*plant, earth(), H);
     plant->x_good = plant->motion.x;
     plant->v_good = plant->motion.v;
-    lend_workspace(*plant);  // as within a step
+    take_workspace(*plant);  // as within a step
     EXPECT_FALSE(look_at_energy(*plant, H).comes_from_nowhere);
     EXPECT_TRUE(look_at_energy(*plant, H).is_small);
     plant->motion.v.setConstant(3);
@@ -157,7 +159,7 @@ TEST_P(EveryShape, FadesFromThereUnlessSomethingTouchesIt) {
         scramble(*plant, 0.4);
         plant->is_touched = is_touched;
         ASSERT_TRUE(start_from_modelled(*plant));
-        EXPECT_EQ(is_over(plant->fade), is_touched);
+        EXPECT_EQ(is_over(plant->blend_out), is_touched);
     }
 }
 
@@ -168,9 +170,9 @@ TEST_P(EveryShape, StartsWithoutSetsThatKeepItFromItsModelledShape) {
     const Mechanics& row = mechanics(plant->which, 1);
     plant->own_elements = row.copy(elements_of(*plant->system));
     for (int i = 0; i < 200; i++) row.flow(*plant->own_elements, plant->motion.x, H);
-    ASSERT_FALSE(lasting_of(*plant).empty());
+    ASSERT_FALSE(plastic_of(*plant).empty());
     ASSERT_TRUE(start_from_modelled(*plant));
-    EXPECT_TRUE(lasting_of(*plant).empty());
+    EXPECT_TRUE(plastic_of(*plant).empty());
 }
 
 TEST_P(EveryShape, GoesAlongWithAFootThatIsPutElsewhere) {
@@ -205,7 +207,7 @@ TEST_P(EveryShape, StepsThatLeadNowhereTakeLittleWorkAndTheFirstCalmOneAllThatIt
 
 // Upside down beside its foot, with its cells mirrored: no step leads out of that.
 TEST(Guard, WhatIsCaughtInsideOutStartsFromTheModelledShape) {
-    const auto plant = stem(FROND_TET_COROTATIONAL);
+    const auto plant = stem(FROND_MECHANICS_TET_COROTATIONAL);
     VecX& x = plant->motion.x;
     for (int i = 0; i < x.size() / 3; i++)
         if (!plant->motion.pinned[size_t(i)]) point(x, i).x() *= -1;
@@ -217,7 +219,7 @@ TEST(Guard, WhatIsCaughtInsideOutStartsFromTheModelledShape) {
 }
 
 TEST(Guard, WhatIsHeldBentDoesNotStartFromTheModelledShape) {
-    const auto plant = stem(FROND_TET_COROTATIONAL);
+    const auto plant = stem(FROND_MECHANICS_TET_COROTATIONAL);
     int top = 0;
     for (int i = 0; i < node_count_of(*plant); i++)
         if (node_place(*plant, i).y() > node_place(*plant, top).y()) top = i;

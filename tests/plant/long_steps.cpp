@@ -24,9 +24,9 @@ std::shared_ptr<const Model> gallows() {
 }
 
 std::unique_ptr<Plant> plant_of(const std::shared_ptr<const Model>& model) {
-    frond_plant_def def = plant_def(FROND_ROD);
-    def.integrator = FROND_IMPLICIT_EULER;
-    def.effects &= ~uint32_t(FROND_PLASTICITY | FROND_BREAKING);
+    frond_plant_def def = plant_def(FROND_MECHANICS_ROD);
+    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
+    def.effects &= ~uint32_t(FROND_EFFECT_PLASTICITY | FROND_EFFECT_BREAKING);
     return create_plant(model, def);
 }
 
@@ -76,13 +76,13 @@ Swung let_go(frond_integrator integrator, double h) {
     def.rest = FROND_REST_WITHOUT_GRAVITY;
     def.organs = &organ;
     def.organ_count = 1;
-    frond_plant_def undamped = plant_def(FROND_TET_COROTATIONAL);
+    frond_plant_def undamped = plant_def(FROND_MECHANICS_TET_COROTATIONAL);
     undamped.mass_damping = undamped.stiffness_damping = 0;
-    undamped.effects = FROND_GRAVITY;
+    undamped.effects = FROND_EFFECT_GRAVITY;
     const auto plant = create_plant(build_from_stems(&stem, 1, def), undamped);
     Surroundings surroundings;
     surroundings.gravity = {80, 0, 0};
-    plant->settings.integrator = FROND_IMPLICIT_EULER;
+    plant->settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     for (int i = 0; i < 200; i++) step_plant(*plant, surroundings, 0.05);
     surroundings.gravity.setZero();
     plant->settings.integrator = integrator;
@@ -99,10 +99,10 @@ Swung let_go(frond_integrator integrator, double h) {
 
 // Where one solve does not balance forces, more do; a step by implicit Euler would end the swing.
 TEST(LongSteps, KeepASwingThatOneSolveCannotFollow) {
-    for (const frond_integrator integrator : {FROND_BDF2, FROND_SDIRK2}) {
+    for (const frond_integrator integrator : {FROND_INTEGRATOR_BDF2, FROND_INTEGRATOR_SDIRK2}) {
         const Swung far = let_go(integrator, 1.0 / 30);
         EXPECT_GT(far.retried, 2) << integrator;
-        EXPECT_GT(far.kept, integrator == FROND_BDF2 ? 0.45 : 0.7) << integrator;
+        EXPECT_GT(far.kept, integrator == FROND_INTEGRATOR_BDF2 ? 0.45 : 0.7) << integrator;
         EXPECT_LT(far.kept, 1.02) << integrator;
         const Swung near = let_go(integrator, 1.0 / 60);
         EXPECT_EQ(near.retried, 0) << integrator;

@@ -17,7 +17,7 @@ static std::shared_ptr<const Model> small_model() {
 }
 
 static frond_plant_def plant_def(int order = 1) {
-    return test::plant_def(FROND_TET_COROTATIONAL, order);
+    return test::plant_def(FROND_MECHANICS_TET_COROTATIONAL, order);
 }
 
 // Moves all nodes of a plant by x -> A x + b in its own frame.
@@ -25,7 +25,7 @@ static void deform(Plant& plant, const Mat3& A, const Vec3& b) {
     for (int i = 0; i < plant.motion.x.size() / 3; i++)
         point(plant.motion.x, i) = A * point(plant.nodes->modelled, i) + b;
     update_chain(plant);
-    update_surface(plant, FROND_ALL_EFFECTS);
+    update_surface(plant, FROND_EFFECT_ALL);
 }
 
 struct EveryOrder : testing::TestWithParam<int> {};
@@ -58,12 +58,12 @@ TEST(Surface, OfQuadraticTetsFollowsACurvedMoveExactly) {
     };
     for (int i = 0; i < node_count_of(*plant); i++) point(plant->motion.x, i) = bend(point(plant->nodes->modelled, i));
     moved(*plant);
-    update_surface(*plant, FROND_ALL_EFFECTS);
+    update_surface(*plant, FROND_EFFECT_ALL);
     const Surface& surface = plant->model->surface;
     for (size_t v = 0; v < surface.positions.size(); v++) {
         const Vec3 position = bend(surface.positions[v]), now = vertex_position(*plant, int(v));
         EXPECT_LT((now - position).norm(), 1e-12);
-        EXPECT_LT((grip_place(vertex_grip(*plant, int(v)), plant->motion.x) - position).norm(), 1e-12);
+        EXPECT_LT((attachment_place(vertex_attachment(*plant, int(v)), plant->motion.x) - position).norm(), 1e-12);
         EXPECT_NEAR(plant->surface_positions[3 * v], position.x(), 1e-6);
     }
     for (size_t i = 0; i < plant->model->chain.nodes.size(); i++)
@@ -119,7 +119,7 @@ TEST(Surface, StandsInTheWorldWhereThePlantIsPlaced) {
     def.position = {5, 6, 7};
     def.rotation = {0, 0, 2, 2};  // a quarter turn about z, not of length one
     const auto plant = create_plant(small_model(), def);
-    update_surface(*plant, FROND_ALL_EFFECTS);
+    update_surface(*plant, FROND_EFFECT_ALL);
     const Surface& surface = plant->model->surface;
     for (size_t v = 0; v < surface.positions.size(); v++) {
         const Vec3& rest = surface.positions[v];
@@ -154,7 +154,7 @@ TEST(Plants, OfOneModelShareTheirSystem) {
     const auto a = create_plant(model, plant_def()), b = create_plant(model, plant_def());
     EXPECT_EQ(a->system.get(), b->system.get());
     frond_plant_def def = plant_def();
-    def.mass = FROND_CONSISTENT;
+    def.mass = FROND_MASS_CONSISTENT;
     EXPECT_NE(create_plant(model, def)->system.get(), a->system.get());
     EXPECT_NE(create_plant(model, plant_def(2))->system.get(), a->system.get());
 }

@@ -40,12 +40,12 @@ struct Bending {
         def.rotation = {0, 0, 0, 1};
         def.mechanics = which;
         def.element_order = 1;
-        def.integrator = FROND_BDF2;
+        def.integrator = FROND_INTEGRATOR_BDF2;
         def.newton_iterations = 2;
         def.newton_tolerance = 1e-9;
         def.max_iterations = 100;
         def.tolerance = 1e-6;
-        def.effects = FROND_ALL_EFFECTS;
+        def.effects = FROND_EFFECT_ALL;
         plant = create_plant(model, def);
         surroundings.gravity = {0, -GRAVITY, 0};
         vertex = nearest_vertex(*plant, Vec3(0, 0.6, 0));
@@ -76,7 +76,8 @@ struct EveryPlasticity : testing::TestWithParam<int> {
     const frond_mechanics which = frond_mechanics(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Mechanics, EveryPlasticity,
-                         testing::Values(int(FROND_TET_COROTATIONAL), int(FROND_TET_NEOHOOKEAN), int(FROND_ROD)),
+                         testing::Values(int(FROND_MECHANICS_TET_COROTATIONAL), int(FROND_MECHANICS_TET_NEOHOOKEAN),
+                                         int(FROND_MECHANICS_ROD)),
                          [](const auto& info) { return mechanics(frond_mechanics(info.param)).name; });
 
 // EI = 1.63 N m^2; the rim at the foot yields at 2 % under EI 0.02 / (r L) = 4.5 N.
@@ -92,11 +93,11 @@ TEST_P(EveryPlasticity, NothingIsKeptOrAllocatedBelowTheYield) {
 
 TEST_P(EveryPlasticity, ASetIsKeptBeyondTheYieldAndOnlyWithTheEffect) {
     const double set = Bending(stem_model(0.02), which).set_after(7);
-    const double in_rods = Bending(stem_model(0.02), FROND_ROD).set_after(7);
+    const double in_rods = Bending(stem_model(0.02), FROND_MECHANICS_ROD).set_after(7);
     EXPECT_GT(in_rods, 0.02);
     EXPECT_NEAR(set, in_rods, 0.5 * in_rods);
     Bending off(stem_model(0.02), which);
-    off.plant->effects &= ~uint32_t(FROND_PLASTICITY);
+    off.plant->effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
     EXPECT_NEAR(off.set_after(7), 0, 1e-4);
     EXPECT_EQ(off.plant->own_elements, nullptr);
 }
@@ -123,7 +124,7 @@ TEST_P(EveryPlasticity, EnergyNeverGrowsWhileItSways) {
     bending.surroundings.gravity.setZero();
     bending.rest(9);
     bending.plant->settings.mass_damping = 0;
-    bending.plant->settings.integrator = FROND_TR_BDF2;
+    bending.plant->settings.integrator = FROND_INTEGRATOR_TR_BDF2;
     bending.pull(0);
     const auto energy = [&] {
         const frond_energy e = energy_of(*bending.plant, Vec3::Zero());
@@ -144,19 +145,19 @@ TEST_P(EveryPlasticity, WhatIsLastingIsSavedAndRestoredToTheBit) {
     const auto model = stem_model(0.02, 0.1);
     Bending bending(model, which), other(model, which);
     bending.rest(7);
-    const std::vector<double> lasting = lasting_of(*bending.plant);
-    ASSERT_FALSE(lasting.empty());
-    set_lasting(*other.plant, lasting);
-    EXPECT_EQ(lasting_of(*other.plant), lasting);
+    const std::vector<double> plastic = plastic_of(*bending.plant);
+    ASSERT_FALSE(plastic.empty());
+    set_plastic(*other.plant, plastic);
+    EXPECT_EQ(plastic_of(*other.plant), plastic);
     other.plant->settings.mass_damping = bending.plant->settings.mass_damping;
     other.plant->grabs = bending.plant->grabs;
     other.plant->motion = bending.plant->motion;
     for (int n = 0; n < 20; ++n)
         for (Bending* b : {&bending, &other}) step_plant(*b->plant, b->surroundings, H);
     EXPECT_EQ(other.plant->motion.x, bending.plant->motion.x);
-    EXPECT_EQ(lasting_of(*other.plant), lasting_of(*bending.plant));
-    set_lasting(*other.plant, {});
-    EXPECT_TRUE(lasting_of(*other.plant).empty());
+    EXPECT_EQ(plastic_of(*other.plant), plastic_of(*bending.plant));
+    set_plastic(*other.plant, {});
+    EXPECT_TRUE(plastic_of(*other.plant).empty());
     EXPECT_NE(energy_of(*other.plant, Vec3::Zero()).elastic, energy_of(*bending.plant, Vec3::Zero()).elastic);
 }
 
@@ -164,33 +165,33 @@ TEST_P(EveryPlasticity, WhatIsLastingIsSavedAndRestoredToTheBit) {
 TEST_P(EveryPlasticity, AStepThatIsRewoundLeavesNothing) {
     Bending bending(stem_model(0.02), which);
     bending.rest(7);
-    const std::vector<double> lasting = lasting_of(*bending.plant);
+    const std::vector<double> plastic = plastic_of(*bending.plant);
     bending.plant->motion.v.setConstant(std::numeric_limits<double>::quiet_NaN());
     step_plant(*bending.plant, bending.surroundings, H);
     EXPECT_TRUE(bending.plant->trouble & FROND_TROUBLE_REWOUND);
-    EXPECT_EQ(lasting_of(*bending.plant), lasting);
+    EXPECT_EQ(plastic_of(*bending.plant), plastic);
 }
 
 TEST(PlasticityOfTets, IsHandedToOtherTets) {
-    Bending bending(stem_model(0.02), FROND_TET_COROTATIONAL);
+    Bending bending(stem_model(0.02), FROND_MECHANICS_TET_COROTATIONAL);
     bending.rest(7);
     bending.rest(0);
     const double set = bending.tip().x();
-    const std::vector<double> lasting = lasting_of(*bending.plant);
-    set_mechanics(*bending.plant, FROND_TET_NEOHOOKEAN);
-    EXPECT_EQ(lasting_of(*bending.plant), lasting);
+    const std::vector<double> plastic = plastic_of(*bending.plant);
+    set_mechanics(*bending.plant, FROND_MECHANICS_TET_NEOHOOKEAN);
+    EXPECT_EQ(plastic_of(*bending.plant), plastic);
     bending.rest(0);
     EXPECT_NEAR(bending.tip().x(), set, 0.1 * set);
-    set_mechanics(*bending.plant, FROND_ROD);
-    EXPECT_TRUE(lasting_of(*bending.plant).empty());
+    set_mechanics(*bending.plant, FROND_MECHANICS_ROD);
+    EXPECT_TRUE(plastic_of(*bending.plant).empty());
 }
 
 // What a mechanics' own tets are stiffer by, they yield the sooner.
 TEST(PlasticityOfTets, BeginsAtOneEnergyWhateverTheirModuli) {
     const auto model = stem_model(0.02, 0, FROND_REST_WITHOUT_GRAVITY);
-    const auto soft = mechanics(FROND_TET_LINEAR).make(*model, FROND_TET_LINEAR);
-    model->rest_shapes->stiffer[0][FROND_TET_LINEAR].assign(model->cage.tets.size(), 4);
-    const auto stiff = mechanics(FROND_TET_LINEAR).make(*model, FROND_TET_LINEAR);
+    const auto soft = mechanics(FROND_MECHANICS_TET_LINEAR).make(*model, FROND_MECHANICS_TET_LINEAR);
+    model->rest_shapes->stiffer[0][FROND_MECHANICS_TET_LINEAR].assign(model->cage.tets.size(), 4);
+    const auto stiff = mechanics(FROND_MECHANICS_TET_LINEAR).make(*model, FROND_MECHANICS_TET_LINEAR);
     ASSERT_EQ(soft->yields.size(), model->cage.tets.size());
     for (size_t e = 0; e < soft->yields.size(); ++e)
         EXPECT_NEAR(stiff->yields[e].strain, soft->yields[e].strain / 2, 1e-12);

@@ -30,12 +30,12 @@ std::unique_ptr<Plant> stem(const std::shared_ptr<const Model>& model, frond_mec
     def.rotation = {0, 0, 0, 1};
     def.mechanics = which;
     def.element_order = 1;
-    def.integrator = FROND_BDF2;
+    def.integrator = FROND_INTEGRATOR_BDF2;
     def.newton_iterations = 4;
     def.newton_tolerance = 1e-9;
     def.max_iterations = 100;
     def.tolerance = 1e-6;
-    def.effects = FROND_ALL_EFFECTS;
+    def.effects = FROND_EFFECT_ALL;
     def.max_substeps = most;
     def.substep_tolerance = tolerance;
     return create_plant(model, def);
@@ -60,7 +60,8 @@ Vec3 swing(Plant& plant, double h, int* solves = nullptr) {
 struct Substeps : testing::TestWithParam<int> {
     const frond_mechanics which = frond_mechanics(GetParam());
 };
-INSTANTIATE_TEST_SUITE_P(Mechanics, Substeps, testing::Values(int(FROND_TET_COROTATIONAL), int(FROND_ROD)));
+INSTANTIATE_TEST_SUITE_P(Mechanics, Substeps,
+                         testing::Values(int(FROND_MECHANICS_TET_COROTATIONAL), int(FROND_MECHANICS_ROD)));
 
 TEST_P(Substeps, MakeTheErrorAsSmallAsIsAskedFor) {
     const std::shared_ptr<const Model> model = stem_model();

@@ -14,7 +14,7 @@ frond_wind_def plain_def() {
     def.turbulence = 0.25;
     def.length_scale = 30;
     def.seed = 1;
-    def.profile = FROND_WIND_UNIFORM;
+    def.profile = FROND_WIND_PROFILE_UNIFORM;
     def.reference_height = 10;
     def.roughness = 0.03;
     def.exponent = 1.0 / 7;
@@ -145,12 +145,12 @@ TEST(Wind, GrowsWithHeightAsItsProfileSays) {
     def.ground_height = 2;
     const auto speed = [&](double y) { return wind_at(*make_wind(def), Vec3(0, y, 0)).x(); };
     EXPECT_EQ(speed(-50), 8);
-    def.profile = FROND_WIND_LOG;
+    def.profile = FROND_WIND_PROFILE_LOG;
     EXPECT_NEAR(speed(12), 8, 1e-12);
     EXPECT_NEAR(speed(2 + 1), 8 * std::log(1 / 0.03) / std::log(10 / 0.03), 1e-12);
     EXPECT_EQ(speed(2.03), 0);
     EXPECT_EQ(speed(-1), 0);
-    def.profile = FROND_WIND_POWER;
+    def.profile = FROND_WIND_PROFILE_POWER;
     EXPECT_NEAR(speed(12), 8, 1e-12);
     EXPECT_NEAR(speed(2.5), 8 * std::pow(0.05, 1.0 / 7), 1e-12);
     EXPECT_EQ(speed(1), 0);

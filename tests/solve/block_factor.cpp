@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "mechanics/mechanics.hpp"
-#include "solve/front_abreast.hpp"
-#include "solve/tree_abreast.hpp"
+#include "solve/front_batch.hpp"
+#include "solve/tree_batch.hpp"
 #include "support/dense.hpp"
 #include "support/meshes.hpp"
 
@@ -94,8 +94,8 @@ void expect_lanes_as_alone(const BlockPattern& pattern, size_t lanes, Dice& dice
     BlockMatrix A;
     A.pattern = &pattern;
     A.values = side_by_side(matrices);
-    TreeAbreast tree;
-    FrontAbreast fronts;
+    TreeBatch tree;
+    FrontBatch fronts;
     const bool is_tree = shared.plan.tree.has_value();
     const unsigned failed = is_tree ? factorize(*shared.plan.tree, A, tree) : factorize(shared.plan.fronts, A, fronts);
     EXPECT_EQ(failed, 1u << wrong);
@@ -161,14 +161,14 @@ TEST(BlockFactor, HalvesOfASolveAreThoseOfTheWhole) {
         };
         for (int round = 0; round < 5; ++round) {
             const std::vector<NodeBlock> at = push(), by = push();
-            Answer first, second;
+            NodeCompliance first, second;
             half_solve(own.factor, at, first);
             half_solve(own.factor, by, second);
             EXPECT_TRUE(std::is_sorted(first.rows.begin(), first.rows.end()));
             EXPECT_LT(second.rows.back(), 3 * pattern.node_count);
             Eigen::Matrix3Xd spread;
             std::vector<Mat3> blocks(1, Mat3::Zero());
-            add_answers({&first}, second, spread, blocks);
+            add_compliances({&first}, second, spread, blocks);
             Mat3 expected = Mat3::Zero();
             for (const NodeBlock& a : at)
                 for (const NodeBlock& b : by)

@@ -49,7 +49,7 @@ struct SlenderBeam {
     static constexpr double A = 0.02, L = 0.8, E = 2e8, NU = 0.3, DENSITY = 900;  // [m], [Pa], [kg/m^3]
     static constexpr double INERTIA = A * A * A * A / 12, SHEAR = E / (2 * (1 + NU)) * 0.85 * A * A;
     Rig rig;
-    SlenderBeam(int aspect, frond_mechanics which, int order, frond_mass mass = FROND_LUMPED)
+    SlenderBeam(int aspect, frond_mechanics which, int order, frond_mass mass = FROND_MASS_LUMPED)
         : rig(box_model(1, 1, int(std::lround(L / (aspect * A))), {A, A, L}, {DENSITY, E, NU}), settings(which, order),
               mass) {
         rig.pin_below(2, 0);
@@ -112,7 +112,7 @@ TEST(Quadratic, BendsInSlenderCells) {
 TEST(Quadratic, HasTheFirstFrequencyOfABeam) {
     for (int mass = 0; mass < FROND_MASS_COUNT; ++mass) {
         const auto share = [&](int aspect) {
-            return SlenderBeam(aspect, FROND_TET_COROTATIONAL, 2, frond_mass(mass)).frequency();
+            return SlenderBeam(aspect, FROND_MECHANICS_TET_COROTATIONAL, 2, frond_mass(mass)).frequency();
         };
         EXPECT_NEAR(share(5), 1, 0.03) << mass;
         EXPECT_NEAR(share(10), 1, 0.06) << mass;
@@ -120,7 +120,7 @@ TEST(Quadratic, HasTheFirstFrequencyOfABeam) {
 }
 
 // 1 m x 0.1 m x 0.1 m, clamped at z = 0, under its own weight.
-Rig drooping_beam(int across, int along, frond_mechanics which = FROND_TET_COROTATIONAL, int order = 1) {
+Rig drooping_beam(int across, int along, frond_mechanics which = FROND_MECHANICS_TET_COROTATIONAL, int order = 1) {
     RigSettings settings = plain_settings(which);
     settings.order = order;
     Rig rig(box_model(across, across, along, {0.1, 0.1, 1}, {800, 1e7, 0.3}), settings);
@@ -136,7 +136,7 @@ double droop(const Rig& rig, int across) {
     return sum;
 }
 double static_droop(int across, int along, int order = 1) {
-    Rig rig = drooping_beam(across, along, FROND_TET_COROTATIONAL, order);
+    Rig rig = drooping_beam(across, along, FROND_MECHANICS_TET_COROTATIONAL, order);
     rig.settings.newton_iterations = 10;
     rig.steps(6, 100.0);
     return droop(rig, across);
@@ -160,8 +160,8 @@ TEST(Quadratic, DroopsUnderItsWeightAsABeam) {
 
 // With what plants use by default and with the paper's own integrator.
 TEST(Cantilever, UnfoldsFromBeingScrambled) {
-    for (frond_mechanics which : {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN})
-        for (frond_integrator integrator : {FROND_IMPLICIT_EULER, FROND_BDF2}) {
+    for (frond_mechanics which : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN})
+        for (frond_integrator integrator : {FROND_INTEGRATOR_IMPLICIT_EULER, FROND_INTEGRATOR_BDF2}) {
             Rig rig = drooping_beam(3, 26, which);
             rig.settings.integrator = integrator;
             rig.settings.mass_damping = 0.1;
@@ -173,8 +173,8 @@ TEST(Cantilever, UnfoldsFromBeingScrambled) {
         }
 }
 TEST(Quadratic, UnfoldsFromBeingScrambled) {
-    for (frond_mechanics which : {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN})
-        for (frond_integrator integrator : {FROND_IMPLICIT_EULER, FROND_BDF2}) {
+    for (frond_mechanics which : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN})
+        for (frond_integrator integrator : {FROND_INTEGRATOR_IMPLICIT_EULER, FROND_INTEGRATOR_BDF2}) {
             Rig rig = drooping_beam(1, 8, which, 2);
             rig.settings.integrator = integrator;
             rig.settings.mass_damping = 0.1;
@@ -189,22 +189,23 @@ TEST(Quadratic, UnfoldsFromBeingScrambled) {
 // A stout one, since a slender beam may keep a full turn of twist, which is a true balance. Even in this one a knot may
 // hold now and then.
 TEST(Cantilever, ComesToRestAsIfItHadNotBeenScrambled) {
-    for (frond_mechanics which : {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN})
-        for (frond_integrator integrator : {FROND_IMPLICIT_EULER, FROND_BDF2}) {
+    for (frond_mechanics which : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN})
+        for (frond_integrator integrator : {FROND_INTEGRATOR_IMPLICIT_EULER, FROND_INTEGRATOR_BDF2}) {
             int recovered = 0;
             for (uint64_t seed = 1; seed <= 8; ++seed) {
                 Rig rig(box_model(2, 2, 4, {0.1, 0.1, 0.2}, {800, 1e5, 0.3}), plain_settings(which));
                 rig.settings.integrator = integrator;
-                rig.settings.mass_damping = integrator == FROND_BDF2 ? 2 : 0;
+                rig.settings.mass_damping = integrator == FROND_INTEGRATOR_BDF2 ? 2 : 0;
                 rig.pin_below(2, 0);
                 rig.settings.newton_iterations = seed % 2 ? 1 : 4;
                 scramble(rig, seed);
                 const double before = rig.elastic_energy();
-                rig.steps(integrator == FROND_BDF2 ? 600 : 300, 1.0 / 60);
+                rig.steps(integrator == FROND_INTEGRATOR_BDF2 ? 600 : 300, 1.0 / 60);
                 EXPECT_LT(rig.elastic_energy(), before) << seed << " " << which << " " << integrator;
                 recovered += rig.elastic_energy() < 1e-6;
             }
-            const bool first = which == FROND_TET_COROTATIONAL && integrator == FROND_IMPLICIT_EULER;
+            const bool first =
+                which == FROND_MECHANICS_TET_COROTATIONAL && integrator == FROND_INTEGRATOR_IMPLICIT_EULER;
             EXPECT_GE(recovered, first ? 8 : 6) << which << " " << integrator;
         }
 }

@@ -27,8 +27,8 @@ void drag_corners(Rig& rig, double damping) {
         for (size_t k = 0; k < 4; ++k) {
             std::array<double, 4> weights = {0, 0, 0, 0};
             weights[k] = 1;
-            const Grip grip = tet_grip(place_in_tet(elements.nodes, elements.tets, int(t), weights));
-            rig.loads.drags.push_back({grip, damping * WIND, damping * Mat3::Identity()});
+            const Attachment attachment = tet_attachment(place_in_tet(elements.nodes, elements.tets, int(t), weights));
+            rig.loads.drags.push_back({attachment, damping * WIND, damping * Mat3::Identity()});
         }
 }
 
@@ -81,7 +81,7 @@ TEST(Drags, ForceIsMinusTheGradientOfThePotential) {
     for (int t : {3, 17}) {
         const Mat3 R = dice.rotation();
         const Mat3 damping = R * Vec3(1, 2, 0).asDiagonal() * R.transpose();
-        drags.push_back({tet_grip(place_in_tet(elements.nodes, elements.tets, t, {0.1, 0.2, 0.3, 0.4})),
+        drags.push_back({tet_attachment(place_in_tet(elements.nodes, elements.tets, t, {0.1, 0.2, 0.3, 0.4})),
                          Vec3(dice.vector(3, 5)), damping});
     }
     ASSERT_TRUE(drags_are_sound(*rig.system, drags));
@@ -121,7 +121,7 @@ TEST(Drags, ThatAreNotSoundAreRefused) {
     rig.loads.drags[1].damping(1, 1) = INFINITY;
     EXPECT_FALSE(rig.step(0.01).ok);
     rig.loads.drags = good;
-    rig.loads.drags[2].grip.node[0] = 99;
+    rig.loads.drags[2].attachment.node[0] = 99;
     EXPECT_FALSE(rig.step(0.01).ok);
 }
 

@@ -37,7 +37,7 @@ std::vector<Misuse> misuses() {
         {"spring_tet",
          [](Rig& r, double&) {
              r.loads.springs.push_back(tet_spring(*r.system, 0, {1, 0, 0, 0}, Vec3::Zero(), 1));
-             r.loads.springs.back().grip.node[0] = 9999;
+             r.loads.springs.back().attachment.node[0] = 9999;
          }},
         {"spring_weight",
          [=](Rig& r, double&) {
@@ -97,8 +97,8 @@ TEST(Failure, ANodeWithoutTetsDoesNotStopTheOthers) {
 }
 
 TEST(Failure, ASystemNeedsSoundInput) {
-    EXPECT_THROW(make_system(nullptr, FROND_TET_LINEAR, FROND_LUMPED), Error);
-    EXPECT_THROW(make_system(shared_box(1, 1, 1, {1, 1, 1}), FROND_TET_LINEAR, FROND_MASS_COUNT), Error);
+    EXPECT_THROW(make_system(nullptr, FROND_MECHANICS_TET_LINEAR, FROND_MASS_LUMPED), Error);
+    EXPECT_THROW(make_system(shared_box(1, 1, 1, {1, 1, 1}), FROND_MECHANICS_TET_LINEAR, FROND_MASS_COUNT), Error);
     EXPECT_THROW(make_workspace(nullptr), Error);
 }
 

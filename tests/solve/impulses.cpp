@@ -13,8 +13,8 @@ namespace {
 std::vector<std::vector<Coupling>> alone(double inverse_mass) {
     return {{{0, inverse_mass * Mat3::Identity()}}};
 }
-Touch touch_of(const Vec3& velocity, double friction, double least_speed = 0) {
-    return {Vec3::UnitY(), velocity, least_speed, friction};
+Touch touch_of(const Vec3& velocity, double friction, double bias_velocity = 0) {
+    return {Vec3::UnitY(), velocity, bias_velocity, friction};
 }
 
 TEST(Impulses, StopABallThatFallsAndLetOneGoThatRises) {
@@ -86,8 +86,8 @@ TEST(Impulses, MeetTheConditionsOfContactAndFriction) {
             for (int j = 0; j < count; j++) velocity += W.block<3, 3>(3 * i, 3 * j) * impulses[size_t(j)];
             const double push = impulses[size_t(i)].dot(touch.normal), part = velocity.dot(touch.normal);
             EXPECT_GE(push, 0);
-            EXPECT_GT(part, touch.least_speed - 1e-6);
-            EXPECT_NEAR(push * (part - touch.least_speed), 0, 1e-6);
+            EXPECT_GT(part, touch.bias_velocity - 1e-6);
+            EXPECT_NEAR(push * (part - touch.bias_velocity), 0, 1e-6);
             const Vec3 hold = impulses[size_t(i)] - push * touch.normal, sliding = velocity - part * touch.normal;
             EXPECT_LE(hold.norm(), 0.4 * push + 1e-9);
             if (hold.norm() < 0.4 * push - 1e-6) {

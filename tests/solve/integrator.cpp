@@ -14,7 +14,9 @@ namespace {
 struct EveryIntegrator : testing::TestWithParam<int> {
     const frond_integrator which = frond_integrator(GetParam());
     const Integrator& row = integrator(which);
-    int order() const { return which == FROND_IMPLICIT_EULER || which == FROND_SYMPLECTIC_EULER ? 1 : 2; }
+    int order() const {
+        return which == FROND_INTEGRATOR_IMPLICIT_EULER || which == FROND_INTEGRATOR_SYMPLECTIC_EULER ? 1 : 2;
+    }
 };
 std::string integrator_name(const testing::TestParamInfo<int>& info) {
     return integrator(frond_integrator(info.param)).name;
@@ -38,8 +40,8 @@ VecX swing(frond_mechanics mechanics, frond_integrator which, int steps, int new
 }
 
 TEST_P(EveryIntegrator, ConvergesWithItsOrderOnASwingingBeam) {
-    for (frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN}) {
-        const VecX exact = swing(mechanics, FROND_TR_BDF2, 1500, 20, 0.01, false);
+    for (frond_mechanics mechanics : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN}) {
+        const VecX exact = swing(mechanics, FROND_INTEGRATOR_TR_BDF2, 1500, 20, 0.01, false);
         for (int newton : {1, 20}) {
             const int coarse = row.is_explicit ? 1000 : 100;
             const double first = (swing(mechanics, which, coarse, newton, 0.01, false) - exact).norm();
@@ -51,9 +53,11 @@ TEST_P(EveryIntegrator, ConvergesWithItsOrderOnASwingingBeam) {
 }
 
 TEST(Bdf2, ConvergesWithItsOrderInUnevenSteps) {
-    const VecX exact = swing(FROND_TET_COROTATIONAL, FROND_TR_BDF2, 4000, 20, 0, false);
-    const double first = (swing(FROND_TET_COROTATIONAL, FROND_BDF2, 400, 20, 0, true) - exact).norm();
-    const double second = (swing(FROND_TET_COROTATIONAL, FROND_BDF2, 800, 20, 0, true) - exact).norm();
+    const VecX exact = swing(FROND_MECHANICS_TET_COROTATIONAL, FROND_INTEGRATOR_TR_BDF2, 4000, 20, 0, false);
+    const double first =
+        (swing(FROND_MECHANICS_TET_COROTATIONAL, FROND_INTEGRATOR_BDF2, 400, 20, 0, true) - exact).norm();
+    const double second =
+        (swing(FROND_MECHANICS_TET_COROTATIONAL, FROND_INTEGRATOR_BDF2, 800, 20, 0, true) - exact).norm();
     EXPECT_GT(std::log2(first / second), 1.7) << first << " " << second;
 }
 
@@ -65,8 +69,8 @@ struct Mode {
     VecX shape;
     Eigen::MatrixXd M;
     double omega = 0;
-    Mode(int number, frond_integrator which, frond_mass mass = FROND_LUMPED)
-        : rig(box_model(1, 1, 6, {0.1, 0.1, 0.6}, {1000, 1e5, 0.3}), plain_settings(FROND_TET_LINEAR), mass) {
+    Mode(int number, frond_integrator which, frond_mass mass = FROND_MASS_LUMPED)
+        : rig(box_model(1, 1, 6, {0.1, 0.1, 0.6}, {1000, 1e5, 0.3}), plain_settings(FROND_MECHANICS_TET_LINEAR), mass) {
         rig.settings.integrator = which;
         rig.pin_below(2, 0);
 
@@ -75,7 +79,8 @@ struct Mode {
         BlockMatrix K;
         K.set_pattern(elements_of(*rig.system).pattern);
         K.set_zero();
-        mechanics(FROND_TET_LINEAR).add_stiffness(elements_of(*rig.system), rig.motion.x, Tangent::exact, 1, K);
+        mechanics(FROND_MECHANICS_TET_LINEAR)
+            .add_stiffness(elements_of(*rig.system), rig.motion.x, Tangent::exact, 1, K);
         M.resize(n, n);
         for (Eigen::Index i = 0; i < n; ++i)
             for (Eigen::Index j = 0; j < n; ++j)
@@ -104,7 +109,7 @@ constexpr double ONE_HERTZ = 2 * M_PI / 60;  // at 1/60 s [radian]
 // Implicit Euler's amplitude goes down by 1 / sqrt(1 + z^2) a step and turns by atan z.
 TEST(ImplicitEuler, DampsAOneHertzModeAsItsClosedFormSays) {
     for (int mass = 0; mass < FROND_MASS_COUNT; ++mass) {
-        Mode mode(0, FROND_IMPLICIT_EULER, frond_mass(mass));
+        Mode mode(0, FROND_INTEGRATOR_IMPLICIT_EULER, frond_mass(mass));
         const double z = ONE_HERTZ;
         mode.rig.motion.x += 1e-3 * mode.shape;
         const int steps = 60;
@@ -125,18 +130,18 @@ TEST_P(EveryIntegrator, KeepsTheAmplitudeOfAOneHertzModeForFiveSeconds) {
     if (row.is_explicit) GTEST_SKIP() << "the beam's other modes are unstable at this step";
     const double kept = Mode(0, which).kept(ONE_HERTZ, 300);
     RecordProperty("kept", std::to_string(kept));
-    if (which == FROND_IMPLICIT_EULER) {
+    if (which == FROND_INTEGRATOR_IMPLICIT_EULER) {
         EXPECT_NEAR(kept, std::pow(1 + ONE_HERTZ * ONE_HERTZ, -150), 1e-6);
         EXPECT_NEAR(kept, 0.2, 0.01);
     } else {
-        EXPECT_GT(kept, which == FROND_BDF2 ? 0.95 : 0.99);
+        EXPECT_GT(kept, which == FROND_INTEGRATOR_BDF2 ? 0.95 : 0.99);
         EXPECT_LT(kept, 1.001);
     }
 }
 
 TEST(GeneralizedAlpha, DampsTheHighestFrequenciesAsItsSpectralRadiusSays) {
     for (double radius : {0.0, 0.5, 0.8, 1.0}) {
-        Mode mode(-1, FROND_GENERALIZED_ALPHA);
+        Mode mode(-1, FROND_INTEGRATOR_GENERALIZED_ALPHA);
         mode.rig.settings.spectral_radius = radius;
         mode.rig.motion.x += 1e-3 * mode.shape;
         // Its own first step damps this mode away, so the mode starts again at rest with the rates of its method.
@@ -179,7 +184,7 @@ TEST_P(EveryIntegrator, StaysStableWhenLetGoFromALargeBend) {
         rig.settings.integrator = which;
         rig.settings.newton_iterations = 1;
         const double bent = point(rig.motion.x, end).x() - rest, before = rig.elastic_energy();
-        if (mechanics != FROND_TET_LINEAR) {
+        if (mechanics != FROND_MECHANICS_TET_LINEAR) {
             EXPECT_GT(bent, 0.35);
         }
         double farthest = 0, energy = 0;
@@ -191,15 +196,15 @@ TEST_P(EveryIntegrator, StaysStableWhenLetGoFromALargeBend) {
         }
         const double kept = std::sqrt(energy / before);
         RecordProperty(std::string("kept_") + frond::mechanics(frond_mechanics(mechanics)).name, std::to_string(kept));
-        EXPECT_GT(kept, which == FROND_IMPLICIT_EULER ? 0.01 : 0.95) << mechanics;
-        EXPECT_GT(farthest, which == FROND_IMPLICIT_EULER ? 0.0 : 0.8 * bent) << mechanics;
+        EXPECT_GT(kept, which == FROND_INTEGRATOR_IMPLICIT_EULER ? 0.01 : 0.95) << mechanics;
+        EXPECT_GT(farthest, which == FROND_INTEGRATOR_IMPLICIT_EULER ? 0.0 : 0.8 * bent) << mechanics;
     }
 }
 
 TEST(SymplecticEuler, KeepsEnergyInTinyStepsAndBlowsUpInLargeOnes) {
     for (double h : {2e-5, 1.0 / 60}) {
         Rig rig(box_model(1, 4, 1, {0.1, 0.4, 0.1}, {900, 1e6, 0.3}), plain_settings());
-        rig.settings.integrator = FROND_SYMPLECTIC_EULER;
+        rig.settings.integrator = FROND_INTEGRATOR_SYMPLECTIC_EULER;
         rig.pin_below(1, 0);
         for (int i = 0; i < rig.node_count(); ++i) point(rig.motion.v, i).x() = point(rig.motion.x, i).y();
         const double before = kinetic_energy(*rig.system, rig.motion.v);
@@ -255,17 +260,17 @@ TEST_P(EveryIntegrator, GoesOnWithItsPastInACopyOfTheMotion) {
 
 TEST(Bdf2, StartsAnewAfterAJumpOfTheTimeStepAndAfterAnotherIntegrator) {
     for (double h : {0.9 / 8 / 60, 2.1 / 60}) {
-        Rig bdf2 = swinging(FROND_BDF2), sdirk2 = swinging(FROND_BDF2);
-        sdirk2.settings.integrator = FROND_SDIRK2;
+        Rig bdf2 = swinging(FROND_INTEGRATOR_BDF2), sdirk2 = swinging(FROND_INTEGRATOR_BDF2);
+        sdirk2.settings.integrator = FROND_INTEGRATOR_SDIRK2;
         bdf2.step(h);
         sdirk2.step(h);
         EXPECT_EQ(bdf2.motion.x, sdirk2.motion.x);
     }
-    Rig rig = swinging(FROND_BDF2), fresh = swinging(FROND_BDF2);
+    Rig rig = swinging(FROND_INTEGRATOR_BDF2), fresh = swinging(FROND_INTEGRATOR_BDF2);
     for (Rig* r : {&rig, &fresh}) {
-        r->settings.integrator = FROND_SDIRK2;
+        r->settings.integrator = FROND_INTEGRATOR_SDIRK2;
         r->step(1.0 / 60);
-        r->settings.integrator = FROND_BDF2;
+        r->settings.integrator = FROND_INTEGRATOR_BDF2;
     }
     fresh.motion.history = {};
     rig.step(1.0 / 60);
@@ -275,12 +280,12 @@ TEST(Bdf2, StartsAnewAfterAJumpOfTheTimeStepAndAfterAnotherIntegrator) {
 
 // One first step keeps the sway; where something pushes in every step, the others damp and cost one solve.
 TEST(Bdf2, StartsWithoutDampingButOnce) {
-    Rig bdf2 = swinging(FROND_BDF2), euler = swinging(FROND_BDF2);
+    Rig bdf2 = swinging(FROND_INTEGRATOR_BDF2), euler = swinging(FROND_INTEGRATOR_BDF2);
     for (int step = 0; step < 3; ++step) {
         for (Rig* rig : {&bdf2, &euler}) rig->motion.v *= 0.99;
         euler.motion.x = bdf2.motion.x;
         euler.motion.v = bdf2.motion.v;
-        euler.settings.integrator = FROND_IMPLICIT_EULER;
+        euler.settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
         EXPECT_EQ(bdf2.step(1.0 / 60).iterations, step == 0 ? 2 : 1);
         euler.step(1.0 / 60);
         EXPECT_EQ(bdf2.motion.x == euler.motion.x, step > 0);
@@ -292,7 +297,7 @@ TEST(Bdf2, StartsWithoutDampingButOnce) {
 
 TEST(Bdf2, StartsAsFreelyAsSdirk2FromABentShapeAtRest) {
     // The energy that the first step takes from a 1 Hz sway, of which implicit Euler takes a z^2-th part.
-    Mode mode(0, FROND_BDF2), euler(0, FROND_IMPLICIT_EULER);
+    Mode mode(0, FROND_INTEGRATOR_BDF2), euler(0, FROND_INTEGRATOR_IMPLICIT_EULER);
     EXPECT_LT(1 - mode.kept(ONE_HERTZ, 1), 1e-4);
     EXPECT_NEAR(1 - euler.kept(ONE_HERTZ, 1), ONE_HERTZ * ONE_HERTZ / 2, 1e-4);
 }

@@ -30,7 +30,7 @@ struct Problem {
         scratch.block.plan = &plan;
         A.set_pattern(elements.pattern);
         A.set_zero();
-        mechanics(FROND_TET_LINEAR).add_stiffness(elements, elements.rest_positions, Tangent::exact, 1, A);
+        mechanics(FROND_MECHANICS_TET_LINEAR).add_stiffness(elements, elements.rest_positions, Tangent::exact, 1, A);
         for (int j = 0; j < elements.node_count; ++j)
             A.block(elements.pattern.start[size_t(j)]).diagonal().array() += shift;
         b = Dice(seed).vector(3 * elements.node_count, 1);
@@ -127,7 +127,8 @@ TEST(Direct, FillsLittleMoreThanTheMatrixOnATree) {
 TEST(Direct, StepsAgreeWithPcg) {
     for (int which = 0; which < TET_MECHANICS; ++which) {
         Rig direct(tree_model(8, 6, 4, {900, 1e7, 0.3}), plain_settings(frond_mechanics(which)));
-        Rig pcg(tree_model(8, 6, 4, {900, 1e7, 0.3}), plain_settings(frond_mechanics(which), FROND_PCG_JACOBI));
+        Rig pcg(tree_model(8, 6, 4, {900, 1e7, 0.3}),
+                plain_settings(frond_mechanics(which), FROND_LINEAR_SOLVER_PCG_JACOBI));
         for (Rig* rig : {&direct, &pcg}) {
             rig->pin_below(1, 0);
             rig->loads.gravity = {2, -9.81, 0};
@@ -140,7 +141,8 @@ TEST(Direct, StepsAgreeWithPcg) {
 }
 
 TEST(Pcg, StepThatIsNotConvergedIsTakenAndReported) {
-    Rig rig(tree_model(8, 6, 4, {900, 1e7, 0.3}), plain_settings(FROND_TET_COROTATIONAL, FROND_PCG_JACOBI));
+    Rig rig(tree_model(8, 6, 4, {900, 1e7, 0.3}),
+            plain_settings(FROND_MECHANICS_TET_COROTATIONAL, FROND_LINEAR_SOLVER_PCG_JACOBI));
     rig.settings.max_iterations = 3;
     rig.pin_below(1, 0);
     rig.loads.gravity = {0, -9.81, 0};

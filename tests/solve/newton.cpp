@@ -8,7 +8,7 @@ namespace {
 
 // A soft beam thrown sideways hard, with all kinds of damping and a spring.
 Rig thrown(int iterations, double tolerance, double young = 2e5, double speed = 6,
-           frond_mechanics which = FROND_TET_COROTATIONAL, int order = 1) {
+           frond_mechanics which = FROND_MECHANICS_TET_COROTATIONAL, int order = 1) {
     RigSettings settings = plain_settings(which);
     settings.order = order;
     Rig rig(box_model(2, 8, 2, {0.1, 0.8, 0.1}, {900, young, 0.3}), settings);
@@ -25,7 +25,9 @@ Rig thrown(int iterations, double tolerance, double young = 2e5, double speed = 
 
 TEST(Newton, ConvergesQuadratically) {
     for (int order = 1; order <= HIGHEST_ORDER; ++order) {
-        const auto start = [&](int iterations) { return thrown(iterations, 0, 2e5, 6, FROND_TET_COROTATIONAL, order); };
+        const auto start = [&](int iterations) {
+            return thrown(iterations, 0, 2e5, 6, FROND_MECHANICS_TET_COROTATIONAL, order);
+        };
         Rig reference = start(40);
         const SolveReport report = reference.step(1.0 / 30);
         ASSERT_TRUE(report.ok && report.converged);
@@ -60,7 +62,7 @@ TEST(Newton, SaysWhetherItReachedItsTolerance) {
 }
 
 TEST(Newton, NeedsOneSolveForALinearBody) {
-    Rig rig = thrown(10, 1e-6, 2e5, 6, FROND_TET_LINEAR);
+    Rig rig = thrown(10, 1e-6, 2e5, 6, FROND_MECHANICS_TET_LINEAR);
     const SolveReport report = rig.step(1.0 / 30);
     EXPECT_TRUE(report.ok && report.converged);
     EXPECT_EQ(report.iterations, 1);

@@ -19,7 +19,7 @@ struct Bodies {
         for (int i = 0; i < count; i++) {
             Touch touch = {dice.rotation().col(0), dice.vector(3, 2), 0, 0.4};
             touch.depth = depth;
-            touch.least_shift = depth > 0 ? 0.1 : 0;
+            touch.least_correction = depth > 0 ? 0.1 : 0;
             touches.push_back(touch);
             coupling.emplace_back();
             for (int j = 0; j < count; j++) coupling.back().push_back({j, W.block<3, 3>(3 * i, 3 * j)});
@@ -55,7 +55,7 @@ TEST(Response, NoRowGivesEnergyToBodiesThatOnlyTouch) {
                 response.find(bodies.touches, coupling_table(bodies.coupling), settings, pushes);
                 ASSERT_EQ(pushes.impulses.size(), bodies.touches.size());
                 EXPECT_LT(bodies.gain(pushes.impulses), 1e-5) << response.name << " " << stiffness;
-                EXPECT_TRUE(pushes.shifts.empty());
+                EXPECT_TRUE(pushes.corrections.empty());
                 for (size_t i = 0; i < bodies.touches.size(); i++) {
                     const double push = pushes.impulses[i].dot(bodies.touches[i].normal);
                     EXPECT_GE(push, 0);
@@ -68,7 +68,7 @@ TEST(Response, NoRowGivesEnergyToBodiesThatOnlyTouch) {
 TEST(Response, PartsTwoBodiesThatOverlapAtRest) {
     Touch touch = {Vec3::UnitY(), Vec3::Zero(), 0, 0.5};
     touch.depth = 0.01;
-    touch.least_shift = 0.12;
+    touch.least_correction = 0.12;
     const std::vector<std::vector<Coupling>> own = {{{0, 2 * Mat3::Identity()}}};
     ResponseSettings settings;
     settings.h = 1.0 / 60;
@@ -76,28 +76,28 @@ TEST(Response, PartsTwoBodiesThatOverlapAtRest) {
     // By shifts, that give no velocity.
     response_row(FROND_RESPONSE_IMPULSE).find({touch}, coupling_table(own), settings, pushes);
     EXPECT_NEAR(pushes.impulses[0].norm(), 0, 1e-12);
-    EXPECT_NEAR(2 * pushes.shifts[0].y(), 0.12, 1e-9);
+    EXPECT_NEAR(2 * pushes.corrections[0].y(), 0.12, 1e-9);
     const ResponseRow& penalty = response_row(FROND_RESPONSE_PENALTY);
     penalty.find({touch}, coupling_table(own), settings, pushes);
     EXPECT_NEAR(pushes.impulses[0].norm(), 0, 1e-12);
-    EXPECT_NEAR(2 * pushes.shifts[0].y(), 0.12, 1e-9);
+    EXPECT_NEAR(2 * pushes.corrections[0].y(), 0.12, 1e-9);
     // Where velocities see to it, by a spring, no faster than 0.3 m/s however stiff it is.
-    touch.least_shift = Touch::NO_SHIFT;
+    touch.least_correction = Touch::NO_CORRECTION;
     settings.stiffness = 1e12;
     penalty.find({touch}, coupling_table(own), settings, pushes);
-    EXPECT_TRUE(pushes.shifts.empty());
+    EXPECT_TRUE(pushes.corrections.empty());
     EXPECT_NEAR(2 * pushes.impulses[0].y(), 0.3, 1e-6);
     EXPECT_EQ(response_row(FROND_RESPONSE_NONE).find, nullptr);
 }
 
 TEST(Response, WhatCannotPartDoesNotPushWithoutEnd) {
     std::vector<Touch> touches(2, Touch{Vec3::UnitY(), Vec3::Zero(), 0, 0});
-    for (Touch& touch : touches) touch.depth = 0.01, touch.least_shift = 0.12, touch.most_shift = 0.1;
+    for (Touch& touch : touches) touch.depth = 0.01, touch.least_correction = 0.12, touch.most_correction = 0.1;
     const std::vector<std::vector<Coupling>> own = {{{0, 1e-3 * Mat3::Identity()}}, {{1, 2 * Mat3::Identity()}}};
     Pushes pushes;
     response_row(FROND_RESPONSE_IMPULSE).find(touches, coupling_table(own), {}, pushes);
-    EXPECT_NEAR(pushes.shifts[0].y(), 0.1, 1e-12);
-    EXPECT_NEAR(pushes.shifts[1].y(), 0.06, 1e-9);
+    EXPECT_NEAR(pushes.corrections[0].y(), 0.1, 1e-12);
+    EXPECT_NEAR(pushes.corrections[1].y(), 0.06, 1e-9);
 }
 
 TEST(Impulses, OfBodiesThatHaveNothingToDoWithEachOtherAreFoundApart) {

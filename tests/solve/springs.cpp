@@ -21,7 +21,7 @@ TEST_P(EverySpring, HangsFromASpringByItsWeight) {
     const double stiffness = 10;
     rig.loads.springs.push_back(tet_spring(*rig.system, 0, middle, target, stiffness));
     rig.steps(1200, H);
-    const Vec3 held = grip_place(rig.loads.springs[0].grip, rig.motion.x);
+    const Vec3 held = attachment_place(rig.loads.springs[0].attachment, rig.motion.x);
     const Vec3 expected = target + rig.mass() * rig.loads.gravity / stiffness;
     EXPECT_NEAR((held - expected).norm(), 0, 1e-7);
 }
@@ -42,11 +42,12 @@ TEST_P(EverySpring, PullsAPinnedBodyUntilElasticForceBalancesTheSpring) {
     VecX f = VecX::Zero(rig.motion.x.size());
     rig.row().add_force(elements_of(*rig.system), rig.motion.x, f);
     Vec3 held = Vec3::Zero();
-    const Grip& grip = spring.grip;
-    for (size_t a = 0; a < size_t(grip.count); ++a) held += grip.weight[a] * point(rig.motion.x, grip.node[a]);
+    const Attachment& attachment = spring.attachment;
+    for (size_t a = 0; a < size_t(attachment.count); ++a)
+        held += attachment.weight[a] * point(rig.motion.x, attachment.node[a]);
     const Vec3 pull = spring.stiffness * (spring.target - held);
     EXPECT_GT(pull.norm(), 0.5);
-    for (size_t a = 0; a < size_t(grip.count); ++a) point(f, grip.node[a]) += grip.weight[a] * pull;
+    for (size_t a = 0; a < size_t(attachment.count); ++a) point(f, attachment.node[a]) += attachment.weight[a] * pull;
     for (int i = 0; i < rig.node_count(); ++i)
         EXPECT_NEAR(rig.motion.pinned[size_t(i)] ? 0 : point(f, i).norm(), 0, 1e-6 * pull.norm()) << i;
 }

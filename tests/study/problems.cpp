@@ -64,7 +64,7 @@ TEST_P(EveryProblem, RunsAndKeepsItsError) {
         // our own, one cell across, were rolled up to was 0.3 to 0.4 of the length off, where a step's energy was not
         // looked at.
         const bool may_fail = point.setup.plant.integrator != frond_default_plant_def().integrator ||
-                              (problem == "greenhill" && point.setup.plant.mechanics == FROND_TET_LINEAR) ||
+                              (problem == "greenhill" && point.setup.plant.mechanics == FROND_MECHANICS_TET_LINEAR) ||
                               (problem == "roll_up" && (point.failure == "lost" || point.setup.body == Body::MESH)) ||
                               (problem == "reconfiguration" && point.setup.body == Body::MESH);
         EXPECT_TRUE(may_fail || point.failure.empty()) << point.series << ": " << point.failure;
@@ -123,7 +123,7 @@ TEST(Setups, AreToldByWhatTheyChange) {
     const Choice base = find_problem("swing").baseline();
     Choice other = base;
     other.dt = 1.0 / 240;
-    other.plant.integrator = FROND_IMPLICIT_EULER;
+    other.plant.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     EXPECT_EQ(difference(other, base), "1/240 s, implicit_euler");
     EXPECT_NE(key_of(other), key_of(base));
     EXPECT_EQ(time_step_text(0.75), "0.75 s");
@@ -135,9 +135,9 @@ TEST(Rods, SwayInTheirFirstThreeModesAsTheFormulaSays) {
     const Problem& problem = find_problem("frequencies");
     Choice setup = problem.baseline();
     EXPECT_EQ(setup.dt, 1.0 / 240);
-    setup.plant.mechanics = FROND_ROD;
-    setup.plant.mass = FROND_CONSISTENT;
-    setup.plant.integrator = FROND_SDIRK2;
+    setup.plant.mechanics = FROND_MECHANICS_ROD;
+    setup.plant.mass = FROND_MASS_CONSISTENT;
+    setup.plant.integrator = FROND_INTEGRATOR_SDIRK2;
     for (int pieces : {10, 20}) {
         setup.resolution = pieces;
         const Outcome outcome = problem.run(setup, session);
@@ -160,7 +160,7 @@ TEST(Rods, BendAndTwistAndBuckleAsTheFormulasSay) {
     for (const auto& row : rows) {
         const Problem& problem = find_problem(row.problem);
         Choice setup = problem.baseline();
-        setup.plant.mechanics = FROND_ROD;
+        setup.plant.mechanics = FROND_MECHANICS_ROD;
         setup.resolution = row.pieces;
         EXPECT_LT(problem.run(setup, session).error, row.error) << row.problem;
     }
@@ -176,7 +176,8 @@ double deflection_at(const Outcome& outcome, const std::string& aspect) {
 TEST(Cells, BendAsTheFormulaSaysHoweverLong) {
     Session session;
     const Problem& problem = find_problem("aspect");
-    for (const frond_mechanics mechanics : {FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN}) {
+    for (const frond_mechanics mechanics :
+         {FROND_MECHANICS_TET_LINEAR, FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN}) {
         Choice setup = problem.baseline();
         setup.plant.mechanics = mechanics;
         EXPECT_LT(problem.run(setup, session).error, 0.05) << frond_mechanics_name(mechanics);
@@ -211,9 +212,9 @@ TEST(Amplitude, IsKeptAsTheIntegratorsSay) {
     session.effort = Effort::TINY;
     const Problem& problem = find_problem("amplitude");
     Choice setup = problem.baseline();
-    setup.plant.mechanics = FROND_ROD;  // whose mode is the beam's own
+    setup.plant.mechanics = FROND_MECHANICS_ROD;  // whose mode is the beam's own
     EXPECT_LT(problem.run(setup, session).error, 0.05);
-    setup.plant.integrator = FROND_IMPLICIT_EULER;
+    setup.plant.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     const double z = 2 * M_PI * setup.dt, zeta = implicit_euler_damping(z);
     EXPECT_NEAR(1 - problem.run(setup, session).error, std::exp(-300 * zeta * std::atan(z)), 0.02);
 }

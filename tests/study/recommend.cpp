@@ -23,7 +23,7 @@ frond_advice advice_for(const Model& model, double error, double cpu) {
 Setup setup_of(const frond_advice& advice) {
     Setup setup;
     setup.plant = advice.plant;
-    setup.plant.effects &= ~uint32_t(FROND_DAMPING);
+    setup.plant.effects &= ~uint32_t(FROND_EFFECT_DAMPING);
     setup.dt = advice.time_step;
     setup.resolution =
         int(std::lround(Beam::LENGTH / (advice.capsule_height > 0 ? advice.capsule_height : advice.cage_size)));
@@ -96,14 +96,15 @@ TEST(Recommend, RefusesWhatCannotBeAndSaysWhatCan) {
     frond_advice advice;
     for (const auto& [error, cpu] :
          {std::pair<double, double>{0, 0}, {0.1, 0.1}, {-1, 0}, {NAN, 0}, {2, 0}, {0, INFINITY}}) {
-        EXPECT_EQ(frond_recommend(model->handle, error, cpu, &advice), FROND_BAD_ARGUMENT) << error << " " << cpu;
+        EXPECT_EQ(frond_recommend(model->handle, error, cpu, &advice), FROND_RESULT_BAD_ARGUMENT)
+            << error << " " << cpu;
         EXPECT_EQ(advice.time_step, 0);
     }
-    EXPECT_EQ(frond_recommend(model->handle, 0.1, 0, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_recommend({}, 0.1, 0, &advice), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_recommend(model->handle, 1e-9, 0, &advice), FROND_UNSUPPORTED);
+    EXPECT_EQ(frond_recommend(model->handle, 0.1, 0, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_recommend({}, 0.1, 0, &advice), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_recommend(model->handle, 1e-9, 0, &advice), FROND_RESULT_UNSUPPORTED);
     EXPECT_NE(std::string(frond_last_error()).find("the least is"), std::string::npos);
-    EXPECT_EQ(frond_recommend(model->handle, 0, 1e-12, &advice), FROND_UNSUPPORTED);
+    EXPECT_EQ(frond_recommend(model->handle, 0, 1e-12, &advice), FROND_RESULT_UNSUPPORTED);
     EXPECT_NE(std::string(frond_last_error()).find("the cheapest take"), std::string::npos);
 }
 

@@ -13,18 +13,18 @@
 namespace frond::test {
 
 // The mechanics that move the cage come first in the list.
-constexpr int TET_MECHANICS = FROND_TET_NEOHOOKEAN + 1;
+constexpr int TET_MECHANICS = FROND_MECHANICS_TET_NEOHOOKEAN + 1;
 
 struct RigSettings : SolveSettings {
     frond_mechanics mechanics;
     int order = 1;  // of its elements
 };
 
-inline RigSettings plain_settings(frond_mechanics mechanics = FROND_TET_COROTATIONAL,
-                                  frond_linear_solver solver = FROND_BLOCK) {
+inline RigSettings plain_settings(frond_mechanics mechanics = FROND_MECHANICS_TET_COROTATIONAL,
+                                  frond_linear_solver solver = FROND_LINEAR_SOLVER_BLOCK) {
     RigSettings s = {};
     s.mechanics = mechanics;
-    s.integrator = FROND_IMPLICIT_EULER;
+    s.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     s.linear_solver = solver;
     s.newton_iterations = 1;
     s.newton_tolerance = 1e-8;
@@ -45,7 +45,7 @@ inline double kinetic_energy(const System& system, const VecX& v) {
 inline Spring tet_spring(const System& system, int tet, const std::array<double, 4>& weights, const Vec3& target,
                          double stiffness) {
     const TetElements& elements = tets_of(system);
-    return {tet_grip(place_in_tet(elements.nodes, elements.tets, tet, weights)), target, stiffness};
+    return {tet_attachment(place_in_tet(elements.nodes, elements.tets, tet, weights)), target, stiffness};
 }
 
 struct Rig {
@@ -57,7 +57,7 @@ struct Rig {
     Loads loads;
     Motion motion;
 
-    Rig(const Model& made, const RigSettings& with, frond_mass mass = FROND_LUMPED)
+    Rig(const Model& made, const RigSettings& with, frond_mass mass = FROND_MASS_LUMPED)
         : model(std::make_shared<const Model>(made)),
           system(make_system(model, with.mechanics, mass, with.order)),
           workspace(make_workspace(system)),
@@ -100,9 +100,11 @@ inline std::vector<Combination> every_combination() {
         for (int i = 0; i < FROND_INTEGRATOR_COUNT; ++i)
             for (int l = 0; l < FROND_LINEAR_SOLVER_COUNT; ++l)
                 for (int k = 0; k < FROND_MASS_COUNT; ++k)
-                    if (l == FROND_BLOCK || i == FROND_IMPLICIT_EULER) all.push_back({m, 1, i, l, k});
+                    if (l == FROND_LINEAR_SOLVER_BLOCK || i == FROND_INTEGRATOR_IMPLICIT_EULER)
+                        all.push_back({m, 1, i, l, k});
     for (int m = 0; m < TET_MECHANICS; ++m)
-        for (int i = 0; i < FROND_INTEGRATOR_COUNT; ++i) all.push_back({m, 2, i, FROND_BLOCK, (m + i) % 2});
+        for (int i = 0; i < FROND_INTEGRATOR_COUNT; ++i)
+            all.push_back({m, 2, i, FROND_LINEAR_SOLVER_BLOCK, (m + i) % 2});
     return all;
 }
 struct EveryCombination : testing::TestWithParam<Combination> {

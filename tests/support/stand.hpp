@@ -129,8 +129,8 @@ struct Placement {
 constexpr Placement AS_IN_SCENE = {{0.9, 0, 0.03}, {0.1, -0.05}}, AS_IN_EXAMPLE = {{0.9, 0, 0.03}, {0, 0}};
 
 struct CornPair : Stand {
-    explicit CornPair(frond_response response, frond_mechanics mechanics = FROND_TET_COROTATIONAL, double step = H,
-                      const Placement& placement = AS_IN_SCENE)
+    explicit CornPair(frond_response response, frond_mechanics mechanics = FROND_MECHANICS_TET_COROTATIONAL,
+                      double step = H, const Placement& placement = AS_IN_SCENE)
         : Stand(def_of(response, step)) {
         h = step;
         load_corn();

@@ -18,7 +18,7 @@ frond_rigid_def draw_box(unsigned seed) {
     std::mt19937 random(seed);
     random.discard(5);
     frond_rigid_def box = frond_default_rigid_def();
-    box.shape = FROND_BOX;
+    box.shape = FROND_SHAPE_BOX;
     box.size.x = between(random, 0.05, 0.14);
     box.size.z = between(random, 0.05, 0.14);
     box.size.y = between(random, 0.03, 0.07);
@@ -37,8 +37,10 @@ struct Dropped {
 };
 struct Boxes : testing::TestWithParam<Dropped> {};
 INSTANTIATE_TEST_SUITE_P(Leaves, Boxes,
-                         testing::Values(Dropped{FROND_TET_COROTATIONAL, 1009}, Dropped{FROND_TET_COROTATIONAL, 1016},
-                                         Dropped{FROND_ROD, 1008}, Dropped{FROND_ROD, 1034}, Dropped{FROND_ROD, 1039}),
+                         testing::Values(Dropped{FROND_MECHANICS_TET_COROTATIONAL, 1009},
+                                         Dropped{FROND_MECHANICS_TET_COROTATIONAL, 1016},
+                                         Dropped{FROND_MECHANICS_ROD, 1008}, Dropped{FROND_MECHANICS_ROD, 1034},
+                                         Dropped{FROND_MECHANICS_ROD, 1039}),
                          [](const auto& info) {
                              return std::string(frond_mechanics_name(info.param.mechanics)) + "_" +
                                     std::to_string(info.param.seed);
@@ -51,7 +53,7 @@ TEST_P(Boxes, ComeToRestOnLeavesAndStay) {
     Stage stage(settings);
     stage.plant(make_rosette(stage), {0, 0, 0});
     frond_rigid_def ground = frond_default_rigid_def();
-    ground.shape = FROND_PLANE;
+    ground.shape = FROND_SHAPE_PLANE;
     ground.mass = 0;
     stage.rigid(ground);
     const frond_rigid box = stage.rigid(draw_box(GetParam().seed));

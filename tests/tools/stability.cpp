@@ -16,15 +16,15 @@ static Result red(const char* name, frond_mechanics mechanics, frond_integrator 
 }
 
 TEST(Stability, ARedCellOfAnyIntegratorNeedsAnExplanation) {
-    EXPECT_FALSE(is_unexplained(red("dropped", FROND_TET_LINEAR, FROND_SDIRK2)));
-    EXPECT_FALSE(is_unexplained(red("needles", FROND_ROD, FROND_IMPLICIT_EULER)));
-    EXPECT_TRUE(is_unexplained(red("needles", FROND_ROD, FROND_SDIRK2)));
-    EXPECT_TRUE(is_unexplained(red("dropped", FROND_TET_COROTATIONAL, FROND_TR_BDF2)));
-    EXPECT_TRUE(is_unexplained(red("spun", FROND_ROD, FROND_BDF2)));
+    EXPECT_FALSE(is_unexplained(red("dropped", FROND_MECHANICS_TET_LINEAR, FROND_INTEGRATOR_SDIRK2)));
+    EXPECT_FALSE(is_unexplained(red("needles", FROND_MECHANICS_ROD, FROND_INTEGRATOR_IMPLICIT_EULER)));
+    EXPECT_TRUE(is_unexplained(red("needles", FROND_MECHANICS_ROD, FROND_INTEGRATOR_SDIRK2)));
+    EXPECT_TRUE(is_unexplained(red("dropped", FROND_MECHANICS_TET_COROTATIONAL, FROND_INTEGRATOR_TR_BDF2)));
+    EXPECT_TRUE(is_unexplained(red("spun", FROND_MECHANICS_ROD, FROND_INTEGRATOR_BDF2)));
 }
 
 TEST(Stability, AGreenCellNeedsNone) {
-    Result green = red("spun", FROND_ROD, FROND_BDF2);
+    Result green = red("spun", FROND_MECHANICS_ROD, FROND_INTEGRATOR_BDF2);
     green.verdict = {};
     green.verdict.color = Color::GREEN;
     EXPECT_FALSE(is_unexplained(green));
@@ -32,7 +32,7 @@ TEST(Stability, AGreenCellNeedsNone) {
 }
 
 TEST(Stability, ACrashIsNeverExplained) {
-    Result crashed = red("dropped", FROND_TET_LINEAR, FROND_BDF2);
+    Result crashed = red("dropped", FROND_MECHANICS_TET_LINEAR, FROND_INTEGRATOR_BDF2);
     const std::vector<Verdict> verdicts = run_apart(
         1, {}, [](size_t) -> Verdict { std::_Exit(1); }, [](int) {});
     crashed.verdict = verdicts.front();
@@ -42,7 +42,7 @@ TEST(Stability, ACrashIsNeverExplained) {
 }
 
 TEST(Stability, ACallThatFailsIsNeverExplained) {
-    Result failed = red("dropped", FROND_TET_LINEAR, FROND_BDF2);
+    Result failed = red("dropped", FROND_MECHANICS_TET_LINEAR, FROND_INTEGRATOR_BDF2);
     failed.verdict = run_apart(
                          1, {}, [](size_t) { return verdict_of([] { find_case("no_such_case"); }); }, [](int) {})
                          .front();
@@ -51,7 +51,7 @@ TEST(Stability, ACallThatFailsIsNeverExplained) {
 }
 
 TEST(Stability, ACriterionThatWasMissedIsToldByTheProcessThatMissedIt) {
-    Result dropped = red("dropped", FROND_TET_LINEAR, FROND_BDF2);
+    Result dropped = red("dropped", FROND_MECHANICS_TET_LINEAR, FROND_INTEGRATOR_BDF2);
     dropped.cell.dt = 0.1;
     dropped.verdict = run_apart(
                           1, {}, [&](size_t) { return run_cell(*dropped.of, dropped.cell); }, [](int) {})
@@ -61,8 +61,8 @@ TEST(Stability, ACriterionThatWasMissedIsToldByTheProcessThatMissedIt) {
 }
 
 TEST(Stability, TheTableShowsAnUnexplainedCellBeforeOthers) {
-    const std::string text =
-        text_of({red("needles", FROND_ROD, FROND_IMPLICIT_EULER), red("needles", FROND_ROD, FROND_SDIRK2)});
+    const std::string text = text_of({red("needles", FROND_MECHANICS_ROD, FROND_INTEGRATOR_IMPLICIT_EULER),
+                                      red("needles", FROND_MECHANICS_ROD, FROND_INTEGRATOR_SDIRK2)});
     EXPECT_NE(text.find("red: needles, rod, sdirk2, 1/60 s: missed\n"), std::string::npos) << text;
     EXPECT_NE(text.find("2 cells: 0 green, 0 grey (not applicable), 2 red, 1 of them unexplained"), std::string::npos)
         << text;

@@ -131,23 +131,24 @@ TEST(ViewSwitches, ChangeMechanicsIntegratorsAndEffectsWhileItRuns) {
     frond_report report;
     for (int i = 0; i < FROND_MECHANICS_COUNT + FROND_INTEGRATOR_COUNT; i++) {
         press(viewer, i < FROND_MECHANICS_COUNT ? 'm' : 'i');
-        if (viewer.settings.plant.integrator == FROND_SYMPLECTIC_EULER) continue;  // is unstable at this step
+        if (viewer.settings.plant.integrator == FROND_INTEGRATOR_SYMPLECTIC_EULER)
+            continue;  // is unstable at this step
         for (int k = 0; k < 3; k++) advance(viewer, viewer.settings.dt);
         EXPECT_EQ(viewer.trouble & FROND_TROUBLE_REWOUND, 0u) << i;
     }
-    EXPECT_EQ(viewer.settings.plant.mechanics, FROND_TET_COROTATIONAL);
-    EXPECT_EQ(viewer.settings.plant.integrator, FROND_BDF2);
-    toggle_effect(viewer, FROND_GRAVITY);
+    EXPECT_EQ(viewer.settings.plant.mechanics, FROND_MECHANICS_TET_COROTATIONAL);
+    EXPECT_EQ(viewer.settings.plant.integrator, FROND_INTEGRATOR_BDF2);
+    toggle_effect(viewer, FROND_EFFECT_GRAVITY);
     advance(viewer, viewer.settings.dt);
     ASSERT_EQ(frond_world_get_report(viewer.play->stage.world, &report), FROND_OK);
-    EXPECT_EQ(report.effects_run & FROND_GRAVITY, 0u);
+    EXPECT_EQ(report.effects_run & FROND_EFFECT_GRAVITY, 0u);
     // They stay over a start from the beginning.
     press(viewer, 'm');
     reset(viewer);
     advance(viewer, viewer.settings.dt);
     ASSERT_EQ(frond_world_get_report(viewer.play->stage.world, &report), FROND_OK);
-    EXPECT_EQ(report.effects_run & FROND_GRAVITY, 0u);
-    EXPECT_EQ(viewer.settings.plant.mechanics, FROND_TET_NEOHOOKEAN);
+    EXPECT_EQ(report.effects_run & FROND_EFFECT_GRAVITY, 0u);
+    EXPECT_EQ(viewer.settings.plant.mechanics, FROND_MECHANICS_TET_NEOHOOKEAN);
 }
 
 TEST(ViewBall, FliesAtWhatIsUnderTheMouse) {
@@ -188,11 +189,11 @@ TEST(ViewPanel, TellsCostsAndDoesWhatIsClicked) {
     move_mouse(viewer, PANEL_LEFT + 60, PANEL_TOP + (double(wind_row) + 0.5) * ROW_HEIGHT);
     press_button(viewer, Button::LEFT);
     release_button(viewer, Button::LEFT);
-    EXPECT_EQ(viewer.settings.plant.effects, before ^ FROND_WIND);
+    EXPECT_EQ(viewer.settings.plant.effects, before ^ FROND_EFFECT_WIND);
     // Hidden, it is not in the way; its keys work.
     press(viewer, 'h');
     press_button(viewer, Button::LEFT);
-    EXPECT_EQ(viewer.settings.plant.effects, before ^ FROND_WIND);
+    EXPECT_EQ(viewer.settings.plant.effects, before ^ FROND_EFFECT_WIND);
     release_button(viewer, Button::LEFT);
     press(viewer, 'c');
     EXPECT_TRUE(viewer.overlays[size_t(Overlay::CAGE)]);

@@ -87,13 +87,13 @@ struct Shelf {
 };
 
 struct Blade : testing::TestWithParam<frond_mechanics> {};
-INSTANTIATE_TEST_SUITE_P(Contact, Blade, testing::Values(FROND_TET_COROTATIONAL, FROND_ROD),
+INSTANTIATE_TEST_SUITE_P(Contact, Blade, testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
 // Beside the midrib: on capsules along that it would tip off.
 TEST_P(Blade, BearsABoxBesideItsMidribAtRest) {
     Shelf shelf(GetParam());
-    shelf.add(FROND_BOX, {0.03, 0.015, 0.025}, 0.01, {0.15, HEIGHT + 0.02, 0.028});
+    shelf.add(FROND_SHAPE_BOX, {0.03, 0.015, 0.025}, 0.01, {0.15, HEIGHT + 0.02, 0.028});
     shelf.steps(180);
     const frond_rigid_state before = shelf.state();
     // On the blade itself, not on its capsules, which are as thick as a third of its width.
@@ -112,7 +112,7 @@ TEST_P(Blade, BearsABoxBesideItsMidribAtRest) {
 TEST_P(Blade, IsFeltAtItsRim) {
     Shelf shelf(GetParam());
     const double finger = 0.01, beside = 0.85 * HALF_WIDTH;  // [m]
-    shelf.add(FROND_SPHERE, {finger, 0, 0}, 0, {0.2, HEIGHT + 0.03, beside});
+    shelf.add(FROND_SHAPE_SPHERE, {finger, 0, 0}, 0, {0.2, HEIGHT + 0.03, beside});
     const frond_vec3 near = shelf.place_of(0.2, HALF_WIDTH), far = shelf.place_of(0.2, -HALF_WIDTH);
     for (int i = 0; i < 60; i++) {
         frond_rigid_state state = shelf.state();

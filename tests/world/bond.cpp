@@ -10,7 +10,7 @@ namespace {
 frond_rigid add_body(frond_world world, double mass, frond_vec3 place, frond_vec3 velocity = {0, 0, 0}) {
     frond_rigid_def def = frond_default_rigid_def();
     def.size = {0.03, 0.03, 0.03};
-    def.shape = FROND_BOX;
+    def.shape = FROND_SHAPE_BOX;
     def.mass = mass;
     def.state.position = place;
     def.state.velocity = velocity;
@@ -43,7 +43,7 @@ struct EveryBond : testing::TestWithParam<frond_mechanics> {
         return def;
     }
 };
-INSTANTIATE_TEST_SUITE_P(Bond, EveryBond, testing::Values(FROND_TET_COROTATIONAL, FROND_ROD),
+INSTANTIATE_TEST_SUITE_P(Bond, EveryBond, testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
 // A weight that hangs on a tip: the bond bears it, and does not give.
@@ -53,7 +53,8 @@ TEST_P(EveryBond, BearsAWeight) {
     const frond_rigid weight = add_body(small.world, MASS, {0.25, 0.4, 0});
     frond_bond bond = {};
     ASSERT_EQ(frond_bond_create(small.plant, {0.2, 0.45, 0}, weight, &bond), FROND_OK) << frond_last_error();
-    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_EFFECT_DEFAULT & ~uint32_t(FROND_EFFECT_RIGID_CONTACT)),
+              FROND_OK);
     const frond_vec3 before = held_by(bond);
     const double apart = distance(before, place_of(weight));
     step(small.world, 300);
@@ -84,7 +85,8 @@ TEST_P(EveryBond, CarriesAPlant) {
         frond_bond bond = {};
         ASSERT_EQ(frond_bond_create(small.plant, foot, pot, &bond), FROND_OK) << frond_last_error();
     }
-    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_EFFECT_DEFAULT & ~uint32_t(FROND_EFFECT_RIGID_CONTACT)),
+              FROND_OK);
     step(small.world, 60);
     frond_vec3 before = {}, after = {};
     ASSERT_EQ(frond_plant_get_tip(small.plant, &before), FROND_OK);
@@ -107,9 +109,9 @@ TEST_P(EveryBond, KeepsMomentum) {
     constexpr double MASS = 0.2;
     SmallWorld small(def(-1), 1e8);
     ASSERT_EQ(frond_world_set_gravity(small.world, {0, 0, 0}), FROND_OK);
-    ASSERT_EQ(
-        frond_plant_set_effects(small.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT | FROND_DAMPING)),
-        FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(
+                  small.plant, FROND_EFFECT_DEFAULT & ~uint32_t(FROND_EFFECT_RIGID_CONTACT | FROND_EFFECT_DAMPING)),
+              FROND_OK);
     const frond_rigid body = add_body(small.world, MASS, {0.05, 0.6, 0}, {1, 0, 0.5});
     frond_bond bond = {};
     ASSERT_EQ(frond_bond_create(small.plant, {0.01, 0.6, 0}, body, &bond), FROND_OK) << frond_last_error();
@@ -141,7 +143,7 @@ TEST(Bond, LetsGoWhenEitherSideIsGone) {
     frond_plant_destroy(small.plant);
     EXPECT_FALSE(frond_bond_is_valid(bond));
     EXPECT_FALSE(frond_bond_is_valid(other));
-    EXPECT_EQ(frond_bond_get(other, nullptr, nullptr), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_bond_get(other, nullptr, nullptr), FROND_RESULT_BAD_HANDLE);
     frond_bond_destroy(other);
     step(small.world, 2);
 }
@@ -150,17 +152,17 @@ TEST(Bond, RefusesWhatCannotBe) {
     SmallWorld small, elsewhere;
     const frond_rigid body = add_body(small.world, 1, {0, 0.63, 0}), far = add_body(elsewhere.world, 1, {0, 0.63, 0});
     frond_bond bond = {};
-    EXPECT_EQ(frond_bond_create(small.plant, {0, NAN, 0}, body, &bond), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_bond_create(small.plant, {0, 0, 0}, far, &bond), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_bond_create(small.plant, {0, 0, 0}, body, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_bond_create({}, {0, 0, 0}, body, &bond), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_bond_create(small.plant, {0, 0, 0}, {}, &bond), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_bond_create(small.plant, {0, NAN, 0}, body, &bond), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_bond_create(small.plant, {0, 0, 0}, far, &bond), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_bond_create(small.plant, {0, 0, 0}, body, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_bond_create({}, {0, 0, 0}, body, &bond), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_bond_create(small.plant, {0, 0, 0}, {}, &bond), FROND_RESULT_BAD_HANDLE);
     EXPECT_EQ(bond.id, 0u);
-    EXPECT_EQ(frond_bond_get(bond, nullptr, nullptr), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_bond_get(bond, nullptr, nullptr), FROND_RESULT_BAD_HANDLE);
     // In a host's world likewise.
-    EXPECT_EQ(frond::bond(small.plant, btVector3(0, 0, 0), nullptr, &bond), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond::bond(small.plant, btVector3(0, 0, 0), nullptr, &bond), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(frond::bond(small.plant, btVector3(0, 0, 0), frond::bullet_object(small.plant), &bond),
-              FROND_BAD_ARGUMENT);
+              FROND_RESULT_BAD_ARGUMENT);
     auto* object = const_cast<btCollisionObject*>(static_cast<const btCollisionObject*>(frond_rigid_get_body(body)));
     EXPECT_EQ(frond::bond(small.plant, btVector3(0, 0, 0), object, &bond), FROND_OK) << frond_last_error();
     EXPECT_TRUE(frond_bond_is_valid(bond));

@@ -37,7 +37,7 @@ struct Stem {
         EXPECT_EQ(frond_model_from_stems(&stem, 1, &def, &model), FROND_OK) << frond_last_error();
         frond_plant_def plant_def = frond_default_plant_def();
         plant_def.mechanics = mechanics;
-        if (breaks) plant_def.effects |= FROND_BREAKING;
+        if (breaks) plant_def.effects |= FROND_EFFECT_BREAKING;
         EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plant), FROND_OK) << frond_last_error();
     }
     Stem(const Stem&) = delete;
@@ -69,9 +69,9 @@ struct Stem {
         }
         return 0;
     }
-    frond_broken broken(int part = 0) const {
-        frond_broken out = {};
-        EXPECT_EQ(frond_plant_get_broken(plant, part, &out), FROND_OK) << frond_last_error();
+    frond_fragment broken(int part = 0) const {
+        frond_fragment out = {};
+        EXPECT_EQ(frond_plant_get_fragment(plant, part, &out), FROND_OK) << frond_last_error();
         return out;
     }
     double energy() const {
@@ -98,9 +98,11 @@ struct Stem {
 };
 
 struct EveryBreak : testing::TestWithParam<frond_mechanics> {
-    bool is_rod() const { return GetParam() == FROND_ROD; }
+    bool is_rod() const { return GetParam() == FROND_MECHANICS_ROD; }
 };
-INSTANTIATE_TEST_SUITE_P(Breaking, EveryBreak, testing::Values(FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD),
+INSTANTIATE_TEST_SUITE_P(Breaking, EveryBreak,
+                         testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN,
+                                         FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
 // Bending moment at the foot over the section's modulus: F L / (pi r^3 / 4). The foot's capsule tells the strain at its
@@ -111,19 +113,19 @@ TEST_P(EveryBreak, AStemBreaksAtItsFootWhereTheFormulaSays) {
     Stem stem(GetParam(), STRENGTH);
     const double measured = stem.pull_until_it_breaks({1, 0, 0}, 3 * force);
     EXPECT_NEAR(measured / force, 1, is_rod() ? 0.08 : 0.3);
-    EXPECT_EQ(frond_plant_get_broken_count(stem.plant), 1);
+    EXPECT_EQ(frond_plant_get_fragment_count(stem.plant), 1);
     EXPECT_LT(stem.broken().capsule, 3);
 }
 
 TEST(Breaking, ARodThatIsPulledBreaksWhereTheFormulaSays) {
     constexpr double STRENGTH = 3e5;
-    Stem stem(FROND_ROD, STRENGTH);
+    Stem stem(FROND_MECHANICS_ROD, STRENGTH);
     frond_model_info info = {};
     ASSERT_EQ(frond_model_get_info(stem.model, &info), FROND_OK);
     // Ever more of a pull upwards, which its foot bears but for what rests on the foot itself.
     const double known = STRENGTH * M_PI * RADIUS * RADIUS / (info.mass * (1 - 0.03 / LENGTH));
     double pull = 0;
-    for (; pull < 2 * known && frond_plant_get_broken_count(stem.plant) == 0; pull += 0.005 * known) {
+    for (; pull < 2 * known && frond_plant_get_fragment_count(stem.plant) == 0; pull += 0.005 * known) {
         ASSERT_EQ(frond_world_set_gravity(stem.world, {0, pull, 0}), FROND_OK);
         stem.step();
     }
@@ -135,7 +137,7 @@ TEST_P(EveryBreak, NothingBreaksWithoutTheEffectOrWithoutAStrength) {
     for (bool has_effect : {false, true}) {
         Stem stem(GetParam(), has_effect ? 0 : 1e5, 0, has_effect);
         EXPECT_EQ(stem.pull_until_it_breaks({1, 0, 0}, 1), 0);
-        EXPECT_EQ(frond_plant_get_broken_count(stem.plant), 0);
+        EXPECT_EQ(frond_plant_get_fragment_count(stem.plant), 0);
     }
 }
 
@@ -152,13 +154,13 @@ TEST_P(EveryBreak, WhatComesOffTakesItsMomentumAlongAndNoEnergyIsMade) {
     ASSERT_EQ(frond_plant_break(stem.plant, 4), FROND_OK) << frond_last_error();
     ASSERT_EQ(frond_plant_get_momentum(stem.plant, &rest), FROND_OK);
     frond_rigid_state part = {};
-    const frond_broken broken = stem.broken();
+    const frond_fragment broken = stem.broken();
     ASSERT_EQ(frond_rigid_get_state(broken.rigid, &part), FROND_OK);
     EXPECT_NEAR(rest.x + broken.mass * part.velocity.x, whole.x, 1e-6 * whole.x);
     const double speed = part.velocity.x, kinetic = 0.5 * broken.mass * speed * speed;
     EXPECT_LE(stem.energy() + kinetic, before * (1 + 1e-6));
     // A thin rod about its middle turns as it did.
-    EXPECT_NEAR(part.spin.z, -0.8, 0.03);
+    EXPECT_NEAR(part.angular_velocity.z, -0.8, 0.03);
     frond_model_info info = {};
     ASSERT_EQ(frond_model_get_info(stem.model, &info), FROND_OK);
     EXPECT_NEAR(broken.mass / info.mass, 0.6, 0.08);
@@ -212,13 +214,13 @@ TEST_P(EveryBreak, APlantIsRestoredWithItsParts) {
     frond_rigid_state thrown = {};
     ASSERT_EQ(frond_rigid_get_state(stem.broken().rigid, &thrown), FROND_OK);
     thrown.velocity.x = 2;
-    thrown.spin.z = 1;
+    thrown.angular_velocity.z = 1;
     ASSERT_EQ(frond_rigid_set_state(stem.broken().rigid, &thrown), FROND_OK);
     stem.step(10);
     ASSERT_EQ(frond_plant_break(stem.plant, 3), FROND_OK);
     stem.step(10);
     // As the header says.
-    ASSERT_EQ(frond_plant_mend(twin.plant), FROND_OK);
+    ASSERT_EQ(frond_plant_reset(twin.plant), FROND_OK);
     for (int part : {0, 1}) ASSERT_EQ(frond_plant_break(twin.plant, stem.broken(part).capsule), FROND_OK);
     const size_t nodes = size_t(frond_plant_get_node_count(stem.plant));
     std::vector<double> x(3 * nodes), v(3 * nodes);
@@ -233,8 +235,8 @@ TEST_P(EveryBreak, APlantIsRestoredWithItsParts) {
     twin.step(5);
     const std::vector<float> a = stem.surface(), b = twin.surface();
     for (size_t i = 0; i < a.size(); i++) ASSERT_NEAR(a[i], b[i], 2e-3) << i;
-    EXPECT_EQ(frond_plant_mend(stem.plant), FROND_OK);
-    EXPECT_EQ(frond_plant_get_broken_count(stem.plant), 0);
+    EXPECT_EQ(frond_plant_reset(stem.plant), FROND_OK);
+    EXPECT_EQ(frond_plant_get_fragment_count(stem.plant), 0);
     stem.step(5);
     EXPECT_NEAR(stem.state()[1], Stem(GetParam(), 0).state()[1], 1e-3);
 }
@@ -265,7 +267,7 @@ TEST_P(EveryBreak, PartsStayOffWhenMechanicsChange) {
         for (size_t i = 0; i < before.size(); i++) ASSERT_NEAR(before[i], after[i], 2e-3) << m;
         stem.step(2);
         EXPECT_EQ(stem.report().trouble & FROND_TROUBLE_REWOUND, 0u) << m;
-        EXPECT_EQ(frond_plant_get_broken_count(stem.plant), 1);
+        EXPECT_EQ(frond_plant_get_fragment_count(stem.plant), 1);
     }
 }
 
@@ -293,17 +295,17 @@ TEST_P(EveryBreak, AWholePlantMayComeOff) {
 }
 
 TEST(Breaking, WrongCallsAreToldSo) {
-    Stem stem(FROND_ROD, 0);
-    frond_broken out = {};
-    EXPECT_EQ(frond_plant_get_broken(stem.plant, 0, &out), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_broken(stem.plant, 0, nullptr), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_break(stem.plant, -1), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_break(stem.plant, stem.capsule_count()), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_break({}, 0), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_plant_mend({}), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_plant_get_broken_count({}), 0);
+    Stem stem(FROND_MECHANICS_ROD, 0);
+    frond_fragment out = {};
+    EXPECT_EQ(frond_plant_get_fragment(stem.plant, 0, &out), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_fragment(stem.plant, 0, nullptr), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_break(stem.plant, -1), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_break(stem.plant, stem.capsule_count()), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_break({}, 0), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_reset({}), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_get_fragment_count({}), 0);
     ASSERT_EQ(frond_plant_break(stem.plant, 5), FROND_OK);
-    EXPECT_EQ(frond_plant_break(stem.plant, 6), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_break(stem.plant, 6), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_NE(std::string(frond_last_error()).find("mend"), std::string::npos);
     const frond_rigid rigid = stem.broken().rigid;
     frond_rigid_destroy(rigid);

@@ -89,13 +89,13 @@ struct Scene {
 
 struct EveryBody : testing::TestWithParam<frond_mechanics> {};
 std::vector<frond_mechanics> mechanics_that_touch() {
-    if (SANITIZED) return {FROND_TET_COROTATIONAL, FROND_ROD};
-    return {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD};
+    if (SANITIZED) return {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD};
+    return {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN, FROND_MECHANICS_ROD};
 }
 INSTANTIATE_TEST_SUITE_P(Contact, EveryBody, testing::ValuesIn(mechanics_that_touch()), [](const auto& info) {
-    return std::string(info.param == FROND_ROD              ? "rod"
-                       : info.param == FROND_TET_NEOHOOKEAN ? "tet_neohookean"
-                                                            : "tet_corotational");
+    return std::string(info.param == FROND_MECHANICS_ROD              ? "rod"
+                       : info.param == FROND_MECHANICS_TET_NEOHOOKEAN ? "tet_neohookean"
+                                                                      : "tet_corotational");
 });
 
 TEST_P(EveryBody, ABallPushesAStemAsideAndIsSlowed) {
@@ -135,7 +135,7 @@ TEST_P(EveryBody, AFastBallDoesNotTunnel) {
 TEST_P(EveryBody, AFreeStemAndABallKeepTheirMomentum) {
     Scene scene(0);
     scene.add_stem({0, 0, 0}, {0, 0.5, 0}, 0.02, 1e8, GetParam(), -1);
-    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_DAMPING)), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_EFFECT_DEFAULT & ~uint32_t(FROND_EFFECT_DAMPING)), FROND_OK);
     btRigidBody& ball = scene.add(new btSphereShape(btScalar(0.05)), 0.3, btVector3(btScalar(-0.2), btScalar(0.4), 0));
     ball.setLinearVelocity(btVector3(2, 0, 0));
     ball.setDamping(0, 0);
@@ -281,7 +281,7 @@ TEST_P(EveryBody, WhatHangsDownLiesOnAPlane) {
 // Bullet's narrow phase does not look at a plane's pairs with plants in a step; its contact tests, which hosts ask, do.
 TEST(ContactWithPlanes, IsFoundByContactTestsButMakesNoManifolds) {
     Scene scene;
-    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_ROD);
+    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_MECHANICS_ROD);
     btRigidBody& plane = scene.add(new btStaticPlaneShape(btVector3(0, 1, 0), 0), 0, btVector3(0, 0, 0));
     scene.steps(3);
     EXPECT_EQ(scene.dispatcher.getNumManifolds(), 0);
@@ -306,7 +306,7 @@ TEST(ContactWithPlanes, IsFoundByContactTestsButMakesNoManifolds) {
 TEST(ContactWithPlanes, IsNotWhereTheHostLetsThePlantThrough) {
     for (const bool let_through : {false, true}) {
         Scene scene;
-        scene.add_stem({0, 0.5, 0}, {0.6, 0.5, 0}, 0.01, 1e8, FROND_ROD, -1);
+        scene.add_stem({0, 0.5, 0}, {0.6, 0.5, 0}, 0.01, 1e8, FROND_MECHANICS_ROD, -1);
         btRigidBody& plane = scene.add(new btStaticPlaneShape(btVector3(0, 1, 0), 0), 0, btVector3(0, 0, 0));
         for (int i = 0; i < scene.world.getNumCollisionObjects(); i++) {
             btCollisionObject* object = scene.world.getCollisionObjectArray()[i];
@@ -322,10 +322,11 @@ TEST(ContactWithPlanes, IsNotWhereTheHostLetsThePlantThrough) {
 
 TEST(ContactEffects, OffMeansThatNothingTouches) {
     Scene scene(0);
-    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_ROD);
+    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_MECHANICS_ROD);
     btRigidBody& ball = scene.add(new btSphereShape(btScalar(0.05)), 0.2, btVector3(btScalar(-0.15), btScalar(0.9), 0));
     ball.setLinearVelocity(btVector3(2, 0, 0));
-    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_RIGID_CONTACT)), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_EFFECT_DEFAULT & ~uint32_t(FROND_EFFECT_RIGID_CONTACT)),
+              FROND_OK);
     scene.steps(60);
     EXPECT_NEAR(double(ball.getLinearVelocity().x()), 2, 1e-6);
     EXPECT_LT(scene.tip().x, 0.01);
@@ -333,10 +334,10 @@ TEST(ContactEffects, OffMeansThatNothingTouches) {
 
 TEST(ContactEffects, OneWayPushesThePlantOnly) {
     Scene scene(0);
-    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_ROD);
+    scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_MECHANICS_ROD);
     btRigidBody& ball = scene.add(new btSphereShape(btScalar(0.05)), 0.2, btVector3(btScalar(-0.15), btScalar(0.9), 0));
     ball.setLinearVelocity(btVector3(2, 0, 0));
-    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_TWO_WAY)), FROND_OK);
+    ASSERT_EQ(frond_plant_set_effects(scene.plant, FROND_EFFECT_DEFAULT & ~uint32_t(FROND_EFFECT_TWO_WAY)), FROND_OK);
     scene.steps(15);
     EXPECT_NEAR(double(ball.getLinearVelocity().x()), 2, 1e-6);
     EXPECT_GT(scene.tip().x, 0.05);

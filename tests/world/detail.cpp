@@ -84,9 +84,9 @@ TEST(Detail, IsHandedOverWithoutAJumpBothWays) {
     const double height = info.upper.y - info.lower.y;
 
     const double far_away[] = {0, 8, 20, 60, 300, 60, 20, 8, 0};
-    const frond_detail wanted[] = {FROND_DETAIL_FULL, FROND_DETAIL_ROD,   FROND_DETAIL_ROD,
-                                   FROND_DETAIL_SWAY, FROND_DETAIL_STILL, FROND_DETAIL_SWAY,
-                                   FROND_DETAIL_ROD,  FROND_DETAIL_ROD,   FROND_DETAIL_FULL};
+    const frond_detail wanted[] = {FROND_DETAIL_FULL,  FROND_DETAIL_ROD,   FROND_DETAIL_ROD,
+                                   FROND_DETAIL_MODAL, FROND_DETAIL_STILL, FROND_DETAIL_MODAL,
+                                   FROND_DETAIL_ROD,   FROND_DETAIL_ROD,   FROND_DETAIL_FULL};
     constexpr double MOST_FASTER =
         0.5;  // of any node, as three steps of free fall make it, or what it is used to [m/s]
     State before(plant);
@@ -129,7 +129,7 @@ struct Stand {
     frond_world world = {};
     frond_model model = {};
     std::vector<frond_plant> plants;
-    Stand(int count, double apart, frond_mechanics mechanics = FROND_ROD) {
+    Stand(int count, double apart, frond_mechanics mechanics = FROND_MECHANICS_ROD) {
         const frond_world_def def = frond_default_world_def();
         must(frond_world_create(&def, &world));
         model = make_small_model(0, FROND_REST_STANDS_AS_MODELLED);
@@ -200,13 +200,13 @@ TEST(Detail, HasHysteresis) {
         must(frond_world_step(stand.world, H));
         return detail_of(stand.plants[0]);
     };
-    EXPECT_EQ(at(0.95 * def.sway_from), FROND_DETAIL_ROD);
-    EXPECT_EQ(at(1.05 * def.sway_from), FROND_DETAIL_SWAY);
-    EXPECT_EQ(at(0.95 * def.sway_from), FROND_DETAIL_SWAY);
-    EXPECT_EQ(at(0.8 * def.sway_from), FROND_DETAIL_ROD);
+    EXPECT_EQ(at(0.95 * def.modal_from), FROND_DETAIL_ROD);
+    EXPECT_EQ(at(1.05 * def.modal_from), FROND_DETAIL_MODAL);
+    EXPECT_EQ(at(0.95 * def.modal_from), FROND_DETAIL_MODAL);
+    EXPECT_EQ(at(0.8 * def.modal_from), FROND_DETAIL_ROD);
     EXPECT_EQ(at(1.05 * def.still_from), FROND_DETAIL_STILL);
     EXPECT_EQ(at(0.95 * def.still_from), FROND_DETAIL_STILL);
-    EXPECT_EQ(at(0.8 * def.still_from), FROND_DETAIL_SWAY);
+    EXPECT_EQ(at(0.8 * def.still_from), FROND_DETAIL_MODAL);
     EXPECT_EQ(at(0), FROND_DETAIL_FULL);
 }
 
@@ -218,7 +218,7 @@ TEST(Detail, SwaysAsTheRodsDo) {
         frond_wind_def wind = frond_default_wind_def();
         wind.velocity = {20, 0, 0};
         wind.turbulence = 0;
-        wind.profile = FROND_WIND_UNIFORM;
+        wind.profile = FROND_WIND_PROFILE_UNIFORM;
         must(frond_world_set_wind(stand.world, &wind));
         must(frond_world_set_viewer(stand.world, {sways ? 50.0 : 0.0, 0.3, 0}));
         frond_vec3 tip, start;
@@ -235,7 +235,7 @@ TEST(Detail, SwaysAsTheRodsDo) {
         }
         lean[sways] = tip.x - start.x;
         first_peak[sways] = peak;
-        EXPECT_EQ(detail_of(stand.plants[0]), sways ? FROND_DETAIL_SWAY : FROND_DETAIL_FULL);
+        EXPECT_EQ(detail_of(stand.plants[0]), sways ? FROND_DETAIL_MODAL : FROND_DETAIL_FULL);
     }
     EXPECT_GT(lean[0], 0.001);
     EXPECT_NEAR(lean[1], lean[0], 0.15 * lean[0]);
@@ -293,19 +293,19 @@ TEST(Detail, GoesByTheHostsOwnDistanceAndBySize) {
     def.distance = double_of;
     def.user = &asked;
     must(frond_world_set_detail(stand.world, &def));
-    must(frond_world_set_viewer(stand.world, {0.6 * def.sway_from, 0, 0}));
+    must(frond_world_set_viewer(stand.world, {0.6 * def.modal_from, 0, 0}));
     must(frond_world_step(stand.world, H));
     EXPECT_GT(asked, 0);
-    EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_SWAY);
+    EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_MODAL);
     def = frond_default_detail_def();
     def.by_size = true;  // the plant is some 0.7 m long
     must(frond_world_set_detail(stand.world, &def));
-    must(frond_world_set_viewer(stand.world, {0.5 * def.sway_from, 0, 0}));
+    must(frond_world_set_viewer(stand.world, {0.5 * def.modal_from, 0, 0}));
     must(frond_world_step(stand.world, H));
     EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_ROD);
-    must(frond_world_set_viewer(stand.world, {0.9 * def.sway_from, 0, 0}));
+    must(frond_world_set_viewer(stand.world, {0.9 * def.modal_from, 0, 0}));
     must(frond_world_step(stand.world, H));
-    EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_SWAY);
+    EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_MODAL);
     must(frond_world_set_detail(stand.world, nullptr));
     EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_FULL);
 }
@@ -328,7 +328,7 @@ TEST(Detail, KeepsABudget) {
             must(frond_world_step(stand.world, H));
             const frond_report report = report_of(stand.world);
             const int* count = report.detail_count;
-            const double numbers[] = {report.ms_step, double(count[FROND_DETAIL_SWAY]),
+            const double numbers[] = {report.ms_step, double(count[FROND_DETAIL_MODAL]),
                                       double(count[FROND_DETAIL_FULL] + count[FROND_DETAIL_ROD]),
                                       double(detail_of(stand.plants[0])), double(detail_of(stand.plants[COUNT - 1]))};
             for (size_t n = 0; n < all.size(); n++) all[n].push_back(numbers[n]);
@@ -337,7 +337,7 @@ TEST(Detail, KeepsABudget) {
         return Medians{all[0][30], all[1][30], all[2][30], all[3][30], all[4][30]};
     };
     frond_detail_def def = frond_default_detail_def();
-    def.half_from = def.sway_from = def.still_from = 1e6;
+    def.half_from = def.modal_from = def.still_from = 1e6;
     def.budget = 0.4 * medians().ms;
     must(frond_world_set_detail(stand.world, &def));
     must(frond_world_set_viewer(stand.world, {0, 0, 0}));
@@ -345,7 +345,7 @@ TEST(Detail, KeepsABudget) {
     // a try counts when the cores were this one's own.
     const auto keeps = [&](const Medians& m) {
         return m.ms < def.budget && m.sway > COUNT / 10 && m.more > 0 && m.first <= FROND_DETAIL_ROD &&
-               m.last == FROND_DETAIL_SWAY;
+               m.last == FROND_DETAIL_MODAL;
     };
     constexpr double OWN = 0.95;
     Medians now = {};
@@ -363,7 +363,7 @@ TEST(Detail, KeepsABudget) {
     EXPECT_GT(now.sway, COUNT / 10);
     EXPECT_GT(now.more, 0);
     EXPECT_LE(now.first, FROND_DETAIL_ROD);
-    EXPECT_EQ(now.last, FROND_DETAIL_SWAY);
+    EXPECT_EQ(now.last, FROND_DETAIL_MODAL);
 }
 
 }  // namespace

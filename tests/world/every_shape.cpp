@@ -172,7 +172,7 @@ const Kind KINDS[] = {
          field.setLocalScaling(vec(0.2, 1, 0.2));
      }}};
 
-constexpr frond_mechanics MECHANICS[] = {FROND_ROD, FROND_TET_COROTATIONAL};
+constexpr frond_mechanics MECHANICS[] = {FROND_MECHANICS_ROD, FROND_MECHANICS_TET_COROTATIONAL};
 struct EveryBulletShape : testing::TestWithParam<std::tuple<frond_mechanics, size_t>> {};
 INSTANTIATE_TEST_SUITE_P(Contact, EveryBulletShape,
                          testing::Combine(testing::ValuesIn(MECHANICS), testing::Range(size_t(0), std::size(KINDS))),

@@ -89,9 +89,9 @@ TEST_P(HostWorld, StepsItsPlantsInEachSubstep) {
     ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK) << frond_last_error();
     const frond_model model = make_small_model();
     frond_plant_def def = frond_default_plant_def();
-    def.integrator = FROND_IMPLICIT_EULER;  // falls by g h^2 n (n + 1) / 2
+    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;  // falls by g h^2 n (n + 1) / 2
     def.root_height = -1;
-    def.effects = FROND_GRAVITY;
+    def.effects = FROND_EFFECT_GRAVITY;
     def.position = {0, 5, 0};
     frond_plant plant;
     ASSERT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK) << frond_last_error();
@@ -103,7 +103,7 @@ TEST_P(HostWorld, StepsItsPlantsInEachSubstep) {
     frond_report report;
     frond_world_get_report(plants, &report);
     EXPECT_NEAR(report.time, 4.0 / 120, 1e-6);
-    EXPECT_EQ(frond_world_step(plants, 0.01), FROND_UNSUPPORTED);
+    EXPECT_EQ(frond_world_step(plants, 0.01), FROND_RESULT_UNSUPPORTED);
     frond_world_destroy(plants);
     frond_model_destroy(model);
 }
@@ -204,7 +204,7 @@ TEST_P(HostWorld, APlantSleepsUntilABallHitsIt) {
     ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK);
     const frond_model model = make_small_model();
     frond_plant_def def = frond_default_plant_def();
-    def.mechanics = FROND_ROD;
+    def.mechanics = FROND_MECHANICS_ROD;
     frond_plant plant;
     ASSERT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK);
     for (int i = 0; i < 300; i++) host.world->stepSimulation(btScalar(1.0 / 60));
@@ -231,10 +231,10 @@ TEST(Attach, IsRefusedTwiceAndAllowedAgainAfterDestroy) {
     Host host(0);
     frond_world first, second;
     ASSERT_EQ(frond::attach(host.world.get(), nullptr, &first), FROND_OK);
-    EXPECT_EQ(frond::attach(host.world.get(), nullptr, &second), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond::attach(host.world.get(), nullptr, &second), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(second.id, 0u);
-    EXPECT_EQ(frond::attach(nullptr, nullptr, &second), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond::attach(host.world.get(), nullptr, nullptr), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond::attach(nullptr, nullptr, &second), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond::attach(host.world.get(), nullptr, nullptr), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(frond::bullet_world(first), host.world.get());
     frond_world_destroy(first);
     EXPECT_EQ(frond::bullet_world(first), nullptr);
@@ -364,7 +364,7 @@ TEST_P(HostWorld, ABodyAtRestOnAPlantHasNoVelocity) {
     frond_model model;
     ASSERT_EQ(frond_model_from_stems(stems, 5, &def, &model), FROND_OK) << frond_last_error();
     frond_plant_def plant_def = frond_default_plant_def();
-    plant_def.mechanics = FROND_ROD;
+    plant_def.mechanics = FROND_MECHANICS_ROD;
     frond_plant plant;
     ASSERT_EQ(frond_plant_create(plants, model, &plant_def, &plant), FROND_OK) << frond_last_error();
     host.ball.setSleepingThresholds(0, 0);

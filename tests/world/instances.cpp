@@ -74,11 +74,11 @@ TEST(Instances, OfRodsThatSleepKeepLittleWhetherTheyEverMovedOrNot) {
     if (SANITIZED) GTEST_SKIP() << "another allocator";
     constexpr int COUNT = 100;
     Rows rows(FEW_PIECES);
-    rows.add(8, FROND_ROD, false);  // abreast, so that what a thread needs once is there
+    rows.add(8, FROND_MECHANICS_ROD, false);  // abreast, so that what a thread needs once is there
     rows.settle();
     ASSERT_NEAR(frond_plant_get_capsule_count(rows.plants[0]), 41, 5);
     const double before = kilobytes();
-    rows.add(COUNT, FROND_ROD, true);
+    rows.add(COUNT, FROND_MECHANICS_ROD, true);
     const double never_moved = (kilobytes() - before) / COUNT;
     EXPECT_LT(never_moved, ROD_ASLEEP);
 
@@ -97,10 +97,10 @@ TEST(Instances, OfCagesThatMoveKeepLessThanAMegabyte) {
     if (SANITIZED) GTEST_SKIP() << "another allocator";
     constexpr int COUNT = 10;
     Rows rows(0);
-    rows.add(1, FROND_TET_COROTATIONAL, false);
+    rows.add(1, FROND_MECHANICS_TET_COROTATIONAL, false);
     must(frond_world_step(rows.world, H));
     const double before = kilobytes();
-    rows.add(COUNT, FROND_TET_COROTATIONAL, false);
+    rows.add(COUNT, FROND_MECHANICS_TET_COROTATIONAL, false);
     for (int i = 0; i < 5; i++) must(frond_world_step(rows.world, H));
     EXPECT_EQ(rows.awake(), COUNT + 1);
     const double each = (kilobytes() - before) / COUNT;
@@ -112,7 +112,7 @@ TEST(Instances, OfCagesThatMoveKeepLessThanAMegabyte) {
 TEST(Instances, ThatAreLookedAtAreFoldedAgain) {
     if (SANITIZED) GTEST_SKIP() << "another allocator";
     Rows rows(FEW_PIECES);
-    rows.add(50, FROND_ROD, true);
+    rows.add(50, FROND_MECHANICS_ROD, true);
     must(frond_world_step(rows.world, H));
     const double before = kilobytes();
     std::vector<double> x(3 * size_t(frond_plant_get_node_count(rows.plants[0])));

@@ -43,9 +43,9 @@ struct Falling {
         EXPECT_EQ(frond::attach(&bullet, nullptr, &plants), FROND_OK) << frond_last_error();
         frond_plant_def def = frond_default_plant_def();
         def.mechanics = mechanics;
-        def.integrator = FROND_IMPLICIT_EULER;  // falls as Bullet's bodies do
+        def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;  // falls as Bullet's bodies do
         def.root_height = -1;
-        def.effects = FROND_GRAVITY | FROND_SURFACE | FROND_NORMALS;
+        def.effects = FROND_EFFECT_GRAVITY | FROND_EFFECT_SURFACE | FROND_EFFECT_NORMALS;
         EXPECT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK) << frond_last_error();
     }
     ~Falling() {
@@ -61,14 +61,14 @@ struct Falling {
 };
 
 class Interpolation : public ::testing::TestWithParam<frond_mechanics> {};
-INSTANTIATE_TEST_SUITE_P(World, Interpolation, ::testing::Values(FROND_TET_COROTATIONAL, FROND_ROD),
+INSTANTIATE_TEST_SUITE_P(World, Interpolation, ::testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
 TEST_P(Interpolation, ShowsSurfacesWhereMotionStatesAre) {
     for (const bool lags : {true, false}) {
         Falling falling(GetParam());
         falling.bullet.setLatencyMotionStateInterpolation(lags);
-        ASSERT_EQ(frond_world_set_interpolation(falling.plants, FROND_AS_MOTION_STATES), FROND_OK);
+        ASSERT_EQ(frond_world_set_interpolation(falling.plants, FROND_INTERPOLATION_AS_MOTION_STATES), FROND_OK);
         const float start = surface_of(falling.plant)[1];
         int between = 0;
         for (int frame = 0; frame < 60; frame++) {
@@ -84,7 +84,7 @@ TEST_P(Interpolation, ShowsSurfacesWhereMotionStatesAre) {
 
 TEST_P(Interpolation, OfStepsOfAnyLengthIsNone) {
     Falling falling(GetParam());
-    ASSERT_EQ(frond_world_set_interpolation(falling.plants, FROND_AS_MOTION_STATES), FROND_OK);
+    ASSERT_EQ(frond_world_set_interpolation(falling.plants, FROND_INTERPOLATION_AS_MOTION_STATES), FROND_OK);
     const float start = surface_of(falling.plant)[1];
     for (int frame = 0; frame < 10; frame++) falling.bullet.stepSimulation(btScalar(0.01), 0);
     const double now = double(falling.ball.getWorldTransform().getOrigin().y());
@@ -144,9 +144,9 @@ TEST_P(Interpolation, TakesFragmentsAlong) {
 
 TEST(InterpolationSetting, IsChecked) {
     SmallWorld small;
-    EXPECT_EQ(frond_world_set_interpolation({}, 0.5), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_world_set_interpolation({}, 0.5), FROND_RESULT_BAD_HANDLE);
     for (const double wrong : {-0.5, 2.1, std::nan(""), double(INFINITY)})
-        EXPECT_EQ(frond_world_set_interpolation(small.world, wrong), FROND_BAD_ARGUMENT) << wrong;
+        EXPECT_EQ(frond_world_set_interpolation(small.world, wrong), FROND_RESULT_BAD_ARGUMENT) << wrong;
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ static void step(frond_world world, int steps) {
 TEST(OwnWorld, AnUnpinnedPlantFallsFreely) {
     frond_plant_def def = frond_default_plant_def();
     def.root_height = -1;
-    def.integrator = FROND_IMPLICIT_EULER;
-    def.effects = FROND_GRAVITY | FROND_SURFACE;
+    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
+    def.effects = FROND_EFFECT_GRAVITY | FROND_EFFECT_SURFACE;
     def.position = {10, 5, -3};
     SmallWorld small(def);
     const std::vector<double> before = positions_of(small.plant);
@@ -41,7 +41,7 @@ TEST(OwnWorld, AnUnpinnedPlantFallsFreely) {
 
 TEST(OwnWorld, GravityOffMeansNoMotion) {
     frond_plant_def def = frond_default_plant_def();
-    def.effects = FROND_ALL_EFFECTS & ~uint32_t(FROND_GRAVITY);
+    def.effects = FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_GRAVITY);
     SmallWorld small(def);
     const std::vector<double> before = positions_of(small.plant);
     step(small.world, 20);
@@ -50,7 +50,8 @@ TEST(OwnWorld, GravityOffMeansNoMotion) {
 }
 
 TEST(OwnWorld, APlantStandsAsItWasModelledUnderGravity) {
-    for (int mechanics = 0; mechanics < FROND_SPRING_CHAIN; mechanics++) {  // the last one has no rest shape to find
+    for (int mechanics = 0; mechanics < FROND_MECHANICS_SPRING_CHAIN;
+         mechanics++) {  // the last one has no rest shape to find
         frond_plant_def def = frond_default_plant_def();
         def.mechanics = frond_mechanics(mechanics);
         SmallWorld stands(def, 1e7, FROND_REST_STANDS_AS_MODELLED), droops(def, 1e7, FROND_REST_WITHOUT_GRAVITY);
@@ -69,7 +70,7 @@ TEST(OwnWorld, APlantStandsAsItWasModelledUnderGravity) {
 
 TEST(OwnWorld, AMaskOnTheWorldSwitchesAnEffectOffForAllPlants) {
     SmallWorld small;
-    ASSERT_EQ(frond_world_set_effects(small.world, FROND_SURFACE), FROND_OK);
+    ASSERT_EQ(frond_world_set_effects(small.world, FROND_EFFECT_SURFACE), FROND_OK);
     const std::vector<double> before = positions_of(small.plant);
     step(small.world, 5);
     const std::vector<double> after = positions_of(small.plant);
@@ -80,13 +81,14 @@ TEST(OwnWorld, AMaskOnTheWorldSwitchesAnEffectOffForAllPlants) {
 // is switched off and on again while they move, on the world and on a plant.
 TEST(OwnWorld, EveryEffectIsSwitchedWhileItRuns) {
     // Those of the others are told together with what they are part of, or have nothing to do here.
-    constexpr frond_effects TOLD = FROND_GRAVITY | FROND_DAMPING | FROND_USER_FORCE | FROND_SURFACE | FROND_NORMALS |
-                                   FROND_RIGID_CONTACT | FROND_FRICTION | FROND_TWO_WAY | FROND_PLASTICITY |
-                                   FROND_PLANT_CONTACT | FROND_WIND | FROND_AIR_DRAG;
+    constexpr frond_effects TOLD = FROND_EFFECT_GRAVITY | FROND_EFFECT_DAMPING | FROND_EFFECT_USER_FORCE |
+                                   FROND_EFFECT_SURFACE | FROND_EFFECT_NORMALS | FROND_EFFECT_RIGID_CONTACT |
+                                   FROND_EFFECT_FRICTION | FROND_EFFECT_TWO_WAY | FROND_EFFECT_PLASTICITY |
+                                   FROND_EFFECT_PLANT_CONTACT | FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG;
     for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++) {
         const frond_effects effect = 1u << bit;
         frond_plant_def def = frond_default_plant_def();
-        def.effects = FROND_ALL_EFFECTS;
+        def.effects = FROND_EFFECT_ALL;
         SmallWorld small(def, 0, FROND_REST_STANDS_AS_MODELLED);
         def.position = {0.03, 0, 0};
         frond_plant other = {};
@@ -117,21 +119,21 @@ TEST(OwnWorld, EveryEffectIsSwitchedWhileItRuns) {
             return seen;
         };
         EXPECT_EQ(run() & effect & TOLD, effect & TOLD) << frond_effect_name(effect) << ", at first";
-        ASSERT_EQ(frond_world_set_effects(small.world, FROND_ALL_EFFECTS & ~effect), FROND_OK);
+        ASSERT_EQ(frond_world_set_effects(small.world, FROND_EFFECT_ALL & ~effect), FROND_OK);
         EXPECT_EQ(run() & effect, 0u) << frond_effect_name(effect) << ", off on the world";
-        ASSERT_EQ(frond_world_set_effects(small.world, FROND_ALL_EFFECTS), FROND_OK);
+        ASSERT_EQ(frond_world_set_effects(small.world, FROND_EFFECT_ALL), FROND_OK);
         EXPECT_EQ(run() & effect & TOLD, effect & TOLD) << frond_effect_name(effect) << ", on again";
         for (frond_plant plant : {small.plant, other})
-            ASSERT_EQ(frond_plant_set_effects(plant, FROND_ALL_EFFECTS & ~effect), FROND_OK);
-        const frond_effects world_tells = FROND_FRICTION | FROND_TWO_WAY;  // as soon as anything touches
+            ASSERT_EQ(frond_plant_set_effects(plant, FROND_EFFECT_ALL & ~effect), FROND_OK);
+        const frond_effects world_tells = FROND_EFFECT_FRICTION | FROND_EFFECT_TWO_WAY;  // as soon as anything touches
         EXPECT_EQ(run() & effect & ~world_tells, 0u) << frond_effect_name(effect) << ", off on the plants";
     }
 }
 
 TEST(OwnWorld, AGrabbedPlantFollowsAndSwingsBackWhenLetGo) {
     frond_plant_def def = frond_default_plant_def();
-    def.integrator = FROND_IMPLICIT_EULER;            // its own damping brings the plant to rest in time
-    def.effects &= ~(frond_effects)FROND_PLASTICITY;  // so soft a stem would keep a third of that bend
+    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;        // its own damping brings the plant to rest in time
+    def.effects &= ~(frond_effects)FROND_EFFECT_PLASTICITY;  // so soft a stem would keep a third of that bend
     SmallWorld small(def, 1e7);
     step(small.world, 120);
     frond_vec3 tip, released;
@@ -169,9 +171,9 @@ TEST(OwnWorld, APinnedNodeStaysAndCanBeMoved) {
 
 TEST(OwnWorld, AForceActsForOneStepOnly) {
     frond_plant_def def = frond_default_plant_def();
-    def.integrator = FROND_IMPLICIT_EULER;  // all of a step's momentum is there at its end
+    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;  // all of a step's momentum is there at its end
     def.root_height = -1;
-    def.effects = FROND_USER_FORCE;
+    def.effects = FROND_EFFECT_USER_FORCE;
     SmallWorld small(def);
     frond_model_info info;
     ASSERT_EQ(frond_model_get_info(small.model, &info), FROND_OK);
@@ -205,7 +207,7 @@ TEST(OwnWorld, TheSameCallsGiveTheSameBits) {
 
 TEST(OwnWorld, APlantMovesAlikeWhereverItStandsAndHoweverItIsTurned) {
     frond_plant_def def = frond_default_plant_def();
-    def.effects = FROND_GRAVITY | FROND_DAMPING | FROND_SURFACE;
+    def.effects = FROND_EFFECT_GRAVITY | FROND_EFFECT_DAMPING | FROND_EFFECT_SURFACE;
     SmallWorld home(def);
     def.position = {10000, -20, 3000};
     def.rotation = {0, 1, 0, 0};  // half a turn about y

@@ -22,10 +22,10 @@ using frond::test::Stand;
 // ---- the paper's figure 5 ------------------------------------------------------------------------------------
 
 TEST(CornPair, ComesApartWithinTwoSecondsAndStaysInEachOtherWithoutResponse) {
-    for (const frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_ROD}) {
-        if (SANITIZED && mechanics != FROND_ROD) continue;
+    for (const frond_mechanics mechanics : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD}) {
+        if (SANITIZED && mechanics != FROND_MECHANICS_ROD) continue;
         CornPair with(FROND_RESPONSE_IMPULSE, mechanics);
-        const bool by_cages = mechanics == FROND_TET_COROTATIONAL;
+        const bool by_cages = mechanics == FROND_MECHANICS_TET_COROTATIONAL;
         const double cage_before = with.cage_depth(), surface_before = with.surface_depth();
         EXPECT_GT(cage_before, 0.01);
         EXPECT_GT(surface_before, 0.005);
@@ -63,7 +63,7 @@ void expect_stays_apart(frond_mechanics mechanics, double step, const frond::tes
     pair.steps(count);
     for (int i = 0; i <= count; i++) {
         if (i > 0) pair.steps(1);
-        if (mechanics != FROND_ROD) {
+        if (mechanics != FROND_MECHANICS_ROD) {
             EXPECT_LT(pair.cage_depth(), 0.001) << i << " of " << step << " s";
         }
         EXPECT_LT(pair.surface_depth(), 0.001) << i << " of " << step << " s, " << frond_mechanics_name(mechanics);
@@ -72,17 +72,17 @@ void expect_stays_apart(frond_mechanics mechanics, double step, const frond::tes
 
 TEST(CornPair, StaysApartWhereTheExamplePutsIt) {
     if (SANITIZED) GTEST_SKIP() << "a figure";
-    expect_stays_apart(FROND_TET_COROTATIONAL, H, frond::test::AS_IN_EXAMPLE);
+    expect_stays_apart(FROND_MECHANICS_TET_COROTATIONAL, H, frond::test::AS_IN_EXAMPLE);
 }
 
 TEST(CornPair, SpringsPartItToo) {
     if (SANITIZED) GTEST_SKIP() << "a figure";
-    for (const frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_ROD}) {
+    for (const frond_mechanics mechanics : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD}) {
         CornPair pair(FROND_RESPONSE_PENALTY, mechanics);
         pair.steps(240);  // in double precision cages stay entangled for 3.2 s
         EXPECT_EQ(pair.report().trouble & FROND_TROUBLE_REWOUND, 0u);
         EXPECT_LT(pair.surface_depth(), 0.001) << frond_mechanics_name(mechanics);
-        if (mechanics == FROND_ROD) {
+        if (mechanics == FROND_MECHANICS_ROD) {
             EXPECT_LT(pair.contact_depth(), 0.001);
         } else {
             EXPECT_LT(pair.cage_depth(), 0.005);
@@ -107,8 +107,9 @@ TEST(CornPair, ComesApartGently) {
 
 struct Free : testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(Plants, Free,
-                         testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD,
-                                         FROND_SPRING_CHAIN),
+                         testing::Values(FROND_MECHANICS_TET_LINEAR, FROND_MECHANICS_TET_COROTATIONAL,
+                                         FROND_MECHANICS_TET_NEOHOOKEAN, FROND_MECHANICS_ROD,
+                                         FROND_MECHANICS_SPRING_CHAIN),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
 // Two crossed stems, one thrown at the other.
@@ -119,7 +120,7 @@ struct ThrownStems : Stand {
         frond_plant_def plant = plant_def();
         plant.mechanics = mechanics;
         plant.root_height = -1;
-        plant.effects &= ~uint32_t(FROND_DAMPING);
+        plant.effects &= ~uint32_t(FROND_EFFECT_DAMPING);
         add(plant, {0, 0, 0});
         // Lies across.
         plant.rotation = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};
@@ -206,7 +207,7 @@ TEST(Plants, EveryLayoutOfTheHashGivesTheSameMotion) {
         def.hash_layout = layout;
         def.hash_table_size = table_size;
         def.hash_cell_size = cell_size;
-        ThrownStems stems(FROND_TET_COROTATIONAL, def);
+        ThrownStems stems(FROND_MECHANICS_TET_COROTATIONAL, def);
         int contacts = 0;
         for (int i = 0; i < 40; i++) {
             stems.steps(1);
@@ -215,21 +216,22 @@ TEST(Plants, EveryLayoutOfTheHashGivesTheSameMotion) {
         EXPECT_GT(contacts, 0);
         hashes.push_back(stems.hash());
     };
-    run(FROND_HASH_BRUTE_FORCE, 0, 0);
-    run(FROND_HASH_GRID, 0, 0);
-    run(FROND_HASH_GRID, 0, 0.3);
-    run(FROND_HASH_PAPER, 0, 0);
-    run(FROND_HASH_PAPER, 7, 0.05);
+    run(FROND_HASH_LAYOUT_BRUTE_FORCE, 0, 0);
+    run(FROND_HASH_LAYOUT_GRID, 0, 0);
+    run(FROND_HASH_LAYOUT_GRID, 0, 0.3);
+    run(FROND_HASH_LAYOUT_PAPER, 0, 0);
+    run(FROND_HASH_LAYOUT_PAPER, 7, 0.05);
     for (const uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
 }
 
 TEST(Plants, OffMeansThatTheyPassThroughEachOther) {
     for (const bool by_world : {false, true}) {
-        ThrownStems stems(FROND_ROD);
+        ThrownStems stems(FROND_MECHANICS_ROD);
         if (by_world)
-            must(frond_world_set_effects(stems.world, FROND_ALL_EFFECTS & ~uint32_t(FROND_PLANT_CONTACT)));
+            must(frond_world_set_effects(stems.world, FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_PLANT_CONTACT)));
         else  // one of the two is enough
-            must(frond_plant_set_effects(stems.plants[0], FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_PLANT_CONTACT)));
+            must(
+                frond_plant_set_effects(stems.plants[0], FROND_EFFECT_DEFAULT & ~uint32_t(FROND_EFFECT_PLANT_CONTACT)));
         for (int i = 0; i < 30; i++) {
             stems.steps(1);
             EXPECT_EQ(stems.report().plant_contact_count, 0);
@@ -252,17 +254,17 @@ TEST(Plants, FarFromEachOtherMoveAsIfAlone) {
         EXPECT_EQ(stand.report().plant_contact_count, 0);
         return stand.hash();
     };
-    EXPECT_EQ(run(FROND_DEFAULT_EFFECTS), run(FROND_DEFAULT_EFFECTS & ~uint32_t(FROND_PLANT_CONTACT)));
+    EXPECT_EQ(run(FROND_EFFECT_DEFAULT), run(FROND_EFFECT_DEFAULT & ~uint32_t(FROND_EFFECT_PLANT_CONTACT)));
 }
 
 TEST(Plants, MayComeAndGoWhileTheyTouch) {
-    for (const frond_mechanics mechanics : {FROND_TET_COROTATIONAL, FROND_ROD}) {
+    for (const frond_mechanics mechanics : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD}) {
         Stand stand;
         stand.make_stems({{-1, {0, 0, 0}, {0, 0.4, 0}, 0.02, 0.01}, {0, {0, 0.2, 0}, {0.25, 0.35, 0}, 0.01, 0.006}},
                          1e8);
         frond_plant_def def = stand.plant_def();
         def.mechanics = mechanics;
-        def.effects = FROND_DEFAULT_EFFECTS | FROND_SELF_CONTACT;
+        def.effects = FROND_EFFECT_DEFAULT | FROND_EFFECT_SELF_CONTACT;
         int touched = 0;
         for (int i = 0; i < 40; i++) {
             if (i % 3 == 0) stand.add(def, {0.06 * (i % 7), 0, 0.03 * (i % 4)}, i);
@@ -270,7 +272,7 @@ TEST(Plants, MayComeAndGoWhileTheyTouch) {
                 frond_plant_destroy(stand.plants[size_t(i) % stand.plants.size()]);
                 stand.plants.erase(stand.plants.begin() + long(size_t(i) % stand.plants.size()));
             }
-            if (i == 20) must(frond_plant_set_mechanics(stand.plants[0], FROND_TET_LINEAR));
+            if (i == 20) must(frond_plant_set_mechanics(stand.plants[0], FROND_MECHANICS_TET_LINEAR));
             stand.steps(1);
             touched += stand.report().plant_contact_count > 0;
             for (const frond_plant plant : stand.plants)
@@ -292,7 +294,7 @@ TEST(Plants, DoNotPassThroughThemselves) {
                           {0, {0, 0.2, 0}, {-0.15, 0.6, 0}, 0.012, 0.012}},
                          5e7);
         frond_plant_def def = stand.plant_def();
-        def.effects = FROND_DEFAULT_EFFECTS | (with_contact ? uint32_t(FROND_SELF_CONTACT) : 0u);
+        def.effects = FROND_EFFECT_DEFAULT | (with_contact ? uint32_t(FROND_EFFECT_SELF_CONTACT) : 0u);
         const frond_plant plant = stand.add(def, {0, 0, 0});
         stand.steps(5);
         EXPECT_EQ(stand.report().plant_contact_count, 0);  // nothing touches as modelled

@@ -65,7 +65,7 @@ double push_aside(frond_model model, frond_mechanics mechanics, double root_heig
     def.mechanics = mechanics;
     def.element_order = 2;
     def.root_height = root_height;
-    def.integrator = FROND_IMPLICIT_EULER;
+    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     def.newton_iterations = 6;
     def.mass_damping = def.stiffness_damping = def.material_damping = 0;
     frond_plant plant = {};
@@ -92,11 +92,12 @@ double push_aside(frond_model model, frond_mechanics mechanics, double root_heig
 
 struct EveryTets : testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(Quadratic, EveryTets,
-                         testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN),
+                         testing::Values(FROND_MECHANICS_TET_LINEAR, FROND_MECHANICS_TET_COROTATIONAL,
+                                         FROND_MECHANICS_TET_NEOHOOKEAN),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
 TEST_P(EveryTets, BendInSlenderCellsOfTheCallersAsTheBeamFormulaSays) {
-    if (SANITIZED && GetParam() != FROND_TET_COROTATIONAL) GTEST_SKIP() << "the same code";
+    if (SANITIZED && GetParam() != FROND_MECHANICS_TET_COROTATIONAL) GTEST_SKIP() << "the same code";
     constexpr double WIDTH = 0.02;
     constexpr int CELLS = 8;
     for (double aspect : {1.0, 2.0, 5.0}) {
@@ -111,7 +112,7 @@ TEST_P(EveryTets, BendInSlenderCellsOfTheCallersAsTheBeamFormulaSays) {
 }
 
 TEST_P(EveryTets, BendInFrondsOwnCageAsTheBeamFormulaSays) {
-    if (SANITIZED && GetParam() != FROND_TET_COROTATIONAL) GTEST_SKIP() << "the same code";
+    if (SANITIZED && GetParam() != FROND_MECHANICS_TET_COROTATIONAL) GTEST_SKIP() << "the same code";
     constexpr double LENGTH = 1;
     for (double aspect : {5.0, 10.0, 20.0}) {
         const double radius = LENGTH / aspect / 2;
@@ -136,7 +137,7 @@ TEST_P(EveryTets, BendInFrondsOwnCageAsTheBeamFormulaSays) {
 }
 
 TEST_P(EveryTets, StandAsModelled) {
-    if (SANITIZED && GetParam() != FROND_TET_COROTATIONAL) GTEST_SKIP() << "the same code";
+    if (SANITIZED && GetParam() != FROND_MECHANICS_TET_COROTATIONAL) GTEST_SKIP() << "the same code";
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.5, 0}, 0.012, 0.01},
                                 {0, {0, 0.5, 0}, {0.3, 0.8, 0.1}, 0.008, 0.004}};
     const frond_organ_material organ = tissue();

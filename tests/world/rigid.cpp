@@ -18,12 +18,12 @@ frond_rigid add(frond_world world, frond_shape shape, frond_vec3 size, double ma
 }
 
 struct EveryShape : testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Rigid, EveryShape, testing::Range(0, int(FROND_PLANE)),
+INSTANTIATE_TEST_SUITE_P(Rigid, EveryShape, testing::Range(0, int(FROND_SHAPE_PLANE)),
                          [](const auto& info) { return std::string(frond_shape_name(frond_shape(info.param))); });
 
 TEST_P(EveryShape, FallsOntoAPlaneAndRests) {
     SmallWorld small;
-    add(small.world, FROND_PLANE, {}, 0, {0, 0, 0});
+    add(small.world, FROND_SHAPE_PLANE, {}, 0, {0, 0, 0});
     const frond_rigid body = add(small.world, frond_shape(GetParam()), {0.1, 0.1, 0.1}, 1, {2, 0.5, 0});
     for (int i = 0; i < 180; i++) ASSERT_EQ(frond_world_step(small.world, 1.0 / 60), FROND_OK);
     frond_rigid_state state;

@@ -24,7 +24,7 @@ void step(frond_world world, frond_plant plant, int node_count, double most) {
 TEST_P(SelfContact, MovesNothingAtRest) {
     frond_plant_def def = frond_default_plant_def();
     def.mechanics = frond_mechanics(GetParam());
-    def.effects = FROND_ALL_EFFECTS & ~uint32_t(FROND_GRAVITY);
+    def.effects = FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_GRAVITY);
     SmallWorld small(def);
     step(small.world, small.plant, frond_plant_get_node_count(small.plant), 1e-6);
 }
@@ -35,7 +35,7 @@ TEST_P(SelfContact, LetsTheCornStand) {
     model_def.cage_size = 0.24;
     frond_plant_def def = frond_default_plant_def();
     def.mechanics = frond_mechanics(GetParam());
-    def.effects = FROND_ALL_EFFECTS;
+    def.effects = FROND_EFFECT_ALL;
     frond_world world;
     frond_model model;
     frond_plant plant;
@@ -44,7 +44,7 @@ TEST_P(SelfContact, LetsTheCornStand) {
         << frond_last_error();
     ASSERT_EQ(frond_plant_create(world, model, &def, &plant), FROND_OK) << frond_last_error();
     // Springs that do not know the shape without gravity droop.
-    step(world, plant, frond_plant_get_node_count(plant), GetParam() == FROND_SPRING_CHAIN ? 0.2 : 0.002);
+    step(world, plant, frond_plant_get_node_count(plant), GetParam() == FROND_MECHANICS_SPRING_CHAIN ? 0.2 : 0.002);
     frond_world_destroy(world);
     frond_model_destroy(model);
 }

@@ -43,7 +43,7 @@ struct Stand {
         frond_world_destroy(world);
         frond_model_destroy(model);
     }
-    frond_plant add(double x, frond_mechanics mechanics = FROND_ROD, double z = 0) {
+    frond_plant add(double x, frond_mechanics mechanics = FROND_MECHANICS_ROD, double z = 0) {
         frond_plant_def def = frond_default_plant_def();
         def.position = {x, 0, z};
         def.mechanics = mechanics;
@@ -83,11 +83,12 @@ struct Stand {
 
 class Sleep : public testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(Mechanics, Sleep,
-                         testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD,
-                                         FROND_SPRING_CHAIN));
+                         testing::Values(FROND_MECHANICS_TET_LINEAR, FROND_MECHANICS_TET_COROTATIONAL,
+                                         FROND_MECHANICS_TET_NEOHOOKEAN, FROND_MECHANICS_ROD,
+                                         FROND_MECHANICS_SPRING_CHAIN));
 
 TEST_P(Sleep, ChangesNothingByMoreThanATenthOfAMillimetre) {
-    if (SANITIZED && GetParam() != FROND_ROD) GTEST_SKIP() << "a figure";
+    if (SANITIZED && GetParam() != FROND_MECHANICS_ROD) GTEST_SKIP() << "a figure";
     Stand sleeps, stays_awake(0);
     for (Stand* stand : {&sleeps, &stays_awake}) {
         stand->add(0, GetParam());
@@ -113,12 +114,12 @@ TEST_P(Sleep, ChangesNothingByMoreThanATenthOfAMillimetre) {
 TEST(Sleep, FromTheStartLeavesAPlantWhereItStands) {
     Stand stand;
     frond_rigid_def ground = frond_default_rigid_def();
-    ground.shape = FROND_PLANE;
+    ground.shape = FROND_SHAPE_PLANE;
     ground.state.position.y = 0.05;
     frond_rigid rigid = {};
     must(frond_rigid_create(stand.world, &ground, &rigid));
     frond_plant_def def = frond_default_plant_def();
-    def.mechanics = FROND_ROD;
+    def.mechanics = FROND_MECHANICS_ROD;
     def.starts_asleep = true;
     frond_plant plant = {};
     must(frond_plant_create(stand.world, stand.model, &def, &plant));
@@ -177,8 +178,8 @@ TEST(Wake, ComesFromAllThatMovesAPlant) {
         {"a pin", [&] { must(frond_plant_pin(plant, frond_plant_get_node_count(plant) - 1)); }},
         {"no pin", [&] { must(frond_plant_unpin(plant, frond_plant_get_node_count(plant) - 1)); }},
         {"a state", [&] { must(frond_plant_set_state(plant, modelled.data(), nullptr, int(modelled.size() / 3))); }},
-        {"effects", [&] { must(frond_plant_set_effects(plant, FROND_DEFAULT_EFFECTS)); }},
-        {"mechanics", [&] { must(frond_plant_set_mechanics(plant, FROND_TET_COROTATIONAL)); }},
+        {"effects", [&] { must(frond_plant_set_effects(plant, FROND_EFFECT_DEFAULT)); }},
+        {"mechanics", [&] { must(frond_plant_set_mechanics(plant, FROND_MECHANICS_TET_COROTATIONAL)); }},
         {"a word", [&] { must(frond_plant_wake(plant)); }},
         {"a bond",
          [&] {
@@ -218,7 +219,7 @@ TEST(Wake, ComesFromAllThatMovesAPlant) {
 TEST(Wake, ComesFromWhatTheHostCarriesIntoAPlant) {
     Stand stand;
     frond_plant_def def = frond_default_plant_def();
-    def.mechanics = FROND_ROD;
+    def.mechanics = FROND_MECHANICS_ROD;
     def.starts_asleep = true;
     frond_plant plant = {};
     must(frond_plant_create(stand.world, stand.model, &def, &plant));
@@ -258,7 +259,8 @@ TEST(Wake, ComesToAllFromWhatIsOfTheWorld) {
          [&] {
              must(frond_world_set_gravity(stand.world, {0.5, -9.81, 0}));
          }},
-        {"effects", [&] { must(frond_world_set_effects(stand.world, FROND_ALL_EFFECTS & ~uint32_t(FROND_GRAVITY))); }},
+        {"effects",
+         [&] { must(frond_world_set_effects(stand.world, FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_GRAVITY))); }},
         {"wind", [&] { must(frond_world_set_wind(stand.world, &wind)); }},
         {"more wind",
          [&] {
@@ -284,13 +286,13 @@ TEST(Wake, ComesToAllFromWhatIsOfTheWorld) {
 
 // A row of plants leaning on each other sleeps as one, and the one that is pulled wakes those that it reaches.
 TEST(Wake, GoesOnFromPlantToPlant) {
-    std::vector<frond_mechanics> all = {FROND_ROD};
-    if (!SANITIZED) all.push_back(FROND_TET_COROTATIONAL);
+    std::vector<frond_mechanics> all = {FROND_MECHANICS_ROD};
+    if (!SANITIZED) all.push_back(FROND_MECHANICS_TET_COROTATIONAL);
     for (const frond_mechanics mechanics : all) {
         Stand stand;
         for (int i = 0; i < 4; i++) stand.add(0.29 * i, mechanics);
         stand.add(3, mechanics);
-        ASSERT_TRUE(stand.rests_within(mechanics == FROND_ROD ? 10 : 40));
+        ASSERT_TRUE(stand.rests_within(mechanics == FROND_MECHANICS_ROD ? 10 : 40));
         frond_grab grab = {};
         must(frond_grab_create(stand.plants[0], {0.15, 0.5, 0}, 200, &grab));
         must(frond_grab_move(grab, {0.35, 0.5, 0}));
@@ -308,10 +310,10 @@ TEST(Wake, GoesOnFromPlantToPlant) {
 // A board on the tips of two plants keeps them awake until it rests too; when it is taken away, they come back.
 TEST(Wake, ComesWhenWhatLayOnAPlantIsTakenAway) {
     Stand stand;
-    for (const double z : {-0.1, 0.1}) stand.add(0, FROND_ROD, z);
+    for (const double z : {-0.1, 0.1}) stand.add(0, FROND_MECHANICS_ROD, z);
     const std::vector<double> alone = stand.places(stand.plants[0]);
     frond_rigid_def def = frond_default_rigid_def();
-    def.shape = FROND_BOX;
+    def.shape = FROND_SHAPE_BOX;
     def.size = {0.25, 0.01, 0.2};
     def.mass = 4;
     def.friction = 2;
@@ -352,7 +354,7 @@ TEST(Wake, DoesNotComeFromWhatIsRefused) {
         {"mechanics", [&] { return frond_plant_set_mechanics(plant, FROND_MECHANICS_COUNT); }},
         {"integrator", [&] { return frond_plant_set_integrator(plant, FROND_INTEGRATOR_COUNT); }},
         {"state", [&] { return frond_plant_set_state(plant, places.data(), nullptr, count - 1); }},
-        {"lasting", [&] { return frond_plant_set_lasting(plant, nullptr, 1); }},
+        {"lasting", [&] { return frond_plant_set_plastic(plant, nullptr, 1); }},
         {"pin", [&] { return frond_plant_pin(plant, -1); }},
         {"unpin", [&] { return frond_plant_unpin(plant, count); }},
         {"move_pin",
@@ -381,12 +383,12 @@ TEST(Wake, DoesNotComeFromWhatIsRefused) {
 
 TEST(Wake, TakesNoStaleHandleAndNoAbsurdDistance) {
     EXPECT_FALSE(frond_plant_is_awake({}));
-    EXPECT_EQ(frond_plant_wake({}), FROND_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_wake({}), FROND_RESULT_BAD_HANDLE);
     for (const double bad : {-1.0, 1.0, double(NAN), double(INFINITY)}) {
         frond_world_def def = frond_default_world_def();
         def.sleep_distance = bad;
         frond_world world = {};
-        EXPECT_EQ(frond_world_create(&def, &world), FROND_BAD_ARGUMENT);
+        EXPECT_EQ(frond_world_create(&def, &world), FROND_RESULT_BAD_ARGUMENT);
         EXPECT_EQ(world.id, 0u);
     }
 }

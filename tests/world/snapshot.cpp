@@ -35,10 +35,10 @@ struct Garden {
             plants.emplace_back();
             EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plants.back()), FROND_OK) << frond_last_error();
         }
-        add(FROND_PLANE, {0, 0, 0}, 0, {});
-        add(FROND_SPHERE, {-0.5, 0.4, 0}, 0.4, {4, 1, 0});
-        add(FROND_BOX, {1, 0.6, 1}, 2, {0, -1, 0});
-        add(FROND_BOX, {0.3, 0.5, 0.7}, 0, {});
+        add(FROND_SHAPE_PLANE, {0, 0, 0}, 0, {});
+        add(FROND_SHAPE_SPHERE, {-0.5, 0.4, 0}, 0.4, {4, 1, 0});
+        add(FROND_SHAPE_BOX, {1, 0.6, 1}, 2, {0, -1, 0});
+        add(FROND_SHAPE_BOX, {0.3, 0.5, 0.7}, 0, {});
         EXPECT_EQ(frond_grab_create(plants[0], {0, 0.6, 0}, 20, &grab), FROND_OK);
         EXPECT_EQ(frond_bond_create(plants.back(), {0.2, 0.45, 0.3}, rigids.back(), &bond), FROND_OK);
         frond_wind_def wind = frond_default_wind_def();
@@ -65,7 +65,7 @@ struct Garden {
             frond_rigid_state state;
             EXPECT_EQ(frond_rigid_get_state(rigid, &state), FROND_OK);
             for (double number :
-                 {state.position.x, state.position.y, state.position.z, state.velocity.y, state.spin.x}) {
+                 {state.position.x, state.position.y, state.position.z, state.velocity.y, state.angular_velocity.x}) {
                 uint64_t bits;
                 std::memcpy(&bits, &number, sizeof bits);
                 value = value * 31 + bits;
@@ -158,7 +158,7 @@ TEST(Snapshot, GoesBackOverOtherMechanicsAndDetail) {
     garden.run(30);
     const std::vector<char> bytes = garden.save();
     const std::vector<uint64_t> first = garden.run(20);
-    ASSERT_EQ(frond_plant_set_mechanics(garden.plants[2], FROND_TET_LINEAR), FROND_OK);
+    ASSERT_EQ(frond_plant_set_mechanics(garden.plants[2], FROND_MECHANICS_TET_LINEAR), FROND_OK);
     ASSERT_EQ(frond_world_set_viewer(garden.world, {0, 1, 1}), FROND_OK);
     garden.run(20);
     ASSERT_EQ(frond_world_set_viewer(garden.world, {0, 1, 40}), FROND_OK);
@@ -172,10 +172,10 @@ TEST(Snapshot, GoesBackToWhatWasBentForGood) {
         ASSERT_EQ(frond_grab_move(garden.grab, {0.55, 0.2, 0}), FROND_OK);
         garden.run(1, false);
     }
-    ASSERT_GT(frond_plant_get_lasting_count(garden.plants[0]), 0);
+    ASSERT_GT(frond_plant_get_plastic_count(garden.plants[0]), 0);
     const std::vector<char> bytes = garden.save();
     const std::vector<uint64_t> first = garden.run(20);
-    ASSERT_EQ(frond_plant_set_lasting(garden.plants[0], nullptr, 0), FROND_OK);
+    ASSERT_EQ(frond_plant_set_plastic(garden.plants[0], nullptr, 0), FROND_OK);
     ASSERT_EQ(garden.restore(bytes), FROND_OK) << frond_last_error();
     EXPECT_EQ(garden.run(20), first);
 }
@@ -190,8 +190,8 @@ TEST(Snapshot, GoesBackWithWhatBrokeOff) {
     const std::vector<uint64_t> first = garden.run(30);
     ASSERT_EQ(garden.restore(bytes), FROND_OK) << frond_last_error();
     EXPECT_EQ(garden.run(30), first);
-    ASSERT_EQ(frond_plant_mend(garden.plants[0]), FROND_OK);
-    EXPECT_EQ(garden.restore(bytes), FROND_BAD_ARGUMENT);
+    ASSERT_EQ(frond_plant_reset(garden.plants[0]), FROND_OK);
+    EXPECT_EQ(garden.restore(bytes), FROND_RESULT_BAD_ARGUMENT);
 }
 
 // Every way in which bytes can be wrong: a code, a text, and the world as it was.
@@ -214,9 +214,10 @@ struct Refused : testing::Test {
 
 TEST_F(Refused, WhenCutOff) {
     for (size_t size : {size_t(1), size_t(20), bytes.size() / 2, bytes.size() - 1})
-        refuse(std::vector<char>(bytes.begin(), bytes.begin() + long(size)), FROND_FILE_FORMAT, "pass all of it");
+        refuse(std::vector<char>(bytes.begin(), bytes.begin() + long(size)), FROND_RESULT_FILE_FORMAT,
+               "pass all of it");
     bytes.push_back(0);
-    refuse(bytes, FROND_FILE_FORMAT, "no more");
+    refuse(bytes, FROND_RESULT_FILE_FORMAT, "no more");
 }
 
 TEST_F(Refused, WhenDamaged) {
@@ -224,42 +225,42 @@ TEST_F(Refused, WhenDamaged) {
     for (int i = 0; i < 200; i++) {
         std::vector<char> wrong = bytes;
         wrong[random() % wrong.size()] ^= char(1 << random() % 8);
-        EXPECT_EQ(garden.restore(wrong), FROND_FILE_FORMAT) << i;
+        EXPECT_EQ(garden.restore(wrong), FROND_RESULT_FILE_FORMAT) << i;
     }
     EXPECT_EQ(garden.hash(), before);
 }
 
 TEST_F(Refused, WhenOfAnotherVersion) {
     bytes[8] ^= 1;
-    refuse(bytes, FROND_FILE_FORMAT, "another version");
+    refuse(bytes, FROND_RESULT_FILE_FORMAT, "another version");
 }
 
 TEST_F(Refused, WhenNoSnapshotAtAll) {
-    refuse(std::vector<char>(1000, 'x'), FROND_FILE_FORMAT, "no snapshot");
-    EXPECT_EQ(frond_world_restore(garden.world, nullptr, 10), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_world_restore({}, bytes.data(), bytes.size()), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_world_save(garden.world, bytes.data(), 3), FROND_BAD_ARGUMENT);
+    refuse(std::vector<char>(1000, 'x'), FROND_RESULT_FILE_FORMAT, "no snapshot");
+    EXPECT_EQ(frond_world_restore(garden.world, nullptr, 10), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_world_restore({}, bytes.data(), bytes.size()), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_world_save(garden.world, bytes.data(), 3), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(frond_world_get_snapshot_size({}), 0u);
 }
 
 TEST_F(Refused, WhenOfAnotherWorld) {
     Garden more(3);
-    refuse(more.save(), FROND_BAD_ARGUMENT, "same ones");
+    refuse(more.save(), FROND_RESULT_BAD_ARGUMENT, "same ones");
     frond_plant_destroy(garden.plants.back());
     garden.plants.pop_back();
     before = garden.hash();
-    refuse(bytes, FROND_BAD_ARGUMENT, "plants");
+    refuse(bytes, FROND_RESULT_BAD_ARGUMENT, "plants");
 }
 
 TEST_F(Refused, WhenPlantsHaveOtherSettings) {
     frond_plant_destroy(garden.plants[1]);
     frond_plant_def def = frond_default_plant_def();
-    def.mechanics = FROND_TET_COROTATIONAL;
+    def.mechanics = FROND_MECHANICS_TET_COROTATIONAL;
     def.position = {5, 0, 0};
     ASSERT_EQ(frond_plant_create(garden.world, garden.model, &def, &garden.plants[1]), FROND_OK);
     ASSERT_EQ(frond_bond_create(garden.plants[1], {5, 0.3, 0}, garden.rigids.back(), &garden.bond), FROND_OK);
     before = garden.hash();
-    refuse(bytes, FROND_BAD_ARGUMENT, "another model, place or setting");
+    refuse(bytes, FROND_RESULT_BAD_ARGUMENT, "another model, place or setting");
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct Stem {
         EXPECT_EQ(frond_model_from_stems(&stem, 1, &def, &model), FROND_OK) << frond_last_error();
         frond_plant_def plant_def = frond_default_plant_def();
         plant_def.mechanics = mechanics;
-        plant_def.integrator = FROND_IMPLICIT_EULER;
+        plant_def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
         plant_def.mass_damping = 20;
         EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plant), FROND_OK) << frond_last_error();
     }
@@ -53,7 +53,7 @@ struct Stem {
 };
 
 class Strains : public ::testing::TestWithParam<frond_mechanics> {};
-INSTANTIATE_TEST_SUITE_P(World, Strains, ::testing::Values(FROND_ROD, FROND_TET_COROTATIONAL),
+INSTANTIATE_TEST_SUITE_P(World, Strains, ::testing::Values(FROND_MECHANICS_ROD, FROND_MECHANICS_TET_COROTATIONAL),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
 // The outermost fibre at s from the tip, on which P pulls across: P s r / (E I).
@@ -76,37 +76,37 @@ TEST_P(Strains, AreThoseOfABeam) {
     for (size_t i = 2; i + 3 < strains.size(); i++) {  // the foot is held, the tip is hardly bent
         const double from_tip = LENGTH - 0.5 * (capsules[i].begin.y + capsules[i].end.y);
         const double known = force.x * from_tip * RADIUS / stiffness;
-        if (GetParam() == FROND_ROD) {
+        if (GetParam() == FROND_MECHANICS_ROD) {
             EXPECT_NEAR(strains[i] / known, 1, 0.08) << i;
         }
         mean += strains[i] / known;
         count++;
     }
     // Cells of a cage, which are as long as capsules, share what these are strained.
-    EXPECT_NEAR(mean / count, 1, GetParam() == FROND_ROD ? 0.06 : 0.2);
+    EXPECT_NEAR(mean / count, 1, GetParam() == FROND_MECHANICS_ROD ? 0.06 : 0.2);
 }
 
 TEST(StrainsOfNothing, AreRefused) {
     SmallWorld small;
     const int count = frond_plant_get_capsule_count(small.plant);
     std::vector<double> out(size_t(count), 7);
-    EXPECT_EQ(frond_plant_get_strains({}, out.data(), count), FROND_BAD_HANDLE);
-    EXPECT_EQ(frond_plant_get_strains(small.plant, out.data(), count + 1), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_get_strains(small.plant, nullptr, count), FROND_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_strains({}, out.data(), count), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_plant_get_strains(small.plant, out.data(), count + 1), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_get_strains(small.plant, nullptr, count), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(out[0], 7);
 }
 
 // Both integrators go on from where the plant is; one that damps calms it.
 TEST(SetIntegrator, GoesOnFromTheSameMotion) {
-    Stem stem(FROND_ROD);
-    EXPECT_EQ(frond_plant_set_integrator(stem.plant, frond_integrator(99)), FROND_BAD_ARGUMENT);
-    EXPECT_EQ(frond_plant_set_integrator({}, FROND_BDF2), FROND_BAD_HANDLE);
+    Stem stem(FROND_MECHANICS_ROD);
+    EXPECT_EQ(frond_plant_set_integrator(stem.plant, frond_integrator(99)), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_plant_set_integrator({}, FROND_INTEGRATOR_BDF2), FROND_RESULT_BAD_HANDLE);
     frond_grab grab;
     ASSERT_EQ(frond_grab_create(stem.plant, {0, LENGTH, 0}, 5, &grab), FROND_OK);
     ASSERT_EQ(frond_grab_move(grab, {0.1, LENGTH, 0}), FROND_OK);
     for (int i = 0; i < 60; i++) ASSERT_EQ(frond_world_step(stem.world, 1.0 / 60), FROND_OK);
     frond_vec3 before, after;
-    for (int integrator = 0; integrator < FROND_SYMPLECTIC_EULER; integrator++) {
+    for (int integrator = 0; integrator < FROND_INTEGRATOR_SYMPLECTIC_EULER; integrator++) {
         ASSERT_EQ(frond_plant_get_tip(stem.plant, &before), FROND_OK);
         ASSERT_EQ(frond_plant_set_integrator(stem.plant, frond_integrator(integrator)), FROND_OK);
         ASSERT_EQ(frond_plant_get_tip(stem.plant, &after), FROND_OK);

@@ -51,19 +51,20 @@ struct StruckCorn : Stand {
         frond_rigid_state state = {};
         must(frond_rigid_get_state(ball, &state));
         const auto squared = [](const frond_vec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; };
-        return 0.5 * MASS * squared(state.velocity) + 0.2 * MASS * RADIUS * RADIUS * squared(state.spin);
+        return 0.5 * MASS * squared(state.velocity) + 0.2 * MASS * RADIUS * RADIUS * squared(state.angular_velocity);
     }
 };
 
 struct Struck : testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(Plants, Struck,
-                         testing::Values(FROND_TET_LINEAR, FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD,
-                                         FROND_SPRING_CHAIN),
+                         testing::Values(FROND_MECHANICS_TET_LINEAR, FROND_MECHANICS_TET_COROTATIONAL,
+                                         FROND_MECHANICS_TET_NEOHOOKEAN, FROND_MECHANICS_ROD,
+                                         FROND_MECHANICS_SPRING_CHAIN),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
 // Dropped on it, and thrown at it from the side, anywhere.
 TEST_P(Struck, GetsNoMoreEnergyThanTheBallHad) {
-    const bool is_chain = GetParam() == FROND_ROD || GetParam() == FROND_SPRING_CHAIN;
+    const bool is_chain = GetParam() == FROND_MECHANICS_ROD || GetParam() == FROND_MECHANICS_SPRING_CHAIN;
     const int count = SANITIZED ? 1 : is_chain ? 6 : 2;
     int rewound = 0;
     for (const int steps_a_second : {30, 60, 120, 240}) {

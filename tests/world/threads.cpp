@@ -66,7 +66,7 @@ uint64_t hash_with(Team* team) {
     const frond_model model = make_small_model(0, FROND_REST_STANDS_AS_MODELLED);
     for (int i = 0; i < 12; i++) {
         frond_plant_def plant_def = frond_default_plant_def();
-        plant_def.mechanics = i % 3 ? FROND_ROD : FROND_TET_COROTATIONAL;
+        plant_def.mechanics = i % 3 ? FROND_MECHANICS_ROD : FROND_MECHANICS_TET_COROTATIONAL;
         plant_def.position = {0.25 * (i % 4), 0, 0.3 * (i / 4)};
         frond_plant plant = {};
         EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plant), FROND_OK);
@@ -130,7 +130,7 @@ struct Leaning {
         must(frond_world_create(&def, &world));
         for (size_t i = 0; i < plants.size(); i++) {
             frond_plant_def plant_def = frond_default_plant_def();
-            plant_def.mechanics = i % 3 ? FROND_ROD : FROND_TET_COROTATIONAL;
+            plant_def.mechanics = i % 3 ? FROND_MECHANICS_ROD : FROND_MECHANICS_TET_COROTATIONAL;
             plant_def.position = {double(i / 2) + 0.03 * double(i % 2), 0, 0};
             must(frond_plant_create(world, model, &plant_def, &plants[i]));
         }
@@ -169,7 +169,7 @@ TEST(Threads, ThatFailBreakOffOneStepAndNoMore) {
             const frond_result result = frond_world_step(broken.world, H);
             failed += result != FROND_OK;
             if (result != FROND_OK) {
-                EXPECT_EQ(result, FROND_OUT_OF_MEMORY);
+                EXPECT_EQ(result, FROND_RESULT_OUT_OF_MEMORY);
             }
         }
         EXPECT_EQ(failed, 1);
@@ -247,8 +247,8 @@ std::vector<uint64_t> hash_of_islands(Team* team, frond_response response) {
     for (int i = 0; i < ISLANDS; i++) {
         for (int k = 0; k < 2; k++) {
             frond_plant_def plant_def = frond_default_plant_def();
-            plant_def.mechanics = (i + k) % 3 ? FROND_ROD : FROND_TET_COROTATIONAL;
-            plant_def.effects |= FROND_SELF_CONTACT;
+            plant_def.mechanics = (i + k) % 3 ? FROND_MECHANICS_ROD : FROND_MECHANICS_TET_COROTATIONAL;
+            plant_def.effects |= FROND_EFFECT_SELF_CONTACT;
             plant_def.position = {3.0 * i + 0.03 * k, 0, 0};
             frond_plant plant = {};
             EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plant), FROND_OK);

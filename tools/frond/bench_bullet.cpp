@@ -137,7 +137,7 @@ void print_row(int tets, const char* program, const char* method, int steps, con
 }  // namespace
 
 void bench_versus_bullet(const BenchOptions& options) {
-    constexpr frond_mechanics FROND_ROWS[] = {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN};
+    constexpr frond_mechanics FROND_ROWS[] = {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN};
     if (options.csv)
         std::printf("tets,program,method,steps_a_second,frame_ms,error,processor,compiler,version,commit\n");
     else
@@ -155,7 +155,7 @@ void bench_versus_bullet(const BenchOptions& options) {
         const Lattice lattice = make_lattice(0.1, across, even_heights(1, along));
         if (int(lattice.tets.size() / 4) > options.most) continue;
         const int tets = int(lattice.tets.size() / 4);
-        const Run exact = run_frond(lattice, FROND_TET_NEOHOOKEAN, FINE);
+        const Run exact = run_frond(lattice, FROND_MECHANICS_TET_NEOHOOKEAN, FINE);
         for (const int steps : {1, 4}) {
             for (const frond_mechanics mechanics : FROND_ROWS)
                 print_row(tets, "frond", frond_mechanics_name(mechanics), steps,

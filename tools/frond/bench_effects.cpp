@@ -42,27 +42,27 @@ const std::vector<Row>& rows() {
     const auto blown = [](Case& c) { c.wind = 8; };
     const auto pulled = [](Case& c) { c.force = 40; };
     static const std::vector<Row> table = {
-        {FROND_GRAVITY,
+        {FROND_EFFECT_GRAVITY,
          [](Case& c) {
              c.world.gravity = {0, 0, 0};
-             c.never = FROND_FIBRES;
+             c.never = FROND_EFFECT_FIBRES;
          },
-         [](Case& c) { c.never = FROND_FIBRES; }},
-        {FROND_DAMPING,
+         [](Case& c) { c.never = FROND_EFFECT_FIBRES; }},
+        {FROND_EFFECT_DAMPING,
          [](Case& c) { c.plant.mass_damping = c.plant.stiffness_damping = c.plant.material_damping = 0; }, nothing},
-        {FROND_USER_FORCE, nothing, [](Case& c) { c.force = 1; }},
-        {FROND_SURFACE, nothing, [](Case& c) { c.look = true; }},
-        {FROND_NORMALS, nothing, [](Case& c) { c.look = true; }},
-        {FROND_RIGID_CONTACT, nothing, touched},
-        {FROND_FRICTION, nothing, touched},
-        {FROND_TWO_WAY, nothing, touched},
-        {FROND_PLASTICITY, nothing, pulled},
-        {FROND_PLANT_CONTACT, nothing, [](Case& c) { c.apart = 0.4; }},
-        {FROND_SELF_CONTACT, nothing, pulled},
-        {FROND_BREAKING, nothing, pulled},
-        {FROND_WIND, nothing, blown},
-        {FROND_AIR_DRAG, nothing, blown},
-        {FROND_FIBRES, nothing, pulled},
+        {FROND_EFFECT_USER_FORCE, nothing, [](Case& c) { c.force = 1; }},
+        {FROND_EFFECT_SURFACE, nothing, [](Case& c) { c.look = true; }},
+        {FROND_EFFECT_NORMALS, nothing, [](Case& c) { c.look = true; }},
+        {FROND_EFFECT_RIGID_CONTACT, nothing, touched},
+        {FROND_EFFECT_FRICTION, nothing, touched},
+        {FROND_EFFECT_TWO_WAY, nothing, touched},
+        {FROND_EFFECT_PLASTICITY, nothing, pulled},
+        {FROND_EFFECT_PLANT_CONTACT, nothing, [](Case& c) { c.apart = 0.4; }},
+        {FROND_EFFECT_SELF_CONTACT, nothing, pulled},
+        {FROND_EFFECT_BREAKING, nothing, pulled},
+        {FROND_EFFECT_WIND, nothing, blown},
+        {FROND_EFFECT_AIR_DRAG, nothing, blown},
+        {FROND_EFFECT_FIBRES, nothing, pulled},
     };
     return table;
 }
@@ -145,13 +145,13 @@ void step_all_effects() {
             c.plant.effects = plant & ~c.never;
             step_in_callgrind(c, model, name + " " + what);
         };
-        const frond_effects on = FROND_DEFAULT_EFFECTS | row.effect, off = on & ~row.effect;
-        play("without", FROND_ALL_EFFECTS & ~row.effect, off, row.idle);
-        play("off", FROND_ALL_EFFECTS, off, row.idle);
-        play("masked", FROND_ALL_EFFECTS & ~row.effect, on, row.idle);
-        play("idle", FROND_ALL_EFFECTS, on, row.idle);
-        play("unserved", FROND_ALL_EFFECTS, off, row.work);
-        play("work", FROND_ALL_EFFECTS, on, row.work);
+        const frond_effects on = FROND_EFFECT_DEFAULT | row.effect, off = on & ~row.effect;
+        play("without", FROND_EFFECT_ALL & ~row.effect, off, row.idle);
+        play("off", FROND_EFFECT_ALL, off, row.idle);
+        play("masked", FROND_EFFECT_ALL & ~row.effect, on, row.idle);
+        play("idle", FROND_EFFECT_ALL, on, row.idle);
+        play("unserved", FROND_EFFECT_ALL, off, row.work);
+        play("work", FROND_EFFECT_ALL, on, row.work);
     }
     frond_model_destroy(model);
 }

@@ -39,7 +39,7 @@ KindFigures measure_kind(const Kind& kind, bool in_lanes) {
     for (int i = 0; i < kind.count; i++) {
         frond_plant_def def = frond_default_plant_def();
         def.mechanics = kind.mechanics;
-        def.effects &= ~uint32_t(FROND_PLANT_CONTACT);
+        def.effects &= ~uint32_t(FROND_EFFECT_PLANT_CONTACT);
         def.position = {0.7 * (i % SIDE), 0, 0.7 * (i / SIDE)};
         def.rotation = {0, std::sin(0.1 * i), 0, std::cos(0.1 * i)};
         // Only plants of the same settings share lanes; a direct solver does not ask for this one.
@@ -48,7 +48,7 @@ KindFigures measure_kind(const Kind& kind, bool in_lanes) {
         must(frond_plant_create(world, kind.model, &def, &plant));
         figures.elements = frond_plant_get_capsule_count(plant);
     }
-    if (kind.mechanics != FROND_ROD) {
+    if (kind.mechanics != FROND_MECHANICS_ROD) {
         frond_cage_view cage = {};
         must(frond_model_get_cage(kind.model, &cage));
         figures.elements = cage.tet_count;
@@ -87,11 +87,11 @@ void bench_kinds() {
     def.capsule_height = 0.4;
     must(frond_model_load(model_path("corn/corn.obj").c_str(), &def, &short_pieces));
     const frond_model small = small_cage();
-    const Kind kinds[] = {{"corn, rods", short_pieces, FROND_ROD, 1000, 6},
-                          {"corn, cages", corn, FROND_TET_COROTATIONAL, 200, 2},
-                          {"corn, cages", corn, FROND_TET_COROTATIONAL, 200, 6},
-                          {"stems, cages", small, FROND_TET_COROTATIONAL, 1000, 2},
-                          {"stems, cages", small, FROND_TET_COROTATIONAL, 1000, 6}};
+    const Kind kinds[] = {{"corn, rods", short_pieces, FROND_MECHANICS_ROD, 1000, 6},
+                          {"corn, cages", corn, FROND_MECHANICS_TET_COROTATIONAL, 200, 2},
+                          {"corn, cages", corn, FROND_MECHANICS_TET_COROTATIONAL, 200, 6},
+                          {"stems, cages", small, FROND_MECHANICS_TET_COROTATIONAL, 1000, 2},
+                          {"stems, cages", small, FROND_MECHANICS_TET_COROTATIONAL, 1000, 6}};
     std::printf("\nplants of one kind in a wind, median of a step [ms]\n%14s %7s %9s %11s %14s %9s\n", "", "plants",
                 "elements", "wind [m/s]", "one at a time", "in lanes");
     for (const Kind& kind : kinds) {

@@ -24,16 +24,16 @@ struct SolverCase {
 };
 // The trees of tets grow by their leaves, their cells being alike.
 constexpr SolverCase CASES[] = {
-    {"corn", FROND_TET_COROTATIONAL, 1, 1, 0, 0, 0},
-    {"17 corn plants", FROND_TET_COROTATIONAL, 1, 17, 0, 0, 0},
-    {"corn, 10-node tets", FROND_TET_COROTATIONAL, 2, 1, 0, 0, 0},
-    {"corn, 10-node tets", FROND_TET_COROTATIONAL, 2, 1, 0, 0.25, 0},
-    {"corn, 10-node tets", FROND_TET_COROTATIONAL, 2, 1, 0, 0.36, 0},
-    {"tree", FROND_TET_COROTATIONAL, 1, 1, 400, 0.1, 0},
-    {"tree", FROND_TET_COROTATIONAL, 1, 1, 1600, 0.1, 0},
-    {"tree", FROND_TET_COROTATIONAL, 1, 1, 6400, 0.1, 0},
-    {"tree", FROND_TET_COROTATIONAL, 1, 1, 12000, 0.1, 0},
-    {"tree, rods", FROND_ROD, 1, 1, 18000, 0, 0.2},
+    {"corn", FROND_MECHANICS_TET_COROTATIONAL, 1, 1, 0, 0, 0},
+    {"17 corn plants", FROND_MECHANICS_TET_COROTATIONAL, 1, 17, 0, 0, 0},
+    {"corn, 10-node tets", FROND_MECHANICS_TET_COROTATIONAL, 2, 1, 0, 0, 0},
+    {"corn, 10-node tets", FROND_MECHANICS_TET_COROTATIONAL, 2, 1, 0, 0.25, 0},
+    {"corn, 10-node tets", FROND_MECHANICS_TET_COROTATIONAL, 2, 1, 0, 0.36, 0},
+    {"tree", FROND_MECHANICS_TET_COROTATIONAL, 1, 1, 400, 0.1, 0},
+    {"tree", FROND_MECHANICS_TET_COROTATIONAL, 1, 1, 1600, 0.1, 0},
+    {"tree", FROND_MECHANICS_TET_COROTATIONAL, 1, 1, 6400, 0.1, 0},
+    {"tree", FROND_MECHANICS_TET_COROTATIONAL, 1, 1, 12000, 0.1, 0},
+    {"tree, rods", FROND_MECHANICS_ROD, 1, 1, 18000, 0, 0.2},
 };
 
 frond_model load(const SolverCase& one) {
@@ -89,7 +89,7 @@ SolverFigures measure(const SolverCase& one, frond_model model, frond_linear_sol
         surface.push_back(figures.report.ms_surface);
     }
     const int capsules = frond_plant_get_capsule_count(plants.front()) * one.plants;
-    figures.pieces = one.mechanics == FROND_ROD ? capsules : figures.report.tet_count;
+    figures.pieces = one.mechanics == FROND_MECHANICS_ROD ? capsules : figures.report.tet_count;
     frond_world_destroy(world);
     figures.assembly = median(assembly);
     figures.solve = median(solve);
@@ -101,7 +101,7 @@ SolverFigures measure(const SolverCase& one, frond_model model, frond_linear_sol
 // Conjugate gradients take minutes for what is large.
 bool is_worth_it(frond_linear_solver solver, int pieces) {
     constexpr int LARGE = 2000;
-    return solver <= FROND_DIRECT || pieces < LARGE;
+    return solver <= FROND_LINEAR_SOLVER_DIRECT || pieces < LARGE;
 }
 
 struct SolverRow {
@@ -135,11 +135,11 @@ void print_row(const SolverRow& row) {
 // A step of single plants of linear elements over their tets, a line a solver that can do them all.
 std::string plot_of(const std::vector<SolverRow>& rows, const std::string& base) {
     std::string data, lines;
-    for (const frond_linear_solver solver : {FROND_BLOCK, FROND_DIRECT}) {
+    for (const frond_linear_solver solver : {FROND_LINEAR_SOLVER_BLOCK, FROND_LINEAR_SOLVER_DIRECT}) {
         const std::string name = frond_linear_solver_name(solver);
         data += "$" + name + " << EOD\n";
         for (const SolverRow& row : rows)
-            if (row.solver == solver && row.of->mechanics == FROND_TET_COROTATIONAL && row.of->order == 1 &&
+            if (row.solver == solver && row.of->mechanics == FROND_MECHANICS_TET_COROTATIONAL && row.of->order == 1 &&
                 row.of->plants == 1)
                 data += std::to_string(row.figures.pieces) + " " + std::to_string(row.figures.solve) + " " +
                         std::to_string(row.figures.step) + "\n";

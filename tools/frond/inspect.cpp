@@ -34,7 +34,7 @@ nlohmann::ordered_json describe_material(const frond_material& material) {
 }
 
 nlohmann::ordered_json describe_organ(const frond_organ& organ) {
-    const auto range = [](const frond_range& r) { return nlohmann::ordered_json{r.least, r.most}; };
+    const auto range = [](const frond_range& r) { return nlohmann::ordered_json{r.lower, r.upper}; };
     return {{"name", organ.name},
             {"kind", organ.kind},
             {"material", describe_material(organ.material)},
@@ -89,9 +89,9 @@ nlohmann::ordered_json describe(const std::string& file, frond_model model) {
                    {"min_volume", info.min_volume},
                    {"volume", info.volume},
                    {"contained", info.contained},
-                   {"binding_error", info.binding_error},
+                   {"attachment_error", info.attachment_error},
                    {"mass", info.mass},
-                   {"stiffened", info.stiffened}};
+                   {"stiffened", info.stiffening_factor}};
     out["chain"] = {{"nodes", info.chain_node_count},
                     {"capsules", info.capsule_count},
                     {"roots", info.root_count},
@@ -158,7 +158,7 @@ void print(const nlohmann::ordered_json& out) {
                 count("cage", "nodes"), count("cage", "tets"), number("cage", "min_dihedral"),
                 number("cage", "max_dihedral"), number("cage", "min_volume"));
     std::printf("           %.2f %% of vertices inside, binding error %.2g m, mass %.4g kg\n",
-                100 * number("cage", "contained"), number("cage", "binding_error"), number("cage", "mass"));
+                100 * number("cage", "contained"), number("cage", "attachment_error"), number("cage", "mass"));
     std::printf("  chain    %d nodes, %d capsules, %d roots, %d forks, %.2f m long\n", count("chain", "nodes"),
                 count("chain", "capsules"), count("chain", "roots"), count("chain", "forks"),
                 number("chain", "length"));

@@ -66,8 +66,9 @@ void run_stability(StabilityOptions& options) {
         options.scope.mechanics = row_called(options.mechanics, "kind of mechanics", FROND_MECHANICS_COUNT,
                                              [](int row) { return frond_mechanics_name(frond_mechanics(row)); });
     if (!options.integrator.empty())
-        options.scope.integrator = row_called(options.integrator, "implicit integrator", FROND_SYMPLECTIC_EULER,
-                                              [](int row) { return frond_integrator_name(frond_integrator(row)); });
+        options.scope.integrator =
+            row_called(options.integrator, "implicit integrator", FROND_INTEGRATOR_SYMPLECTIC_EULER,
+                       [](int row) { return frond_integrator_name(frond_integrator(row)); });
     std::vector<stability::Result> results = stability::cells_of(options.scope);
     Page json(options.json), html(options.html);
     Progress progress("cell", int(results.size()));
@@ -91,7 +92,7 @@ void add_stability(CLI::App& app) {
     CLI::Option* quick = command->add_flag("--quick", options->scope.quick,
                                            "the default integrator at 1/60 s only, without the slow cases");
     CLI::Option* of_default = command->add_flag_callback(
-        "--default", [options] { options->integrator = frond_integrator_name(FROND_BDF2); },
+        "--default", [options] { options->integrator = frond_integrator_name(FROND_INTEGRATOR_BDF2); },
         "the default integrator only, at all time steps");
     CLI::Option* json = command->add_option("--json", options->json, "write all cells to this file");
     CLI::Option* html = command->add_option("--html", options->html, "write the table as a page");

@@ -35,7 +35,7 @@ struct Body {
         way = VecX::Constant(numbers, 1e-3);
         A.set_pattern(elements->pattern);
         assemble();
-        const Masses masses = row.masses(*elements, FROND_LUMPED);
+        const Masses masses = row.masses(*elements, FROND_MASS_LUMPED);
         for (int slot = 0; slot < elements->pattern.block_count(); ++slot)
             A.block(slot).diagonal().array() += masses.slot[size_t(slot)];
         // A rotation has no mass of its own.
@@ -65,7 +65,7 @@ void add_solver(const std::string& plant, const std::string& name, const std::sh
                 frond_linear_solver which, std::vector<Kernel>& all) {
     const size_t blocks = size_t(body->elements->pattern.block_count());
     // Without the residual, which is the same for all.
-    if (which == FROND_BLOCK) {
+    if (which == FROND_LINEAR_SOLVER_BLOCK) {
         all.push_back({plant + "/factor, " + name, blocks, [body] { factorize(body->scratch.block, body->A); }});
         all.push_back({plant + "/solve, " + name, blocks, [body] { solve(body->scratch.block, body->b, body->x); }});
     } else {
@@ -76,20 +76,21 @@ void add_solver(const std::string& plant, const std::string& name, const std::sh
 
 void add_kernels(const std::string& plant, const std::shared_ptr<const Model>& model, std::vector<Kernel>& all) {
     const size_t tets = model->cage.tets.size();
-    const auto corotational = std::make_shared<Body>(model, FROND_TET_COROTATIONAL, 1);
+    const auto corotational = std::make_shared<Body>(model, FROND_MECHANICS_TET_COROTATIONAL, 1);
     corotational->scratch.direct = make_direct_factor(corotational->elements->pattern);
     add_assembly(plant, "corotational tets", tets, corotational, all);
-    add_assembly(plant, "linear tets", tets, std::make_shared<Body>(model, FROND_TET_LINEAR, 1), all);
-    add_assembly(plant, "neo-Hookean tets", tets, std::make_shared<Body>(model, FROND_TET_NEOHOOKEAN, 1), all);
-    add_solver(plant, "tets, block", corotational, FROND_BLOCK, all);
-    add_solver(plant, "tets, direct (Eigen)", corotational, FROND_DIRECT, all);
+    add_assembly(plant, "linear tets", tets, std::make_shared<Body>(model, FROND_MECHANICS_TET_LINEAR, 1), all);
+    add_assembly(plant, "neo-Hookean tets", tets, std::make_shared<Body>(model, FROND_MECHANICS_TET_NEOHOOKEAN, 1),
+                 all);
+    add_solver(plant, "tets, block", corotational, FROND_LINEAR_SOLVER_BLOCK, all);
+    add_solver(plant, "tets, direct (Eigen)", corotational, FROND_LINEAR_SOLVER_DIRECT, all);
     all.push_back({plant + "/residual, tets", size_t(corotational->elements->pattern.block_count()), [corotational] {
                        Body& body = *corotational;
                        relative_residual(body.A, body.b, body.x, body.scratch.residual);
                    }});
-    const auto rods = std::make_shared<Body>(model, FROND_ROD, 1);
+    const auto rods = std::make_shared<Body>(model, FROND_MECHANICS_ROD, 1);
     add_assembly(plant, "rods", model->chain.nodes.size(), rods, all);
-    add_solver(plant, "rods, block", rods, FROND_BLOCK, all);
+    add_solver(plant, "rods, block", rods, FROND_LINEAR_SOLVER_BLOCK, all);
 }
 
 }  // namespace

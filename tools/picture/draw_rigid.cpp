@@ -65,19 +65,19 @@ bool frond_picture_draw_rigid(frond_picture* picture, const frond_rigid_def* def
         const frond_vec3& size = def->size;
         const auto end = [&](double y) { return placed(state, {0, y, 0}); };
         switch (def->shape) {
-            case FROND_SPHERE:
+            case FROND_SHAPE_SPHERE:
                 require(frond_picture_draw_sphere(picture, state.position, size.x, color));
                 break;
-            case FROND_BOX:
+            case FROND_SHAPE_BOX:
                 require(frond_picture_draw_box(picture, state.position, state.rotation, size, color));
                 break;
-            case FROND_CAPSULE:
+            case FROND_SHAPE_CAPSULE:
                 require(frond_picture_draw_capsule(picture, end(-size.y), end(size.y), size.x, color));
                 break;
-            case FROND_CYLINDER:
+            case FROND_SHAPE_CYLINDER:
                 require(draw_round(picture, state, size.x, size.x, size.y, color));
                 break;
-            case FROND_CONE:
+            case FROND_SHAPE_CONE:
                 require(draw_round(picture, state, size.x, 0, size.y, color));
                 break;
             default:

@@ -68,17 +68,17 @@ void add_walkers(Stage& stage, double start) {
         frond_rigid_state state = frond_default_rigid_def().state;
         const bool crowd = stage.settings.walkers > 1;
         state.position = {start - (crowd ? 3 + 1.2 * (i / 5) : 0), 0.86, crowd ? 1.3 * (i % 5 - 2) : 0};
-        add_body(stage, FROND_CAPSULE, {0.22, 0.62, 0}, 0, state);
+        add_body(stage, FROND_SHAPE_CAPSULE, {0.22, 0.62, 0}, 0, state);
     }
 }
 
 }  // namespace
 
 void field_defaults(Settings& settings) {
-    settings.plant.mechanics = FROND_ROD;
+    settings.plant.mechanics = FROND_MECHANICS_ROD;
     settings.plant.starts_asleep = true;
     // That leaves of neighbours brush is not seen in a field, and costs several times as much as all the rest.
-    settings.plant.effects &= ~uint32_t(FROND_PLANT_CONTACT);
+    settings.plant.effects &= ~uint32_t(FROND_EFFECT_PLANT_CONTACT);
 }
 
 void build_field(Stage& stage) {
@@ -94,13 +94,13 @@ void build_field(Stage& stage) {
         stage.plant(stage.models[size_t(kind_at(x, z, row))], {x, 0, z}, 6.28 * chance(i, 3));
     }
     frond_rigid_state still = frond_default_rigid_def().state;
-    add_body(stage, FROND_PLANE, {}, 0, still);
+    add_body(stage, FROND_SHAPE_PLANE, {}, 0, still);
     const double start = -half + (stage.settings.walkers > 1 ? 0.0 : 0.5);
     frond_rigid_state ball = still;
     ball.position = {start + 1.2, BALL, 0.05};
     ball.velocity = {BALL_SPEED, 0, 0};
-    ball.spin = {0, 0, -BALL_SPEED / BALL};
-    add_body(stage, FROND_SPHERE, {BALL, 0, 0}, 2, ball);
+    ball.angular_velocity = {0, 0, -BALL_SPEED / BALL};
+    add_body(stage, FROND_SHAPE_SPHERE, {BALL, 0, 0}, 2, ball);
     add_walkers(stage, start);
 
     stage.patch = {start + 6, 0, 4};

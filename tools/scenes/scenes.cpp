@@ -97,14 +97,14 @@ frond_rigid_def rigid_def(frond_shape shape, frond_vec3 size, double mass, frond
     return def;
 }
 void add_ground(Stage& stage) {
-    stage.rigid(rigid_def(FROND_PLANE, {}, 0, {0, 0, 0}));
+    stage.rigid(rigid_def(FROND_SHAPE_PLANE, {}, 0, {0, 0, 0}));
 }
 
 // A football, thrown at the stalk.
 void build_ball(Stage& stage) {
     build_corn(stage);
     add_ground(stage);
-    frond_rigid_def ball = rigid_def(FROND_SPHERE, {0.11, 0, 0}, 0.43, {-1.6, 1.1, 0.02});
+    frond_rigid_def ball = rigid_def(FROND_SHAPE_SPHERE, {0.11, 0, 0}, 0.43, {-1.6, 1.1, 0.02});
     ball.state.velocity = {6, 1.2, 0};
     stage.rigid(ball);
 }
@@ -116,7 +116,7 @@ void build_walk(Stage& stage) {
     const frond_model model = stage.load(model_path("corn/corn.obj"));
     for (int i = 0; i < ROW; i++) stage.plant(model, {ROW_STEP * i, 0, i % 2 ? 0.15 : -0.15});
     add_ground(stage);
-    stage.rigid(rigid_def(FROND_CAPSULE, {0.22, 0.62, 0}, 0, {-1, 0.86, 0}));
+    stage.rigid(rigid_def(FROND_SHAPE_CAPSULE, {0.22, 0.62, 0}, 0, {-1, 0.86, 0}));
 }
 void walk(Stage& stage) {
     frond_rigid_state state;
@@ -158,9 +158,9 @@ constexpr double FLAG_LENGTH = 0.6, FLAG_WIDTH = 0.08, FLAG_HELD = 0.3;  // [m]
 void flag_defaults(Settings& settings) {
     settings.model.rest = FROND_REST_WITHOUT_GRAVITY;
     settings.model.capsule_height = 0.03;
-    settings.plant.mechanics = FROND_ROD;
-    settings.plant.effects |= FROND_SELF_CONTACT;
-    settings.plant.effects &= ~uint32_t(FROND_PLASTICITY);  // or it would stay crumpled
+    settings.plant.mechanics = FROND_MECHANICS_ROD;
+    settings.plant.effects |= FROND_EFFECT_SELF_CONTACT;
+    settings.plant.effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);  // or it would stay crumpled
     settings.world.gravity = {0, 0, 0};
     settings.plant.root_height = FLAG_HELD;
     settings.grab_stiffness = 5;
@@ -213,14 +213,14 @@ void fold(Stage& stage) {
 void build_crate(Stage& stage) {
     build_cucumber(stage);
     add_ground(stage);
-    stage.rigid(rigid_def(FROND_BOX, {0.1, 0.06, 0.1}, 0.1, {0.14, 1.35, 0.06}));
+    stage.rigid(rigid_def(FROND_SHAPE_BOX, {0.1, 0.06, 0.1}, 0.1, {0.14, 1.35, 0.06}));
 }
 
 // A small box of cardboard that is set down on a rosette's leaves.
 void build_box(Stage& stage) {
     stage.plant(make_rosette(stage), {0, 0, 0});
     add_ground(stage);
-    frond_rigid_def box = rigid_def(FROND_BOX, {0.12, 0.06, 0.12}, 0.08, {0, 0.39, 0});
+    frond_rigid_def box = rigid_def(FROND_SHAPE_BOX, {0.12, 0.06, 0.12}, 0.08, {0, 0.39, 0});
     box.state.rotation = {0, std::sin(0.2), 0, std::cos(0.2)};
     stage.rigid(box);
 }
@@ -233,9 +233,9 @@ void build_trellis(Stage& stage) {
     add_ground(stage);
     constexpr double AWAY = 0.36, WIDE = 0.5;  // [m]
     for (const double side : {-WIDE, WIDE})
-        stage.rigid(rigid_def(FROND_BOX, {0.02, 1.1, 0.02}, 0, {AWAY + 0.03, 1.1, side}));
+        stage.rigid(rigid_def(FROND_SHAPE_BOX, {0.02, 1.1, 0.02}, 0, {AWAY + 0.03, 1.1, side}));
     for (const double height : {0.5, 1.0, 1.5, 2.0})
-        stage.rigid(rigid_def(FROND_BOX, {0.01, 0.02, WIDE + 0.05}, 0, {AWAY, height, 0}));
+        stage.rigid(rigid_def(FROND_SHAPE_BOX, {0.01, 0.02, WIDE + 0.05}, 0, {AWAY, height, 0}));
 }
 
 // ---- a plant of rods --------------------------------------------------------------------------------------------
@@ -245,7 +245,7 @@ constexpr double TWIG_PIECE = 0.05;  // [m]
 void twig_defaults(Settings& settings) {
     settings.model.capsule_height = TWIG_PIECE;
     settings.model.cage_size = 0.3;
-    settings.plant.mechanics = FROND_ROD;
+    settings.plant.mechanics = FROND_MECHANICS_ROD;
     settings.grab_stiffness = 10;
 }
 // A stem with five branches, each as long as ten pieces.
@@ -267,7 +267,7 @@ void build_twig(Stage& stage) {
 
 void snap_defaults(Settings& settings) {
     corn_defaults(settings);
-    settings.plant.effects |= FROND_BREAKING;
+    settings.plant.effects |= FROND_EFFECT_BREAKING;
     settings.grab_stiffness = 100;
 }
 void build_snap(Stage& stage) {
@@ -277,8 +277,8 @@ void build_snap(Stage& stage) {
 // As rods: in a cage a fruit, its peduncle and the stem beside it share cells.
 void pick_defaults(Settings& settings) {
     settings.model.cage_size = 0.1;
-    settings.plant.mechanics = FROND_ROD;
-    settings.plant.effects |= FROND_BREAKING;
+    settings.plant.mechanics = FROND_MECHANICS_ROD;
+    settings.plant.effects |= FROND_EFFECT_BREAKING;
     settings.grab_stiffness = 20;
 }
 void build_pick(Stage& stage) {
@@ -290,7 +290,7 @@ void build_pick(Stage& stage) {
 void pull_off(Stage& stage, frond_vec3 (*place)(const Stage&), const frond_vec3& speed) {
     const double t = stage.time - GRAB_AT;
     if (t < -0.5 * stage.settings.dt) return;
-    if (frond_plant_get_broken_count(stage.plants[0]) > 0) {
+    if (frond_plant_get_fragment_count(stage.plants[0]) > 0) {
         for (frond_grab grab : stage.grabs) frond_grab_destroy(grab);
         stage.grabs.clear();
         return;
@@ -353,7 +353,7 @@ void pick(Stage& stage) {
 // ---- robots ---------------------------------------------------------------------------------------------------
 
 void arm_defaults(Settings& settings) {
-    settings.plant.mechanics = FROND_ROD;
+    settings.plant.mechanics = FROND_MECHANICS_ROD;
 }
 // Three corn plants in a row, and an arm at its end that is turned away.
 void build_arm(Stage& stage) {

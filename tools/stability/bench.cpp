@@ -17,7 +17,7 @@ Bench::Bench(const Cell& cell)
     plant_def.mechanics = cell.mechanics;
     plant_def.integrator = cell.integrator;
     // What is bent far is to come back.
-    plant_def.effects &= ~uint32_t(FROND_PLASTICITY);
+    plant_def.effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
 }
 
 Bench::~Bench() {
@@ -211,7 +211,7 @@ void Bench::expect_shape(frond_plant plant, const Places& rest, double share) co
         inside_out += !(volume > 0);
     }
     // Where the chain moves, tets are only drawn.
-    const bool moves_cage = cell.mechanics != FROND_ROD && cell.mechanics != FROND_SPRING_CHAIN;
+    const bool moves_cage = cell.mechanics != FROND_MECHANICS_ROD && cell.mechanics != FROND_MECHANICS_SPRING_CHAIN;
     expect(inside_out == 0 || !moves_cage, "tets inside out", inside_out, 0);
     double sum = 0;
     for (size_t i = 0; i < rest.size(); i++) sum += length(now[i] - rest[i]);

@@ -7,7 +7,8 @@ namespace frond::stability {
 
 namespace {
 
-constexpr frond_mechanics OWN[] = {FROND_TET_COROTATIONAL, FROND_TET_NEOHOOKEAN, FROND_ROD};
+constexpr frond_mechanics OWN[] = {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN,
+                                   FROND_MECHANICS_ROD};
 
 struct Column {
     std::string name;
@@ -26,7 +27,7 @@ std::vector<Column> columns(bool quick) {
                             }});
         for (frond_mechanics mechanics : OWN)
             list.push_back({frond_mechanics_name(mechanics) + at, [=](const BulletCase& one) {
-                                return run_cell(find_case(one.name), {mechanics, FROND_BDF2, dt});
+                                return run_cell(find_case(one.name), {mechanics, FROND_INTEGRATOR_BDF2, dt});
                             }});
     }
     return list;

@@ -34,13 +34,13 @@ std::string text_of(const Cell& cell) {
 std::vector<Result> cells_of(const Scope& scope) {
     const double steps[] = {1.0 / 240, 1.0 / 60, 1.0 / 30, 1.0 / 10};
     for (const std::string& name : scope.names) find_case(name);
-    const int only = scope.quick ? FROND_BDF2 : scope.integrator;
+    const int only = scope.quick ? FROND_INTEGRATOR_BDF2 : scope.integrator;
     std::vector<Result> cells;
     for (const Case& one : cases()) {
         const bool is_named = std::find(scope.names.begin(), scope.names.end(), one.name) != scope.names.end();
         if (scope.names.empty() ? scope.quick && one.is_slow : !is_named) continue;
         for (int mechanics = 0; mechanics < FROND_MECHANICS_COUNT; mechanics++)
-            for (int integrator = 0; integrator < FROND_SYMPLECTIC_EULER; integrator++)
+            for (int integrator = 0; integrator < FROND_INTEGRATOR_SYMPLECTIC_EULER; integrator++)
                 for (double dt : steps) {
                     if (scope.mechanics >= 0 && scope.mechanics != mechanics) continue;
                     if (only >= 0 && only != integrator) continue;

@@ -75,7 +75,7 @@ void stand_in(Bench& bench, const frond_rigid_def& body) {
 
 frond_rigid_def block(const frond_vec3& half, const frond_vec3& at) {
     frond_rigid_def def = frond_default_rigid_def();
-    def.shape = FROND_BOX;
+    def.shape = FROND_SHAPE_BOX;
     def.size = half;
     def.mass = 0;
     def.state.position = at;
@@ -90,7 +90,7 @@ void wall_through(Bench& bench) {
 }
 void under_ground(Bench& bench) {
     frond_rigid_def ground = frond_default_rigid_def();
-    ground.shape = FROND_PLANE;
+    ground.shape = FROND_SHAPE_PLANE;
     ground.state.position = {0, 0.35, 0};
     stand_in(bench, ground);
 }
@@ -135,7 +135,7 @@ void press(Bench& bench) {
 void drop(Bench& bench) {
     bench.plant_def.root_height = -1;
     frond_rigid_def ground = frond_default_rigid_def();
-    ground.shape = FROND_PLANE;
+    ground.shape = FROND_SHAPE_PLANE;
     bench.add(ground);
     const frond_plant plant = bench.add(herb(), {0, 0.5, 0});
     bench.run(4);
@@ -167,10 +167,10 @@ void tear(Bench& bench) {
 
 // Stems that snap under a ball of ten times their mass, which lies on what is left.
 void break_in_contact(Bench& bench) {
-    bench.plant_def.effects |= FROND_BREAKING;
+    bench.plant_def.effects |= FROND_EFFECT_BREAKING;
     bench.add(herb());
     frond_rigid_def ground = frond_default_rigid_def();
-    ground.shape = FROND_PLANE;
+    ground.shape = FROND_SHAPE_PLANE;
     bench.add(ground);
     bench.add(ball_of(10 * mass_of(herb()), {-0.4, 0.35, 0}, {15, 0, 0}));
     bench.add(ball_of(10 * mass_of(herb()), {0.02, 1.2, 0}, {0, -5, 0}));

@@ -30,7 +30,7 @@ struct Stand {
 Stand stand_on_ground(Bench& bench) {
     bench.box = 1e6;
     frond_rigid_def ground = frond_default_rigid_def();
-    ground.shape = FROND_PLANE;
+    ground.shape = FROND_SHAPE_PLANE;
     bench.add(ground);
     Stand corn = {bench.add(model_of_corn()), {}, {}};
     corn.rest = bench.places(corn.plant);
@@ -101,7 +101,7 @@ void jerk(Bench& bench) {
 // A hundred times its weight, sideways, with sets that it keeps.
 void fling(Bench& bench) {
     constexpr double LIES = 1, SLOW = 1;  // mean way over its size, which may lie on the ground [-]; [m/s]
-    bench.plant_def.effects |= FROND_PLASTICITY;
+    bench.plant_def.effects |= FROND_EFFECT_PLASTICITY;
     const Stand corn = stand_on_ground(bench);
     must(frond_world_set_gravity(bench.world(), {650, 50, 850}));
     bench.run(BLOWS);

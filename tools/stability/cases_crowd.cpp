@@ -29,7 +29,7 @@ void pile(Bench& bench) {
     constexpr double CALM = 20;  // [m/s]
     bench.plant_def.root_height = -1;
     frond_rigid_def ground = frond_default_rigid_def();
-    ground.shape = FROND_PLANE;
+    ground.shape = FROND_SHAPE_PLANE;
     bench.add(ground);
     for (int i = 0; i < COUNT; i++) {
         const double half = bench.between(0, M_PI);
@@ -54,7 +54,7 @@ void thrown_through(Bench& bench) {
 }
 
 void self_contact(Bench& bench) {
-    bench.plant_def.effects |= FROND_SELF_CONTACT;
+    bench.plant_def.effects |= FROND_EFFECT_SELF_CONTACT;
     const frond_plant plant = bench.add(herb());
     const Places rest = bench.places(plant);
     frond_grab grab = {};

@@ -100,7 +100,7 @@ void one_tet(Bench& bench) {
 }
 
 void quadratic(Bench& bench) {
-    if (bench.cell.mechanics == FROND_ROD || bench.cell.mechanics == FROND_SPRING_CHAIN)
+    if (bench.cell.mechanics == FROND_MECHANICS_ROD || bench.cell.mechanics == FROND_MECHANICS_SPRING_CHAIN)
         throw DoesNotApply("chains have no elements of order 2");
     bench.plant_def.element_order = 2;
     bench.plant_def.root_height = FOOT;

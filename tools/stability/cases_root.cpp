@@ -113,7 +113,7 @@ void gust(Bench& bench) {
     const frond_plant plant = bench.add(herb());
     const Places rest = bench.places(plant);
     frond_wind_def wind = frond_default_wind_def();
-    wind.profile = FROND_WIND_UNIFORM;
+    wind.profile = FROND_WIND_PROFILE_UNIFORM;
     wind.velocity = {60, 0, 0};
     must(frond_world_set_wind(bench.world(), &wind));
     bench.run(2);
@@ -129,7 +129,7 @@ void squall(Bench& bench) {
     double sign = 1;
     bench.run(2, [&](double) {
         frond_wind_def wind = frond_default_wind_def();
-        wind.profile = FROND_WIND_UNIFORM;
+        wind.profile = FROND_WIND_PROFILE_UNIFORM;
         wind.velocity = {40 * sign, 0, 20 * sign};
         sign = -sign;
         must(frond_world_set_wind(bench.world(), &wind));

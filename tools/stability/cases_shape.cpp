@@ -58,7 +58,7 @@ void scramble(Bench& bench) {
     Places x = bench.places(plant);
     // Where it hangs: long steps of a method that damps.
     Cell calm = bench.cell;
-    calm.integrator = FROND_IMPLICIT_EULER;
+    calm.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     calm.dt = 0.1;
     Bench other(calm);
     other.plant_def.root_height = FOOT;

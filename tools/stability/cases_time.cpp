@@ -60,7 +60,7 @@ void cycle_plasticity(Bench& bench) {
     material.yield_strain = 0.02;
     material.creep_rate = 10;
     bench.plant_def.root_height = FOOT;
-    bench.plant_def.effects |= FROND_PLASTICITY;
+    bench.plant_def.effects |= FROND_EFFECT_PLASTICITY;
     const frond_plant plant = bench.add(bench.keep(model_of(make_lattice(0.1, 1, even_heights(1, 8)), material)));
     frond_grab grab = {};
     must(frond_grab_create(plant, {0, 1, 0}, 1e4, &grab));
@@ -76,16 +76,17 @@ void cycle_plasticity(Bench& bench) {
 }
 
 void switch_effects(Bench& bench) {
-    bench.plant_def.effects = FROND_ALL_EFFECTS & ~uint32_t(FROND_BREAKING);
+    bench.plant_def.effects = FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_BREAKING);
     const frond_plant plant = bench.add(herb());
     const Places rest = bench.places(plant);
     frond_wind_def wind = frond_default_wind_def();
     wind.velocity = {5, 0, 0};
     must(frond_world_set_wind(bench.world(), &wind));
     bench.run(3, [&](double) {
-        must(frond_plant_set_effects(plant, uint32_t(bench.random()) & FROND_ALL_EFFECTS & ~uint32_t(FROND_BREAKING)));
+        must(frond_plant_set_effects(plant,
+                                     uint32_t(bench.random()) & FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_BREAKING)));
     });
-    must(frond_plant_set_effects(plant, FROND_DEFAULT_EFFECTS));
+    must(frond_plant_set_effects(plant, FROND_EFFECT_DEFAULT));
     must(frond_world_set_wind(bench.world(), nullptr));
     bench.run(4);
     bench.expect_shape(plant, rest, 0.25);
@@ -129,7 +130,7 @@ void rest_10000(Bench& bench) {
     rest_for(bench, 10000, bench.keep(model_of(make_lattice(0.1, 1, even_heights(1, 5)), plain_material())));
 }
 void rest_million(Bench& bench) {
-    if (bench.cell.integrator != FROND_BDF2 || bench.cell.dt != 1.0 / 60)
+    if (bench.cell.integrator != FROND_INTEGRATOR_BDF2 || bench.cell.dt != 1.0 / 60)
         throw DoesNotApply("run with the default integrator at 1/60 s only");
     rest_for(bench, 1000000, bench.keep(model_of(make_lattice(0.1, 1, even_heights(0.3, 2)), plain_material())));
 }
@@ -153,7 +154,7 @@ void odd_steps(Bench& bench) {
 }
 
 void loose_solver(Bench& bench) {
-    bench.plant_def.linear_solver = FROND_PCG_JACOBI;
+    bench.plant_def.linear_solver = FROND_LINEAR_SOLVER_PCG_JACOBI;
     bench.plant_def.tolerance = 0.5;
     bench.plant_def.max_iterations = 3;
     swing_with(bench, [&] { return bench.cell.dt; });

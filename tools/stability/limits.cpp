@@ -14,29 +14,30 @@ struct Limit {
 };
 
 constexpr Limit LIMITS[] = {
-    {"stiffness_ratio", FROND_TET_LINEAR, ANY,
+    {"stiffness_ratio", FROND_MECHANICS_TET_LINEAR, ANY,
      "soft tets that share cells with stiff ones turn far, and what turns far grows"},
-    {"dropped", FROND_TET_LINEAR, ANY,
+    {"dropped", FROND_MECHANICS_TET_LINEAR, ANY,
      "a plant that turns as a whole is strained by turning: linear mechanics know no rotation"},
-    {"above_buckling", FROND_TET_LINEAR, ANY,
+    {"above_buckling", FROND_MECHANICS_TET_LINEAR, ANY,
      "what is strained along bends no more easily for that: linear mechanics know no buckling"},
-    {"ball_1e4", FROND_TET_LINEAR, ANY, "what a heavy ball turns over is strained by turning, and flies back faster"},
-    {"broken_in_contact", FROND_TET_LINEAR, ANY, "what a ball turns over is strained by turning"},
-    {"needles", ANY, FROND_IMPLICIT_EULER,
+    {"ball_1e4", FROND_MECHANICS_TET_LINEAR, ANY,
+     "what a heavy ball turns over is strained by turning, and flies back faster"},
+    {"broken_in_contact", FROND_MECHANICS_TET_LINEAR, ANY, "what a ball turns over is strained by turning"},
+    {"needles", ANY, FROND_INTEGRATOR_IMPLICIT_EULER,
      "one solve with what bends where the step begins: what whips is drawn out by some per cent of its energy"},
-    {"needles", ANY, FROND_TR_BDF2,
+    {"needles", ANY, FROND_INTEGRATOR_TR_BDF2,
      "it counts forces where the step begins for half: what whips is drawn out by some per cent of its energy"},
-    {"poisson_0.499", ANY, FROND_IMPLICIT_EULER,
+    {"poisson_0.499", ANY, FROND_INTEGRATOR_IMPLICIT_EULER,
      "one solve with what turns where the step begins: some per cent of its energy go into volume, which is stiff; two "
      "solves a step hold"},
-    {"poisson_0.499", ANY, FROND_TR_BDF2,
+    {"poisson_0.499", ANY, FROND_INTEGRATOR_TR_BDF2,
      "it counts forces where the step begins for half: some per cent of its energy go into volume, which is stiff; two "
      "solves a step hold"},
-    {"loose_solver", FROND_TET_LINEAR, FROND_IMPLICIT_EULER,
+    {"loose_solver", FROND_MECHANICS_TET_LINEAR, FROND_INTEGRATOR_IMPLICIT_EULER,
      "it forgets with each step what the last one was heading for: rough solves lag behind by some per cent more"},
-    {"loose_solver", ANY, FROND_GENERALIZED_ALPHA,
+    {"loose_solver", ANY, FROND_INTEGRATOR_GENERALIZED_ALPHA,
      "it has to be iterated to convergence, which rough solves do not come to"},
-    {"corn_flung", FROND_TET_LINEAR, FROND_GENERALIZED_ALPHA,
+    {"corn_flung", FROND_MECHANICS_TET_LINEAR, FROND_INTEGRATOR_GENERALIZED_ALPHA,
      "it damps sways least, and what was strained by turning sways far: a leaf's tip needs a second more to slow down"},
 };
 

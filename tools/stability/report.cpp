@@ -20,7 +20,9 @@ struct Tally {
         grey += color == Color::GREY;
         if (color != Color::RED) return;
         red++;
-        const auto rank = [](const Result& of) { return 2 * is_unexplained(of) + (of.cell.integrator == FROND_BDF2); };
+        const auto rank = [](const Result& of) {
+            return 2 * is_unexplained(of) + (of.cell.integrator == FROND_INTEGRATOR_BDF2);
+        };
         if (!worst || rank(result) > rank(*worst)) worst = &result;
     }
 };
@@ -66,7 +68,7 @@ std::vector<Counts> count(const std::vector<Result>& results) {
         const bool is_red = result.verdict.color == Color::RED;
         of.cells += result.verdict.color != Color::GREY;
         of.red += is_red;
-        of.red_default += is_red && result.cell.integrator == FROND_BDF2;
+        of.red_default += is_red && result.cell.integrator == FROND_INTEGRATOR_BDF2;
     }
     return counts;
 }

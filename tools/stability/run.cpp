@@ -66,7 +66,7 @@ Verdict read_verdict(int in, int status, int seconds) {
 // Models, and what mechanics fit to them, belong to all children.
 void warm_up() {
     for (int mechanics = 0; mechanics < FROND_MECHANICS_COUNT; mechanics++) {
-        Bench bench({frond_mechanics(mechanics), FROND_BDF2, 1.0 / 60});
+        Bench bench({frond_mechanics(mechanics), FROND_INTEGRATOR_BDF2, 1.0 / 60});
         bench.add(herb());
         bench.add(beam(), {5, 0, 0});
         bench.run(0.05);

@@ -14,8 +14,8 @@ class Bench;
 
 // One choice of what a case is run with. The world's substeps are as long as the step: nothing divides it.
 struct Cell {
-    frond_mechanics mechanics = FROND_TET_COROTATIONAL;
-    frond_integrator integrator = FROND_BDF2;
+    frond_mechanics mechanics = FROND_MECHANICS_TET_COROTATIONAL;
+    frond_integrator integrator = FROND_INTEGRATOR_BDF2;
     double dt = 1.0 / 60;  // [s]
 };
 std::string text_of(const Cell& cell);  // "rod, bdf2, 1/60 s"

@@ -41,8 +41,8 @@ double path_error(const Path& path, const Path& reference) {
 
 // Two solves a step that damp next to nothing, iterated to convergence.
 Setup reference_setup(Setup setup) {
-    setup.plant.integrator = FROND_SDIRK2;
-    setup.plant.linear_solver = FROND_BLOCK;
+    setup.plant.integrator = FROND_INTEGRATOR_SDIRK2;
+    setup.plant.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
     setup.plant.tolerance = frond_default_plant_def().tolerance;
     setup.plant.newton_iterations = 12;
     setup.plant.newton_tolerance = 1e-8;

@@ -88,7 +88,7 @@ Setup agree_baseline() {
 
 Outcome run_agree(const Setup& setup, Session& session) {
     Setup rods = setup;
-    rods.plant.mechanics = FROND_ROD;
+    rods.plant.mechanics = FROND_MECHANICS_ROD;
     Outcome outcome;
     for (const PlantCase* plant : {&CORN, &CUCUMBER}) {
         const ModelPtr model = default_model(*plant, session);

@@ -157,7 +157,7 @@ Outcome run_frequencies(const Setup& setup, Session& session) {
 
 Outcome run_damping(const Setup& given, Session& session) {
     Setup setup = given;
-    setup.plant.effects |= FROND_DAMPING;
+    setup.plant.effects |= FROND_EFFECT_DAMPING;
     setup.plant.mass_damping = 0.2;
     setup.plant.stiffness_damping = 5e-4;
     const ModelPtr model = make_beam(SWAYING, setup);
@@ -198,7 +198,7 @@ Outcome run_amplitude(const Setup& setup, Session& session) {
 // The shape that an end load of P L^2 / (E I) = 5 holds the beam in.
 static std::unique_ptr<Trial> bend_far(const ModelPtr& model, const Beam& beam, const Setup& setup) {
     Setup exact = setup;
-    exact.plant.linear_solver = FROND_BLOCK;
+    exact.plant.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
     const double P = 5 * beam.young * inertia_of(beam, setup.body);
     return settle(model, exact, 20, [=](Trial& t, double share) { t.push_end({P * share, 0, 0}, {0, 0, 0}); });
 }
@@ -263,7 +263,7 @@ Outcome run_release(const Setup& setup, Session& session) {
 
 Setup twig_baseline() {
     Setup setup = static_baseline();
-    setup.plant.mechanics = FROND_ROD;
+    setup.plant.mechanics = FROND_MECHANICS_ROD;
     return setup;
 }
 

@@ -62,7 +62,7 @@ std::vector<double> loads(const Session& session, std::vector<double> few, std::
 
 Setup static_baseline() {
     Setup setup;
-    setup.plant.effects &= ~uint32_t(FROND_DAMPING);
+    setup.plant.effects &= ~uint32_t(FROND_EFFECT_DAMPING);
     return setup;
 }
 

@@ -14,7 +14,7 @@ void blow(Trial& trial, double speed) {
     frond_wind_def wind = frond_default_wind_def();
     wind.velocity = {speed, 0, 0};
     wind.turbulence = 0;
-    wind.profile = FROND_WIND_UNIFORM;
+    wind.profile = FROND_WIND_PROFILE_UNIFORM;
     wind.density = AIR_DENSITY;
     must(frond_world_set_wind(trial.world, &wind));
 }

@@ -7,7 +7,7 @@
 
 namespace frond::study {
 
-// "tet_linear" -> "FROND_TET_LINEAR"
+// "tet_linear" -> "FROND_MECHANICS_TET_LINEAR"
 static std::string enum_name(const std::string& name) {
     std::string text = "FROND_";
     for (char c : name) text += char(std::toupper(c));
@@ -17,7 +17,7 @@ static std::string enum_name(const std::string& name) {
 // Linear tets are right for small bends alone, and a chain of springs for round organs alone: they are in the diagram,
 // but nobody should be sent to them for the error that they have in it.
 static bool is_right_everywhere(frond_mechanics mechanics) {
-    return mechanics != FROND_TET_LINEAR && mechanics != FROND_SPRING_CHAIN;
+    return mechanics != FROND_MECHANICS_TET_LINEAR && mechanics != FROND_MECHANICS_SPRING_CHAIN;
 }
 
 std::string advice_of(const Result& result, const Provenance& provenance) {

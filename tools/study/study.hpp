@@ -27,7 +27,7 @@ enum class Body {
 // The default plant, but that nothing yields: the known answers are elastic ones.
 inline frond_plant_def elastic_plant_def() {
     frond_plant_def def = frond_default_plant_def();
-    def.effects &= ~uint32_t(FROND_PLASTICITY);
+    def.effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
     return def;
 }
 

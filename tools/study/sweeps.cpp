@@ -26,7 +26,7 @@ std::vector<double> time_steps(Effort effort) {
 
 // What is solved directly has none.
 std::vector<double> tolerances(int linear_solver, Effort effort) {
-    if (linear_solver == FROND_DIRECT) return {1e-4};
+    if (linear_solver == FROND_LINEAR_SOLVER_DIRECT) return {1e-4};
     return by<double>(effort, {1e-4}, {1e-4}, {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8});
 }
 
@@ -84,9 +84,9 @@ void sweep_mechanics(const Problem& problem, std::vector<Sweep>& sweeps) {
 void sweep_exact_rods(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
     Setup setup = problem.baseline();
     if (setup.body != Body::STEM) return;
-    setup.plant.mechanics = FROND_ROD;
-    setup.plant.mass = FROND_CONSISTENT;
-    setup.plant.integrator = FROND_SDIRK2;
+    setup.plant.mechanics = FROND_MECHANICS_ROD;
+    setup.plant.mass = FROND_MASS_CONSISTENT;
+    setup.plant.integrator = FROND_INTEGRATOR_SDIRK2;
     Sweep sweep = {"rod, consistent mass, sdirk2", {}, false};
     for (int resolution : resolutions(Body::STEM, 1, effort, true)) {
         setup.resolution = resolution;
@@ -122,7 +122,7 @@ void sweep_time_step(const Problem& problem, Effort effort, std::vector<Sweep>& 
         Setup setup = base;
         setup.plant.integrator = frond_integrator(i);
         // Its many short steps take longer than all else; the table of changes has one of them.
-        if (effort == Effort::QUICK && i == FROND_SYMPLECTIC_EULER && base.body != Body::STEM) continue;
+        if (effort == Effort::QUICK && i == FROND_INTEGRATOR_SYMPLECTIC_EULER && base.body != Body::STEM) continue;
         over_steps(frond_integrator_name(setup.plant.integrator), setup);
     }
     if (problem.axes & RESOLUTION) return;
@@ -260,7 +260,7 @@ std::vector<Setup> changes_of(const Problem& problem, Effort effort) {
     if (problem.axes & LINEAR && has_time_to_iterate(changes.base, effort))
         for (int k = 0; k < FROND_LINEAR_SOLVER_COUNT; k++)
             for (double tolerance : tolerances(k, effort)) {
-                if (k == FROND_BLOCK) continue;
+                if (k == FROND_LINEAR_SOLVER_BLOCK) continue;
                 changes.add([&](Setup& s) {
                     s.plant.linear_solver = frond_linear_solver(k);
                     s.plant.tolerance = tolerance;

@@ -226,7 +226,7 @@ static std::unique_ptr<Trial> try_to_settle(const ModelPtr& model, const Setup& 
 std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ramp, const LoadFunction& load,
                               int most_steps) {
     Setup patient = setup;
-    patient.plant.integrator = FROND_IMPLICIT_EULER;
+    patient.plant.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     patient.plant.newton_tolerance = 1e-9;
     patient.plant.mass_damping = patient.plant.stiffness_damping = patient.plant.material_damping = 0;
     // Converged steps find most shapes; single solves, which take loads that follow anew each time, find the others.

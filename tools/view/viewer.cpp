@@ -128,10 +128,10 @@ void throw_ball(Viewer& viewer) {
     constexpr double SIZE = 0.05, BALL = 0.11, MASS = 0.43;  // radius of the plants' height [-]; a football's [m], [kg]
     constexpr size_t MOST = 20;
     Stage& stage = viewer.play->stage;
-    const auto is_plane = [](const frond_rigid_def& def) { return def.shape == FROND_PLANE; };
+    const auto is_plane = [](const frond_rigid_def& def) { return def.shape == FROND_SHAPE_PLANE; };
     frond_rigid_def def = frond_default_rigid_def();
     if (std::none_of(stage.rigid_defs.begin(), stage.rigid_defs.end(), is_plane)) {
-        def.shape = FROND_PLANE;
+        def.shape = FROND_SHAPE_PLANE;
         def.mass = 0;
         def.state.position.y = frame_stage(stage, 0, 0, 1).ground_height;
         stage.rigid(def);

@@ -50,8 +50,11 @@ extern "C" {
     X(OUT_OF_MEMORY, "out of memory")                                             \
     X(INTERNAL, "a bug in frond, please report it")
 
-#define FROND_RESULT_ENUM(code, text) FROND_##code,
-typedef enum frond_result { FROND_RESULTS(FROND_RESULT_ENUM) FROND_RESULT_COUNT } frond_result;
+#define FROND_RESULT_ENUM(code, text) FROND_RESULT_##code,
+typedef enum frond_result {
+    FROND_RESULTS(FROND_RESULT_ENUM) FROND_RESULT_COUNT,
+    FROND_OK = FROND_RESULT_OK
+} frond_result;
 #undef FROND_RESULT_ENUM
 
 FROND_API const char* frond_version_string(void);
@@ -101,10 +104,10 @@ typedef struct frond_bond {
     X(DAMPING, 1, "damping")             /* mass_, stiffness_ and material_damping of the plant's def */            \
     X(USER_FORCE, 2, "user_force")       /* frond_plant_add_force and grabs */                                      \
     X(SURFACE, 3, "surface")             /* deform the render mesh */                                               \
-    X(NORMALS, 4, "normals")             /* and its normals; needs FROND_SURFACE */                                 \
+    X(NORMALS, 4, "normals")             /* and its normals; needs FROND_EFFECT_SURFACE */                          \
     X(RIGID_CONTACT, 5, "rigid_contact") /* bodies of the Bullet world push the plant */                            \
     X(FRICTION, 6, "friction")           /* and rub on it; likewise plants on plants */                             \
-    X(TWO_WAY, 7, "two_way")             /* and feel the same impulses; needs FROND_RIGID_CONTACT */                \
+    X(TWO_WAY, 7, "two_way")             /* and feel the same impulses; needs FROND_EFFECT_RIGID_CONTACT */         \
     X(PLASTICITY, 8, "plasticity")       /* what is bent beyond its yield_strain keeps a set, and creeps */         \
     X(PLANT_CONTACT, 9, "plant_contact") /* plants push each other by their cages, where both have this bit. Those  \
                                           * that stand in each other when they are made come apart, slowly. */      \
@@ -117,15 +120,15 @@ typedef struct frond_bond {
     X(FIBRES, 14, "fibres")              /* organs in a cage that is fatter than they are are not drawn out by more \
                                           * than 3 % and what their tissue gives; their cage alone gives as rubber  \
                                           * does. Costs nothing while nothing is drawn out. Chains need none,       \
-                                          * FROND_TET_LINEAR has none. */
+                                          * FROND_MECHANICS_TET_LINEAR has none. */
 typedef uint32_t frond_effects;
-#define FROND_EFFECT_ENUM(code, bit, text) FROND_##code = 1 << bit,
+#define FROND_EFFECT_ENUM(code, bit, text) FROND_EFFECT_##code = 1 << bit,
 #define FROND_EFFECT_ONE(code, bit, text) +1
 enum {
     FROND_EFFECTS(FROND_EFFECT_ENUM) FROND_EFFECT_COUNT = 0 FROND_EFFECTS(FROND_EFFECT_ONE),
-    FROND_ALL_EFFECTS = (1 << FROND_EFFECT_COUNT) - 1,
+    FROND_EFFECT_ALL = (1 << FROND_EFFECT_COUNT) - 1,
     /* of a plant; a world allows all */
-    FROND_DEFAULT_EFFECTS = FROND_ALL_EFFECTS & ~(FROND_SELF_CONTACT | FROND_BREAKING)
+    FROND_EFFECT_DEFAULT = FROND_EFFECT_ALL & ~(FROND_EFFECT_SELF_CONTACT | FROND_EFFECT_BREAKING)
 };
 #undef FROND_EFFECT_ENUM
 #undef FROND_EFFECT_ONE
@@ -162,34 +165,46 @@ FROND_API const char* frond_effect_name(frond_effects effect);
 #define FROND_MASSES(X) X(LUMPED, "lumped") X(CONSISTENT, "consistent")
 
 /* How it is found out where cages are in each other. All of them find the same. */
-#define FROND_HASH_LAYOUTS(X)                                                                              \
-    X(HASH_GRID, "grid")               /* a grid of cells, only those in which two plants are: quickest */ \
-    X(HASH_PAPER, "paper")             /* the paper's table of n buckets over cells of size l */           \
-    X(HASH_BRUTE_FORCE, "brute_force") /* everything with everything, to compare with */
+#define FROND_HASH_LAYOUTS(X)                                                                         \
+    X(GRID, "grid")               /* a grid of cells, only those in which two plants are: quickest */ \
+    X(PAPER, "paper")             /* the paper's table of n buckets over cells of size l */           \
+    X(BRUTE_FORCE, "brute_force") /* everything with everything, to compare with */
 /* What contacts do. */
-#define FROND_RESPONSES(X)                                                                                      \
-    X(RESPONSE_IMPULSE, "impulse") /* impulses that fit together, with friction, as bodies answer: exact */     \
-    X(RESPONSE_PENALTY, "penalty") /* a spring at each contact, stable however stiff: cheap, yields a little */ \
-    X(RESPONSE_NONE, "none")       /* contacts are told but nothing pushes */
+#define FROND_RESPONSES(X)                                                                             \
+    X(IMPULSE, "impulse") /* impulses that fit together, with friction, as bodies answer: exact */     \
+    X(PENALTY, "penalty") /* a spring at each contact, stable however stiff: cheap, yields a little */ \
+    X(NONE, "none")       /* contacts are told but nothing pushes */
 
 /* How much of a plant is simulated, from most to least: see frond_world_set_detail. */
-#define FROND_DETAILS(X)                                                                                  \
-    X(DETAIL_FULL, "full")   /* the plant's own mechanics */                                              \
-    X(DETAIL_ROD, "rod")     /* rods, where the plant's own are tets */                                   \
-    X(DETAIL_SWAY, "sway")   /* the plant's two first sways, driven by the wind; a touch makes it rods */ \
-    X(DETAIL_STILL, "still") /* comes to rest as modelled and stays there, asleep, whatever touches or blows at it */
+#define FROND_DETAILS(X)                                                                           \
+    X(FULL, "full")   /* the plant's own mechanics */                                              \
+    X(ROD, "rod")     /* rods, where the plant's own are tets */                                   \
+    X(MODAL, "modal") /* the plant's two first sways, driven by the wind; a touch makes it rods */ \
+    X(STILL, "still") /* comes to rest as modelled and stays there, asleep, whatever touches or blows at it */
 
-#define FROND_MECHANICS_ENUM(code, text) FROND_##code,
-typedef enum frond_detail { FROND_DETAILS(FROND_MECHANICS_ENUM) FROND_DETAIL_COUNT } frond_detail;
+#define FROND_DETAIL_ENUM(code, text) FROND_DETAIL_##code,
+typedef enum frond_detail { FROND_DETAILS(FROND_DETAIL_ENUM) FROND_DETAIL_COUNT } frond_detail;
+#undef FROND_DETAIL_ENUM
+#define FROND_MECHANICS_ENUM(code, text) FROND_MECHANICS_##code,
 typedef enum frond_mechanics { FROND_MECHANICS(FROND_MECHANICS_ENUM) FROND_MECHANICS_COUNT } frond_mechanics;
-typedef enum frond_integrator { FROND_INTEGRATORS(FROND_MECHANICS_ENUM) FROND_INTEGRATOR_COUNT } frond_integrator;
-typedef enum frond_linear_solver {
-    FROND_LINEAR_SOLVERS(FROND_MECHANICS_ENUM) FROND_LINEAR_SOLVER_COUNT
-} frond_linear_solver;
-typedef enum frond_mass { FROND_MASSES(FROND_MECHANICS_ENUM) FROND_MASS_COUNT } frond_mass;
-typedef enum frond_hash_layout { FROND_HASH_LAYOUTS(FROND_MECHANICS_ENUM) FROND_HASH_LAYOUT_COUNT } frond_hash_layout;
-typedef enum frond_response { FROND_RESPONSES(FROND_MECHANICS_ENUM) FROND_RESPONSE_COUNT } frond_response;
 #undef FROND_MECHANICS_ENUM
+#define FROND_INTEGRATOR_ENUM(code, text) FROND_INTEGRATOR_##code,
+typedef enum frond_integrator { FROND_INTEGRATORS(FROND_INTEGRATOR_ENUM) FROND_INTEGRATOR_COUNT } frond_integrator;
+#undef FROND_INTEGRATOR_ENUM
+#define FROND_LINEAR_SOLVER_ENUM(code, text) FROND_LINEAR_SOLVER_##code,
+typedef enum frond_linear_solver {
+    FROND_LINEAR_SOLVERS(FROND_LINEAR_SOLVER_ENUM) FROND_LINEAR_SOLVER_COUNT
+} frond_linear_solver;
+#undef FROND_LINEAR_SOLVER_ENUM
+#define FROND_MASS_ENUM(code, text) FROND_MASS_##code,
+typedef enum frond_mass { FROND_MASSES(FROND_MASS_ENUM) FROND_MASS_COUNT } frond_mass;
+#undef FROND_MASS_ENUM
+#define FROND_HASH_LAYOUT_ENUM(code, text) FROND_HASH_LAYOUT_##code,
+typedef enum frond_hash_layout { FROND_HASH_LAYOUTS(FROND_HASH_LAYOUT_ENUM) FROND_HASH_LAYOUT_COUNT } frond_hash_layout;
+#undef FROND_HASH_LAYOUT_ENUM
+#define FROND_RESPONSE_ENUM(code, text) FROND_RESPONSE_##code,
+typedef enum frond_response { FROND_RESPONSES(FROND_RESPONSE_ENUM) FROND_RESPONSE_COUNT } frond_response;
+#undef FROND_RESPONSE_ENUM
 /* Which shape the file shows: the plant as it stands under 9.81 m/s^2 along the model's -y, for which Frond finds the
  * shape without gravity, or as it would be without gravity, so that it droops. */
 typedef enum frond_rest { FROND_REST_STANDS_AS_MODELLED, FROND_REST_WITHOUT_GRAVITY, FROND_REST_COUNT } frond_rest;
@@ -212,11 +227,12 @@ typedef void frond_parallel_for_fn(int count, frond_job_fn* job, void* data, voi
 
 typedef struct frond_world_def {
     frond_vec3 gravity;    /* [m/s^2], default (0, -9.81, 0) */
-    frond_effects effects; /* a mask over every plant's, default FROND_ALL_EFFECTS */
+    frond_effects effects; /* a mask over every plant's, default FROND_EFFECT_ALL */
     double max_substep;    /* longest step that the solver takes [s], 1e-6 .. 1, default 1/60 */
     /* Plants against plants and themselves. */
-    frond_hash_layout hash_layout; /* default FROND_HASH_GRID */
-    int hash_table_size;   /* n of FROND_HASH_PAPER, 0 .. 1e8; 0 (default) takes twice the number of things in it */
+    frond_hash_layout hash_layout; /* default FROND_HASH_LAYOUT_GRID */
+    int hash_table_size;   /* n of FROND_HASH_LAYOUT_PAPER, 0 .. 1e8; 0 (default) takes twice the number of things in it
+                            */
     double hash_cell_size; /* l [m], 0 .. 1e3; 0 (default) takes one and a half mean edges of the cages that touch, and
                             * less than an eighth of one is not taken */
     /* All contacts. */
@@ -239,13 +255,14 @@ typedef struct frond_world_def {
 /* What the last substep did and cost. Each bit of `trouble` has a cause, an effect and a remedy. */
 enum {
     /* Cause: the linear solver or Newton hit its limit. Effect: the step is less accurate.
-     * Remedy: raise max_iterations or newton_iterations, or use FROND_BLOCK. */
+     * Remedy: raise max_iterations or newton_iterations, or use FROND_LINEAR_SOLVER_BLOCK. */
     FROND_TROUBLE_NOT_CONVERGED = 1 << 0,
     /* Cause: a plant's state became non-finite or its system could not be solved. Effect: it was put back to its
      * last good state and brought to rest; or, where no step leads out of a shape that nothing can have bent it to,
      * into its modelled shape, where it is held. Remedy: smaller steps, weaker forces. */
     FROND_TROUBLE_REWOUND = 1 << 1,
-    /* Cause: a tet turned inside out. Effect: none lasting with FROND_TET_COROTATIONAL. Remedy: smaller steps. */
+    /* Cause: a tet turned inside out. Effect: none lasting with FROND_MECHANICS_TET_COROTATIONAL. Remedy: smaller
+       steps. */
     FROND_TROUBLE_INVERTED = 1 << 2,
     /* A step ran away and was solved again by implicit Euler with a line search, which costs several times as much and
      * damps. Remedy: a shorter time step, or gentler pushes. */
@@ -300,10 +317,10 @@ FROND_API frond_result frond_world_set_gravity(frond_world world, frond_vec3 gra
 FROND_API frond_result frond_world_set_effects(frond_world world, frond_effects effects);
 /* For pictures that are drawn between steps of a fixed length, so that what moves evenly looks so.
  * frond_plant_get_surface then shows plants where they were between the last two substeps: fraction 1 (default) at the
- * end of the last one, 0 at its beginning, straight between and as far beyond, up to 2. FROND_AS_MOTION_STATES:
- * whenever it is asked, where the motion states of a Bullet world have its bodies. Everything else,
- * frond_rigid_get_state too, tells of the last one's end. */
-#define FROND_AS_MOTION_STATES (-1.0)
+ * end of the last one, 0 at its beginning, straight between and as far beyond, up to 2.
+ * FROND_INTERPOLATION_AS_MOTION_STATES: whenever it is asked, where the motion states of a Bullet world have its
+ * bodies. Everything else, frond_rigid_get_state too, tells of the last one's end. */
+#define FROND_INTERPOLATION_AS_MOTION_STATES (-1.0)
 FROND_API frond_result frond_world_set_interpolation(frond_world world, double fraction);
 FROND_API frond_result frond_world_get_report(frond_world world, frond_report* out);
 /* Equal for two worlds that simulated identically with the same binary. */
@@ -322,9 +339,9 @@ FROND_API frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin
 
 /* How the mean wind and its gusts grow with height: see frond_wind_def. */
 typedef enum frond_wind_profile {
-    FROND_WIND_UNIFORM,
-    FROND_WIND_LOG,   /* ln(z / roughness) / ln(reference_height / roughness), 0 below the roughness */
-    FROND_WIND_POWER, /* (z / reference_height)^exponent */
+    FROND_WIND_PROFILE_UNIFORM,
+    FROND_WIND_PROFILE_LOG,   /* ln(z / roughness) / ln(reference_height / roughness), 0 below the roughness */
+    FROND_WIND_PROFILE_POWER, /* (z / reference_height)^exponent */
     FROND_WIND_PROFILE_COUNT
 } frond_wind_profile;
 
@@ -339,10 +356,10 @@ typedef struct frond_wind_def {
     double turbulence;   /* standard deviation of gusts along the wind over the mean speed [-], 0..1, default 0.2 */
     double length_scale; /* of gusts along the wind, L above [m], 0.1 .. 1e4, default 20 */
     uint64_t seed;       /* of the gusts; default 1 */
-    frond_wind_profile profile; /* default FROND_WIND_LOG */
+    frond_wind_profile profile; /* default FROND_WIND_PROFILE_LOG */
     double reference_height;    /* [m], 0.01 .. 1e4, default 10 as weather stations have it */
     double roughness;           /* of the ground [m], 1e-6 .. half the reference height, default 0.03: open grassland */
-    double exponent;            /* of FROND_WIND_POWER [-], 0..1, default 1/7 */
+    double exponent;            /* of FROND_WIND_PROFILE_POWER [-], 0..1, default 1/7 */
     double ground_height;       /* of the ground against gravity [m], default 0 */
     double density;             /* of the air [kg/m^3], 0.01 .. 10, default 1.2 */
     uint32_t cookie;            /* do not set */
@@ -355,7 +372,7 @@ typedef void frond_wind_field_fn(const frond_vec3* points, int count, double tim
 
 FROND_API frond_wind_def frond_default_wind_def(void);
 /* Gives the world air, with a wind in it or still; a null def takes air and field away. Costs nothing where neither
- * FROND_WIND nor FROND_AIR_DRAG is on. */
+ * FROND_EFFECT_WIND nor FROND_EFFECT_AIR_DRAG is on. */
 FROND_API frond_result frond_world_set_wind(frond_world world, const frond_wind_def* def);
 /* In a world without air it makes still air first. A null field leaves the air to the frond_wind_def again. */
 FROND_API frond_result frond_world_set_wind_field(frond_world world, frond_wind_field_fn* field, void* user);
@@ -448,11 +465,11 @@ typedef struct frond_model_info {
     int node_count, tet_count;
     double min_dihedral, max_dihedral; /* over all tets [degree] */
     double min_volume;                 /* smallest tet [m^3] */
-    double contained;     /* share of vertices that lie inside the cage [-]; the rest are bound from outside */
-    double binding_error; /* largest distance of a bound vertex from its place at rest [m] */
-    double volume;        /* of the cage [m^3] */
-    double mass;          /* of the plant [kg] */
-    double stiffened;     /* how much stiffer than its materials the plant was made so that it stands [-] */
+    double contained;         /* share of vertices that lie inside the cage [-]; the rest are bound from outside */
+    double attachment_error;  /* largest distance of a bound vertex from its place at rest [m] */
+    double volume;            /* of the cage [m^3] */
+    double mass;              /* of the plant [kg] */
+    double stiffening_factor; /* how much stiffer than its materials the plant was made so that it stands [-] */
     /* chain */
     int chain_node_count, capsule_count, root_count, fork_count;
     double chain_length; /* of all capsules [m] */
@@ -477,7 +494,7 @@ typedef struct frond_texture_view {
     size_t byte_count;
 } frond_texture_view;
 typedef struct frond_range {
-    double least, most;
+    double lower, upper;
 } frond_range;
 /* An organ, and between what its sections lie, one a capsule of the chain. They are those of the organ as it grew, a
  * rod or a strip, not of the cage around it. A small organ can lie within another one's capsules; all from
@@ -539,16 +556,16 @@ FROND_API frond_result frond_model_get_chain(frond_model model, frond_chain_view
 typedef struct frond_plant_def {
     frond_vec3 position;       /* of the model's origin [m] */
     frond_quat rotation;       /* need not have length one; default identity */
-    frond_mechanics mechanics; /* default FROND_TET_COROTATIONAL */
+    frond_mechanics mechanics; /* default FROND_MECHANICS_TET_COROTATIONAL */
     /* Of the displacements within a tet, 1 (default) or 2. Linear tets are quick and lock: one cell across and five
      * times as long as thick bends 3 % of what it should, which a cage made by Frond is calibrated for and the caller's
      * own tets are not. Quadratic tets have a node in the middle of each edge too and bend such cells within 5 %, with
      * some twenty times the work a step. Cages that Frond makes are fitted to their rods anew when a plant
      * first asks for order 2, which takes some seconds. Chain mechanics move alike with both. */
     int element_order;
-    frond_integrator integrator;       /* default FROND_BDF2 */
-    frond_linear_solver linear_solver; /* default FROND_BLOCK */
-    frond_mass mass;                   /* default FROND_LUMPED */
+    frond_integrator integrator;       /* default FROND_INTEGRATOR_BDF2 */
+    frond_linear_solver linear_solver; /* default FROND_LINEAR_SOLVER_BLOCK */
+    frond_mass mass;                   /* default FROND_MASS_LUMPED */
     int newton_iterations;             /* solves per step at most, 1..100, default 1 */
     double newton_tolerance; /* stop when the residual force is below this share of the first one [-], default 1e-6 */
     int max_iterations;      /* of an iterative linear solver, default 10000 */
@@ -564,11 +581,11 @@ typedef struct frond_plant_def {
     double stiffness_damping; /* [s], default 0.002 */
     double material_damping; /* how much of their materials' damping_ratio the organs have, on top of the two above [-],
                               * 0 (none) .. 100, default 1 */
-    double spectral_radius;  /* of FROND_GENERALIZED_ALPHA at infinite frequency, 0..1 [-], default 0.8: 1 damps
-                              * nothing, 0 most */
+    double spectral_radius;  /* of FROND_INTEGRATOR_GENERALIZED_ALPHA at infinite frequency, 0..1 [-], default 0.8: 1
+                              * damps  nothing, 0 most */
     double root_height;      /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
                               * from the shape; negative pins none. A node on an edge is where both its ends are. */
-    frond_effects effects;   /* default FROND_DEFAULT_EFFECTS */
+    frond_effects effects;   /* default FROND_EFFECT_DEFAULT */
     /* Begins asleep, as modelled, as if it had come to rest so: a field of thousands then costs no steps until
      * something moves them. Default false. */
     bool starts_asleep;
@@ -647,9 +664,9 @@ FROND_API frond_result frond_plant_set_state(frond_plant plant, const double* po
  * broken at the same capsules. count must be what the first says, for set that of the plant they came from: 0 takes all
  * sets away. Tets hand them to other tets when mechanics change and the chain to the chain; between the two they are
  * lost. */
-FROND_API int frond_plant_get_lasting_count(frond_plant plant);
-FROND_API frond_result frond_plant_get_lasting(frond_plant plant, double* values, int count);
-FROND_API frond_result frond_plant_set_lasting(frond_plant plant, const double* values, int count);
+FROND_API int frond_plant_get_plastic_count(frond_plant plant);
+FROND_API frond_result frond_plant_get_plastic(frond_plant plant, double* values, int count);
+FROND_API frond_result frond_plant_set_plastic(frond_plant plant, const double* values, int count);
 /* Holds a cage node where it is, or lets it go. */
 FROND_API frond_result frond_plant_pin(frond_plant plant, int node);
 FROND_API frond_result frond_plant_unpin(frond_plant plant, int node);
@@ -659,13 +676,14 @@ FROND_API frond_result frond_plant_move_pin(frond_plant plant, int node, frond_v
 FROND_API frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force);
 /* Of the plant as it is now. */
 FROND_API frond_result frond_plant_get_energy(frond_plant plant, frond_energy* out);
-/* Made when somebody asks for it, once a step; the arrays are the plant's own until its next step. With FROND_SURFACE
- * off, in the plant or its world, it stays as it was, and normals do with FROND_NORMALS off. */
+/* Made when somebody asks for it, once a step; the arrays are the plant's own until its next step. With
+ * FROND_EFFECT_SURFACE off, in the plant or its world, it stays as it was, and normals do with FROND_EFFECT_NORMALS
+ * off. */
 FROND_API frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out);
 /* capsule_count must be the plant's; out: capsule_count. */
 FROND_API frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int capsule_count);
 /* How much the outermost fibre of each capsule's organ is drawn out or pressed by bending and pulling [-], against the
- * shape that it has without any load: what FROND_BREAKING compares with strength / young. 0 of what came off.
+ * shape that it has without any load: what FROND_EFFECT_BREAKING compares with strength / young. 0 of what came off.
  * capsule_count must be the plant's; out: capsule_count. */
 FROND_API frond_result frond_plant_get_strains(frond_plant plant, double* out, int capsule_count);
 /* Number of contacts of the last substep, none while the plant sleeps; 0 for an invalid handle. */
@@ -683,8 +701,8 @@ FROND_API frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out);
  * Call frond_world_set_viewer with the camera's place each frame: that is all. From the first call on plants are
  * simulated in the detail that their distance asks for, as frond_default_detail_def says. Places and velocities go on
  * without a jump: what another detail cannot have of a plant's shape fades within a second. A body that touches a plant
- * in DETAIL_SWAY makes it rods at once. Which detail a plant has depends on the calls and on nothing else, unless there
- * is a budget. */
+ * in DETAIL_MODAL makes it rods at once. Which detail a plant has depends on the calls and on nothing else, unless
+ * there is a budget. */
 
 /* Says how far off a plant is to count, given the distance to the viewer that counts otherwise [m] (with by_size [-]):
  * a game's own order of importance. Not finite or below zero counts as zero. */
@@ -695,7 +713,7 @@ typedef struct frond_detail_def {
      * than the one before. */
     double rod_from;   /* default 5 */
     double half_from;  /* rods are stepped every second substep, by twice its length; default 12 */
-    double sway_from;  /* default 25; sways are told every fourth substep and drawn at each */
+    double modal_from; /* default 25; sways are told every fourth substep and drawn at each */
     double still_from; /* default 150 */
     bool by_size;      /* distances count in sizes of the plant, as it looks on the screen, not metres; default false */
     double hysteresis; /* share by which a plant has to come nearer to get detail back [-], 0 .. 0.9, default 0.15 */
@@ -717,28 +735,28 @@ FROND_API frond_result frond_world_set_viewer(frond_world world, frond_vec3 posi
 FROND_API frond_result frond_plant_get_detail(frond_plant plant, frond_detail* out);
 
 /* ---- fragments: what broke off -----------------------------------------------------------------------------------
- * With FROND_BREAKING a plant breaks at the capsule whose outermost fibre is strained most, one a substep, if that is
- * more than its organ's strength / young and more than 1.5 times what it stands with. Rods tell bending and pulling
- * apart; in a cage a capsule that is pulled breaks at half its strength or more. The capsule and all that grows beyond
- * it become a rigid body with their mass and momentum. It is drawn in the plant's surface, its nodes, capsules and
- * vertices are reported where it is, grabs on it pull it, forces and pins on its nodes end; other bodies and plants
- * feel it, its own plant does not, which takes no part in FROND_PLANT_CONTACT and FROND_SELF_CONTACT any more. Bonds on
- * it let go. Triangles across the break keep their place in the list, without area. */
-typedef struct frond_broken {
+ * With FROND_EFFECT_BREAKING a plant breaks at the capsule whose outermost fibre is strained most, one a substep, if
+ * that is more than its organ's strength / young and more than 1.5 times what it stands with. Rods tell bending and
+ * pulling apart; in a cage a capsule that is pulled breaks at half its strength or more. The capsule and all that grows
+ * beyond it become a rigid body with their mass and momentum. It is drawn in the plant's surface, its nodes, capsules
+ * and vertices are reported where it is, grabs on it pull it, forces and pins on its nodes end; other bodies and plants
+ * feel it, its own plant does not, which takes no part in FROND_EFFECT_PLANT_CONTACT and FROND_EFFECT_SELF_CONTACT any
+ * more. Bonds on it let go. Triangles across the break keep their place in the list, without area. */
+typedef struct frond_fragment {
     frond_rigid rigid; /* the plant's: it ends with it, and frond_rigid_destroy leaves it alone */
     int capsule;       /* at which it came off */
     double mass;       /* [kg] */
-} frond_broken;
+} frond_fragment;
 /* In the order in which they came off; 0 for an invalid handle. */
-FROND_API int frond_plant_get_broken_count(frond_plant plant);
-FROND_API frond_result frond_plant_get_broken(frond_plant plant, int fragment, frond_broken* out);
+FROND_API int frond_plant_get_fragment_count(frond_plant plant);
+FROND_API frond_result frond_plant_get_fragment(frond_plant plant, int fragment, frond_fragment* out);
 /* Breaks a capsule whatever its strength and the effects: a harvest, or a plant that is restored. BAD_ARGUMENT if it
  * came off already or is a root of its own. */
 FROND_API frond_result frond_plant_break(frond_plant plant, int capsule);
 /* Puts all fragments back: the plant is as modelled, at rest, without sets; pins on nodes that had come off stay away.
  * To restore a plant, mend it, break it at the same capsules in their order, then set its lasting numbers, its state
  * and the states of its fragments. A fragment keeps the bend that it comes off with. */
-FROND_API frond_result frond_plant_mend(frond_plant plant);
+FROND_API frond_result frond_plant_reset(frond_plant plant);
 
 /* ---- grab: a spring between a point of a plant and a moving point, the mouse ---------------------------------- */
 
@@ -762,19 +780,19 @@ FROND_API bool frond_grab_is_valid(frond_grab grab);
     X(CYLINDER, "cylinder") /* radius, half the length */                                   \
     X(CONE, "cone")         /* radius, half the height */                                   \
     X(PLANE, "plane")       /* none: all below its origin; does not move */
-#define FROND_SHAPE_ENUM(code, text) FROND_##code,
+#define FROND_SHAPE_ENUM(code, text) FROND_SHAPE_##code,
 typedef enum frond_shape { FROND_SHAPES(FROND_SHAPE_ENUM) FROND_SHAPE_COUNT } frond_shape;
 #undef FROND_SHAPE_ENUM
 
 typedef struct frond_rigid_state {
-    frond_vec3 position; /* of the centre of mass [m] */
-    frond_quat rotation; /* need not have length one when it is set */
-    frond_vec3 velocity; /* [m/s] */
-    frond_vec3 spin;     /* [rad/s] */
+    frond_vec3 position;         /* of the centre of mass [m] */
+    frond_quat rotation;         /* need not have length one when it is set */
+    frond_vec3 velocity;         /* [m/s] */
+    frond_vec3 angular_velocity; /* [rad/s] */
 } frond_rigid_state;
 
 typedef struct frond_rigid_def {
-    frond_shape shape;       /* default FROND_SPHERE */
+    frond_shape shape;       /* default FROND_SHAPE_SPHERE */
     frond_vec3 size;         /* see FROND_SHAPES; default 0.1 each */
     double mass;             /* [kg]; default 1; 0: nothing moves it but frond_rigid_set_state */
     double friction;         /* default 0.5; Bullet multiplies it by the other body's or organ's */
@@ -798,10 +816,10 @@ FROND_API const void* frond_rigid_get_body(frond_rigid rigid);
 /* ---- bond: a point of a plant held to a body: a fruit in a gripper, a pot that is carried --------------------- */
 
 /* Holds the surface vertex nearest to `point` [m] to the place of the body where it is now, turning with the body.
- * Plant and body feel equal and opposite impulses, as contacts do (FROND_TWO_WAY; FROND_RESPONSE_NONE lets go). One
- * bond lets the plant turn about the point; three hold it in every way: a plant in a pot has root_height -1 and some
- * bonds around its foot. A body that leaves the world holds nothing any more. Both of one world, or BAD_ARGUMENT. In a
- * Bullet world of your own, see bond() in frond_bullet.hpp. */
+ * Plant and body feel equal and opposite impulses, as contacts do (FROND_EFFECT_TWO_WAY; FROND_RESPONSE_NONE lets go).
+ * One bond lets the plant turn about the point; three hold it in every way: a plant in a pot has root_height -1 and
+ * some bonds around its foot. A body that leaves the world holds nothing any more. Both of one world, or BAD_ARGUMENT.
+ * In a Bullet world of your own, see bond() in frond_bullet.hpp. */
 FROND_API frond_result frond_bond_create(frond_plant plant, frond_vec3 point, frond_rigid rigid, frond_bond* out);
 /* Where on the plant it holds [m], and with what force on the plant in the last substep [N]. Either may be null. */
 FROND_API frond_result frond_bond_get(frond_bond bond, frond_vec3* point, frond_vec3* force);

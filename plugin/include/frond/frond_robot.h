@@ -28,12 +28,12 @@ typedef struct frond_robot {
     uint64_t id;
 } frond_robot;
 
-#define FROND_JOINTS(X)                                              \
-    X(JOINT_FIXED, "fixed")           /* also of link 0 */           \
-    X(JOINT_REVOLUTE, "revolute")     /* turns between two limits */ \
-    X(JOINT_CONTINUOUS, "continuous") /* turns without limits */     \
-    X(JOINT_PRISMATIC, "prismatic")   /* slides between two limits */
-#define FROND_JOINT_ENUM(code, text) FROND_##code,
+#define FROND_JOINTS(X)                                        \
+    X(FIXED, "fixed")           /* also of link 0 */           \
+    X(REVOLUTE, "revolute")     /* turns between two limits */ \
+    X(CONTINUOUS, "continuous") /* turns without limits */     \
+    X(PRISMATIC, "prismatic")   /* slides between two limits */
+#define FROND_JOINT_ENUM(code, text) FROND_JOINT_##code,
 typedef enum frond_joint { FROND_JOINTS(FROND_JOINT_ENUM) FROND_JOINT_COUNT } frond_joint;
 #undef FROND_JOINT_ENUM
 /* "revolute"; "?" when out of range. */

@@ -16,7 +16,7 @@ void make_bond(PlantBody& plant, const frond_vec3& point, btCollisionObject& bod
     bond.handle = bond_slots().insert(&bond);
     if (!bond.handle) {
         world.bonds.pop_back();
-        fail(FROND_OUT_OF_MEMORY, "too many bonds; destroy some");
+        fail(FROND_RESULT_OUT_OF_MEMORY, "too many bonds; destroy some");
     }
     out->id = bond.handle;
 }
@@ -32,7 +32,8 @@ frond_result frond_bond_create(frond_plant plant, frond_vec3 point, frond_rigid 
         *out = {};
         PlantBody& body = look_at(get(plant));
         Rigid& held_by = get(rigid);
-        if (held_by.world != body.world) fail(FROND_BAD_ARGUMENT, "the rigid body is of another world than the plant");
+        if (held_by.world != body.world)
+            fail(FROND_RESULT_BAD_ARGUMENT, "the rigid body is of another world than the plant");
         make_bond(body, point, *held_by.body, out);
     });
 }
@@ -72,7 +73,7 @@ frond_result bond(frond_plant plant, const btVector3& point, btCollisionObject* 
         PlantBody& body = look_at(get(plant));
         check_pointer(object, "body");
         if (!is_in(*body.world->bullet, object) || PlantBody::of(object))
-            fail(FROND_BAD_ARGUMENT, "the body is not in the plant's Bullet world, or is a plant; add it first");
+            fail(FROND_RESULT_BAD_ARGUMENT, "the body is not in the plant's Bullet world, or is a plant; add it first");
         make_bond(body, {double(point.x()), double(point.y()), double(point.z())}, *object, out);
     });
 }

@@ -22,11 +22,11 @@ frond_result call(Body&& body) noexcept {
     } catch (const Error& error) {
         return report_failure(error.code, error.what());
     } catch (const std::bad_alloc&) {
-        return report_failure(FROND_OUT_OF_MEMORY, "out of memory; use a coarser cage or fewer plants");
+        return report_failure(FROND_RESULT_OUT_OF_MEMORY, "out of memory; use a coarser cage or fewer plants");
     } catch (const std::exception& error) {
-        return report_failure(FROND_INTERNAL, error.what());
+        return report_failure(FROND_RESULT_INTERNAL, error.what());
     } catch (...) {
-        return report_failure(FROND_INTERNAL, "an unknown exception");
+        return report_failure(FROND_RESULT_INTERNAL, "an unknown exception");
     }
 }
 
@@ -40,14 +40,14 @@ inline frond_vec3 from_vec(const Vec3& p) {
 // Arguments. `name` is what the header calls the argument.
 template <class T>
 void check_pointer(const T* pointer, const char* name) {
-    if (!pointer) fail(FROND_BAD_ARGUMENT, "%s is null; pass a valid pointer", name);
+    if (!pointer) fail(FROND_RESULT_BAD_ARGUMENT, "%s is null; pass a valid pointer", name);
 }
 inline void check_finite(double value, const char* name) {
-    if (!std::isfinite(value)) fail(FROND_BAD_ARGUMENT, "%s is not finite; pass a number", name);
+    if (!std::isfinite(value)) fail(FROND_RESULT_BAD_ARGUMENT, "%s is not finite; pass a number", name);
 }
 inline void check_range(double value, double low, double high, const char* name) {
     if (!(value >= low && value <= high))
-        fail(FROND_BAD_ARGUMENT, "%s is %g; it must be in %g .. %g", name, value, low, high);
+        fail(FROND_RESULT_BAD_ARGUMENT, "%s is %g; it must be in %g .. %g", name, value, low, high);
 }
 inline void check_vec(const frond_vec3& p, const char* name) {
     for (double value : {p.x, p.y, p.z}) check_range(value, -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
@@ -57,7 +57,7 @@ inline void check_text(const char* text, const char* name) {
     constexpr size_t LONGEST = 4096;
     check_pointer(text, name);
     if (strnlen(text, LONGEST + 1) > LONGEST)
-        fail(FROND_BAD_ARGUMENT, "%s has more than %zu characters; pass a shorter one", name, LONGEST);
+        fail(FROND_RESULT_BAD_ARGUMENT, "%s has more than %zu characters; pass a shorter one", name, LONGEST);
 }
 // The number in an enum that a caller wrote: it may be none of the enum's own, so it is not read as one.
 template <class Enum>
@@ -68,13 +68,13 @@ int number_of(const Enum& value) {
     return number;
 }
 inline void check_row(int row, int count, const char* name) {
-    if (row < 0 || row >= count) fail(FROND_BAD_ARGUMENT, "%s is %d; use one of its enum's names", name, row);
+    if (row < 0 || row >= count) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; use one of its enum's names", name, row);
 }
 template <class Def>
 void check_def(const Def* def, uint32_t cookie, const char* name) {
     check_pointer(def, "def");
     if (def->cookie != cookie)
-        fail(FROND_BAD_DEF, "the def was not made by frond_default_%s_def(); start from it", name);
+        fail(FROND_RESULT_BAD_DEF, "the def was not made by frond_default_%s_def(); start from it", name);
 }
 
 constexpr uint32_t WORLD_DEF_COOKIE = 0x46724e57, MODEL_DEF_COOKIE = 0x46724e4d, PLANT_DEF_COOKIE = 0x46724e50,

@@ -8,8 +8,8 @@ static void check_detail_def(const frond_detail_def* def) {
     check_def(def, DETAIL_DEF_COOKIE, "detail");
     check_range(def->rod_from, 0, LARGEST_COORDINATE, "def.rod_from");
     check_range(def->half_from, def->rod_from, LARGEST_COORDINATE, "def.half_from");
-    check_range(def->sway_from, def->half_from, LARGEST_COORDINATE, "def.sway_from");
-    check_range(def->still_from, def->sway_from, LARGEST_COORDINATE, "def.still_from");
+    check_range(def->modal_from, def->half_from, LARGEST_COORDINATE, "def.modal_from");
+    check_range(def->still_from, def->modal_from, LARGEST_COORDINATE, "def.still_from");
     check_range(def->hysteresis, 0, 0.9, "def.hysteresis");
     check_range(def->budget, 0, 1e6, "def.budget [ms]");
 }
@@ -20,7 +20,7 @@ frond_detail_def frond_default_detail_def(void) {
     frond_detail_def def = {};
     def.rod_from = 5;
     def.half_from = 12;
-    def.sway_from = 25;
+    def.modal_from = 25;
     def.still_from = 150;
     def.hysteresis = 0.15;
     def.cookie = DETAIL_DEF_COOKIE;

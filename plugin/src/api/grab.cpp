@@ -19,7 +19,7 @@ frond_result frond_grab_create(frond_plant plant, frond_vec3 near_point, double 
         p.grabs.back().handle = grab_slots().insert({&body, &p.grabs.back()});
         if (!p.grabs.back().handle) {
             p.grabs.pop_back();
-            fail(FROND_OUT_OF_MEMORY, "too many grabs; destroy some");
+            fail(FROND_RESULT_OUT_OF_MEMORY, "too many grabs; destroy some");
         }
         out->id = p.grabs.back().handle;
     });

@@ -33,9 +33,10 @@ BondSlots& bond_slots() {
 // One text for what is wrong with a handle.
 static void require(bool found, uint64_t id, const char* noun) {
     if (found) return;
-    if (id == 0) fail(FROND_BAD_HANDLE, "the %s handle is null; use the one that its create or load call gave", noun);
-    fail(FROND_BAD_HANDLE, "the %s handle is stale or of another kind; the %s was destroyed, or its world was", noun,
-         noun);
+    if (id == 0)
+        fail(FROND_RESULT_BAD_HANDLE, "the %s handle is null; use the one that its create or load call gave", noun);
+    fail(FROND_RESULT_BAD_HANDLE, "the %s handle is stale or of another kind; the %s was destroyed, or its world was",
+         noun, noun);
 }
 
 World& get(frond_world world) {

@@ -20,7 +20,7 @@ static void check_model_def(const frond_model_def* def) {
     check_range(def->cage_offset, 0, 1e6, "def.cage_offset [m]");
     check_range(def->cage_smoothness, 0, 1, "def.cage_smoothness");
     if (number_of(def->rest) < 0 || number_of(def->rest) >= FROND_REST_COUNT)
-        fail(FROND_BAD_ARGUMENT, "def.rest is %d; use FROND_REST_*", number_of(def->rest));
+        fail(FROND_RESULT_BAD_ARGUMENT, "def.rest is %d; use FROND_REST_*", number_of(def->rest));
     check_range(def->organ_count, 0, 10000, "def.organ_count");
     if (def->organ_count > 0) check_pointer(def->organs, "def.organs");
     for (int i = 0; i < def->organ_count; i++) check_text(def->organs[i].organ, "def.organs[].organ");
@@ -34,7 +34,7 @@ static frond_result open_model(const frond_model_def* def, frond_model* out, Bui
         *out = {};
         check_model_def(def);
         const uint64_t id = model_slots().insert(build());
-        if (!id) fail(FROND_OUT_OF_MEMORY, "too many models; destroy some");
+        if (!id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many models; destroy some");
         *out = {id};
     });
 }
@@ -70,10 +70,10 @@ static void describe(const Model& model, frond_model_info& info) {
     info.max_dihedral = model.cage_report.max_dihedral;
     info.min_volume = model.cage_report.min_volume;
     info.contained = model.cage_report.contained;
-    info.binding_error = model.cage_report.binding_error;
+    info.attachment_error = model.cage_report.attachment_error;
     info.volume = model.cage_report.volume;
     info.mass = model.mass();
-    info.stiffened = model.stiffened;
+    info.stiffening_factor = model.stiffening_factor;
     info.chain_node_count = int(model.chain.nodes.size());
     info.capsule_count = int(model.capsules.size());
     info.root_count = model.chain.root_count();
@@ -86,7 +86,7 @@ static void describe(const Model& model, frond_model_info& info) {
 }
 
 static void widen(frond_range& range, double value, bool first) {
-    range = first ? frond_range{value, value} : frond_range{std::min(range.least, value), std::max(range.most, value)};
+    range = first ? frond_range{value, value} : frond_range{std::min(range.lower, value), std::max(range.upper, value)};
 }
 
 static void describe_sections(const Model& model, int organ, frond_organ& view) {
@@ -115,7 +115,8 @@ frond_result frond_material_preset(const char* kind, frond_material* out) {
         check_pointer(kind, "kind");
         const Material* material = material_preset(kind);
         if (!material)
-            fail(FROND_BAD_ARGUMENT, "there is no material \"%.64s\"; there are %s", kind, material_kinds().c_str());
+            fail(FROND_RESULT_BAD_ARGUMENT, "there is no material \"%.64s\"; there are %s", kind,
+                 material_kinds().c_str());
         *out = *material;
     });
 }

@@ -10,14 +10,15 @@
 using namespace frond;
 
 static void check_effects(frond_effects effects) {
-    if (effects & ~uint32_t(FROND_ALL_EFFECTS)) fail(FROND_BAD_ARGUMENT, "effects has unknown bits; use FROND_*");
+    if (effects & ~uint32_t(FROND_EFFECT_ALL)) fail(FROND_RESULT_BAD_ARGUMENT, "effects has unknown bits; use FROND_*");
 }
 
 static void check_plant_def(const frond_plant_def* def) {
     check_def(def, PLANT_DEF_COOKIE, "plant");
     check_vec(def->position, "def.position [m]");
     const double length = Quat(def->rotation.w, def->rotation.x, def->rotation.y, def->rotation.z).norm();
-    if (!(length > 1e-9 && length < 1e9)) fail(FROND_BAD_ARGUMENT, "def.rotation has no direction; (0,0,0,1) is none");
+    if (!(length > 1e-9 && length < 1e9))
+        fail(FROND_RESULT_BAD_ARGUMENT, "def.rotation has no direction; (0,0,0,1) is none");
     check_row(number_of(def->mechanics), FROND_MECHANICS_COUNT, "def.mechanics");
     check_row(number_of(def->integrator), FROND_INTEGRATOR_COUNT, "def.integrator");
     check_row(number_of(def->linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.linear_solver");
@@ -39,11 +40,11 @@ static void check_plant_def(const frond_plant_def* def) {
 
 static void check_node(const Plant& plant, int node) {
     if (node < 0 || node >= node_count_of(plant))
-        fail(FROND_BAD_ARGUMENT, "node is %d; this plant has nodes 0 .. %d", node, node_count_of(plant) - 1);
+        fail(FROND_RESULT_BAD_ARGUMENT, "node is %d; this plant has nodes 0 .. %d", node, node_count_of(plant) - 1);
 }
 
 static void check_count(int given, int own, const char* name) {
-    if (given != own) fail(FROND_BAD_ARGUMENT, "%s is %d; this plant has %d", name, given, own);
+    if (given != own) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; this plant has %d", name, given, own);
 }
 
 static void check_numbers(const double* numbers, int count, const char* name) {
@@ -93,11 +94,11 @@ extern "C" {
 frond_plant_def frond_default_plant_def(void) {
     frond_plant_def def = {};
     def.rotation = {0, 0, 0, 1};
-    def.mechanics = FROND_TET_COROTATIONAL;
+    def.mechanics = FROND_MECHANICS_TET_COROTATIONAL;
     def.element_order = 1;
-    def.integrator = FROND_BDF2;
-    def.linear_solver = FROND_BLOCK;
-    def.mass = FROND_LUMPED;
+    def.integrator = FROND_INTEGRATOR_BDF2;
+    def.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
+    def.mass = FROND_MASS_LUMPED;
     def.newton_iterations = 1;
     def.newton_tolerance = 1e-6;
     def.max_iterations = 10000;
@@ -108,7 +109,7 @@ frond_plant_def frond_default_plant_def(void) {
     def.stiffness_damping = 0.002;
     def.material_damping = 1;
     def.spectral_radius = 0.8;
-    def.effects = FROND_DEFAULT_EFFECTS;
+    def.effects = FROND_EFFECT_DEFAULT;
     def.group = 1;
     def.mask = -1;
     def.cookie = PLANT_DEF_COOKIE;
@@ -126,7 +127,7 @@ frond_result frond_plant_create(frond_world world, frond_model model, const fron
         body->handle.id = plant_slots().insert(body);
         if (!body->handle.id) {
             remove_plant(w, body);
-            fail(FROND_OUT_OF_MEMORY, "too many plants; destroy some");
+            fail(FROND_RESULT_OUT_OF_MEMORY, "too many plants; destroy some");
         }
         *out = body->handle;
     });
@@ -231,27 +232,27 @@ frond_result frond_plant_set_state(frond_plant plant, const double* positions, c
     });
 }
 
-int frond_plant_get_lasting_count(frond_plant plant) {
+int frond_plant_get_plastic_count(frond_plant plant) {
     const PlantBody* body = plant_slots().find(plant.id);
-    return body ? int(lasting_of(*body->plant).size()) : 0;
+    return body ? int(plastic_of(*body->plant).size()) : 0;
 }
 
-frond_result frond_plant_get_lasting(frond_plant plant, double* values, int count) {
+frond_result frond_plant_get_plastic(frond_plant plant, double* values, int count) {
     return call([&] {
-        const std::vector<double> lasting = lasting_of(*get(plant).plant);
-        check_count(count, int(lasting.size()), "count");
+        const std::vector<double> plastic = plastic_of(*get(plant).plant);
+        check_count(count, int(plastic.size()), "count");
         if (count > 0) check_pointer(values, "values");
-        std::copy(lasting.begin(), lasting.end(), values);
+        std::copy(plastic.begin(), plastic.end(), values);
     });
 }
 
-frond_result frond_plant_set_lasting(frond_plant plant, const double* values, int count) {
+frond_result frond_plant_set_plastic(frond_plant plant, const double* values, int count) {
     return call([&] {
         PlantBody& body = get(plant);
         check_range(count, 0, INT_MAX, "count");
         if (count > 0) check_pointer(values, "values");
         check_numbers(values, count, "values");
-        set_lasting(awaken(body), std::vector<double>(values, values + count));
+        set_plastic(awaken(body), std::vector<double>(values, values + count));
     });
 }
 
@@ -277,7 +278,7 @@ frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 positi
         check_node(*body.plant, node);
         check_vec(position, "position [m]");
         if (!is_pinned(*body.plant, node))
-            fail(FROND_BAD_ARGUMENT, "node %d is not pinned; call frond_plant_pin", node);
+            fail(FROND_RESULT_BAD_ARGUMENT, "node %d is not pinned; call frond_plant_pin", node);
         move_pin(awaken(body), node, body.plant->to_model(to_vec(position)));
     });
 }
@@ -310,8 +311,8 @@ frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out)
         PlantBody& body = get(plant);
         Plant& p = *body.plant;
         const double back = body.rest.asleep ? 0 : surfaces_back(*body.world);
-        if (p.surface_positions.empty()) update_surface(*look_at(body).plant, FROND_ALL_EFFECTS, back);
-        if ((p.surface_stale || p.surface_back != float(back)) && effects_of(body) & FROND_SURFACE)
+        if (p.surface_positions.empty()) update_surface(*look_at(body).plant, FROND_EFFECT_ALL, back);
+        if ((p.surface_stale || p.surface_back != float(back)) && effects_of(body) & FROND_EFFECT_SURFACE)
             update_surface(*look_at(body).plant, effects_of(body), back);
         const Surface& surface = p.model->surface;
         out->positions = p.surface_positions.data();
@@ -363,22 +364,23 @@ frond_result frond_plant_get_contacts(frond_plant plant, frond_contact* out, int
     });
 }
 
-int frond_plant_get_broken_count(frond_plant plant) {
+int frond_plant_get_fragment_count(frond_plant plant) {
     const PlantBody* body = plant_slots().find(plant.id);
     return body ? int(body->fragment_bodies.size()) : 0;
 }
 
-frond_result frond_plant_get_broken(frond_plant plant, int fragment, frond_broken* out) {
+frond_result frond_plant_get_fragment(frond_plant plant, int fragment, frond_fragment* out) {
     return call([&] {
         check_pointer(out, "out");
         *out = {};
         const PlantBody& body = get(plant);
         const int count = int(body.fragment_bodies.size());
         if (fragment < 0 || fragment >= count)
-            fail(FROND_BAD_ARGUMENT, "fragment is %d; %d fragments of this plant have come off", fragment, count);
+            fail(FROND_RESULT_BAD_ARGUMENT, "fragment is %d; %d fragments of this plant have come off", fragment,
+                 count);
         Rigid& rigid = *body.fragment_bodies[size_t(fragment)];
         if (!rigid.handle.id) rigid.handle.id = rigid_slots().insert(&rigid);
-        if (!rigid.handle.id) fail(FROND_OUT_OF_MEMORY, "too many rigid bodies; destroy some");
+        if (!rigid.handle.id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many rigid bodies; destroy some");
         const Fragment& broken = body.plant->fragments[size_t(fragment)];
         *out = {rigid.handle, capsule_of(*body.plant, broken.node), broken.mass};
     });
@@ -390,21 +392,22 @@ frond_result frond_plant_break(frond_plant plant, int capsule) {
         const Plant& p = *body.plant;
         check_range(capsule, 0, double(body.capsules().size()) - 1, "capsule");
         const auto& [begin, end] = p.model->capsules[size_t(capsule)];
-        if (begin == end) fail(FROND_BAD_ARGUMENT, "capsule %d is a root of its own; nothing grows beyond it", capsule);
+        if (begin == end)
+            fail(FROND_RESULT_BAD_ARGUMENT, "capsule %d is a root of its own; nothing grows beyond it", capsule);
         if (fragment_of_chain_node(p, size_t(end)))
-            fail(FROND_BAD_ARGUMENT, "capsule %d has come off already; mend the plant first", capsule);
+            fail(FROND_RESULT_BAD_ARGUMENT, "capsule %d has come off already; mend the plant first", capsule);
         awaken(body);
         break_off(*body.world, body, end);
         show(body);
     });
 }
 
-frond_result frond_plant_mend(frond_plant plant) {
+frond_result frond_plant_reset(frond_plant plant) {
     return call([&] {
         PlantBody& body = get(plant);
         awaken(body);
         for (const Rigid* fragment : body.fragment_bodies) rigid_slots().erase(fragment->handle.id);
-        mend(*body.world, body);
+        reset(*body.world, body);
         show(body);
     });
 }

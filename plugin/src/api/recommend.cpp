@@ -66,7 +66,8 @@ frond_result frond_recommend(frond_model model, double error, double cpu, frond_
         check_range(error, 0, 1, "error");
         check_range(cpu, 0, 1e9, "cpu [s/s]");
         if ((error > 0) == (cpu > 0))
-            fail(FROND_BAD_ARGUMENT, "error is %g and cpu %g; one of them must be above 0, the other 0", error, cpu);
+            fail(FROND_RESULT_BAD_ARGUMENT, "error is %g and cpu %g; one of them must be above 0, the other 0", error,
+                 cpu);
         const std::shared_ptr<const Model> m = get(model);
         const double frequency = sway_frequency(m);
         frond_advice best = {}, least = {};
@@ -79,10 +80,11 @@ frond_result frond_recommend(frond_model model, double error, double cpu, frond_
             if (least.time_step == 0 || bound(advice) < bound(least)) least = advice;
         }
         if (best.time_step == 0 && error > 0)
-            fail(FROND_UNSUPPORTED, "no measured settings have an error of %g; the least is %g", error, least.error);
+            fail(FROND_RESULT_UNSUPPORTED, "no measured settings have an error of %g; the least is %g", error,
+                 least.error);
         if (best.time_step == 0)
-            fail(FROND_UNSUPPORTED, "no measured settings take only %g s of CPU a second; the cheapest take %g", cpu,
-                 least.cpu);
+            fail(FROND_RESULT_UNSUPPORTED, "no measured settings take only %g s of CPU a second; the cheapest take %g",
+                 cpu, least.cpu);
         *out = best;
     });
 }

@@ -10,11 +10,12 @@ static void check_state(const frond_rigid_state& state) {
     const frond_quat& q = state.rotation;
     const double length = Quat(q.w, q.x, q.y, q.z).norm();
     if (!(length > 1e-9 && length < 1e9))
-        fail(FROND_BAD_ARGUMENT, "state.rotation has no direction; (0,0,0,1) is none");
+        fail(FROND_RESULT_BAD_ARGUMENT, "state.rotation has no direction; (0,0,0,1) is none");
     constexpr double FASTEST = 1e6;
     for (double v : {state.velocity.x, state.velocity.y, state.velocity.z})
         check_range(v, -FASTEST, FASTEST, "state.velocity [m/s]");
-    for (double v : {state.spin.x, state.spin.y, state.spin.z}) check_range(v, -FASTEST, FASTEST, "state.spin [rad/s]");
+    for (double v : {state.angular_velocity.x, state.angular_velocity.y, state.angular_velocity.z})
+        check_range(v, -FASTEST, FASTEST, "state.spin [rad/s]");
 }
 
 // How many of the three numbers of the size a shape has.
@@ -28,7 +29,7 @@ static void check_rigid_def(const frond_rigid_def* def) {
     check_def(def, RIGID_DEF_COOKIE, "rigid");
     const int shape = number_of(def->shape);
     if (shape < 0 || shape >= FROND_SHAPE_COUNT)
-        fail(FROND_BAD_ARGUMENT, "def.shape is %d; use one of frond_shape's names", shape);
+        fail(FROND_RESULT_BAD_ARGUMENT, "def.shape is %d; use one of frond_shape's names", shape);
     const double size[] = {def->size.x, def->size.y, def->size.z};
     for (int i = 0; i < size_count(shape); i++) check_range(size[i], 1e-4, 1e4, "def.size [m]");
     if (def->mass != 0) check_range(def->mass, 1e-6, 1e9, "def.mass [kg]");
@@ -40,7 +41,7 @@ extern "C" {
 
 frond_rigid_def frond_default_rigid_def(void) {
     frond_rigid_def def = {};
-    def.shape = FROND_SPHERE;
+    def.shape = FROND_SHAPE_SPHERE;
     def.size = {0.1, 0.1, 0.1};
     def.mass = 1;
     def.friction = 0.5;
@@ -59,7 +60,7 @@ frond_result frond_rigid_create(frond_world world, const frond_rigid_def* def, f
         rigid->handle.id = rigid_slots().insert(rigid);
         if (!rigid->handle.id) {
             remove_rigid(w, rigid);
-            fail(FROND_OUT_OF_MEMORY, "too many rigid bodies; destroy some");
+            fail(FROND_RESULT_OUT_OF_MEMORY, "too many rigid bodies; destroy some");
         }
         *out = rigid->handle;
     });
@@ -91,7 +92,8 @@ frond_result frond_rigid_set_state(frond_rigid rigid, const frond_rigid_state* s
         check_pointer(state, "state");
         Rigid& found = get(rigid);
         check_state(*state);
-        if (found.is_plane) fail(FROND_BAD_ARGUMENT, "the rigid body is a plane, which does not move; use a box");
+        if (found.is_plane)
+            fail(FROND_RESULT_BAD_ARGUMENT, "the rigid body is a plane, which does not move; use a box");
         set_state(found, *state);
         if (!found.grown_on) return;
         carry_fragments(*found.grown_on);

@@ -20,7 +20,8 @@ RobotSlots& robot_slots() {
 Robot& get(frond_robot robot) {
     Robot* found = robot_slots().find(robot.id);
     if (!found)
-        fail(FROND_BAD_HANDLE, "the robot handle is null, stale or of another kind; use the one of frond_robot_load");
+        fail(FROND_RESULT_BAD_HANDLE,
+             "the robot handle is null, stale or of another kind; use the one of frond_robot_load");
     return *found;
 }
 
@@ -40,7 +41,8 @@ void check_robot_def(const frond_robot_def* def) {
     check_vec(def->position, "def.position [m]");
     const frond_quat& q = def->rotation;
     const double length = Quat(q.w, q.x, q.y, q.z).norm();
-    if (!(length > 1e-9 && length < 1e9)) fail(FROND_BAD_ARGUMENT, "def.rotation has no direction; (0,0,0,1) is none");
+    if (!(length > 1e-9 && length < 1e9))
+        fail(FROND_RESULT_BAD_ARGUMENT, "def.rotation has no direction; (0,0,0,1) is none");
     check_range(def->friction, 0, 100, "def.friction");
 }
 
@@ -53,7 +55,7 @@ size_t check_link(const Robot& robot, int link) {
 size_t check_joint(const Robot& robot, int link) {
     const size_t index = check_link(robot, link);
     if (!moves(robot, index))
-        fail(FROND_BAD_ARGUMENT, "link %d, \"%s\", has no joint that moves", link,
+        fail(FROND_RESULT_BAD_ARGUMENT, "link %d, \"%s\", has no joint that moves", link,
              robot.tree.links[index].name.c_str());
     return index;
 }
@@ -135,7 +137,7 @@ frond_result frond_robot_load(frond_world world, const char* path, const frond_r
         robot->handle = robot_slots().insert(robot);
         if (!robot->handle) {
             remove_robot(w, robot);
-            fail(FROND_OUT_OF_MEMORY, "too many robots; destroy some");
+            fail(FROND_RESULT_OUT_OF_MEMORY, "too many robots; destroy some");
         }
         out->id = robot->handle;
     });
@@ -260,9 +262,9 @@ frond_result frond_robot_bond(frond_plant plant, frond_vec3 point, frond_robot r
         PlantBody& body = look_at(get(plant));
         Robot& found = get(robot);
         const size_t i = check_link(found, link);
-        if (found.world != body.world) fail(FROND_BAD_ARGUMENT, "the robot is of another world than the plant");
+        if (found.world != body.world) fail(FROND_RESULT_BAD_ARGUMENT, "the robot is of another world than the plant");
         if (found.tree.links[i].collisions.empty())
-            fail(FROND_BAD_ARGUMENT, "link %d, \"%s\", has no <collision> to hold something with", link,
+            fail(FROND_RESULT_BAD_ARGUMENT, "link %d, \"%s\", has no <collision> to hold something with", link,
                  found.tree.links[i].name.c_str());
         make_bond(body, point, *found.links[i].collider, out);
     });
@@ -275,7 +277,7 @@ frond_result frond_plant_get_root_force(frond_plant plant, frond_vec3 about, fro
         PlantBody& body = look_at(get(plant));
         check_vec(about, "about [m]");
         const Plant& p = *body.plant;
-        const bool has_weight = p.effects & body.world->effects & FROND_GRAVITY;
+        const bool has_weight = p.effects & body.world->effects & FROND_EFFECT_GRAVITY;
         const Vec3 gravity = has_weight ? gravity_of(*body.world) : Vec3(Vec3::Zero());
         const Wrench held = root_force(p, gravity, to_vec(about));
         if (force) *force = from_vec(held.force);

@@ -21,10 +21,10 @@ frond_result frond_model_write_urdf(frond_model model, const char* path) {
         name = name.substr(name.rfind('/') + 1);
         const std::string text = urdf_of(*found, name.substr(0, name.rfind('.')));
         FILE* file = fopen(path, "w");
-        if (!file) fail(FROND_FILE_NOT_FOUND, "%s cannot be written: %s", path, strerror(errno));
+        if (!file) fail(FROND_RESULT_FILE_NOT_FOUND, "%s cannot be written: %s", path, strerror(errno));
         const bool written = fwrite(text.data(), 1, text.size(), file) == text.size();
         if (fclose(file) != 0 || !written)
-            fail(FROND_FILE_NOT_FOUND, "%s could not be written whole: is the disk full?", path);
+            fail(FROND_RESULT_FILE_NOT_FOUND, "%s could not be written whole: is the disk full?", path);
     });
 }
 

@@ -13,7 +13,8 @@ static void check_wind_def(const frond_wind_def* def) {
     check_range(def->length_scale, 0.1, 1e4, "def.length_scale [m]");
     const int profile = number_of(def->profile);
     if (profile < 0 || profile >= FROND_WIND_PROFILE_COUNT)
-        fail(FROND_BAD_ARGUMENT, "def.profile is %d; use FROND_WIND_UNIFORM, FROND_WIND_LOG or FROND_WIND_POWER",
+        fail(FROND_RESULT_BAD_ARGUMENT,
+             "def.profile is %d; use FROND_WIND_PROFILE_UNIFORM, FROND_WIND_PROFILE_LOG or FROND_WIND_PROFILE_POWER",
              profile);
     check_range(def->reference_height, 0.01, 1e4, "def.reference_height [m]");
     check_range(def->roughness, 1e-6, 0.5 * def->reference_height, "def.roughness [m]");
@@ -29,7 +30,7 @@ frond_wind_def frond_default_wind_def(void) {
     def.turbulence = 0.2;
     def.length_scale = 20;
     def.seed = 1;
-    def.profile = FROND_WIND_LOG;
+    def.profile = FROND_WIND_PROFILE_LOG;
     def.reference_height = 10;
     def.roughness = 0.03;
     def.exponent = 1.0 / 7;
@@ -78,7 +79,7 @@ frond_result frond_world_get_wind_at(frond_world world, frond_vec3 point, frond_
         if (!w.wind) return;
         std::vector<frond_vec3> velocities;
         if (!wind_velocities(*w.wind, up_of(gravity_of(w)), w.time, {point}, velocities))
-            fail(FROND_BAD_ARGUMENT,
+            fail(FROND_RESULT_BAD_ARGUMENT,
                  "the wind field gave a velocity that is not finite or beyond 1000 m/s; have it "
                  "write every velocity");
         *out = velocities[0];

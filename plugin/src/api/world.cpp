@@ -9,8 +9,8 @@ static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& de
     check_def(&def, WORLD_DEF_COOKIE, "world");
     check_vec(def.gravity, "def.gravity");
     check_range(def.max_substep, 1e-6, 1.0, "def.max_substep");
-    if (def.effects & ~uint32_t(FROND_ALL_EFFECTS))
-        fail(FROND_BAD_ARGUMENT, "def.effects has unknown bits; use FROND_*");
+    if (def.effects & ~uint32_t(FROND_EFFECT_ALL))
+        fail(FROND_RESULT_BAD_ARGUMENT, "def.effects has unknown bits; use FROND_*");
     check_row(number_of(def.hash_layout), FROND_HASH_LAYOUT_COUNT, "def.hash_layout");
     check_range(def.hash_table_size, 0, 1e8, "def.hash_table_size");
     check_range(def.hash_cell_size, 0, 1e3, "def.hash_cell_size [m]");
@@ -20,7 +20,7 @@ static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& de
     check_range(def.penalty_stiffness, 1e-6, 1e12, "def.penalty_stiffness [N/m]");
     check_range(def.sleep_distance, 0, 0.01, "def.sleep_distance [m]");
     const uint64_t id = world_slots().insert(make_world(bullet, def));
-    if (!id) fail(FROND_OUT_OF_MEMORY, "too many worlds; destroy some");
+    if (!id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many worlds; destroy some");
     return {id};
 }
 
@@ -44,7 +44,7 @@ static frond_report full_report(const World& world) {
         report.ms_surface += plant.ms_surface;
         if (plant.surface_stale || !(plant.ms_surface > 0)) continue;
         const frond_effects effects = plant.effects & world.effects;
-        report.effects_run |= effects & (FROND_SURFACE | FROND_NORMALS);
+        report.effects_run |= effects & (FROND_EFFECT_SURFACE | FROND_EFFECT_NORMALS);
         report.ms_of_effect[3] += plant.ms_surface - plant.ms_normals;
         report.ms_of_effect[4] += plant.ms_normals;
     }
@@ -56,9 +56,9 @@ extern "C" {
 frond_world_def frond_default_world_def(void) {
     frond_world_def def = {};
     def.gravity = {0, -9.81, 0};
-    def.effects = FROND_ALL_EFFECTS;
+    def.effects = FROND_EFFECT_ALL;
     def.max_substep = 1.0 / 60;
-    def.hash_layout = FROND_HASH_GRID;
+    def.hash_layout = FROND_HASH_LAYOUT_GRID;
     def.response = FROND_RESPONSE_IMPULSE;
     def.response_iterations = 200;
     def.response_tolerance = 1e-6;
@@ -95,7 +95,7 @@ frond_result frond_world_step(frond_world world, double dt) {
     return call([&] {
         World& w = get(world);
         check_range(dt, 0, 1, "dt [s]");
-        if (!w.own) fail(FROND_UNSUPPORTED, "this world is the host's; call its stepSimulation");
+        if (!w.own) fail(FROND_RESULT_UNSUPPORTED, "this world is the host's; call its stepSimulation");
         advance(w, dt);
     });
 }
@@ -111,7 +111,8 @@ frond_result frond_world_set_gravity(frond_world world, frond_vec3 gravity) {
 frond_result frond_world_set_effects(frond_world world, frond_effects effects) {
     return call([&] {
         World& w = get(world);
-        if (effects & ~uint32_t(FROND_ALL_EFFECTS)) fail(FROND_BAD_ARGUMENT, "effects has unknown bits; use FROND_*");
+        if (effects & ~uint32_t(FROND_EFFECT_ALL))
+            fail(FROND_RESULT_BAD_ARGUMENT, "effects has unknown bits; use FROND_*");
         w.effects = effects;
     });
 }
@@ -119,7 +120,7 @@ frond_result frond_world_set_effects(frond_world world, frond_effects effects) {
 frond_result frond_world_set_interpolation(frond_world world, double fraction) {
     return call([&] {
         World& w = get(world);
-        if (fraction != FROND_AS_MOTION_STATES) check_range(fraction, 0, 2, "fraction");
+        if (fraction != FROND_INTERPOLATION_AS_MOTION_STATES) check_range(fraction, 0, 2, "fraction");
         w.interpolation = fraction;
     });
 }
@@ -150,7 +151,7 @@ frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin, frond_ve
         check_vec(direction, "direction");
         check_range(max_distance, 1e-9, LARGEST_COORDINATE, "max_distance [m]");
         const Vec3 from = to_vec(origin), way = to_vec(direction);
-        if (!(way.norm() > 0)) fail(FROND_BAD_ARGUMENT, "direction is zero; pass the way the ray goes");
+        if (!(way.norm() > 0)) fail(FROND_RESULT_BAD_ARGUMENT, "direction is zero; pass the way the ray goes");
         const RayHit hit = cast_ray(w, from, from + max_distance * way.normalized());
         if (!hit.body) return;
         out->plant = hit.body->handle;

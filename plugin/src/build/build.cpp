@@ -37,7 +37,7 @@ static void finish(Model& model) {
 static void tell_stiffened(Model& model, const WeakOrgan& weak, const WeakOrgan& in_cage) {
     constexpr double MUCH = 3;          // more than the margin that chosen materials get anyway
     constexpr double MUCH_IN_CAGE = 4;  // cells as coarse as the paper's are not more exact than that
-    model.stiffened = std::max(weak.factor, in_cage.factor);
+    model.stiffening_factor = std::max(weak.factor, in_cage.factor);
     if (weak.factor >= MUCH)
         warn(
             "%s cannot carry its weight in the shape it was modelled in and was made %.3g times stiffer; check the "

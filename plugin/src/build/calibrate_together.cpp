@@ -55,9 +55,9 @@ void calibrate_together(Model& model, const std::vector<char>& alone, int order)
     for (int axis = 0; axis < 3; axis++) rods += rod_energy(model, axis, alone);
     TetElements elements = make_tet_elements(model, nullptr, order);
     StaticStiffness stiffness(elements.pattern);
-    const Mechanics& row = mechanics(FROND_TET_LINEAR, order);
+    const Mechanics& row = mechanics(FROND_MECHANICS_TET_LINEAR, order);
     const std::vector<uint8_t> held = with_middles(elements.nodes, model.root);
-    const VecX masses = row.masses(elements, FROND_LUMPED).node;
+    const VecX masses = row.masses(elements, FROND_MASS_LUMPED).node;
     VecX load(elements.rest_positions.size()), moved(load.size());
     for (int round = 0; round < ROUNDS; round++) {
         if (!stiffness.set(elements, held, row, Tangent::positive, elements.rest_positions)) return;

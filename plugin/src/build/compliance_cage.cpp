@@ -79,7 +79,7 @@ CageLoads cage_loads(const LoneOrgan& lone, const TetElements& elements, const M
     };
     load(places.tip, TIP_FORCE, TIP_MOMENT);
     load(places.middle, MIDDLE_FORCE, -1);
-    VecX masses = mechanics(FROND_TET_LINEAR, elements.nodes.order).masses(elements, FROND_LUMPED).node;
+    VecX masses = mechanics(FROND_MECHANICS_TET_LINEAR, elements.nodes.order).masses(elements, FROND_MASS_LUMPED).node;
     for (const auto& [node, mass] : lone.borne) masses[node] += mass;
     for (int node = 0; node < elements.node_count; node++)
         for (int axis = 0; axis < 3; axis++)
@@ -93,8 +93,8 @@ CageLoads cage_loads(const LoneOrgan& lone, const TetElements& elements, const M
 std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElements& elements, StaticStiffness& stiffness,
                                          const CageLoads& loads) {
     const int order = elements.nodes.order;
-    if (!stiffness.set(elements, with_middles(elements.nodes, lone.model.root), mechanics(FROND_TET_LINEAR, order),
-                       Tangent::positive, elements.rest_positions))
+    if (!stiffness.set(elements, with_middles(elements.nodes, lone.model.root),
+                       mechanics(FROND_MECHANICS_TET_LINEAR, order), Tangent::positive, elements.rest_positions))
         return {};
     std::array<VecX, LOAD_COUNT> moves;
     for (int l = 0; l < LOAD_COUNT; l++) {

@@ -70,9 +70,9 @@ std::vector<double> fit_springs(const Model& model) {
     for (const ChainNode& node : model.chain.nodes) radii.push_back(node.fitted_radius);
     const auto make = [&] { return make_spring_elements(model, radii, factors); };
     if (!model.stands_as_modelled) return factors;  // its sways are those of a shape that is not known yet
-    strengthen_rods(model, FROND_SPRING_CHAIN, make, std::vector<double>(factors.size(), MARGIN), factors);
-    const RodSways rods = find_sways(model, make_rod_elements(model, FROND_ROD), FROND_ROD);
-    const auto find = [&] { return find_gap(rods, find_sways(model, make(), FROND_SPRING_CHAIN)); };
+    strengthen_rods(model, FROND_MECHANICS_SPRING_CHAIN, make, std::vector<double>(factors.size(), MARGIN), factors);
+    const RodSways rods = find_sways(model, make_rod_elements(model, FROND_MECHANICS_ROD), FROND_MECHANICS_ROD);
+    const auto find = [&] { return find_gap(rods, find_sways(model, make(), FROND_MECHANICS_SPRING_CHAIN)); };
     Gap gap = find();
     double share = 1;
     for (int round = 0; round < ROUNDS && share > LEAST_SHARE && std::abs(gap.error) > CLOSE; round++) {

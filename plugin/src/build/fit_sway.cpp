@@ -55,7 +55,8 @@ RodSways find_sways(const Model& model, const RodElements& elements, frond_mecha
     const std::vector<uint8_t> still = still_nodes(model, elements, true);
     StaticStiffness stiffness(elements.pattern);
     if (!stiffness.set(elements, still, row, Tangent::exact, elements.modelled)) return sways;
-    const std::array<Sway, 2> found = first_sways(stiffness.factor, row.masses(elements, FROND_LUMPED).node, still);
+    const std::array<Sway, 2> found =
+        first_sways(stiffness.factor, row.masses(elements, FROND_MASS_LUMPED).node, still);
     for (size_t i = 0; i < found.size(); i++) {
         if (found[i].shape.size() == 0) continue;
         sways.square[i] = found[i].square;
@@ -72,7 +73,8 @@ static VecX energies_of(const TetElements& elements, frond_mechanics which, cons
     for (size_t e = 0; e < elements.tets.size(); e++) {
         std::vector<Mat3> turned;  // one a point
         take_gradients(elements, e, x, [&](const TetShare&, const Mat3& F) {
-            turned.push_back(which == FROND_TET_LINEAR ? Mat3(Mat3::Identity()) : polar_decomposition(F).rotation);
+            turned.push_back(which == FROND_MECHANICS_TET_LINEAR ? Mat3(Mat3::Identity())
+                                                                 : polar_decomposition(F).rotation);
         });
         size_t q = 0;
         take_gradients(elements, e, shape, [&](const TetShare& share, const Mat3& change) {
@@ -90,7 +92,7 @@ SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanic
     constexpr double FARTHEST = 1.8;      // in all, of a logarithm [-]
     constexpr double LARGEST_STEP = 0.7;  // of a logarithm [-]
     constexpr double RIGID = 0.01;        // what a change counts beside an error [-]
-    const VecX mass = mechanics(which, elements.nodes.order).masses(elements, FROND_LUMPED).node;
+    const VecX mass = mechanics(which, elements.nodes.order).masses(elements, FROND_MASS_LUMPED).node;
     const std::array<Sway, 2> sways = first_sways(stiffness, mass, still);
     VecX errors = VecX::Zero(Eigen::Index(sways.size()));
     MatX slope = MatX::Zero(errors.size(), Eigen::Index(elements.tets.size()));

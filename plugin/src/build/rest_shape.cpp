@@ -254,9 +254,9 @@ VecX fit_sway(Search& search, const RodSways& rods) {
 
 // The largest strain in each organ's tets under the plant's weight, linearly [-]; empty if the root does not hold it.
 std::vector<double> organ_strains(const Model& model, int order) {
-    Search search(model, FROND_TET_LINEAR, order);
+    Search search(model, FROND_MECHANICS_TET_LINEAR, order);
     const TetElements& elements = search.elements;
-    const VecX force = unbalanced_force(elements, search.held, FROND_TET_LINEAR, search.x, GRAVITY);
+    const VecX force = unbalanced_force(elements, search.held, FROND_MECHANICS_TET_LINEAR, search.x, GRAVITY);
     if (!search.stiffness.set(elements, search.held, search.row, Tangent::positive, search.x)) return {};
     VecX u(force.size());
     solve(search.stiffness.factor, force, u);
@@ -314,7 +314,7 @@ WeakOrgan find_rest_shape(Model& model, int order) {
         std::any_of(model.organs.begin(), model.organs.end(), [](const Organ& organ) { return organ.material_given; });
     const double margin = given ? 1 : MARGIN;
     stiffen_torn_organs(model, order);
-    auto search = std::make_unique<Search>(model, FROND_TET_COROTATIONAL, order);
+    auto search = std::make_unique<Search>(model, FROND_MECHANICS_TET_COROTATIONAL, order);
     Outcome outcome = search_rest_shape(*search, margin);
     for (int i = 0; i < MOST_TRIES && outcome.rest.size() == 0; i++) {
         if (!outcome.shares.empty())
@@ -323,15 +323,16 @@ WeakOrgan find_rest_shape(Model& model, int order) {
             stiffen(model, size_t(outcome.torn), STIFFER, factor);
         else
             for (size_t o = 0; o < factor.size(); o++) stiffen(model, o, STIFFER, factor);
-        search = std::make_unique<Search>(model, FROND_TET_COROTATIONAL, order);
+        search = std::make_unique<Search>(model, FROND_MECHANICS_TET_COROTATIONAL, order);
         outcome = search_rest_shape(*search, margin);
     }
     if (outcome.rest.size() > 0) {
-        const VecX change = fit_sway(*search, find_sways(model, make_rod_elements(model, FROND_ROD), FROND_ROD));
+        const VecX change =
+            fit_sway(*search, find_sways(model, make_rod_elements(model, FROND_MECHANICS_ROD), FROND_MECHANICS_ROD));
         for (size_t e = 0; e < model.tet_young.size(); e++) model.tet_young[e] *= std::exp(change[Eigen::Index(e)]);
-        model.rest_shapes->positions[size_t(order - 1)][FROND_TET_COROTATIONAL] = search->rest;
+        model.rest_shapes->positions[size_t(order - 1)][FROND_MECHANICS_TET_COROTATIONAL] = search->rest;
     }
-    model.rest_shapes->known[size_t(order - 1)][FROND_TET_COROTATIONAL] = true;
+    model.rest_shapes->known[size_t(order - 1)][FROND_MECHANICS_TET_COROTATIONAL] = true;
     const size_t weakest = size_t(std::max_element(factor.begin(), factor.end()) - factor.begin());
     return {model.organs[weakest].name, factor[weakest]};
 }
@@ -357,11 +358,12 @@ void ensure_rest_shape(const Model& model, frond_mechanics which, int order) {
     const size_t row = moves_chain ? 0 : size_t(order - 1);
     if (shapes.known[row][size_t(which)]) return;
     shapes.known[row][size_t(which)] = true;
-    if (which == FROND_SPRING_CHAIN) shapes.springs = fit_springs(model);
+    if (which == FROND_MECHANICS_SPRING_CHAIN) shapes.springs = fit_springs(model);
     if (!model.stands_as_modelled || moves_chain) return;
     Search search(model, which, order);
     if (search_rest_shape(search).rest.size() == 0) return;
-    const VecX change = fit_sway(search, find_sways(model, make_rod_elements(model, FROND_ROD), FROND_ROD));
+    const VecX change =
+        fit_sway(search, find_sways(model, make_rod_elements(model, FROND_MECHANICS_ROD), FROND_MECHANICS_ROD));
     std::vector<double>& stiffer = shapes.stiffer[row][size_t(which)];
     for (size_t e = 0; e < model.tet_young.size(); e++) stiffer.push_back(std::exp(change[Eigen::Index(e)]));
     shapes.positions[row][size_t(which)] = search.rest;

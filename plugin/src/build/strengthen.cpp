@@ -147,7 +147,7 @@ WeakOrgan strengthen(Model& model) {
         safety.push_back(given ? SAFETY_OF_GIVEN : SAFETY);
     }
     strengthen_rods(
-        model, FROND_ROD, [&] { return make_rod_elements(model, FROND_ROD); }, safety, stiffer);
+        model, FROND_MECHANICS_ROD, [&] { return make_rod_elements(model, FROND_MECHANICS_ROD); }, safety, stiffer);
 
     // Organs of no weight to speak of, silk and hairs, are not worth a word.
     constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]

@@ -39,14 +39,15 @@ Bent find_sway(const System& system, StaticStiffness& stiffness, const std::vect
 }  // namespace
 
 double sway_frequency(const std::shared_ptr<const Model>& model) {
-    const std::shared_ptr<const System> system = make_system(model, FROND_ROD, FROND_LUMPED);
+    const std::shared_ptr<const System> system = make_system(model, FROND_MECHANICS_ROD, FROND_MASS_LUMPED);
     const Elements& elements = elements_of(*system);
     const std::vector<uint8_t> still = still_nodes(*model, elements, true);
     StaticStiffness stiffness(elements.pattern);
-    if (!stiffness.set(elements, still, FROND_ROD, Tangent::positive, elements.modelled))
-        fail(FROND_BAD_GEOMETRY, "the plant's rods have no stiffness; check its materials and radii");
+    if (!stiffness.set(elements, still, FROND_MECHANICS_ROD, Tangent::positive, elements.modelled))
+        fail(FROND_RESULT_BAD_GEOMETRY, "the plant's rods have no stiffness; check its materials and radii");
     const Bent sway = find_sway(*system, stiffness, still);
-    if (sway.mass == 0) fail(FROND_BAD_GEOMETRY, "the plant has no part that could sway: its chain is a root alone");
+    if (sway.mass == 0)
+        fail(FROND_RESULT_BAD_GEOMETRY, "the plant has no part that could sway: its chain is a root alone");
     return std::sqrt(sway.square()) / (2 * M_PI);
 }
 

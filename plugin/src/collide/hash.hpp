@@ -8,8 +8,8 @@
 namespace frond {
 
 struct HashSettings {
-    frond_hash_layout layout = FROND_HASH_GRID;
-    int table_size = 0;    // n, buckets of FROND_HASH_PAPER; 0 chooses
+    frond_hash_layout layout = FROND_HASH_LAYOUT_GRID;
+    int table_size = 0;    // n, buckets of FROND_HASH_LAYOUT_PAPER; 0 chooses
     double cell_size = 0;  // l [m]; 0 chooses one and a half mean edges. Never below an eighth of the mean edge
 };
 

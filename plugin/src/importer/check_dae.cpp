@@ -8,9 +8,9 @@ void check_dae(const MeshFile& file) {
     const bool is_wide = bytes.size() > 1 && (uint8_t(bytes[0]) >= 0xfe);
     if (is_wide) return;
     if (bytes.find("<COLLADA") == std::string::npos)
-        fail(FROND_FILE_FORMAT, "there is no <COLLADA> element in the file");
+        fail(FROND_RESULT_FILE_FORMAT, "there is no <COLLADA> element in the file");
     if (bytes.find("</COLLADA", bytes.size() > 4096 ? bytes.size() - 4096 : 0) == std::string::npos)
-        fail(FROND_FILE_FORMAT, "the file is cut off: it ends without </COLLADA>");
+        fail(FROND_RESULT_FILE_FORMAT, "the file is cut off: it ends without </COLLADA>");
 }
 
 }  // namespace frond

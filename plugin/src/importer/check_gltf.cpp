@@ -30,7 +30,8 @@ static void check_extensions(const Json& json) {
     if (required == json.end() || !required->is_array()) return;
     for (const Json& extension : *required)
         if (extension.is_string() && !is_supported(extension.get<std::string>()))
-            fail(FROND_FILE_FORMAT, "the file needs the glTF extension %.60s, which is not read; export it without",
+            fail(FROND_RESULT_FILE_FORMAT,
+                 "the file needs the glTF extension %.60s, which is not read; export it without",
                  extension.get<std::string>().c_str());
 }
 
@@ -43,11 +44,11 @@ static void check_views(const GltfDocument& document) {
         const long long buffer = number_of(view, "buffer", -1), offset = number_of(view, "byteOffset", 0),
                         length = number_of(view, "byteLength", 0);
         if (buffer < 0 || buffer >= (long long)document.buffers.size())
-            fail(FROND_FILE_FORMAT, "buffer view %zu is in buffer %lld, but there are %zu", i, buffer,
+            fail(FROND_RESULT_FILE_FORMAT, "buffer view %zu is in buffer %lld, but there are %zu", i, buffer,
                  document.buffers.size());
         if (offset + length > (long long)document.buffers[size_t(buffer)].size())
-            fail(FROND_FILE_FORMAT, "buffer view %zu ends at byte %lld, but buffer %lld has %zu", i, offset + length,
-                 buffer, document.buffers[size_t(buffer)].size());
+            fail(FROND_RESULT_FILE_FORMAT, "buffer view %zu ends at byte %lld, but buffer %lld has %zu", i,
+                 offset + length, buffer, document.buffers[size_t(buffer)].size());
     }
 }
 
@@ -59,17 +60,17 @@ static void check_accessors(const Json& json) {
         const long long width = width_of_type(text_of_json(accessor, "type")),
                         size = size_of_component(number_of(accessor, "componentType", 0)),
                         count = number_of(accessor, "count", 0), view_index = number_of(accessor, "bufferView", -1);
-        if (width == 0 || size == 0) fail(FROND_FILE_FORMAT, "accessor %zu is of no known type", i);
-        if (count > 100000000) fail(FROND_FILE_FORMAT, "accessor %zu has %lld elements", i, count);
+        if (width == 0 || size == 0) fail(FROND_RESULT_FILE_FORMAT, "accessor %zu is of no known type", i);
+        if (count > 100000000) fail(FROND_RESULT_FILE_FORMAT, "accessor %zu has %lld elements", i, count);
         if (view_index < 0) continue;
         const Json& view = item_of(json, "bufferViews", view_index);
         if (view.empty())
-            fail(FROND_FILE_FORMAT, "accessor %zu is in buffer view %lld, which does not exist", i, view_index);
+            fail(FROND_RESULT_FILE_FORMAT, "accessor %zu is in buffer view %lld, which does not exist", i, view_index);
         const long long stride = std::max(number_of(view, "byteStride", 0), width * size);
         const long long end =
             number_of(accessor, "byteOffset", 0) + (count > 0 ? stride * (count - 1) + width * size : 0);
         if (end > number_of(view, "byteLength", 0))
-            fail(FROND_FILE_FORMAT, "accessor %zu ends at byte %lld, but its buffer view has %lld", i, end,
+            fail(FROND_RESULT_FILE_FORMAT, "accessor %zu ends at byte %lld, but its buffer view has %lld", i, end,
                  number_of(view, "byteLength", 0));
     }
 }

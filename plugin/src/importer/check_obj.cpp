@@ -61,7 +61,7 @@ static ObjCounts count_lines(const std::string& bytes) {
 static void check_index(long index, long seen, long total, const char* what, long line) {
     if (index >= 1 && index <= total) return;
     if (index < 0 && -index <= seen) return;
-    fail(FROND_FILE_FORMAT, "line %ld: the face refers to %s %ld, but there are %ld", line, what, index, total);
+    fail(FROND_RESULT_FILE_FORMAT, "line %ld: the face refers to %s %ld, but there are %ld", line, what, index, total);
 }
 
 // "f 1 2 3", "f 1/2 ...", "f 1//3 ...", "f 1/2/3 ..."
@@ -75,23 +75,23 @@ static void check_face(const char* text, long line, const ObjCounts& seen, const
             char* end;
             const long index = strtol(text, &end, 10);
             if (end == text && (field == 0 || (*text != '/' && *text != ' ' && *text != '\t' && *text)))
-                fail(FROND_FILE_FORMAT, "line %ld: \"%.20s\" is no vertex of a face", line, text);
+                fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is no vertex of a face", line, text);
             if (end != text) check_index(index, so_far[field], totals[field], names[field], line);
             text = end;
             if (*text != '/') break;
             ++text;
         }
         if (*text && *text != ' ' && *text != '\t')
-            fail(FROND_FILE_FORMAT, "line %ld: \"%.20s\" is no vertex of a face", line, text);
+            fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is no vertex of a face", line, text);
         ++corners;
     }
-    if (corners == 0) fail(FROND_FILE_FORMAT, "line %ld: the face has no vertices", line);
+    if (corners == 0) fail(FROND_RESULT_FILE_FORMAT, "line %ld: the face has no vertices", line);
 }
 
 void check_obj(const MeshFile& file) {
     const ObjCounts total = count_lines(file.bytes);
-    if (total.vertices == 0) fail(FROND_FILE_FORMAT, "there is no vertex (no line \"v x y z\") in the file");
-    if (total.faces == 0) fail(FROND_FILE_FORMAT, "there is no face (no line \"f 1 2 3\") in the file");
+    if (total.vertices == 0) fail(FROND_RESULT_FILE_FORMAT, "there is no vertex (no line \"v x y z\") in the file");
+    if (total.faces == 0) fail(FROND_RESULT_FILE_FORMAT, "there is no face (no line \"f 1 2 3\") in the file");
     ObjCounts seen;
     ObjLines lines{file.bytes, 0, 1, 0, ""};
     while (next_line(lines)) {

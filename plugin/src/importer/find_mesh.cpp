@@ -42,7 +42,7 @@ static std::string find_in_package(const std::string& folder, const std::string&
         if (is_file(above + "/package.xml") && is_file(above + "/" + path)) return above + "/" + path;
     }
     fail(
-        FROND_FILE_NOT_FOUND,
+        FROND_RESULT_FILE_NOT_FOUND,
         "the mesh package://%.64s/%.256s was not found; set FROND_PACKAGE_PATH to the folder in which the folder %.64s "
         "lies",
         package.c_str(), path.c_str(), package.c_str());
@@ -54,14 +54,14 @@ std::string find_mesh(const std::string& folder, const std::string& reference) {
         const std::string rest = reference.substr(scheme.size());
         const size_t slash = rest.find('/');
         if (slash == std::string::npos || slash == 0)
-            fail(FROND_FILE_FORMAT, "the mesh %.256s names no file in a package; write %sNAME/PATH", reference.c_str(),
-                 scheme.c_str());
+            fail(FROND_RESULT_FILE_FORMAT, "the mesh %.256s names no file in a package; write %sNAME/PATH",
+                 reference.c_str(), scheme.c_str());
         return find_in_package(folder, rest.substr(0, slash), rest.substr(slash + 1));
     }
     const std::string path = starts_with(reference, "file://") ? reference.substr(7) : reference;
     const std::string found = starts_with(path, "/") ? path : folder + "/" + path;
     if (!is_file(found))
-        fail(FROND_FILE_NOT_FOUND, "the mesh %.256s was not found; paths are taken from the URDF file's folder",
+        fail(FROND_RESULT_FILE_NOT_FOUND, "the mesh %.256s was not found; paths are taken from the URDF file's folder",
              reference.c_str());
     return found;
 }

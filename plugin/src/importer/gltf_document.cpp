@@ -15,20 +15,20 @@ static uint32_t word_at(const std::string& bytes, size_t at) {
 // Splits a GLB into its chunks.
 static std::string split_glb(const std::string& bytes, std::string& binary) {
     if (bytes.size() < 20 || bytes.compare(0, 4, "glTF") != 0)
-        fail(FROND_FILE_FORMAT, "the file does not begin with a GLB header");
+        fail(FROND_RESULT_FILE_FORMAT, "the file does not begin with a GLB header");
     const size_t announced = word_at(bytes, 8);
     if (announced > bytes.size())
-        fail(FROND_FILE_FORMAT, "the file is cut off: %zu bytes are announced, but there are %zu", announced,
+        fail(FROND_RESULT_FILE_FORMAT, "the file is cut off: %zu bytes are announced, but there are %zu", announced,
              bytes.size());
     const size_t text_size = word_at(bytes, 12);
     const bool is_old = word_at(bytes, 4) == 1;
     if ((!is_old && word_at(bytes, 16) != 0x4E4F534A) || text_size > announced - 20)
-        fail(FROND_FILE_FORMAT, "the first chunk of the GLB is not whole JSON");
+        fail(FROND_RESULT_FILE_FORMAT, "the first chunk of the GLB is not whole JSON");
     const size_t next = 20 + text_size;
     if (!is_old && announced - next >= 8 && announced <= bytes.size()) {
         const size_t size = word_at(bytes, next);
         if (size > announced - next - 8)
-            fail(FROND_FILE_FORMAT, "the second chunk of the GLB has %zu bytes, but only %zu are left", size,
+            fail(FROND_RESULT_FILE_FORMAT, "the second chunk of the GLB has %zu bytes, but only %zu are left", size,
                  announced - next - 8);
         if (word_at(bytes, next + 4) == 0x004E4942) binary = bytes.substr(next + 8, size);
     }
@@ -38,21 +38,22 @@ static std::string split_glb(const std::string& bytes, std::string& binary) {
 GltfDocument parse_gltf(const MeshFile& file) {
     GltfDocument document;
     const bool is_glb = file.bytes.compare(0, 4, "glTF") == 0;
-    if (file.format == FileFormat::GLB && !is_glb) fail(FROND_FILE_FORMAT, "the file does not begin with a GLB header");
+    if (file.format == FileFormat::GLB && !is_glb)
+        fail(FROND_RESULT_FILE_FORMAT, "the file does not begin with a GLB header");
     const std::string text = is_glb ? split_glb(file.bytes, document.binary) : file.bytes;
     try {
         document.json = Json::parse(text);
     } catch (const Json::parse_error& error) {
         const size_t at = std::min(text.size(), size_t(error.byte));
-        fail(FROND_FILE_FORMAT, "the JSON is damaged at line %ld (byte %zu)",
+        fail(FROND_RESULT_FILE_FORMAT, "the JSON is damaged at line %ld (byte %zu)",
              long(1 + std::count(text.begin(), text.begin() + long(at), '\n')), at);
     }
     if (!document.json.is_object() || !document.json.contains("asset") || !document.json["asset"].is_object())
-        fail(FROND_FILE_FORMAT, "the JSON is not a glTF document: it has no \"asset\"");
+        fail(FROND_RESULT_FILE_FORMAT, "the JSON is not a glTF document: it has no \"asset\"");
     const std::string version = text_of_json(document.json["asset"], "version");
     document.is_old = !version.empty() && version[0] == '1';
     if (!document.is_old && (version.empty() || version[0] != '2'))
-        fail(FROND_FILE_FORMAT, "the glTF version is \"%.20s\"; 1.0 and 2.0 are read", version.c_str());
+        fail(FROND_RESULT_FILE_FORMAT, "the glTF version is \"%.20s\"; 1.0 and 2.0 are read", version.c_str());
     return document;
 }
 
@@ -96,7 +97,8 @@ static std::string load_buffer(const GltfDocument& document, const Json& buffer,
     const std::string path = find_beside(file.folder, uri);
     FILE* stream = path.empty() ? nullptr : fopen(path.c_str(), "rb");
     if (!stream)
-        fail(FROND_FILE_FORMAT, "the file %.200s, which holds its geometry, is not in the model's folder", uri.c_str());
+        fail(FROND_RESULT_FILE_FORMAT, "the file %.200s, which holds its geometry, is not in the model's folder",
+             uri.c_str());
     std::string bytes;
     char block[65536];
     for (size_t count; bytes.size() < (size_t(1) << 30) && (count = fread(block, 1, sizeof block, stream)) > 0;)
@@ -114,8 +116,8 @@ void load_buffers(GltfDocument& document, const MeshFile& file) {
         const bool is_fallback = buffer.is_object() && buffer.contains("extensions");
         const long long wanted = number_of(buffer, "byteLength", 0);
         if (!is_fallback && wanted > (long long)document.buffers.back().size())
-            fail(FROND_FILE_FORMAT, "buffer %zu is cut off: %lld bytes are announced, but there are %zu", index, wanted,
-                 document.buffers.back().size());
+            fail(FROND_RESULT_FILE_FORMAT, "buffer %zu is cut off: %lld bytes are announced, but there are %zu", index,
+                 wanted, document.buffers.back().size());
     }
 }
 
@@ -132,7 +134,8 @@ long long number_of(const Json& object, const char* key, long long missing) {
     const auto found = object.find(key);
     if (found == object.end()) return missing;
     const double value = found->is_number() ? found->get<double>() : -1;
-    if (!(value >= 0 && value < 1e15)) fail(FROND_FILE_FORMAT, "\"%s\" must be a number that is not negative", key);
+    if (!(value >= 0 && value < 1e15))
+        fail(FROND_RESULT_FILE_FORMAT, "\"%s\" must be a number that is not negative", key);
     return (long long)value;
 }
 

@@ -68,10 +68,10 @@ static void read_file(const std::string& path, frond::UrdfUse use, frond::Import
         result.code = error.code;
         result.error = error.what();
     } catch (const std::bad_alloc&) {
-        result.code = FROND_FILE_FORMAT;
+        result.code = FROND_RESULT_FILE_FORMAT;
         result.error = "the file needs more memory than is allowed: it is damaged or far too large";
     } catch (const std::exception& error) {
-        result.code = FROND_FILE_FORMAT;
+        result.code = FROND_RESULT_FILE_FORMAT;
         result.error = std::string("the file could not be read: ") + error.what();
     }
     if (result.code == FROND_OK) return;

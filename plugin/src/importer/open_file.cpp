@@ -15,16 +15,17 @@ static constexpr long long LARGEST_FILE = 1ll << 30;  // [byte]
 
 static std::string read_bytes(const std::string& path) {
     struct stat status;
-    if (stat(path.c_str(), &status) != 0) fail(FROND_FILE_NOT_FOUND, "%s", strerror(errno));
-    if (!S_ISREG(status.st_mode)) fail(FROND_FILE_NOT_FOUND, "not a regular file");
-    if (status.st_size == 0) fail(FROND_FILE_FORMAT, "the file is empty");
-    if (status.st_size > LARGEST_FILE) fail(FROND_FILE_FORMAT, "the file is larger than 1 GiB");
+    if (stat(path.c_str(), &status) != 0) fail(FROND_RESULT_FILE_NOT_FOUND, "%s", strerror(errno));
+    if (!S_ISREG(status.st_mode)) fail(FROND_RESULT_FILE_NOT_FOUND, "not a regular file");
+    if (status.st_size == 0) fail(FROND_RESULT_FILE_FORMAT, "the file is empty");
+    if (status.st_size > LARGEST_FILE) fail(FROND_RESULT_FILE_FORMAT, "the file is larger than 1 GiB");
     FILE* file = fopen(path.c_str(), "rb");
-    if (!file) fail(FROND_FILE_NOT_FOUND, "%s", strerror(errno));
+    if (!file) fail(FROND_RESULT_FILE_NOT_FOUND, "%s", strerror(errno));
     std::string bytes(size_t(status.st_size), '\0');
     const size_t count = fread(&bytes[0], 1, bytes.size(), file);
     fclose(file);
-    if (count != bytes.size()) fail(FROND_FILE_NOT_FOUND, "only %zu of %zu bytes could be read", count, bytes.size());
+    if (count != bytes.size())
+        fail(FROND_RESULT_FILE_NOT_FOUND, "only %zu of %zu bytes could be read", count, bytes.size());
     return bytes;
 }
 
@@ -39,7 +40,7 @@ static FileFormat format_by_name(const std::string& name) {
     const std::string ending = dot == std::string::npos ? "" : name.substr(dot);
     for (const auto& row : ROWS)
         if (strcasecmp(row.ending, ending.c_str()) == 0) return row.format;
-    fail(FROND_FILE_FORMAT,
+    fail(FROND_RESULT_FILE_FORMAT,
          "the name ends in \"%s\"; meshes are read from .obj .ply .gltf .glb .fbx .dae .stl, trees of links from .urdf",
          ending.c_str());
 }
@@ -78,15 +79,16 @@ MeshFile open_file(const std::string& path) {
 
     const char* content = format_by_content(file.bytes);
     if (content && strcmp(content, name_of(file.format)) != 0 && file.format != FileFormat::STL)
-        fail(FROND_FILE_FORMAT, "the content is that of a %s file, not of the %s file that the name promises", content,
-             name_of(file.format));
+        fail(FROND_RESULT_FILE_FORMAT, "the content is that of a %s file, not of the %s file that the name promises",
+             content, name_of(file.format));
     const bool is_text = file.format == FileFormat::OBJ || file.format == FileFormat::GLTF ||
                          file.format == FileFormat::DAE || file.format == FileFormat::URDF;
     const bool is_wide = starts_with(file.bytes, "\xff\xfe") || starts_with(file.bytes, "\xfe\xff");
     const size_t zero = file.bytes.find('\0');
     if (is_text && !is_wide && zero != std::string::npos)
-        fail(FROND_FILE_FORMAT, "the file has a zero byte at %zu, so it is not the %s text that the name promises",
-             zero, name_of(file.format));
+        fail(FROND_RESULT_FILE_FORMAT,
+             "the file has a zero byte at %zu, so it is not the %s text that the name promises", zero,
+             name_of(file.format));
     return file;
 }
 

@@ -42,11 +42,12 @@ static PlyType type_of(const std::string& name, long line) {
                                            {"float", "float32"}, {"double", "float64"}};
     for (int i = 0; i < 8; ++i)
         if (name == NAMES[i][0] || name == NAMES[i][1]) return PlyType(i);
-    fail(FROND_FILE_FORMAT, "line %ld: \"%.20s\" is no PLY type", line, name.c_str());
+    fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is no PLY type", line, name.c_str());
 }
 
 static void read_property(std::istringstream& words, PlyHeader& header) {
-    if (header.elements.empty()) fail(FROND_FILE_FORMAT, "line %ld: a property stands before any element", header.line);
+    if (header.elements.empty())
+        fail(FROND_RESULT_FILE_FORMAT, "line %ld: a property stands before any element", header.line);
     PlyProperty property;
     std::string word, other;
     words >> word;
@@ -57,11 +58,11 @@ static void read_property(std::istringstream& words, PlyHeader& header) {
         word = other;
     }
     property.type = type_of(word, header.line);
-    if (!(words >> property.name)) fail(FROND_FILE_FORMAT, "line %ld: the property has no name", header.line);
+    if (!(words >> property.name)) fail(FROND_RESULT_FILE_FORMAT, "line %ld: the property has no name", header.line);
     if (property.is_list && property.count_type >= PlyType::FLOAT)
-        fail(FROND_FILE_FORMAT, "line %ld: a list's length must be an integer", header.line);
+        fail(FROND_RESULT_FILE_FORMAT, "line %ld: a list's length must be an integer", header.line);
     if (header.elements.back().properties.size() >= 1000)
-        fail(FROND_FILE_FORMAT, "line %ld: more than 1000 properties", header.line);
+        fail(FROND_RESULT_FILE_FORMAT, "line %ld: more than 1000 properties", header.line);
     header.elements.back().properties.push_back(property);
 }
 
@@ -69,7 +70,7 @@ static void read_format(std::istringstream& words, PlyHeader& header) {
     std::string format;
     words >> format;
     if (format != "ascii" && format != "binary_little_endian" && format != "binary_big_endian")
-        fail(FROND_FILE_FORMAT, "line %ld: \"%.30s\" is no PLY format", header.line, format.c_str());
+        fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.30s\" is no PLY format", header.line, format.c_str());
     header.is_text = format == "ascii";
     header.is_big_endian = format == "binary_big_endian";
 }
@@ -78,8 +79,8 @@ static void read_element(std::istringstream& words, PlyHeader& header) {
     PlyElement element;
     long long count = -1;
     words >> element.name >> count;
-    if (count < 0) fail(FROND_FILE_FORMAT, "line %ld: the element has no valid count", header.line);
-    if (header.elements.size() >= 100) fail(FROND_FILE_FORMAT, "line %ld: more than 100 elements", header.line);
+    if (count < 0) fail(FROND_RESULT_FILE_FORMAT, "line %ld: the element has no valid count", header.line);
+    if (header.elements.size() >= 100) fail(FROND_RESULT_FILE_FORMAT, "line %ld: more than 100 elements", header.line);
     element.count = size_t(count);
     header.elements.push_back(element);
 }
@@ -90,12 +91,12 @@ static PlyHeader read_header(const std::string& bytes) {
     for (header.line = 1;; ++header.line) {
         size_t end = bytes.find('\n', at);
         if (end == std::string::npos || end - at > 4096)
-            fail(FROND_FILE_FORMAT, "line %ld: the header is cut off: there is no \"end_header\"", header.line);
+            fail(FROND_RESULT_FILE_FORMAT, "line %ld: the header is cut off: there is no \"end_header\"", header.line);
         std::istringstream words(bytes.substr(at, end - at));
         at = end + 1;
         std::string word;
         words >> word;
-        if (header.line == 1 && word != "ply") fail(FROND_FILE_FORMAT, "line 1: a PLY file begins with \"ply\"");
+        if (header.line == 1 && word != "ply") fail(FROND_RESULT_FILE_FORMAT, "line 1: a PLY file begins with \"ply\"");
         if (word == "end_header") break;
         if (word == "format") read_format(words, header);
         if (word == "element") read_element(words, header);
@@ -118,7 +119,7 @@ static void check_counts(const PlyHeader& header, const std::string& bytes) {
         for (const PlyProperty& property : element.properties)
             smallest += header.is_text ? 2 : TYPE_SIZE[int(property.is_list ? property.count_type : property.type)];
         if (smallest > 0 && element.count > (left + 1) / smallest)
-            fail(FROND_FILE_FORMAT,
+            fail(FROND_RESULT_FILE_FORMAT,
                  "the file is cut off: %zu \"%s\" are announced, but only %zu bytes follow the header", element.count,
                  element.name.c_str(), left);
     }
@@ -135,9 +136,10 @@ struct PlyCursor {
 
 [[noreturn]] static void fail_cut(const PlyCursor& cursor, const PlyElement& element, size_t index) {
     if (cursor.is_text)
-        fail(FROND_FILE_FORMAT, "line %ld: the file ends in \"%s\" %zu of %zu", cursor.line, element.name.c_str(),
-             index, element.count);
-    fail(FROND_FILE_FORMAT, "the file is cut off in \"%s\" %zu of %zu", element.name.c_str(), index, element.count);
+        fail(FROND_RESULT_FILE_FORMAT, "line %ld: the file ends in \"%s\" %zu of %zu", cursor.line,
+             element.name.c_str(), index, element.count);
+    fail(FROND_RESULT_FILE_FORMAT, "the file is cut off in \"%s\" %zu of %zu", element.name.c_str(), index,
+         element.count);
 }
 
 static double read_text_value(PlyCursor& cursor, const PlyElement& element, size_t index) {
@@ -150,7 +152,7 @@ static double read_text_value(PlyCursor& cursor, const PlyElement& element, size
     const auto result = std::from_chars(begin, end, value);
     const bool is_whole = result.ptr == end || uint8_t(*result.ptr) <= 32;
     if (result.ec == std::errc::invalid_argument || !is_whole)
-        fail(FROND_FILE_FORMAT, "line %ld: \"%.20s\" is no number", cursor.line,
+        fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is no number", cursor.line,
              std::string(begin, size_t(std::min<ptrdiff_t>(20, end - begin))).c_str());
     cursor.at = size_t(result.ptr - bytes.data());
     return value;
@@ -196,7 +198,7 @@ static void read_list(PlyCursor& cursor, const PlyProperty& property, const PlyE
     const double count = read_value(cursor, property.count_type, element, index);
     const size_t left = cursor.bytes.size() - cursor.at, smallest = cursor.is_text ? 2 : TYPE_SIZE[int(property.type)];
     if (!(count >= 0) || count != std::floor(count) || count > double((left + 1) / smallest))
-        fail(FROND_FILE_FORMAT,
+        fail(FROND_RESULT_FILE_FORMAT,
              "the file is cut off or damaged: \"%s\" %zu of %zu has a list of %g values, and %zu bytes are left",
              element.name.c_str(), index, element.count, count, left);
     values.clear();
@@ -256,7 +258,7 @@ static void read_vertices(PlyCursor& cursor, const PlyElement& element, Corners&
         has[slots.back()] = true;
         types[slots.back()] = property.type;
     }
-    if (!has[X] || !has[Y] || !has[Z]) fail(FROND_FILE_FORMAT, "the vertices have no x, y and z");
+    if (!has[X] || !has[Y] || !has[Z]) fail(FROND_RESULT_FILE_FORMAT, "the vertices have no x, y and z");
     const bool has_normals = has[NX] && has[NY] && has[NZ], has_colors = has[RED] && has[GREEN] && has[BLUE];
     std::vector<double> list;
     for (size_t i = 0; i < element.count; ++i) {
@@ -290,8 +292,8 @@ struct PlyFaces {
 
 static int index_of(double value, const PlyElement& element, size_t index, size_t vertex_count) {
     if (!(value >= 0 && value < double(vertex_count)))
-        fail(FROND_FILE_FORMAT, "\"%s\" %zu refers to vertex %.0f, but there are %zu", element.name.c_str(), index,
-             value, vertex_count);
+        fail(FROND_RESULT_FILE_FORMAT, "\"%s\" %zu refers to vertex %.0f, but there are %zu", element.name.c_str(),
+             index, value, vertex_count);
     return int(value);
 }
 
@@ -305,7 +307,7 @@ static void add_fan(PlyFaces& faces, const std::vector<int>& face, const std::ve
                                                : Vec2f(0, 0));
     }
     if (faces.triangles.size() > size_t(MAX_TRIANGLES))
-        fail(FROND_BAD_GEOMETRY, "the file has more than the %d triangles that are allowed; simplify it",
+        fail(FROND_RESULT_BAD_GEOMETRY, "the file has more than the %d triangles that are allowed; simplify it",
              MAX_TRIANGLES);
 }
 
@@ -399,7 +401,7 @@ Surface read_ply(const MeshFile& file) {
         }
     }
     if (faces.triangles.empty())
-        fail(FROND_FILE_FORMAT, "there are %zu vertices but no faces; make a mesh of the point cloud first",
+        fail(FROND_RESULT_FILE_FORMAT, "there are %zu vertices but no faces; make a mesh of the point cloud first",
              corners.positions.size());
     corners.triangles = faces.triangles;
     if (has_corner_uvs) split_corners(corners, faces);

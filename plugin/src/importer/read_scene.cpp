@@ -103,7 +103,8 @@ Surface read_scene(const MeshFile& file) {
     const aiScene* scene = importer.ReadFile(file.path, aiProcess_Triangulate);
     if (!scene) {
         const char* text = importer.GetErrorString();
-        fail(FROND_FILE_FORMAT, "the file could not be read: %s", text && *text ? text : "the reader gives no cause");
+        fail(FROND_RESULT_FILE_FORMAT, "the file could not be read: %s",
+             text && *text ? text : "the reader gives no cause");
     }
     return take_scene(*scene, file);
 }

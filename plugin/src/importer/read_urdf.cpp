@@ -42,7 +42,7 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& xml) {
     const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(xml);
     console_bridge::restorePreviousOutputHandler();
     if (!model || !model->getRoot())
-        fail(FROND_FILE_FORMAT, "urdfdom does not take it: %.300s",
+        fail(FROND_RESULT_FILE_FORMAT, "urdfdom does not take it: %.300s",
              complaint.text.empty() ? "it gives no cause" : complaint.text.c_str());
     return model;
 }
@@ -57,7 +57,7 @@ int take_mesh(Reader& reader, const std::string& reference) {
     Surface surface;
     try {
         MeshFile mesh = open_file(path);
-        if (mesh.format == FileFormat::URDF) fail(FROND_FILE_FORMAT, "a mesh is no URDF file");
+        if (mesh.format == FileFormat::URDF) fail(FROND_RESULT_FILE_FORMAT, "a mesh is no URDF file");
         mesh.ignores_up = true;
         check_file(mesh);
         surface = mesh.format == FileFormat::PLY ? read_ply(mesh) : read_scene(mesh);
@@ -110,7 +110,7 @@ void take_material(const urdf::Visual& visual, UrdfShape& shape) {
 // urdfdom leaves out what has a number that it cannot read.
 void check_count(const std::string& link, const char* what, size_t got, size_t wanted, int line) {
     if (got != wanted)
-        fail(FROND_FILE_FORMAT,
+        fail(FROND_RESULT_FILE_FORMAT,
              "line %d: %zu of the <%s> elements of link \"%.64s\" cannot be read; look for missing geometry, nan, inf "
              "and "
              "decimal commas",
@@ -171,7 +171,7 @@ void take_joint(const urdf::Joint& joint, UrdfLink& link) {
     const bool has_axis = link.joint != UrdfJoint::FIXED && link.joint != UrdfJoint::FLOATING;
     if (has_axis) link.axis = vec_of(joint.axis);
     if (has_axis && !(link.axis.norm() > 1e-9 && link.axis.norm() < 1e9))
-        fail(FROND_FILE_FORMAT, "joint \"%.64s\" has no axis: it is of length %g", joint.name.c_str(),
+        fail(FROND_RESULT_FILE_FORMAT, "joint \"%.64s\" has no axis: it is of length %g", joint.name.c_str(),
              link.axis.norm());
     link.axis.normalize();
     if (!joint.limits) return;
@@ -187,7 +187,8 @@ void take_links(Reader& reader, const urdf::ModelInterface& model, UrdfUse use) 
         const auto [from, parent] = open[next];
         const auto notes = reader.text.links.find(from->name);
         if (notes == reader.text.links.end())
-            fail(FROND_FILE_FORMAT, "urdfdom reads a link \"%.64s\" that is not in the text", from->name.c_str());
+            fail(FROND_RESULT_FILE_FORMAT, "urdfdom reads a link \"%.64s\" that is not in the text",
+                 from->name.c_str());
         UrdfLink link = notes->second.of_frond;
         link.name = from->name;
         link.parent = parent;
@@ -199,7 +200,7 @@ void take_links(Reader& reader, const urdf::ModelInterface& model, UrdfUse use) 
         if (open.size() > reader.text.links.size()) break;
     }
     if (reader.tree.links.size() != reader.text.links.size())
-        fail(FROND_FILE_FORMAT, "urdfdom reads %zu of its %zu links", reader.tree.links.size(),
+        fail(FROND_RESULT_FILE_FORMAT, "urdfdom reads %zu of its %zu links", reader.tree.links.size(),
              reader.text.links.size());
 }
 
@@ -211,7 +212,7 @@ UrdfTree read_urdf(const MeshFile& file, UrdfUse use) {
     reader.tree.name = model->getName();
     take_links(reader, *model, use);
     const std::string wrong = what_is_wrong_with(reader.tree);
-    if (!wrong.empty()) fail(FROND_FILE_FORMAT, "%s", wrong.c_str());
+    if (!wrong.empty()) fail(FROND_RESULT_FILE_FORMAT, "%s", wrong.c_str());
     return std::move(reader.tree);
 }
 

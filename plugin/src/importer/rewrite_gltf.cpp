@@ -29,7 +29,7 @@ static size_t add_view(Rewriting& work, const std::string& bytes) {
     json["bufferViews"].push_back(
         {{"buffer", work.document.buffers.size()}, {"byteOffset", work.added.size()}, {"byteLength", bytes.size()}});
     work.added += bytes;
-    if (work.added.size() > (size_t(1) << 30)) fail(FROND_FILE_FORMAT, "the file unpacks to more than 1 GiB");
+    if (work.added.size() > (size_t(1) << 30)) fail(FROND_RESULT_FILE_FORMAT, "the file unpacks to more than 1 GiB");
     work.is_changed = true;
     return json["bufferViews"].size() - 1;
 }
@@ -46,7 +46,7 @@ static std::string decode_view(const std::string& source, const Json& extension,
     const bool is_sane =
         count > 0 && count <= 60000000 && stride > 0 && stride <= 256 && count * stride <= (1u << 30) &&
         (is_vertices ? stride % 4 == 0 : (stride == 2 || stride == 4) && (mode != "TRIANGLES" || count % 3 == 0));
-    if (!is_sane) fail(FROND_FILE_FORMAT, "buffer view %zu is compressed in an unknown way", index);
+    if (!is_sane) fail(FROND_RESULT_FILE_FORMAT, "buffer view %zu is compressed in an unknown way", index);
     std::string out(count * stride, '\0');
     int error;
     if (is_vertices)
@@ -55,7 +55,7 @@ static std::string decode_view(const std::string& source, const Json& extension,
         error = meshopt_decodeIndexBuffer(&out[0], count, stride, bytes, source.size());
     else
         error = meshopt_decodeIndexSequence(&out[0], count, stride, bytes, source.size());
-    if (error != 0) fail(FROND_FILE_FORMAT, "the compressed buffer view %zu is damaged", index);
+    if (error != 0) fail(FROND_RESULT_FILE_FORMAT, "the compressed buffer view %zu is damaged", index);
     if (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) meshopt_decodeFilterOct(&out[0], count, stride);
     if (filter == "QUATERNION" && stride == 8) meshopt_decodeFilterQuat(&out[0], count, stride);
     if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(&out[0], count, stride);
@@ -74,7 +74,7 @@ static void unpack_views(Rewriting& work) {
                         length = number_of(extension, "byteLength", 0);
         if (buffer < 0 || buffer >= (long long)work.document.buffers.size() ||
             offset + length > (long long)work.document.buffers[size_t(buffer)].size())
-            fail(FROND_FILE_FORMAT, "the compressed buffer view %zu is outside its buffer", i);
+            fail(FROND_RESULT_FILE_FORMAT, "the compressed buffer view %zu is outside its buffer", i);
         const std::string unpacked =
             decode_view(work.document.buffers[size_t(buffer)].substr(size_t(offset), size_t(length)), extension, i);
         Json plain = json["bufferViews"][add_view(work, unpacked)];
@@ -149,12 +149,12 @@ static std::vector<float> floats_of(const Rewriting& work, const Json& accessor,
                  count = size_t(number_of(accessor, "count", 0));
     const bool is_added = buffer == (long long)work.document.buffers.size();
     if (width == 0 || size == 0 || buffer < 0 || buffer > (long long)work.document.buffers.size())
-        fail(FROND_FILE_FORMAT, "an attribute refers to no buffer");
+        fail(FROND_RESULT_FILE_FORMAT, "an attribute refers to no buffer");
     const std::string& bytes = is_added ? work.added : work.document.buffers[size_t(buffer)];
     const size_t stride = std::max(size_t(number_of(view, "byteStride", 0)), width * size);
     const size_t begin = size_t(number_of(view, "byteOffset", 0) + number_of(accessor, "byteOffset", 0));
     if (count > 0 && begin + stride * (count - 1) + width * size > bytes.size())
-        fail(FROND_FILE_FORMAT, "an attribute ends behind its buffer");
+        fail(FROND_RESULT_FILE_FORMAT, "an attribute ends behind its buffer");
     const bool is_normalized = accessor.contains("normalized") && accessor["normalized"] == true;
     std::vector<float> out;
     out.reserve(count * size_t(wanted));
@@ -277,12 +277,12 @@ static std::string write_glb(Rewriting& work) {
         binary += buffer;
     }
     binary.resize((binary.size() + 3) / 4 * 4, '\0');
-    if (binary.size() >= 0xF0000000u) fail(FROND_FILE_FORMAT, "the file unpacks to more than 4 GiB");
+    if (binary.size() >= 0xF0000000u) fail(FROND_RESULT_FILE_FORMAT, "the file unpacks to more than 4 GiB");
     json["buffers"] = Json::array({{{"byteLength", binary.size()}}});
     for (Json& view : json["bufferViews"]) {
         const size_t buffer = size_t(number_of(view, "buffer", 0));
         if (buffer >= begins.size())
-            fail(FROND_FILE_FORMAT, "a buffer view is in buffer %zu, which does not exist", buffer);
+            fail(FROND_RESULT_FILE_FORMAT, "a buffer view is in buffer %zu, which does not exist", buffer);
         view["byteOffset"] = size_t(number_of(view, "byteOffset", 0)) + begins[buffer];
         view["buffer"] = 0;
     }

@@ -36,7 +36,7 @@ static std::vector<SceneNode> list_nodes(const aiScene& scene) {
     while (!open.empty()) {
         const auto [node, parent] = open.back();
         open.pop_back();
-        if (nodes.size() >= MOST_NODES) fail(FROND_FILE_FORMAT, "the file has more than %zu nodes", MOST_NODES);
+        if (nodes.size() >= MOST_NODES) fail(FROND_RESULT_FILE_FORMAT, "the file has more than %zu nodes", MOST_NODES);
         const Mat4 local = matrix_of(node->mTransformation);
         nodes.push_back({node, parent < 0 ? local : Mat4(nodes[size_t(parent)].transform * local), parent});
         const int self = int(nodes.size()) - 1;
@@ -161,7 +161,7 @@ static Corners take_corners(const aiMesh& mesh, const MeshFile& file, bool with_
     Corners corners;
     const size_t count = mesh.mNumVertices;
     if (!mesh.mVertices || mesh.mNumFaces > unsigned(MAX_TRIANGLES))
-        fail(FROND_BAD_GEOMETRY, "the file has more than the %d triangles that are allowed; simplify it",
+        fail(FROND_RESULT_BAD_GEOMETRY, "the file has more than the %d triangles that are allowed; simplify it",
              MAX_TRIANGLES);
     for (size_t i = 0; i < count; ++i) {
         const aiVector3D& at = mesh.mVertices[i];
@@ -328,11 +328,11 @@ Surface take_scene(const aiScene& scene, const MeshFile& file) {
             if (mesh.mNumBones > 0) weld_corners(corners);
             append_part(surface, corners, part);
             if (surface.parts.size() > MOST_PARTS)
-                fail(FROND_BAD_GEOMETRY, "the file has more than %zu parts", MOST_PARTS);
+                fail(FROND_RESULT_BAD_GEOMETRY, "the file has more than %zu parts", MOST_PARTS);
         }
     if (dropped_copies > 0) warn("%zu coarser copies (LOD1 and up) are left out", dropped_copies);
     if (dropped_lines > 0) warn("%zu lines and points are left out", dropped_lines);
-    if (surface.triangles.empty()) fail(FROND_FILE_FORMAT, "there are no triangles in the file");
+    if (surface.triangles.empty()) fail(FROND_RESULT_FILE_FORMAT, "there are no triangles in the file");
     return surface;
 }
 

@@ -86,7 +86,7 @@ void append_part(Surface& surface, const Corners& corners, const Part& part) {
     const size_t before = surface.positions.size(), count = corners.positions.size();
     if (surface.triangles.size() + corners.triangles.size() > size_t(MAX_TRIANGLES) ||
         before + count > size_t(3) * MAX_TRIANGLES)
-        fail(FROND_BAD_GEOMETRY, "the file has more than the %d triangles that are allowed; simplify it",
+        fail(FROND_RESULT_BAD_GEOMETRY, "the file has more than the %d triangles that are allowed; simplify it",
              MAX_TRIANGLES);
     for (const Vec3f& position : corners.positions) surface.positions.push_back(position.cast<double>());
     append_values(surface.normals, before, corners.normals, count, Vec3f(0, 0, 0));

@@ -21,14 +21,14 @@ static Mechanics rods(const char* name) {
             rods_yield,
             copy_rods,
             rods_flow,
-            lasting_of_rods,
-            set_lasting_of_rods,
+            plastic_of_rods,
+            set_plastic_of_rods,
             rod_section_strains,
             without_rods,
             false,
             true,
             true,
-            &rods_abreast()};
+            &rod_batch()};
 }
 
 const Mechanics& mechanics(frond_mechanics which, int order) {

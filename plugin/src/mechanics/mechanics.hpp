@@ -34,7 +34,7 @@ protected:
 };
 
 // What of the deformation at a point of integration is lasting: F = F_e F_p.
-struct TetLasting {
+struct TetPlastic {
     Mat3 rest_inverse;  // the tet's, times F_p^-1 [1/m]
     Mat3 inverse;       // F_p^-1, of determinant one
     double hardening;   // see elastic_share()
@@ -52,7 +52,7 @@ struct TetElements : Elements {
     std::vector<double> point_volume;  // with order 2 the shares of a tet's points in its volume, else none [m^3]
     std::vector<double> lambda, mu;    // Lame's constants [Pa]
     std::vector<double> density;       // [kg/m^3]
-    std::vector<TetLasting> lasting;   // by tets and their points; of a plant that has yielded, else none
+    std::vector<TetPlastic> plastic;   // by tets and their points; of a plant that has yielded, else none
     // E I length / reach^2 of each capsule's section, reach being that of its outermost fibre [J].
     std::vector<double> resistance;
     // Blocks of an element's nodes a >= b, in the order of nodes.of_tet, at [a(a+1)/2 + b] in a BlockMatrix of this
@@ -84,7 +84,7 @@ struct Ahead {
 
 // What can be worked out for several plants abreast: each number of a vector or a matrix is there once a lane
 // (core/lanes.hpp), and comes out as if its plant were alone.
-struct MechanicsAbreast {
+struct BatchMechanics {
     // As in Mechanics.
     // f and A hold anything before; `filled` is room for it. Each lane's number of inverted tets is put to `inverted`.
     void (*set_ahead)(const Elements& elements, const NumbersInLines& x, const Ahead& ahead, NumbersInLines& f,
@@ -133,8 +133,8 @@ struct Mechanics {
     // What of such a copy's deformation at x becomes lasting within h [s]. Elastic energy does not grow by it.
     void (*flow)(Elements& own, const VecX& x, double h);
     // All that is lasting, in numbers; set throws BAD_ARGUMENT, with nothing changed, for what get cannot have given.
-    std::vector<double> (*get_lasting)(const Elements& own);
-    void (*set_lasting)(Elements& own, const std::vector<double>& values);
+    std::vector<double> (*get_plastic)(const Elements& own);
+    void (*set_plastic)(Elements& own, const std::vector<double>& values);
     // Breaking. The strain of each capsule's outermost fibre at x, one a chain node [-].
     void (*section_strains)(const Elements& elements, const VecX& x, std::vector<double>& out);
     // A copy without the elements of the capsules that are gone, one flag a chain node; the pattern stays.
@@ -145,7 +145,7 @@ struct Mechanics {
     bool moves_chain;
     // Turning strains nothing. What is linear grows when it turns far.
     bool turns = true;
-    const MechanicsAbreast* abreast = nullptr;  // null: plants go one by one
+    const BatchMechanics* batch = nullptr;  // null: plants go one by one
 };
 // With elements of order 1 .. HIGHEST_ORDER; what moves the chain is the same in both.
 const Mechanics& mechanics(frond_mechanics which, int order = 1);

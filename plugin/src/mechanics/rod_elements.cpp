@@ -60,7 +60,8 @@ RodSegment make_segment(const Model& model, size_t node) {
 void check_segment(const RodSegment& rod) {
     if (!rod.frame.allFinite() || !(rod.stretch.minCoeff() > 0) || !(rod.bend.minCoeff() > 0) ||
         !rod.stretch.allFinite() || !rod.bend.allFinite())
-        fail(FROND_BAD_GEOMETRY, "capsule %d of the chain has no section; give the model a capsule_height", rod.b);
+        fail(FROND_RESULT_BAD_GEOMETRY, "capsule %d of the chain has no section; give the model a capsule_height",
+             rod.b);
 }
 
 // The weight of what hangs on each piece sets its strain and curvature at rest. Segments are in the order of their
@@ -116,10 +117,10 @@ void set_inertia(const Model& model, RodElements& elements) {
 template <class Take>
 RodElements make_elements(const Model& model, Take&& take) {
     const std::vector<ChainNode>& nodes = model.chain.nodes;
-    if (nodes.empty()) fail(FROND_BAD_GEOMETRY, "the model has no chain");
+    if (nodes.empty()) fail(FROND_RESULT_BAD_GEOMETRY, "the model has no chain");
     if (model.sections.size() != nodes.size() || model.chain_mass.size() != nodes.size() ||
         model.organ_stiffer.size() != model.organs.size() || model.organs.empty())
-        fail(FROND_INTERNAL, "the model's chain has %zu nodes but not as many sections", nodes.size());
+        fail(FROND_RESULT_INTERNAL, "the model's chain has %zu nodes but not as many sections", nodes.size());
     RodElements out;
     out.node_count = 2 * int(nodes.size());
     out.modelled = VecX::Zero(3 * out.node_count);
@@ -164,7 +165,7 @@ RodElements make_spring_elements(const Model& model, const std::vector<double>& 
 }
 
 RodElements make_rod_elements(const Model& model, frond_mechanics which) {
-    if (which == FROND_ROD)
+    if (which == FROND_MECHANICS_ROD)
         return make_elements(model, [&](size_t node, RodSegment& rod) { take_section(model, node, rod); });
     std::vector<double> radii;
     for (const ChainNode& node : model.chain.nodes) radii.push_back(node.radius);
@@ -185,7 +186,7 @@ std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics wh
 Masses rod_masses(const Elements& body, frond_mass mass) {
     const RodElements& elements = as_rods(body);
     Masses masses;
-    masses.lumped = mass == FROND_LUMPED;
+    masses.lumped = mass == FROND_MASS_LUMPED;
     masses.node = VecX::Zero(elements.node_count);
     masses.slot.assign(elements.pattern.row.size(), 0.0);
     for (size_t i = 0; i < elements.mass.size(); ++i) {

@@ -20,7 +20,7 @@ struct RodSegment {
 };
 
 // What of a piece's strain is lasting: added to what it would be at rest without.
-struct RodLasting {
+struct RodPlastic {
     Vec3 rest_strain, rest_curvature;
     double stretch;               // [-]
     double bend_wide, bend_thin;  // curvature towards wide and thin, about the other one [1/m]
@@ -31,7 +31,7 @@ struct RodElements : Elements {
     std::vector<RodSegment> segments;
     std::vector<double> mass;         // one a chain node [kg]
     std::vector<Mat3> inertia;        // rotary, one a chain node, in the modelled shape [kg m^2]
-    std::vector<RodLasting> lasting;  // one a segment of a plant that has yielded, else none
+    std::vector<RodPlastic> plastic;  // one a segment of a plant that has yielded, else none
 };
 
 inline const RodElements& as_rods(const Elements& elements) {

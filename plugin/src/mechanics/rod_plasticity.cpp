@@ -12,9 +12,9 @@ namespace frond {
 
 namespace {
 
-void apply(const RodLasting& lasting, RodSegment& rod) {
-    rod.rest_strain = lasting.rest_strain + Vec3(lasting.stretch, 0, 0);
-    rod.rest_curvature = lasting.rest_curvature + Vec3(0, lasting.bend_wide, lasting.bend_thin);
+void apply(const RodPlastic& plastic, RodSegment& rod) {
+    rod.rest_strain = plastic.rest_strain + Vec3(plastic.stretch, 0, 0);
+    rod.rest_curvature = plastic.rest_curvature + Vec3(0, plastic.bend_wide, plastic.bend_thin);
 }
 
 constexpr size_t NUMBERS = 4;  // of a piece: stretch, the two curvatures, hardening
@@ -50,7 +50,7 @@ bool rods_yield(const Elements& body, const VecX& x) {
 std::unique_ptr<Elements> copy_rods(const Elements& body) {
     auto own = std::make_unique<RodElements>(as_rods(body));
     for (const RodSegment& rod : own->segments)
-        own->lasting.push_back({rod.rest_strain, rod.rest_curvature, 0, 0, 0, 0});
+        own->plastic.push_back({rod.rest_strain, rod.rest_curvature, 0, 0, 0, 0});
     return own;
 }
 
@@ -61,36 +61,37 @@ void rods_flow(Elements& body, const VecX& x, double h) {
         const Yield& yield = elements.yields[s];
         const FibreStrain fibre = fibre_strain(elements.segments[s], strains[s]);
         if (yield.strain == 0 || !(fibre.sum() > yield.strain)) continue;
-        RodLasting& lasting = elements.lasting[s];
-        const double gone = 1 - elastic_share(yield, fibre.sum(), fibre.bend / fibre.sum(), h, lasting.hardening);
-        lasting.stretch += gone * strains[s].strain[0];
-        lasting.bend_wide += gone * strains[s].curvature[1];
-        lasting.bend_thin += gone * strains[s].curvature[2];
-        apply(lasting, elements.segments[s]);
+        RodPlastic& plastic = elements.plastic[s];
+        const double gone = 1 - elastic_share(yield, fibre.sum(), fibre.bend / fibre.sum(), h, plastic.hardening);
+        plastic.stretch += gone * strains[s].strain[0];
+        plastic.bend_wide += gone * strains[s].curvature[1];
+        plastic.bend_thin += gone * strains[s].curvature[2];
+        apply(plastic, elements.segments[s]);
     }
 }
 
-std::vector<double> lasting_of_rods(const Elements& body) {
+std::vector<double> plastic_of_rods(const Elements& body) {
     std::vector<double> values;
-    for (const RodLasting& l : as_rods(body).lasting)
+    for (const RodPlastic& l : as_rods(body).plastic)
         values.insert(values.end(), {l.stretch, l.bend_wide, l.bend_thin, l.hardening});
     return values;
 }
 
-void set_lasting_of_rods(Elements& body, const std::vector<double>& values) {
+void set_plastic_of_rods(Elements& body, const std::vector<double>& values) {
     RodElements& elements = static_cast<RodElements&>(body);
     if (values.size() != NUMBERS * elements.segments.size())
-        fail(FROND_BAD_ARGUMENT, "%zu numbers of what is lasting were given, but a plant of these rods has %zu",
+        fail(FROND_RESULT_BAD_ARGUMENT, "%zu numbers of what is lasting were given, but a plant of these rods has %zu",
              values.size(), NUMBERS * elements.segments.size());
     for (size_t s = 0; s < elements.segments.size(); ++s) {
         const double* v = values.data() + NUMBERS * s;
-        if (!(v[3] >= 0)) fail(FROND_BAD_ARGUMENT, "what is lasting has a hardening of %g; it is never below 0", v[3]);
+        if (!(v[3] >= 0))
+            fail(FROND_RESULT_BAD_ARGUMENT, "what is lasting has a hardening of %g; it is never below 0", v[3]);
     }
     for (size_t s = 0; s < elements.segments.size(); ++s) {
         const double* v = values.data() + NUMBERS * s;
-        RodLasting& lasting = elements.lasting[s];
-        lasting.stretch = v[0], lasting.bend_wide = v[1], lasting.bend_thin = v[2], lasting.hardening = v[3];
-        apply(lasting, elements.segments[s]);
+        RodPlastic& plastic = elements.plastic[s];
+        plastic.stretch = v[0], plastic.bend_wide = v[1], plastic.bend_thin = v[2], plastic.hardening = v[3];
+        apply(plastic, elements.segments[s]);
     }
 }
 

@@ -35,13 +35,13 @@ void rod_inertia(const Elements&, const VecX& x, std::vector<Mat3>& out);
 bool rods_yield(const Elements&, const VecX& x);
 std::unique_ptr<Elements> copy_rods(const Elements&);
 void rods_flow(Elements& own, const VecX& x, double h);
-std::vector<double> lasting_of_rods(const Elements& own);
-void set_lasting_of_rods(Elements& own, const std::vector<double>& values);
+std::vector<double> plastic_of_rods(const Elements& own);
+void set_plastic_of_rods(Elements& own, const std::vector<double>& values);
 void rod_section_strains(const Elements&, const VecX& x, std::vector<double>& out);
 std::unique_ptr<Elements> without_rods(const Elements&, const std::vector<uint8_t>& gone);
 bool rods_are_calm(const Elements&, const VecX& from, const VecX& to);
 // Beyond which rods are not calm: the turn of a node [rad], and the change of a piece's ends over its length [-].
 constexpr double LARGEST_TURN = 0.35, LARGEST_STRETCH = 0.5;
-const MechanicsAbreast& rods_abreast();
+const BatchMechanics& rod_batch();
 
 }  // namespace frond

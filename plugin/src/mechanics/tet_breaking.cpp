@@ -60,7 +60,7 @@ std::unique_ptr<Elements> without_tets(const Elements& body, const std::vector<u
     keep_others(own->density, is_gone);
     keep_others(own->slots, is_gone);
     keep_others(own->quadratic_slots, is_gone);
-    keep_others(own->lasting, point_is_gone);
+    keep_others(own->plastic, point_is_gone);
     keep_others(own->section, is_gone);
     return own;
 }

@@ -101,7 +101,7 @@ struct Corotational {
 }  // namespace
 
 Mechanics tet_corotational(int order) {
-    return tet_row_abreast<Corotational>("tet_corotational", order);
+    return batched_tet_row<Corotational>("tet_corotational", order);
 }
 
 }  // namespace frond

@@ -47,7 +47,7 @@ inline double young_of(double lambda, double mu) {
 
 inline const Mat3& rest_inverse(const TetElements& elements, size_t e, int q, int points) {
     const size_t at = e * size_t(points) + size_t(q);
-    return elements.lasting.empty() ? elements.rest_inverse[at] : elements.lasting[at].rest_inverse;
+    return elements.plastic.empty() ? elements.rest_inverse[at] : elements.plastic[at].rest_inverse;
 }
 
 // Stiffness between corners 1, 2, 3 of a linear tet; corner 0 follows, since moving all alike gives no force.

@@ -16,16 +16,16 @@ namespace {
 void check_model(const Model& model, int order) {
     const size_t node_count = model.cage.nodes.size(), tet_count = model.cage.tets.size();
     const std::vector<double>& young = model.young_of(order);
-    if (tet_count == 0) fail(FROND_BAD_GEOMETRY, "the model has no tets; give it a cage first");
+    if (tet_count == 0) fail(FROND_RESULT_BAD_GEOMETRY, "the model has no tets; give it a cage first");
     if (model.tet_density.size() != tet_count || young.size() != tet_count || model.tet_poisson.size() != tet_count)
-        fail(FROND_INTERNAL, "the model has %zu tets but not as many materials", tet_count);
+        fail(FROND_RESULT_INTERNAL, "the model has %zu tets but not as many materials", tet_count);
     for (size_t e = 0; e < tet_count; ++e) {
         for (int i : model.cage.tets[e])
             if (i < 0 || size_t(i) >= node_count)
-                fail(FROND_BAD_GEOMETRY, "tet %zu uses node %d, but there are %zu nodes", e, i, node_count);
+                fail(FROND_RESULT_BAD_GEOMETRY, "tet %zu uses node %d, but there are %zu nodes", e, i, node_count);
         const double density = model.tet_density[e], E = young[e], nu = model.tet_poisson[e];
         if (!(density > 0) || !(E > 0) || !(nu >= 0) || !(nu < 0.5) || !std::isfinite(density * E))
-            fail(FROND_BAD_ARGUMENT,
+            fail(FROND_RESULT_BAD_ARGUMENT,
                  "tet %zu has density %g kg/m^3, Young's modulus %g Pa and Poisson's ratio %g; the first two must be "
                  "above 0, the last within 0 .. 0.499",
                  e, density, E, nu);
@@ -60,7 +60,7 @@ static void set_rest(TetElements& elements) {
             // A flat tet has no inverse; measure flatness against the tet's own size.
             const double volume = std::abs(edges.determinant()) / 6, length = edges.norm();
             if (!(volume > 1e-12 * length * length * length) || !std::isfinite(volume))
-                fail(FROND_BAD_GEOMETRY, "tet %zu has no volume at rest; remove it or move its nodes", e);
+                fail(FROND_RESULT_BAD_GEOMETRY, "tet %zu has no volume at rest; remove it or move its nodes", e);
             elements.rest_inverse[at] = edges.inverse();
             elements.volume[e] += volume / Element::POINTS;
             if (Element::POINTS > 1) elements.point_volume[at] = volume / Element::POINTS;
@@ -70,7 +70,7 @@ static void set_rest(TetElements& elements) {
 
 void set_rest_positions(TetElements& elements, const VecX& rest_positions) {
     if (rest_positions.size() != 3 * Eigen::Index(elements.node_count))
-        fail(FROND_BAD_ARGUMENT, "%zu rest positions were given for %d nodes; give three numbers a node",
+        fail(FROND_RESULT_BAD_ARGUMENT, "%zu rest positions were given for %d nodes; give three numbers a node",
              size_t(rest_positions.size()), elements.node_count);
     elements.rest_positions = rest_positions;
     if (elements.nodes.order == 1)
@@ -201,7 +201,7 @@ static void add_masses(const TetElements& elements, size_t e, const std::array<i
 Masses tet_masses(const Elements& body, frond_mass mass) {
     const TetElements& elements = as_tets(body);
     Masses masses;
-    masses.lumped = mass == FROND_LUMPED;
+    masses.lumped = mass == FROND_MASS_LUMPED;
     masses.node = VecX::Zero(elements.node_count);
     masses.slot.assign(elements.pattern.row.size(), 0.0);
     for (size_t e = 0; e < elements.ordered.size(); ++e) {

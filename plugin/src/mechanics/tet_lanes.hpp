@@ -8,8 +8,8 @@
 
 #include "mechanics/four_points.hpp"
 #include "mechanics/four_tets.hpp"
+#include "mechanics/tet_batch.hpp"
 #include "mechanics/tet_row.hpp"
-#include "mechanics/tets_abreast.hpp"
 
 namespace frond {
 
@@ -125,11 +125,11 @@ Mechanics tet_row_in_lanes(const char* name, int order, bool needs_search) {
 
 // Of which plants go abreast too.
 template <class Law>
-Mechanics tet_row_abreast(const char* name, int order) {
+Mechanics batched_tet_row(const char* name, int order) {
     Mechanics row = tet_row_in_lanes<Law>(name, order, false);
     if (order == 2) return row;
-    static const MechanicsAbreast ABREAST = {TetsAbreast<Law>::set_ahead, nullptr, tets_not_calm, tets_may_yield};
-    row.abreast = &ABREAST;
+    static const BatchMechanics BATCH = {TetBatch<Law>::set_ahead, nullptr, tets_not_calm, tets_may_yield};
+    row.batch = &BATCH;
     return row;
 }
 

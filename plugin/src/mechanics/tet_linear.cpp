@@ -64,7 +64,7 @@ struct Linear {
 }  // namespace
 
 Mechanics tet_linear(int order) {
-    Mechanics row = tet_row_abreast<Linear>("tet_linear", order);
+    Mechanics row = batched_tet_row<Linear>("tet_linear", order);
     row.turns = false;
     return row;
 }

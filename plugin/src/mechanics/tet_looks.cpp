@@ -1,7 +1,7 @@
 // In: tets with straight edges and where their nodes are. Out: whether any of them has to be looked at closely.
 #include "mechanics/tet_looks.hpp"
 
-#include "mechanics/abreast.hpp"
+#include "mechanics/batch.hpp"
 #include "mechanics/four_tets.hpp"
 #include "mechanics/rows.hpp"
 #include "mechanics/tet_of_several.hpp"

@@ -144,39 +144,39 @@ template bool tets_yield<QuadraticTetElement>(const Elements&, const VecX&);
 
 std::unique_ptr<Elements> copy_tets(const Elements& body) {
     auto own = std::make_unique<TetElements>(as_tets(body));
-    for (const Mat3& rest_inverse : own->rest_inverse) own->lasting.push_back({rest_inverse, Mat3::Identity(), 0});
+    for (const Mat3& rest_inverse : own->rest_inverse) own->plastic.push_back({rest_inverse, Mat3::Identity(), 0});
     return own;
 }
 
-std::vector<double> lasting_of_tets(const Elements& body) {
+std::vector<double> plastic_of_tets(const Elements& body) {
     std::vector<double> values;
-    for (const TetLasting& lasting : as_tets(body).lasting) {
-        values.insert(values.end(), lasting.inverse.data(), lasting.inverse.data() + 9);
-        values.push_back(lasting.hardening);
+    for (const TetPlastic& plastic : as_tets(body).plastic) {
+        values.insert(values.end(), plastic.inverse.data(), plastic.inverse.data() + 9);
+        values.push_back(plastic.hardening);
     }
     return values;
 }
 
-void set_lasting_of_tets(Elements& body, const std::vector<double>& values) {
+void set_plastic_of_tets(Elements& body, const std::vector<double>& values) {
     constexpr double TOLERANCE = 1e-3;  // of the volume
     TetElements& elements = static_cast<TetElements&>(body);
-    std::vector<TetLasting> lasting = elements.lasting;
-    if (values.size() != NUMBERS * lasting.size())
-        fail(FROND_BAD_ARGUMENT, "%zu numbers of what is lasting were given, but a plant of these tets has %zu",
-             values.size(), NUMBERS * lasting.size());
+    std::vector<TetPlastic> plastic = elements.plastic;
+    if (values.size() != NUMBERS * plastic.size())
+        fail(FROND_RESULT_BAD_ARGUMENT, "%zu numbers of what is lasting were given, but a plant of these tets has %zu",
+             values.size(), NUMBERS * plastic.size());
     const size_t points = elements.nodes.order == 1 ? LinearTet::POINTS : QuadraticTetElement::POINTS;
-    for (size_t p = 0; p < lasting.size(); ++p) {
-        TetLasting& l = lasting[p];
+    for (size_t p = 0; p < plastic.size(); ++p) {
+        TetPlastic& l = plastic[p];
         l.inverse = Eigen::Map<const Mat3>(values.data() + NUMBERS * p);
         l.hardening = values[NUMBERS * p + 9];
         if (!(std::abs(l.inverse.determinant() - 1) < TOLERANCE) || !(l.hardening >= 0))
-            fail(FROND_BAD_ARGUMENT,
+            fail(FROND_RESULT_BAD_ARGUMENT,
                  "what is lasting changes the volume of tet %zu or its hardening is below 0; give numbers that "
-                 "frond_plant_get_lasting wrote",
+                 "frond_plant_get_plastic wrote",
                  p / points);
         l.rest_inverse = elements.rest_inverse[p] * l.inverse;
     }
-    elements.lasting = std::move(lasting);
+    elements.plastic = std::move(plastic);
 }
 
 }  // namespace frond

@@ -26,7 +26,7 @@ void let_tets_yield(const Model& model, TetElements& elements);
 template <class Element>
 bool tets_yield(const Elements& elements, const VecX& x);
 std::unique_ptr<Elements> copy_tets(const Elements& elements);
-std::vector<double> lasting_of_tets(const Elements& own);
-void set_lasting_of_tets(Elements& own, const std::vector<double>& values);
+std::vector<double> plastic_of_tets(const Elements& own);
+void set_plastic_of_tets(Elements& own, const std::vector<double>& values);
 
 }  // namespace frond

@@ -94,19 +94,19 @@ struct TetRow {
 
     // As much of it as is not too far.
     static void let_flow(const Yield& yield, const TetShare& share, const Mat3& F, const Strained& now, double h,
-                         const Mat3& rest_inverse, TetLasting& lasting) {
-        double hardening = lasting.hardening;
+                         const Mat3& rest_inverse, TetPlastic& plastic) {
+        double hardening = plastic.hardening;
         const double elastic = elastic_share(yield, now.strain, 1, h, hardening);
         for (double part = 1; part > LEAST; part /= 2) {
             const Mat3 change = flow_of(now.S, 1 - part * (1 - elastic));
-            TetLasting next = lasting;
+            TetPlastic next = plastic;
             next.inverse *= change;
             if (!(next.inverse.squaredNorm() < FARTHEST)) continue;
             next.rest_inverse = rest_inverse * next.inverse;
-            next.hardening += part * (hardening - lasting.hardening);
+            next.hardening += part * (hardening - plastic.hardening);
             // A change of shape may change the volume's energy at second order: energy never grows.
             if (Law::energy(share, Law::strain(share, F * change)) <= Law::energy(share, Law::strain(share, F)))
-                lasting = next;
+                plastic = next;
             return;
         }
     }
@@ -120,7 +120,7 @@ struct TetRow {
                 const Mat3 F = Element::gradient(share, places, q);
                 if (!exceeds(share, F, elements.yields[e].strain, now)) continue;
                 const size_t point = e * Element::POINTS + size_t(q);
-                let_flow(elements.yields[e], share, F, now, h, elements.rest_inverse[point], elements.lasting[point]);
+                let_flow(elements.yields[e], share, F, now, h, elements.rest_inverse[point], elements.plastic[point]);
             }
         }
     }
@@ -183,8 +183,8 @@ Mechanics tet_row(const char* name, int order, bool needs_search) {
                          yields,
                          copy_tets,
                          rows.flow,
-                         lasting_of_tets,
-                         set_lasting_of_tets,
+                         plastic_of_tets,
+                         set_plastic_of_tets,
                          tet_section_strains,
                          without_tets,
                          needs_search,

@@ -95,13 +95,15 @@ static std::vector<int> organs_of_triangles(const Surface& surface, size_t organ
 static void check(const Surface& surface, const Topology& topology, const CageOptions& options) {
     const double size = surface.size();
     if (topology.triangles.size() != surface.triangles.size() || topology.triangles.empty())
-        fail(FROND_BAD_GEOMETRY, "there are no triangles to make a cage around");
+        fail(FROND_RESULT_BAD_GEOMETRY, "there are no triangles to make a cage around");
     if (!std::isfinite(options.cell_size) || options.cell_size < 0)
-        fail(FROND_BAD_ARGUMENT, "cage_size is %g; it must be 0 (chosen) or a length in metres", options.cell_size);
+        fail(FROND_RESULT_BAD_ARGUMENT, "cage_size is %g; it must be 0 (chosen) or a length in metres",
+             options.cell_size);
     if (!std::isfinite(options.offset) || options.offset < 0 || options.offset > size)
-        fail(FROND_BAD_ARGUMENT, "cage_offset is %g m; it must lie in 0 .. %g, the plant's size", options.offset, size);
+        fail(FROND_RESULT_BAD_ARGUMENT, "cage_offset is %g m; it must lie in 0 .. %g, the plant's size", options.offset,
+             size);
     if (!(options.smoothness >= 0 && options.smoothness <= 1))
-        fail(FROND_BAD_ARGUMENT, "cage_smoothness is %g; it must lie in 0 .. 1", options.smoothness);
+        fail(FROND_RESULT_BAD_ARGUMENT, "cage_smoothness is %g; it must lie in 0 .. 1", options.smoothness);
 }
 
 void make_cage(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,

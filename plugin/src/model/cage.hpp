@@ -29,7 +29,7 @@ struct CageReport {
     double min_dihedral, max_dihedral;  // [degree]
     double min_volume, volume;          // [m^3]
     double contained;                   // share of vertices inside [-]
-    double binding_error;               // [m]
+    double attachment_error;            // [m]
 };
 
 // Pseudo volume of a soup (Spillmann, Wagner, Teschner 2006) on a lattice, with one copy of a cell for each organ or

@@ -64,7 +64,8 @@ static void search(const Cage& cage, const BoxTree& tree, int at, const Vec3& pl
 }
 
 Embedding embed(const Surface& surface, const Cage& cage) {
-    if (cage.tets.empty()) fail(FROND_BAD_GEOMETRY, "there are no tets to bind the surface to; bring at least one");
+    if (cage.tets.empty())
+        fail(FROND_RESULT_BAD_GEOMETRY, "there are no tets to bind the surface to; bring at least one");
     std::vector<Box> boxes(cage.tets.size());
     for (size_t e = 0; e < cage.tets.size(); ++e)
         for (int corner : cage.tets[e]) boxes[e].extend(cage.nodes[size_t(corner)]);
@@ -76,7 +77,7 @@ Embedding embed(const Surface& surface, const Cage& cage) {
         Found found;
         search(cage, tree, 0, place, found);
         if (found.tet < 0)
-            fail(FROND_BAD_GEOMETRY, "all %zu tets are flat; bring tets that have a volume", cage.tets.size());
+            fail(FROND_RESULT_BAD_GEOMETRY, "all %zu tets are flat; bring tets that have a volume", cage.tets.size());
         embedding.tet.push_back(found.tet);
         embedding.weights.push_back(tet_weights(cage.nodes, cage.tets[size_t(found.tet)], place));
     }

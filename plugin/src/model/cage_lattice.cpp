@@ -16,8 +16,8 @@ Lattice make_lattice(const Topology& topology, double cell_size) {
     Eigen::AlignedBox3d box;
     for (const Vec3& place : topology.points) box.extend(place);
     if (!(box.diagonal().norm() / cell_size < 1e6))
-        fail(FROND_BAD_ARGUMENT, "cage_size is %g m for a plant of %g m; make it larger, or 0 to choose", cell_size,
-             box.diagonal().norm());
+        fail(FROND_RESULT_BAD_ARGUMENT, "cage_size is %g m for a plant of %g m; make it larger, or 0 to choose",
+             cell_size, box.diagonal().norm());
     // As many cells as are needed around the middle, none of them for a face that only touches.
     Lattice lattice{Vec3::Zero(), cell_size};
     for (int axis = 0; axis < 3; ++axis) {
@@ -110,7 +110,7 @@ Cover make_cover(const Topology& topology, const Lattice& lattice, double offset
                 last_cell = cell;
             }
             if (cell_of_entry.size() >= most || cover.cells.cells().size() > MAX_CELLS)
-                fail(FROND_BAD_ARGUMENT,
+                fail(FROND_RESULT_BAD_ARGUMENT,
                      "cells of %g m are too small for this plant, or cage_offset or its %zu triangles are too large; "
                      "make "
                      "cage_size larger, or 0 to choose, or the triangles fewer",

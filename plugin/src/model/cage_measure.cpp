@@ -50,7 +50,7 @@ CageReport measure_cage(const Surface& surface, const Cage& cage, const Embeddin
         const auto& weights = embedding.weights[v];
         Vec3 place = Vec3::Zero();
         for (size_t k = 0; k < 4; ++k) place += weights[k] * cage.nodes[size_t(tet[k])];
-        report.binding_error = std::max(report.binding_error, (place - surface.positions[v]).norm());
+        report.attachment_error = std::max(report.attachment_error, (place - surface.positions[v]).norm());
         contained += *std::min_element(weights.begin(), weights.end()) >= LOWEST_WEIGHT;
     }
     if (!surface.positions.empty()) report.contained = double(contained) / double(surface.positions.size());

@@ -232,7 +232,7 @@ void check_height(const Shape& shape, double height) {
     if (shape.farthest / height <= MOST_BANDS &&
         count_fragments(shape.topology, shape.distance, height) <= MOST_FRAGMENTS)
         return;
-    fail(FROND_BAD_ARGUMENT,
+    fail(FROND_RESULT_BAD_ARGUMENT,
          "capsule_height %g m is too small for a plant with ways of %g m; give more, or 0 to let Frond choose", height,
          shape.farthest);
 }
@@ -242,12 +242,12 @@ void check_height(const Shape& shape, double height) {
 Chain make_chain(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
                  const ChainOptions& options) {
     if (topology.triangles.empty() || topology.triangles.size() != surface.triangles.size())
-        fail(FROND_BAD_GEOMETRY, "the model has no triangles; give at least one with area");
+        fail(FROND_RESULT_BAD_GEOMETRY, "the model has no triangles; give at least one with area");
     if (!(options.height >= 0 && options.height < INFINITY))
-        fail(FROND_BAD_ARGUMENT, "capsule_height is %g; give a length in metres, or 0 to let Frond choose",
+        fail(FROND_RESULT_BAD_ARGUMENT, "capsule_height is %g; give a length in metres, or 0 to let Frond choose",
              options.height);
     if (!(options.radius >= 0 && options.radius < INFINITY))
-        fail(FROND_BAD_ARGUMENT, "capsule_radius is %g; give a length in metres, or 0 to fit the shape",
+        fail(FROND_RESULT_BAD_ARGUMENT, "capsule_radius is %g; give a length in metres, or 0 to fit the shape",
              options.radius);
     const Shape shape = measure_shape(surface, topology, organs);
     if (options.height > 0) {

@@ -28,7 +28,7 @@ std::string find_importer() {
     const char* wanted = secure_getenv("FROND_IMPORTER");
     if (wanted && *wanted) {
         if (is_program(wanted)) return wanted;
-        fail(FROND_FILE_NOT_FOUND,
+        fail(FROND_RESULT_FILE_NOT_FOUND,
              "the environment variable FROND_IMPORTER is \"%s\", which is no program; set it to the path of "
              "frond-import, or "
              "unset it",
@@ -54,7 +54,7 @@ std::string find_importer() {
 #endif
     for (const std::string& candidate : candidates)
         if (is_program(candidate)) return candidate;
-    fail(FROND_FILE_NOT_FOUND,
+    fail(FROND_RESULT_FILE_NOT_FOUND,
          "the program frond-import, which reads mesh files, was not found%s%s; install it beside the library or in "
          "libexec/frond, or set the environment variable FROND_IMPORTER to its path",
          candidates.empty() ? "" : " (looked first for ", candidates.empty() ? "" : (candidates.front() + ")").c_str());

@@ -109,10 +109,10 @@ static double guess_scale(double height) {
 
 static void check_options(const ImportOptions& options) {
     if (!std::isfinite(options.scale) || options.scale < 0)
-        fail(FROND_BAD_ARGUMENT, "the scale is %g; it must be positive, or 0 to choose", options.scale);
-    if (!options.up.allFinite()) fail(FROND_BAD_ARGUMENT, "the up axis is not finite");
+        fail(FROND_RESULT_BAD_ARGUMENT, "the scale is %g; it must be positive, or 0 to choose", options.scale);
+    if (!options.up.allFinite()) fail(FROND_RESULT_BAD_ARGUMENT, "the up axis is not finite");
     if (!options.up.isZero(0) && !(options.up.norm() > 1e-150 && options.up.norm() < 1e150))
-        fail(FROND_BAD_ARGUMENT, "the up axis has no usable length; give it length one");
+        fail(FROND_RESULT_BAD_ARGUMENT, "the up axis has no usable length; give it length one");
 }
 
 // Turns positions and normals from the axis that was up so far.

@@ -47,7 +47,7 @@ struct Pipe {
 // Both ends lie above the standard descriptors, so that a host without stdin or stdout does not mix them up.
 static void open_pipe(Pipe& pipe) {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) fail(FROND_INTERNAL, "no pipe could be opened: %s", strerror(errno));
+    if (pipe2(ends, O_CLOEXEC) != 0) fail(FROND_RESULT_INTERNAL, "no pipe could be opened: %s", strerror(errno));
     for (int i = 0; i < 2; ++i) {
         Descriptor& end = i == 0 ? pipe.reading : pipe.writing;
         end.number = ends[i];
@@ -55,7 +55,7 @@ static void open_pipe(Pipe& pipe) {
         end.number = fcntl(ends[i], F_DUPFD_CLOEXEC, 3);
         close(ends[i]);
     }
-    if (pipe.reading.number < 0 || pipe.writing.number < 0) fail(FROND_INTERNAL, "no pipe could be opened");
+    if (pipe.reading.number < 0 || pipe.writing.number < 0) fail(FROND_RESULT_INTERNAL, "no pipe could be opened");
 }
 
 static std::string file_name(const std::string& path) {
@@ -106,7 +106,7 @@ static pid_t start_program(const std::string& program, const std::string& path, 
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     if (error != 0)
-        fail(FROND_FILE_NOT_FOUND,
+        fail(FROND_RESULT_FILE_NOT_FOUND,
              "the program %s, which reads mesh files, could not be started: %s; install frond-import again or set "
              "FROND_IMPORTER",
              program.c_str(), strerror(error));
@@ -186,21 +186,22 @@ static std::string last_line(std::string text) {
                                          const ImportLimits& limits, Ending ending, bool greeted, int status,
                                          const std::string& errors) {
     if (ending == Ending::TOO_MUCH)
-        fail(FROND_FILE_FORMAT, "%s: the file becomes more than %.0f MiB of geometry; simplify it", name.c_str(),
+        fail(FROND_RESULT_FILE_FORMAT, "%s: the file becomes more than %.0f MiB of geometry; simplify it", name.c_str(),
              limits.output_mib);
     const bool signalled = status >= 0 && WIFSIGNALED(status);
     const int signal = signalled ? WTERMSIG(status) : 0;
     if (ending == Ending::LATE || signal == SIGXCPU || signal == SIGALRM)
-        fail(FROND_FILE_FORMAT, "%s: the reader did not finish within %.0f s: the file is damaged or far too large",
-             name.c_str(), signal == SIGXCPU ? limits.cpu_seconds : limits.wall_seconds);
+        fail(FROND_RESULT_FILE_FORMAT,
+             "%s: the reader did not finish within %.0f s: the file is damaged or far too large", name.c_str(),
+             signal == SIGXCPU ? limits.cpu_seconds : limits.wall_seconds);
     if (!greeted) {
         const std::string said = last_line(errors);
-        fail(FROND_FILE_NOT_FOUND,
+        fail(FROND_RESULT_FILE_NOT_FOUND,
              "the program %s, which reads mesh files, does not work or is of another version%s%s; install frond-import "
              "again or set FROND_IMPORTER",
              program.c_str(), said.empty() ? "" : ": ", said.c_str());
     }
-    fail(FROND_FILE_FORMAT, "%s: the reader crashed%s%s: the file is damaged", name.c_str(),
+    fail(FROND_RESULT_FILE_FORMAT, "%s: the reader crashed%s%s: the file is damaged", name.c_str(),
          signalled ? " with signal " : "", signalled ? std::to_string(signal).c_str() : "");
 }
 
@@ -209,14 +210,15 @@ static ImportResult run_program(const std::string& path, const ImportLimits& wan
     const std::string name = file_name(path);
     struct stat status;
     if (path.empty() || path.find('\0') != std::string::npos)
-        fail(FROND_FILE_NOT_FOUND, "the path is empty or has a zero byte; give the path of a mesh file");
-    if (stat(path.c_str(), &status) != 0) fail(FROND_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
-    if (S_ISDIR(status.st_mode)) fail(FROND_FILE_NOT_FOUND, "%s is a directory; give a file in it", path.c_str());
-    if (!S_ISREG(status.st_mode)) fail(FROND_FILE_NOT_FOUND, "%s is no regular file", path.c_str());
-    if (access(path.c_str(), R_OK) != 0) fail(FROND_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
-    if (status.st_size == 0) fail(FROND_FILE_FORMAT, "%s: the file is empty", name.c_str());
+        fail(FROND_RESULT_FILE_NOT_FOUND, "the path is empty or has a zero byte; give the path of a mesh file");
+    if (stat(path.c_str(), &status) != 0) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
+    if (S_ISDIR(status.st_mode))
+        fail(FROND_RESULT_FILE_NOT_FOUND, "%s is a directory; give a file in it", path.c_str());
+    if (!S_ISREG(status.st_mode)) fail(FROND_RESULT_FILE_NOT_FOUND, "%s is no regular file", path.c_str());
+    if (access(path.c_str(), R_OK) != 0) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
+    if (status.st_size == 0) fail(FROND_RESULT_FILE_FORMAT, "%s: the file is empty", name.c_str());
     if (double(status.st_size) > LARGEST_FILE)
-        fail(FROND_FILE_FORMAT, "%s: the file has %.1f GiB; at most 1 GiB is read", name.c_str(),
+        fail(FROND_RESULT_FILE_FORMAT, "%s: the file has %.1f GiB; at most 1 GiB is read", name.c_str(),
              double(status.st_size) / LARGEST_FILE);
     const ImportLimits limits = choose_limits(wanted, double(status.st_size));
     const std::string program = find_importer();
@@ -272,7 +274,7 @@ bool is_urdf(const std::string& path) {
 
 UrdfTree import_urdf(const std::string& path, UrdfUse use) {
     if (!is_urdf(path))
-        fail(FROND_FILE_FORMAT, "%s: the name does not end in .urdf; give the path of a URDF file",
+        fail(FROND_RESULT_FILE_FORMAT, "%s: the name does not end in .urdf; give the path of a URDF file",
              file_name(path).c_str());
     return run_program(path, ImportLimits(), use).tree;
 }

@@ -159,8 +159,8 @@ void check_material(const Material& material, const std::string& who) {
     for (const auto& range : ranges) {
         if (range.value >= range.least && range.value <= range.most) continue;
         if (range.or_zero && range.value == 0) continue;
-        fail(FROND_BAD_ARGUMENT, "%s of organ \"%s\" is %g; give a value from %g to %g%s", range.what, who.c_str(),
-             range.value, range.least, range.most, range.or_zero ? ", or 0 for none" : "");
+        fail(FROND_RESULT_BAD_ARGUMENT, "%s of organ \"%s\" is %g; give a value from %g to %g%s", range.what,
+             who.c_str(), range.value, range.least, range.most, range.or_zero ? ", or 0 for none" : "");
     }
 }
 

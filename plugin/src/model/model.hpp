@@ -56,7 +56,7 @@ struct Model {
     std::vector<double> tet_poisson;
     std::vector<uint8_t> root;  // cage nodes that the ground holds unless a plant says otherwise, node_count
     std::shared_ptr<RestShapes> rest_shapes = std::make_shared<RestShapes>();
-    double stiffened = 1;  // how much stiffer the organs were made so that the plant stands [-]
+    double stiffening_factor = 1;  // how much stiffer the organs were made so that the plant stands [-]
     CageReport cage_report;
     double ms_import = 0, ms_cage = 0, ms_chain = 0, ms_total = 0;
 

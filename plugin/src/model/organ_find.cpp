@@ -169,12 +169,12 @@ static std::string list_organs(const std::vector<Organ>& organs) {
 
 void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count) {
     if (count < 0 || (count > 0 && !overrides))
-        fail(FROND_BAD_ARGUMENT, "organ_count is %d but organs is %s; give an array of that many", count,
+        fail(FROND_RESULT_BAD_ARGUMENT, "organ_count is %d but organs is %s; give an array of that many", count,
              overrides ? "an array" : "null");
     for (int i = 0; i < count; i++) {
         const frond_organ_material& wanted = overrides[i];
         if (!wanted.organ || !*wanted.organ)
-            fail(FROND_BAD_ARGUMENT, "organs[%d].organ is empty; give the name or the kind of an organ", i);
+            fail(FROND_RESULT_BAD_ARGUMENT, "organs[%d].organ is empty; give the name or the kind of an organ", i);
         check_material(wanted.material, wanted.organ);
         bool matched = false;
         for (Organ& organ : organs) {
@@ -184,7 +184,7 @@ void override_materials(std::vector<Organ>& organs, const frond_organ_material* 
             matched = true;
         }
         if (!matched)
-            fail(FROND_BAD_ARGUMENT, "no organ has the name or kind \"%s\"; this model has: %s", wanted.organ,
+            fail(FROND_RESULT_BAD_ARGUMENT, "no organ has the name or kind \"%s\"; this model has: %s", wanted.organ,
                  list_organs(organs).c_str());
     }
 }
@@ -227,7 +227,7 @@ static void color_by_kind(Surface& surface, const std::vector<Organ>& organs) {
 std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond_organ_material* overrides,
                                int override_count) {
     if (surface.triangles.empty() || topology.triangles.size() != surface.triangles.size())
-        fail(FROND_BAD_GEOMETRY, "the model has no triangles; give at least one with area");
+        fail(FROND_RESULT_BAD_GEOMETRY, "the model has no triangles; give at least one with area");
     if (surface.parts.empty()) {
         surface.parts.emplace_back();
         surface.parts.back().triangle_count = int(surface.triangles.size());

@@ -15,11 +15,12 @@ static bool is_kind(const std::string& name) {
 
 static void check(const UrdfLink& link) {
     if (!link.organ.empty() && !is_kind(link.organ))
-        fail(FROND_BAD_ARGUMENT, "link \"%.64s\": there is no organ \"%.64s\"; there are %s (grass_* as material only)",
-             link.name.c_str(), link.organ.c_str(), material_kinds().c_str());
+        fail(FROND_RESULT_BAD_ARGUMENT,
+             "link \"%.64s\": there is no organ \"%.64s\"; there are %s (grass_* as material only)", link.name.c_str(),
+             link.organ.c_str(), material_kinds().c_str());
     if (!link.organ_material.empty() && !material_preset(link.organ_material))
-        fail(FROND_BAD_ARGUMENT, "link \"%.64s\": there is no material \"%.64s\"; there are %s", link.name.c_str(),
-             link.organ_material.c_str(), material_kinds().c_str());
+        fail(FROND_RESULT_BAD_ARGUMENT, "link \"%.64s\": there is no material \"%.64s\"; there are %s",
+             link.name.c_str(), link.organ_material.c_str(), material_kinds().c_str());
 }
 
 static std::string kind_of(const UrdfLink& link, const std::string& material, const std::string& otherwise) {

@@ -131,7 +131,7 @@ void drop_points(std::array<PlaneCut, 3>& cuts) {
 
 // At its foot a plant ends in a face or a cap, which the ground holds: the section goes on from above. Towards a tip
 // the load vanishes faster than the section, so that the middle stands for the whole capsule.
-void mend_ends(bool foot, bool tip, std::array<PlaneCut, 3>& cuts) {
+void repair_ends(bool foot, bool tip, std::array<PlaneCut, 3>& cuts) {
     if (tip && cuts[1].area > 0) cuts[0] = cuts[2] = cuts[1];
     if (!foot || tip || !(cuts[1].area > 0 && cuts[2].area > 0) || cuts[0].area >= cuts[1].area) return;
     cuts[0] = cuts[1];
@@ -187,7 +187,7 @@ Outline cut_capsule(const Surface& surface, const Topology& topology, const std:
     outline.doubled = doubled;
     outline.gap = doubled ? 2 * area / perimeter : 0;
     drop_points(cuts);
-    mend_ends(foot, tip, cuts);
+    repair_ends(foot, tip, cuts);
     average(cuts, frame, outline);
     return outline;
 }

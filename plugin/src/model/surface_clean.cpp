@@ -20,24 +20,25 @@ static constexpr double MOST_AREA = 1000;
 static void check_sizes(const Surface& surface) {
     const size_t count = surface.positions.size();
     if (surface.triangles.size() > size_t(MAX_TRIANGLES))
-        fail(FROND_BAD_GEOMETRY, "the mesh has %zu triangles, more than the %d that are allowed; simplify it",
+        fail(FROND_RESULT_BAD_GEOMETRY, "the mesh has %zu triangles, more than the %d that are allowed; simplify it",
              surface.triangles.size(), MAX_TRIANGLES);
     if (count > size_t(3) * MAX_TRIANGLES)
-        fail(FROND_BAD_GEOMETRY, "the mesh has %zu vertices, more than the %d that are allowed; simplify it", count,
-             3 * MAX_TRIANGLES);
+        fail(FROND_RESULT_BAD_GEOMETRY, "the mesh has %zu vertices, more than the %d that are allowed; simplify it",
+             count, 3 * MAX_TRIANGLES);
     const bool sizes_agree = (surface.normals.empty() || surface.normals.size() == count) &&
                              (surface.uvs.empty() || surface.uvs.size() == count) &&
                              (surface.colors.empty() || surface.colors.size() == count);
-    if (!sizes_agree) fail(FROND_BAD_GEOMETRY, "normals, uvs or colours are not one a vertex; bring one each or none");
+    if (!sizes_agree)
+        fail(FROND_RESULT_BAD_GEOMETRY, "normals, uvs or colours are not one a vertex; bring one each or none");
     int covered = 0;
     for (const Part& part : surface.parts) {
         if (part.first_triangle != covered || part.triangle_count < 0 ||
             part.triangle_count > int(surface.triangles.size()) - covered)
-            fail(FROND_BAD_GEOMETRY, "the parts do not cover the triangles in order, without gap or overlap");
+            fail(FROND_RESULT_BAD_GEOMETRY, "the parts do not cover the triangles in order, without gap or overlap");
         covered += part.triangle_count;
     }
     if (covered != int(surface.triangles.size()))
-        fail(FROND_BAD_GEOMETRY, "the parts cover %d of %zu triangles", covered, surface.triangles.size());
+        fail(FROND_RESULT_BAD_GEOMETRY, "the parts cover %d of %zu triangles", covered, surface.triangles.size());
 }
 
 // Which vertices have coordinates that can be used.
@@ -184,7 +185,7 @@ static void check_area(const Surface& surface) {
     }
     const double size = surface.size();
     if (area > MOST_AREA * size * size)
-        fail(FROND_BAD_GEOMETRY,
+        fail(FROND_RESULT_BAD_GEOMETRY,
              "the %zu triangles have %.3g m^2 in a plant of %.3g m, over %g times its size squared; "
              "give a plant's own surface",
              surface.triangles.size(), area, size, MOST_AREA);
@@ -192,12 +193,13 @@ static void check_area(const Surface& surface) {
 
 void clean_surface(Surface& surface) {
     check_sizes(surface);
-    if (surface.triangles.empty()) fail(FROND_BAD_GEOMETRY, "there are no triangles; a plant needs at least one");
+    if (surface.triangles.empty())
+        fail(FROND_RESULT_BAD_GEOMETRY, "there are no triangles; a plant needs at least one");
     const std::vector<char> usable = find_usable(surface.positions);
     const size_t given = surface.triangles.size();
     drop_triangles(surface, choose_triangles(surface, usable));
     if (surface.triangles.empty())
-        fail(FROND_BAD_GEOMETRY,
+        fail(FROND_RESULT_BAD_GEOMETRY,
              "none of the %zu triangles can be used: they have bad indices, no area, or coordinates that are not "
              "finite or "
              "beyond 1e9 m; check the mesh and the scale",

@@ -17,23 +17,24 @@ static Vec3 vec_of(const frond_vec3& value) {
 }
 
 static void check_stems(const frond_stem* stems, int stem_count) {
-    if (!stems) fail(FROND_BAD_ARGUMENT, "stems must not be null");
+    if (!stems) fail(FROND_RESULT_BAD_ARGUMENT, "stems must not be null");
     if (stem_count < 1 || stem_count > MOST_STEMS)
-        fail(FROND_BAD_ARGUMENT, "stem_count is %d; it must be 1..%d", stem_count, MOST_STEMS);
+        fail(FROND_RESULT_BAD_ARGUMENT, "stem_count is %d; it must be 1..%d", stem_count, MOST_STEMS);
     for (int i = 0; i < stem_count; ++i) {
         const frond_stem& stem = stems[i];
         const Vec3 begin = vec_of(stem.begin), end = vec_of(stem.end);
         if (stem.parent < -1 || stem.parent >= i)
-            fail(FROND_BAD_ARGUMENT, "stem %d has parent %d; it must be an earlier stem (0..%d), or -1 for a root", i,
-                 stem.parent, i - 1);
+            fail(FROND_RESULT_BAD_ARGUMENT,
+                 "stem %d has parent %d; it must be an earlier stem (0..%d), or -1 for a root", i, stem.parent, i - 1);
         if (!begin.allFinite() || !end.allFinite() || begin.cwiseAbs().maxCoeff() > 1e6 ||
             end.cwiseAbs().maxCoeff() > 1e6)
-            fail(FROND_BAD_ARGUMENT, "stem %d has an end that is not finite or farther than 1e6 m from the origin", i);
+            fail(FROND_RESULT_BAD_ARGUMENT,
+                 "stem %d has an end that is not finite or farther than 1e6 m from the origin", i);
         for (double radius : {stem.radius_begin, stem.radius_end})
             if (!(radius > 0 && radius < 1e6))
-                fail(FROND_BAD_ARGUMENT, "stem %d has radius %g m; it must be positive", i, radius);
+                fail(FROND_RESULT_BAD_ARGUMENT, "stem %d has radius %g m; it must be positive", i, radius);
         if (!((end - begin).norm() > 1e-9))
-            fail(FROND_BAD_ARGUMENT, "stem %d has no length; its begin and end must differ", i);
+            fail(FROND_RESULT_BAD_ARGUMENT, "stem %d has no length; its begin and end must differ", i);
     }
 }
 
@@ -123,7 +124,7 @@ static void add_stem(Surface& surface, const frond_stem& stem, int index) {
     part.triangle_count = int(surface.triangles.size()) - part.first_triangle;
     surface.parts.push_back(std::move(part));
     if (surface.triangles.size() > size_t(MAX_TRIANGLES))
-        fail(FROND_BAD_GEOMETRY, "the stems need more than the %d triangles that are allowed; use fewer",
+        fail(FROND_RESULT_BAD_GEOMETRY, "the stems need more than the %d triangles that are allowed; use fewer",
              MAX_TRIANGLES);
 }
 

@@ -27,8 +27,8 @@ bool is_tet_file(const std::string& path) {
 }
 
 void fail_at(const TetFile& file, const std::string& what) {
-    if (file.is_binary) fail(FROND_FILE_FORMAT, "%s: byte %zu: %s", file.name.c_str(), file.at, what.c_str());
-    fail(FROND_FILE_FORMAT, "%s: line %ld: %s", file.name.c_str(), file.line, what.c_str());
+    if (file.is_binary) fail(FROND_RESULT_FILE_FORMAT, "%s: byte %zu: %s", file.name.c_str(), file.at, what.c_str());
+    fail(FROND_RESULT_FILE_FORMAT, "%s: line %ld: %s", file.name.c_str(), file.line, what.c_str());
 }
 
 bool is_at_end(const TetFile& file) {
@@ -108,7 +108,7 @@ int region_index(TetMesh& mesh, const std::string& name) {
     if (!mesh.tet_region.empty() && mesh.regions[size_t(mesh.tet_region.back())] == name) return mesh.tet_region.back();
     for (size_t i = 0; i < mesh.regions.size(); ++i)
         if (mesh.regions[i] == name) return int(i);
-    if (mesh.regions.size() >= 1000) fail(FROND_FILE_FORMAT, "there are more than 1000 regions");
+    if (mesh.regions.size() >= 1000) fail(FROND_RESULT_FILE_FORMAT, "there are more than 1000 regions");
     mesh.regions.push_back(name);
     return int(mesh.regions.size()) - 1;
 }
@@ -117,13 +117,14 @@ static TetFile open_tet_file(const std::string& path) {
     TetFile file;
     file.name = path.substr(path.rfind('/') + 1);
     struct stat status;
-    if (path.find('\0') != std::string::npos) fail(FROND_FILE_NOT_FOUND, "the path has a zero byte");
-    if (stat(path.c_str(), &status) != 0) fail(FROND_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
-    if (!S_ISREG(status.st_mode)) fail(FROND_FILE_NOT_FOUND, "%s is no regular file", path.c_str());
-    if (status.st_size == 0) fail(FROND_FILE_FORMAT, "%s: the file is empty", file.name.c_str());
-    if (status.st_size > LARGEST_FILE) fail(FROND_FILE_FORMAT, "%s: the file is larger than 1 GiB", file.name.c_str());
+    if (path.find('\0') != std::string::npos) fail(FROND_RESULT_FILE_NOT_FOUND, "the path has a zero byte");
+    if (stat(path.c_str(), &status) != 0) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
+    if (!S_ISREG(status.st_mode)) fail(FROND_RESULT_FILE_NOT_FOUND, "%s is no regular file", path.c_str());
+    if (status.st_size == 0) fail(FROND_RESULT_FILE_FORMAT, "%s: the file is empty", file.name.c_str());
+    if (status.st_size > LARGEST_FILE)
+        fail(FROND_RESULT_FILE_FORMAT, "%s: the file is larger than 1 GiB", file.name.c_str());
     FILE* stream = fopen(path.c_str(), "rb");
-    if (!stream) fail(FROND_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
+    if (!stream) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
     file.bytes.resize(size_t(status.st_size));
     file.bytes.resize(fread(&file.bytes[0], 1, file.bytes.size(), stream));
     fclose(stream);
@@ -132,11 +133,12 @@ static TetFile open_tet_file(const std::string& path) {
 
 TetMesh import_tets(const std::string& path) {
     if (!is_tet_file(path))
-        fail(FROND_FILE_FORMAT, "%s: tets are read from .msh and .vtk files", path.substr(path.rfind('/') + 1).c_str());
+        fail(FROND_RESULT_FILE_FORMAT, "%s: tets are read from .msh and .vtk files",
+             path.substr(path.rfind('/') + 1).c_str());
     TetFile file = open_tet_file(path);
     TetMesh mesh = has_ending(path, ".msh") ? read_gmsh(file) : read_vtk(file);
     if (mesh.tets.empty())
-        fail(FROND_FILE_FORMAT, "%s: there are no tetrahedra in the file; mesh the volume, not only its surface",
+        fail(FROND_RESULT_FILE_FORMAT, "%s: there are no tetrahedra in the file; mesh the volume, not only its surface",
              file.name.c_str());
     return mesh;
 }

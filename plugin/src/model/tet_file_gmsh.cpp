@@ -268,7 +268,7 @@ static void join_tets(TetFile& file, GmshReading& reading) {
         for (size_t k = 0; k < 4; ++k) {
             const auto node = reading.node_index.find(reading.corners[t][k]);
             if (node == reading.node_index.end())
-                fail(FROND_FILE_FORMAT, "%s: tetrahedron %zu refers to node %lld, which is not in the file",
+                fail(FROND_RESULT_FILE_FORMAT, "%s: tetrahedron %zu refers to node %lld, which is not in the file",
                      file.name.c_str(), t, (long long)reading.corners[t][k]);
             tet[k] = node->second;
         }

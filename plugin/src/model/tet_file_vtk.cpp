@@ -255,7 +255,7 @@ static bool read_block(TetFile& file, VtkReading& reading) {
 static TetMesh make_mesh(const TetFile& file, VtkReading& reading) {
     TetMesh mesh;
     if (reading.begins.size() != reading.types.size() + 1)
-        fail(FROND_FILE_FORMAT, "%s: there are %zu cells but %zu cell types", file.name.c_str(),
+        fail(FROND_RESULT_FILE_FORMAT, "%s: there are %zu cells but %zu cell types", file.name.c_str(),
              reading.begins.empty() ? 0 : reading.begins.size() - 1, reading.types.size());
     size_t other_volumes = 0;
     for (size_t c = 0; c < reading.types.size(); ++c) {
@@ -265,13 +265,14 @@ static TetMesh make_mesh(const TetFile& file, VtkReading& reading) {
         other_volumes += !is_tet && ((type >= 11 && type <= 16) || (type >= 25 && type <= 33) || type >= 72);
         if (!is_tet) continue;
         if (reading.begins[c + 1] - reading.begins[c] < 4 || reading.begins[c + 1] > reading.connectivity.size())
-            fail(FROND_FILE_FORMAT, "%s: cell %zu is a tetrahedron of fewer than four points", file.name.c_str(), c);
+            fail(FROND_RESULT_FILE_FORMAT, "%s: cell %zu is a tetrahedron of fewer than four points", file.name.c_str(),
+                 c);
         Tet tet;
         for (size_t k = 0; k < 4; ++k) {
             const int64_t point = reading.connectivity[reading.begins[c] + k];
             if (point < 0 || size_t(point) >= reading.points.size())
-                fail(FROND_FILE_FORMAT, "%s: cell %zu refers to point %lld, but there are %zu", file.name.c_str(), c,
-                     (long long)point, reading.points.size());
+                fail(FROND_RESULT_FILE_FORMAT, "%s: cell %zu refers to point %lld, but there are %zu",
+                     file.name.c_str(), c, (long long)point, reading.points.size());
             tet[k] = int(point);
         }
         const std::string region = reading.regions.size() == reading.types.size()

@@ -17,23 +17,23 @@ static constexpr size_t MOST_TETS = 5000000;
 static constexpr double SMALLEST_VOLUME = 1e-9;
 
 static void check_tets(const TetMesh& mesh) {
-    if (mesh.tets.empty()) fail(FROND_BAD_GEOMETRY, "there are no tets");
+    if (mesh.tets.empty()) fail(FROND_RESULT_BAD_GEOMETRY, "there are no tets");
     if (mesh.tets.size() > MOST_TETS || mesh.nodes.size() > MOST_TETS)
-        fail(FROND_BAD_GEOMETRY, "there are %zu tets and %zu nodes; at most %zu of each are allowed", mesh.tets.size(),
-             mesh.nodes.size(), MOST_TETS);
+        fail(FROND_RESULT_BAD_GEOMETRY, "there are %zu tets and %zu nodes; at most %zu of each are allowed",
+             mesh.tets.size(), mesh.nodes.size(), MOST_TETS);
     if (!mesh.tet_region.empty() && mesh.tet_region.size() != mesh.tets.size())
-        fail(FROND_BAD_GEOMETRY, "there are %zu regions for %zu tets; give one each, or none", mesh.tet_region.size(),
-             mesh.tets.size());
+        fail(FROND_RESULT_BAD_GEOMETRY, "there are %zu regions for %zu tets; give one each, or none",
+             mesh.tet_region.size(), mesh.tets.size());
     for (size_t i = 0; i < mesh.nodes.size(); ++i)
         if (!mesh.nodes[i].allFinite() || mesh.nodes[i].cwiseAbs().maxCoeff() > LARGEST_COORDINATE)
-            fail(FROND_BAD_GEOMETRY, "node %zu is not finite or beyond 1e9", i);
+            fail(FROND_RESULT_BAD_GEOMETRY, "node %zu is not finite or beyond 1e9", i);
     for (size_t t = 0; t < mesh.tets.size(); ++t) {
         for (int node : mesh.tets[t])
             if (node < 0 || size_t(node) >= mesh.nodes.size())
-                fail(FROND_BAD_GEOMETRY, "tet %zu refers to node %d; it must be 0..%zu", t, node,
+                fail(FROND_RESULT_BAD_GEOMETRY, "tet %zu refers to node %d; it must be 0..%zu", t, node,
                      mesh.nodes.size() - 1);
         if (!mesh.tet_region.empty() && (mesh.tet_region[t] < 0 || size_t(mesh.tet_region[t]) >= mesh.regions.size()))
-            fail(FROND_BAD_GEOMETRY, "tet %zu is in region %d, but there are %zu", t, mesh.tet_region[t],
+            fail(FROND_RESULT_BAD_GEOMETRY, "tet %zu is in region %d, but there are %zu", t, mesh.tet_region[t],
                  mesh.regions.size());
     }
 }
@@ -47,8 +47,8 @@ static void orient_tets(TetMesh& mesh) {
                 longest = std::max(longest, (mesh.nodes[size_t(tet[i])] - mesh.nodes[size_t(tet[j])]).norm());
         const double volume = tet_volume(mesh.nodes, tet);
         if (!(std::abs(volume) > SMALLEST_VOLUME / 6 * longest * longest * longest))
-            fail(FROND_BAD_GEOMETRY, "tet %zu (nodes %d %d %d %d) has no volume; remove it or mesh again", t, tet[0],
-                 tet[1], tet[2], tet[3]);
+            fail(FROND_RESULT_BAD_GEOMETRY, "tet %zu (nodes %d %d %d %d) has no volume; remove it or mesh again", t,
+                 tet[0], tet[1], tet[2], tet[3]);
         if (volume < 0) std::swap(tet[2], tet[3]);
     }
 }
@@ -125,7 +125,7 @@ static std::vector<Face> find_boundary(const TetMesh& mesh) {
         size_t end = i + 1;
         while (end < faces.size() && faces[end].key == faces[i].key) ++end;
         if (end - i > 2)
-            fail(FROND_BAD_GEOMETRY, "%zu tets, the first of them tet %d, share one face; tets must not overlap",
+            fail(FROND_RESULT_BAD_GEOMETRY, "%zu tets, the first of them tet %d, share one face; tets must not overlap",
                  end - i, faces[i].tet);
         if (end - i == 1) boundary.push_back(faces[i]);
         i = end;
@@ -141,8 +141,8 @@ static std::vector<Face> find_boundary(const TetMesh& mesh) {
 static void make_surface(const TetMesh& mesh, Surface& surface, Embedding& embedding) {
     const std::vector<Face> boundary = find_boundary(mesh);
     if (boundary.size() > size_t(MAX_TRIANGLES))
-        fail(FROND_BAD_GEOMETRY, "the tets have %zu outer faces, more than the %d that are allowed", boundary.size(),
-             MAX_TRIANGLES);
+        fail(FROND_RESULT_BAD_GEOMETRY, "the tets have %zu outer faces, more than the %d that are allowed",
+             boundary.size(), MAX_TRIANGLES);
     std::vector<int> vertex(mesh.nodes.size(), -1);
     for (const Face& face : boundary)
         for (int node : face.triangle) vertex[size_t(node)] = 0;

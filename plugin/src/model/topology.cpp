@@ -121,18 +121,20 @@ static void find_components(Topology& topology) {
 
 Topology make_topology(const Surface& surface) {
     // The stages after this one count on a shape that has a size.
-    if (surface.triangles.empty()) fail(FROND_BAD_GEOMETRY, "there are no triangles; a plant needs at least one");
+    if (surface.triangles.empty())
+        fail(FROND_RESULT_BAD_GEOMETRY, "there are no triangles; a plant needs at least one");
     for (const Triangle& triangle : surface.triangles)
         for (int corner : triangle)
             if (corner < 0 || size_t(corner) >= surface.positions.size())
-                fail(FROND_BAD_GEOMETRY, "a triangle names vertex %d of %zu; clean the surface first", corner,
+                fail(FROND_RESULT_BAD_GEOMETRY, "a triangle names vertex %d of %zu; clean the surface first", corner,
                      surface.positions.size());
     for (const Vec3& place : surface.positions)
-        if (!place.allFinite()) fail(FROND_BAD_GEOMETRY, "a vertex is not finite; clean the surface first");
+        if (!place.allFinite()) fail(FROND_RESULT_BAD_GEOMETRY, "a vertex is not finite; clean the surface first");
     const double size = surface.size();
     if (!std::isfinite(size) || !(size > 1e-9))
-        fail(FROND_BAD_GEOMETRY, "all %zu triangles lie in one point (%g m across); check the mesh and the scale",
-             surface.triangles.size(), size);
+        fail(FROND_RESULT_BAD_GEOMETRY,
+             "all %zu triangles lie in one point (%g m across); check the mesh and the scale", surface.triangles.size(),
+             size);
 
     Topology topology;
     weld(surface, size, topology);

@@ -17,8 +17,8 @@ std::vector<UrdfPiece> list_pieces(const UrdfTree& tree, const Quat& turn) {
             pieces.push_back({int(i), &shape, upright * frames[i] * shape.frame});
     }
     if (pieces.empty())
-        fail(FROND_BAD_GEOMETRY, "none of the %zu links has a <visual> or a <collision>; a plant needs one at least",
-             tree.links.size());
+        fail(FROND_RESULT_BAD_GEOMETRY,
+             "none of the %zu links has a <visual> or a <collision>; a plant needs one at least", tree.links.size());
     return pieces;
 }
 

@@ -124,8 +124,8 @@ Surface surface_of_pieces(const UrdfTree& tree, const std::vector<UrdfPiece>& pi
             add_round(surface, piece);
         surface.parts.back().triangle_count = int(surface.triangles.size()) - surface.parts.back().first_triangle;
         if (surface.triangles.size() > size_t(MAX_TRIANGLES))
-            fail(FROND_BAD_GEOMETRY, "its shapes have more than the %d triangles that are allowed; use simpler meshes",
-                 MAX_TRIANGLES);
+            fail(FROND_RESULT_BAD_GEOMETRY,
+                 "its shapes have more than the %d triangles that are allowed; use simpler meshes", MAX_TRIANGLES);
     }
     return surface;
 }

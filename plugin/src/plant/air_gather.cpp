@@ -13,15 +13,15 @@ namespace frond {
 namespace {
 
 // A chain node as a point of the mechanics, in a grip that may have been another one.
-void take_hold(const Plant& plant, size_t node, Grip& grip) {
+void take_hold(const Plant& plant, size_t node, Attachment& attachment) {
     if (!plant.follow) {
-        grip = chain_grip(plant, int(node));
+        attachment = chain_attachment(plant, int(node));
         return;
     }
-    grip.count = 1;
-    grip.turns = false;
-    grip.node[0] = int(2 * node);
-    grip.weight[0] = 1;
+    attachment.count = 1;
+    attachment.turns = false;
+    attachment.node[0] = int(2 * node);
+    attachment.weight[0] = 1;
 }
 
 // Where the wide sides of pieces in a cage lie now.
@@ -127,7 +127,7 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
     air.wind.assign(count, frond_vec3{0, 0, 0});
     air.velocities.assign(count, Vec3::Zero());
     air.passing.resize(count);
-    if (effects & FROND_WIND) {
+    if (effects & FROND_EFFECT_WIND) {
         for (size_t i = 0; i < count; i++) {
             const Vec3 p = product(to_world, plant.chain_positions[i]) + plant.position;
             air.points[i] = {p.x(), p.y(), p.z()};
@@ -136,9 +136,10 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
             plant.trouble |= FROND_TROUBLE_BAD_WIND;
     }
     for (size_t i = 0; i < count; i++) {
-        if (effects & FROND_AIR_DRAG)
-            air.velocities[i] = plant.follow ? Vec3(point(plant.motion.v, int(2 * i)))
-                                             : grip_velocity(chain_grip(plant, int(i)), plant.motion.x, plant.motion.v);
+        if (effects & FROND_EFFECT_AIR_DRAG)
+            air.velocities[i] =
+                plant.follow ? Vec3(point(plant.motion.v, int(2 * i)))
+                             : attachment_velocity(chain_attachment(plant, int(i)), plant.motion.x, plant.motion.v);
         air.passing[i] = product(to_model, Vec3(air.wind[i].x, air.wind[i].y, air.wind[i].z)) - air.velocities[i];
     }
 }
@@ -148,7 +149,7 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
 void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
     std::vector<Drag>& drags = plant.loads.drags;
     plant.blown.setZero();
-    if (!surroundings.wind || !(effects & (FROND_WIND | FROND_AIR_DRAG))) return drags.clear();
+    if (!surroundings.wind || !(effects & (FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG))) return drags.clear();
     if (!plant.air) {
         plant.air = std::make_unique<AirState>();
         plant.air->pieces = air_pieces_of(plant);
@@ -169,10 +170,10 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
         if (air.resistance[i] == SixOf{}) continue;
         Drag& drag = drags[count++];
         const Mat3 resistance = matrix_of(air.resistance[i]);
-        take_hold(plant, i, drag.grip);
+        take_hold(plant, i, drag.attachment);
         drag.force = product(resistance, air.passing[i] + air.velocities[i]);
         drag.damping.setZero();
-        if (effects & FROND_AIR_DRAG) drag.damping = resistance + matrix_of(air.lag[i]);
+        if (effects & FROND_EFFECT_AIR_DRAG) drag.damping = resistance + matrix_of(air.lag[i]);
     }
     drags.resize(count);
 }
@@ -180,7 +181,7 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
 Vec3 air_force(const Plant& plant) {
     Vec3 sum = plant.blown;
     for (const Drag& drag : plant.loads.drags)
-        sum += drag.force - product(drag.damping, grip_velocity(drag.grip, plant.motion.x, plant.motion.v));
+        sum += drag.force - product(drag.damping, attachment_velocity(drag.attachment, plant.motion.x, plant.motion.v));
     return plant.rotation * sum;
 }
 

@@ -74,22 +74,22 @@ std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule) {
             plant.chain_positions[size_t(end)]};
 }
 
-Grip chain_grip(const Plant& plant, int node) {
+Attachment chain_attachment(const Plant& plant, int node) {
     return plant.system->chain[size_t(node)];
 }
 
 // Of a chain: the corner of the vertex's tet that it is nearest to stands for it, and a rigid arm reaches the rest.
-Grip vertex_grip(const Plant& plant, int vertex) {
+Attachment vertex_attachment(const Plant& plant, int vertex) {
     const Embedding& embedding = plant.model->embedding;
     const Tet& tet = plant.model->cage.tets[size_t(embedding.tet[size_t(vertex)])];
     const std::array<double, 4>& weights = embedding.weights[size_t(vertex)];
-    if (!plant.follow) return tet_grip(bound_place(plant, embedding, size_t(vertex)));
+    if (!plant.follow) return tet_attachment(bound_place(plant, embedding, size_t(vertex)));
     const size_t most = size_t(std::max_element(weights.begin(), weights.end()) - weights.begin());
-    Grip grip = plant.follow->grips[size_t(tet[most])];
+    Attachment attachment = plant.follow->attachments[size_t(tet[most])];
     Vec3 reach = -plant.model->cage.nodes[size_t(tet[most])];
     for (size_t k = 0; k < 4; k++) reach += weights[k] * plant.model->cage.nodes[size_t(tet[k])];
-    for (size_t k = 0; k < size_t(grip.count); k++) grip.arm[k] += grip.weight[k] * reach;
-    return grip;
+    for (size_t k = 0; k < size_t(attachment.count); k++) attachment.arm[k] += attachment.weight[k] * reach;
+    return attachment;
 }
 
 }  // namespace frond

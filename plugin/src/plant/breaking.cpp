@@ -114,7 +114,7 @@ void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
     for (int i = 0; i < mass.size(); i += step)
         angular += mass[i] * (place(i) - fragment.centre).cross(velocity(i) - fragment.velocity);
     set_inertia(plant, mass, fragment);
-    fragment.spin = fragment.axes * (fragment.axes.transpose() * angular).cwiseQuotient(fragment.moments);
+    fragment.angular_velocity = fragment.axes * (fragment.axes.transpose() * angular).cwiseQuotient(fragment.moments);
 }
 
 // Nodes that nothing holds any more rest where they are.

@@ -84,10 +84,10 @@ std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant) {
     return shared_of<AirPieces>(plant.model, plant.nodes->order, [&] { return make_air_pieces(*plant.model); });
 }
 
-std::shared_ptr<const SwingModes> swing_modes_of(const Plant& plant) {
-    return shared_of<SwingModes>(plant.model, 1, [&] {
-        const auto rods = shared_system(plant.model, FROND_ROD, FROND_LUMPED, 1);
-        return make_swing_modes(*rods->system, *air_pieces_of(plant));
+std::shared_ptr<const ModalBasis> modal_basis_of(const Plant& plant) {
+    return shared_of<ModalBasis>(plant.model, 1, [&] {
+        const auto rods = shared_system(plant.model, FROND_MECHANICS_ROD, FROND_MASS_LUMPED, 1);
+        return make_modal_basis(*rods->system, *air_pieces_of(plant));
     });
 }
 
@@ -118,8 +118,8 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.rest_time = shared->rest_time;
     plant.own_elements = nullptr;
     plant.follow = nullptr;
-    plant.swing = nullptr;
-    plant.fade = {};
+    plant.modal = nullptr;
+    plant.blend_out = {};
     plant.lead = plant.stepped_by = 0;
     plant.fibres = nullptr;
     plant.fibre_give.clear();
@@ -220,36 +220,36 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
 
 void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (which == plant.which) return;
-    end_swing(plant);
+    end_modal(plant);
     const VecX places = cage_places(plant), velocities = cage_velocities(plant);
     // What still fades over from an earlier change is no part of the shape: taken for one, it would never fade.
-    if (smoothly) plant.fade = {};
+    if (smoothly) plant.blend_out = {};
     plant.cage_stale = true;
     const VecX own = cage_places(plant), own_rate = cage_velocities(plant);
-    if (smoothly && plant.follow) keep_only_swing(plant);
+    if (smoothly && plant.follow) keep_only_modes(plant);
     const VecX smooth = cage_places(plant), smooth_rate = cage_velocities(plant);
     // Tets have their points in common, rods their pieces.
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
-    const std::vector<double> lasting = keeps ? lasting_of(plant) : std::vector<double>();
+    const std::vector<double> plastic = keeps ? plastic_of(plant) : std::vector<double>();
     take_mechanics(plant, which);
     if (plant.follow) {
         fit_chain(*plant.follow, *plant.model, own, plant.motion.x);
         fit_velocities(*plant.follow, plant.motion.x, own_rate, plant.motion.v);
-        if (smoothly) keep_only_swing(plant);
+        if (smoothly) keep_only_modes(plant);
     } else {
         plant.motion.x = smooth;
         plant.motion.v = smooth_rate;
         if (smoothly) relax(plant);
     }
     leave_fragments(plant);
-    set_lasting(plant, lasting);
+    set_plastic(plant, plastic);
     apply_pins(plant);
     moved(plant);
-    if (smoothly) begin_fade(plant.fade, places - cage_places(plant), velocities - cage_velocities(plant));
+    if (smoothly) begin_blend_out(plant.blend_out, places - cage_places(plant), velocities - cage_velocities(plant));
     plant.cage_stale = true;
 }
 
-void mend(Plant& plant) {
+void reset(Plant& plant) {
     if (plant.fragments.empty()) return;
     plant.fragments.clear();
     plant.parting = no_parting();

@@ -12,7 +12,7 @@
 
 #include "model/tet_geometry.hpp"
 #include "plant/plant.hpp"
-#include "solve/answer.hpp"
+#include "solve/node_compliance.hpp"
 #include "solve/one_sided.hpp"
 
 namespace frond {
@@ -40,7 +40,7 @@ std::vector<double> lack_of_organs(const Model& model, int order) {
 
 // A fibre that is drawn out, or may come to be by others that pull.
 struct Row {
-    Grip begin, end;
+    Attachment begin, end;
     double length;     // from which it pulls [m]
     double stiffness;  // [N/m]
 };
@@ -55,7 +55,7 @@ void add_rows_of_grabs(const Plant& plant, std::vector<Row>& rows) {
         for (const int end : {node, model.chain.nodes[size_t(node)].parent}) {
             const Vec3& place = model.chain.nodes[size_t(end)].position;
             const double length = (model.surface.positions[size_t(grab.vertex)] - place).norm();
-            rows.push_back({chain_grip(plant, end), vertex_grip(plant, grab.vertex), (1 + SLACK) * length,
+            rows.push_back({chain_attachment(plant, end), vertex_attachment(plant, grab.vertex), (1 + SLACK) * length,
                             fibres.list[size_t(fibre)].stiffness});
         }
     }
@@ -95,8 +95,8 @@ std::vector<Row> find_rows(const Plant& plant) {
         if (!(drawn > NEARLY) || fragment_of_chain_node(plant, size_t(fibre.node))) continue;
         any = any || drawn > 1;
         const int parent = plant.model->chain.nodes[size_t(fibre.node)].parent;
-        rows.push_back(
-            {chain_grip(plant, parent), chain_grip(plant, fibre.node), give * fibre.length, fibre.stiffness});
+        rows.push_back({chain_attachment(plant, parent), chain_attachment(plant, fibre.node), give * fibre.length,
+                        fibre.stiffness});
     }
     if (!any) return {};
     add_rows_of_grabs(plant, rows);
@@ -114,10 +114,10 @@ struct Stretch {
 };
 
 Stretch stretch_of(const Row& row, const VecX& x) {
-    const Vec3 way = grip_place(row.end, x) - grip_place(row.begin, x);
+    const Vec3 way = attachment_place(row.end, x) - attachment_place(row.begin, x);
     const Vec3 along = way.normalized();
     Stretch stretch = {{}, way.norm() - row.length};
-    const auto add = [&](const GripDerivative& at, const Vec3& pull) {
+    const auto add = [&](const AttachmentDerivative& at, const Vec3& pull) {
         for (size_t k = 0; k < size_t(at.count); k++) stretch.pull.push_back({at.node[k], at.by[k].transpose() * pull});
     };
     add(derivative_at(row.end, x), -along);
@@ -135,8 +135,8 @@ std::vector<Stretch> stretches_of(const std::vector<Row>& rows, const VecX& x) {
 // three directions of one push, so three rows go into one.
 Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
     const size_t count = stretches.size(), triples = (count + 2) / 3;
-    std::vector<Answer> answers(triples);
-    std::vector<const Answer*> all;
+    std::vector<NodeCompliance> compliances(triples);
+    std::vector<const NodeCompliance*> all;
     for (size_t t = 0; t < triples; t++) {
         std::vector<NodeBlock> pulls;
         for (size_t i = 3 * t; i < std::min(count, 3 * t + 3); i++)
@@ -144,15 +144,15 @@ Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
                 pulls.push_back({pull.node, Mat3::Zero()});
                 pulls.back().block.col(Eigen::Index(i % 3)) = pull.along;
             }
-        if (!make_answer(*plant.workspace, plant.settings, pulls, answers[t])) return {};
-        all.push_back(&answers[t]);
+        if (!make_compliance(*plant.workspace, plant.settings, pulls, compliances[t])) return {};
+        all.push_back(&compliances[t]);
     }
     Eigen::MatrixXd W(3 * triples, 3 * triples);
     Eigen::Matrix3Xd spread;
     std::vector<Mat3> blocks;
     for (size_t by = 0; by < triples; by++) {
         blocks.assign(triples, Mat3::Zero());
-        add_answers(all, answers[by], spread, blocks);
+        add_compliances(all, compliances[by], spread, blocks);
         for (size_t t = 0; t < triples; t++) W.block<3, 3>(Eigen::Index(3 * t), Eigen::Index(3 * by)) = blocks[t];
     }
     W.conservativeResize(Eigen::Index(count), Eigen::Index(count));
@@ -160,7 +160,7 @@ Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
 }
 
 // What pulls change in the plant's velocities. False if it does not answer.
-bool answer_to(Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls, VecX& dv) {
+bool velocity_by(Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls, VecX& dv) {
     VecX impulse = VecX::Zero(plant.motion.v.size());
     for (size_t i = 0; i < stretches.size(); i++)
         for (const NodePull& pull : stretches[i].pull) point(impulse, pull.node) += pulls[Eigen::Index(i)] * pull.along;
@@ -181,7 +181,7 @@ void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const
     if (!solve_one_sided(among_taut, of_taut, stops)) return;
     pulls.setZero();
     for (size_t k = 0; k < taut.size(); k++) pulls[taut[k]] = stops[Eigen::Index(k)];
-    if (answer_to(plant, stretches, pulls, dv)) plant.motion.v += dv;
+    if (velocity_by(plant, stretches, pulls, dv)) plant.motion.v += dv;
 }
 
 // Pulls are forces of the plant's own, which its integrator looks back beyond: begun anew after each step that has
@@ -191,7 +191,7 @@ void go_on_from_here(Motion& motion, bool was_shaken) {
     History& history = motion.history;
     history.shaken = was_shaken;
     if (!history.valid) return;
-    if (history.integrator == FROND_GENERALIZED_ALPHA) {
+    if (history.integrator == FROND_INTEGRATOR_GENERALIZED_ALPHA) {
         history.valid = history.shaken = false;
         return;
     }
@@ -248,8 +248,8 @@ void hold_lengths(Plant& plant, double h) {
         for (Eigen::Index i = 0; i < count; i++) wanted[i] += stretches[size_t(i)].over / reach;
         Eigen::MatrixXd soft = W;
         soft.diagonal() += softness / reach;
-        if (!solve_one_sided(soft, wanted, pulls) || !answer_to(plant, stretches, pulls - known, dv)) return;
-        add_shift(*plant.workspace, dv, plant.motion);
+        if (!solve_one_sided(soft, wanted, pulls) || !velocity_by(plant, stretches, pulls - known, dv)) return;
+        add_correction(*plant.workspace, dv, plant.motion);
         stretches = stretches_of(rows, plant.motion.x);
         double wrong = 0;
         for (size_t i = 0; i < rows.size(); i++) {

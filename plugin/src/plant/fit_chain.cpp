@@ -19,10 +19,10 @@ struct Normal {
     Normal(const Follow& follow, Eigen::Index size) {
         std::vector<Tet> pairs;
         double reach = 0;
-        for (const Grip& grip : follow.grips) {
-            const int a = grip.node[0], b = grip.count > 1 ? grip.node[1] : a;
+        for (const Attachment& attachment : follow.attachments) {
+            const int a = attachment.node[0], b = attachment.count > 1 ? attachment.node[1] : a;
             pairs.push_back({a, a + 1, b, b + 1});
-            reach = std::max(reach, grip.arm[0].norm());
+            reach = std::max(reach, attachment.arm[0].norm());
         }
         pattern = make_block_pattern(int(size / 3), pairs);
         plan = make_block_plan(pattern);
@@ -34,7 +34,7 @@ struct Normal {
     // Factors for the grips as they are at x.
     bool set(const Follow& follow, const VecX& x) {
         A.set_zero();
-        for (const Grip& grip : follow.grips) add_grip_stiffness(grip, x, 1, A);
+        for (const Attachment& attachment : follow.attachments) add_attachment_stiffness(attachment, x, 1, A);
         for (int i = 0; i < pattern.node_count; i++)
             A.block(pattern.start[size_t(i)]).diagonal().array() += weight[size_t(i)];
         return factorize(factor, A);
@@ -45,11 +45,11 @@ struct Normal {
 void begin_rigid(const Follow& follow, const Model& model, const VecX& cage_x, VecX& x) {
     const size_t count = model.chain.nodes.size();
     std::vector<std::vector<Vec3>> from(count), to(count);
-    for (size_t n = 0; n < follow.grips.size(); n++) {
-        const Grip& grip = follow.grips[n];
-        for (size_t k = 0; k < size_t(grip.count); k++) {
-            from[size_t(grip.node[k]) / 2].push_back(point(follow.modelled, int(n)));
-            to[size_t(grip.node[k]) / 2].push_back(point(cage_x, int(n)));
+    for (size_t n = 0; n < follow.attachments.size(); n++) {
+        const Attachment& attachment = follow.attachments[n];
+        for (size_t k = 0; k < size_t(attachment.count); k++) {
+            from[size_t(attachment.node[k]) / 2].push_back(point(follow.modelled, int(n)));
+            to[size_t(attachment.node[k]) / 2].push_back(point(cage_x, int(n)));
         }
     }
     std::vector<Mat3> rotations(count, Mat3::Identity());
@@ -84,8 +84,8 @@ void fit_chain(const Follow& follow, const Model& model, const VecX& cage_x, Vec
         least = off;
         if (!normal.set(follow, x)) break;
         VecX pull = VecX::Zero(x.size()), move;
-        for (size_t n = 0; n < follow.grips.size(); n++)
-            add_grip_force(follow.grips[n], x, point(cage_x, int(n)) - point(places, int(n)), pull);
+        for (size_t n = 0; n < follow.attachments.size(); n++)
+            add_attachment_force(follow.attachments[n], x, point(cage_x, int(n)) - point(places, int(n)), pull);
         solve(normal.factor, pull, move);
         if (!move.allFinite()) break;
         x += move;
@@ -98,7 +98,8 @@ void fit_velocities(const Follow& follow, const VecX& x, const VecX& cage_v, Vec
     v.setZero(x.size());
     if (!normal.set(follow, x)) return;
     VecX pull = VecX::Zero(x.size());
-    for (size_t n = 0; n < follow.grips.size(); n++) add_grip_force(follow.grips[n], x, point(cage_v, int(n)), pull);
+    for (size_t n = 0; n < follow.attachments.size(); n++)
+        add_attachment_force(follow.attachments[n], x, point(cage_v, int(n)), pull);
     solve(normal.factor, pull, v);
 }
 

@@ -10,7 +10,7 @@ namespace frond {
 
 struct Model;
 struct Plant;
-struct Grip;
+struct Attachment;
 
 // A direction of the modelled shape as the sum of the corners of the tets that hold a capsule's two nodes, each times
 // its own number: these follow the tets [1/m].
@@ -42,6 +42,6 @@ std::vector<Flat> make_flats(const Model& model);
 
 // A point of the capsule's axis at `along` of its way, 0..1, and `across` [m] from there to its wide side: the blade's
 // own half width is a lever, beside which a push turns it.
-Grip flat_grip(const Plant& plant, int capsule, const Flat& flat, double along, double across);
+Attachment flat_attachment(const Plant& plant, int capsule, const Flat& flat, double along, double across);
 
 }  // namespace frond

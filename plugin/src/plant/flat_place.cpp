@@ -87,25 +87,26 @@ void piece_frames(const Plant& plant, const std::vector<int>& capsules, const st
     }
 }
 
-Grip flat_grip(const Plant& plant, int capsule, const Flat& flat, double along, double across) {
-    Grip grip = capsule_grip(plant, capsule, along);
-    if (across == 0) return grip;
+Attachment flat_attachment(const Plant& plant, int capsule, const Flat& flat, double along, double across) {
+    Attachment attachment = capsule_attachment(plant, capsule, along);
+    if (across == 0) return attachment;
     if (plant.follow) {
-        grip.turns = true;
-        for (size_t k = 0; k < size_t(grip.count); k++) grip.arm[k] = grip.weight[k] * across * flat.wide;
-        return grip;
+        attachment.turns = true;
+        for (size_t k = 0; k < size_t(attachment.count); k++)
+            attachment.arm[k] = attachment.weight[k] * across * flat.wide;
+        return attachment;
     }
     // Quadratic tets have too many nodes for both ends of the capsule, and for a lever.
-    if (plant.nodes->order == 2) return grip;
+    if (plant.nodes->order == 2) return attachment;
     const auto& ends = plant.model->capsules[size_t(capsule)];
     const double share[2] = {1 - along, along};
     for (size_t k = 0; k < 2; k++) {
         const Tet& tet = plant.model->cage.tets[size_t(plant.model->chain_embedding.tet[size_t(ends[k])])];
         for (size_t c = 0; c < 4; c++)
             for (size_t n = 4 * k; n < 4 * k + 4; n++)
-                if (grip.node[n] == tet[c]) grip.weight[n] += share[k] * across * flat.spread[k][c];
+                if (attachment.node[n] == tet[c]) attachment.weight[n] += share[k] * across * flat.spread[k][c];
     }
-    return grip;
+    return attachment;
 }
 
 }  // namespace frond

@@ -24,28 +24,28 @@ Place place_on(const Chain& chain, int node, const Vec3& p) {
     return {node, along, (p - begin - inside * (end - begin)).norm()};
 }
 
-Grip rigid_grip(const Chain& chain, int node, const Vec3& p) {
-    Grip grip;
-    grip.turns = true;
-    grip.count = 1;
-    grip.node[0] = 2 * node;
-    grip.weight[0] = 1;
-    grip.arm[0] = p - chain.nodes[size_t(node)].position;
-    return grip;
+Attachment rigid_attachment(const Chain& chain, int node, const Vec3& p) {
+    Attachment attachment;
+    attachment.turns = true;
+    attachment.count = 1;
+    attachment.node[0] = 2 * node;
+    attachment.weight[0] = 1;
+    attachment.arm[0] = p - chain.nodes[size_t(node)].position;
+    return attachment;
 }
 
-Grip smooth_grip(const Chain& chain, const Place& place, const Vec3& p) {
+Attachment smooth_attachment(const Chain& chain, const Place& place, const Vec3& p) {
     const int b = place.node, a = chain.nodes[size_t(b)].parent;
     const double s = place.along, w = s * s * (3 - 2 * s);
     const Vec3 begin = chain.nodes[size_t(a)].position, axis = chain.nodes[size_t(b)].position - begin;
     const Vec3 across = p - begin - s * axis;
-    Grip grip;
-    grip.turns = true;
-    grip.count = 2;
-    grip.node = {2 * a, 2 * b};
-    grip.weight = {1 - w, w};
-    grip.arm = {Vec3(s * (1 - s) * (1 - s) * axis + (1 - w) * across), Vec3(s * s * (s - 1) * axis + w * across)};
-    return grip;
+    Attachment attachment;
+    attachment.turns = true;
+    attachment.count = 2;
+    attachment.node = {2 * a, 2 * b};
+    attachment.weight = {1 - w, w};
+    attachment.arm = {Vec3(s * (1 - s) * (1 - s) * axis + (1 - w) * across), Vec3(s * s * (s - 1) * axis + w * across)};
+    return attachment;
 }
 
 // Organs of the tets around each cage node.
@@ -97,13 +97,14 @@ Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modell
             for (size_t i = 1; i < chain.nodes.size(); i++)
                 if ((chain.nodes[i].position - p).norm() < (chain.nodes[nearest].position - p).norm()) nearest = i;
             follow.nearest.push_back(int(nearest));
-            follow.grips.push_back(rigid_grip(chain, int(nearest), p));
+            follow.attachments.push_back(rigid_attachment(chain, int(nearest), p));
             continue;
         }
         const int before = chain.nodes[size_t(best.node)].parent;
         follow.nearest.push_back(best.along < 0.5 ? before : best.node);
         const bool inside = best.along > 0 && best.along < 1;
-        follow.grips.push_back(inside ? smooth_grip(chain, best, p) : rigid_grip(chain, follow.nearest.back(), p));
+        follow.attachments.push_back(inside ? smooth_attachment(chain, best, p)
+                                            : rigid_attachment(chain, follow.nearest.back(), p));
     }
     return follow;
 }
@@ -111,19 +112,21 @@ Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modell
 void follow_places(const Follow& follow, const VecX& x, VecX& cage_x) {
     std::vector<Mat3> rotations(size_t(x.size()) / 6);
     for (size_t i = 0; i < rotations.size(); i++) rotations[i] = rotation_of<double>(point(x, int(2 * i + 1)));
-    cage_x.resize(3 * Eigen::Index(follow.grips.size()));
-    for (size_t n = 0; n < follow.grips.size(); n++) {
-        const Grip& grip = follow.grips[n];
+    cage_x.resize(3 * Eigen::Index(follow.attachments.size()));
+    for (size_t n = 0; n < follow.attachments.size(); n++) {
+        const Attachment& attachment = follow.attachments[n];
         Vec3 place = Vec3::Zero();
-        for (size_t k = 0; k < size_t(grip.count); k++)
-            place += grip.weight[k] * point(x, grip.node[k]) + rotations[size_t(grip.node[k]) / 2] * grip.arm[k];
+        for (size_t k = 0; k < size_t(attachment.count); k++)
+            place += attachment.weight[k] * point(x, attachment.node[k]) +
+                     rotations[size_t(attachment.node[k]) / 2] * attachment.arm[k];
         point(cage_x, int(n)) = place;
     }
 }
 
 void follow_velocities(const Follow& follow, const VecX& x, const VecX& v, VecX& cage_v) {
-    cage_v.resize(3 * Eigen::Index(follow.grips.size()));
-    for (size_t n = 0; n < follow.grips.size(); n++) point(cage_v, int(n)) = grip_velocity(follow.grips[n], x, v);
+    cage_v.resize(3 * Eigen::Index(follow.attachments.size()));
+    for (size_t n = 0; n < follow.attachments.size(); n++)
+        point(cage_v, int(n)) = attachment_velocity(follow.attachments[n], x, v);
 }
 
 bool fit_rigid(const std::vector<Vec3>& from, const std::vector<Vec3>& to, const Vec3& origin, Mat3& rotation,

@@ -3,16 +3,16 @@
 
 #include <vector>
 
-#include "mechanics/grip.hpp"
+#include "mechanics/attachment.hpp"
 #include "mechanics/tet_nodes.hpp"
 #include "model/model.hpp"
 
 namespace frond {
 
 struct Follow {
-    std::vector<Grip> grips;   // one a cage node
-    std::vector<int> nearest;  // the chain node that each cage node is bound to most
-    VecX modelled;             // where the cage nodes are in the modelled shape [m]
+    std::vector<Attachment> attachments;  // one a cage node
+    std::vector<int> nearest;             // the chain node that each cage node is bound to most
+    VecX modelled;                        // where the cage nodes are in the modelled shape [m]
 };
 
 // Each cage node is bound to the nearest capsule of its own organs: to a cubic centre line through the capsule's two

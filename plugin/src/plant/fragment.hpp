@@ -15,15 +15,15 @@ struct Fragment {
     VecX cage_x;                // all cage nodes as they were then, model frame [m]
     std::vector<Vec3> chain_x;  // all chain nodes
     // As a rigid body, world frame. At first momentum and angular momentum are those of its nodes.
-    double mass = 0;                                                           // [kg]
-    Mat3 axes = Mat3::Identity();                                              // principal ones, when it came off
-    Vec3 moments = Vec3::Ones();                                               // of inertia about them [kg m^2]
-    Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero(), spin = Vec3::Zero();  // now [m], [m/s], [rad/s]
+    double mass = 0;               // [kg]
+    Mat3 axes = Mat3::Identity();  // principal ones, when it came off
+    Vec3 moments = Vec3::Ones();   // of inertia about them [kg m^2]
+    Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();  // now [m], [m/s], [rad/s]
     // Where it is now: what was at p in the model's frame is at turn p + shift in the world.
     Mat3 turn;
     Vec3 shift;
     Vec3 place(const Vec3& p) const { return turn * p + shift; }
-    Vec3 velocity_at(const Vec3& place) const { return velocity + spin.cross(place - centre); }
+    Vec3 velocity_at(const Vec3& place) const { return velocity + angular_velocity.cross(place - centre); }
 };
 
 // Which fragment a thing belongs to, -1: to the plant. All empty as long as nothing is broken.
@@ -44,7 +44,7 @@ int find_break(const Plant& plant);
 // Takes off what is beyond a capsule, by the chain node at its end, which is not gone yet. Returns the new fragment.
 const Fragment& break_off(Plant& plant, int node);
 // Puts all fragments back: as modelled, at rest, with nothing lasting.
-void mend(Plant& plant);
+void reset(Plant& plant);
 // Takes what is gone away again after the mechanics changed.
 void leave_fragments(Plant& plant);
 // Chain nodes that are gone go along with the stump, so that cage nodes on both sides keep their places against it.

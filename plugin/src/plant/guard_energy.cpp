@@ -45,7 +45,8 @@ static double spring_energy(const Plant& plant, const VecX& x, Held held) {
     const std::vector<Spring>& springs = plant.loads.springs;
     double energy = 0;
     for (size_t k = held == Held::BY_PINS_TOO ? 0 : plant.pin_springs.size(); k < springs.size(); k++)
-        energy += 0.5 * springs[k].stiffness * (grip_place(springs[k].grip, x) - springs[k].target).squaredNorm();
+        energy +=
+            0.5 * springs[k].stiffness * (attachment_place(springs[k].attachment, x) - springs[k].target).squaredNorm();
     return energy;
 }
 
@@ -62,7 +63,7 @@ static double way_of_pins(const Plant& plant) {
         if (!plant.follow || i % 2 == 0)
             most = std::max(most, (point(motion.pin_target, i) - point(plant.x_good, i)).norm());
     for (const Spring& spring : plant.pin_springs)
-        most = std::max(most, (spring.target - grip_place(spring.grip, plant.x_good)).norm());
+        most = std::max(most, (spring.target - attachment_place(spring.attachment, plant.x_good)).norm());
     return most;
 }
 

@@ -45,12 +45,12 @@ VecX modelled_in(const Plant& plant, const Mat3& rotation, const Vec3& shift) {
 bool drop_wild_sets_for_less_energy(Plant& plant, const VecX& x) {
     const double caught = potential_energy(plant, plant.motion.x), with_sets = potential_energy(plant, x);
     if (!plant.own_elements) return with_sets < caught;
-    const std::vector<double> sets = lasting_of(plant);
-    set_lasting(plant, {});
+    const std::vector<double> sets = plastic_of(plant);
+    set_plastic(plant, {});
     const double without = potential_energy(plant, x);
     const bool are_wild = !(with_sets - without < lifting_energy(plant)),
                has_less = (are_wild ? without : with_sets) < caught;
-    if (!are_wild || !has_less) set_lasting(plant, sets);
+    if (!are_wild || !has_less) set_plastic(plant, sets);
     return has_less;
 }
 
@@ -82,9 +82,9 @@ bool start_from_modelled(Plant& plant) {
     motion.v.setZero();
     motion.history.valid = false;
     plant.cage_stale = true;
-    plant.fade = {};
+    plant.blend_out = {};
     // Bodies push what is seen of it: while that fades it would be bent from where it no longer is.
-    if (!plant.is_touched) begin_fade(plant.fade, places - cage_places(plant), VecX::Zero(places.size()));
+    if (!plant.is_touched) begin_blend_out(plant.blend_out, places - cage_places(plant), VecX::Zero(places.size()));
     return true;
 }
 

@@ -54,7 +54,7 @@ bool found_no_way(const Plant& plant, double h) {
 
 void damp_recovering(const Plant& plant, SolveSettings& settings) {
     if (plant.recovers_for <= 0) return;
-    settings.integrator = FROND_IMPLICIT_EULER;
+    settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     settings.mass_damping += 2 * M_PI / plant.rest_time;
 }
 

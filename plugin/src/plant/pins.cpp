@@ -95,7 +95,7 @@ static void pin_chain(Plant& plant) {
         if (is_root && hold_chain_node(plant, chain_node, ground)) continue;
         for (size_t k = 0; k < group.nodes.size(); k++)
             plant.pin_springs.push_back(
-                {plant.follow->grips[size_t(group.nodes[k])], group.to[k], pin_stiffness(plant)});
+                {plant.follow->attachments[size_t(group.nodes[k])], group.to[k], pin_stiffness(plant)});
     }
 }
 

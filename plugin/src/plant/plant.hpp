@@ -9,7 +9,7 @@
 #include "plant/fibres.hpp"
 #include "plant/follow.hpp"
 #include "plant/fragment.hpp"
-#include "plant/swing.hpp"
+#include "plant/modal.hpp"
 #include "solve/solve.hpp"
 
 namespace frond {
@@ -34,12 +34,12 @@ struct Trend {
 };
 
 // Workspaces that the plants of one system lend from each other: one has its own only between the halves of a step.
-struct PlantsAbreast;
+struct PlantBatch;
 struct WorkspacePool {
     std::mutex mutex;
     std::vector<WorkspacePtr> free;
-    std::vector<std::shared_ptr<PlantsAbreast>> abreast;  // likewise, of several plants at once
-    size_t seats = 0;                                     // plants that may ask for one: those that are awake
+    std::vector<std::shared_ptr<PlantBatch>> batch;  // likewise, of several plants at once
+    size_t seats = 0;                                // plants that may ask for one: those that are awake
 };
 // A plant's right to one. Without as many seats, free workspaces go.
 struct PoolSeat {
@@ -82,8 +82,8 @@ struct Plant {
 
     Motion motion;                         // of what the mechanics move, model frame
     std::shared_ptr<const Follow> follow;  // null where the cage itself moves
-    std::unique_ptr<Swing> swing;          // of a chain that only sways; else null
-    Fade fade;                             // of the cage, beside where the mechanics have it
+    std::unique_ptr<ModalMotion> modal;    // of a chain that only sways; else null
+    BlendOut blend_out;                    // of the cage, beside where the mechanics have it
     double lead = 0;                       // for which the cage is drawn to go on, until the plant is stepped again [s]
     double stepped_by = 0;                 // the last step, from x_good to here; 0: it was put here since [s]
     std::shared_ptr<const Fibres> fibres;  // null where none pulls
@@ -96,8 +96,8 @@ struct Plant {
     std::shared_ptr<const Foot> foot;  // the three above at first
     VecX x_good, v_good;   // before the running step, of the motion; empty after a healthy one abreast: in the history
     VecX contact_impulse;  // of the running step's contacts on the nodes of the mechanics [N s]; empty: none
-    VecX contact_shift;    // likewise, of those that move the plant and give it no velocity
-    Loads loads;           // of the running step, kept to reuse its memory
+    VecX contact_correction;        // likewise, of those that move the plant and give it no velocity
+    Loads loads;                    // of the running step, kept to reuse its memory
     std::unique_ptr<AirState> air;  // null until the plant is in air
     Vec3 blown = Vec3::Zero();      // force of the last step's air, where no drags tell of it [N]
     VecX user_force;                // on cage nodes, until the end of the host's step, world frame [N]; empty: none yet
@@ -129,7 +129,7 @@ struct Plant {
     bool surface_stale = true;
     float surface_back = 0;  // for which the surface is drawn before the end of the last substep [s]
     mutable bool cage_stale = true;
-    bool folded = false;
+    bool is_compressed = false;
     bool is_sound = true;        // what was found can be the next state
     bool is_off_course = false;  // in the running step something went elsewhere than it was heading
     float patience = 1;          // share of the work that searches are given [-]
@@ -151,10 +151,10 @@ struct Plant {
 
 // What the world gives to every plant of a step.
 struct Surroundings {
-    Vec3 gravity = Vec3::Zero();                // world frame [m/s^2]
-    frond_effects effects = FROND_ALL_EFFECTS;  // mask
-    const Wind* wind = nullptr;                 // null: there is no air
-    double time = 0;                            // at the end of the step [s]
+    Vec3 gravity = Vec3::Zero();               // world frame [m/s^2]
+    frond_effects effects = FROND_EFFECT_ALL;  // mask
+    const Wind* wind = nullptr;                // null: there is no air
+    double time = 0;                           // at the end of the step [s]
 };
 
 // `def` has been checked by the caller.
@@ -169,8 +169,8 @@ SolveReport solve_in_substeps(Plant& plant, double h);
 // Of the running step; gravity in the model's frame [m/s^2].
 Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effects effects);
 SolveSettings settings_for(const Plant& plant, frond_effects effects);
-// Takes contact_impulse and contact_shift, if there are any, into the step that was solved, of a plant in touch: only
-// now its energy tells whether the step went wrong. `lost`: by bodies that push it [J].
+// Takes contact_impulse and contact_correction, if there are any, into the step that was solved, of a plant in touch:
+// only now its energy tells whether the step went wrong. `lost`: by bodies that push it [J].
 void add_contacts(Plant& plant, double h, double lost);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Instead of the second half, if the step was broken off: the plant stands where it stood before the first one.
@@ -178,16 +178,16 @@ void drop_step(Plant& plant);
 // Both.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);
 // Before and after a step.
-void lend_workspace(Plant& plant);
-void give_workspace_back(Plant& plant);
+void take_workspace(Plant& plant);
+void return_workspace(Plant& plant);
 // Puts a plant that stands still away, and takes it out again: in the same place to 1e-8 m, or in the modelled shape if
 // nothing of it is farther than that from there. The surface stays if it is asked to.
-void fold(Plant& plant, double tolerance, bool keep_surface);
-void unfold(Plant& plant);
+void compress(Plant& plant, double tolerance, bool keep_surface);
+void decompress(Plant& plant);
 // Sets the drags of the running step's loads.
 void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h);
 std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant);
-std::shared_ptr<const SwingModes> swing_modes_of(const Plant& plant);
+std::shared_ptr<const ModalBasis> modal_basis_of(const Plant& plant);
 Vec3 air_force(const Plant& plant);  // of the last step, world frame [N]
 // Forces given by frond_plant_add_force end.
 void clear_user_force(Plant& plant);
@@ -202,8 +202,8 @@ Vec3 grab_force(const Plant& plant, const Grab& grab);  // on the plant, world f
 // Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave that part as it is.
 void set_state(Plant& plant, const double* positions, const double* velocities);
 // All that is lasting in its shape, in numbers; none if nothing has yielded. Setting none makes it straight again.
-std::vector<double> lasting_of(const Plant& plant);
-void set_lasting(Plant& plant, const std::vector<double>& values);
+std::vector<double> plastic_of(const Plant& plant);
+void set_plastic(Plant& plant, const std::vector<double>& values);
 void update_chain(Plant& plant);
 // Of the outermost fibre of each capsule of Model::capsules [-].
 std::vector<double> capsule_strains(const Plant& plant);
@@ -223,9 +223,9 @@ Vec3 node_velocity(const Plant& plant, const VecX& v, int node);
 const VecX& cage_places(const Plant& plant);
 VecX cage_velocities(const Plant& plant);  // [m/s]
 // A point of the plant for forces on it.
-Grip vertex_grip(const Plant& plant, int vertex);
+Attachment vertex_attachment(const Plant& plant, int vertex);
 // A node of the chain, where tets move.
-Grip chain_grip(const Plant& plant, int node);
+Attachment chain_attachment(const Plant& plant, int node);
 
 // Holds a cage node where it is, lets it go, or moves where it is held to (model frame).
 bool is_pinned(const Plant& plant, int node);

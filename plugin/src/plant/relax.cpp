@@ -14,11 +14,11 @@ void relax(Plant& plant) {
     Motion& motion = plant.motion;
     const VecX given = motion.v;
     SolveSettings settings = plant.settings;
-    settings.integrator = FROND_IMPLICIT_EULER;
+    settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     Loads loads;
     if (plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
     apply_pins(plant);
-    lend_workspace(plant);
+    take_workspace(plant);
     const VecX start = motion.x;
     bool ok = true;
     for (int round = 0; round < ROUNDS && ok; round++) {
@@ -34,7 +34,7 @@ void relax(Plant& plant) {
     if (!ok || !respond(*plant.workspace, settings, momentum, motion.v)) motion.v = given;
     motion.history.valid = false;
     motion.history.shaken = true;  // the first step damps what is left
-    give_workspace_back(plant);
+    return_workspace(plant);
 }
 
 }  // namespace frond

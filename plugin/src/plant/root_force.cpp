@@ -26,7 +26,7 @@ Wrench root_force(const Plant& plant, const Vec3& gravity, const Vec3& about) {
             hold(-point(pull, i) - mass[i] * weight, point(x, i));
     }
     for (const Spring& spring : plant.pin_springs) {
-        const Vec3 place = grip_place(spring.grip, x);
+        const Vec3 place = attachment_place(spring.attachment, x);
         hold(spring.stiffness * (spring.target - place), place);
     }
     return {plant.rotation * held.force, plant.rotation * held.moment};

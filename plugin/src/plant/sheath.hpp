@@ -9,14 +9,14 @@ namespace frond {
 
 // Shared by all plants of a model. Read-only.
 struct Sheath {
-    Collider collider;           // its pieces are the capsules
-    Follow follow;               // where the nodes are
-    std::vector<Vec3> modelled;  // in the modelled shape [m]
-    std::vector<Grip> holds;     // by which pushes take them: the chain's axis, and a blade's half width as a lever
+    Collider collider;              // its pieces are the capsules
+    Follow follow;                  // where the nodes are
+    std::vector<Vec3> modelled;     // in the modelled shape [m]
+    std::vector<Attachment> holds;  // by which pushes take them: the chain's axis, and a blade's half width as a lever
 };
 
 Sheath make_sheath(const Model& model);
 // A point of the sheath, to push there.
-Grip sheath_grip(const Sheath& sheath, const ContactSide& side);
+Attachment sheath_attachment(const Sheath& sheath, const ContactSide& side);
 
 }  // namespace frond

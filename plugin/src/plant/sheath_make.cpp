@@ -52,17 +52,17 @@ int add_ring(Maker& maker, int chain_node, const Ring& ring) {
     const int first = int(maker.sheath.modelled.size());
     for (const double across : {-ring.half_width, ring.half_width})
         for (const double through : {-ring.half_thickness, ring.half_thickness}) {
-            Grip grip;
-            grip.turns = true;
-            grip.count = 1;
-            grip.node[0] = 2 * chain_node;
-            grip.weight[0] = 1;
-            grip.arm[0] = across * ring.wide + through * ring.thin;
-            maker.sheath.modelled.push_back(middle + grip.arm[0]);
-            maker.sheath.follow.grips.push_back(grip);
+            Attachment attachment;
+            attachment.turns = true;
+            attachment.count = 1;
+            attachment.node[0] = 2 * chain_node;
+            attachment.weight[0] = 1;
+            attachment.arm[0] = across * ring.wide + through * ring.thin;
+            maker.sheath.modelled.push_back(middle + attachment.arm[0]);
+            maker.sheath.follow.attachments.push_back(attachment);
             maker.sheath.follow.nearest.push_back(chain_node);
-            grip.arm[0] = ring.is_flat ? Vec3(across * ring.wide) : Vec3(Vec3::Zero());
-            maker.sheath.holds.push_back(grip);
+            attachment.arm[0] = ring.is_flat ? Vec3(across * ring.wide) : Vec3(Vec3::Zero());
+            maker.sheath.holds.push_back(attachment);
         }
     return first;
 }
@@ -120,19 +120,19 @@ Sheath make_sheath(const Model& model) {
     return std::move(sheath);
 }
 
-Grip sheath_grip(const Sheath& sheath, const ContactSide& side) {
-    Grip grip;
-    grip.turns = true;
+Attachment sheath_attachment(const Sheath& sheath, const ContactSide& side) {
+    Attachment attachment;
+    attachment.turns = true;
     for (size_t i = 0; i < size_t(side.node_count); i++) {
-        const Grip& hold = sheath.holds[size_t(side.nodes[i])];
+        const Attachment& hold = sheath.holds[size_t(side.nodes[i])];
         int k = 0;
-        while (k < grip.count && grip.node[size_t(k)] != hold.node[0]) k++;
-        grip.node[size_t(k)] = hold.node[0];
-        grip.weight[size_t(k)] += side.weights[i];
-        grip.arm[size_t(k)] += side.weights[i] * hold.arm[0];
-        grip.count = std::max(grip.count, k + 1);
+        while (k < attachment.count && attachment.node[size_t(k)] != hold.node[0]) k++;
+        attachment.node[size_t(k)] = hold.node[0];
+        attachment.weight[size_t(k)] += side.weights[i];
+        attachment.arm[size_t(k)] += side.weights[i] * hold.arm[0];
+        attachment.count = std::max(attachment.count, k + 1);
     }
-    return grip;
+    return attachment;
 }
 
 }  // namespace frond

@@ -18,7 +18,7 @@ Vec3 grab_force(const Plant& plant, const Grab& grab) {
 }
 
 void set_state(Plant& plant, const double* positions, const double* velocities) {
-    end_swing(plant);
+    end_modal(plant);
     const Quat to_model = plant.rotation.conjugate();
     Motion& motion = plant.motion;
     VecX x, v;
@@ -39,24 +39,24 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
         if (velocities) motion.v = v;
     }
     motion.history.valid = motion.history.shaken = false;
-    plant.fade = {};
+    plant.blend_out = {};
     plant.lead = plant.stepped_by = 0;
     plant.pins_changed = true;
     apply_pins(plant);
     moved(plant);
 }
 
-std::vector<double> lasting_of(const Plant& plant) {
+std::vector<double> plastic_of(const Plant& plant) {
     if (!plant.own_elements) return {};
-    return mechanics(plant.which, plant.nodes->order).get_lasting(*plant.own_elements);
+    return mechanics(plant.which, plant.nodes->order).get_plastic(*plant.own_elements);
 }
 
-void set_lasting(Plant& plant, const std::vector<double>& values) {
+void set_plastic(Plant& plant, const std::vector<double>& values) {
     std::unique_ptr<Elements> own;
     if (!values.empty()) {
         const Mechanics& row = mechanics(plant.which, plant.nodes->order);
         own = row.copy(elements_of(*plant.system));
-        row.set_lasting(*own, values);
+        row.set_plastic(*own, values);
     }
     if (plant.workspace) use_elements(*plant.workspace, own.get());
     plant.own_elements = std::move(own);
@@ -78,13 +78,13 @@ int node_count_of(const Plant& plant) {
 }
 
 const VecX& cage_places(const Plant& plant) {
-    if (!plant.follow && is_over(plant.fade) && plant.lead == 0) return plant.motion.x;
+    if (!plant.follow && is_over(plant.blend_out) && plant.lead == 0) return plant.motion.x;
     if (plant.cage_stale) {
         if (plant.follow)
             follow_places(*plant.follow, plant.motion.x, plant.cage_x);
         else
             plant.cage_x = plant.motion.x;
-        add_offset(plant.fade, plant.cage_x);
+        add_offset(plant.blend_out, plant.cage_x);
         if (plant.lead > 0) plant.cage_x += plant.lead * cage_velocities(plant);
     }
     plant.cage_stale = false;
@@ -104,7 +104,7 @@ Vec3 node_velocity(const Plant& plant, const VecX& v, int node) {
 VecX cage_velocities(const Plant& plant) {
     VecX velocities = plant.motion.v;
     if (plant.follow) follow_velocities(*plant.follow, plant.motion.x, plant.motion.v, velocities);
-    add_rate(plant.fade, velocities);
+    add_rate(plant.blend_out, velocities);
     return velocities;
 }
 

@@ -10,7 +10,8 @@
 namespace frond {
 
 Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effects effects) {
-    return effects & FROND_GRAVITY ? Vec3(plant.rotation.conjugate() * surroundings.gravity) : Vec3(Vec3::Zero());
+    return effects & FROND_EFFECT_GRAVITY ? Vec3(plant.rotation.conjugate() * surroundings.gravity)
+                                          : Vec3(Vec3::Zero());
 }
 
 // Force per node, gravity and springs of this step, in the model's frame.
@@ -20,7 +21,7 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
     loads.gravity = gravity_in(plant, surroundings, effects);
     loads.springs = plant.pin_springs;
     loads.force.resize(0);
-    if (!(effects & FROND_USER_FORCE)) return;
+    if (!(effects & FROND_EFFECT_USER_FORCE)) return;
 
     if (plant.has_user_force) {
         const Mat3 turn = to_model.toRotationMatrix();
@@ -30,12 +31,13 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
             if (!plant.follow)
                 point(loads.force, i) = force;
             else if (force != Vec3::Zero())
-                add_grip_force(plant.follow->grips[size_t(i)], plant.motion.x, force, loads.force);
+                add_attachment_force(plant.follow->attachments[size_t(i)], plant.motion.x, force, loads.force);
         }
     }
     for (const Grab& grab : plant.grabs)
         if (!fragment_of_vertex(plant, size_t(grab.vertex)))
-            loads.springs.push_back({vertex_grip(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
+            loads.springs.push_back(
+                {vertex_attachment(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
 }
 
 // What is bent beyond its yield keeps a part of that.
@@ -128,7 +130,7 @@ static void solve_carefully(Plant& plant, double h, Contacts contacts, int most_
     constexpr int ITERATIONS = 30, PARTS = 4;
     constexpr float LEAST_FOR_PARTS = 0.5;
     SolveSettings settings = plant.step_settings;
-    settings.integrator = FROND_IMPLICIT_EULER;
+    settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
     // Where entangled rods are bent by their leaves' tips, all would stand still and never part.
@@ -171,7 +173,7 @@ static bool is_blown_about(const Plant& plant) {
 
 // Part of the solve.
 static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h) {
-    if (!(effects & FROND_FIBRES)) return;
+    if (!(effects & FROND_EFFECT_FIBRES)) return;
     const Timer timer;
     hold_lengths(plant, h);
     plant.ms_fibres += timer.ms();
@@ -213,7 +215,8 @@ static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond
 
 SolveSettings settings_for(const Plant& plant, frond_effects effects) {
     SolveSettings settings = plant.settings;
-    if (!(effects & FROND_DAMPING)) settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
+    if (!(effects & FROND_EFFECT_DAMPING))
+        settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
     settings.most_work = work_allowed(plant);
     return settings;
@@ -229,7 +232,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.may_yield = true;
 
     // Effects.
-    lend_workspace(plant);
+    take_workspace(plant);
     Timer timer;
     apply_pins(plant);
     jump_with_pins(plant, JUMP);
@@ -272,7 +275,7 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
     const VecX x = plant.motion.x;
     const double allowed = row.energy(elements, x) + node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
     for (double share = 1; share > LEAST; share /= 2) {
-        add_shift(*plant.workspace, share * dv, plant.motion);
+        add_correction(*plant.workspace, share * dv, plant.motion);
         if (is_calm_way(plant, 1) && row.energy(elements, plant.motion.x) <= allowed) return;
         plant.motion.x = x;
     }
@@ -282,9 +285,9 @@ void add_contacts(Plant& plant, double h, double lost) {
     if (!plant.is_sound) return;
     const bool is_pushed = plant.contact_impulse.size() > 0;
     const VecX impulse = is_pushed ? std::move(plant.contact_impulse) : VecX(VecX::Zero(plant.motion.v.size()));
-    const VecX shift = std::move(plant.contact_shift);
+    const VecX shift = std::move(plant.contact_correction);
     plant.contact_impulse.resize(0);
-    plant.contact_shift.resize(0);
+    plant.contact_correction.resize(0);
     // A wind turns rods far within a step, which no contact has to answer for.
     const VecX before = plant.follow ? plant.motion.x : plant.x_good;
     VecX dv;
@@ -322,7 +325,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
         if (is_stuck && !jump_with_pins(plant, STUCK_BEHIND)) start_from_modelled(plant);
     } else {
         watch_recovery(plant, h);
-        if (effects & FROND_PLASTICITY && plant.recovers_for <= 0) {
+        if (effects & FROND_EFFECT_PLASTICITY && plant.recovers_for <= 0) {
             const Timer timer;
             keep_sets(plant, h);
             plant.ms_plasticity = timer.ms();
@@ -330,9 +333,9 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     }
     plant.stepped_by = h;
     carry_stumps(plant);
-    pass_time(plant.fade, h);
+    pass_time(plant.blend_out, h);
     moved(plant);
-    give_workspace_back(plant);
+    return_workspace(plant);
 }
 
 void drop_step(Plant& plant) {
@@ -344,10 +347,10 @@ void drop_step(Plant& plant) {
     }
     motion.history.valid = false;
     plant.contact_impulse.resize(0);
-    plant.contact_shift.resize(0);
+    plant.contact_correction.resize(0);
     plant.stepped_by = 0;
     moved(plant);
-    give_workspace_back(plant);
+    return_workspace(plant);
 }
 
 void step_plant(Plant& plant, const Surroundings& surroundings, double h) {

@@ -225,19 +225,19 @@ VecX cage_of(const Plant& plant, const VecX& x) {
 // Of the cage nodes: the way that the last step took, over its time. What is not stepped in each substep goes on as it
 // moves; what was put somewhere stands there [m/s].
 VecX way_of(const Plant& plant) {
-    if (plant.lead > 0 || plant.swing) return cage_velocities(plant);
+    if (plant.lead > 0 || plant.modal) return cage_velocities(plant);
     const VecX now = cage_of(plant, plant.motion.x);
     if (plant.stepped_by == 0) return VecX::Zero(now.size());
     const VecX& before = plant.x_good.size() > 0 ? plant.x_good : plant.motion.history.x_prev;
     VecX way = (now - cage_of(plant, before)) / plant.stepped_by;
-    add_rate(plant.fade, way);
+    add_rate(plant.blend_out, way);
     return way;
 }
 
 // A fragment goes as a free body does.
 Drawn draw_fragment(const Fragment& fragment, int number, double back) {
     if (back == 0) return {number, fragment.cage_x, fragment.turn, fragment.shift};
-    const Mat3 turned = rotation_of<double>(Vec3(-back * fragment.spin));
+    const Mat3 turned = rotation_of<double>(Vec3(-back * fragment.angular_velocity));
     const Vec3 centre = fragment.centre - back * fragment.velocity;
     return {number, fragment.cage_x, turned * fragment.turn, turned * (fragment.shift - fragment.centre) + centre};
 }
@@ -260,7 +260,7 @@ void update_surface(Plant& plant, frond_effects effects, double back) {
     for (const Drawn& drawn : list) {
         run_in_lanes(PlaceNodes{drawn, nodes});
         run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.surface_positions.data()});
-        if (!(effects & FROND_NORMALS)) continue;
+        if (!(effects & FROND_EFFECT_NORMALS)) continue;
         const Timer normals_timer;
         cofactors.assign(plant.model->cage.nodes.size(), Columns());
         run_in_lanes(AddCofactors{plant, drawn, nodes, cofactors});

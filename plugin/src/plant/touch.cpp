@@ -3,68 +3,68 @@
 namespace frond {
 
 // Both chain nodes' tets together; of quadratic ones, which have too many nodes for that, those of the nearer node.
-static Grip ends_grip(const Plant& plant, int begin, int end, double along) {
-    if (plant.nodes->order == 2) return chain_grip(plant, along < 0.5 ? begin : end);
-    const Grip first = chain_grip(plant, begin), second = chain_grip(plant, end);
-    Grip grip;
-    const auto add = [&](const Grip& one, double share) {
+static Attachment ends_attachment(const Plant& plant, int begin, int end, double along) {
+    if (plant.nodes->order == 2) return chain_attachment(plant, along < 0.5 ? begin : end);
+    const Attachment first = chain_attachment(plant, begin), second = chain_attachment(plant, end);
+    Attachment attachment;
+    const auto add = [&](const Attachment& one, double share) {
         for (size_t k = 0; k < size_t(one.count); k++) {
-            grip.node[size_t(grip.count)] = one.node[k];
-            grip.weight[size_t(grip.count++)] = share * one.weight[k];
+            attachment.node[size_t(attachment.count)] = one.node[k];
+            attachment.weight[size_t(attachment.count++)] = share * one.weight[k];
         }
     };
     add(first, 1 - along);
     add(second, along);
-    return grip;
+    return attachment;
 }
 
-Grip capsule_grip(const Plant& plant, int capsule, double along) {
+Attachment capsule_attachment(const Plant& plant, int capsule, double along) {
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
-    if (!plant.follow) return ends_grip(plant, begin, end, along);
-    Grip grip;
-    grip.count = begin == end ? 1 : 2;
-    grip.node = {2 * begin, 2 * end};
-    grip.weight = {begin == end ? 1 : 1 - along, along};
-    return grip;
+    if (!plant.follow) return ends_attachment(plant, begin, end, along);
+    Attachment attachment;
+    attachment.count = begin == end ? 1 : 2;
+    attachment.node = {2 * begin, 2 * end};
+    attachment.weight = {begin == end ? 1 : 1 - along, along};
+    return attachment;
 }
 
-Grip cage_grip(const ContactSide& side) {
-    Grip grip;
-    grip.count = side.node_count;
+Attachment cage_attachment(const ContactSide& side) {
+    Attachment attachment;
+    attachment.count = side.node_count;
     for (size_t i = 0; i < size_t(side.node_count); i++) {
-        grip.node[i] = side.nodes[i];
-        grip.weight[i] = side.weights[i];
+        attachment.node[i] = side.nodes[i];
+        attachment.weight[i] = side.weights[i];
     }
-    return grip;
+    return attachment;
 }
 
-bool make_touch(const Plant& plant, const Grip& grip, PlantTouch& touch) {
+bool make_touch(const Plant& plant, const Attachment& attachment, PlantTouch& touch) {
     if (!plant.is_sound) return false;
-    touch.grip = grip;
-    touch.velocity = plant.rotation * grip_velocity(grip, plant.x_good, plant.motion.v);
+    touch.attachment = attachment;
+    touch.velocity = plant.rotation * attachment_velocity(attachment, plant.x_good, plant.motion.v);
     return true;
 }
 
-bool find_answer(Plant& plant, PlantTouch& touch) {
+bool find_compliance(Plant& plant, PlantTouch& touch) {
     const Mat3 to_model = plant.rotation.conjugate().toRotationMatrix();
-    const GripDerivative derivative = derivative_at(touch.grip, plant.x_good);
+    const AttachmentDerivative derivative = derivative_at(touch.attachment, plant.x_good);
     std::vector<NodeBlock> pushes;
     for (size_t k = 0; k < size_t(derivative.count); k++)
         pushes.push_back({derivative.node[k], derivative.by[k].transpose() * to_model});
-    return make_answer(*plant.workspace, plant.settings, pushes, touch.answer);
+    return make_compliance(*plant.workspace, plant.settings, pushes, touch.compliance);
 }
 
 static void add_impulse(const Plant& plant, const PlantTouch& touch, const Vec3& impulse, VecX& sum) {
     if (sum.size() == 0) sum = VecX::Zero(plant.motion.v.size());
-    add_grip_force(touch.grip, plant.x_good, plant.rotation.conjugate() * impulse, sum);
+    add_attachment_force(touch.attachment, plant.x_good, plant.rotation.conjugate() * impulse, sum);
 }
 
 void take_impulse(Plant& plant, const PlantTouch& touch, const Vec3& impulse) {
     add_impulse(plant, touch, impulse, plant.contact_impulse);
 }
 
-void take_shift(Plant& plant, const PlantTouch& touch, const Vec3& impulse) {
-    add_impulse(plant, touch, impulse, plant.contact_shift);
+void take_correction(Plant& plant, const PlantTouch& touch, const Vec3& impulse) {
+    add_impulse(plant, touch, impulse, plant.contact_correction);
 }
 
 }  // namespace frond

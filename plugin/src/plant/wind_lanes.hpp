@@ -34,8 +34,8 @@ FROND_INLINE S cosine_of_turns(const S& x) {
 // Mean wind and gusts at heights over those at the reference height [-].
 template <class S>
 FROND_INLINE S wind_profile(const frond_wind_def& def, const S& height) {
-    if (def.profile == FROND_WIND_UNIFORM) return constant<S>(1);
-    if (def.profile == FROND_WIND_POWER)
+    if (def.profile == FROND_WIND_PROFILE_UNIFORM) return constant<S>(1);
+    if (def.profile == FROND_WIND_PROFILE_POWER)
         return gather<S>([&](int lane) {
             return height[lane] > 0 ? std::pow(height[lane] / def.reference_height, def.exponent) : 0;
         });

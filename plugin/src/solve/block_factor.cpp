@@ -24,14 +24,14 @@ void solve(BlockFactor& factor, const VecX& b, VecX& x) {
     return plan.tree ? solve(*plan.tree, factor.tree, b, x) : solve(plan.fronts, factor.fronts, b, x);
 }
 
-void half_solve(BlockFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer) {
+void half_solve(BlockFactor& factor, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance) {
     const BlockPlan& plan = *factor.plan;
-    return plan.tree ? half_solve(*plan.tree, factor.tree, right_side, answer)
-                     : half_solve(plan.fronts, factor.fronts, right_side, answer);
+    return plan.tree ? half_solve(*plan.tree, factor.tree, right_side, compliance)
+                     : half_solve(plan.fronts, factor.fronts, right_side, compliance);
 }
 
-void half_solve_block(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, Answer& answer) {
-    half_solve(scratch.block, right_side, answer);
+void half_solve_block(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance) {
+    half_solve(scratch.block, right_side, compliance);
 }
 
 LinearResult solve_block(const BlockMatrix& A, const VecX& b, const LinearLimits&, LinearScratch& scratch, VecX& x) {

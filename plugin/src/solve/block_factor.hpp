@@ -26,6 +26,6 @@ bool factorize(BlockFactor& factor, const BlockMatrix& A);
 void solve(BlockFactor& factor, const VecX& b, VecX& x);
 // Half of a solve: with A = P' L D L' P and a right side B of few nodes, L^-1 P B where it is not zero, and that over
 // D.
-void half_solve(BlockFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer);
+void half_solve(BlockFactor& factor, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance);
 
 }  // namespace frond

@@ -10,8 +10,8 @@ namespace frond {
 
 bool drags_are_sound(const System& system, const std::vector<Drag>& drags) {
     for (const Drag& drag : drags)
-        if (drag.grip.turns || !is_sound(drag.grip, system.elements->node_count) || !drag.force.allFinite() ||
-            !drag.damping.allFinite())
+        if (drag.attachment.turns || !is_sound(drag.attachment, system.elements->node_count) ||
+            !drag.force.allFinite() || !drag.damping.allFinite())
             return false;
     return true;
 }
@@ -19,7 +19,7 @@ bool drags_are_sound(const System& system, const std::vector<Drag>& drags) {
 double drag_potential(const std::vector<Drag>& drags, const VecX& x, const VecX& v) {
     double potential = 0;
     for (const Drag& drag : drags) {
-        const Vec3 velocity = grip_velocity(drag.grip, x, v);
+        const Vec3 velocity = attachment_velocity(drag.attachment, x, v);
         potential += velocity.dot(0.5 * drag.damping * velocity - drag.force);
     }
     return potential;
@@ -27,11 +27,12 @@ double drag_potential(const std::vector<Drag>& drags, const VecX& x, const VecX&
 
 void add_drag_force(const std::vector<Drag>& drags, const VecX& x, const VecX& v, VecX& f) {
     for (const Drag& drag : drags)
-        add_grip_force(drag.grip, x, drag.force - product(drag.damping, grip_velocity(drag.grip, x, v)), f);
+        add_attachment_force(drag.attachment, x,
+                             drag.force - product(drag.damping, attachment_velocity(drag.attachment, x, v)), f);
 }
 
 void add_drag_damping(const std::vector<Drag>& drags, const VecX& x, double scale, BlockMatrix& A) {
-    for (const Drag& drag : drags) add_grip_block(drag.grip, x, scale * drag.damping, A);
+    for (const Drag& drag : drags) add_attachment_block(drag.attachment, x, scale * drag.damping, A);
 }
 
 // (sum of w v)^2 <= (sum of |w|) (sum of |w| v^2), Cauchy and Schwarz.
@@ -39,10 +40,10 @@ void lump_drags(const std::vector<Drag>& drags, size_t node_count, double scale,
     out.assign(node_count, Mat3::Zero());
     for (const Drag& drag : drags) {
         double sum = 0;
-        for (int k = 0; k < drag.grip.count; ++k) sum += std::abs(drag.grip.weight[size_t(k)]);
-        for (int k = 0; k < drag.grip.count; ++k)
-            out[size_t(drag.grip.node[size_t(k)])] +=
-                scale * sum * std::abs(drag.grip.weight[size_t(k)]) * drag.damping;
+        for (int k = 0; k < drag.attachment.count; ++k) sum += std::abs(drag.attachment.weight[size_t(k)]);
+        for (int k = 0; k < drag.attachment.count; ++k)
+            out[size_t(drag.attachment.node[size_t(k)])] +=
+                scale * sum * std::abs(drag.attachment.weight[size_t(k)]) * drag.damping;
     }
 }
 

@@ -77,16 +77,17 @@ struct Solve {
 };
 
 // Takes what a front's columns eliminate off the rows below them, and puts its own rows into the answer.
-void take_front(const FrontPlan& plan, const Front& front, FrontFactor& factor, Eigen::Index at, Answer& answer) {
+void take_front(const FrontPlan& plan, const Front& front, FrontFactor& factor, Eigen::Index at,
+                NodeCompliance& compliance) {
     const int stride = stride_of(front), own = 3 * front.own;
     const double* L = numbers_of(factor.columns) + front.columns;
     const double* further = L + padded(front.own);
     for (int k = 0; k < own; ++k, L += stride, further += stride) {
         const int column = 3 * front.first + k;
         const Vec3 y = factor.sparse.col(column);
-        answer.rows.push_back(column);
-        answer.left.col(at + k) = y;
-        answer.right.col(at + k) = y * factor.inverse[column];
+        compliance.rows.push_back(column);
+        compliance.left.col(at + k) = y;
+        compliance.right.col(at + k) = y * factor.inverse[column];
         for (int i = k + 1; i < own; ++i) factor.sparse.col(3 * front.first + i) -= L[i] * y;
         for (int i = 0; i < front.rows; ++i)
             for (int r = 0; r < 3; ++r)
@@ -106,7 +107,8 @@ void solve(const FrontPlan& plan, FrontFactor& factor, const VecX& b, VecX& x) {
     for (size_t k = 0; k < plan.order.size(); ++k) point(x, plan.order[k]) = point(factor.ordered, int(k));
 }
 
-void half_solve(const FrontPlan& plan, FrontFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer) {
+void half_solve(const FrontPlan& plan, FrontFactor& factor, const std::vector<NodeBlock>& right_side,
+                NodeCompliance& compliance) {
     const Eigen::Index n = 3 * Eigen::Index(plan.order.size());
     if (factor.sparse.cols() != n) {
         factor.sparse.setZero(3, n);
@@ -125,13 +127,13 @@ void half_solve(const FrontPlan& plan, FrontFactor& factor, const std::vector<No
         }
     }
     std::sort(path.begin(), path.end());
-    answer.rows.clear();
-    answer.left.resize(3, count);
-    answer.right.resize(3, count);
+    compliance.rows.clear();
+    compliance.left.resize(3, count);
+    compliance.right.resize(3, count);
     Eigen::Index at = 0;
     for (const int f : path) {
         const Front& front = plan.fronts[size_t(f)];
-        take_front(plan, front, factor, at, answer);
+        take_front(plan, front, factor, at, compliance);
         at += 3 * front.own;
         factor.reached[size_t(f)] = 0;
     }

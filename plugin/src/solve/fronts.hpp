@@ -4,7 +4,7 @@
 
 #include "core/lanes.hpp"
 #include "mechanics/block_matrix.hpp"
-#include "solve/answer.hpp"
+#include "solve/node_compliance.hpp"
 
 namespace frond {
 
@@ -71,6 +71,7 @@ bool factorize(const FrontPlan& plan, const BlockMatrix& A, FrontFactor& factor)
 // x = A^-1 b with the matrix factorized last.
 void solve(const FrontPlan& plan, FrontFactor& factor, const VecX& b, VecX& x);
 // As half_solve() in block_factor.hpp.
-void half_solve(const FrontPlan& plan, FrontFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer);
+void half_solve(const FrontPlan& plan, FrontFactor& factor, const std::vector<NodeBlock>& right_side,
+                NodeCompliance& compliance);
 
 }  // namespace frond

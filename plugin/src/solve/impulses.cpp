@@ -93,7 +93,7 @@ Vec3 corrected(const Touch& touch, const Own& own, Vec3 velocity, const Vec3& be
 
     // Along the normal: push, never pull.
     const double push_before = before.dot(touch.normal);
-    const double lacking = touch.least_speed - velocity.dot(touch.normal);
+    const double lacking = touch.bias_velocity - velocity.dot(touch.normal);
     const double push = std::max(0.0, push_before + own.along * lacking);
 
     // Across: against the sliding that the push leaves, no more than friction can.
@@ -108,7 +108,7 @@ Change sweep(Search& search, double unfelt) {
     for (int k = 0; k < int(search.island.size()); k++) {
         const Touch& touch = search.touches[size_t(search.island[size_t(k)])];
         const Vec3 before = search.impulses.segment<3>(3 * k), velocity = search.velocities.segment<3>(3 * k);
-        const bool waits = !touch.is_bond && before.isZero(0) && velocity.dot(touch.normal) >= touch.least_speed;
+        const bool waits = !touch.is_bond && before.isZero(0) && velocity.dot(touch.normal) >= touch.bias_velocity;
         if (waits) continue;
         const Own& own = own_of(search, k);
         const Vec3 by = corrected(touch, own, velocity, before) - before;

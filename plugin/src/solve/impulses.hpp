@@ -12,15 +12,15 @@ namespace frond {
 
 // A touch of two bodies a and b. Velocities are of a against b, impulses on a; b gets the opposite.
 struct Touch {
-    Vec3 normal;         // from b to a, length one
-    Vec3 velocity;       // without any impulses [m/s]
-    double least_speed;  // along the normal: how fast they must part, or, below zero, may still approach [m/s]
-    double friction;     // [-]
-    double depth = 0;    // by which they overlap; below zero they are apart [m]
+    Vec3 normal;           // from b to a, length one
+    Vec3 velocity;         // without any impulses [m/s]
+    double bias_velocity;  // along the normal: how fast they must part, or, below zero, may still approach [m/s]
+    double friction;       // [-]
+    double depth = 0;      // by which they overlap; below zero they are apart [m]
     // Along the normal, how fast places must part, or may still approach, besides what velocities do [m/s].
-    double least_shift = NO_SHIFT;
-    static constexpr double NO_SHIFT = -1e30;  // velocities see to that
-    double most_shift = 1e30;                  // by an impulse of at most [N s]
+    double least_correction = NO_CORRECTION;
+    static constexpr double NO_CORRECTION = -1e30;  // velocities see to that
+    double most_correction = 1e30;                  // by an impulse of at most [N s]
     // Of a bond, which holds both ways and across: how fast a shall move against b. What stands above then does not
     // count.
     bool is_bond = false;
@@ -50,7 +50,7 @@ struct ImpulseLimits {
 // What a response does for each touch: impulses for a, the opposite for b; those that come in are where the search
 // begins. Shifts move places and give no velocity [N s].
 struct Pushes {
-    std::vector<Vec3> impulses, shifts;
+    std::vector<Vec3> impulses, corrections;
 };
 
 struct ResponseSettings {

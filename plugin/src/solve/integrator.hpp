@@ -55,7 +55,7 @@ inline bool is_calm(const System& system, const VecX& from, const VecX& to) {
 void add_inertia(Workspace& workspace, double scale);
 
 // Whether impulses are answered to by a mass alone, since the step solved no system.
-bool answers_by_mass(const Workspace& workspace, const SolveSettings& settings);
+bool responds_by_mass(const Workspace& workspace, const SolveSettings& settings);
 // x = M^-1 b for a lumped mass, with workspace.drag beside it; rows of held nodes are left as they are.
 void divide_by_mass(const Workspace& workspace, const VecX& b, VecX& x);
 

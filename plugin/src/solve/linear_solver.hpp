@@ -38,14 +38,14 @@ struct LinearSolver {
     LinearResult (*again)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
                           VecX& x);
     // Half of that for a right side of few nodes, from which an answer is made; null: the solver has no such thing.
-    void (*half)(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, Answer& answer);
+    void (*half)(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance);
 };
 const LinearSolver& linear_solver(frond_linear_solver which);
 
 // The rows.
 LinearResult solve_block(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_block_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
-void half_solve_block(LinearScratch&, const std::vector<NodeBlock>& right_side, Answer& answer);
+void half_solve_block(LinearScratch&, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance);
 LinearResult solve_direct(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_direct_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);

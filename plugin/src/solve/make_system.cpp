@@ -32,15 +32,18 @@ static void finish(System& system, frond_mass mass) {
     const TetNodes& nodes = static_cast<const TetElements&>(*system.elements).nodes;
     const Embedding& chain = system.model->chain_embedding;
     for (size_t i = 0; i < chain.tet.size(); ++i)
-        system.chain.push_back(tet_grip(place_in_tet(nodes, system.model->cage.tets, chain.tet[i], chain.weights[i])));
+        system.chain.push_back(
+            tet_attachment(place_in_tet(nodes, system.model->cage.tets, chain.tet[i], chain.weights[i])));
 }
 
 std::shared_ptr<const System> make_system(std::shared_ptr<const Model> model, frond_mechanics which, frond_mass mass,
                                           int order) {
-    if (!model) fail(FROND_INTERNAL, "a system was asked for without a model");
-    if (mass < 0 || mass >= FROND_MASS_COUNT) fail(FROND_BAD_ARGUMENT, "there is no mass of number %d", int(mass));
-    if (which < 0 || which >= FROND_MECHANICS_COUNT) fail(FROND_BAD_ARGUMENT, "there is no mechanics %d", int(which));
-    if (order < 1 || order > HIGHEST_ORDER) fail(FROND_BAD_ARGUMENT, "there are no elements of order %d", order);
+    if (!model) fail(FROND_RESULT_INTERNAL, "a system was asked for without a model");
+    if (mass < 0 || mass >= FROND_MASS_COUNT)
+        fail(FROND_RESULT_BAD_ARGUMENT, "there is no mass of number %d", int(mass));
+    if (which < 0 || which >= FROND_MECHANICS_COUNT)
+        fail(FROND_RESULT_BAD_ARGUMENT, "there is no mechanics %d", int(which));
+    if (order < 1 || order > HIGHEST_ORDER) fail(FROND_RESULT_BAD_ARGUMENT, "there are no elements of order %d", order);
     auto system = std::make_shared<System>();
     system->model = std::move(model);
     const Mechanics& row = *(system->row = &mechanics(which, order));
@@ -56,7 +59,7 @@ std::shared_ptr<const System> system_without(const System& whole, const std::vec
     system->row = whole.row;
     system->elements = whole.row->without(*whole.elements, gone);
     system->plan = whole.plan;
-    finish(*system, whole.masses.lumped ? FROND_LUMPED : FROND_CONSISTENT);
+    finish(*system, whole.masses.lumped ? FROND_MASS_LUMPED : FROND_MASS_CONSISTENT);
     return system;
 }
 

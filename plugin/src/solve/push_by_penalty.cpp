@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/shifts.hpp"
+#include "solve/position_correction.hpp"
 
 namespace frond {
 
@@ -33,7 +33,8 @@ const Spring& spring_of(std::vector<Spring>& springs, const Touch& touch, const 
 // How fast a spring without end wants them to part; plants that overlap only stop, as shifts part them.
 double wanted_speed(const Touch& touch, double h) {
     constexpr double FASTEST = 0.3;  // that a spring lets overlapping bodies part [m/s]
-    return touch.least_shift == Touch::NO_SHIFT ? std::min(touch.depth / h, FASTEST) : std::min(touch.depth, 0.0) / h;
+    return touch.least_correction == Touch::NO_CORRECTION ? std::min(touch.depth / h, FASTEST)
+                                                          : std::min(touch.depth, 0.0) / h;
 }
 
 // What one spring pushes in place of `before`, with all others as they are.
@@ -75,8 +76,8 @@ void push_by_penalty(const std::vector<Touch>& touches, const CouplingTable& cou
             impulse += by;
             for (const Coupling& c : row) velocities[size_t(c.other)] += c.block.transpose() * by;
         }
-    out.shifts.clear();
-    part_by_shifts(touches, coupling, settings, out.shifts);
+    out.corrections.clear();
+    correct_positions(touches, coupling, settings, out.corrections);
 }
 
 }  // namespace frond

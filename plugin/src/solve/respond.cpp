@@ -4,7 +4,7 @@
 
 namespace frond {
 
-bool answers_by_mass(const Workspace& workspace, const SolveSettings& settings) {
+bool responds_by_mass(const Workspace& workspace, const SolveSettings& settings) {
     return integrator(settings.integrator).is_explicit && workspace.system->masses.lumped;
 }
 
@@ -13,7 +13,7 @@ bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& im
     w.rhs = impulse;
     for (size_t i = 0; i < w.held.size(); ++i)
         if (w.held[i]) point(w.rhs, int(i)).setZero();
-    if (answers_by_mass(w, settings)) {
+    if (responds_by_mass(w, settings)) {
         divide_by_mass(w, w.rhs, dv);
         return dv.allFinite();
     }
@@ -28,10 +28,10 @@ double reach_of(const Workspace& workspace) {
 
 void add_response(const Workspace& workspace, const VecX& dv, Motion& motion) {
     motion.v += dv;
-    add_shift(workspace, dv, motion);
+    add_correction(workspace, dv, motion);
 }
 
-void add_shift(const Workspace& workspace, const VecX& dv, Motion& motion) {
+void add_correction(const Workspace& workspace, const VecX& dv, Motion& motion) {
     motion.x += workspace.reach * dv;
     motion.history.shaken = true;
 }

@@ -1,5 +1,5 @@
 // The table of responses: one row for each name in FROND_RESPONSES; what needs impulses alone stands here.
-#include "solve/shifts.hpp"
+#include "solve/position_correction.hpp"
 
 namespace frond {
 
@@ -16,10 +16,10 @@ const ResponseRow& response_row(frond_response which) {
 // Velocities first. Then places, as if all were at rest and smooth, so that what parts gets no energy of motion.
 void push_by_impulse(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
                      Pushes& out) {
-    out.shifts.clear();
+    out.corrections.clear();
     constexpr double MOVES = 1e-5;  // what is not felt [m/s]
     find_impulses(touches, coupling, settings.limits, out.impulses, MOVES);
-    part_by_shifts(touches, coupling, settings, out.shifts);
+    correct_positions(touches, coupling, settings, out.corrections);
 }
 
 }  // namespace frond

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "mechanics/grip.hpp"
+#include "mechanics/attachment.hpp"
 #include "mechanics/mechanics.hpp"
-#include "solve/answer.hpp"
+#include "solve/node_compliance.hpp"
 
 namespace frond {
 
@@ -23,7 +23,7 @@ const VecX& node_mass_of(const System& system);  // sums of the mass matrix's ro
 
 // A spring between a point of the plant and a fixed target.
 struct Spring {
-    Grip grip;
+    Attachment attachment;
     Vec3 target;       // [m]
     double stiffness;  // [N/m]
 };
@@ -31,7 +31,7 @@ struct Spring {
 // What resists the motion of a point of the plant: force - damping times the point's velocity. Of grips that do not
 // turn.
 struct Drag {
-    Grip grip;
+    Attachment attachment;
     Vec3 force;    // on the point if it stood still [N]
     Mat3 damping;  // symmetric, never negative [N s/m]
 };
@@ -56,7 +56,7 @@ struct SolveSettings {
 struct History {
     bool valid = false;
     bool shaken = false;  // the last step was a first one too, or something pushed since: bdf2 then starts with damping
-    frond_integrator integrator = FROND_IMPLICIT_EULER;
+    frond_integrator integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     double h = 0;       // of the last step [s]
     VecX x_end, v_end;  // what that step left [m], [m/s]; empty: the motion, which nothing has moved since
     std::vector<uint8_t> pinned;
@@ -130,11 +130,11 @@ double reach_of(const Workspace& workspace);
 // Adds such velocities, and where they lead within the step, to the motion that the step left.
 void add_response(const Workspace& workspace, const VecX& dv, Motion& motion);
 // Adds only where they lead, so that what is moved apart does not fly apart.
-void add_shift(const Workspace& workspace, const VecX& dv, Motion& motion);
+void add_correction(const Workspace& workspace, const VecX& dv, Motion& motion);
 // The same for impulses along three directions at a few nodes, held ones left out, to be coupled with others. The
 // blocks of a node that is given twice add up.
-bool make_answer(Workspace& workspace, const SolveSettings& settings, const std::vector<NodeBlock>& pushes,
-                 Answer& answer);
+bool make_compliance(Workspace& workspace, const SolveSettings& settings, const std::vector<NodeBlock>& pushes,
+                     NodeCompliance& compliance);
 
 // Of nodes that turn: rotation vectors grown beyond half a turn become those of the same rotation the other way round,
 // here and in the history, and their rates follow.

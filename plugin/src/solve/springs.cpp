@@ -7,7 +7,7 @@ namespace frond {
 
 bool springs_are_sound(const System& system, const std::vector<Spring>& springs) {
     for (const Spring& spring : springs) {
-        if (!is_sound(spring.grip, system.elements->node_count)) return false;
+        if (!is_sound(spring.attachment, system.elements->node_count)) return false;
         if (!(spring.stiffness >= 0) || !std::isfinite(spring.stiffness) || !spring.target.allFinite()) return false;
     }
     return true;
@@ -16,17 +16,18 @@ bool springs_are_sound(const System& system, const std::vector<Spring>& springs)
 double spring_energy(const std::vector<Spring>& springs, const VecX& x) {
     double energy = 0;
     for (const Spring& spring : springs)
-        energy += 0.5 * spring.stiffness * (spring.target - grip_place(spring.grip, x)).squaredNorm();
+        energy += 0.5 * spring.stiffness * (spring.target - attachment_place(spring.attachment, x)).squaredNorm();
     return energy;
 }
 
 void add_spring_force(const std::vector<Spring>& springs, const VecX& x, VecX& f) {
     for (const Spring& spring : springs)
-        add_grip_force(spring.grip, x, spring.stiffness * (spring.target - grip_place(spring.grip, x)), f);
+        add_attachment_force(spring.attachment, x,
+                             spring.stiffness * (spring.target - attachment_place(spring.attachment, x)), f);
 }
 
 void add_spring_stiffness(const std::vector<Spring>& springs, const VecX& x, double scale, BlockMatrix& A) {
-    for (const Spring& spring : springs) add_grip_stiffness(spring.grip, x, scale * spring.stiffness, A);
+    for (const Spring& spring : springs) add_attachment_stiffness(spring.attachment, x, scale * spring.stiffness, A);
 }
 
 }  // namespace frond

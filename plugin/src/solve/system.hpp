@@ -15,7 +15,7 @@ struct System {
     std::vector<uint8_t> loose;  // one a node: no element holds it
     double size = 0;             // longest side of the box around the nodes at rest [m]
     BlockPlan plan;
-    std::vector<Grip> chain;  // of a cage: what each chain node follows
+    std::vector<Attachment> chain;  // of a cage: what each chain node follows
 };
 
 // y = M v, with the rotary inertia of nodes that turn, if there are any.

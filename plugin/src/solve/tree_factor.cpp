@@ -208,7 +208,8 @@ void solve(const TreePlan& plan, const TreeFactor& factor, const VecX& b, VecX& 
     run_in_lanes(Solve{plan, factor, x.data()});
 }
 
-void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer) {
+void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<NodeBlock>& right_side,
+                NodeCompliance& compliance) {
     const size_t count = plan.pairs.size();
     if (factor.reached.size() != count) {
         factor.reached.assign(count, 0);
@@ -224,19 +225,19 @@ void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<Node
         }
     }
     std::sort(path.begin(), path.end(), std::greater<>());
-    answer.rows.clear();
-    answer.left.resize(3, SIX * Eigen::Index(path.size()));
-    answer.right.resize(3, SIX * Eigen::Index(path.size()));
+    compliance.rows.clear();
+    compliance.left.resize(3, SIX * Eigen::Index(path.size()));
+    compliance.right.resize(3, SIX * Eigen::Index(path.size()));
     for (const int i : path) {
         const TreeFactor::Pair& pair = factor.pairs[size_t(i)];
         const int parent = plan.pairs[size_t(i)].parent;
         auto own = factor.sparse.middleCols<SIX>(SIX * Eigen::Index(i));
         for (int r = 0; r < SIX; ++r) {
             for (int k = 0; k < r; ++k) own.col(r) -= pair.own[k][r] * own.col(k);
-            const Eigen::Index at = Eigen::Index(answer.rows.size());
-            answer.left.col(at) = own.col(r);
-            answer.right.col(at) = own.col(r) / pair.pivot[r];
-            answer.rows.push_back(SIX * (int(count) - 1 - i) + r);
+            const Eigen::Index at = Eigen::Index(compliance.rows.size());
+            compliance.left.col(at) = own.col(r);
+            compliance.right.col(at) = own.col(r) / pair.pivot[r];
+            compliance.rows.push_back(SIX * (int(count) - 1 - i) + r);
             for (int c = 0; parent >= 0 && c < SIX; ++c)
                 factor.sparse.col(SIX * Eigen::Index(parent) + c) -= pair.to_parent[r][c] * own.col(r);
         }

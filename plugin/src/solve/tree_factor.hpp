@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "mechanics/block_matrix.hpp"
-#include "solve/answer.hpp"
+#include "solve/node_compliance.hpp"
 
 namespace frond {
 
@@ -38,6 +38,7 @@ bool factorize(const TreePlan& plan, const BlockMatrix& A, TreeFactor& factor);
 // x = A^-1 b with the matrix factorized last.
 void solve(const TreePlan& plan, const TreeFactor& factor, const VecX& b, VecX& x);
 // As half_solve() in block_factor.hpp.
-void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<NodeBlock>& right_side, Answer& answer);
+void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<NodeBlock>& right_side,
+                NodeCompliance& compliance);
 
 }  // namespace frond

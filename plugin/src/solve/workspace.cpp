@@ -6,7 +6,7 @@
 namespace frond {
 
 WorkspacePtr make_workspace(std::shared_ptr<const System> system) {
-    if (!system) fail(FROND_INTERNAL, "a workspace was asked for without a system");
+    if (!system) fail(FROND_RESULT_INTERNAL, "a workspace was asked for without a system");
     WorkspacePtr workspace(new Workspace);
     workspace->A.set_pattern(system->elements->pattern);
     workspace->linear.block.plan = &system->plan;

@@ -13,21 +13,24 @@ void Archive::copy(void* value, size_t size) {
         out.insert(out.end(), bytes, bytes + size);
         return;
     }
-    if (size > left) fail(FROND_FILE_FORMAT, "the snapshot ends too early; pass all bytes that frond_world_save wrote");
+    if (size > left)
+        fail(FROND_RESULT_FILE_FORMAT, "the snapshot ends too early; pass all bytes that frond_world_save wrote");
     std::memcpy(value, in, size);
     in += size;
     left -= size;
 }
 
 void Archive::check_row(int row, int rows) {
-    if (row < 0 || row >= rows) fail(FROND_FILE_FORMAT, "the snapshot names a choice that there is not; it is damaged");
+    if (row < 0 || row >= rows)
+        fail(FROND_RESULT_FILE_FORMAT, "the snapshot names a choice that there is not; it is damaged");
 }
 
 size_t Archive::count(size_t written, size_t least) {
     uint64_t number = written;
     (*this)(number);
     if (is_reading && number > left / least)
-        fail(FROND_FILE_FORMAT, "the snapshot names more than it holds; pass the bytes that frond_world_save wrote");
+        fail(FROND_RESULT_FILE_FORMAT,
+             "the snapshot names more than it holds; pass the bytes that frond_world_save wrote");
     return size_t(number);
 }
 

@@ -37,7 +37,7 @@ void World::debugDraw(btIDebugDraw* drawer) {
     const int mode = drawer->getDebugMode();
     if (mode & btIDebugDraw::DBG_DrawWireframe) {
         for (const std::unique_ptr<PlantBody>& body : bodies) draw_cage(*body, *drawer);
-        fold_looked_at(*this);
+        compress_looked_at(*this);
     }
     if (!(mode & btIDebugDraw::DBG_DrawContactPoints)) return;
     for (const Contact& c : contacts) draw_contact(c.on_plant, c.normal, c.gap, c.impulse, substep_length, *drawer);

@@ -36,7 +36,7 @@ double distance_of(const World& world, const PlantBody& body) {
 }
 
 frond_detail wanted_at(const frond_detail_def& def, double distance, frond_detail now) {
-    const double from[] = {def.rod_from, def.sway_from, def.still_from};
+    const double from[] = {def.rod_from, def.modal_from, def.still_from};
     int wanted = 0;
     while (wanted < 3 && distance >= from[wanted] * (int(now) > wanted ? 1 - def.hysteresis : 1)) wanted++;
     return frond_detail(wanted);
@@ -48,25 +48,25 @@ bool is_simulated(frond_detail detail) {
 
 frond_mechanics mechanics_for(const PlantBody& body, frond_detail detail) {
     const frond_mechanics own = body.level.own;
-    return detail == FROND_DETAIL_FULL || mechanics(own).moves_chain ? own : FROND_ROD;
+    return detail == FROND_DETAIL_FULL || mechanics(own).moves_chain ? own : FROND_MECHANICS_ROD;
 }
 
 // What slept has no swing, whatever it had before.
 bool is_given(const PlantBody& body, frond_detail detail) {
     const Plant& plant = *body.plant;
-    return is_simulated(detail) == !plant.swing && plant.which == mechanics_for(body, detail);
+    return is_simulated(detail) == !plant.modal && plant.which == mechanics_for(body, detail);
 }
 
 // Goes over to another detail, from where the plant is.
 void give(PlantBody& body, frond_detail wanted) {
     Plant& plant = *body.plant;
     Level& level = body.level;
-    if (is_simulated(wanted)) end_swing(plant);
+    if (is_simulated(wanted)) end_modal(plant);
     set_mechanics(plant, mechanics_for(body, wanted), true);
     if (!is_simulated(wanted)) {
-        begin_swing(plant);
-        plant.swing->comes_to_rest = wanted == FROND_DETAIL_STILL;
-        plant.swing->fresh = true;
+        begin_modal(plant);
+        plant.modal->comes_to_rest = wanted == FROND_DETAIL_STILL;
+        plant.modal->fresh = true;
     }
     if (is_simulated(wanted) != is_simulated(level.now)) level.pending = level.ms = 0;
     body.rest.places.resize(0);
@@ -109,7 +109,7 @@ void set_detail(World& world, const frond_detail_def* def) {
 }
 
 void end_sway(PlantBody& body) {
-    end_swing(*body.plant);
+    end_modal(*body.plant);
     body.level.every = 1;
     if (!body.world->detail) give(body, FROND_DETAIL_FULL);
 }
@@ -141,7 +141,7 @@ void choose_details(World& world) {
         Level& level = body->level;
         frond_detail wanted = wanted_at(def, level.distance, level.now);
         const bool held = is_held(world, *body);
-        const bool is_touched = world.time < level.touched && wanted == FROND_DETAIL_SWAY;
+        const bool is_touched = world.time < level.touched && wanted == FROND_DETAIL_MODAL;
         if (held || is_touched) wanted = std::min(wanted, FROND_DETAIL_ROD);
         const double half_from = def.half_from * (level.every > 1 ? 1 - def.hysteresis : 1);
         level.every = is_simulated(wanted) && level.distance >= half_from && world.time >= level.touched ? 2 : 1;

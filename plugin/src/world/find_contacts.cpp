@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "world/contact_body.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
 #include "world/piece.hpp"
 #include "world/plate.hpp"
-#include "world/pusher.hpp"
 #include "world/show.hpp"
 #include "world/world.hpp"
 
@@ -21,7 +21,7 @@ bool pushes(const btCollisionObject& object) {
 }
 
 bool takes_part(const World& world, const PlantBody* body) {
-    return body && body->world == &world && (world.effects & body->plant->effects & FROND_RIGID_CONTACT);
+    return body && body->world == &world && (world.effects & body->plant->effects & FROND_EFFECT_RIGID_CONTACT);
 }
 
 bool is_plane(const btCollisionObject& object) {
@@ -92,7 +92,7 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
     if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other) || is_plane(*other)) return;
     if (body->rest.asleep && !is_moving(*other)) return;
     // Those that sway are only asked whether they are touched: as they were put last is near enough.
-    if (!body->plant->swing) look_at(*body);
+    if (!body->plant->modal) look_at(*body);
     std::vector<int> plates;  // whose corners are in it
     for (int i = 0; i < manifold.getNumContacts(); i++) {
         const btManifoldPoint& p = manifold.getContactPoint(i);
@@ -122,7 +122,7 @@ struct Sweep : btCollisionWorld::ConvexResultCallback {
 
     bool needsCollision(btBroadphaseProxy* proxy) const override {
         const PlantBody* body = PlantBody::of(static_cast<btCollisionObject*>(proxy->m_clientObject));
-        return takes_part(world, body) && !body->plant->swing &&
+        return takes_part(world, body) && !body->plant->modal &&
                btCollisionWorld::ConvexResultCallback::needsCollision(proxy);
     }
     btScalar addSingleResult(btCollisionWorld::LocalConvexResult& hit, bool normal_in_world) override {

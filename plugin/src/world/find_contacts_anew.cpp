@@ -63,7 +63,7 @@ void find_contacts_anew(World& world) {
         numbers[objects[i]] = {filter.number, objects[i]->getBroadphaseHandle()->m_uniqueId};
     }
     world.is_stepping = was_stepping;
-    fold_looked_at(world);
+    compress_looked_at(world);
     world.own->solver.reset();
 
     // What plants have grown in goes by those numbers.

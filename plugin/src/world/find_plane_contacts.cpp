@@ -52,10 +52,10 @@ bool is_held(const Plant& plant, int node) {
 
 // Below which height a chain's node is told of: where it may get within two steps.
 double reach_of(const Plant& plant, const Plane& plane, int node, double h) {
-    if (plane.moves || plant.swing) return MOVING;
+    if (plane.moves || plant.modal) return MOVING;
     const Motion& motion = plant.motion;
-    const Vec3 velocity =
-        plant.follow ? Vec3(point(motion.v, 2 * node)) : grip_velocity(chain_grip(plant, node), motion.x, motion.v);
+    const Vec3 velocity = plant.follow ? Vec3(point(motion.v, 2 * node))
+                                       : attachment_velocity(chain_attachment(plant, node), motion.x, motion.v);
     return std::min(NEAR + 2 * h * std::max(0.0, -plane.normal.dot(velocity)), FAR);
 }
 
@@ -116,8 +116,8 @@ void add_plane_contacts(World& world, btCollisionObject& object, double h, std::
     const bool moves = is_moving(object);
     const auto add = [&](PlantBody& body) {
         // Those that only sway are asked whether what moves touches them.
-        if (!takes_part(world, &body) || (body.plant->swing && !moves) || !may_meet(world, body, object)) return;
-        if (!body.plant->swing) look_at(body);
+        if (!takes_part(world, &body) || (body.plant->modal && !moves) || !may_meet(world, body, object)) return;
+        if (!body.plant->modal) look_at(body);
         add_pieces(body, plane_for(*body.plant, object, moves), h, contacts);
     };
     if (!moves)

@@ -23,9 +23,9 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
     std::vector<std::array<int, 2>> meet;
     for (int i = 0; i < pairs.size(); i++) {
         PlantBody* first = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject));
-        if (!first || first->world != &world || !has(world, *first, FROND_PLANT_CONTACT)) continue;
+        if (!first || first->world != &world || !has(world, *first, FROND_EFFECT_PLANT_CONTACT)) continue;
         PlantBody* second = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject));
-        if (!second || second->world != &world || !has(world, *second, FROND_PLANT_CONTACT)) continue;
+        if (!second || second->world != &world || !has(world, *second, FROND_EFFECT_PLANT_CONTACT)) continue;
         if (first->rest.asleep && second->rest.asleep) continue;
         meet.push_back({number_of(world, *first), number_of(world, *second)});
     }
@@ -33,7 +33,7 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
     std::vector<uint8_t> takes_part(world.taking_part.size(), 0);
     for (size_t i = 0; i < takes_part.size(); i++) {
         const PlantBody& body = *world.taking_part[i];
-        takes_part[i] = !body.rest.asleep && has(world, body, FROND_SELF_CONTACT);
+        takes_part[i] = !body.rest.asleep && has(world, body, FROND_EFFECT_SELF_CONTACT);
     }
     for (const auto& [first, second] : meet) {
         sets.join(first, second);
@@ -115,7 +115,7 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     contact.point = found.point - first;
     contact.normal = found.normal;
     contact.depth = found.depth + found.normal.dot(first - second);
-    take_grips(contact);
+    take_attachments(contact);
     return contact;
 }
 
@@ -164,7 +164,7 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
     std::vector<CollisionBody> bodies;
     for (size_t i = 0; i < island.size(); i++) {
         place_shape(*island[i], i, h, memory.shapes[i]);
-        const bool with_itself = has(world, *island[i], FROND_SELF_CONTACT);
+        const bool with_itself = has(world, *island[i], FROND_EFFECT_SELF_CONTACT);
         const Collider* collider = &island[i]->touched_collider();
         covered.push_back({collider, &memory.shapes[i].covers, with_itself});
         bodies.push_back(
@@ -213,20 +213,22 @@ bool is_by_the_same(const PlantContact& contact) {
     return true;
 }
 
-void take_grips(PlantContact& contact) {
+void take_attachments(PlantContact& contact) {
     std::array<Vec3, 2> places;
     for (size_t k = 0; k < 2; k++) {
         const Plant& plant = *contact.plants[k]->plant;
         const ContactSide& side = contact.sides[k];
-        contact.grips[k] = plant.follow ? sheath_grip(*contact.plants[k]->sheath, side) : cage_grip(side);
-        places[k] = plant.to_world(grip_place(contact.grips[k], plant.motion.x));
+        contact.attachments[k] =
+            plant.follow ? sheath_attachment(*contact.plants[k]->sheath, side) : cage_attachment(side);
+        places[k] = plant.to_world(attachment_place(contact.attachments[k], plant.motion.x));
     }
     contact.between = places[0] - places[1];
 }
 
 bool may_touch(const World& world, const PlantContact& contact) {
-    if (contact.plants[0] == contact.plants[1]) return has(world, *contact.plants[0], FROND_SELF_CONTACT);
-    return has(world, *contact.plants[0], FROND_PLANT_CONTACT) && has(world, *contact.plants[1], FROND_PLANT_CONTACT);
+    if (contact.plants[0] == contact.plants[1]) return has(world, *contact.plants[0], FROND_EFFECT_SELF_CONTACT);
+    return has(world, *contact.plants[0], FROND_EFFECT_PLANT_CONTACT) &&
+           has(world, *contact.plants[1], FROND_EFFECT_PLANT_CONTACT);
 }
 
 std::vector<PlantContact> find_plant_contacts(World& world, double h) {
@@ -237,8 +239,8 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     // Those that move are as wide as their cages or sheaths for the broad phase, before they meet any.
     bool any = false;
     for (PlantBody* body : world.awake) {
-        const bool together = world.bodies.size() > 1 && has(world, *body, FROND_PLANT_CONTACT);
-        if (!together && !has(world, *body, FROND_SELF_CONTACT)) continue;
+        const bool together = world.bodies.size() > 1 && has(world, *body, FROND_EFFECT_PLANT_CONTACT);
+        if (!together && !has(world, *body, FROND_EFFECT_SELF_CONTACT)) continue;
         take_collider(*body);
         any = true;
     }

@@ -66,7 +66,7 @@ Rigid* add_fragment(World& world, PlantBody& body, const Fragment& fragment) {
     info.m_friction = btScalar(friction_of(*plant.model, fragment.node));
     rigid->body = std::make_unique<btRigidBody>(info);
     rigid->body->setLinearVelocity(to_bullet(fragment.velocity));
-    rigid->body->setAngularVelocity(to_bullet(fragment.spin));
+    rigid->body->setAngularVelocity(to_bullet(fragment.angular_velocity));
     world.bullet->addRigidBody(rigid->body.get());
     world.rigids.push_back(std::move(rigid));
     return world.rigids.back().get();
@@ -96,7 +96,7 @@ void carry_fragments(PlantBody& body) {
         fragment.centre = from_bullet(now.getOrigin());
         fragment.shift = turn * rigid.grown_shift + fragment.centre;
         fragment.velocity = from_bullet(rigid.body->getLinearVelocity());
-        fragment.spin = from_bullet(rigid.body->getAngularVelocity());
+        fragment.angular_velocity = from_bullet(rigid.body->getAngularVelocity());
     }
 }
 
@@ -131,9 +131,9 @@ void remove_fragments(World& world, PlantBody& body) {
     body.fragment_bodies.clear();
 }
 
-void mend(World& world, PlantBody& body) {
+void reset(World& world, PlantBody& body) {
     remove_fragments(world, body);
-    mend(*body.plant);
+    reset(*body.plant);
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -19,7 +19,8 @@ struct LeftOver : btDiscreteDynamicsWorld {
 }  // namespace
 
 double surfaces_back(const World& world) {
-    if (world.interpolation != FROND_AS_MOTION_STATES) return (1 - world.interpolation) * world.substep_length;
+    if (world.interpolation != FROND_INTERPOLATION_AS_MOTION_STATES)
+        return (1 - world.interpolation) * world.substep_length;
     const auto* discrete = dynamic_cast<const btDiscreteDynamicsWorld*>(world.bullet);
     return discrete ? LeftOver::back(*discrete) : 0;
 }

@@ -4,7 +4,7 @@
 
 #include "collide/cover.hpp"
 #include "core/lanes.hpp"
-#include "plant/flat_abreast.hpp"
+#include "plant/flat_batch.hpp"
 #include "world/convert.hpp"
 #include "world/detection.hpp"
 #include "world/plant_shape.hpp"
@@ -197,7 +197,7 @@ void move_capsules(PlantBody& body) {
 void move_capsules(PlantBody* const* bodies, int count) {
     std::array<const Plant*, MOST_LANES> plants;
     std::array<PlantShape*, MOST_LANES> shapes;
-    int abreast = 0;
+    int batched = 0;
     const Hull& hull = *bodies[0]->hull;
     for (int i = 0; i < count; i++) {
         PlantBody& body = *bodies[i];
@@ -205,13 +205,13 @@ void move_capsules(PlantBody* const* bodies, int count) {
             move_capsules(body);
             continue;
         }
-        plants[size_t(abreast)] = body.plant.get();
-        shapes[size_t(abreast++)] = static_cast<PlantShape*>(body.compound());
+        plants[size_t(batched)] = body.plant.get();
+        shapes[size_t(batched++)] = static_cast<PlantShape*>(body.compound());
     }
-    if (abreast == 0) return;
-    thread_local ChainsAbreast chains;
-    look_at_chains(plants.data(), abreast, hull.plate_capsule, hull.flats, chains);
-    place_pieces(shapes.data(), abreast, hull, plants[0]->model->capsules, chains);
+    if (batched == 0) return;
+    thread_local ChainBatch chains;
+    look_at_chains(plants.data(), batched, hull.plate_capsule, hull.flats, chains);
+    place_pieces(shapes.data(), batched, hull, plants[0]->model->capsules, chains);
 }
 
 // By how much capsules around the pieces of a collider at rest are wider than those of the chain, at most [m].

@@ -13,21 +13,21 @@ struct PlantContact {
     std::array<PlantBody*, 2> plants;  // the same one twice where it touches itself
     std::array<ContactSide, 2> sides;  // of cages or sheaths
     std::array<bool, 2> by_sheath = {};
-    std::array<Grip, 2> grips;    // what holds those points
-    Vec3 between;                 // of the grips' places, the first's less the second's, world frame [m]
-    Vec3 point;                   // on the first, world frame [m]
-    Vec3 normal;                  // along which the first leaves the second
-    double depth;                 // by which it has to [m]; below zero they are apart
-    double friction;              // of both together [-]
-    int missed = 0;               // substeps since the search saw it
-    Vec3 impulse = Vec3::Zero();  // on the first; that of the last substep until this one's is known [N s]
+    std::array<Attachment, 2> attachments;  // what holds those points
+    Vec3 between;                           // of the grips' places, the first's less the second's, world frame [m]
+    Vec3 point;                             // on the first, world frame [m]
+    Vec3 normal;                            // along which the first leaves the second
+    double depth;                           // by which it has to [m]; below zero they are apart
+    double friction;                        // of both together [-]
+    int missed = 0;                         // substeps since the search saw it
+    Vec3 impulse = Vec3::Zero();            // on the first; that of the last substep until this one's is known [N s]
 };
 
 // Whether both sides still are touched by what they were touched by then: what holds its points is of the mechanics
 // that they had.
 bool is_by_the_same(const PlantContact& contact);
 // Takes hold of the points on both sides as they are now.
-void take_grips(PlantContact& contact);
+void take_attachments(PlantContact& contact);
 // Whether the effects that let its plants touch are on.
 bool may_touch(const World& world, const PlantContact& contact);
 

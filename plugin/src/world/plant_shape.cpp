@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/lanes.hpp"
-#include "plant/flat_abreast.hpp"
+#include "plant/flat_batch.hpp"
 #include "world/convert.hpp"
 #include "world/world.hpp"
 
@@ -162,7 +162,7 @@ struct ChildOfSeveral {
     int count;
     const Hull& hull;
     const std::vector<std::array<int, 2>>& ends;
-    const ChainsAbreast& chains;
+    const ChainBatch& chains;
     int from;
 
     FROND_INLINE int count_from(size_t, size_t) const { return count; }
@@ -318,7 +318,7 @@ struct PlaceOfSeveral {
     int count;
     const Hull& hull;
     const std::vector<std::array<int, 2>>& ends;
-    const ChainsAbreast& chains;
+    const ChainBatch& chains;
     template <class S>
     FROND_INLINE void run() const {
         for (int from = 0; from < count; from += LANES<S>) {
@@ -369,7 +369,7 @@ void place_pieces(PlantShape& shape, const Hull& hull, const PiecesNow& now) {
 }
 
 void place_pieces(PlantShape* const* shapes, int count, const Hull& hull, const std::vector<std::array<int, 2>>& ends,
-                  const ChainsAbreast& chains) {
+                  const ChainBatch& chains) {
     run_in_lanes(PlaceOfSeveral{shapes, count, hull, ends, chains});
     for (int i = 0; i < count; i++) fit_tree(*shapes[i]);
 }

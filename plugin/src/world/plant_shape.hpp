@@ -11,7 +11,7 @@
 
 namespace frond {
 
-struct ChainsAbreast;
+struct ChainBatch;
 
 inline namespace FROND_BULLET_PRECISION {
 
@@ -46,7 +46,7 @@ struct PiecesNow {
 void place_pieces(PlantShape& shape, const Hull& hull, const PiecesNow& now);
 // The same of several plants of a hull side by side, to the last bit; `ends` are those of their capsules, among nodes.
 void place_pieces(PlantShape* const* shapes, int count, const Hull& hull, const std::vector<std::array<int, 2>>& ends,
-                  const ChainsAbreast& chains);
+                  const ChainBatch& chains);
 // The frame of a capsule, whose axis is y, between two points.
 btTransform capsule_frame(const Vec3& begin, const Vec3& end);
 

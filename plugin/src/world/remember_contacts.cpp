@@ -25,7 +25,7 @@ Key key_of(const PlantContact& contact) {
 // By what its points have moved since.
 PlantContact moved_on(const PlantContact& before) {
     PlantContact contact = before;
-    take_grips(contact);
+    take_attachments(contact);
     contact.depth -= (contact.between - before.between).dot(contact.normal);
     return contact;
 }
@@ -46,7 +46,7 @@ bool follow(const PlacedIsland& island, PlantContact& contact) {
     contact.point = now.point;
     contact.normal = now.normal;
     contact.depth = now.depth;
-    take_grips(contact);
+    take_attachments(contact);
     return true;
 }
 

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "plant/touch.hpp"
+#include "world/contact_body.hpp"
 #include "world/contact_island.hpp"
-#include "world/pusher.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -26,22 +26,22 @@ struct Row {
     std::array<PlantBody*, 2> plants = {};  // the second is null where a body is on the other side
     std::array<PlantTouch, 2> touches;
     std::array<size_t, 2> sides = {};  // their places among all sides of that plant
-    Pusher pusher;                     // of what is no plant
+    ContactBody contact_body;          // of what is no plant
     Touch touch;
     Vec3* impulse;  // where the contact keeps it
 };
 
 bool rubs(const World& world, const PlantBody& body) {
-    return world.effects & body.plant->effects & FROND_FRICTION;
+    return world.effects & body.plant->effects & FROND_EFFECT_FRICTION;
 }
 
 double mass_of(const PlantBody* body) {
     return node_mass_of(*body->plant->system).sum();
 }
 
-Grip grip_of(const Contact& contact) {
+Attachment attachment_of(const Contact& contact) {
     const Flat& flat = contact.plant->hull->flats[size_t(contact.capsule)];
-    return flat_grip(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
+    return flat_attachment(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
 }
 
 // With bodies, which have moved already, velocities see to it that overlaps go.
@@ -50,11 +50,12 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
     Plant& plant = *contact.plant->plant;
     Row row;
     row.plants[0] = contact.plant;
-    if (!make_touch(plant, grip_of(contact), row.touches[0])) return;
-    row.pusher = make_pusher(*contact.other, contact.on_other, h);
+    if (!make_touch(plant, attachment_of(contact), row.touches[0])) return;
+    row.contact_body = make_contact_body(*contact.other, contact.on_other, h);
     row.touch.normal = contact.normal;
-    row.touch.velocity = row.touches[0].velocity - row.pusher.velocity;
-    row.touch.least_speed = contact.gap >= 0 ? -contact.gap / h : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
+    row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
+    row.touch.bias_velocity =
+        contact.gap >= 0 ? -contact.gap / h : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;
     row.impulse = &contact.impulse;
@@ -65,17 +66,17 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
 void wake_pushed(const std::vector<Contact*>& contacts) {
     PlantTouch touch;
     for (const Contact* contact : contacts)
-        if (make_touch(*contact->plant->plant, grip_of(*contact), touch))
+        if (make_touch(*contact->plant->plant, attachment_of(*contact), touch))
             wake(*contact->other, contact->normal, touch.velocity);
 }
 
 // What is struck at its rim would turn by more in the step than a linear answer can tell: then it is taken at its axis.
-bool drop_levers(double way, Grip& grip) {
+bool drop_levers(double way, Attachment& attachment) {
     constexpr double TURN = 0.15;  // [rad]
-    const double lever = (grip.arm[0] + grip.arm[1]).norm();
+    const double lever = (attachment.arm[0] + attachment.arm[1]).norm();
     if (lever == 0 || way < TURN * lever) return false;
-    grip.arm[0].setZero();
-    grip.arm[1].setZero();
+    attachment.arm[0].setZero();
+    attachment.arm[1].setZero();
     return true;
 }
 
@@ -88,21 +89,22 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
     Row row;
     row.plants = contact.plants;
     for (size_t k = 0; k < 2; k++)
-        if (!make_touch(*contact.plants[k]->plant, contact.grips[k], row.touches[k])) return;
+        if (!make_touch(*contact.plants[k]->plant, contact.attachments[k], row.touches[k])) return;
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
     const double room = std::max(0.0, SLOP - contact.depth) / h;
-    row.touch.least_speed = -room;
-    const double way = h * (row.touch.least_speed - row.touch.velocity.dot(contact.normal));
+    row.touch.bias_velocity = -room;
+    const double way = h * (row.touch.bias_velocity - row.touch.velocity.dot(contact.normal));
     for (size_t k = 0; k < 2; k++)
-        if (drop_levers(way, contact.grips[k]) &&
-            !make_touch(*contact.plants[k]->plant, contact.grips[k], row.touches[k]))
+        if (drop_levers(way, contact.attachments[k]) &&
+            !make_touch(*contact.plants[k]->plant, contact.attachments[k], row.touches[k]))
             return;
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
     // Springs leave nearly all of the parting to shifts.
     if (world.response != FROND_RESPONSE_PENALTY)
-        row.touch.most_shift = h * STRONG * GRAVITY * std::min(mass_of(contact.plants[0]), mass_of(contact.plants[1]));
-    row.touch.least_shift = room > 0 ? -room : parting_speed(contact.depth, SLOP, h, SHARE, FASTEST);
+        row.touch.most_correction =
+            h * STRONG * GRAVITY * std::min(mass_of(contact.plants[0]), mass_of(contact.plants[1]));
+    row.touch.least_correction = room > 0 ? -room : parting_speed(contact.depth, SLOP, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
     row.touch.depth = contact.depth;
     row.impulse = &contact.impulse;
@@ -119,17 +121,17 @@ void add_row(Bond& bond, double h, std::vector<Row>& rows) {
     Plant& plant = *bond.plant->plant;
     Row row;
     row.plants[0] = bond.plant;
-    const Grip grip = vertex_grip(plant, bond.vertex);
-    if (!make_touch(plant, grip, row.touches[0])) return;
+    const Attachment attachment = vertex_attachment(plant, bond.vertex);
+    if (!make_touch(plant, attachment, row.touches[0])) return;
     if (!bond.body->isStaticOrKinematicObject()) bond.body->activate();
     const Vec3 place = place_on_body(bond);
-    row.pusher = make_pusher(*bond.body, place, h);
+    row.contact_body = make_contact_body(*bond.body, place, h);
     row.touch.is_bond = true;
     row.touch.normal = Vec3::UnitY();
-    row.touch.velocity = row.touches[0].velocity - row.pusher.velocity;
-    row.touch.wanted = SHARE / h * (place - plant.to_world(grip_place(grip, plant.x_good)));
+    row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
+    row.touch.wanted = SHARE / h * (place - plant.to_world(attachment_place(attachment, plant.x_good)));
     if (row.touch.wanted.norm() > FASTEST) row.touch.wanted *= FASTEST / row.touch.wanted.norm();
-    row.touch.least_speed = row.touch.friction = 0;
+    row.touch.bias_velocity = row.touch.friction = 0;
     row.impulse = &bond.impulse;
     rows.push_back(std::move(row));
 }
@@ -139,16 +141,16 @@ void add_row(Bond& bond, double h, std::vector<Row>& rows) {
 bool all_wait(const std::vector<Row>& rows, double h) {
     const auto waits = [&](const Row& row) {
         const Touch& touch = row.touch;
-        return !touch.is_bond && row.impulse->isZero(0) && touch.depth <= 0 && touch.least_shift <= 0 &&
-               touch.velocity.dot(touch.normal) >= std::max(touch.least_speed, touch.depth / h);
+        return !touch.is_bond && row.impulse->isZero(0) && touch.depth <= 0 && touch.least_correction <= 0 &&
+               touch.velocity.dot(touch.normal) >= std::max(touch.bias_velocity, touch.depth / h);
     };
     return std::all_of(rows.begin(), rows.end(), waits);
 }
 
-void find_answers(std::vector<Row>& rows) {
+void find_compliances(std::vector<Row>& rows) {
     const auto has_none = [](Row& row) {
         for (size_t k = 0; k < 2; k++)
-            if (row.plants[k] && !find_answer(*row.plants[k]->plant, row.touches[k])) return true;
+            if (row.plants[k] && !find_compliance(*row.plants[k]->plant, row.touches[k])) return true;
         return false;
     };
     rows.erase(std::remove_if(rows.begin(), rows.end(), has_none), rows.end());
@@ -158,7 +160,7 @@ void find_answers(std::vector<Row>& rows) {
 struct Sides {
     std::vector<int> rows;
     std::vector<double> signs;
-    std::vector<const Answer*> answers;
+    std::vector<const NodeCompliance*> compliances;
     std::vector<std::vector<Mat3>> known;  // how all of them answer to one of them, empty until somebody asks
 };
 
@@ -171,7 +173,7 @@ std::vector<Sides> sort_by_plant(size_t plant_count, std::vector<Row>& rows) {
             rows[i].sides[k] = of.rows.size();
             of.rows.push_back(int(i));
             of.signs.push_back(k == 0 ? 1 : -1);
-            of.answers.push_back(&rows[i].touches[k].answer);
+            of.compliances.push_back(&rows[i].touches[k].compliance);
         }
     for (Sides& of : sides) of.known.resize(of.rows.size());
     return sides;
@@ -179,8 +181,9 @@ std::vector<Sides> sort_by_plant(size_t plant_count, std::vector<Row>& rows) {
 
 bool are_one_body(const Row& a, const Row& b) {
     if (a.plants[1] || b.plants[1]) return false;
-    if (a.pusher.link && b.pusher.link) return a.pusher.link->m_multiBody == b.pusher.link->m_multiBody;
-    return a.pusher.rigid && a.pusher.rigid == b.pusher.rigid;
+    if (a.contact_body.link && b.contact_body.link)
+        return a.contact_body.link->m_multiBody == b.contact_body.link->m_multiBody;
+    return a.contact_body.rigid && a.contact_body.rigid == b.contact_body.rigid;
 }
 
 // How touches answer to each other, worked out for those that somebody asks for.
@@ -189,24 +192,24 @@ struct Coupler {
     std::vector<Sides> plants;
     std::vector<std::vector<Coupling>> known;
     Eigen::Matrix3Xd spread;
-    std::vector<const Answer*> asked;
+    std::vector<const NodeCompliance*> asked;
     std::vector<Mat3> blocks;
 };
 
 // How all sides of a plant answer to one. Who has been asked how this one answers to it needs not be asked again, as
 // A^-1 is symmetric.
-const std::vector<Mat3>& answers_to(Coupler& coupler, Sides& sides, size_t by) {
-    std::vector<Mat3>& answers = sides.known[by];
-    if (!answers.empty()) return answers;
+const std::vector<Mat3>& compliances_of(Coupler& coupler, Sides& sides, size_t by) {
+    std::vector<Mat3>& compliances = sides.known[by];
+    if (!compliances.empty()) return compliances;
     coupler.asked.clear();
     for (size_t i = 0; i < sides.rows.size(); i++)
-        if (sides.known[i].empty()) coupler.asked.push_back(sides.answers[i]);
+        if (sides.known[i].empty()) coupler.asked.push_back(sides.compliances[i]);
     coupler.blocks.assign(coupler.asked.size(), Mat3::Zero());
-    add_answers(coupler.asked, *sides.answers[by], coupler.spread, coupler.blocks);
+    add_compliances(coupler.asked, *sides.compliances[by], coupler.spread, coupler.blocks);
     std::vector<Mat3> found(sides.rows.size());
     for (size_t i = 0, next = 0; i < found.size(); i++)
         found[i] = sides.known[i].empty() ? coupler.blocks[next++] : Mat3(sides.known[i][by].transpose());
-    return answers = std::move(found);
+    return compliances = std::move(found);
 }
 
 // What the plants of a row pass on to their other rows.
@@ -215,10 +218,11 @@ void couple_by_plants(Coupler& coupler, int by, std::vector<Coupling>& row) {
     for (size_t k = 0; k < 2; k++) {
         if (!at.plants[k]) continue;
         Sides& sides = coupler.plants[size_t(at.plants[k]->place)];
-        const std::vector<Mat3>& answers = answers_to(coupler, sides, at.sides[k]);
+        const std::vector<Mat3>& compliances = compliances_of(coupler, sides, at.sides[k]);
         const double sign = k == 0 ? 1 : -1;
         for (size_t i = 0; i < sides.rows.size(); i++)
-            if (!answers[i].isZero(0)) row.push_back({sides.rows[i], sign * sides.signs[i] * answers[i].transpose()});
+            if (!compliances[i].isZero(0))
+                row.push_back({sides.rows[i], sign * sides.signs[i] * compliances[i].transpose()});
     }
 }
 
@@ -229,7 +233,7 @@ const std::vector<Coupling>& couple(Coupler& coupler, int by) {
     const Row& at = coupler.rows[size_t(by)];
     for (size_t i = 0; i < coupler.rows.size(); i++)
         if (are_one_body(at, coupler.rows[i]))
-            row.push_back({int(i), answer_between(at.pusher, coupler.rows[i].pusher)});
+            row.push_back({int(i), compliance_between(at.contact_body, coupler.rows[i].contact_body)});
     if (row.empty()) row.push_back({by, Mat3::Zero()});
     return row;
 }
@@ -242,8 +246,9 @@ std::vector<double> losses_of_bodies(size_t plant_count, const std::vector<Row>&
         if (rows[i].plants[1] || impulses[i].isZero(0)) continue;
         Vec3 change = Vec3::Zero();
         for (size_t k = 0; k < rows.size(); k++)
-            if (are_one_body(rows[i], rows[k])) change -= answer_between(rows[i].pusher, rows[k].pusher) * impulses[k];
-        losses[size_t(rows[i].plants[0]->place)] += impulses[i].dot(rows[i].pusher.velocity + 0.5 * change);
+            if (are_one_body(rows[i], rows[k]))
+                change -= compliance_between(rows[i].contact_body, rows[k].contact_body) * impulses[k];
+        losses[size_t(rows[i].plants[0]->place)] += impulses[i].dot(rows[i].contact_body.velocity + 0.5 * change);
     }
     return losses;
 }
@@ -266,7 +271,7 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
         *rows[i].impulse = pushes.impulses[i];
         to_plants(rows[i], pushes.impulses[i],
                   [](Plant& p, const PlantTouch& touch, const Vec3& impulse) { take_impulse(p, touch, impulse); });
-        if (!pushes.shifts.empty()) to_plants(rows[i], pushes.shifts[i], take_shift);
+        if (!pushes.corrections.empty()) to_plants(rows[i], pushes.corrections[i], take_correction);
     }
     end_steps(island, losses_of_bodies(island.plants.size(), rows, pushes.impulses));
     std::vector<btRigidBody*> pushed;
@@ -274,10 +279,10 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
     for (size_t i = 0; i < rows.size(); i++) {
         if (rows[i].plants[1] || pushes.impulses[i].isZero(0)) continue;
         const Plant& plant = *rows[i].plants[0]->plant;
-        const bool pushes_back = world.effects & plant.effects & FROND_TWO_WAY;
+        const bool pushes_back = world.effects & plant.effects & FROND_EFFECT_TWO_WAY;
         if (!pushes_back || !plant.is_sound) continue;
-        take_impulse(rows[i].pusher, -pushes.impulses[i]);
-        if (rows[i].pusher.rigid) pushed.push_back(rows[i].pusher.rigid);
+        take_impulse(rows[i].contact_body, -pushes.impulses[i]);
+        if (rows[i].contact_body.rigid) pushed.push_back(rows[i].contact_body.rigid);
     }
     return pushed;
 }
@@ -294,7 +299,7 @@ std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& resp
         end_steps(island, std::vector<double>(island.plants.size(), 0));
         return {};
     }
-    find_answers(rows);
+    find_compliances(rows);
     std::vector<Touch> touches;
     for (const Row& row : rows) touches.push_back(row.touch);
     ResponseSettings settings = world.response_settings;

@@ -24,15 +24,15 @@ static btTransform frame_of(const frond_rigid_state& state) {
 static std::unique_ptr<btCollisionShape> make_shape(frond_shape shape, const frond_vec3& size) {
     const btScalar x = btScalar(size.x), y = btScalar(size.y);
     switch (shape) {
-        case FROND_BOX:
+        case FROND_SHAPE_BOX:
             return std::make_unique<btBoxShape>(to_bullet(size));
-        case FROND_CAPSULE:
+        case FROND_SHAPE_CAPSULE:
             return std::make_unique<btCapsuleShape>(x, 2 * y);
-        case FROND_CYLINDER:
+        case FROND_SHAPE_CYLINDER:
             return std::make_unique<btCylinderShape>(btVector3(x, y, x));
-        case FROND_CONE:
+        case FROND_SHAPE_CONE:
             return std::make_unique<btConeShape>(x, 2 * y);
-        case FROND_PLANE:
+        case FROND_SHAPE_PLANE:
             return std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0));
         default:
             return std::make_unique<btSphereShape>(x);
@@ -42,7 +42,7 @@ static std::unique_ptr<btCollisionShape> make_shape(frond_shape shape, const fro
 Rigid* add_rigid(World& world, const frond_rigid_def& def) {
     auto rigid = std::make_unique<Rigid>();
     rigid->world = &world;
-    rigid->is_plane = def.shape == FROND_PLANE;
+    rigid->is_plane = def.shape == FROND_SHAPE_PLANE;
     rigid->shape = make_shape(def.shape, def.size);
     const btScalar mass = rigid->is_plane ? 0 : btScalar(def.mass);
     btVector3 inertia(0, 0, 0);
@@ -57,7 +57,7 @@ Rigid* add_rigid(World& world, const frond_rigid_def& def) {
         rigid->body->setActivationState(DISABLE_DEACTIVATION);
     }
     rigid->body->setLinearVelocity(to_bullet(def.state.velocity));
-    rigid->body->setAngularVelocity(to_bullet(def.state.spin));
+    rigid->body->setAngularVelocity(to_bullet(def.state.angular_velocity));
     world.bullet->addRigidBody(rigid->body.get());
     world.rigids.push_back(std::move(rigid));
     return world.rigids.back().get();
@@ -89,7 +89,7 @@ void set_state(Rigid& rigid, const frond_rigid_state& state) {
     if (body.isKinematicObject()) return;  // its velocity follows from where it was
     body.setInterpolationWorldTransform(frame);
     body.setLinearVelocity(to_bullet(state.velocity));
-    body.setAngularVelocity(to_bullet(state.spin));
+    body.setAngularVelocity(to_bullet(state.angular_velocity));
     body.activate(true);
 }
 

@@ -34,7 +34,7 @@ bool drop_floating_root(UrdfTree& tree) {
         std::count_if(tree.links.begin(), tree.links.end(), floats) == 1 &&
         std::none_of(tree.links.begin() + 2, tree.links.end(), [](const UrdfLink& link) { return link.parent == 0; });
     if (!is_lone)
-        fail(FROND_UNSUPPORTED,
+        fail(FROND_RESULT_UNSUPPORTED,
              "a joint floats that is not the only one of a root without mass and shapes; give what floats a file of "
              "its own");
     tree.links.erase(tree.links.begin());
@@ -119,7 +119,7 @@ std::unique_ptr<Robot> make_robot(World& world, UrdfTree tree, const frond_robot
     robot->world = &world;
     robot->bullet = dynamic_cast<btMultiBodyDynamicsWorld*>(world.bullet);
     if (!robot->bullet)
-        fail(FROND_UNSUPPORTED, "this Bullet world takes no multi-bodies; make it a btMultiBodyDynamicsWorld");
+        fail(FROND_RESULT_UNSUPPORTED, "this Bullet world takes no multi-bodies; make it a btMultiBodyDynamicsWorld");
     const bool floats = drop_floating_root(tree);
     const bool is_fixed = def.is_fixed && !floats;
     robot->surface = make_surface(tree);

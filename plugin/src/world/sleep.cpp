@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "model/union_find.hpp"
+#include "world/contact_body.hpp"
 #include "world/convert.hpp"
-#include "world/pusher.hpp"
 #include "world/show.hpp"
 #include "world/world.hpp"
 
@@ -30,7 +30,7 @@ void wake_blown(World& world) {
     for (size_t i = 0; i < here; i++) {
         PlantBody& body = *world.bodies[world.turn++ % count];
         const frond_effects effects = world.effects & body.plant->effects;
-        if (!body.rest.asleep || !(effects & FROND_WIND) || is_still(world, body)) continue;
+        if (!body.rest.asleep || !(effects & FROND_EFFECT_WIND) || is_still(world, body)) continue;
         asked.push_back(&body);
         points.push_back(middle_of(body));
     }
@@ -54,7 +54,7 @@ bool are_within(const VecX& a, const VecX& b, double distance) {
 // Of the contacts of a plant and a body within a step.
 bool meets(const Contact& contact, double h) {
     constexpr double NEAR = 0.001;  // [m]
-    const Vec3 velocity = make_pusher(*contact.other, contact.on_other, h).velocity;
+    const Vec3 velocity = make_contact_body(*contact.other, contact.on_other, h).velocity;
     return contact.gap < NEAR + 2 * h * velocity.norm();
 }
 
@@ -76,9 +76,9 @@ void fall_asleep(World& world, PlantBody& body) {
     body.rest.air.setZero();
     VecX().swap(body.rest.places);
     body.forceActivationState(ISLAND_SLEEPING);
-    fold(plant, world.sleep_distance, false);
+    compress(plant, world.sleep_distance, false);
     if (!body.rest.contacts) {
-        if (plant.folded && plant.away.empty()) share_shape(body);
+        if (plant.is_compressed && plant.away.empty()) share_shape(body);
         hide(body);
     }
     if (!world.wind) return;
@@ -87,9 +87,9 @@ void fall_asleep(World& world, PlantBody& body) {
     body.rest.air = Vec3(air[0].x, air[0].y, air[0].z);
 }
 
-void fold_looked_at(World& world) {
+void compress_looked_at(World& world) {
     for (PlantBody* body : world.looked_at) {
-        if (body->is_looked_at && body->rest.asleep) fold(*body->plant, world.sleep_distance, true);
+        if (body->is_looked_at && body->rest.asleep) compress(*body->plant, world.sleep_distance, true);
         body->is_looked_at = false;
     }
     world.looked_at.clear();
@@ -98,8 +98,8 @@ void fold_looked_at(World& world) {
 PlantBody& look_at(PlantBody& body) {
     Plant& plant = *body.plant;
     pose(plant);
-    if (!plant.folded) return body;
-    unfold(plant);
+    if (!plant.is_compressed) return body;
+    decompress(plant);
     if (!body.is_looked_at) body.world->looked_at.push_back(&body);
     body.is_looked_at = true;
     return body;
@@ -118,7 +118,7 @@ void wake(PlantBody& body) {
     if (!body.rest.asleep) return;
     body.rest.asleep = false;
     body.forceActivationState(DISABLE_DEACTIVATION);
-    unfold(*body.plant);
+    decompress(*body.plant);
     take_own_shape(body);
     show_again(body);
     body.world->awake.push_back(&body);
@@ -179,12 +179,12 @@ void wake_touched(World& world, double h) {
 void watch(const World& world, PlantBody& body, double h) {
     const Plant& plant = *body.plant;
     Rest& rest = body.rest;
-    VecX swing(2);
-    if (plant.swing) swing = Eigen::Map<const Eigen::Vector2d>(swing_of(plant).data());
-    const VecX& x = plant.swing ? swing : plant.motion.x;
-    const bool fades = !is_over(plant.fade) || (plant.swing && !is_over(plant.swing->fade));
+    VecX modal(2);
+    if (plant.modal) modal = Eigen::Map<const Eigen::Vector2d>(modal_reach(plant).data());
+    const VecX& x = plant.modal ? modal : plant.motion.x;
+    const bool blends_out = !is_over(plant.blend_out) || (plant.modal && !is_over(plant.modal->blend_out));
     const bool stirs = plant.has_user_force || plant.trouble & FROND_TROUBLE_REWOUND || plant.recovers_for > 0 ||
-                       !plant.fragments.empty() || fades;
+                       !plant.fragments.empty() || blends_out;
     if (!stirs && are_within(x, rest.places, world.sleep_distance)) {
         rest.still += h;
         return;

@@ -28,7 +28,7 @@ void wake(PlantBody& body);
 // Stands still where it is from now on.
 void fall_asleep(World& world, PlantBody& body);
 // Folds again those that sleep and that somebody has looked at.
-void fold_looked_at(World& world);
+void compress_looked_at(World& world);
 frond_vec3 middle_of(const PlantBody& body);  // of its box [m]
 // Plants whose boxes meet that of an object which is about to leave.
 void wake_neighbours(World& world, const btCollisionObject& leaving);

@@ -29,13 +29,13 @@ struct SavedGrownIn {
 struct SavedFragment {
     int node;
     Mat3 turn;
-    Vec3 shift, centre, velocity, spin;
+    Vec3 shift, centre, velocity, angular_velocity;
 };
-struct SavedSwing {
+struct SavedModal {
     std::array<double, 2> place, speed, rest, damping;
     double since;
     bool comes_to_rest, fresh;
-    Fade fade;
+    BlendOut blend_out;
 };
 
 struct SavedPlant {
@@ -43,11 +43,11 @@ struct SavedPlant {
     frond_mechanics which;
     Motion motion;
     Trend trend;
-    Fade fade;
+    BlendOut blend_out;
     double lead;
-    std::vector<SavedSwing> swing;  // none or one
+    std::vector<SavedModal> modal;  // none or one
     bool has_own_elements;
-    std::vector<double> lasting, fibre_give;
+    std::vector<double> plastic, fibre_give;
     std::vector<uint8_t> pinned;
     VecX pin_target;
     std::vector<int> anchor;
@@ -71,7 +71,7 @@ struct SavedPlant {
 struct SavedRigid {
     bool is_plane, is_fragment;
     std::array<btScalar, 12> frame, frame_before;  // basis by rows, origin
-    std::array<btScalar, 3> velocity, spin, velocity_before, spin_before, force, torque;
+    std::array<btScalar, 3> velocity, angular_velocity, velocity_before, angular_velocity_before, force, torque;
     int activation;
     btScalar still;
 };

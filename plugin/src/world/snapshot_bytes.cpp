@@ -17,15 +17,15 @@ static void visit_side(Archive& a, ContactSide& side) {
     a(side.body), a(side.organ), a(side.piece), a(side.node_count), a(side.nodes), a(side.weights);
 }
 
-static void visit_grip(Archive& a, Grip& grip) {
-    a(grip.count), a(grip.turns), a(grip.node), a(grip.weight), a(grip.arm);
+static void visit_attachment(Archive& a, Attachment& attachment) {
+    a(attachment.count), a(attachment.turns), a(attachment.node), a(attachment.weight), a(attachment.arm);
 }
 
 static void visit(Archive& a, SavedPlantContact& saved) {
     PlantContact& c = saved.contact;
     a(saved.plants);
     for (ContactSide& side : c.sides) visit_side(a, side);
-    for (Grip& grip : c.grips) visit_grip(a, grip);
+    for (Attachment& attachment : c.attachments) visit_attachment(a, attachment);
     a(c.by_sheath), a(c.between), a(c.point), a(c.normal), a(c.depth), a(c.friction), a(c.missed), a(c.impulse);
 }
 
@@ -38,17 +38,18 @@ static void visit(Archive& a, SavedGrownIn& grown_in) {
 }
 
 static void visit(Archive& a, SavedFragment& fragment) {
-    a(fragment.node), a(fragment.turn), a(fragment.shift), a(fragment.centre), a(fragment.velocity), a(fragment.spin);
+    a(fragment.node), a(fragment.turn), a(fragment.shift), a(fragment.centre), a(fragment.velocity),
+        a(fragment.angular_velocity);
 }
 
-static void visit_fade(Archive& a, Fade& fade) {
-    a(fade.offset), a(fade.rate), a(fade.time);
+static void visit_blend_out(Archive& a, BlendOut& blend_out) {
+    a(blend_out.offset), a(blend_out.rate), a(blend_out.time);
 }
 
-static void visit(Archive& a, SavedSwing& swing) {
-    a(swing.place), a(swing.speed), a(swing.rest), a(swing.damping), a(swing.since), a(swing.comes_to_rest),
-        a(swing.fresh);
-    visit_fade(a, swing.fade);
+static void visit(Archive& a, SavedModal& modal) {
+    a(modal.place), a(modal.speed), a(modal.rest), a(modal.damping), a(modal.since), a(modal.comes_to_rest),
+        a(modal.fresh);
+    visit_blend_out(a, modal.blend_out);
 }
 
 static void visit_motion(Archive& a, Motion& motion) {
@@ -68,8 +69,8 @@ static void visit(Archive& a, SavedPlant& plant) {
     a(plant.kind), a.one_of(plant.which, FROND_MECHANICS_COUNT);
     visit_motion(a, plant.motion);
     a(plant.trend.v_end), a(plant.trend.rate);
-    visit_fade(a, plant.fade);
-    a(plant.lead), a(plant.swing), a(plant.has_own_elements), a(plant.lasting), a(plant.fibre_give);
+    visit_blend_out(a, plant.blend_out);
+    a(plant.lead), a(plant.modal), a(plant.has_own_elements), a(plant.plastic), a(plant.fibre_give);
     a(plant.pinned), a(plant.pin_target), a(plant.anchor);
     a(plant.pins_changed), a(plant.pins_are_own), a(plant.has_user_force), a(plant.is_touched), a(plant.is_entangled);
     a(plant.user_force), a(plant.substeps), a(plant.patience), a(plant.recovers_for), a(plant.grab_targets),
@@ -81,8 +82,9 @@ static void visit(Archive& a, SavedPlant& plant) {
 }
 
 static void visit(Archive& a, SavedRigid& rigid) {
-    a(rigid.is_plane), a(rigid.is_fragment), a(rigid.frame), a(rigid.frame_before), a(rigid.velocity), a(rigid.spin);
-    a(rigid.velocity_before), a(rigid.spin_before), a(rigid.force), a(rigid.torque), a(rigid.activation),
+    a(rigid.is_plane), a(rigid.is_fragment), a(rigid.frame), a(rigid.frame_before), a(rigid.velocity),
+        a(rigid.angular_velocity);
+    a(rigid.velocity_before), a(rigid.angular_velocity_before), a(rigid.force), a(rigid.torque), a(rigid.activation),
         a(rigid.still);
 }
 
@@ -137,27 +139,28 @@ std::vector<uint8_t> bytes_of(Snapshot& snapshot) {
 Snapshot snapshot_from(const uint8_t* bytes, size_t count) {
     Head head;
     if (count < sizeof head)
-        fail(FROND_FILE_FORMAT, "the snapshot has %zu bytes, less than its head; pass all of it", count);
+        fail(FROND_RESULT_FILE_FORMAT, "the snapshot has %zu bytes, less than its head; pass all of it", count);
     std::memcpy(&head, bytes, sizeof head);
     bytes += sizeof head;
     count -= sizeof head;
     if (std::memcmp(head.magic, MAGIC, sizeof MAGIC) != 0)
-        fail(FROND_FILE_FORMAT, "this is no snapshot; pass what frond_world_save wrote");
+        fail(FROND_RESULT_FILE_FORMAT, "this is no snapshot; pass what frond_world_save wrote");
     if (head.length != count)
-        fail(FROND_FILE_FORMAT, "the snapshot says %llu bytes and has %zu; pass all of it and no more",
+        fail(FROND_RESULT_FILE_FORMAT, "the snapshot says %llu bytes and has %zu; pass all of it and no more",
              static_cast<unsigned long long>(head.length), count);
     const Head own = head_of(bytes, count);
     if (std::memcmp(head.version, own.version, sizeof own.version) != 0 || head.layout != own.layout)
-        fail(FROND_FILE_FORMAT,
+        fail(FROND_RESULT_FILE_FORMAT,
              "the snapshot is of another version of Frond than " FROND_VERSION "; save it anew with this one");
     if (head.precision != own.precision)
-        fail(FROND_FILE_FORMAT, "the snapshot is of a Bullet of %u bytes a number, this one has %u", head.precision,
-             own.precision);
-    if (head.checksum != own.checksum) fail(FROND_FILE_FORMAT, "the snapshot is damaged; its checksum differs");
+        fail(FROND_RESULT_FILE_FORMAT, "the snapshot is of a Bullet of %u bytes a number, this one has %u",
+             head.precision, own.precision);
+    if (head.checksum != own.checksum) fail(FROND_RESULT_FILE_FORMAT, "the snapshot is damaged; its checksum differs");
     Archive archive(bytes, count);
     Snapshot snapshot;
     visit_all(archive, snapshot);
-    if (!archive.is_at_end()) fail(FROND_FILE_FORMAT, "the snapshot is longer than what it holds; it is damaged");
+    if (!archive.is_at_end())
+        fail(FROND_RESULT_FILE_FORMAT, "the snapshot is longer than what it holds; it is damaged");
     return snapshot;
 }
 

@@ -14,13 +14,13 @@ inline namespace FROND_BULLET_PRECISION {
 namespace {
 
 [[noreturn]] void damaged(const char* what) {
-    fail(FROND_FILE_FORMAT, "the snapshot's %s cannot be; it is damaged", what);
+    fail(FROND_RESULT_FILE_FORMAT, "the snapshot's %s cannot be; it is damaged", what);
 }
 
 void check_count(size_t saved, size_t own, const char* what) {
     if (saved != own)
-        fail(FROND_BAD_ARGUMENT, "the snapshot has %zu %s, this world %zu; restore into a world with the same ones",
-             saved, what, own);
+        fail(FROND_RESULT_BAD_ARGUMENT,
+             "the snapshot has %zu %s, this world %zu; restore into a world with the same ones", saved, what, own);
 }
 
 // Forces, rates and the like: their products are numbers still.
@@ -88,7 +88,7 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
             for (int i = 0; i < side.node_count; i++) check_index(side.nodes[size_t(i)], nodes, "contacts of plants");
             check_index(side.piece, plant.model->capsules.size(), "contacts of plants");
             const frond_mechanics which = snapshot.plants[size_t(saved.plants[k])].which;
-            if (!is_sound(c.grips[k], int(becomes(plant, which).numbers / 3))) damaged("contacts of plants");
+            if (!is_sound(c.attachments[k], int(becomes(plant, which).numbers / 3))) damaged("contacts of plants");
             check_numbers(side.weights, "contacts of plants");
         }
         for (const Vec3& v : {c.between, c.point, c.normal, c.impulse}) check_numbers(v, "contacts");
@@ -107,7 +107,7 @@ void check_motion(const SavedPlant& saved, const Becomes& becomes) {
     // What a step does not look back on may be of other mechanics.
     for (const VecX* numbers : {&history.x_end, &history.v_end, &history.x_prev, &history.v_prev})
         check_size(*numbers, history.valid ? becomes.numbers : numbers->size(), "history");
-    const bool has_rates = history.valid && history.integrator == FROND_GENERALIZED_ALPHA;
+    const bool has_rates = history.valid && history.integrator == FROND_INTEGRATOR_GENERALIZED_ALPHA;
     for (const VecX* numbers : {&history.x_rate, &history.v_rate})
         check_size(*numbers, has_rates ? becomes.numbers : numbers->size(), "history");
     if (history.valid && !(history.h > 0 && std::isfinite(history.h))) damaged("history");
@@ -116,10 +116,10 @@ void check_motion(const SavedPlant& saved, const Becomes& becomes) {
     check_size(saved.places, saved.places.size(), "rest");
 }
 
-void check_fade(const Fade& fade, Eigen::Index numbers) {
-    check_size(fade.offset, numbers, "fade", true);
-    check_size(fade.rate, fade.offset.size(), "fade");
-    check_numbers(std::array{fade.time}, "fade");
+void check_blend_out(const BlendOut& blend_out, Eigen::Index numbers) {
+    check_size(blend_out.offset, numbers, "fade", true);
+    check_size(blend_out.rate, blend_out.offset.size(), "fade");
+    check_numbers(std::array{blend_out.time}, "fade");
 }
 
 void check_fragments(const SavedPlant& saved, const PlantBody& body) {
@@ -128,24 +128,24 @@ void check_fragments(const SavedPlant& saved, const PlantBody& body) {
     for (size_t i = 0; alike && i < saved.fragments.size(); i++)
         alike = saved.fragments[i].node == plant.fragments[i].node;
     if (!alike)
-        fail(FROND_BAD_ARGUMENT,
-             "plant %d is not broken at the capsules at which it was; call frond_plant_mend and "
+        fail(FROND_RESULT_BAD_ARGUMENT,
+             "plant %d is not broken at the capsules at which it was; call frond_plant_reset and "
              "frond_plant_break first",
              body.index);
     for (const SavedFragment& f : saved.fragments) {
         check_numbers(f.turn.reshaped(), "fragments");
-        for (const Vec3& v : {f.shift, f.centre, f.velocity, f.spin}) check_numbers(v, "fragments");
+        for (const Vec3& v : {f.shift, f.centre, f.velocity, f.angular_velocity}) check_numbers(v, "fragments");
     }
-    if (!plant.fragments.empty() && (saved.which != plant.which || !saved.swing.empty()))
-        fail(FROND_BAD_ARGUMENT, "plant %d is broken and had other mechanics; call frond_plant_set_mechanics first",
-             body.index);
+    if (!plant.fragments.empty() && (saved.which != plant.which || !saved.modal.empty()))
+        fail(FROND_RESULT_BAD_ARGUMENT,
+             "plant %d is broken and had other mechanics; call frond_plant_set_mechanics first", body.index);
 }
 
-void check_lasting(const SavedPlant& saved, const Becomes& becomes) {
-    check_numbers(saved.lasting, "lasting shape");
-    if (saved.lasting.empty()) return;
+void check_plastic(const SavedPlant& saved, const Becomes& becomes) {
+    check_numbers(saved.plastic, "lasting shape");
+    if (saved.plastic.empty()) return;
     const auto own = becomes.row->copy(elements_of(*becomes.system));
-    if (!saved.has_own_elements || becomes.row->get_lasting(*own).size() != saved.lasting.size())
+    if (!saved.has_own_elements || becomes.row->get_plastic(*own).size() != saved.plastic.size())
         damaged("lasting shape");
 }
 
@@ -161,7 +161,7 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
     const Plant& plant = *body.plant;
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     if (saved.kind != kind_of(plant))
-        fail(FROND_BAD_ARGUMENT,
+        fail(FROND_RESULT_BAD_ARGUMENT,
              "plant %d is of another model, place or setting than in the snapshot; make the same plants in "
              "the same order",
              body.index);
@@ -169,16 +169,16 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
     check_fragments(saved, body);
     const Becomes become = becomes(plant, saved.which);
     check_motion(saved, become);
-    check_lasting(saved, become);
+    check_plastic(saved, become);
     check_pins(saved, plant);
-    check_fade(saved.fade, 3 * Eigen::Index(node_count_of(plant)));
+    check_blend_out(saved.blend_out, 3 * Eigen::Index(node_count_of(plant)));
     check_numbers(saved.fibre_give, "fibres");
-    if (saved.swing.size() > 1 || (!saved.swing.empty() && !mechanics(saved.which, plant.nodes->order).moves_chain))
+    if (saved.modal.size() > 1 || (!saved.modal.empty() && !mechanics(saved.which, plant.nodes->order).moves_chain))
         damaged("sway");
-    for (const SavedSwing& swing : saved.swing) {
-        for (const auto* pair : {&swing.place, &swing.speed, &swing.rest, &swing.damping}) check_numbers(*pair, "sway");
-        check_numbers(std::array{swing.since}, "sway");
-        check_fade(swing.fade, become.numbers);
+    for (const SavedModal& modal : saved.modal) {
+        for (const auto* pair : {&modal.place, &modal.speed, &modal.rest, &modal.damping}) check_numbers(*pair, "sway");
+        check_numbers(std::array{modal.since}, "sway");
+        check_blend_out(modal.blend_out, become.numbers);
     }
     for (const Vec3& target : saved.grab_targets) check_numbers(target, "grabs", LARGEST_COORDINATE);
     if (saved.substeps < 1 || saved.substeps > plant.max_substeps) damaged("substeps");
@@ -197,10 +197,11 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
 
 void check_rigid(const SavedRigid& saved, const Rigid& own) {
     if (saved.is_plane != own.is_plane || saved.is_fragment != (own.grown_on != nullptr))
-        fail(FROND_BAD_ARGUMENT,
+        fail(FROND_RESULT_BAD_ARGUMENT,
              "the rigid bodies are others than in the snapshot; make the same ones in the same order");
     for (const auto* frame : {&saved.frame, &saved.frame_before}) check_frame(*frame, "rigid bodies");
-    for (const auto* v : {&saved.velocity, &saved.spin, &saved.velocity_before, &saved.spin_before})
+    for (const auto* v :
+         {&saved.velocity, &saved.angular_velocity, &saved.velocity_before, &saved.angular_velocity_before})
         check_numbers(*v, "rigid bodies", LARGEST_COORDINATE);
     for (const auto* v : {&saved.force, &saved.torque}) check_numbers(*v, "rigid bodies");
     if (saved.activation < ACTIVE_TAG || saved.activation > DISABLE_SIMULATION || !std::isfinite(double(saved.still)))
@@ -219,14 +220,14 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
         check_plant(world, snapshot.plants[i], look_at(*world.bodies[i]));
         check_touches(world, snapshot, snapshot.plants[i].asleep_with);
     }
-    fold_looked_at(world);
+    compress_looked_at(world);
     check_touches(world, snapshot, snapshot.touches);
     for (size_t i = 0; i < snapshot.rigids.size(); i++) check_rigid(snapshot.rigids[i], *world.rigids[i]);
     size_t i = 0;
     for (const Bond& bond : world.bonds) {
         const SavedBond& saved = snapshot.bonds[i++];
         if (saved.vertex != bond.vertex)
-            fail(FROND_BAD_ARGUMENT,
+            fail(FROND_RESULT_BAD_ARGUMENT,
                  "a bond holds another point than in the snapshot; make the same bonds in the same order");
         check_numbers(saved.impulse, "bonds");
         if (!(saved.length > 0 && saved.length <= MOST)) damaged("bonds");

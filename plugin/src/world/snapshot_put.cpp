@@ -50,31 +50,31 @@ void put_touches(const World& world, const SavedTouches& saved, std::vector<Cont
     }
 }
 
-void put_swing(const SavedSwing& saved, Plant& plant) {
-    begin_swing(plant);
-    Swing& swing = *plant.swing;
-    swing.place = saved.place;
-    swing.speed = saved.speed;
-    swing.rest = saved.rest;
-    swing.damping = saved.damping;
-    swing.since = saved.since;
-    swing.comes_to_rest = saved.comes_to_rest;
-    swing.fresh = saved.fresh;
-    swing.fade = saved.fade;
-    swing.stale = false;  // the chain was posed when it was saved
+void put_modal(const SavedModal& saved, Plant& plant) {
+    begin_modal(plant);
+    ModalMotion& modal = *plant.modal;
+    modal.place = saved.place;
+    modal.speed = saved.speed;
+    modal.rest = saved.rest;
+    modal.damping = saved.damping;
+    modal.since = saved.since;
+    modal.comes_to_rest = saved.comes_to_rest;
+    modal.fresh = saved.fresh;
+    modal.blend_out = saved.blend_out;
+    modal.stale = false;  // the chain was posed when it was saved
 }
 
 void put_plant(SavedPlant& saved, PlantBody& body) {
     Plant& plant = *body.plant;
-    end_swing(plant);
+    end_modal(plant);
     set_mechanics(plant, saved.which);
-    if (!saved.swing.empty()) put_swing(saved.swing.front(), plant);
+    if (!saved.modal.empty()) put_modal(saved.modal.front(), plant);
     plant.motion = std::move(saved.motion);
     plant.trend = std::move(saved.trend);
-    plant.fade = std::move(saved.fade);
+    plant.blend_out = std::move(saved.blend_out);
     plant.lead = saved.lead;
     plant.stepped_by = 0;
-    if (saved.has_own_elements || plant.own_elements) set_lasting(plant, saved.lasting);
+    if (saved.has_own_elements || plant.own_elements) set_plastic(plant, saved.plastic);
     const size_t fibres = plant.fibres ? plant.fibres->list.size() : 0;
     plant.fibre_give = saved.fibre_give.size() == fibres ? std::move(saved.fibre_give) : std::vector<double>();
     plant.pinned = std::move(saved.pinned);
@@ -98,7 +98,7 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
         fragment.shift = from.shift;
         fragment.centre = from.centre;
         fragment.velocity = from.velocity;
-        fragment.spin = from.spin;
+        fragment.angular_velocity = from.angular_velocity;
     }
     body.new_for = saved.new_for;
     const double ms = body.level.ms, ms_capsules = body.level.ms_capsules;  // of this machine
@@ -132,11 +132,11 @@ void put_rigid(const SavedRigid& saved, Rigid& rigid) {
     btRigidBody& body = *rigid.body;
     const btTransform frame = frame_of(saved.frame);
     body.setLinearVelocity(vector_of(saved.velocity));
-    body.setAngularVelocity(vector_of(saved.spin));
+    body.setAngularVelocity(vector_of(saved.angular_velocity));
     body.setCenterOfMassTransform(frame);
     body.setInterpolationWorldTransform(frame_of(saved.frame_before));
     body.setInterpolationLinearVelocity(vector_of(saved.velocity_before));
-    body.setInterpolationAngularVelocity(vector_of(saved.spin_before));
+    body.setInterpolationAngularVelocity(vector_of(saved.angular_velocity_before));
     body.clearForces();
     body.applyCentralForce(vector_of(saved.force));
     body.applyTorque(vector_of(saved.torque));

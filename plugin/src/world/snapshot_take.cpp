@@ -42,9 +42,9 @@ SavedTouches take_touches(const World& world, const std::vector<Contact>& with_b
     return touches;
 }
 
-void take_swing(const Swing& swing, SavedPlant& saved) {
-    saved.swing.push_back({swing.place, swing.speed, swing.rest, swing.damping, swing.since, swing.comes_to_rest,
-                           swing.fresh, swing.fade});
+void take_modal(const ModalMotion& modal, SavedPlant& saved) {
+    saved.modal.push_back({modal.place, modal.speed, modal.rest, modal.damping, modal.since, modal.comes_to_rest,
+                           modal.fresh, modal.blend_out});
 }
 
 // What a step abreast left is kept once.
@@ -63,11 +63,11 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     saved.which = plant.which;
     saved.motion = with_end(plant.motion);
     saved.trend = plant.trend;
-    saved.fade = plant.fade;
+    saved.blend_out = plant.blend_out;
     saved.lead = plant.lead;
-    if (plant.swing) take_swing(*plant.swing, saved);
+    if (plant.modal) take_modal(*plant.modal, saved);
     saved.has_own_elements = plant.own_elements != nullptr;
-    saved.lasting = lasting_of(plant);
+    saved.plastic = plastic_of(plant);
     saved.fibre_give = plant.fibre_give;
     saved.pinned = plant.pinned;
     saved.pin_target = plant.pin_target;
@@ -83,7 +83,7 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     saved.recovers_for = plant.recovers_for;
     for (const Grab& grab : plant.grabs) saved.grab_targets.push_back(grab.target);
     for (const Fragment& f : plant.fragments)
-        saved.fragments.push_back({f.node, f.turn, f.shift, f.centre, f.velocity, f.spin});
+        saved.fragments.push_back({f.node, f.turn, f.shift, f.centre, f.velocity, f.angular_velocity});
 
     saved.new_for = body.new_for;
     saved.asleep = body.rest.asleep;
@@ -159,7 +159,7 @@ Snapshot take_snapshot(World& world) {
     snapshot.effects_before = world.effects_before;
     snapshot.is_held = world.gravity_ahead.is_held;
     for (const auto& body : world.bodies) snapshot.plants.push_back(take_plant(world, look_at(*body)));
-    fold_looked_at(world);
+    compress_looked_at(world);
     for (const auto& rigid : world.rigids) snapshot.rigids.push_back(take_rigid(*rigid));
     for (const Bond& bond : world.bonds) snapshot.bonds.push_back({bond.vertex, bond.impulse, bond.length});
     for (const GravityAhead::Held& held : world.gravity_ahead.bodies) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/timer.hpp"
-#include "plant/abreast.hpp"
+#include "plant/batch.hpp"
 #include "world/convert.hpp"
 #include "world/detection.hpp"
 #include "world/fragments.hpp"
@@ -32,23 +32,23 @@ static void add_effect(frond_report& report, frond_effects effect, double ms) {
 // Adds what a plant did in this substep to the world's report.
 static void add_to_report(const World& world, const Plant& plant, frond_report& report) {
     report.trouble |= plant.trouble;
-    if (plant.swing) return;
+    if (plant.modal) return;
     report.solver_iterations += plant.report.iterations;
     report.residual = std::max(report.residual, plant.report.residual);
     report.ms_effects += plant.ms_effects;
     report.ms_assembly += plant.report.ms_assembly;
     report.ms_solve += plant.report.ms_solve;
     const frond_effects effects = plant.effects & world.effects;
-    report.effects_run |= effects & (FROND_GRAVITY | FROND_DAMPING);
-    if (effects & FROND_USER_FORCE && (plant.has_user_force || !plant.grabs.empty()))
-        add_effect(report, FROND_USER_FORCE, plant.ms_user_force);
-    const frond_effects air = effects & (FROND_WIND | FROND_AIR_DRAG);
+    report.effects_run |= effects & (FROND_EFFECT_GRAVITY | FROND_EFFECT_DAMPING);
+    if (effects & FROND_EFFECT_USER_FORCE && (plant.has_user_force || !plant.grabs.empty()))
+        add_effect(report, FROND_EFFECT_USER_FORCE, plant.ms_user_force);
+    const frond_effects air = effects & (FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG);
     if (world.wind && air) {
-        add_effect(report, air & FROND_WIND ? FROND_WIND : FROND_AIR_DRAG, plant.ms_air);
+        add_effect(report, air & FROND_EFFECT_WIND ? FROND_EFFECT_WIND : FROND_EFFECT_AIR_DRAG, plant.ms_air);
         report.effects_run |= air;
     }
-    if (effects & FROND_FIBRES && plant.fibres) add_effect(report, FROND_FIBRES, plant.ms_fibres);
-    if (effects & FROND_PLASTICITY) add_effect(report, FROND_PLASTICITY, plant.ms_plasticity);
+    if (effects & FROND_EFFECT_FIBRES && plant.fibres) add_effect(report, FROND_EFFECT_FIBRES, plant.ms_fibres);
+    if (effects & FROND_EFFECT_PLASTICITY) add_effect(report, FROND_EFFECT_PLASTICITY, plant.ms_plasticity);
 }
 
 int number_of(World& world, PlantBody& body) {
@@ -80,18 +80,20 @@ void find_touches(World& world, double h) {
     const Timer find_timer;
     wake_by_world(world);
     world.contacts.clear();
-    if (world.effects & FROND_RIGID_CONTACT &&
-        (world.awake.size() < world.bodies.size() || any_wants(world, FROND_RIGID_CONTACT))) {
+    if (world.effects & FROND_EFFECT_RIGID_CONTACT &&
+        (world.awake.size() < world.bodies.size() || any_wants(world, FROND_EFFECT_RIGID_CONTACT))) {
         const Timer timer;
         world.contacts = find_contacts(world, h);
-        add_effect(report, FROND_RIGID_CONTACT, timer.ms());
+        add_effect(report, FROND_EFFECT_RIGID_CONTACT, timer.ms());
     }
-    const frond_effects among = FROND_PLANT_CONTACT | FROND_SELF_CONTACT;
+    const frond_effects among = FROND_EFFECT_PLANT_CONTACT | FROND_EFFECT_SELF_CONTACT;
     if (any_wants(world, among)) {
         const Timer timer;
         world.plant_contacts = find_plant_contacts(world, h);
-        add_effect(report, any_wants(world, FROND_PLANT_CONTACT) ? FROND_PLANT_CONTACT : FROND_SELF_CONTACT,
-                   timer.ms());
+        add_effect(
+            report,
+            any_wants(world, FROND_EFFECT_PLANT_CONTACT) ? FROND_EFFECT_PLANT_CONTACT : FROND_EFFECT_SELF_CONTACT,
+            timer.ms());
     } else {
         world.plant_contacts.clear();
     }
@@ -110,7 +112,7 @@ void note_touches(World& world) {
 // Contacts of plants that only sway push nothing, nor do those of what has gone over to another detail since they were
 // found; those that push are stepped now.
 void mark_touched(World& world) {
-    const auto sways = [](const PlantBody* body) { return body->plant->swing != nullptr; };
+    const auto sways = [](const PlantBody* body) { return body->plant->modal != nullptr; };
     world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(),
                                         [&](const Contact& contact) { return sways(contact.plant); }),
                          world.contacts.end());
@@ -150,7 +152,7 @@ void finish(const World& world, PlantBody* const* bodies, int count, const Surro
         body.level.ms += float((body.level.ms > 0 ? LATELY : 1) * (ms - double(body.level.ms)));
     }
     const Timer timer;
-    if (!(bodies[0]->plant->effects & world.effects & FROND_BREAKING)) move_capsules(bodies, count);
+    if (!(bodies[0]->plant->effects & world.effects & FROND_EFFECT_BREAKING)) move_capsules(bodies, count);
     const float ms_capsules = float(timer.ms() / count);
     for (int i = 0; i < count; i++) {
         bodies[i]->level.ms_capsules = ms_capsules;
@@ -166,7 +168,7 @@ void finish(const World& world, PlantBody& body, const Surroundings& surrounding
 void sway(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
     constexpr uint64_t TURNS = 4, SEEN = 8;
     const uint64_t turn = world.substep + uint64_t(body.index);
-    keep_swinging(*body.plant, surroundings, h, turn % TURNS == 0);
+    step_modal(*body.plant, surroundings, h, turn % TURNS == 0);
     body.level.is_due = turn % SEEN == 0;
     if (world.sleep_distance > 0) watch(world, body, h);
     if (!body.level.is_due) return;
@@ -178,7 +180,7 @@ void sway(const World& world, PlantBody& body, const Surroundings& surroundings,
 
 // A plant's own part of the substep, which no other has anything to do with.
 void step_alone(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
-    if (body.plant->swing) return sway(world, body, surroundings, h);
+    if (body.plant->modal) return sway(world, body, surroundings, h);
     if (!body.level.is_due) {
         body.plant->lead = body.level.pending;
         body.plant->cage_stale = body.plant->surface_stale = true;
@@ -198,7 +200,7 @@ void run_job(const World& world, const StepJob& job, const Surroundings& surroun
     if (job.count == 1) return step_alone(world, *job.bodies[0], surroundings, h);
     std::array<Plant*, MOST_LANES> plants;
     for (int i = 0; i < job.count; i++) plants[size_t(i)] = job.bodies[size_t(i)]->plant.get();
-    solve_abreast(plants.data(), job.count, surroundings, job.bodies[0]->level.pending);
+    solve_batch(plants.data(), job.count, surroundings, job.bodies[0]->level.pending);
     finish(world, job.bodies.data(), job.count, surroundings);
 }
 
@@ -210,14 +212,14 @@ bool goes_with(const StepJob& job, const PlantBody& body) {
 // All that is awake; those that may go abreast with the next ones that go alike.
 std::vector<StepJob> share_out(const World& world, const Surroundings& surroundings, double h) {
     constexpr size_t MOST_OPEN = 8;  // or plants that all differ would each be compared with all before it
-    const int most = most_abreast();
+    const int most = most_in_batch();
     std::vector<StepJob> jobs;
     std::vector<size_t> open;  // of those, that have room
     for (PlantBody* body : world.awake) {
-        if (!body->plant->swing) body->level.pending += h;
-        const bool is_due = !body->plant->swing && body->level.is_due;
+        if (!body->plant->modal) body->level.pending += h;
+        const bool is_due = !body->plant->modal && body->level.is_due;
         auto found = open.end();
-        if (is_due && may_go_abreast(*body->plant, surroundings, body->level.pending)) {
+        if (is_due && may_be_batched(*body->plant, surroundings, body->level.pending)) {
             found = std::find_if(open.begin(), open.end(), [&](size_t i) { return goes_with(jobs[i], *body); });
             if (found == open.end()) {
                 if (open.size() == MOST_OPEN) open.erase(open.begin());
@@ -241,11 +243,11 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
     report.detail_count[body.level.now]++;
     if (!body.level.is_due) return;
     add_to_report(world, *body.plant, report);
-    if (!body.plant->swing && body.plant->effects & world.effects & FROND_BREAKING) {
+    if (!body.plant->modal && body.plant->effects & world.effects & FROND_EFFECT_BREAKING) {
         const Timer timer;
         report.broken_count += break_overloaded(world, body);
         move_capsules(body);
-        add_effect(report, FROND_BREAKING, timer.ms());
+        add_effect(report, FROND_EFFECT_BREAKING, timer.ms());
     }
     collision_world.updateSingleAabb(&body);
     report.ms_capsules += double(body.level.ms_capsules);
@@ -271,18 +273,19 @@ void carry_what_came_off(World& world, double h) {
     for (PlantBody* body : world.awake) {
         if (body->fragment_bodies.empty()) continue;
         carry_fragments(*body);
-        if (body->plant->effects & world.effects & FROND_USER_FORCE) pull_fragments(*body, h);
+        if (body->plant->effects & world.effects & FROND_EFFECT_USER_FORCE) pull_fragments(*body, h);
     }
 }
 
-void answer_contacts(World& world, double h) {
+void handle_contacts(World& world, double h) {
     const Timer timer;
     let_go_of_gone(world);
     frond_report& report = world.report;
     if (!world.contacts.empty() || !world.plant_contacts.empty() || !world.bonds.empty()) {
         BT_PROFILE("frond respond");
         respond_to_contacts(world, h);
-        report.effects_run |= world.effects & (FROND_FRICTION | (world.contacts.empty() ? 0 : FROND_TWO_WAY));
+        report.effects_run |=
+            world.effects & (FROND_EFFECT_FRICTION | (world.contacts.empty() ? 0 : FROND_EFFECT_TWO_WAY));
     }
     report.ms_response = timer.ms();
     report.contact_count = int(world.contacts.size());
@@ -293,7 +296,7 @@ void answer_contacts(World& world, double h) {
 void finish_touched(World& world, const Surroundings& surroundings) {
     std::vector<PlantBody*> touched;
     for (PlantBody* body : world.awake)
-        if (body->plant->is_touched && !body->plant->swing) touched.push_back(body);
+        if (body->plant->is_touched && !body->plant->modal) touched.push_back(body);
     run_jobs(world, touched.size(), [&](size_t i) { finish(world, *touched[i], surroundings); });
 }
 
@@ -312,7 +315,7 @@ void take_step(World& world, btCollisionWorld& collision_world, double h) {
         const std::vector<StepJob> jobs = share_out(world, surroundings, h);
         run_jobs(world, jobs.size(), [&](size_t i) { run_job(world, jobs[i], surroundings, h); });
     }
-    answer_contacts(world, h);
+    handle_contacts(world, h);
     finish_touched(world, surroundings);
     {
         BT_PROFILE("frond settle");
@@ -321,7 +324,7 @@ void take_step(World& world, btCollisionWorld& collision_world, double h) {
         world.report.ms_capsules += timer.ms();
     }
     if (world.sleep_distance > 0) put_to_sleep(world);
-    fold_looked_at(world);
+    compress_looked_at(world);
     limit_motors(world, h);
     world.time += h;
     world.report.ms_step = step_timer.ms();
@@ -377,7 +380,7 @@ uint64_t state_hash(World& world) {
         look_at(*body);
         add(body->plant->motion.x);
         add(body->plant->motion.v);
-        add(lasting_of(*body->plant));
+        add(plastic_of(*body->plant));
         for (size_t k = 0; k < body->fragment_bodies.size(); k++) {
             const Fragment& fragment = body->plant->fragments[k];
             const btRigidBody& rigid = *body->fragment_bodies[k]->body;
@@ -387,7 +390,7 @@ uint64_t state_hash(World& world) {
             add(from_bullet(rigid.getAngularVelocity()));
         }
     }
-    fold_looked_at(world);
+    compress_looked_at(world);
     return hash;
 }
 

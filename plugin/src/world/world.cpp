@@ -62,7 +62,8 @@ std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def
     {
         std::lock_guard<std::mutex> lock(attached_mutex);
         if (!attached_worlds().insert(bullet).second)
-            fail(FROND_BAD_ARGUMENT, "this Bullet world is attached already; use the frond_world of the first attach");
+            fail(FROND_RESULT_BAD_ARGUMENT,
+                 "this Bullet world is attached already; use the frond_world of the first attach");
     }
     return std::make_unique<World>(std::move(own), bullet, def);
 }

@@ -48,8 +48,9 @@ struct World final : btActionInterface {
     double sleep_distance;  // 0: no plant sleeps [m]
     size_t turn = 0;        // of asking sleeping plants about the air
     uint64_t substep = 0;
-    double substep_length = 0;           // of the last one [s]
-    double interpolation = 1;            // where surfaces are shown between the last two [-], or FROND_AS_MOTION_STATES
+    double substep_length = 0;  // of the last one [s]
+    double interpolation =
+        1;  // where surfaces are shown between the last two [-], or FROND_INTERPOLATION_AS_MOTION_STATES
     std::unique_ptr<Detail> detail;      // null: all plants are simulated in full
     Vec3 gravity_before = Vec3::Zero();  // in the last substep [m/s^2]
     frond_effects effects_before = 0;    // likewise

@@ -1,0 +1,112 @@
+// In: a grip and where the nodes are. Out: where its point is, and forces and stiffness on it as the nodes feel them.
+#include "mechanics/attachment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/rotation.hpp"
+
+namespace frond {
+
+namespace {
+
+// The arm of node k as it is turned now.
+Vec3 turned_arm(const Attachment& attachment, int k, const VecX& x) {
+    return rotation_of<double>(point(x, attachment.node[size_t(k)] + 1)) * attachment.arm[size_t(k)];
+}
+
+// How the point follows the rotation vector of node k.
+Mat3 turn_derivative(const Attachment& attachment, int k, const VecX& x) {
+    return -cross_matrix<double>(turned_arm(attachment, k, x)) *
+           rate_matrix<double>(point(x, attachment.node[size_t(k)] + 1));
+}
+
+}  // namespace
+
+AttachmentDerivative derivative_at(const Attachment& attachment, const VecX& x) {
+    AttachmentDerivative out;
+    const auto add = [&](int node, const Mat3& by) {
+        out.node[size_t(out.count)] = node;
+        out.by[size_t(out.count++)] = by;
+    };
+    for (int k = 0; k < attachment.count; ++k) {
+        add(attachment.node[size_t(k)], attachment.weight[size_t(k)] * Mat3::Identity());
+        if (attachment.turns) add(attachment.node[size_t(k)] + 1, turn_derivative(attachment, k, x));
+    }
+    return out;
+}
+
+Attachment tet_attachment(const TetPlace& place) {
+    Attachment attachment;
+    attachment.count = place.count;
+    std::copy_n(place.node.begin(), place.count, attachment.node.begin());
+    std::copy_n(place.weight.begin(), place.count, attachment.weight.begin());
+    return attachment;
+}
+
+bool is_sound(const Attachment& attachment, int node_count) {
+    if (attachment.count < 1 || attachment.count > (attachment.turns ? 2 : Attachment::MOST)) return false;
+    for (int k = 0; k < attachment.count; ++k) {
+        if (attachment.node[size_t(k)] < 0 || attachment.node[size_t(k)] + attachment.turns >= node_count) return false;
+        if (!std::isfinite(attachment.weight[size_t(k)])) return false;
+    }
+    return attachment.arm[0].allFinite() && attachment.arm[1].allFinite();
+}
+
+Vec3 attachment_place(const Attachment& attachment, const VecX& x) {
+    Vec3 place = Vec3::Zero();
+    for (int k = 0; k < attachment.count; ++k) {
+        place += attachment.weight[size_t(k)] * point(x, attachment.node[size_t(k)]);
+        if (attachment.turns) place += turned_arm(attachment, k, x);
+    }
+    return place;
+}
+
+Vec3 attachment_velocity(const Attachment& attachment, const VecX& x, const VecX& v) {
+    Vec3 velocity = Vec3::Zero();
+    if (!attachment.turns) {
+        for (int k = 0; k < attachment.count; ++k)
+            velocity += attachment.weight[size_t(k)] * point(v, attachment.node[size_t(k)]);
+        return velocity;
+    }
+    const AttachmentDerivative d = derivative_at(attachment, x);
+    for (int k = 0; k < d.count; ++k) velocity += d.by[size_t(k)] * point(v, d.node[size_t(k)]);
+    return velocity;
+}
+
+void add_attachment_force(const Attachment& attachment, const VecX& x, const Vec3& force, VecX& f) {
+    if (!attachment.turns) {
+        for (int k = 0; k < attachment.count; ++k)
+            point(f, attachment.node[size_t(k)]) += attachment.weight[size_t(k)] * force;
+        return;
+    }
+    const AttachmentDerivative d = derivative_at(attachment, x);
+    for (int k = 0; k < d.count; ++k) point(f, d.node[size_t(k)]) += d.by[size_t(k)].transpose() * force;
+}
+
+void add_attachment_block(const Attachment& attachment, const VecX& x, const Mat3& block, BlockMatrix& A) {
+    // The lower triangle is all there is.
+    if (!attachment.turns) {
+        for (int r = 0; r < attachment.count; ++r)
+            for (int c = 0; c < attachment.count; ++c) {
+                const int i = attachment.node[size_t(r)], j = attachment.node[size_t(c)];
+                if (i >= j)
+                    A.block(A.pattern->slot(i, j)) +=
+                        attachment.weight[size_t(r)] * attachment.weight[size_t(c)] * block;
+            }
+        return;
+    }
+    const AttachmentDerivative d = derivative_at(attachment, x);
+    for (int r = 0; r < d.count; ++r)
+        for (int c = 0; c < d.count; ++c) {
+            const int i = d.node[size_t(r)], j = d.node[size_t(c)];
+            if (i < j) continue;
+            A.block(A.pattern->slot(i, j)) += d.by[size_t(r)].transpose() * block * d.by[size_t(c)];
+        }
+}
+
+void add_attachment_stiffness(const Attachment& attachment, const VecX& x, double stiffness, BlockMatrix& A) {
+    add_attachment_block(attachment, x, stiffness * Mat3::Identity(), A);
+}
+
+}  // namespace frond

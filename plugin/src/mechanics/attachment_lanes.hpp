@@ -1,0 +1,18 @@
+// Grips that do not turn, of several plants side by side.
+#pragma once
+
+#include "core/lanes.hpp"
+#include "mechanics/attachment.hpp"
+
+namespace frond {
+
+// What the point has of what its nodes have: as attachment_place() and attachment_velocity().
+template <class S>
+FROND_INLINE Lanes3<S> attachment_sum(const Attachment& attachment, const double* of_nodes) {
+    Lanes3<S> sum = {};
+    for (size_t k = 0; k < size_t(attachment.count); ++k)
+        sum = sum + constant<S>(attachment.weight[k]) * load3<S>(of_nodes, 3 * attachment.node[k]);
+    return sum;
+}
+
+}  // namespace frond

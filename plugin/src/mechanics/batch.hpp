@@ -1,0 +1,21 @@
+// What rows of BatchMechanics have in common.
+#pragma once
+
+#include <algorithm>
+
+#include "mechanics/mechanics.hpp"
+
+namespace frond {
+
+// Of numbers of nodes side by side.
+inline int lanes_of(const Elements& body, const NumbersInLines& x) {
+    return int(x.size()) / (3 * body.node_count);
+}
+
+// Blocks of several matrices that nothing was added to are zero.
+inline void leave_no_gaps(int lanes, const std::vector<uint8_t>& filled, BlockMatrix& A) {
+    for (size_t slot = 0; slot < filled.size(); ++slot)
+        if (!filled[slot]) std::fill_n(A.values.begin() + std::ptrdiff_t(9 * slot) * lanes, 9 * lanes, 0.0);
+}
+
+}  // namespace frond

@@ -1,0 +1,111 @@
+// In: rods of several plants, one a lane, and where their nodes are. Out: what rod.cpp tells of one plant.
+#include "mechanics/batch.hpp"
+#include "mechanics/rod_assemble.hpp"
+#include "mechanics/rows.hpp"
+
+namespace frond {
+
+namespace {
+
+// Looks that are nearly as far as they may go are left to the plant alone, which knows to the last bit.
+constexpr double NEARLY = 1 - 1e-9;
+
+struct FindInertia {
+    const RodElements& elements;
+    const NumbersInLines& x;
+    NumbersInLines& out;
+    template <class S>
+    FROND_INLINE void run() const {
+        for (int i = 0; i < int(elements.inertia.size()); ++i) {
+            const Mat3& own = elements.inertia[size_t(i)];
+            Lanes33<S> inertia;
+            for (int r = 0; r < 3; ++r)
+                inertia.r[r] = {constant<S>(own(r, 0)), constant<S>(own(r, 1)), constant<S>(own(r, 2))};
+            const Lanes33<S> seen = inertia_by_rate(load3<S>(x.data(), 6 * i + 3), inertia);
+            for (int r = 0; r < 3; ++r) store3(seen.r[r], out.data(), 9 * i + 3 * r);
+        }
+    }
+};
+
+struct FindWild {
+    const RodElements& elements;
+    const NumbersInLines &from, &to;
+    double part;  // of the way [-]
+    unsigned& wild;
+    template <class S>
+    FROND_INLINE Lanes3<S> way(int i) const {
+        return constant<S>(part) * (load3<S>(to.data(), i) - load3<S>(from.data(), i));
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        S calm = constant<S>(1);
+        const auto look = [&](const Lanes3<S>& change, double most) {
+            calm = select(dot(change, change) < most * most * NEARLY, calm, S{});
+        };
+        for (int i = 3; i < 3 * elements.node_count; i += 6) look(way<S>(i), LARGEST_TURN);
+        for (const RodSegment& rod : elements.segments)
+            look(way<S>(6 * rod.b) - way<S>(6 * rod.a), LARGEST_STRETCH * rod.length);
+        wild = bits_of(calm == 0.0);
+    }
+};
+
+struct FindYielding {
+    const RodElements& elements;
+    const NumbersInLines& x;
+    unsigned& yielding;
+    template <class S>
+    FROND_INLINE void run() const {
+        S within = constant<S>(1);
+        LastEnd<S> last;
+        for (size_t s = 0; s < elements.segments.size(); ++s) {
+            if (!(elements.yields[s].strain > 0)) continue;
+            const PieceOfSeveral<S> pieces(elements.segments, s);
+            const Placed<S> at = last.place(pieces, x.data());
+            last.go_on(pieces, at);
+            const S wide = pieces.rod.reach_wide * at.bent.curvature.y,
+                    thin = pieces.rod.reach_thin * at.bent.curvature.z;
+            const S pull = select(at.bent.strain.x < 0.0, S(-at.bent.strain.x), at.bent.strain.x);
+            const S most = pull + sqrt(S(wide * wide + thin * thin));
+            within = select(most < elements.yields[s].strain * NEARLY, within, S{});
+        }
+        yielding = bits_of(within == 0.0);
+    }
+};
+
+void set_ahead(const Elements& body, const NumbersInLines& x, const Ahead& ahead, NumbersInLines& f, BlockMatrix& A,
+               std::vector<uint8_t>& filled, int* inverted) {
+    const int lanes = lanes_of(body, x);
+    filled.assign(size_t(body.pattern.block_count()), 0);
+    f.assign(x.size(), 0);
+    Assemble<PieceOfSeveral> job = to_add_ahead<PieceOfSeveral>(as_rods(body), x.data(), ahead, f.data(), A);
+    job.filled = &filled;
+    run_in_lanes(lanes, job);
+    leave_no_gaps(lanes, filled, A);
+    std::fill_n(inverted, lanes, 0);
+}
+
+void rotary_inertia(const Elements& body, const NumbersInLines& x, NumbersInLines& out) {
+    make_room(out, x.size() / 6 * 9);
+    run_in_lanes(lanes_of(body, x), FindInertia{as_rods(body), x, out});
+}
+
+unsigned not_calm(const Elements& body, const NumbersInLines& from, const NumbersInLines& to, double part) {
+    unsigned wild = 0;
+    run_in_lanes(lanes_of(body, from), FindWild{as_rods(body), from, to, part, wild});
+    return wild;
+}
+
+unsigned may_yield(const Elements& body, const NumbersInLines& x) {
+    unsigned yielding = 0;
+    run_in_lanes(lanes_of(body, x), FindYielding{as_rods(body), x, yielding});
+    return yielding;
+}
+
+}  // namespace
+
+const BatchMechanics& rod_batch() {
+    static const BatchMechanics ROW = {set_ahead, rotary_inertia, not_calm, may_yield};
+    return ROW;
+}
+
+}  // namespace frond

@@ -1,0 +1,317 @@
+// In: plants that go alike and a time h. Out: what solve_plant() finds for each. Gathered into lanes, solved, looked
+// at, and handed out again. A plant whose step cannot stand is put back where it was and stepped alone.
+#include "plant/batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/lanes.hpp"
+#include "core/lanes_of_plants.hpp"
+#include "core/timer.hpp"
+#include "mechanics/attachment_lanes.hpp"
+#include "plant/air_batch.hpp"
+#include "plant/guard.hpp"
+#include "solve/system.hpp"
+
+namespace frond {
+
+struct PlantBatch {
+    Batch step;
+    AirBatch air;
+    NumbersInLines forces;
+    std::array<VecX, MOST_LANES> x, v;  // each plant's at the end of the step
+};
+
+namespace {
+
+// Of every lane's plant, the numbers that `of` gives.
+template <class Of>
+struct Gather {
+    const Of& of;
+    NumbersInLines& to;
+    template <class S>
+    FROND_INLINE void run() const {
+        const double* from[LANES<S>];
+        for (int lane = 0; lane < LANES<S>; lane++) from[lane] = of(lane).data();
+        put_side_by_side<S>(from, size_t(of(0).size()), to.data());
+    }
+};
+
+// The other way round.
+struct HandOut {
+    const NumbersInLines& from;
+    std::array<VecX, MOST_LANES>& plants;
+    template <class S>
+    FROND_INLINE void run() const {
+        double* to[LANES<S>];
+        for (int lane = 0; lane < LANES<S>; lane++) {
+            plants[size_t(lane)].resize(Eigen::Index(from.size()) / LANES<S>);
+            to[lane] = plants[size_t(lane)].data();
+        }
+        put_apart<S>(from.data(), from.size() / LANES<S>, to);
+    }
+};
+
+// Which lanes went where a healthy step does not lead, and which ended off their course, or nearly so.
+struct LookAtWays {
+    const Batch& step;
+    double size, h;  // of the plants [m], of the step [s]
+    bool turns;      // every other node
+    unsigned &far_away, &off_course;
+    template <class S>
+    FROND_INLINE void run() const {
+        constexpr double NEARLY = 1 - 1e-9;
+        const double far = std::pow(OFF_COURSE * size, 2) * NEARLY;
+        const double turned = TURNED_OFF_COURSE * TURNED_OFF_COURSE * NEARLY;
+        S near = constant<S>(1), on_course = near;
+        for (int i = 0; i < step.system->elements->node_count; i++) {
+            const Lanes3<S> way = load3<S>(step.x_end.data(), 3 * i) - load3<S>(step.x.data(), 3 * i);
+            const Lanes3<S> off = way - constant<S>(h) * load3<S>(step.v.data(), 3 * i);
+            const bool is_turn = turns && i % 2;
+            on_course = select(dot(off, off) < (is_turn ? turned : far), on_course, S{});
+            if (!is_turn) near = select(dot(way, way) < std::pow(FARTHEST_WAY * size, 2) * NEARLY, near, S{});
+        }
+        far_away = bits_of(near == 0.0);
+        off_course = bits_of(on_course == 0.0);
+    }
+};
+
+// Lanes in which a fibre pulls, or nearly so.
+struct LookForTaut {
+    const Batch& step;
+    const Fibres& fibres;
+    const Chain& chain;
+    unsigned& taut;
+    template <class S>
+    FROND_INLINE void run() const {
+        constexpr double NEARLY = 1 - 1e-9;
+        S slack = constant<S>(1);
+        for (const Fibre& fibre : fibres.list) {
+            const size_t node = size_t(fibre.node), parent = size_t(chain.nodes[node].parent);
+            const std::vector<Attachment>& attachments = step.system->chain;
+            const Lanes3<S> way = attachment_sum<S>(attachments[node], step.x_end.data()) -
+                                  attachment_sum<S>(attachments[parent], step.x_end.data());
+            slack = select(dot(way, way) < fibre.length * fibre.length * NEARLY, slack, S{});
+        }
+        taut = bits_of(slack == 0.0);
+    }
+};
+
+unsigned find_taut(const Batch& step, const Plant& plant, frond_effects effects) {
+    unsigned taut = 0;
+    if (plant.fibres && (effects & FROND_EFFECT_FIBRES))
+        run_in_lanes(step.lanes, LookForTaut{step, *plant.fibres, plant.model->chain, taut});
+    return taut;
+}
+
+std::shared_ptr<PlantBatch> take_batch(WorkspacePool& pool) {
+    std::lock_guard<std::mutex> lock(pool.mutex);
+    if (pool.batch.empty()) return std::make_shared<PlantBatch>();
+    std::shared_ptr<PlantBatch> space = std::move(pool.batch.back());
+    pool.batch.pop_back();
+    return space;
+}
+
+void return_batch(WorkspacePool& pool, std::shared_ptr<PlantBatch> space) {
+    std::lock_guard<std::mutex> lock(pool.mutex);
+    pool.batch.push_back(std::move(space));
+}
+
+void gather_motions(Batch& step, Plant* const* plants, int count, const Surroundings& surroundings,
+                    frond_effects effects) {
+    const bool looks_back = plants[0]->looks_back;
+    const auto at = [&](int lane) -> Plant& { return *plants[std::min(lane, count - 1)]; };
+    const auto gather_from = [&](const auto& of, NumbersInLines& to) {
+        run_in_lanes(step.lanes, Gather<decltype(of)>{of, to});
+    };
+    gather_from([&](int lane) -> const VecX& { return at(lane).motion.x; }, step.x);
+    gather_from([&](int lane) -> const VecX& { return at(lane).motion.v; }, step.v);
+    if (looks_back) {
+        gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.x_prev; }, step.x_prev);
+        gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.v_prev; }, step.v_prev);
+    }
+    for (int lane = 0; lane < step.lanes; lane++) {
+        const Vec3 gravity = gravity_in(at(lane), surroundings, effects);
+        for (int c = 0; c < 3; c++) step.gravity[size_t(c * step.lanes + lane)] = gravity[c];
+    }
+}
+
+// All that solve_plant() leaves of a healthy step. False, with the motion as it was: the plant has to be stepped alone.
+bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& settings, bool may_be_off, bool may_pull,
+               double h) {
+    const Batch& step = space.step;
+    Motion& motion = plant.motion;
+    History& history = motion.history;
+    VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
+    const bool is_wound = (step.wound >> lane & 1) != 0;
+    const bool is_asked = may_be_off || is_wound || may_pull || step.inverted[size_t(lane)] > 0;
+    if (is_asked) {
+        plant.x_good = motion.x;
+        plant.v_good = motion.v;
+    }
+    motion.x.swap(x);
+    motion.v.swap(v);
+    if (is_asked && is_far_out(plant)) {
+        motion.x.swap(x);
+        motion.v.swap(v);
+        return false;
+    }
+    if (!is_asked) {
+        // Where it began is kept once.
+        plant.x_good.resize(0);
+        plant.v_good.resize(0);
+    }
+    history.x_prev.swap(x);
+    history.v_prev.swap(v);
+    // Until the next step nothing but its fibres moves the plant that does not drop its history.
+    history.x_end.resize(0);
+    history.v_end.resize(0);
+    if (may_pull) {
+        history.x_end = motion.x;
+        history.v_end = motion.v;
+    }
+    history.shaken = !plant.looks_back;
+    if (!plant.looks_back) {
+        history.valid = true;
+        history.integrator = settings.integrator;
+        history.pinned = motion.pinned;
+    }
+    history.h = h;
+    if (is_wound) unwind(motion);
+    plant.is_off_course = is_asked && ends_off_course(plant, h);
+    plant.lead = 0;
+    plant.is_sound = true;
+    plant.step_settings = settings;
+    plant.loads.drags.clear();
+    plant.loads.springs.clear();
+    plant.loads.force.resize(0);
+    for (int c = 0; c < 3; c++) {
+        const size_t at = size_t(c * step.lanes + lane);
+        plant.loads.gravity[c] = step.gravity[at];
+        plant.blown[c] = space.forces[at];
+    }
+    return true;
+}
+
+// Plants whose fibres pull need their own factors.
+void take_factors(const Batch& step, Plant* const* plants, unsigned which) {
+    if (which == 0) return;
+    std::array<Workspace*, MOST_LANES> workspaces = {};
+    for (size_t lane = 0; lane < size_t(step.lanes); lane++) {
+        if (!(which >> lane & 1)) continue;
+        take_workspace(*plants[lane]);
+        workspaces[lane] = plants[lane]->workspace.get();
+    }
+    take_apart(step, workspaces.data());
+}
+
+// By its fibres, with what the air does to it told one by one.
+void pull(Plant& plant, const Batch& step, int lane, frond_effects effects, double h) {
+    plant.blown.setZero();
+    take_drags(step, lane, plant.loads.drags);
+    finish_solving(plant, effects, h);
+}
+
+}  // namespace
+
+// By its history, or anew and damped. What went abreast last is not looked at closely: that costs a thousand plants as
+// much as what a job then has at hand.
+static bool foresee_method(Plant& plant, double h) {
+    const History& history = plant.motion.history;
+    plant.looks_back =
+        history.valid && (history.x_end.size() == 0 || history_holds(plant.motion, plant.settings.integrator, h));
+    return plant.looks_back || history.shaken;
+}
+
+// As foreseen, with its pins at rest; what has gone abreast since they moved has them so.
+static bool goes_on(const Plant& plant, double h) {
+    const Motion& motion = plant.motion;
+    return history_holds(motion, plant.settings.integrator, h) == plant.looks_back &&
+           ((plant.looks_back && motion.history.x_end.size() == 0) || is_where_held(motion));
+}
+
+bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h) {
+    return !plant.modal && !plant.own_elements && !plant.workspace && !plant.is_touched && !plant.has_user_force &&
+           plant.grabs.empty() && plant.fragments.empty() && plant.pin_springs.empty() && !plant.pins_changed &&
+           plant.recovers_for <= 0 && plant.patience == 1 && plant.max_substeps <= 1 && plant.fibre_give.empty() &&
+           h > 0 && h <= TRUSTED &&
+           frond::may_be_batched(*plant.system, settings_for(plant, plant.effects & surroundings.effects), h) &&
+           foresee_method(plant, h);
+}
+
+bool go_alike(const Plant& a, const Plant& b) {
+    return a.system == b.system && a.effects == b.effects && a.size == b.size && a.looks_back == b.looks_back &&
+           (!a.looks_back || a.motion.history.h == b.motion.history.h) && are_alike(a.settings, b.settings) &&
+           a.motion.pinned == b.motion.pinned;
+}
+
+int most_in_batch() {
+    return lanes_for(MOST_LANES);
+}
+
+void solve_batch(Plant* const* given, int given_count, const Surroundings& surroundings, double h) {
+    std::array<Plant*, MOST_LANES> plants;
+    int count = 0;
+    for (int i = 0; i < given_count; i++) {
+        Plant& plant = *given[i];
+        if (goes_on(plant, h))
+            plants[size_t(count++)] = &plant;
+        else
+            solve_plant(plant, surroundings, h);
+    }
+    // Lanes of which half are empty take no less time than plants one by one.
+    const int lanes = lanes_for(count);
+    if (count < lanes / 2 + 1) {
+        for (int i = 0; i < count; i++) solve_plant(*plants[size_t(i)], surroundings, h);
+        return;
+    }
+    const std::shared_ptr<WorkspacePool> pool = plants[0]->seat.pool;
+    const std::shared_ptr<PlantBatch> space = take_batch(*pool);
+    Batch& step = space->step;
+    const System& system = *plants[0]->system;
+    const frond_effects effects = plants[0]->effects & surroundings.effects;
+    const SolveSettings settings = settings_for(*plants[0], effects);
+    make_room(step, plants[0]->system, lanes);
+    Timer timer;
+    gather_motions(step, plants.data(), count, surroundings, effects);
+    const unsigned bad_wind = gather_air(space->air, step, plants.data(), count, surroundings, effects, h);
+    const double ms_air = timer.lap();
+
+    const double h_before = plants[0]->looks_back ? plants[0]->motion.history.h : 0;
+    unsigned alone = step_batch(step, settings, plants[0]->motion.pinned, h, h_before), far_away, off_course;
+    alone |= system.row->batch->not_calm(*system.elements, step.x, step.x_end, 0.5);
+    run_in_lanes(step.lanes,
+                 LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course});
+    // Without air the energy of what left its course is looked at; of what is wound that is asked later.
+    alone |= far_away | ((off_course | step.wound) & ~air_forces(step, space->forces));
+    const bool has_yields = (effects & FROND_EFFECT_PLASTICITY) && !system.elements->yields.empty();
+    const unsigned may_yield = has_yields ? system.row->batch->may_yield(*system.elements, step.x_end) : 0;
+    const unsigned taut = find_taut(step, *plants[0], effects);
+    run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
+    run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
+    take_factors(step, plants.data(), taut & ~alone & ((1u << count) - 1));
+    const double ms_solve = timer.lap();
+
+    for (int lane = 0; lane < count; lane++) {
+        Plant& plant = *plants[size_t(lane)];
+        const auto is_in = [&](unsigned bits) { return (bits >> lane & 1) != 0; };
+        if (is_in(alone) || !take_step(plant, *space, lane, settings, is_in(off_course), is_in(taut), h)) {
+            solve_plant(plant, surroundings, h);
+            continue;
+        }
+        plant.trouble = is_in(bad_wind) ? FROND_TROUBLE_BAD_WIND : 0;
+        plant.may_yield = is_in(may_yield | taut);
+        plant.report = {};
+        plant.report.ok = true;
+        plant.report.iterations = 1;
+        plant.report.inverted = step.inverted[size_t(lane)];
+        plant.report.residual = step.residual[size_t(lane)];
+        plant.report.ms_solve = float(ms_solve / count);
+        plant.ms_air = plant.ms_effects = float(ms_air / count);
+        plant.ms_user_force = plant.ms_fibres = plant.ms_plasticity = 0;
+        if (is_in(taut)) pull(plant, step, lane, effects, h);
+    }
+    return_batch(*pool, space);
+}
+
+}  // namespace frond

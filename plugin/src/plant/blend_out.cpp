@@ -1,0 +1,37 @@
+// (offset + rate t) exp(-SPEED t): the shape and its velocity go on without a jump, and nothing swings.
+#include "plant/blend_out.hpp"
+
+#include <cmath>
+
+namespace frond {
+
+constexpr double SPEED = 4;      // [1/s]
+constexpr double UNSEEN = 1e-6;  // [m]
+
+void begin_blend_out(BlendOut& blend_out, VecX offset, const VecX& rate) {
+    blend_out = {};
+    if (offset.lpNorm<Eigen::Infinity>() < UNSEEN && rate.lpNorm<Eigen::Infinity>() < SPEED * UNSEEN) return;
+    blend_out.rate = rate + SPEED * offset;
+    blend_out.offset = std::move(offset);
+}
+
+void pass_time(BlendOut& blend_out, double h) {
+    if (is_over(blend_out)) return;
+    blend_out.time += h;
+    const double most =
+        blend_out.offset.lpNorm<Eigen::Infinity>() + blend_out.time * blend_out.rate.lpNorm<Eigen::Infinity>();
+    if (most * std::exp(-SPEED * blend_out.time) < UNSEEN) blend_out = {};
+}
+
+void add_offset(const BlendOut& blend_out, VecX& x) {
+    if (!is_over(blend_out))
+        x += std::exp(-SPEED * blend_out.time) * (blend_out.offset + blend_out.time * blend_out.rate);
+}
+
+void add_rate(const BlendOut& blend_out, VecX& v) {
+    if (is_over(blend_out)) return;
+    v += std::exp(-SPEED * blend_out.time) *
+         (blend_out.rate - SPEED * (blend_out.offset + blend_out.time * blend_out.rate));
+}
+
+}  // namespace frond

@@ -1,0 +1,188 @@
+// In: a chain that moves, then the air. Out: the chain, moving by its two first sways.
+//
+// Each sway is an oscillator that the air's push displaces, solved exactly over the time for which the push is taken as
+// constant; so it can be told rarely and drawn at any time. Along the chain the modes' rotations turn its pieces, which
+// keep their lengths however far it bends. What the modes cannot have of the chain's shape fades.
+#include "plant/modal.hpp"
+
+#include <cmath>
+
+#include "mechanics/rotation.hpp"
+#include "plant/plant.hpp"
+
+namespace frond {
+
+namespace {
+
+struct State {
+    double place, speed;
+};
+
+// x'' + c x' + k (x - rest) = 0 after t.
+State after(const State& start, double rest, double c, double k, double t) {
+    const double a = 0.5 * c, d = k - a * a, x = start.place - rest;
+    double cosine, sine_over;  // of sqrt(d) t, the second over sqrt(d)
+    if (d > 1e-9 * k) {
+        const double omega = std::sqrt(d);
+        cosine = std::cos(omega * t);
+        sine_over = std::sin(omega * t) / omega;
+    } else if (d < -1e-9 * k) {
+        const double omega = std::sqrt(-d);
+        cosine = std::cosh(omega * t);
+        sine_over = std::sinh(omega * t) / omega;
+    } else {
+        cosine = 1;
+        sine_over = t;
+    }
+    const double fall = std::exp(-a * t);
+    return {rest + fall * (x * (cosine + a * sine_over) + start.speed * sine_over),
+            fall * (start.speed * (cosine - a * sine_over) - k * x * sine_over)};
+}
+
+State state_of(const ModalMotion& modal, size_t k) {
+    return after({modal.place[k], modal.speed[k]}, modal.rest[k], modal.damping[k], modal.modes->modes[k].square,
+                 modal.since);
+}
+
+// Places and rotations of the chain at coordinates of the modes.
+void bend_chain(const Plant& plant, const std::array<double, 2>& at, VecX& x) {
+    const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
+    const VecX& modelled = elements_of(*plant.system).modelled;
+    x = modelled;
+    for (size_t k = 0; k < 2; k++) {
+        const VecX& shape = plant.modal->modes->modes[k].shape;
+        if (shape.size() == 0) continue;
+        for (int i = 1; i < x.size() / 3; i += 2) point(x, i) += at[k] * point(shape, i);
+    }
+    for (size_t i = 0; i < nodes.size(); i++) {
+        const int parent = nodes[i].parent;
+        if (parent < 0) continue;
+        const Vec3 turn = 0.5 * (point(x, 2 * parent + 1) + point(x, int(2 * i + 1)));
+        point(x, int(2 * i)) = point(x, 2 * parent) +
+                               rotation_of<double>(turn) * (point(modelled, int(2 * i)) - point(modelled, 2 * parent));
+    }
+}
+
+// How the chain moves with the modes' speeds.
+VecX rate_of(const Plant& plant, const std::array<double, 2>& at, const std::array<double, 2>& speed) {
+    constexpr double SHORT = 1e-5;  // [s]
+    VecX before, behind;
+    bend_chain(plant, {at[0] - SHORT * speed[0], at[1] - SHORT * speed[1]}, before);
+    bend_chain(plant, {at[0] + SHORT * speed[0], at[1] + SHORT * speed[1]}, behind);
+    return (behind - before) / (2 * SHORT);
+}
+
+// What the air does to the modes until it is asked again.
+void ask_air(Plant& plant, const Surroundings& surroundings) {
+    ModalMotion& modal = *plant.modal;
+    const frond_effects effects = plant.effects & surroundings.effects;
+    Vec3 wind = Vec3::Zero();
+    if (surroundings.wind && effects & FROND_EFFECT_WIND && !modal.comes_to_rest) {
+        const Vec3 p = plant.to_world(modal.modes->middle);
+        modal.at.assign(1, {p.x(), p.y(), p.z()});
+        if (!wind_velocities(*surroundings.wind, up_of(surroundings.gravity), surroundings.time, modal.at, modal.air))
+            plant.trouble |= FROND_TROUBLE_BAD_WIND;
+        wind = plant.rotation.conjugate() * Vec3(modal.air[0].x, modal.air[0].y, modal.air[0].z);
+    }
+    const double speed = wind.norm(), density = surroundings.wind ? surroundings.wind->def.density : 0;
+    const bool damps = effects & FROND_EFFECT_DAMPING;
+    for (size_t k = 0; k < 2; k++) {
+        const NaturalMode& mode = modal.modes->modes[k];
+        if (mode.shape.size() == 0) continue;
+        const SolveSettings& s = plant.settings;
+        double push = 0;
+        modal.damping[k] =
+            damps ? s.mass_damping + s.stiffness_damping * mode.stiffness + s.full_damping * mode.ratio : 0;
+        for (size_t a = 0; a < 3 && speed > 0; a++) {
+            const double share = wind[Eigen::Index(a)] * wind[Eigen::Index(a)] / (speed * speed);
+            push += density * speed * share * mode.push[a].dot(wind);
+            if (effects & FROND_EFFECT_AIR_DRAG) modal.damping[k] += density * speed * share * mode.resist[a];
+        }
+        constexpr double EBB = 0.85;  // of a lean that the air no longer holds
+        modal.rest[k] = modal.comes_to_rest ? EBB * modal.rest[k] : push / mode.square;
+        if (modal.comes_to_rest) modal.damping[k] = std::max(modal.damping[k], std::sqrt(mode.square));
+    }
+}
+
+}  // namespace
+
+void begin_modal(Plant& plant) {
+    if (plant.modal) return;
+    plant.modal = std::make_unique<ModalMotion>();
+    ModalMotion& modal = *plant.modal;
+    modal.modes = modal_basis_of(plant);
+    const VecX& mass = node_mass_of(*plant.system);
+    const VecX& modelled = elements_of(*plant.system).modelled;
+    for (size_t k = 0; k < 2; k++) {
+        const VecX& shape = modal.modes->modes[k].shape;
+        if (shape.size() == 0) continue;
+        for (int i = 0; i < mass.size(); i += 2) {
+            modal.place[k] += mass[i] * point(shape, i).dot(point(plant.motion.x, i) - point(modelled, i));
+            modal.speed[k] += mass[i] * point(shape, i).dot(point(plant.motion.v, i));
+        }
+        modal.rest[k] = modal.place[k];
+    }
+    VecX x;
+    bend_chain(plant, modal.place, x);
+    begin_blend_out(modal.blend_out, plant.motion.x - x, plant.motion.v - rate_of(plant, modal.place, modal.speed));
+    plant.motion.history.valid = false;
+    plant.report = {};
+    plant.report.ok = true;
+    plant.loads.drags.clear();
+    plant.blown.setZero();
+    plant.stepped_by = 0;
+}
+
+void keep_only_modes(Plant& plant) {
+    begin_modal(plant);
+    plant.modal->blend_out = {};
+    end_modal(plant);
+}
+
+void pose(Plant& plant) {
+    if (!plant.modal || !plant.modal->stale) return;
+    ModalMotion& modal = *plant.modal;
+    std::array<double, 2> at, speed;
+    for (size_t k = 0; k < 2; k++) {
+        const State now = state_of(modal, k);
+        at[k] = now.place;
+        speed[k] = now.speed;
+    }
+    bend_chain(plant, at, plant.motion.x);
+    plant.motion.v = rate_of(plant, at, speed);
+    add_offset(modal.blend_out, plant.motion.x);
+    add_rate(modal.blend_out, plant.motion.v);
+    modal.stale = false;
+    moved(plant);
+}
+
+void end_modal(Plant& plant) {
+    if (!plant.modal) return;
+    pose(plant);
+    plant.modal = nullptr;
+}
+
+void step_modal(Plant& plant, const Surroundings& surroundings, double h, bool ask) {
+    ModalMotion& modal = *plant.modal;
+    plant.trouble = 0;
+    modal.since += h;
+    modal.stale = plant.cage_stale = plant.surface_stale = true;
+    pass_time(modal.blend_out, h);
+    if (!ask && !modal.fresh) return;
+    modal.fresh = false;
+    for (size_t k = 0; k < 2; k++) {
+        const State now = state_of(modal, k);
+        modal.place[k] = now.place;
+        modal.speed[k] = now.speed;
+    }
+    modal.since = 0;
+    ask_air(plant, surroundings);
+}
+
+std::array<double, 2> modal_reach(const Plant& plant) {
+    std::array<double, 2> modal;
+    for (size_t k = 0; k < 2; k++) modal[k] = state_of(*plant.modal, k).place * plant.modal->modes->modes[k].reach;
+    return modal;
+}
+
+}  // namespace frond

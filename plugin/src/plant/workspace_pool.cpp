@@ -1,0 +1,42 @@
+// A plant's step needs a workspace of some hundred kilobytes, and nothing of it afterwards: plants of one system take
+// turns.
+#include "plant/plant.hpp"
+
+namespace frond {
+
+void PoolSeat::take() {
+    if (is_taken) return;
+    std::lock_guard<std::mutex> lock(pool->mutex);
+    pool->seats++;
+    is_taken = true;
+}
+
+void PoolSeat::leave() {
+    if (!is_taken) return;
+    std::lock_guard<std::mutex> lock(pool->mutex);
+    pool->seats--;
+    while (pool->free.size() > pool->seats) pool->free.pop_back();
+    while (pool->batch.size() > pool->seats) pool->batch.pop_back();
+    is_taken = false;
+}
+
+void take_workspace(Plant& plant) {
+    if (plant.workspace) return;
+    {
+        std::lock_guard<std::mutex> lock(plant.seat.pool->mutex);
+        if (!plant.seat.pool->free.empty()) {
+            plant.workspace = std::move(plant.seat.pool->free.back());
+            plant.seat.pool->free.pop_back();
+        }
+    }
+    if (!plant.workspace) plant.workspace = make_workspace(plant.system);
+    use_elements(*plant.workspace, plant.own_elements.get());
+}
+
+void return_workspace(Plant& plant) {
+    if (!plant.workspace) return;
+    std::lock_guard<std::mutex> lock(plant.seat.pool->mutex);
+    plant.seat.pool->free.push_back(std::move(plant.workspace));
+}
+
+}  // namespace frond

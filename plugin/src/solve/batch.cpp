@@ -1,0 +1,310 @@
+// In: the motions of several plants, a lane each. Out: their motions a step of bdf2 with one solve later, or of
+// implicit Euler where that begins anew: what step_bdf2() and solve_stage() do to each, in the same order.
+#include "solve/batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/lanes.hpp"
+#include "mechanics/attachment_lanes.hpp"
+#include "solve/integrator.hpp"
+#include "solve/workspace.hpp"
+
+namespace frond {
+
+namespace {
+
+// Where the step comes from and where it is heading.
+struct LookBack {
+    Batch& a;
+    const std::vector<uint8_t>& pinned;
+    double h, h_before;
+    Bdf2 method;
+    template <class S>
+    FROND_INLINE void run() const {
+        for (int i = 0; i < a.system->elements->node_count; ++i) {
+            const int at = 3 * i;
+            const Lanes3<S> x = load3<S>(a.x.data(), at),
+                            v = pinned[size_t(i)] ? Lanes3<S>{} : load3<S>(a.v.data(), at);
+            Lanes3<S> x_prev = load3<S>(a.x_prev.data(), at), v_prev = load3<S>(a.v_prev.data(), at);
+            if (a.held[size_t(i)]) {
+                x_prev = x - constant<S>(h_before) * v;
+                v_prev = v;
+            }
+            begin(at, v, x + constant<S>(h) * v, x + constant<S>(method.back) * (x - x_prev),
+                  v + constant<S>(method.back) * (v - v_prev));
+        }
+    }
+    template <class S>
+    FROND_INLINE void begin(int at, const Lanes3<S>& v, const Lanes3<S>& x_from, const Lanes3<S>& x_base,
+                            const Lanes3<S>& v_base) const {
+        const Lanes3<S> end = x_base + constant<S>(method.step) * v;
+        store3(v, a.v_start.data(), at);
+        store3(x_from, a.x_from.data(), at);
+        store3(x_base, a.x_base.data(), at);
+        store3(v_base, a.v_base.data(), at);
+        store3(end - x_from, a.way.data(), at);
+    }
+};
+
+// The same of implicit Euler, which begins anew.
+struct BeginAnew {
+    LookBack step;
+    template <class S>
+    FROND_INLINE void run() const {
+        const Batch& a = step.a;
+        for (int i = 0; i < a.system->elements->node_count; ++i) {
+            const Lanes3<S> x = load3<S>(a.x.data(), 3 * i),
+                            v = step.pinned[size_t(i)] ? Lanes3<S>{} : load3<S>(a.v.data(), 3 * i);
+            step.begin(3 * i, v, x, x, v);
+        }
+    }
+};
+
+template <class S>
+FROND_INLINE Lanes33<S> drag_damping(const Batch& a, int drag) {
+    const Lanes3<S> first = load3<S>(a.drag_damping.data(), 6 * drag),
+                    rest = load3<S>(a.drag_damping.data(), 6 * drag + 3);
+    return {{first, {first.y, rest.x, rest.y}, {first.z, rest.y, rest.z}}};
+}
+// To add nothing would still change the sign of zeros.
+template <class S>
+FROND_INLINE auto is_dragged(const Lanes3<S>& push, const Lanes33<S>& damping) {
+    return dot(push, push) + dot(damping, damping) > 0.0;
+}
+// As hold() in newton.cpp.
+template <class S>
+FROND_INLINE void hold(Batch& a) {
+    const BlockPattern& pattern = *a.A.pattern;
+    for (int j = 0; j < pattern.node_count; ++j) {
+        for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
+            const int i = pattern.row[size_t(k)];
+            if (!a.held[size_t(i)] && !a.held[size_t(j)]) continue;
+            for (int n = 0; n < 9; ++n)
+                store(constant<S>(i == j && n % 4 == 0 ? 1 : 0), a.A.values.data() + LANES<S> * size_t(9 * k + n));
+        }
+        if (a.held[size_t(j)]) store3(Lanes3<S>{}, a.rhs.data(), 3 * j);
+    }
+}
+
+// From elastic forces and stiffness to the linear system, of pairs of nodes that turn.
+struct FormPairs {
+    Batch& a;
+    double step, mass;  // of the stage [s], and what masses count [-]
+
+    template <class S>
+    FROND_INLINE void form_right_side(int i) const {
+        const Masses& masses = a.system->masses;
+        const Lanes3<S> v = load3<S>(a.v_start.data(), 3 * i);
+        const S own = constant<S>(masses.node[i]);
+        Lanes3<S> rhs = Lanes3<S>{} + own * load3<S>(a.gravity.data(), 0) + load3<S>(a.elastic.data(), 3 * i);
+        if (i % 2 == 0) {
+            const Lanes33<S> damping = drag_damping<S>(a, i / 2);
+            const Lanes3<S> push = load3<S>(a.drag_force.data(), 3 * (i / 2));
+            rhs = select(is_dragged(push, damping), rhs + (push - damping * v), rhs);
+        }
+        rhs = constant<S>(step) * rhs;
+        const Lanes3<S> dv = load3<S>(a.v_base.data(), 3 * i) - constant<S>(mass) * v;
+        Lanes3<S> momentum = own * dv;
+        if (i % 2) momentum = momentum + inertia_of<S>(i / 2) * dv;
+        store3(rhs + momentum, a.rhs.data(), 3 * i);
+    }
+    template <class S>
+    FROND_INLINE Lanes33<S> inertia_of(int pair) const {
+        const double* from = a.inertia.data();
+        return {{load3<S>(from, 9 * pair), load3<S>(from, 9 * pair + 3), load3<S>(from, 9 * pair + 6)}};
+    }
+    // The diagonal block of node i, which lies by columns.
+    template <class S>
+    FROND_INLINE void form_block(int i) const {
+        const int slot = a.A.pattern->start[size_t(i)];
+        double* block = a.A.values.data();
+        Lanes33<S> over = {{load3<S>(block, 9 * slot), load3<S>(block, 9 * slot + 3), load3<S>(block, 9 * slot + 6)}};
+        add_to_diagonal(constant<S>(mass * a.system->masses.slot[size_t(slot)]), over);
+        if (i % 2 && !a.held[size_t(i)]) over = over + transposed(constant<S>(mass) * inertia_of<S>(i / 2));
+        if (i % 2 == 0) {
+            const Lanes33<S> damping = drag_damping<S>(a, i / 2);
+            const Lanes3<S> push = load3<S>(a.drag_force.data(), 3 * (i / 2));
+            over = select(is_dragged(push, damping), over + constant<S>(step) * damping, over);
+        }
+        for (int r = 0; r < 3; ++r) store3(over.r[r], block, 9 * slot + 3 * r);
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        for (int i = 0; i < a.system->elements->node_count; ++i) {
+            form_right_side<S>(i);
+            form_block<S>(i);
+        }
+        hold<S>(a);
+    }
+};
+
+// The same of places alone; drags are between them.
+struct FormPlaces {
+    Batch& a;
+    double step, mass;
+
+    template <class S>
+    FROND_INLINE void add_drag(int drag) const {
+        const Attachment& attachment = a.system->chain[size_t(drag)];
+        const Lanes33<S> damping = drag_damping<S>(a, drag);
+        const Lanes3<S> push = load3<S>(a.drag_force.data(), 3 * drag);
+        const auto dragged = is_dragged(push, damping);
+        const Lanes3<S> force = push - damping * attachment_sum<S>(attachment, a.v_start.data());
+        const Lanes33<S> block = constant<S>(step) * damping;
+        for (size_t r = 0; r < size_t(attachment.count); ++r) {
+            const int i = attachment.node[r];
+            const Lanes3<S> rhs = load3<S>(a.rhs.data(), 3 * i);
+            store3(select(dragged, rhs + constant<S>(attachment.weight[r]) * force, rhs), a.rhs.data(), 3 * i);
+            for (size_t c = 0; c < size_t(attachment.count); ++c) {
+                if (i < attachment.node[c]) continue;
+                // It is symmetric: its rows are columns too.
+                const int slot = 9 * a.A.pattern->slot(i, attachment.node[c]);
+                const S by = constant<S>(attachment.weight[r] * attachment.weight[c]);
+                for (int k = 0; k < 3; ++k) {
+                    const Lanes3<S> over = load3<S>(a.A.values.data(), slot + 3 * k);
+                    store3(select(dragged, over + by * block.r[k], over), a.A.values.data(), slot + 3 * k);
+                }
+            }
+        }
+    }
+    template <class S>
+    FROND_INLINE void run() const {
+        const Masses& masses = a.system->masses;
+        const int count = a.system->elements->node_count;
+        for (int i = 0; i < count; ++i) {
+            const S own = constant<S>(masses.node[i]);
+            store3(Lanes3<S>{} + own * load3<S>(a.gravity.data(), 0) + load3<S>(a.elastic.data(), 3 * i), a.rhs.data(),
+                   3 * i);
+            const size_t slot = size_t(a.A.pattern->start[size_t(i)]);
+            for (size_t n = 0; n < 9; n += 4) {
+                double* at = a.A.values.data() + LANES<S> * (9 * slot + n);
+                store(S(load<S>(at) + constant<S>(mass * masses.slot[slot])), at);
+            }
+        }
+        for (int drag = 0; drag < int(a.system->chain.size()); ++drag) add_drag<S>(drag);
+        for (int i = 0; i < count; ++i) {
+            const Lanes3<S> dv =
+                load3<S>(a.v_base.data(), 3 * i) - constant<S>(mass) * load3<S>(a.v_start.data(), 3 * i);
+            store3(constant<S>(step) * load3<S>(a.rhs.data(), 3 * i) + constant<S>(masses.node[i]) * dv, a.rhs.data(),
+                   3 * i);
+        }
+        hold<S>(a);
+    }
+};
+
+// Where the step ends, unless something is no number there.
+struct Finish {
+    Batch& a;
+    const std::vector<uint8_t>& pinned;
+    double step;
+    bool turns;  // every other node
+    unsigned& lost;
+    template <class S>
+    FROND_INLINE void run() const {
+        constexpr double NEARLY = 1 - 1e-9;
+        S sound = constant<S>(1), within = sound;
+        for (int i = 0; i < a.system->elements->node_count; ++i) {
+            Lanes3<S> v = load3<S>(a.v_start.data(), 3 * i) + load3<S>(a.dv.data(), 3 * i);
+            Lanes3<S> x = load3<S>(a.x_base.data(), 3 * i) + constant<S>(step) * v;
+            if (pinned[size_t(i)]) {
+                x = load3<S>(a.x.data(), 3 * i);
+                v = load3<S>(a.v_start.data(), 3 * i);
+            }
+            const S far = dot(x, x);
+            sound = select(far + dot(v, v) <= 1e300, sound, S{});
+            if (turns && i % 2) within = select(far <= M_PI * M_PI * NEARLY, within, S{});
+            store3(x, a.x_end.data(), 3 * i);
+            store3(v, a.v_end.data(), 3 * i);
+        }
+        lost |= bits_of(sound == 0.0);
+        a.wound = bits_of(within == 0.0);
+    }
+};
+
+}  // namespace
+
+bool may_be_batched(const System& system, const SolveSettings& settings, double h) {
+    return system.row->batch && system.masses.lumped && settings.integrator == FROND_INTEGRATOR_BDF2 &&
+           settings.linear_solver == FROND_LINEAR_SOLVER_BLOCK && settings.newton_iterations == 1 &&
+           !settings.careful && !is_long_stage(system, h) && settings_are_sound(settings);
+}
+
+int lanes_for(int count) {
+    return count > 4 ? most_lanes() : std::min(most_lanes(), 4);
+}
+
+void make_room(Batch& a, std::shared_ptr<const System> system, int lanes) {
+    if (a.system == system && a.lanes == lanes) return;
+    a.lanes = lanes;
+    a.system = std::move(system);
+    const BlockPattern& pattern = a.system->elements->pattern;
+    const size_t n = 3 * size_t(lanes) * size_t(pattern.node_count);
+    for (NumbersInLines* numbers : {&a.x, &a.v, &a.x_prev, &a.v_prev, &a.x_end, &a.v_end, &a.v_start, &a.x_from,
+                                    &a.x_base, &a.v_base, &a.way, &a.elastic, &a.rhs, &a.dv})
+        make_room(*numbers, n);
+    make_room(a.gravity, 3 * size_t(lanes));
+    const size_t nodes = size_t(pattern.node_count),
+                 drags = a.system->row->moves_chain ? nodes / 2 : a.system->chain.size();
+    make_room(a.drag_force, 3 * drags * size_t(lanes));
+    make_room(a.drag_damping, 6 * drags * size_t(lanes));
+    a.A.pattern = &pattern;
+    make_room(a.A.values, 9 * size_t(lanes) * pattern.row.size());
+}
+
+unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,
+                    double h_before) {
+    const System& system = *a.system;
+    const Elements& elements = *system.elements;
+    const bool looks_back = h_before > 0;
+    const Bdf2 method = looks_back ? bdf2_after(h_before, h) : Bdf2{0, h};
+    a.reach = method.step;
+    a.held = system.loose;
+    for (size_t i = 0; i < pinned.size(); ++i) a.held[i] |= pinned[i];
+    const LookBack look_back = {a, pinned, h, h_before, method};
+    unsigned lost = 0;
+    if (looks_back) {
+        run_in_lanes(a.lanes, look_back);
+        lost = system.row->batch->not_calm(elements, a.x, a.x_from, 1);
+    } else {
+        run_in_lanes(a.lanes, BeginAnew{look_back});
+    }
+
+    const bool turns = system.row->batch->rotary_inertia != nullptr;
+    if (turns) system.row->batch->rotary_inertia(elements, a.x, a.inertia);
+    const double damping = damping_of(system, settings, a.element_damping);
+    system.row->batch->set_ahead(
+        elements, a.x_from,
+        {a.way.data(), a.v_start.data(), method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
+        a.elastic, a.A, a.filled, a.inverted.data());
+    const double mass = 1 + method.step * settings.mass_damping;
+    if (turns)
+        run_in_lanes(a.lanes, FormPairs{a, method.step, mass});
+    else
+        run_in_lanes(a.lanes, FormPlaces{a, method.step, mass});
+
+    if (system.plan.tree) {
+        lost |= factorize(*system.plan.tree, a.A, a.tree);
+        solve(*system.plan.tree, a.tree, a.rhs, a.dv);
+    } else {
+        lost |= factorize(system.plan.fronts, a.A, a.fronts);
+        solve(system.plan.fronts, a.fronts, a.rhs, a.dv);
+    }
+    relative_residuals(a.A, a.rhs, a.dv, a.way, a.residual.data());
+    run_in_lanes(a.lanes, Finish{a, pinned, method.step, turns, lost});
+    return lost;
+}
+
+void take_apart(const Batch& a, Workspace* const* workspaces) {
+    std::array<FrontFactor*, MOST_LANES> factors;
+    for (size_t lane = 0; lane < size_t(a.lanes); ++lane) {
+        Workspace* workspace = workspaces[lane];
+        factors[lane] = workspace ? &workspace->linear.block.fronts : nullptr;
+        if (!workspace) continue;
+        workspace->held = a.held;
+        workspace->reach = a.reach;
+    }
+    take_apart(a.fronts, factors.data());
+}
+
+}  // namespace frond

@@ -1,0 +1,69 @@
+// In: a step that was just taken, and a few nodes. Out: how velocities at one push answer to impulses at another.
+#include "solve/node_compliance.hpp"
+
+#include <algorithm>
+
+#include "solve/integrator.hpp"
+
+namespace frond {
+
+bool make_compliance(Workspace& workspace, const SolveSettings& settings, const std::vector<NodeBlock>& pushes,
+                     NodeCompliance& compliance) {
+    std::vector<NodeBlock> free;
+    for (const NodeBlock& push : pushes)
+        if (!workspace.held[size_t(push.node)]) free.push_back(push);
+    const LinearSolver& solver = linear_solver(settings.linear_solver);
+    if (solver.half && !responds_by_mass(workspace, settings)) {
+        solver.half(workspace.linear, free, compliance);
+        return compliance.right.allFinite();
+    }
+
+    // Whole solves, direction by direction.
+    std::sort(free.begin(), free.end(), [](const NodeBlock& a, const NodeBlock& b) { return a.node < b.node; });
+    compliance.rows.clear();
+    compliance.left.resize(3, 3 * Eigen::Index(free.size()));
+    for (const NodeBlock& push : free)
+        for (int r = 0; r < 3; ++r) {
+            compliance.left.col(Eigen::Index(compliance.rows.size())) = push.block.row(r).transpose();
+            compliance.rows.push_back(3 * push.node + r);
+        }
+    const Eigen::Index n = 3 * Eigen::Index(workspace.held.size());
+    compliance.right.resize(3, n);
+    VecX impulse(n), velocity;
+    for (int axis = 0; axis < 3; ++axis) {
+        impulse.setZero();
+        for (const NodeBlock& push : free) point(impulse, push.node) += push.block.col(axis);
+        if (!respond(workspace, settings, impulse, velocity)) return false;
+        compliance.right.row(axis) = velocity.transpose();
+    }
+    return true;
+}
+
+void add_compliances(const std::vector<const NodeCompliance*>& at, const NodeCompliance& by, Eigen::Matrix3Xd& spread,
+                     std::vector<Mat3>& blocks) {
+    int most = 0;
+    for (const NodeCompliance* compliance : at)
+        if (!compliance->rows.empty()) most = std::max(most, compliance->rows.back() + 1);
+    const bool whole = by.right.cols() != Eigen::Index(by.rows.size());
+    if (!whole) {
+        if (!by.rows.empty()) most = std::max(most, by.rows.back() + 1);
+        if (spread.cols() < most) spread.setZero(3, most);
+        for (size_t k = 0; k < by.rows.size(); ++k) spread.col(by.rows[k]) = by.right.col(Eigen::Index(k));
+    }
+    const Eigen::Matrix3Xd& right = whole ? by.right : spread;
+    for (size_t i = 0; i < at.size(); ++i) {
+        double sum[9] = {};  // kept in registers, which a matrix is not
+        const double* left = at[i]->left.data();
+        for (const int row : at[i]->rows) {
+            const double* other = right.data() + 3 * row;
+            for (int c = 0; c < 3; ++c)
+                for (int r = 0; r < 3; ++r) sum[r + 3 * c] += left[r] * other[c];
+            left += 3;
+        }
+        blocks[i] += Eigen::Map<const Mat3>(sum);
+    }
+    if (!whole)
+        for (const int row : by.rows) spread.col(row).setZero();
+}
+
+}  // namespace frond

@@ -1,0 +1,93 @@
+#include "world/contact_body.hpp"
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+
+#include "mechanics/rotation.hpp"
+#include "world/convert.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+// How joints and base answer to impulses at the point, by the articulated inertia of Bullet's last step.
+static void prepare_link(ContactBody& contact_body) {
+    btMultiBody& body = *contact_body.link->m_multiBody;
+    const size_t count = size_t(body.getNumDofs()) + 6;
+    btAlignedObjectArray<btScalar> r;
+    btAlignedObjectArray<btVector3> v;
+    btAlignedObjectArray<btMatrix3x3> m;
+    r.resize(int(count));
+    for (int axis = 0; axis < 3; axis++) {
+        std::vector<btScalar>&jacobian = contact_body.jacobian[size_t(axis)],
+        &unit_response = contact_body.unit_responses[size_t(axis)];
+        jacobian.assign(count, 0);
+        unit_response.assign(count, 0);
+        btVector3 along(0, 0, 0);
+        along[axis] = 1;
+        body.fillContactJacobianMultiDof(contact_body.link->m_link, to_bullet(contact_body.point), along,
+                                         jacobian.data(), r, v, m);
+        body.calcAccelerationDeltasMultiDof(jacobian.data(), unit_response.data(), r, v);
+        double velocity = 0;
+        for (size_t k = 0; k < count; k++) velocity += double(jacobian[k]) * double(body.getVelocityVector()[k]);
+        contact_body.velocity[axis] = velocity;
+    }
+}
+
+void wake(btCollisionObject& object, const Vec3& normal, const Vec3& plant_velocity) {
+    constexpr double SLOW = 0.02;  // what rests on a plant that hardly moves sleeps on [m/s]
+    if (object.isActive() || object.isStaticOrKinematicObject()) return;
+    if (plant_velocity.dot(normal) < -SLOW) object.activate();
+}
+
+ContactBody make_contact_body(btCollisionObject& object, const Vec3& point, double h) {
+    ContactBody contact_body;
+    contact_body.object = &object;
+    contact_body.point = point;
+    contact_body.velocity.setZero();
+    if (btMultiBodyLinkCollider* link = btMultiBodyLinkCollider::upcast(&object)) {
+        if (!link->m_multiBody) return contact_body;
+        contact_body.link = link;
+        prepare_link(contact_body);
+        return contact_body;
+    }
+    btRigidBody* rigid = btRigidBody::upcast(&object);
+    if (!rigid) return contact_body;
+    contact_body.velocity =
+        from_bullet(rigid->getVelocityInLocalPoint(to_bullet(point) - rigid->getCenterOfMassPosition()));
+    // One that sleeps is as good as nailed down until it is woken.
+    if (rigid->isStaticOrKinematicObject() || !rigid->isActive()) return contact_body;
+    contact_body.rigid = rigid;
+    contact_body.velocity += h * from_bullet(rigid->getGravity());
+    return contact_body;
+}
+
+Mat3 compliance_between(const ContactBody& at, const ContactBody& by) {
+    if (at.rigid && at.rigid == by.rigid) {
+        const btMatrix3x3& inverse = at.rigid->getInvInertiaTensorWorld();
+        Mat3 inertia;
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 3; c++) inertia(r, c) = double(inverse[r][c]);
+        const Vec3 centre = from_bullet(at.rigid->getCenterOfMassPosition());
+        return double(at.rigid->getInvMass()) * Mat3::Identity() -
+               cross_matrix<double>(at.point - centre) * inertia * cross_matrix<double>(by.point - centre);
+    }
+    Mat3 block = Mat3::Zero();
+    if (!at.link || !by.link || at.link->m_multiBody != by.link->m_multiBody) return block;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            for (size_t k = 0; k < at.jacobian[0].size(); k++)
+                block(r, c) += double(at.jacobian[size_t(r)][k]) * double(by.unit_responses[size_t(c)][k]);
+    return block;
+}
+
+void take_impulse(ContactBody& contact_body, const Vec3& impulse) {
+    if (contact_body.rigid)
+        contact_body.rigid->applyImpulse(to_bullet(impulse),
+                                         to_bullet(contact_body.point) - contact_body.rigid->getCenterOfMassPosition());
+    if (!contact_body.link) return;
+    for (size_t axis = 0; axis < 3; axis++)
+        contact_body.link->m_multiBody->applyDeltaVeeMultiDof(contact_body.unit_responses[axis].data(),
+                                                              btScalar(impulse[int(axis)]));
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

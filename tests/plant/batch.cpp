@@ -1,0 +1,266 @@
+// Plants that are stepped side by side go as each alone does, to the last bit, in lanes of any width, whatever happens
+// to one of them.
+#include "plant/batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "build/build.hpp"
+#include "core/lanes.hpp"
+#include "support/materials.hpp"
+#include "support/model_def.hpp"
+#include "support/soups.hpp"
+
+namespace frond::test {
+namespace {
+
+constexpr double H = 1.0 / 60;
+
+// A stem with branches whose organs damp differently, or a blade.
+std::shared_ptr<const Model> model_of(bool is_blade) {
+    frond_model_def def = model_def();
+    def.capsule_height = 0.08;
+    def.cage_size = 0.1;
+    Material material = plain_material(900, 2e7, 0.3, 0.02);
+    if (is_blade) {
+        Surface surface;
+        add_sheet(surface, 2, 20, [](double s, double t) { return Vec3(0.1 * t * t, 0.6 * t, 0.06 * (s - 0.5)); });
+        surface.parts[0].name = "blade";
+        const frond_organ_material organ = {"blade", material};
+        def.organs = &organ;
+        def.organ_count = 1;
+        return build_from_surface(std::move(surface), def);
+    }
+    const frond_stem stems[] = {
+        {-1, {0, 0, 0}, {0, 0.4, 0}, 0.008, 0.006},       {0, {0, 0.4, 0}, {0.02, 0.8, 0}, 0.006, 0.003},
+        {0, {0, 0.4, 0}, {0.3, 0.6, 0.1}, 0.004, 0.002},  {1, {0.02, 0.8, 0}, {-0.2, 0.95, 0.05}, 0.003, 0.002},
+        {0, {0, 0.4, 0}, {-0.1, 0.6, 0.2}, 0.004, 0.002}, {0, {0, 0.4, 0}, {-0.1, 0.6, -0.2}, 0.004, 0.002}};
+    const frond_organ_material organ = {"stem_1", material};
+    def.organs = &organ;
+    def.organ_count = 1;
+    return build_from_stems(stems, 6, def);
+}
+
+struct Width {
+    const int before = most_lanes();
+    explicit Width(int most) { most_lanes() = std::min(before, most); }
+    ~Width() { most_lanes() = before; }
+};
+
+// Plants of a model, here and there, turned this way and that, in gusts.
+struct Field {
+    std::vector<std::unique_ptr<Plant>> plants;
+    std::unique_ptr<Wind> wind;
+    Surroundings surroundings;
+    int batched = 0, alone = 0;  // steps taken; who goes alone assembles in a workspace of its own
+    int pulled = 0;              // of those abreast, by fibres
+
+    Field(const std::shared_ptr<const Model>& model, int count, double speed,
+          frond_mechanics which = FROND_MECHANICS_ROD) {
+        for (int i = 0; i < count; i++) {
+            frond_plant_def def = plant_def(which);
+            def.position = {1.3 * i, 0, 0.7 * i * i};
+            const double angle = 0.3 + 0.8 * i;
+            def.rotation = {0.1 * i, std::sin(angle), 0, std::cos(angle)};
+            def.mass_damping = 0.1;
+            def.stiffness_damping = 0.001;
+            def.material_damping = 1;
+            plants.push_back(create_plant(model, def));
+        }
+        surroundings.gravity = Vec3(0, -9.81, 0);
+        if (speed == 0) return;
+        frond_wind_def def = {};
+        def.velocity = {speed, 0, 0.3 * speed};
+        def.turbulence = 0.3;
+        def.length_scale = 10;
+        def.seed = 5;
+        def.profile = FROND_WIND_PROFILE_LOG;
+        def.reference_height = 2;
+        def.roughness = 0.01;
+        def.density = 1.2;
+        wind = make_wind(def);
+        surroundings.wind = wind.get();
+    }
+    void step(bool side_by_side) {
+        if (wind) pass_time(*wind, H);
+        surroundings.time += H;
+        std::vector<Plant*> together;
+        for (const auto& plant : plants) {
+            if (side_by_side && may_be_batched(*plant, surroundings, H) &&
+                (together.empty() || go_alike(*together[0], *plant)))
+                together.push_back(plant.get());
+            else
+                solve_plant(*plant, surroundings, H);
+        }
+        const size_t most = size_t(most_in_batch());
+        for (size_t i = 0; i < together.size(); i += most)
+            solve_batch(together.data() + i, int(std::min(most, together.size() - i)), surroundings, H);
+        for (const auto& plant : plants) {
+            const bool is_alone = plant->workspace && plant->report.ms_assembly > 0;
+            ++(is_alone ? alone : batched);
+            pulled += plant->workspace && !is_alone;
+            accept_step(*plant, surroundings, H);
+            clear_user_force(*plant);
+        }
+    }
+};
+
+// What hosts do to single plants meanwhile.
+void disturb(Field& field, int step) {
+    Plant& third = *field.plants[2];
+    if (step == 60) pin_node(third, node_count_of(third) - 1);
+    if (step == 90) unpin_node(third, node_count_of(third) - 1);
+    if (step == 95) {
+        pin_node(third, node_count_of(third) - 2);
+        unpin_node(third, node_count_of(third) - 2);
+    }
+    if (step >= 100 && step < 110) {
+        field.plants[0]->user_force = VecX::Constant(3 * node_count_of(*field.plants[0]), 0.02);
+        field.plants[0]->has_user_force = true;
+    }
+    if (step == 120) {
+        const VecX x = 1.01 * cage_places(*field.plants[1]);
+        std::vector<double> world;
+        for (int i = 0; i < node_count_of(*field.plants[1]); i++)
+            for (int c = 0; c < 3; c++) world.push_back(field.plants[1]->to_world(point(x, i))[c]);
+        set_state(*field.plants[1], world.data(), nullptr);
+    }
+}
+
+// Zeros have the same sign too.
+bool are_same_bits(const VecX& a, const VecX& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), size_t(a.size()) * sizeof(double)) == 0;
+}
+
+const VecX& before(const Plant& plant) {
+    return plant.x_good.size() > 0 ? plant.x_good : plant.motion.history.x_prev;
+}
+
+void expect_same(const Plant& a, const Plant& b) {
+    ASSERT_EQ(a.motion.x, b.motion.x);
+    ASSERT_EQ(a.motion.v, b.motion.v);
+    ASSERT_TRUE(are_same_bits(a.motion.x, b.motion.x));
+    ASSERT_TRUE(are_same_bits(a.motion.v, b.motion.v));
+    ASSERT_EQ(before(a), before(b));
+    ASSERT_EQ(air_force(a), air_force(b));
+    ASSERT_EQ(a.trouble, b.trouble);
+    ASSERT_EQ(a.is_off_course, b.is_off_course);
+    ASSERT_EQ(plastic_of(a), plastic_of(b));
+    ASSERT_NEAR(a.report.residual, b.report.residual, 1e-12);
+}
+
+// (mechanics, blade, wind [m/s], lanes)
+struct BatchedPlants : testing::TestWithParam<std::tuple<frond_mechanics, bool, double, int>> {};
+INSTANTIATE_TEST_SUITE_P(Plants, BatchedPlants,
+                         testing::Combine(testing::Values(FROND_MECHANICS_ROD, FROND_MECHANICS_TET_COROTATIONAL,
+                                                          FROND_MECHANICS_TET_LINEAR),
+                                          testing::Bool(), testing::Values(0.0, 3.0, 25.0), testing::Values(2, 4, 8)));
+
+TEST_P(BatchedPlants, GoAsAlone) {
+    const auto [which, is_blade, speed, lanes] = GetParam();
+    const Width width(lanes);
+    const int steps = which == FROND_MECHANICS_ROD ? 240 : 150;
+    const auto model = model_of(is_blade);
+    Field together(model, 11, speed, which), apart(model, 11, speed, which);
+    for (int step = 0; step < steps; ++step) {
+        for (Field* field : {&together, &apart}) disturb(*field, step);
+        together.step(true);
+        apart.step(false);
+        for (size_t i = 0; i < together.plants.size(); i++) {
+            expect_same(*together.plants[i], *apart.plants[i]);
+            if (HasFatalFailure()) FAIL() << "plant " << i << " in step " << step;
+        }
+    }
+    // A gale takes most chains out, and stems as cages yield; two that are left over by fours go alone.
+    const bool is_calm = which == FROND_MECHANICS_ROD ? speed <= 10 : is_blade;
+    EXPECT_GT(together.batched, is_calm ? steps * (lanes == 2 ? 9 : 8) : 40);
+    EXPECT_GT(together.alone, 11);
+    EXPECT_EQ(apart.batched, 0);
+    if (which == FROND_MECHANICS_TET_COROTATIONAL && !is_blade && speed > 10) {
+        EXPECT_GT(together.pulled, 100);
+    }
+}
+
+// A host's field, which turns with the place.
+void field_of_host(const frond_vec3* points, int count, double time, frond_vec3* velocities, void*) {
+    for (int i = 0; i < count; i++)
+        velocities[i] = {velocities[i].x + std::sin(points[i].z + time), 0.5 * std::sin(points[i].x), velocities[i].z};
+}
+
+TEST(PlantBatch, AreBlownByAFieldOfTheHostAsAlone) {
+    const auto model = model_of(true);
+    Field together(model, 5, 3), apart(model, 5, 3);
+    for (Field* field : {&together, &apart}) field->wind->field = field_of_host;
+    for (int step = 0; step < 60; ++step) {
+        together.step(true);
+        apart.step(false);
+        for (size_t i = 0; i < together.plants.size(); i++) expect_same(*together.plants[i], *apart.plants[i]);
+        if (HasFatalFailure()) FAIL() << "step " << step;
+    }
+    EXPECT_GT(together.batched, 5 * 50);
+}
+
+// Straight, and as soft as can stand.
+std::shared_ptr<const Model> soft_stem() {
+    frond_model_def def = model_def();
+    def.capsule_height = 0.1;
+    def.cage_size = 0.1;
+    const frond_stem stem = {-1, {0, 0, 0}, {0, 1, 0}, 0.01, 0.01};
+    const frond_organ_material organ = {"stem_0", plain_material(500, 4e7, 0.3, 0.02)};
+    def.organs = &organ;
+    def.organ_count = 1;
+    return build_from_stems(&stem, 1, def);
+}
+
+// Rolled up less and less towards its end, which is turned by `angle` [rad].
+VecX rolled_up(const Plant& plant, double angle) {
+    VecX x = elements_of(*plant.system).modelled;
+    Vec3 before = Vec3::Zero(), place = before;
+    double turn_before = 0;
+    for (int i = 0; i < x.size() / 3; i += 2) {
+        const Vec3 modelled = point(x, i);
+        const double turn = angle * (1 - std::pow(1 - modelled.y(), 3)), middle = (turn + turn_before) / 2;
+        place += (modelled.y() - before.y()) * Vec3(-std::sin(middle), std::cos(middle), 0);
+        point(x, i) = place;
+        point(x, i + 1) = Vec3(0, 0, turn);
+        before = modelled;
+        turn_before = turn;
+    }
+    return x;
+}
+
+TEST(PlantBatch, GoOnPastHalfATurn) {
+    constexpr double FROM = M_PI - 0.2, RATE = 8;  // of the end's turn [rad], [rad/s]
+    const auto model = soft_stem();
+    Field together(model, 3, 0.1), apart(model, 3, 0.1);
+    for (Field* field : {&together, &apart}) {
+        field->surroundings.gravity.setZero();
+        for (const auto& plant : field->plants) {
+            plant->effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
+            plant->motion.x = rolled_up(*plant, FROM);
+            plant->motion.v = (rolled_up(*plant, FROM + 1e-4) - rolled_up(*plant, FROM - 1e-4)) * (RATE / 2e-4);
+            moved(*plant);
+        }
+    }
+    const auto end = [](const Plant& plant) { return plant.motion.x[plant.motion.x.size() - 1]; };
+    for (int step = 0; step < 3; ++step) {
+        together.step(true);
+        apart.step(false);
+        for (size_t i = 0; i < together.plants.size(); i++) {
+            const Plant& plant = *together.plants[i];
+            expect_same(plant, *apart.plants[i]);
+            if (HasFatalFailure()) FAIL() << "plant " << i << " in step " << step;
+            EXPECT_EQ(plant.trouble, 0u) << "plant " << i << " in step " << step;
+            EXPECT_EQ(plant.report.work, 0);
+            EXPECT_TRUE(step == 0 || plant.motion.history.valid);
+            // There and back.
+            EXPECT_EQ(end(plant) < 0, step == 1) << end(plant) << ", plant " << i << " in step " << step;
+        }
+    }
+    EXPECT_EQ(together.alone, 3);  // first steps
+}
+
+}  // namespace
+}  // namespace frond::test
