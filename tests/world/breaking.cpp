@@ -306,7 +306,7 @@ TEST(Breaking, WrongCallsAreToldSo) {
     EXPECT_EQ(frond_plant_get_fragment_count({}), 0);
     ASSERT_EQ(frond_plant_break(stem.plant, 5), FROND_OK);
     EXPECT_EQ(frond_plant_break(stem.plant, 6), FROND_RESULT_BAD_ARGUMENT);
-    EXPECT_NE(std::string(frond_last_error()).find("mend"), std::string::npos);
+    EXPECT_NE(std::string(frond_last_error()).find("frond_plant_reset"), std::string::npos);
     const frond_rigid rigid = stem.broken().rigid;
     frond_rigid_destroy(rigid);
     EXPECT_TRUE(frond_rigid_is_valid(rigid));

@@ -91,7 +91,7 @@ nlohmann::ordered_json describe(const std::string& file, frond_model model) {
                    {"contained", info.contained},
                    {"attachment_error", info.attachment_error},
                    {"mass", info.mass},
-                   {"stiffened", info.stiffening_factor}};
+                   {"stiffening_factor", info.stiffening_factor}};
     out["chain"] = {{"nodes", info.chain_node_count},
                     {"capsules", info.capsule_count},
                     {"roots", info.root_count},

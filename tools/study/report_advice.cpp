@@ -7,9 +7,9 @@
 
 namespace frond::study {
 
-// "tet_linear" -> "FROND_MECHANICS_TET_LINEAR"
-static std::string enum_name(const std::string& name) {
-    std::string text = "FROND_";
+// "FROND_MECHANICS_", "tet_linear" -> "FROND_MECHANICS_TET_LINEAR"
+static std::string enum_name(const char* prefix, const std::string& name) {
+    std::string text = prefix;
     for (char c : name) text += char(std::toupper(c));
     return text;
 }
@@ -43,10 +43,10 @@ std::string advice_of(const Result& result, const Provenance& provenance) {
         before = point->outcome.error;
         const Setup& setup = point->setup;
         const Outcome& o = point->outcome;
-        out << '{' << enum_name(frond_mechanics_name(setup.plant.mechanics)) << ", "
-            << enum_name(frond_integrator_name(setup.plant.integrator)) << ", " << setup.resolution << ", "
-            << 1 / (setup.dt * o.values.at(0).known) << ", " << o.error << ", " << o.cpu_per_second * setup.dt << ", "
-            << (moves_chain(setup.plant.mechanics) ? o.capsule_count : o.tet_count) << "},\n";
+        out << '{' << enum_name("FROND_MECHANICS_", frond_mechanics_name(setup.plant.mechanics)) << ", "
+            << enum_name("FROND_INTEGRATOR_", frond_integrator_name(setup.plant.integrator)) << ", " << setup.resolution
+            << ", " << 1 / (setup.dt * o.values.at(0).known) << ", " << o.error << ", " << o.cpu_per_second * setup.dt
+            << ", " << (moves_chain(setup.plant.mechanics) ? o.capsule_count : o.tet_count) << "},\n";
     }
     return out.str();
 }

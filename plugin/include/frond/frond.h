@@ -659,7 +659,7 @@ FROND_API int frond_plant_get_capsule_count(frond_plant plant);
 FROND_API frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count);
 FROND_API frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
                                              int node_count);
-/* What of the plant's shape is lasting, besides the state above: how many numbers that is, 0 as long as nothing has
+/* The plastic state, besides the state above: how many numbers that is, 0 as long as nothing has
  * yielded or for an invalid handle, and the numbers, of use only to another plant of the same model and mechanics,
  * broken at the same capsules. count must be what the first says, for set that of the plant they came from: 0 takes all
  * sets away. Tets hand them to other tets when mechanics change and the chain to the chain; between the two they are
@@ -754,7 +754,7 @@ FROND_API frond_result frond_plant_get_fragment(frond_plant plant, int fragment,
  * came off already or is a root of its own. */
 FROND_API frond_result frond_plant_break(frond_plant plant, int capsule);
 /* Puts all fragments back: the plant is as modelled, at rest, without sets; pins on nodes that had come off stay away.
- * To restore a plant, mend it, break it at the same capsules in their order, then set its lasting numbers, its state
+ * To restore a plant, reset it, break it at the same capsules in their order, then set its plastic state, its state
  * and the states of its fragments. A fragment keeps the bend that it comes off with. */
 FROND_API frond_result frond_plant_reset(frond_plant plant);
 

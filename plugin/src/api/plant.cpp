@@ -10,7 +10,8 @@
 using namespace frond;
 
 static void check_effects(frond_effects effects) {
-    if (effects & ~uint32_t(FROND_EFFECT_ALL)) fail(FROND_RESULT_BAD_ARGUMENT, "effects has unknown bits; use FROND_*");
+    if (effects & ~uint32_t(FROND_EFFECT_ALL))
+        fail(FROND_RESULT_BAD_ARGUMENT, "effects has unknown bits; use FROND_EFFECT_*");
 }
 
 static void check_plant_def(const frond_plant_def* def) {
@@ -395,7 +396,7 @@ frond_result frond_plant_break(frond_plant plant, int capsule) {
         if (begin == end)
             fail(FROND_RESULT_BAD_ARGUMENT, "capsule %d is a root of its own; nothing grows beyond it", capsule);
         if (fragment_of_chain_node(p, size_t(end)))
-            fail(FROND_RESULT_BAD_ARGUMENT, "capsule %d has come off already; mend the plant first", capsule);
+            fail(FROND_RESULT_BAD_ARGUMENT, "capsule %d has come off already; call frond_plant_reset first", capsule);
         awaken(body);
         break_off(*body.world, body, end);
         show(body);

@@ -10,7 +10,7 @@ static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& de
     check_vec(def.gravity, "def.gravity");
     check_range(def.max_substep, 1e-6, 1.0, "def.max_substep");
     if (def.effects & ~uint32_t(FROND_EFFECT_ALL))
-        fail(FROND_RESULT_BAD_ARGUMENT, "def.effects has unknown bits; use FROND_*");
+        fail(FROND_RESULT_BAD_ARGUMENT, "def.effects has unknown bits; use FROND_EFFECT_*");
     check_row(number_of(def.hash_layout), FROND_HASH_LAYOUT_COUNT, "def.hash_layout");
     check_range(def.hash_table_size, 0, 1e8, "def.hash_table_size");
     check_range(def.hash_cell_size, 0, 1e3, "def.hash_cell_size [m]");
@@ -112,7 +112,7 @@ frond_result frond_world_set_effects(frond_world world, frond_effects effects) {
     return call([&] {
         World& w = get(world);
         if (effects & ~uint32_t(FROND_EFFECT_ALL))
-            fail(FROND_RESULT_BAD_ARGUMENT, "effects has unknown bits; use FROND_*");
+            fail(FROND_RESULT_BAD_ARGUMENT, "effects has unknown bits; use FROND_EFFECT_*");
         w.effects = effects;
     });
 }
