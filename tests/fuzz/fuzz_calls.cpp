@@ -44,13 +44,19 @@ void create_plant(Stage& s) {
     def.position = {0.1 * s.input.below(5), 0, 0.1 * s.input.below(3)};
     def.mechanics = frond_mechanics(s.input.below(FROND_MECHANICS_COUNT));
     def.integrator = frond_integrator(s.input.below(FROND_INTEGRATOR_COUNT));
-    def.linear_solver = frond_linear_solver(s.input.below(FROND_LINEAR_SOLVER_COUNT));
+    def.tuning.linear_solver = frond_linear_solver(s.input.below(FROND_LINEAR_SOLVER_COUNT));
     def.starts_asleep = s.input.below(4) == 0;
     if (s.input.below(4) == 0) def.root_height = -1;
     if (s.input.below(8) == 0) def.position = s.input.vec();
-    if (s.input.below(8) == 0) def.max_substeps = s.input.integer();
+    if (s.input.below(8) == 0) def.tuning.max_substeps = s.input.integer();
     if (s.input.below(8) == 0) def.effects = s.input.raw<uint32_t>();
     if (s.input.below(8) == 0) def.mass_damping = s.input.number();
+    if (s.input.below(16) == 0) {
+        double any_def[64];
+        static_assert(sizeof any_def > sizeof(frond_plant_def), "room for the largest def");
+        frond_fill_def(any_def, s.input.raw<uint32_t>());
+        std::memcpy(&def.cookie, any_def, sizeof def.cookie);
+    }
     if (s.plants.size() >= 4) return;
     frond_plant plant = {};
     if (frond_plant_create(s.world, s.model, &def, &plant) == FROND_OK) s.plants.push_back(plant);
@@ -162,10 +168,12 @@ void look_at_plant(Stage& s) {
 void look_at_world(Stage& s) {
     frond_ray_hit hit;
     frond_report report;
+    frond_profile profile;
     frond_vec3 vec;
     frond_rigid_state state;
     uint64_t hash;
     require(frond_world_is_valid(s.world) && frond_world_get_report(s.world, &report) == FROND_OK, "no report");
+    require(frond_world_get_profile(s.world, &profile) == FROND_OK, "no profile");
     require(frond_world_get_state_hash(s.world, &hash) == FROND_OK, "no hash");
     frond_world_cast_ray(s.world, s.input.vec(), s.input.vec(), s.input.number(), &hit);
     if (frond_world_get_wind_at(s.world, s.input.vec(), &vec) == FROND_OK)
@@ -209,6 +217,7 @@ void look_at_model(Stage& s) {
     frond_material material;
     const char kind[] = {char(s.input.byte()), char(s.input.byte()), 0};
     require(frond_material_preset(kind, &material) != FROND_OK, "a material that nobody knows");
+    require(frond_default_material().density > 0, "no material");
 }
 
 void hold(Stage& s) {
@@ -302,7 +311,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     Stage stage = {input, shared_model(), {}, {}, {}, {}, {}, {}};
     frond_world_def def = frond_default_world_def();
     def.response = frond_response(input.below(FROND_RESPONSE_COUNT));
-    def.hash_layout = frond_hash_layout(input.below(FROND_HASH_LAYOUT_COUNT));
+    def.tuning.hash_layout = frond_hash_layout(input.below(FROND_HASH_LAYOUT_COUNT));
     def.parallel_for = [](int count, frond_job_fn* job, void* job_data, void*) {
         for (int i = count - 1; i >= 0; i--) job(job_data, i);
     };

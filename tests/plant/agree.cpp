@@ -69,10 +69,10 @@ Standing watch(const std::shared_ptr<const Model>& model, frond_mechanics which)
     def.mechanics = which;
     def.element_order = 1;
     def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
-    def.newton_iterations = 2;
-    def.newton_tolerance = 1e-6;
-    def.max_iterations = 100;
-    def.tolerance = 1e-6;
+    def.tuning.newton_iterations = 2;
+    def.tuning.newton_tolerance = 1e-6;
+    def.tuning.linear_iterations = 100;
+    def.tuning.linear_tolerance = 1e-6;
     def.effects = FROND_EFFECT_GRAVITY;
     const auto plant = create_plant(model, def);
     Surroundings surroundings;

@@ -42,7 +42,7 @@ struct Swaying {
     Swaying(const std::shared_ptr<const Model>& model, frond_mechanics which, double scale, bool heavy) {
         frond_plant_def def = plant_def(which);
         def.integrator = FROND_INTEGRATOR_TR_BDF2;
-        def.newton_iterations = 2;
+        def.tuning.newton_iterations = 2;
         def.material_damping = scale;
         plant = create_plant(model, def);
         if (heavy) surroundings.gravity = {0, -GRAVITY, 0};

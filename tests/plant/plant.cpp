@@ -154,7 +154,7 @@ TEST(Plants, OfOneModelShareTheirSystem) {
     const auto a = create_plant(model, plant_def()), b = create_plant(model, plant_def());
     EXPECT_EQ(a->system.get(), b->system.get());
     frond_plant_def def = plant_def();
-    def.mass = FROND_MASS_CONSISTENT;
+    def.tuning.mass = FROND_MASS_CONSISTENT;
     EXPECT_NE(create_plant(model, def)->system.get(), a->system.get());
     EXPECT_NE(create_plant(model, plant_def(2))->system.get(), a->system.get());
 }

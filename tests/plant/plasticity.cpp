@@ -41,10 +41,10 @@ struct Bending {
         def.mechanics = which;
         def.element_order = 1;
         def.integrator = FROND_INTEGRATOR_BDF2;
-        def.newton_iterations = 2;
-        def.newton_tolerance = 1e-9;
-        def.max_iterations = 100;
-        def.tolerance = 1e-6;
+        def.tuning.newton_iterations = 2;
+        def.tuning.newton_tolerance = 1e-9;
+        def.tuning.linear_iterations = 100;
+        def.tuning.linear_tolerance = 1e-6;
         def.effects = FROND_EFFECT_ALL;
         plant = create_plant(model, def);
         surroundings.gravity = {0, -GRAVITY, 0};

@@ -31,13 +31,13 @@ std::unique_ptr<Plant> stem(const std::shared_ptr<const Model>& model, frond_mec
     def.mechanics = which;
     def.element_order = 1;
     def.integrator = FROND_INTEGRATOR_BDF2;
-    def.newton_iterations = 4;
-    def.newton_tolerance = 1e-9;
-    def.max_iterations = 100;
-    def.tolerance = 1e-6;
+    def.tuning.newton_iterations = 4;
+    def.tuning.newton_tolerance = 1e-9;
+    def.tuning.linear_iterations = 100;
+    def.tuning.linear_tolerance = 1e-6;
     def.effects = FROND_EFFECT_ALL;
-    def.max_substeps = most;
-    def.substep_tolerance = tolerance;
+    def.tuning.max_substeps = most;
+    def.tuning.substep_tolerance = tolerance;
     return create_plant(model, def);
 }
 

@@ -99,7 +99,7 @@ TEST(Sweeps, LeaveOutNoRowOfThePublicTables) {
             for (const Choice& setup : sweep.setups) {
                 mechanics.insert(setup.plant.mechanics);
                 integrators.insert(setup.plant.integrator);
-                solvers.insert(setup.plant.linear_solver);
+                solvers.insert(setup.plant.tuning.linear_solver);
             }
     EXPECT_EQ(mechanics.size(), size_t(FROND_MECHANICS_COUNT));
     EXPECT_EQ(integrators.size(), size_t(FROND_INTEGRATOR_COUNT));
@@ -136,7 +136,7 @@ TEST(Rods, SwayInTheirFirstThreeModesAsTheFormulaSays) {
     Choice setup = problem.baseline();
     EXPECT_EQ(setup.dt, 1.0 / 240);
     setup.plant.mechanics = FROND_MECHANICS_ROD;
-    setup.plant.mass = FROND_MASS_CONSISTENT;
+    setup.plant.tuning.mass = FROND_MASS_CONSISTENT;
     setup.plant.integrator = FROND_INTEGRATOR_SDIRK2;
     for (int pieces : {10, 20}) {
         setup.resolution = pieces;

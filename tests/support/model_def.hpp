@@ -20,11 +20,11 @@ inline frond_plant_def plant_def(frond_mechanics which, int order = 1) {
     def.mechanics = which;
     def.element_order = order;
     def.integrator = FROND_INTEGRATOR_BDF2;
-    def.newton_iterations = 1;
-    def.newton_tolerance = 1e-8;
-    def.max_iterations = 1000;
-    def.tolerance = 1e-6;
-    def.spectral_radius = 0.8;
+    def.tuning.newton_iterations = 1;
+    def.tuning.newton_tolerance = 1e-8;
+    def.tuning.linear_iterations = 1000;
+    def.tuning.linear_tolerance = 1e-6;
+    def.tuning.spectral_radius = 0.8;
     def.effects = FROND_EFFECT_ALL;
     return def;
 }

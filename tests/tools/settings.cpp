@@ -45,6 +45,6 @@ TEST(Settings, NumbersInRangeAreTaken) {
     EXPECT_FALSE(settings.detail);
     EXPECT_EQ(settings.budget, 1.5);
     EXPECT_EQ(settings.dt, 0.01);
-    EXPECT_EQ(settings.plant.newton_iterations, 3);
-    EXPECT_EQ(settings.plant.max_substeps, 10);
+    EXPECT_EQ(settings.plant.tuning.newton_iterations, 3);
+    EXPECT_EQ(settings.plant.tuning.max_substeps, 10);
 }

@@ -137,7 +137,7 @@ struct Row {
             plant_def.effects &= ~uint32_t(FROND_EFFECT_PLANT_CONTACT);
             plant_def.position = {0.7 * i, 0, 0};
             plant_def.rotation = {0, std::sin(0.4 * i), 0, std::cos(0.4 * i)};
-            if (!is_batched) plant_def.tolerance *= 1 + 1e-3 * i;
+            if (!is_batched) plant_def.tuning.linear_tolerance *= 1 + 1e-3 * i;
             plants.emplace_back();
             EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plants.back()), FROND_OK);
         }

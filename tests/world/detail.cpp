@@ -327,8 +327,10 @@ TEST(Detail, KeepsABudget) {
         for (int i = 0; i < 60; i++) {
             must(frond_world_step(stand.world, H));
             const frond_report report = report_of(stand.world);
+            frond_profile profile;
+            must(frond_world_get_profile(stand.world, &profile));
             const int* count = report.detail_count;
-            const double numbers[] = {report.ms_step, double(count[FROND_DETAIL_MODAL]),
+            const double numbers[] = {profile.ms_step, double(count[FROND_DETAIL_MODAL]),
                                       double(count[FROND_DETAIL_FULL] + count[FROND_DETAIL_ROD]),
                                       double(detail_of(stand.plants[0])), double(detail_of(stand.plants[COUNT - 1]))};
             for (size_t n = 0; n < all.size(); n++) all[n].push_back(numbers[n]);

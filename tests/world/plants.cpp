@@ -204,9 +204,9 @@ TEST(Plants, EveryLayoutOfTheHashGivesTheSameMotion) {
     std::vector<uint64_t> hashes;
     const auto run = [&](frond_hash_layout layout, int table_size, double cell_size) {
         frond_world_def def = frond_default_world_def();
-        def.hash_layout = layout;
-        def.hash_table_size = table_size;
-        def.hash_cell_size = cell_size;
+        def.tuning.hash_layout = layout;
+        def.tuning.hash_table_size = table_size;
+        def.tuning.hash_cell_size = cell_size;
         ThrownStems stems(FROND_MECHANICS_TET_COROTATIONAL, def);
         int contacts = 0;
         for (int i = 0; i < 40; i++) {

@@ -66,7 +66,7 @@ double push_aside(frond_model model, frond_mechanics mechanics, double root_heig
     def.element_order = 2;
     def.root_height = root_height;
     def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
-    def.newton_iterations = 6;
+    def.tuning.newton_iterations = 6;
     def.mass_damping = def.stiffness_damping = def.material_damping = 0;
     frond_plant plant = {};
     EXPECT_EQ(frond_plant_create(world, model, &def, &plant), FROND_OK) << frond_last_error();

@@ -31,7 +31,7 @@ struct Garden {
             frond_plant_def plant_def = frond_default_plant_def();
             plant_def.mechanics = frond_mechanics(i % FROND_MECHANICS_COUNT);
             plant_def.position = {spacing * (i % 3), 0, 0.3 * (i / 3)};
-            plant_def.max_substeps = i == 1 ? 4 : 1;
+            plant_def.tuning.max_substeps = i == 1 ? 4 : 1;
             plants.emplace_back();
             EXPECT_EQ(frond_plant_create(world, model, &plant_def, &plants.back()), FROND_OK) << frond_last_error();
         }
@@ -124,6 +124,14 @@ TEST(Snapshot, FitsAnotherWorldThatWasMadeTheSameWay) {
     other.run(7);
     ASSERT_EQ(other.restore(bytes), FROND_OK) << frond_last_error();
     EXPECT_EQ(one.run(60), other.run(60));
+}
+
+// Changes of velocity over such a time are beyond all rates that can be.
+TEST(Snapshot, IsTakenBackAfterAStepOfNextToNoTime) {
+    Garden garden(2);
+    garden.run(30);
+    ASSERT_EQ(frond_world_step(garden.world, 1e-30), FROND_OK);
+    ASSERT_EQ(garden.restore(garden.save()), FROND_OK) << frond_last_error();
 }
 
 TEST(Snapshot, SavingTwiceGivesTheSameBytes) {

@@ -19,10 +19,10 @@ struct Stages {
                                             "capsules", "step",     "surface", "all"};
     static constexpr int COUNT = 8;
     std::vector<double> ms[COUNT];
-    void add(const frond_report& report) {
+    void add(const frond_profile& profile) {
         const double values[COUNT] = {
-            report.ms_effects,  report.ms_assembly, report.ms_solve,   report.ms_collide + report.ms_response,
-            report.ms_capsules, report.ms_step,     report.ms_surface, report.ms_step + report.ms_surface};
+            profile.ms_effects,  profile.ms_assembly, profile.ms_solve,   profile.ms_collide + profile.ms_response,
+            profile.ms_capsules, profile.ms_step,     profile.ms_surface, profile.ms_step + profile.ms_surface};
         for (int i = 0; i < COUNT; i++) ms[i].push_back(values[i]);
     }
 };
@@ -46,9 +46,9 @@ void bench_step(const BenchOptions& options) {
             must(frond_world_step(play.stage.world, play.stage.settings.dt));
             frond_surface_view view;
             must(frond_plant_get_surface(plant, &view));
-            frond_report report;
-            must(frond_world_get_report(play.stage.world, &report));
-            stages.add(report);
+            frond_profile profile;
+            must(frond_world_get_profile(play.stage.world, &profile));
+            stages.add(profile);
         }
         progress.at(round + 1);
     }
@@ -60,7 +60,7 @@ void bench_step(const BenchOptions& options) {
                     options.what.c_str(), report.node_count, report.tet_count,
                     frond_mechanics_name(play.stage.settings.plant.mechanics),
                     frond_integrator_name(play.stage.settings.plant.integrator),
-                    frond_linear_solver_name(play.stage.settings.plant.linear_solver), options.rounds * STEPS,
+                    frond_linear_solver_name(play.stage.settings.plant.tuning.linear_solver), options.rounds * STEPS,
                     study::processor_name().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT, "stage",
                     "min ms", "median ms");
     else
@@ -80,15 +80,15 @@ void bench_step(const BenchOptions& options) {
 // Stages of plants that touch, in the order in which they run.
 struct ContactStage {
     const char* name;
-    double (*ms)(const frond_report& report);
+    double (*ms)(const frond_profile& profile);
 };
 constexpr ContactStage CONTACT_STAGES[] = {
-    {"broad", [](const frond_report& r) { return r.ms_broad; }},
-    {"hash", [](const frond_report& r) { return r.ms_hash; }},
-    {"narrow", [](const frond_report& r) { return r.ms_narrow; }},
-    {"response", [](const frond_report& r) { return r.ms_response; }},
-    {"solve", [](const frond_report& r) { return r.ms_assembly + r.ms_solve; }},
-    {"all", [](const frond_report& r) { return r.ms_step; }},
+    {"broad", [](const frond_profile& p) { return p.ms_broad; }},
+    {"hash", [](const frond_profile& p) { return p.ms_hash; }},
+    {"narrow", [](const frond_profile& p) { return p.ms_narrow; }},
+    {"response", [](const frond_profile& p) { return p.ms_response; }},
+    {"solve", [](const frond_profile& p) { return p.ms_assembly + p.ms_solve; }},
+    {"all", [](const frond_profile& p) { return p.ms_step; }},
 };
 constexpr size_t CONTACT_STAGE_COUNT = sizeof CONTACT_STAGES / sizeof CONTACT_STAGES[0];
 
@@ -111,7 +111,9 @@ ContactFigures measure_field(int plants, const BenchOptions& options) {
         play.step();
         frond_report report;
         must(frond_world_get_report(play.stage.world, &report));
-        for (size_t k = 0; k < CONTACT_STAGE_COUNT; k++) ms[k].push_back(CONTACT_STAGES[k].ms(report));
+        frond_profile profile;
+        must(frond_world_get_profile(play.stage.world, &profile));
+        for (size_t k = 0; k < CONTACT_STAGE_COUNT; k++) ms[k].push_back(CONTACT_STAGES[k].ms(profile));
         contacts.push_back(report.plant_contact_count);
         figures.plants = report.plant_count;
         figures.tets = report.tet_count;

@@ -32,6 +32,11 @@ frond_report report_of(const Stage& stage) {
     must(frond_world_get_report(stage.world, &report));
     return report;
 }
+frond_profile profile_of(const Stage& stage) {
+    frond_profile profile;
+    must(frond_world_get_profile(stage.world, &profile));
+    return profile;
+}
 
 Settings field_settings(const BenchOptions& options, const std::vector<std::string>& assignments) {
     std::vector<std::string> all = assignments;
@@ -153,7 +158,7 @@ PathFigures measure_path(int count, const BenchOptions& options) {
         if (i < WARM_UP) continue;
         const frond_report report = report_of(play.stage);
         whole.push_back(ms);
-        frond.push_back(report.ms_step);
+        frond.push_back(profile_of(play.stage).ms_step);
         bullet.push_back(ms_still);
         awake.push_back(report.awake_count);
     }
@@ -190,9 +195,9 @@ void bench_wind(const BenchOptions& options) {
             must(frond_world_step(play.stage.world, play.stage.settings.dt));
             const double ms = now() - begin;
             if (i < WARM_UP) continue;
-            const frond_report r = report_of(play.stage);
-            const double parts[] = {ms,         r.ms_step,     r.ms_effects, r.ms_assembly,
-                                    r.ms_solve, r.ms_capsules, r.ms_collide, r.ms_response};
+            const frond_profile p = profile_of(play.stage);
+            const double parts[] = {ms,         p.ms_step,     p.ms_effects, p.ms_assembly,
+                                    p.ms_solve, p.ms_capsules, p.ms_collide, p.ms_response};
             for (size_t k = 0; k < times.size(); k++) times[k].push_back(parts[k]);
         }
         std::printf("%8d %9.0f", threads, segments);
@@ -212,7 +217,7 @@ void bench_crowd(const BenchOptions& options, double budget) {
     for (int i = 0; i < STEPS; i++) {
         play.step();
         const frond_report report = report_of(play.stage);
-        ms.push_back(report.ms_step);
+        ms.push_back(profile_of(play.stage).ms_step);
         awake += report.awake_count / double(STEPS);
         simulated += (report.detail_count[FROND_DETAIL_FULL] + report.detail_count[FROND_DETAIL_ROD]) / double(STEPS);
     }

@@ -43,7 +43,7 @@ KindFigures measure_kind(const Kind& kind, bool in_lanes) {
         def.position = {0.7 * (i % SIDE), 0, 0.7 * (i / SIDE)};
         def.rotation = {0, std::sin(0.1 * i), 0, std::cos(0.1 * i)};
         // Only plants of the same settings share lanes; a direct solver does not ask for this one.
-        if (!in_lanes) def.tolerance *= 1 + 1e-3 * i;
+        if (!in_lanes) def.tuning.linear_tolerance *= 1 + 1e-3 * i;
         frond_plant plant = {};
         must(frond_plant_create(world, kind.model, &def, &plant));
         figures.elements = frond_plant_get_capsule_count(plant);

@@ -71,7 +71,7 @@ SolverFigures measure(const SolverCase& one, frond_model model, frond_linear_sol
         frond_plant_def def = frond_default_plant_def();
         def.mechanics = one.mechanics;
         def.element_order = one.order;
-        def.linear_solver = solver;
+        def.tuning.linear_solver = solver;
         def.position.x = APART * double(i);
         must(frond_plant_create(world, model, &def, &plants[i]));
     }
@@ -82,11 +82,13 @@ SolverFigures measure(const SolverCase& one, frond_model model, frond_linear_sol
         frond_surface_view view;
         for (const frond_plant plant : plants) must(frond_plant_get_surface(plant, &view));
         must(frond_world_get_report(world, &figures.report));
+        frond_profile profile;
+        must(frond_world_get_profile(world, &profile));
         if (i < WARM_UP) continue;
-        assembly.push_back(figures.report.ms_assembly);
-        solve.push_back(figures.report.ms_solve);
-        step.push_back(figures.report.ms_step);
-        surface.push_back(figures.report.ms_surface);
+        assembly.push_back(profile.ms_assembly);
+        solve.push_back(profile.ms_solve);
+        step.push_back(profile.ms_step);
+        surface.push_back(profile.ms_surface);
     }
     const int capsules = frond_plant_get_capsule_count(plants.front()) * one.plants;
     figures.pieces = one.mechanics == FROND_MECHANICS_ROD ? capsules : figures.report.tet_count;

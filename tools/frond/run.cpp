@@ -25,7 +25,7 @@ struct RunOptions {
 // What a run was like: kept for every step, reduced at the end.
 struct Record {
     std::vector<frond_report> reports;
-    std::vector<double> ms_surface;
+    std::vector<frond_profile> profiles;
     frond_vec3 tip_at_start = {}, tip = {};
     double farthest = 0;  // tip from where it was at the start [m]
     uint32_t trouble = 0;
@@ -38,7 +38,7 @@ double distance(const frond_vec3& a, const frond_vec3& b) {
 template <class Field>
 double median_of(const Record& record, Field field) {
     std::vector<double> values;
-    for (const frond_report& report : record.reports) values.push_back(field(report));
+    for (const frond_profile& profile : record.profiles) values.push_back(field(profile));
     return median(values);
 }
 
@@ -59,11 +59,11 @@ nlohmann::ordered_json summary(const Play& play, const Record& record) {
     out["scene"] = play.casting.scene->name;
     out["mechanics"] = frond_mechanics_name(stage.settings.plant.mechanics);
     out["integrator"] = frond_integrator_name(stage.settings.plant.integrator);
-    out["linear_solver"] = frond_linear_solver_name(stage.settings.plant.linear_solver);
+    out["linear_solver"] = frond_linear_solver_name(stage.settings.plant.tuning.linear_solver);
     out["plants"] = last.plant_count;
     out["nodes"] = last.node_count;
     out["tets"] = last.tet_count;
-    out["steps"] = record.ms_surface.size();
+    out["steps"] = record.profiles.size();
     out["time"] = last.time;
     out["tip_at_start"] = {record.tip_at_start.x, record.tip_at_start.y, record.tip_at_start.z};
     out["tip"] = {record.tip.x, record.tip.y, record.tip.z};
@@ -74,16 +74,16 @@ nlohmann::ordered_json summary(const Play& play, const Record& record) {
         const auto ran = [&](const frond_report& r) { return r.effects_run >> bit & 1; };
         if (std::any_of(record.reports.begin(), record.reports.end(), ran))
             out["effects"][frond_effect_name(1u << bit)] =
-                median_of(record, [&](const frond_report& r) { return r.ms_of_effect[bit]; });
+                median_of(record, [&](const frond_profile& p) { return p.ms_of_effect[bit]; });
     }
     out["ms_per_step"] = {
-        {"all", median_of(record, [](const frond_report& r) { return r.ms_step; })},
-        {"effects", median_of(record, [](const frond_report& r) { return r.ms_effects; })},
-        {"assembly", median_of(record, [](const frond_report& r) { return r.ms_assembly; })},
-        {"solve", median_of(record, [](const frond_report& r) { return r.ms_solve; })},
-        {"contact", median_of(record, [](const frond_report& r) { return r.ms_collide + r.ms_response; })},
-        {"capsules", median_of(record, [](const frond_report& r) { return r.ms_capsules; })},
-        {"surface", median(record.ms_surface)}};
+        {"all", median_of(record, [](const frond_profile& p) { return p.ms_step; })},
+        {"effects", median_of(record, [](const frond_profile& p) { return p.ms_effects; })},
+        {"assembly", median_of(record, [](const frond_profile& p) { return p.ms_assembly; })},
+        {"solve", median_of(record, [](const frond_profile& p) { return p.ms_solve; })},
+        {"contact", median_of(record, [](const frond_profile& p) { return p.ms_collide + p.ms_response; })},
+        {"capsules", median_of(record, [](const frond_profile& p) { return p.ms_capsules; })},
+        {"surface", median_of(record, [](const frond_profile& p) { return p.ms_surface; })}};
     return out;
 }
 
@@ -191,7 +191,9 @@ nlohmann::ordered_json play_once(const RunOptions& options, const Casting& casti
         must(frond_world_get_report(play.stage.world, &report));
         if (i == 0) record.reports.clear();
         record.reports.push_back(report);
-        record.ms_surface.push_back(report.ms_surface);
+        frond_profile profile;
+        must(frond_world_get_profile(play.stage.world, &profile));
+        record.profiles.push_back(profile);
         record.trouble |= report.trouble;
         record.tip = vertex_place(play.stage.plants[0], tip);
         record.farthest = std::max(record.farthest, distance(record.tip, record.tip_at_start));

@@ -63,31 +63,25 @@ Row row(const std::string& text, int count, const char* (*name)(Row)) {
     throw SceneError("\"" + text + "\" is none of " + names);
 }
 
-// A key for a number, a count or a vector of a def.
-template <class Owner>
-Key real(const char* name, const char* text, Owner Settings::*owner, double Owner::*field) {
-    return {name, text, [=](Settings& s, const std::string& value) { s.*owner.*field = number(value); }};
+// A key for a number, a count, a vector or a row of a table. The path leads to the field, member by member.
+template <class... Path>
+Key real(const char* name, const char* text, Path... path) {
+    return {name, text, [=](Settings& s, const std::string& value) { (s.*....*path) = number(value); }};
 }
-template <class Owner>
-Key count(const char* name, const char* text, Owner Settings::*owner, int Owner::*field) {
+template <class... Path>
+Key count(const char* name, const char* text, Path... path) {
     return {name, text, [=](Settings& s, const std::string& value) {
-                s.*owner.*field = whole(value, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+                (s.*....*path) = whole(value, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
             }};
 }
-template <class Owner>
-Key triple(const char* name, const char* text, Owner Settings::*owner, frond_vec3 Owner::*field) {
-    return {name, text, [=](Settings& s, const std::string& value) { s.*owner.*field = vector(value); }};
+template <class... Path>
+Key triple(const char* name, const char* text, Path... path) {
+    return {name, text, [=](Settings& s, const std::string& value) { (s.*....*path) = vector(value); }};
 }
-template <class Row>
-Key choice(const char* name, const char* text, Row frond_plant_def::*field, int rows, const char* (*row_name)(Row)) {
+template <class Row, class... Path>
+Key choice(const char* name, const char* text, int rows, const char* (*row_name)(Row), Path... path) {
     return {name, text,
-            [=](Settings& s, const std::string& value) { s.plant.*field = row<Row>(value, rows, row_name); }};
-}
-
-template <class Row>
-Key choice(const char* name, const char* text, Row frond_world_def::*field, int rows, const char* (*row_name)(Row)) {
-    return {name, text,
-            [=](Settings& s, const std::string& value) { s.world.*field = row<Row>(value, rows, row_name); }};
+            [=](Settings& s, const std::string& value) { (s.*....*path) = row<Row>(value, rows, row_name); }};
 }
 // An effect of all plants, on or off.
 Key effect(const char* name, const char* text, frond_effects bit) {
@@ -117,17 +111,20 @@ const std::vector<Key>& keys() {
          [](Settings& s, const std::string& value) { s.grab_stiffness = number(value); }},
         triple("gravity", "x,y,z [m/s^2]", &Settings::world, &frond_world_def::gravity),
         real("max_substep", "longest solver step [s]", &Settings::world, &frond_world_def::max_substep),
-        choice("hash_layout", "where cages meet, row of the table", &frond_world_def::hash_layout,
-               FROND_HASH_LAYOUT_COUNT, frond_hash_layout_name),
-        count("hash_table_size", "n of the paper, 0: chosen", &Settings::world, &frond_world_def::hash_table_size),
-        real("hash_cell_size", "l of the paper [m], 0: chosen", &Settings::world, &frond_world_def::hash_cell_size),
-        choice("response", "what contacts do, row of the table", &frond_world_def::response, FROND_RESPONSE_COUNT,
-               frond_response_name),
-        count("response_iterations", "rounds over all contacts", &Settings::world,
-              &frond_world_def::response_iterations),
-        real("response_tolerance", "share of the largest impulse", &Settings::world,
-             &frond_world_def::response_tolerance),
-        real("penalty_stiffness", "of response=penalty [N/m]", &Settings::world, &frond_world_def::penalty_stiffness),
+        choice("hash_layout", "where cages meet, row of the table", FROND_HASH_LAYOUT_COUNT, frond_hash_layout_name,
+               &Settings::world, &frond_world_def::tuning, &frond_contact_tuning::hash_layout),
+        count("hash_table_size", "n of the paper, 0: chosen", &Settings::world, &frond_world_def::tuning,
+              &frond_contact_tuning::hash_table_size),
+        real("hash_cell_size", "l of the paper [m], 0: chosen", &Settings::world, &frond_world_def::tuning,
+             &frond_contact_tuning::hash_cell_size),
+        choice("response", "what contacts do, row of the table", FROND_RESPONSE_COUNT, frond_response_name,
+               &Settings::world, &frond_world_def::response),
+        count("response_iterations", "rounds over all contacts", &Settings::world, &frond_world_def::tuning,
+              &frond_contact_tuning::response_iterations),
+        real("response_tolerance", "share of the largest impulse", &Settings::world, &frond_world_def::tuning,
+             &frond_contact_tuning::response_tolerance),
+        real("penalty_stiffness", "of response=penalty [N/m]", &Settings::world, &frond_world_def::tuning,
+             &frond_contact_tuning::penalty_stiffness),
         real("sleep_distance", "of what rests [m], 0: nothing sleeps", &Settings::world,
              &frond_world_def::sleep_distance),
         effect("breaking", "on or off: what is strained beyond its strength", FROND_EFFECT_BREAKING),
@@ -148,8 +145,8 @@ const std::vector<Key>& keys() {
         real("cage_size", "edge of a cage cell [m], 0: chosen", &Settings::model, &frond_model_def::cage_size),
         real("cage_offset", "reach outside the surface [m]", &Settings::model, &frond_model_def::cage_offset),
         real("cage_smoothness", "0..1", &Settings::model, &frond_model_def::cage_smoothness),
-        choice("mechanics", "row of the table", &frond_plant_def::mechanics, FROND_MECHANICS_COUNT,
-               frond_mechanics_name),
+        choice("mechanics", "row of the table", FROND_MECHANICS_COUNT, frond_mechanics_name, &Settings::plant,
+               &frond_plant_def::mechanics),
         {"rest", "as_modelled, or without_gravity: then it droops",
          [](Settings& s, const std::string& value) {
              if (value != "as_modelled" && value != "without_gravity")
@@ -157,24 +154,30 @@ const std::vector<Key>& keys() {
              s.model.rest = value == "as_modelled" ? FROND_REST_STANDS_AS_MODELLED : FROND_REST_WITHOUT_GRAVITY;
          }},
         count("element_order", "of the tets, 1 or 2", &Settings::plant, &frond_plant_def::element_order),
-        choice("integrator", "row of the table", &frond_plant_def::integrator, FROND_INTEGRATOR_COUNT,
-               frond_integrator_name),
-        choice("linear_solver", "row of the table", &frond_plant_def::linear_solver, FROND_LINEAR_SOLVER_COUNT,
-               frond_linear_solver_name),
-        choice("mass", "lumped or consistent", &frond_plant_def::mass, FROND_MASS_COUNT, frond_mass_name),
-        count("newton_iterations", "solves per step", &Settings::plant, &frond_plant_def::newton_iterations),
-        real("newton_tolerance", "share of the first residual", &Settings::plant, &frond_plant_def::newton_tolerance),
-        count("max_iterations", "of an iterative solver", &Settings::plant, &frond_plant_def::max_iterations),
-        real("tolerance", "of an iterative solver", &Settings::plant, &frond_plant_def::tolerance),
-        count("max_substeps", "of a step, where its error asks for them", &Settings::plant,
-              &frond_plant_def::max_substeps),
+        choice("integrator", "row of the table", FROND_INTEGRATOR_COUNT, frond_integrator_name, &Settings::plant,
+               &frond_plant_def::integrator),
+        choice("linear_solver", "row of the table", FROND_LINEAR_SOLVER_COUNT, frond_linear_solver_name,
+               &Settings::plant, &frond_plant_def::tuning, &frond_tuning::linear_solver),
+        choice("mass", "lumped or consistent", FROND_MASS_COUNT, frond_mass_name, &Settings::plant,
+               &frond_plant_def::tuning, &frond_tuning::mass),
+        count("newton_iterations", "solves per step", &Settings::plant, &frond_plant_def::tuning,
+              &frond_tuning::newton_iterations),
+        real("newton_tolerance", "share of the first residual", &Settings::plant, &frond_plant_def::tuning,
+             &frond_tuning::newton_tolerance),
+        count("linear_iterations", "of an iterative solver", &Settings::plant, &frond_plant_def::tuning,
+              &frond_tuning::linear_iterations),
+        real("linear_tolerance", "of an iterative solver", &Settings::plant, &frond_plant_def::tuning,
+             &frond_tuning::linear_tolerance),
+        count("max_substeps", "of a step, where its error asks for them", &Settings::plant, &frond_plant_def::tuning,
+              &frond_tuning::max_substeps),
         real("substep_tolerance", "error of a place in a step, share of the size", &Settings::plant,
-             &frond_plant_def::substep_tolerance),
+             &frond_plant_def::tuning, &frond_tuning::substep_tolerance),
         real("mass_damping", "Rayleigh [1/s]", &Settings::plant, &frond_plant_def::mass_damping),
         real("stiffness_damping", "Rayleigh [s]", &Settings::plant, &frond_plant_def::stiffness_damping),
         real("material_damping", "share of the organs' damping ratios", &Settings::plant,
              &frond_plant_def::material_damping),
-        real("spectral_radius", "of generalized_alpha, 0..1", &Settings::plant, &frond_plant_def::spectral_radius),
+        real("spectral_radius", "of generalized_alpha, 0..1", &Settings::plant, &frond_plant_def::tuning,
+             &frond_tuning::spectral_radius),
         real("root_height", "pinned above the foot [m], 0: chosen, < 0: none", &Settings::plant,
              &frond_plant_def::root_height),
     };

@@ -154,15 +154,15 @@ void odd_steps(Bench& bench) {
 }
 
 void loose_solver(Bench& bench) {
-    bench.plant_def.linear_solver = FROND_LINEAR_SOLVER_PCG_JACOBI;
-    bench.plant_def.tolerance = 0.5;
-    bench.plant_def.max_iterations = 3;
+    bench.plant_def.tuning.linear_solver = FROND_LINEAR_SOLVER_PCG_JACOBI;
+    bench.plant_def.tuning.linear_tolerance = 0.5;
+    bench.plant_def.tuning.linear_iterations = 3;
     swing_with(bench, [&] { return bench.cell.dt; });
 }
 
 void loose_newton(Bench& bench) {
-    bench.plant_def.newton_iterations = 100;
-    bench.plant_def.newton_tolerance = 1;
+    bench.plant_def.tuning.newton_iterations = 100;
+    bench.plant_def.tuning.newton_tolerance = 1;
     swing_with(bench, [&] { return bench.cell.dt; });
 }
 

@@ -65,10 +65,10 @@ FigurePanel come_apart(const Case& one) {
         depth = tools::contact_depth(play.stage.plants[0]);
         if (steps++ == 0) first = depth;
         if (depth > CLEAR) clear_since = play.stage.time;
-        frond_report report;
-        must(frond_world_get_report(play.stage.world, &report));
-        search += report.ms_collide;
-        response += report.ms_response;
+        frond_profile profile;
+        must(frond_world_get_profile(play.stage.world, &profile));
+        search += profile.ms_collide;
+        response += profile.ms_response;
         panel.curve.x.push_back(play.stage.time);
         panel.curve.y.push_back(1e3 * std::max(depth, LEAST));
     }

@@ -42,10 +42,10 @@ double path_error(const Path& path, const Path& reference) {
 // Two solves a step that damp next to nothing, iterated to convergence.
 Setup reference_setup(Setup setup) {
     setup.plant.integrator = FROND_INTEGRATOR_SDIRK2;
-    setup.plant.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
-    setup.plant.tolerance = frond_default_plant_def().tolerance;
-    setup.plant.newton_iterations = 12;
-    setup.plant.newton_tolerance = 1e-8;
+    setup.plant.tuning.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
+    setup.plant.tuning.linear_tolerance = frond_default_plant_def().tuning.linear_tolerance;
+    setup.plant.tuning.newton_iterations = 12;
+    setup.plant.tuning.newton_tolerance = 1e-8;
     setup.dt = 1.0 / 120;
     return setup;
 }

@@ -198,7 +198,7 @@ Outcome run_amplitude(const Setup& setup, Session& session) {
 // The shape that an end load of P L^2 / (E I) = 5 holds the beam in.
 static std::unique_ptr<Trial> bend_far(const ModelPtr& model, const Beam& beam, const Setup& setup) {
     Setup exact = setup;
-    exact.plant.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
+    exact.plant.tuning.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
     const double P = 5 * beam.young * inertia_of(beam, setup.body);
     return settle(model, exact, 20, [=](Trial& t, double share) { t.push_end({P * share, 0, 0}, {0, 0, 0}); });
 }

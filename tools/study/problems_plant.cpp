@@ -231,8 +231,8 @@ Outcome release(const PlantCase& plant, const Setup& setup, Session& session) {
     const frond_vec3 place = place_to_pull(plant, session);
     // All setups start from the same state.
     Setup exact = setup;
-    exact.plant.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
-    exact.plant.tolerance = frond_default_plant_def().tolerance;
+    exact.plant.tuning.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
+    exact.plant.tuning.linear_tolerance = frond_default_plant_def().tuning.linear_tolerance;
     std::vector<double>& start =
         session.references[std::string("start ") + frond_mechanics_name(setup.plant.mechanics)];
     if (start.empty()) {

@@ -18,9 +18,9 @@ static void add_row(std::ostringstream& out, const Point& point) {
     const char* body = setup.body == Body::MESH ? "mesh" : setup.body == Body::STEM ? "stem" : "plant";
     out << csv_field(point.series.empty() ? "one at a time" : point.series) << ','
         << frond_mechanics_name(plant.mechanics) << ',' << body << ',' << setup.resolution << ',' << plant.element_order
-        << ',' << setup.dt << ',' << frond_integrator_name(plant.integrator) << ',' << plant.newton_iterations << ','
-        << plant.newton_tolerance << ',' << frond_linear_solver_name(plant.linear_solver) << ',' << plant.tolerance
-        << ',' << frond_mass_name(plant.mass) << ',';
+        << ',' << setup.dt << ',' << frond_integrator_name(plant.integrator) << ',' << plant.tuning.newton_iterations
+        << ',' << plant.tuning.newton_tolerance << ',' << frond_linear_solver_name(plant.tuning.linear_solver) << ','
+        << plant.tuning.linear_tolerance << ',' << frond_mass_name(plant.tuning.mass) << ',';
     if (point.failure.empty())
         out << outcome.node_count << ',' << outcome.tet_count << ',' << outcome.capsule_count << ',' << outcome.error
             << ',' << outcome.cpu_per_second << ',' << (point.on_front ? 1 : 0) << ',';

@@ -50,26 +50,28 @@ std::string markdown_of(const Result& result) {
     if (!result.changes.empty()) {
         out << "The baseline (" << frond_mechanics_name(baseline.plant.mechanics) << ", " << resolution_text(baseline)
             << ", " << time_step_text(baseline.dt) << ", " << frond_integrator_name(baseline.plant.integrator) << ", "
-            << frond_linear_solver_name(baseline.plant.linear_solver) << "), then one setting changed at a time:\n\n"
+            << frond_linear_solver_name(baseline.plant.tuning.linear_solver)
+            << "), then one setting changed at a time:\n\n"
             << "| setting" << HEAD;
         for (const Point& point : result.changes) add_row(out, difference(point.setup, baseline), point);
         out << "\n";
     }
     out << "Points of the diagram; bold ones are on the Pareto front:\n\n| series: setting" << HEAD;
     for (const Point& point : result.points)
-        add_row(out,
-                point.series + ": " +
-                    (problem.axes & (TIME_STEP | EVERYTHING) ? time_step_text(point.setup.dt) + ", " : std::string()) +
-                    resolution_text(point.setup) +
-                    (problem.axes & EVERYTHING ? ", " + std::string(frond_integrator_name(point.setup.plant.integrator))
-                                               : std::string()) +
-                    (problem.axes & LINEAR && point.setup.plant.linear_solver != baseline.plant.linear_solver
-                         ? ", tolerance " + figure(point.setup.plant.tolerance)
-                         : std::string()) +
-                    (point.setup.plant.newton_iterations != baseline.plant.newton_iterations
-                         ? ", at most " + std::to_string(point.setup.plant.newton_iterations) + " solves"
-                         : std::string()),
-                point);
+        add_row(
+            out,
+            point.series + ": " +
+                (problem.axes & (TIME_STEP | EVERYTHING) ? time_step_text(point.setup.dt) + ", " : std::string()) +
+                resolution_text(point.setup) +
+                (problem.axes & EVERYTHING ? ", " + std::string(frond_integrator_name(point.setup.plant.integrator))
+                                           : std::string()) +
+                (problem.axes & LINEAR && point.setup.plant.tuning.linear_solver != baseline.plant.tuning.linear_solver
+                     ? ", tolerance " + figure(point.setup.plant.tuning.linear_tolerance)
+                     : std::string()) +
+                (point.setup.plant.tuning.newton_iterations != baseline.plant.tuning.newton_iterations
+                     ? ", at most " + std::to_string(point.setup.plant.tuning.newton_iterations) + " solves"
+                     : std::string()),
+            point);
     return out.str();
 }
 

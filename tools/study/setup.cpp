@@ -43,13 +43,17 @@ std::string difference(const Setup& setup, const Setup& baseline) {
     if (setup.body != baseline.body || setup.resolution != baseline.resolution) add(resolution_text(setup));
     if (setup.dt != baseline.dt) add(time_step_text(setup.dt));
     if (a.integrator != b.integrator) add(frond_integrator_name(a.integrator));
-    if (a.newton_iterations != b.newton_iterations) add("at most " + number(a.newton_iterations) + " solves a stage");
-    if (a.newton_tolerance != b.newton_tolerance) add("Newton tolerance " + number(a.newton_tolerance));
-    if (a.max_substeps != b.max_substeps) add("at most " + number(a.max_substeps) + " substeps");
-    if (a.substep_tolerance != b.substep_tolerance) add("substep tolerance " + number(a.substep_tolerance));
-    if (a.linear_solver != b.linear_solver) add(frond_linear_solver_name(a.linear_solver));
-    if (a.tolerance != b.tolerance) add("linear tolerance " + number(a.tolerance));
-    if (a.mass != b.mass) add(std::string(frond_mass_name(a.mass)) + " mass");
+    if (a.tuning.newton_iterations != b.tuning.newton_iterations)
+        add("at most " + number(a.tuning.newton_iterations) + " solves a stage");
+    if (a.tuning.newton_tolerance != b.tuning.newton_tolerance)
+        add("Newton tolerance " + number(a.tuning.newton_tolerance));
+    if (a.tuning.max_substeps != b.tuning.max_substeps) add("at most " + number(a.tuning.max_substeps) + " substeps");
+    if (a.tuning.substep_tolerance != b.tuning.substep_tolerance)
+        add("substep tolerance " + number(a.tuning.substep_tolerance));
+    if (a.tuning.linear_solver != b.tuning.linear_solver) add(frond_linear_solver_name(a.tuning.linear_solver));
+    if (a.tuning.linear_tolerance != b.tuning.linear_tolerance)
+        add("linear tolerance " + number(a.tuning.linear_tolerance));
+    if (a.tuning.mass != b.tuning.mass) add(std::string(frond_mass_name(a.tuning.mass)) + " mass");
     return text.empty() ? "baseline" : text;
 }
 
@@ -58,10 +62,11 @@ std::string key_of(const Setup& setup) {
     const frond_plant_def& p = setup.plant;
     out.precision(17);
     out << int(setup.body) << ' ' << setup.resolution << ' ' << setup.dt << ' ' << p.mechanics << ' ' << p.element_order
-        << ' ' << p.integrator << ' ' << p.linear_solver << ' ' << p.mass << ' ' << p.newton_iterations << ' '
-        << p.newton_tolerance << ' ' << p.max_substeps << ' ' << p.substep_tolerance << ' ' << p.max_iterations << ' '
-        << p.tolerance << ' ' << p.mass_damping << ' ' << p.stiffness_damping << ' ' << p.material_damping << ' '
-        << p.spectral_radius << ' ' << p.root_height << ' ' << p.effects;
+        << ' ' << p.integrator << ' ' << p.tuning.linear_solver << ' ' << p.tuning.mass << ' '
+        << p.tuning.newton_iterations << ' ' << p.tuning.newton_tolerance << ' ' << p.tuning.max_substeps << ' '
+        << p.tuning.substep_tolerance << ' ' << p.tuning.linear_iterations << ' ' << p.tuning.linear_tolerance << ' '
+        << p.mass_damping << ' ' << p.stiffness_damping << ' ' << p.material_damping << ' ' << p.tuning.spectral_radius
+        << ' ' << p.root_height << ' ' << p.effects;
     return out.str();
 }
 

@@ -85,7 +85,7 @@ void sweep_exact_rods(const Problem& problem, Effort effort, std::vector<Sweep>&
     Setup setup = problem.baseline();
     if (setup.body != Body::STEM) return;
     setup.plant.mechanics = FROND_MECHANICS_ROD;
-    setup.plant.mass = FROND_MASS_CONSISTENT;
+    setup.plant.tuning.mass = FROND_MASS_CONSISTENT;
     setup.plant.integrator = FROND_INTEGRATOR_SDIRK2;
     Sweep sweep = {"rod, consistent mass, sdirk2", {}, false};
     for (int resolution : resolutions(Body::STEM, 1, effort, true)) {
@@ -99,10 +99,10 @@ void sweep_exact_rods(const Problem& problem, Effort effort, std::vector<Sweep>&
 void sweep_substeps(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
     Setup setup = problem.baseline();
     setup.dt = 1.0 / 30;
-    setup.plant.max_substeps = 64;
+    setup.plant.tuning.max_substeps = 64;
     Sweep sweep = {std::string(frond_integrator_name(setup.plant.integrator)) + ", substeps as needed", {}, false};
     for (double tolerance : by<double>(effort, {1e-4}, {1e-2}, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5})) {
-        setup.plant.substep_tolerance = tolerance;
+        setup.plant.tuning.substep_tolerance = tolerance;
         sweep.setups.push_back(setup);
     }
     sweeps.push_back(sweep);
@@ -161,7 +161,7 @@ void sweep_newton(const Problem& problem, Effort effort, std::vector<Sweep>& swe
     Sweep sweep = {std::string(frond_integrator_name(base.plant.integrator)) + ", more solves", {}, false};
     for (int solves : by<int>(effort, {2}, {2, 4}, {1, 2, 3, 4, 8})) {
         Setup setup = base;
-        setup.plant.newton_iterations = solves;
+        setup.plant.tuning.newton_iterations = solves;
         sweep.setups.push_back(setup);
     }
     sweeps.push_back(sweep);
@@ -176,12 +176,12 @@ void sweep_linear(const Problem& problem, Effort effort, std::vector<Sweep>& swe
     const Setup base = problem.baseline();
     if (!has_time_to_iterate(base, effort)) return;
     for (int s = 0; s < FROND_LINEAR_SOLVER_COUNT; s++) {
-        if (s == base.plant.linear_solver) continue;
+        if (s == base.plant.tuning.linear_solver) continue;
         Sweep sweep = {frond_linear_solver_name(frond_linear_solver(s)), {}, false};
         for (double tolerance : tolerances(s, effort)) {
             Setup setup = base;
-            setup.plant.linear_solver = frond_linear_solver(s);
-            setup.plant.tolerance = tolerance;
+            setup.plant.tuning.linear_solver = frond_linear_solver(s);
+            setup.plant.tuning.linear_tolerance = tolerance;
             sweep.setups.push_back(setup);
         }
         sweeps.push_back(sweep);
@@ -222,7 +222,8 @@ void change_shape(const Problem& problem, Effort effort, Changes& changes) {
             s = with_body(s, Body::MESH);
             s.resolution = 1;
         });
-    changes.add([&](Setup& s) { s.plant.mass = frond_mass(FROND_MASS_COUNT - 1 - int(base.plant.mass)); });
+    changes.add(
+        [&](Setup& s) { s.plant.tuning.mass = frond_mass(FROND_MASS_COUNT - 1 - int(base.plant.tuning.mass)); });
 }
 
 }  // namespace
@@ -250,11 +251,11 @@ std::vector<Setup> changes_of(const Problem& problem, Effort effort) {
             changes.add([&](Setup& s) { s.plant.integrator = frond_integrator(i); });
     }
     if (problem.axes & NEWTON) {
-        for (int solves : {1, 2, 4}) changes.add([&](Setup& s) { s.plant.newton_iterations = solves; });
+        for (int solves : {1, 2, 4}) changes.add([&](Setup& s) { s.plant.tuning.newton_iterations = solves; });
         for (double tolerance : {1e-1, 1e-3})
             changes.add([&](Setup& s) {
-                s.plant.newton_iterations = 4;
-                s.plant.newton_tolerance = tolerance;
+                s.plant.tuning.newton_iterations = 4;
+                s.plant.tuning.newton_tolerance = tolerance;
             });
     }
     if (problem.axes & LINEAR && has_time_to_iterate(changes.base, effort))
@@ -262,8 +263,8 @@ std::vector<Setup> changes_of(const Problem& problem, Effort effort) {
             for (double tolerance : tolerances(k, effort)) {
                 if (k == FROND_LINEAR_SOLVER_BLOCK) continue;
                 changes.add([&](Setup& s) {
-                    s.plant.linear_solver = frond_linear_solver(k);
-                    s.plant.tolerance = tolerance;
+                    s.plant.tuning.linear_solver = frond_linear_solver(k);
+                    s.plant.tuning.linear_tolerance = tolerance;
                 });
             }
     return changes.list;

@@ -227,13 +227,13 @@ std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ram
                               int most_steps) {
     Setup patient = setup;
     patient.plant.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
-    patient.plant.newton_tolerance = 1e-9;
+    patient.plant.tuning.newton_tolerance = 1e-9;
     patient.plant.mass_damping = patient.plant.stiffness_damping = patient.plant.material_damping = 0;
     // Converged steps find most shapes; single solves, which take loads that follow anew each time, find the others.
     // Where both overshoot, shorter steps lead there, in which implicit Euler damps a sway within seconds.
     for (double step : {1.0, 0.1})
         for (int solves : {10, 1}) {
-            patient.plant.newton_iterations = solves;
+            patient.plant.tuning.newton_iterations = solves;
             const int raised = int(std::lround(ramp / std::sqrt(step)));
             if (std::unique_ptr<Trial> trial = try_to_settle(model, patient, raised, step, most_steps, load))
                 return trial;

@@ -22,7 +22,7 @@ Row overlay_row(const Viewer& viewer, char key, const char* name, Overlay overla
 
 Row effect_row(const Viewer& viewer, int bit) {
     const frond_effects effect = 1u << bit;
-    const bool is_on = viewer.settings.plant.effects & effect, ran = viewer.cost.effects_run & effect;
+    const bool is_on = viewer.settings.plant.effects & effect, ran = viewer.report.effects_run & effect;
     const double ms = viewer.cost.ms_of_effect[bit];
     const std::string cost = !ran ? "" : ms > 0 ? text_of("  %.3f ms", ms) : "  at work";
     return {text_of("    %s %-14s", is_on ? "[x]" : "[  ]", frond_effect_name(effect)) + cost, 0,
@@ -40,10 +40,11 @@ std::string trouble_text(uint32_t trouble) {
 }
 
 void add_costs(const Viewer& viewer, std::vector<Row>& rows) {
-    const frond_report& cost = viewer.cost;
+    const frond_report& report = viewer.report;
+    const frond_profile& cost = viewer.cost;
     const auto tell = [&](const std::string& text) { rows.push_back({text, 0, nullptr}); };
     tell("");
-    tell(text_of("%d plants, %d awake, %d tets; %.2f s", cost.plant_count, cost.awake_count, cost.tet_count,
+    tell(text_of("%d plants, %d awake, %d tets; %.2f s", report.plant_count, report.awake_count, report.tet_count,
                  viewer.play->stage.time));
     tell(text_of("a step: %.2f ms; %.0f frames a second", cost.ms_step,
                  viewer.frame_time > 0 ? 1 / viewer.frame_time : 0.0));
@@ -54,7 +55,7 @@ void add_costs(const Viewer& viewer, std::vector<Row>& rows) {
                   {"solve", cost.ms_solve},     {"response", cost.ms_response}, {"capsules", cost.ms_capsules},
                   {"surface", cost.ms_surface}};
     for (const auto& stage : stages) tell(text_of("    %.3f ms  %s", stage.ms, stage.name));
-    tell(text_of("%d contacts with bodies, %d of plants", cost.contact_count, cost.plant_contact_count));
+    tell(text_of("%d contacts with bodies, %d of plants", report.contact_count, report.plant_contact_count));
     tell(trouble_text(viewer.trouble));
     if (viewer.overlays[size_t(Overlay::STRAIN)])
         tell(text_of("strain: blue 0, red %.0f %% and more", 100 * RED_STRAIN));

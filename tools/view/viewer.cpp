@@ -35,18 +35,20 @@ Shades shades_of(frond_plant plant) {
 
 void note_cost(Viewer& viewer) {
     constexpr double LATELY = 0.1;
-    frond_report now;
-    must(frond_world_get_report(viewer.play->stage.world, &now));
-    const frond_report before = viewer.cost;
+    must(frond_world_get_report(viewer.play->stage.world, &viewer.report));
+    viewer.trouble |= viewer.report.trouble;
+    frond_profile now;
+    must(frond_world_get_profile(viewer.play->stage.world, &now));
+    const frond_profile before = viewer.cost;
     viewer.cost = now;
-    viewer.trouble |= now.trouble;
     if (before.ms_step == 0) return;
-    const auto smooth = [&](double frond_report::*field) {
+    const auto smooth = [&](double frond_profile::*field) {
         viewer.cost.*field = before.*field + LATELY * (now.*field - before.*field);
     };
-    for (double frond_report::*field :
-         {&frond_report::ms_step, &frond_report::ms_collide, &frond_report::ms_effects, &frond_report::ms_assembly,
-          &frond_report::ms_solve, &frond_report::ms_response, &frond_report::ms_capsules, &frond_report::ms_surface})
+    for (double frond_profile::*field :
+         {&frond_profile::ms_step, &frond_profile::ms_collide, &frond_profile::ms_effects, &frond_profile::ms_assembly,
+          &frond_profile::ms_solve, &frond_profile::ms_response, &frond_profile::ms_capsules,
+          &frond_profile::ms_surface})
         smooth(field);
     for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++)
         viewer.cost.ms_of_effect[bit] =
@@ -77,6 +79,7 @@ void reset(Viewer& viewer) {
     const Stage& stage = viewer.play->stage;
     viewer.own_rigids = stage.rigids.size();
     viewer.left_over = 0;
+    viewer.report = {};
     viewer.cost = {};
     viewer.trouble = 0;
     viewer.shades.clear();

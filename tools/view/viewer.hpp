@@ -33,10 +33,11 @@ struct Viewer {
     int width, height;  // of the picture [pixel]
     std::array<bool, size_t(Overlay::COUNT)> overlays = {};
     bool is_paused = false, shows_panel = true;
-    double left_over = 0;    // of the time that passed, not stepped yet [s]
-    frond_report cost = {};  // its times are smoothed
-    uint32_t trouble = 0;    // of all steps so far
-    double frame_time = 0;   // smoothed [s]
+    double left_over = 0;  // of the time that passed, not stepped yet [s]
+    frond_report report = {};
+    frond_profile cost = {};  // smoothed
+    uint32_t trouble = 0;     // of all steps so far
+    double frame_time = 0;    // smoothed [s]
     double mouse_x = 0, mouse_y = 0;
     enum class Drag { NONE, HAND, ORBIT, PAN } drag = Drag::NONE;
     Button drag_button = Button::LEFT;

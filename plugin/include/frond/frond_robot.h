@@ -36,16 +36,16 @@ typedef struct frond_robot {
 #define FROND_JOINT_ENUM(code, text) FROND_JOINT_##code,
 typedef enum frond_joint { FROND_JOINTS(FROND_JOINT_ENUM) FROND_JOINT_COUNT } frond_joint;
 #undef FROND_JOINT_ENUM
-/* "revolute"; "?" when out of range. */
+/* Returns the short lower-case name of a joint, "revolute"; "?" when it is out of range. */
 FROND_API const char* frond_joint_name(frond_joint joint);
 
 typedef struct frond_robot_def {
+    uint32_t cookie;     /* do not set */
     frond_vec3 position; /* of the base [m], default the origin */
     frond_quat rotation; /* of the base; default: what the file has upwards, +z, is +y */
     bool is_fixed;       /* the base does not move, default true; false for a base that hangs on a floating joint */
     double friction;     /* of all links, default 0.5; Bullet multiplies it by the other body's or organ's */
     int group, mask;     /* of Bullet's collision filter, default 1 and -1 */
-    uint32_t cookie;     /* do not set */
 } frond_robot_def;
 
 /* What does not change about a link. Strings are borrowed; they live as long as the robot. */
@@ -71,50 +71,59 @@ typedef struct frond_link_state {
     double motor_force;                    /* of the joint's motor in the last substep [N m], [N] */
 } frond_link_state;
 
-FROND_API frond_robot_def frond_default_robot_def(void);
-/* Reads the file in a process of its own, as frond_model_load does. FILE_FORMAT for a file that is damaged, cyclic or
- * huge, FILE_NOT_FOUND for a mesh that is missing, UNSUPPORTED for a floating joint in the middle of the tree or a
- * Bullet world that takes no multi-bodies: a btMultiBodyDynamicsWorld does, and the worlds of frond_world_create are
- * such. All joints begin at zero or at the limit nearest to it, held there by their motors. */
+/* Returns the default settings of a robot. */
+static inline frond_robot_def frond_default_robot_def(void) {
+    frond_robot_def def;
+    frond_fill_def(&def, FROND_DEF_COOKIE('U'));
+    return def;
+}
+/* Loads a robot from a URDF file, read in a process of its own, as frond_model_load does. FILE_FORMAT for a file that
+ * is damaged, cyclic or huge, FILE_NOT_FOUND for a mesh that is missing, UNSUPPORTED for a floating joint in the middle
+ * of the tree or a Bullet world that takes no multi-bodies: a btMultiBodyDynamicsWorld does, and the worlds of
+ * frond_world_create are such. All joints begin at zero or at the limit nearest to it, held there by their motors. */
 FROND_API frond_result frond_robot_load(frond_world world, const char* path, const frond_robot_def* def,
                                         frond_robot* out);
-/* Null and stale handles are ignored. Its world's end is its end. */
+/* Destroys a robot. Null and stale handles are ignored. Its world's end is its end. */
 FROND_API void frond_robot_destroy(frond_robot robot);
+/* Tells whether a handle is of a robot that exists. */
 FROND_API bool frond_robot_is_valid(frond_robot robot);
-/* 0 for an invalid handle. */
+/* Returns the number of links; 0 for an invalid handle. */
 FROND_API int frond_robot_get_link_count(frond_robot robot);
-/* Number of the link that has this name or whose joint has it; -1 if there is none or the handle is invalid. */
+/* Returns the number of the link that has this name or whose joint has it; -1 if there is none or the handle is
+ * invalid. */
 FROND_API int frond_robot_find_link(frond_robot robot, const char* name);
+/* Describes what does not change about a link. */
 FROND_API frond_result frond_robot_get_link(frond_robot robot, int link, frond_robot_link* out);
+/* Gives the state of a link after the last substep, with the force of plants on it. */
 FROND_API frond_result frond_robot_get_link_state(frond_robot robot, int link, frond_link_state* out);
-/* What collides of all links, as triangles in the world's frame: meshes as they are in their files. Normals, uvs and
- * colors are null. Borrowed until the next call or destroy. */
+/* Gives the collision shapes of all links as triangles in the world's frame: meshes as they are in their files.
+ * Normals, uvs and colors are null. Borrowed until the next call or destroy. */
 FROND_API frond_result frond_robot_get_surface(frond_robot robot, frond_surface_view* out);
 /* Puts a joint there at once, at rest, and has its motor hold it. BAD_ARGUMENT for fixed joints, and beyond limits. */
 FROND_API frond_result frond_robot_set_joint(frond_robot robot, int link, double position);
-/* The motor goes to `position` [rad], [m], no faster than max_velocity [rad/s], [m/s] (0: the file's limit, or 1 where
- * it has none), with up to max_force [N m], [N]; 0: the file's limit, or 1000 where it has none. */
+/* Drives a joint: its motor goes to `position` [rad], [m], no faster than max_velocity [rad/s], [m/s] (0: the file's
+ * limit, or 1 where it has none), with up to max_force [N m], [N]; 0: the file's limit, or 1000 where it has none. */
 FROND_API frond_result frond_robot_drive_to(frond_robot robot, int link, double position, double max_velocity,
                                             double max_force);
-/* The motor keeps a velocity [rad/s], [m/s]; max_force as above. */
+/* Drives a joint at a velocity [rad/s], [m/s], which its motor keeps; max_force as above. */
 FROND_API frond_result frond_robot_drive_at(frond_robot robot, int link, double velocity, double max_force);
-/* The joint moves freely until it is driven again. */
+/* Lets a joint move freely until it is driven again. */
 FROND_API frond_result frond_robot_release(frond_robot robot, int link);
-/* As frond_bond_create, to a link: what a gripper holds. */
+/* Makes a bond as frond_bond_create does, to a link: what a gripper holds. */
 FROND_API frond_result frond_robot_bond(frond_plant plant, frond_vec3 point, frond_robot robot, int link,
                                         frond_bond* out);
 
 /* Writes a model's chain as a URDF file that other programs read: a link with a <visual>, a <collision> and an
  * <inertial> for each capsule, hung on each other by fixed joints, +z up, and in <frond> what Frond needs to make the
- * same plant of it again: organ, material, and the stiffness and mass of the section. Materials are told by kind, so
+ * same plant of it again: organ, material, and the stiffness and mass of the section. Materials are written by kind, so
  * that those of the caller's own count only by the stiffness that they gave the sections. FILE_NOT_FOUND if the file
  * cannot be written. */
 FROND_API frond_result frond_model_write_urdf(frond_model model, const char* path);
 
-/* What holds a plant: the force of the ground on its pinned nodes, in the world's frame [N], and its moment about
- * `about` [N m]. Either may be null. Elastic forces and weight as they are after the last substep count; what damps
- * does not, so that it is exact for a plant at rest, which is held with the opposite of its weight and of all that
- * pushes it beyond its foot. */
+/* Computes the force that holds a plant, of the ground on its pinned nodes, in the world's frame [N], and its moment
+ * about `about` [N m]. Either may be null. Elastic forces and weight as they are after the last substep count; what
+ * damps does not, so that it is exact for a plant at rest, which is held with the opposite of its weight and of all
+ * that pushes it beyond its foot. */
 FROND_API frond_result frond_plant_get_root_force(frond_plant plant, frond_vec3 about, frond_vec3* force,
                                                   frond_vec3* moment);
 

@@ -16,13 +16,15 @@
 extern "C" {
 #endif
 
-/* What frond_world_save writes now [bytes]; 0 for an invalid handle and for a world with robots, which it refuses. */
+/* Returns the size of a snapshot that frond_world_save writes now [bytes]; 0 for an invalid handle and for a world with
+ * robots, which it refuses. */
 FROND_API size_t frond_world_get_snapshot_size(frond_world world);
-/* size must be what the function above says. */
+/* Saves the world into `snapshot`. size must be what frond_world_get_snapshot_size returns. */
 FROND_API frond_result frond_world_save(frond_world world, void* snapshot, size_t size);
-/* Into a world with the same plants, grabs, bonds and rigid bodies in the order in which they were made; plants of the
- * same models and settings, with the same capsules broken. Handles stay. Else BAD_ARGUMENT, and FILE_FORMAT for bytes
- * that are cut off, changed, or of another version or precision of Frond, and nothing is changed. */
+/* Restores a snapshot into a world with the same plants, grabs, bonds and rigid bodies in the order in which they were
+ * made; plants of the same models and settings, with the same capsules broken. Handles stay. Else BAD_ARGUMENT, and
+ * FILE_FORMAT for bytes that are cut off, changed, or of another version or precision of Frond, and nothing is changed.
+ */
 FROND_API frond_result frond_world_restore(frond_world world, const void* snapshot, size_t size);
 
 #ifdef __cplusplus

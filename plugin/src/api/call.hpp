@@ -70,14 +70,22 @@ int number_of(const Enum& value) {
 inline void check_row(int row, int count, const char* name) {
     if (row < 0 || row >= count) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; use one of its enum's names", name, row);
 }
-template <class Def>
-void check_def(const Def* def, uint32_t cookie, const char* name) {
-    check_pointer(def, "def");
-    if (def->cookie != cookie)
-        fail(FROND_RESULT_BAD_DEF, "the def was not made by frond_default_%s_def(); start from it", name);
+// A def's cookie is its kind, a letter, and the version of the header that it was made by: see FROND_DEF_COOKIE. Patch
+// versions go together.
+inline bool is_of_this_version(uint32_t cookie) {
+    return (cookie & 0xffff00) == (uint32_t(FROND_VERSION) & 0xffff00);
 }
-
-constexpr uint32_t WORLD_DEF_COOKIE = 0x46724e57, MODEL_DEF_COOKIE = 0x46724e4d, PLANT_DEF_COOKIE = 0x46724e50,
-                   RIGID_DEF_COOKIE = 0x46724e52, WIND_DEF_COOKIE = 0x46724e41, DETAIL_DEF_COOKIE = 0x46724e44;
+template <class Def>
+void check_def(const Def* def, char kind, const char* name) {
+    check_pointer(def, "def");
+    const uint32_t cookie = def->cookie;
+    if (cookie >> 24 != uint32_t(kind))
+        fail(FROND_RESULT_BAD_DEF, "the def was not made by frond_default_%s_def(); start from it", name);
+    if (!is_of_this_version(cookie))
+        fail(FROND_RESULT_BAD_DEF,
+             "the def was made by the header of version %u.%u.%u, but the library is version %s; compile with its "
+             "headers",
+             cookie >> 16 & 255, cookie >> 8 & 255, cookie & 255, FROND_VERSION_STRING);
+}
 
 }  // namespace frond

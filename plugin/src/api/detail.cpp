@@ -5,7 +5,7 @@
 using namespace frond;
 
 static void check_detail_def(const frond_detail_def* def) {
-    check_def(def, DETAIL_DEF_COOKIE, "detail");
+    check_def(def, 'D', "detail");
     check_range(def->rod_from, 0, LARGEST_COORDINATE, "def.rod_from");
     check_range(def->half_from, def->rod_from, LARGEST_COORDINATE, "def.half_from");
     check_range(def->modal_from, def->half_from, LARGEST_COORDINATE, "def.modal_from");
@@ -15,17 +15,6 @@ static void check_detail_def(const frond_detail_def* def) {
 }
 
 extern "C" {
-
-frond_detail_def frond_default_detail_def(void) {
-    frond_detail_def def = {};
-    def.rod_from = 5;
-    def.half_from = 12;
-    def.modal_from = 25;
-    def.still_from = 150;
-    def.hysteresis = 0.15;
-    def.cookie = DETAIL_DEF_COOKIE;
-    return def;
-}
 
 frond_result frond_world_set_detail(frond_world world, const frond_detail_def* def) {
     return call([&] {

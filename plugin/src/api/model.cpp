@@ -11,7 +11,7 @@ using namespace frond;
 constexpr int LARGEST_COUNT = 20'000'000;  // of vertices or triangles that a caller may pass
 
 static void check_model_def(const frond_model_def* def) {
-    check_def(def, MODEL_DEF_COOKIE, "model");
+    check_def(def, 'M', "model");
     check_vec(def->up, "def.up");
     check_range(def->scale, 0, 1e9, "def.scale [m per unit]");
     check_range(def->capsule_height, 0, 1e6, "def.capsule_height [m]");
@@ -119,13 +119,6 @@ frond_result frond_material_preset(const char* kind, frond_material* out) {
                  material_kinds().c_str());
         *out = *material;
     });
-}
-
-frond_model_def frond_default_model_def(void) {
-    frond_model_def def = {};
-    def.cage_smoothness = CageOptions().smoothness;
-    def.cookie = MODEL_DEF_COOKIE;
-    return def;
 }
 
 frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out) {

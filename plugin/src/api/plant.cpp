@@ -15,26 +15,26 @@ static void check_effects(frond_effects effects) {
 }
 
 static void check_plant_def(const frond_plant_def* def) {
-    check_def(def, PLANT_DEF_COOKIE, "plant");
+    check_def(def, 'P', "plant");
     check_vec(def->position, "def.position [m]");
     const double length = Quat(def->rotation.w, def->rotation.x, def->rotation.y, def->rotation.z).norm();
     if (!(length > 1e-9 && length < 1e9))
         fail(FROND_RESULT_BAD_ARGUMENT, "def.rotation has no direction; (0,0,0,1) is none");
     check_row(number_of(def->mechanics), FROND_MECHANICS_COUNT, "def.mechanics");
     check_row(number_of(def->integrator), FROND_INTEGRATOR_COUNT, "def.integrator");
-    check_row(number_of(def->linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.linear_solver");
-    check_row(number_of(def->mass), FROND_MASS_COUNT, "def.mass");
+    check_row(number_of(def->tuning.linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.tuning.linear_solver");
+    check_row(number_of(def->tuning.mass), FROND_MASS_COUNT, "def.tuning.mass");
     check_range(def->element_order, 1, HIGHEST_ORDER, "def.element_order");
-    check_range(def->newton_iterations, 1, 100, "def.newton_iterations");
-    check_range(def->newton_tolerance, 0, 1, "def.newton_tolerance");
-    check_range(def->max_iterations, 1, 10'000'000, "def.max_iterations");
-    check_range(def->tolerance, 1e-15, 1, "def.tolerance");
-    check_range(def->max_substeps, 1, 64, "def.max_substeps");
-    check_range(def->substep_tolerance, 1e-9, 1, "def.substep_tolerance");
+    check_range(def->tuning.newton_iterations, 1, 100, "def.tuning.newton_iterations");
+    check_range(def->tuning.newton_tolerance, 0, 1, "def.tuning.newton_tolerance");
+    check_range(def->tuning.linear_iterations, 1, 10'000'000, "def.tuning.linear_iterations");
+    check_range(def->tuning.linear_tolerance, 1e-15, 1, "def.tuning.linear_tolerance");
+    check_range(def->tuning.max_substeps, 1, 64, "def.tuning.max_substeps");
+    check_range(def->tuning.substep_tolerance, 1e-9, 1, "def.tuning.substep_tolerance");
     check_range(def->mass_damping, 0, 1e6, "def.mass_damping [1/s]");
     check_range(def->stiffness_damping, 0, 1e3, "def.stiffness_damping [s]");
     check_range(def->material_damping, 0, 100, "def.material_damping");
-    check_range(def->spectral_radius, 0, 1, "def.spectral_radius");
+    check_range(def->tuning.spectral_radius, 0, 1, "def.tuning.spectral_radius");
     check_range(def->root_height, -LARGEST_COORDINATE, LARGEST_COORDINATE, "def.root_height [m]");
     check_effects(def->effects);
 }
@@ -91,31 +91,6 @@ static std::vector<frond_contact> contacts_of(const PlantBody& body) {
 }
 
 extern "C" {
-
-frond_plant_def frond_default_plant_def(void) {
-    frond_plant_def def = {};
-    def.rotation = {0, 0, 0, 1};
-    def.mechanics = FROND_MECHANICS_TET_COROTATIONAL;
-    def.element_order = 1;
-    def.integrator = FROND_INTEGRATOR_BDF2;
-    def.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
-    def.mass = FROND_MASS_LUMPED;
-    def.newton_iterations = 1;
-    def.newton_tolerance = 1e-6;
-    def.max_iterations = 10000;
-    def.tolerance = 1e-6;
-    def.max_substeps = 1;
-    def.substep_tolerance = 1e-4;
-    def.mass_damping = 0.1;
-    def.stiffness_damping = 0.002;
-    def.material_damping = 1;
-    def.spectral_radius = 0.8;
-    def.effects = FROND_EFFECT_DEFAULT;
-    def.group = 1;
-    def.mask = -1;
-    def.cookie = PLANT_DEF_COOKIE;
-    return def;
-}
 
 frond_result frond_plant_create(frond_world world, frond_model model, const frond_plant_def* def, frond_plant* out) {
     return call([&] {

@@ -41,7 +41,7 @@ static const char* const EFFECT_NAMES[] = {FROND_EFFECTS(EFFECT_TEXT)};
 extern "C" {
 
 const char* frond_version_string(void) {
-    return FROND_VERSION;
+    return FROND_VERSION_STRING;
 }
 const char* frond_result_name(frond_result result) {
     return row_name(RESULT_TEXTS, number_of(result), "unknown result");

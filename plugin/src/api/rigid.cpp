@@ -15,7 +15,7 @@ static void check_state(const frond_rigid_state& state) {
     for (double v : {state.velocity.x, state.velocity.y, state.velocity.z})
         check_range(v, -FASTEST, FASTEST, "state.velocity [m/s]");
     for (double v : {state.angular_velocity.x, state.angular_velocity.y, state.angular_velocity.z})
-        check_range(v, -FASTEST, FASTEST, "state.spin [rad/s]");
+        check_range(v, -FASTEST, FASTEST, "state.angular_velocity [rad/s]");
 }
 
 // How many of the three numbers of the size a shape has.
@@ -26,7 +26,7 @@ static int size_count(int shape) {
 }
 
 static void check_rigid_def(const frond_rigid_def* def) {
-    check_def(def, RIGID_DEF_COOKIE, "rigid");
+    check_def(def, 'R', "rigid");
     const int shape = number_of(def->shape);
     if (shape < 0 || shape >= FROND_SHAPE_COUNT)
         fail(FROND_RESULT_BAD_ARGUMENT, "def.shape is %d; use one of frond_shape's names", shape);
@@ -38,17 +38,6 @@ static void check_rigid_def(const frond_rigid_def* def) {
 }
 
 extern "C" {
-
-frond_rigid_def frond_default_rigid_def(void) {
-    frond_rigid_def def = {};
-    def.shape = FROND_SHAPE_SPHERE;
-    def.size = {0.1, 0.1, 0.1};
-    def.mass = 1;
-    def.friction = 0.5;
-    def.state.rotation = {0, 0, 0, 1};
-    def.cookie = RIGID_DEF_COOKIE;
-    return def;
-}
 
 frond_result frond_rigid_create(frond_world world, const frond_rigid_def* def, frond_rigid* out) {
     return call([&] {

@@ -37,7 +37,7 @@ namespace {
 constexpr double FASTEST = 1e6, STRONGEST = 1e9, FARTHEST = 1e6;
 
 void check_robot_def(const frond_robot_def* def) {
-    check_def(def, ROBOT_DEF_COOKIE, "robot");
+    check_def(def, 'U', "robot");
     check_vec(def->position, "def.position [m]");
     const frond_quat& q = def->rotation;
     const double length = Quat(q.w, q.x, q.y, q.z).norm();
@@ -112,18 +112,6 @@ const char* frond_joint_name(frond_joint joint) {
 #undef FROND_JOINT_TEXT
     const int row = number_of(joint);
     return row >= 0 && row < FROND_JOINT_COUNT ? NAMES[row] : "?";
-}
-
-frond_robot_def frond_default_robot_def(void) {
-    frond_robot_def def = {};
-    const Quat upright = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
-    def.rotation = {upright.x(), upright.y(), upright.z(), upright.w()};
-    def.is_fixed = true;
-    def.friction = 0.5;
-    def.group = btBroadphaseProxy::DefaultFilter;
-    def.mask = btBroadphaseProxy::AllFilter;
-    def.cookie = ROBOT_DEF_COOKIE;
-    return def;
 }
 
 frond_result frond_robot_load(frond_world world, const char* path, const frond_robot_def* def, frond_robot* out) {

@@ -7,8 +7,6 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-constexpr uint32_t ROBOT_DEF_COOKIE = 0x46724e42;
-
 using RobotSlots = Slots<Robot*, 7>;
 RobotSlots& robot_slots();
 Robot& get(frond_robot robot);

@@ -5,7 +5,7 @@
 using namespace frond;
 
 static void check_wind_def(const frond_wind_def* def) {
-    check_def(def, WIND_DEF_COOKIE, "wind");
+    check_def(def, 'A', "wind");
     constexpr double FASTEST = 200;
     for (double v : {def->velocity.x, def->velocity.y, def->velocity.z})
         check_range(v, -FASTEST, FASTEST, "def.velocity [m/s]");
@@ -24,20 +24,6 @@ static void check_wind_def(const frond_wind_def* def) {
 }
 
 extern "C" {
-
-frond_wind_def frond_default_wind_def(void) {
-    frond_wind_def def = {};
-    def.turbulence = 0.2;
-    def.length_scale = 20;
-    def.seed = 1;
-    def.profile = FROND_WIND_PROFILE_LOG;
-    def.reference_height = 10;
-    def.roughness = 0.03;
-    def.exponent = 1.0 / 7;
-    def.density = 1.2;
-    def.cookie = WIND_DEF_COOKIE;
-    return def;
-}
 
 frond_result frond_world_set_wind(frond_world world, const frond_wind_def* def) {
     return call([&] {

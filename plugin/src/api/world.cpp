@@ -6,18 +6,18 @@ using namespace frond;
 
 // Checks a def, makes the world and gives it a handle.
 static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& def) {
-    check_def(&def, WORLD_DEF_COOKIE, "world");
+    check_def(&def, 'W', "world");
     check_vec(def.gravity, "def.gravity");
     check_range(def.max_substep, 1e-6, 1.0, "def.max_substep");
     if (def.effects & ~uint32_t(FROND_EFFECT_ALL))
         fail(FROND_RESULT_BAD_ARGUMENT, "def.effects has unknown bits; use FROND_EFFECT_*");
-    check_row(number_of(def.hash_layout), FROND_HASH_LAYOUT_COUNT, "def.hash_layout");
-    check_range(def.hash_table_size, 0, 1e8, "def.hash_table_size");
-    check_range(def.hash_cell_size, 0, 1e3, "def.hash_cell_size [m]");
+    check_row(number_of(def.tuning.hash_layout), FROND_HASH_LAYOUT_COUNT, "def.tuning.hash_layout");
+    check_range(def.tuning.hash_table_size, 0, 1e8, "def.tuning.hash_table_size");
+    check_range(def.tuning.hash_cell_size, 0, 1e3, "def.tuning.hash_cell_size [m]");
     check_row(number_of(def.response), FROND_RESPONSE_COUNT, "def.response");
-    check_range(def.response_iterations, 1, 1e5, "def.response_iterations");
-    check_range(def.response_tolerance, 0, 1, "def.response_tolerance");
-    check_range(def.penalty_stiffness, 1e-6, 1e12, "def.penalty_stiffness [N/m]");
+    check_range(def.tuning.response_iterations, 1, 1e5, "def.tuning.response_iterations");
+    check_range(def.tuning.response_tolerance, 0, 1, "def.tuning.response_tolerance");
+    check_range(def.tuning.penalty_stiffness, 1e-6, 1e12, "def.tuning.penalty_stiffness [N/m]");
     check_range(def.sleep_distance, 0, 0.01, "def.sleep_distance [m]");
     const uint64_t id = world_slots().insert(make_world(bullet, def));
     if (!id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many worlds; destroy some");
@@ -32,41 +32,38 @@ static int nearest_node(const Plant& plant, const Vec3& point) {
     return nearest;
 }
 
+static bool has_made_surface(const Plant& plant) {
+    return !plant.surface_stale && plant.ms_surface > 0;
+}
+
 // Sums over the plants; times and trouble are those of the last substep.
 static frond_report full_report(const World& world) {
     frond_report report = world.report;
     report.time = world.time;
     report.plant_count = int(world.bodies.size());
     for (const auto& body : world.bodies) {
-        report.node_count += node_count_of(*body->plant);
-        report.tet_count += int(body->plant->model->cage.tets.size());
         const Plant& plant = *body->plant;
-        report.ms_surface += plant.ms_surface;
-        if (plant.surface_stale || !(plant.ms_surface > 0)) continue;
-        const frond_effects effects = plant.effects & world.effects;
-        report.effects_run |= effects & (FROND_EFFECT_SURFACE | FROND_EFFECT_NORMALS);
-        report.ms_of_effect[3] += plant.ms_surface - plant.ms_normals;
-        report.ms_of_effect[4] += plant.ms_normals;
+        report.node_count += node_count_of(plant);
+        report.tet_count += int(plant.model->cage.tets.size());
+        if (has_made_surface(plant))
+            report.effects_run |= plant.effects & world.effects & (FROND_EFFECT_SURFACE | FROND_EFFECT_NORMALS);
     }
     return report;
 }
 
-extern "C" {
-
-frond_world_def frond_default_world_def(void) {
-    frond_world_def def = {};
-    def.gravity = {0, -9.81, 0};
-    def.effects = FROND_EFFECT_ALL;
-    def.max_substep = 1.0 / 60;
-    def.hash_layout = FROND_HASH_LAYOUT_GRID;
-    def.response = FROND_RESPONSE_IMPULSE;
-    def.response_iterations = 200;
-    def.response_tolerance = 1e-6;
-    def.penalty_stiffness = 1000;
-    def.sleep_distance = 5e-5;
-    def.cookie = WORLD_DEF_COOKIE;
-    return def;
+static frond_profile full_profile(const World& world) {
+    frond_profile profile = world.profile;
+    for (const auto& body : world.bodies) {
+        const Plant& plant = *body->plant;
+        profile.ms_surface += plant.ms_surface;
+        if (!has_made_surface(plant)) continue;
+        profile.ms_of_effect[3] += plant.ms_surface - plant.ms_normals;
+        profile.ms_of_effect[4] += plant.ms_normals;
+    }
+    return profile;
 }
+
+extern "C" {
 
 frond_result frond_world_create(const frond_world_def* def, frond_world* out) {
     return call([&] {
@@ -130,6 +127,14 @@ frond_result frond_world_get_report(frond_world world, frond_report* out) {
         check_pointer(out, "out");
         *out = {};
         *out = full_report(get(world));
+    });
+}
+
+frond_result frond_world_get_profile(frond_world world, frond_profile* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        *out = full_profile(get(world));
     });
 }
 

@@ -27,6 +27,8 @@ double local_error(Plant& plant, const VecX& x, const VecX& v, double h) {
     }
     plant.trend.rate = (motion.v - v) / h;
     plant.trend.v_end = motion.v;
+    constexpr double WILD = 1e15;  // [m/s^2]: a step of next to no time tells of no trend
+    if (!(plant.trend.rate.lpNorm<Eigen::Infinity>() <= WILD)) plant.trend = {};
     return 0.5 * std::sqrt(most);
 }
 

@@ -168,7 +168,7 @@ void learn_times(World& world) {
     }
     for (size_t k = 0; k < 2; k++)
         if (count[k] > 0) detail.ms_of[k] += SLOWLY * (sum[k] / count[k] - detail.ms_of[k]);
-    const double plants = sum[0] + sum[1], ms = world.report.ms_step;
+    const double plants = sum[0] + sum[1], ms = world.profile.ms_step;
     if (plants > LEAST) detail.overhead += SLOWLY * (std::clamp(ms / plants, 1.0, MOST_OVERHEAD) - detail.overhead);
     if (ms > detail.def.budget)
         detail.room = std::max(DOWN * detail.room, LEAST_ROOM);

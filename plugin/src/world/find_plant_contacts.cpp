@@ -248,16 +248,16 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     const std::vector<std::vector<PlantBody*>> islands = find_islands(world);
     while (world.plant_searches.size() < islands.size())
         world.plant_searches.push_back(std::make_unique<PlantSearch>());
-    world.report.ms_broad += timer.lap();
+    world.profile.ms_broad += timer.lap();
     const std::vector<std::vector<const PlantContact*>> known = sort_by_island(world, islands, last);
     std::vector<Found> found(islands.size());
     run_jobs(world, islands.size(),
              [&](size_t i) { found[i] = search_island(world, islands[i], known[i], h, *world.plant_searches[i]); });
     for (const Found& of : found) {
         contacts.insert(contacts.end(), of.contacts.begin(), of.contacts.end());
-        world.report.ms_broad += of.ms_broad;
-        world.report.ms_hash += of.ms_hash;
-        world.report.ms_narrow += of.ms_narrow;
+        world.profile.ms_broad += of.ms_broad;
+        world.profile.ms_hash += of.ms_hash;
+        world.profile.ms_narrow += of.ms_narrow;
     }
     keep_deepest(world.taking_part.size(), contacts);
     return contacts;

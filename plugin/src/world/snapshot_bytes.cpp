@@ -117,7 +117,7 @@ struct Head {
 Head head_of(const uint8_t* bytes, size_t count) {
     Head head = {};
     std::memcpy(head.magic, MAGIC, sizeof MAGIC);
-    std::strncpy(head.version, FROND_VERSION, sizeof head.version - 1);
+    std::strncpy(head.version, FROND_VERSION_STRING, sizeof head.version - 1);
     head.layout = LAYOUT;
     head.precision = sizeof(btScalar);
     head.length = count;
@@ -151,7 +151,7 @@ Snapshot snapshot_from(const uint8_t* bytes, size_t count) {
     const Head own = head_of(bytes, count);
     if (std::memcmp(head.version, own.version, sizeof own.version) != 0 || head.layout != own.layout)
         fail(FROND_RESULT_FILE_FORMAT,
-             "the snapshot is of another version of Frond than " FROND_VERSION "; save it anew with this one");
+             "the snapshot is of another version of Frond than " FROND_VERSION_STRING "; save it anew with this one");
     if (head.precision != own.precision)
         fail(FROND_RESULT_FILE_FORMAT, "the snapshot is of a Bullet of %u bytes a number, this one has %u",
              head.precision, own.precision);

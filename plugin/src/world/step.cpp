@@ -22,33 +22,34 @@ Vec3 gravity_of(const World& world) {
 }
 
 // What was done for an effect, and the time it took [ms].
-static void add_effect(frond_report& report, frond_effects effect, double ms) {
-    report.effects_run |= effect;
+static void add_effect(World& world, frond_effects effect, double ms) {
+    world.report.effects_run |= effect;
     size_t bit = 0;
     while (effect >> bit != 1) bit++;
-    report.ms_of_effect[bit] += ms;
+    world.profile.ms_of_effect[bit] += ms;
 }
 
-// Adds what a plant did in this substep to the world's report.
-static void add_to_report(const World& world, const Plant& plant, frond_report& report) {
+// Adds what a plant did in this substep to the world's report and profile.
+static void add_to_report(World& world, const Plant& plant) {
+    frond_report& report = world.report;
     report.trouble |= plant.trouble;
     if (plant.modal) return;
     report.solver_iterations += plant.report.iterations;
     report.residual = std::max(report.residual, plant.report.residual);
-    report.ms_effects += plant.ms_effects;
-    report.ms_assembly += plant.report.ms_assembly;
-    report.ms_solve += plant.report.ms_solve;
+    world.profile.ms_effects += plant.ms_effects;
+    world.profile.ms_assembly += plant.report.ms_assembly;
+    world.profile.ms_solve += plant.report.ms_solve;
     const frond_effects effects = plant.effects & world.effects;
     report.effects_run |= effects & (FROND_EFFECT_GRAVITY | FROND_EFFECT_DAMPING);
     if (effects & FROND_EFFECT_USER_FORCE && (plant.has_user_force || !plant.grabs.empty()))
-        add_effect(report, FROND_EFFECT_USER_FORCE, plant.ms_user_force);
+        add_effect(world, FROND_EFFECT_USER_FORCE, plant.ms_user_force);
     const frond_effects air = effects & (FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG);
     if (world.wind && air) {
-        add_effect(report, air & FROND_EFFECT_WIND ? FROND_EFFECT_WIND : FROND_EFFECT_AIR_DRAG, plant.ms_air);
+        add_effect(world, air & FROND_EFFECT_WIND ? FROND_EFFECT_WIND : FROND_EFFECT_AIR_DRAG, plant.ms_air);
         report.effects_run |= air;
     }
-    if (effects & FROND_EFFECT_FIBRES && plant.fibres) add_effect(report, FROND_EFFECT_FIBRES, plant.ms_fibres);
-    if (effects & FROND_EFFECT_PLASTICITY) add_effect(report, FROND_EFFECT_PLASTICITY, plant.ms_plasticity);
+    if (effects & FROND_EFFECT_FIBRES && plant.fibres) add_effect(world, FROND_EFFECT_FIBRES, plant.ms_fibres);
+    if (effects & FROND_EFFECT_PLASTICITY) add_effect(world, FROND_EFFECT_PLASTICITY, plant.ms_plasticity);
 }
 
 int number_of(World& world, PlantBody& body) {
@@ -75,7 +76,6 @@ void call_roll(World& world) {
 }
 
 void find_touches(World& world, double h) {
-    frond_report& report = world.report;
     BT_PROFILE("frond collide");
     const Timer find_timer;
     wake_by_world(world);
@@ -84,21 +84,21 @@ void find_touches(World& world, double h) {
         (world.awake.size() < world.bodies.size() || any_wants(world, FROND_EFFECT_RIGID_CONTACT))) {
         const Timer timer;
         world.contacts = find_contacts(world, h);
-        add_effect(report, FROND_EFFECT_RIGID_CONTACT, timer.ms());
+        add_effect(world, FROND_EFFECT_RIGID_CONTACT, timer.ms());
     }
     const frond_effects among = FROND_EFFECT_PLANT_CONTACT | FROND_EFFECT_SELF_CONTACT;
     if (any_wants(world, among)) {
         const Timer timer;
         world.plant_contacts = find_plant_contacts(world, h);
         add_effect(
-            report,
+            world,
             any_wants(world, FROND_EFFECT_PLANT_CONTACT) ? FROND_EFFECT_PLANT_CONTACT : FROND_EFFECT_SELF_CONTACT,
             timer.ms());
     } else {
         world.plant_contacts.clear();
     }
     wake_touched(world, h);
-    report.ms_collide = find_timer.ms();
+    world.profile.ms_collide = find_timer.ms();
 }
 
 // A plant that a body touches is simulated for a while, wherever it is.
@@ -242,15 +242,15 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
     frond_report& report = world.report;
     report.detail_count[body.level.now]++;
     if (!body.level.is_due) return;
-    add_to_report(world, *body.plant, report);
+    add_to_report(world, *body.plant);
     if (!body.plant->modal && body.plant->effects & world.effects & FROND_EFFECT_BREAKING) {
         const Timer timer;
         report.broken_count += break_overloaded(world, body);
         move_capsules(body);
-        add_effect(report, FROND_EFFECT_BREAKING, timer.ms());
+        add_effect(world, FROND_EFFECT_BREAKING, timer.ms());
     }
     collision_world.updateSingleAabb(&body);
-    report.ms_capsules += double(body.level.ms_capsules);
+    world.profile.ms_capsules += double(body.level.ms_capsules);
     body.level.pending = 0;
     if (!world.own) clear_user_force(*body.plant);
 }
@@ -260,6 +260,7 @@ Surroundings begin_step(World& world, btCollisionWorld& collision_world, double 
     world.substep_length = h;
     end_hold(world.gravity_ahead, collision_world);
     world.report = {};
+    world.profile = {};
     Surroundings surroundings;
     surroundings.gravity = gravity_of(world);
     surroundings.effects = world.effects;
@@ -287,7 +288,7 @@ void handle_contacts(World& world, double h) {
         report.effects_run |=
             world.effects & (FROND_EFFECT_FRICTION | (world.contacts.empty() ? 0 : FROND_EFFECT_TWO_WAY));
     }
-    report.ms_response = timer.ms();
+    world.profile.ms_response = timer.ms();
     report.contact_count = int(world.contacts.size());
     report.plant_contact_count = int(world.plant_contacts.size());
     report.awake_count = int(world.awake.size());
@@ -321,13 +322,13 @@ void take_step(World& world, btCollisionWorld& collision_world, double h) {
         BT_PROFILE("frond settle");
         const Timer timer;
         for (PlantBody* body : world.awake) settle(world, *body, collision_world);
-        world.report.ms_capsules += timer.ms();
+        world.profile.ms_capsules += timer.ms();
     }
     if (world.sleep_distance > 0) put_to_sleep(world);
     compress_looked_at(world);
     limit_motors(world, h);
     world.time += h;
-    world.report.ms_step = step_timer.ms();
+    world.profile.ms_step = step_timer.ms();
     learn_times(world);
 }
 

@@ -26,13 +26,13 @@ World::World(std::unique_ptr<OwnBullet> given, btDynamicsWorld* bullet, const fr
       bullet(bullet),
       effects(def.effects),
       max_substep(def.max_substep),
-      hash({def.hash_layout, def.hash_table_size, def.hash_cell_size}),
+      hash({def.tuning.hash_layout, def.tuning.hash_table_size, def.tuning.hash_cell_size}),
       response(def.response),
       parallel_for(def.parallel_for),
       parallel_user(def.parallel_user),
       sleep_distance(def.sleep_distance) {
-    response_settings.limits = {def.response_iterations, def.response_tolerance};
-    response_settings.stiffness = def.penalty_stiffness;
+    response_settings.limits = {def.tuning.response_iterations, def.tuning.response_tolerance};
+    response_settings.stiffness = def.tuning.penalty_stiffness;
     soft_info.m_broadphase = bullet->getBroadphase();
     soft_info.m_dispatcher = bullet->getDispatcher();
     end_detection(*bullet);

@@ -61,7 +61,8 @@ struct World final : btActionInterface {
     std::vector<PlantContact> plant_contacts;                  // likewise, of plants with each other and themselves
     std::vector<std::unique_ptr<PlantSearch>> plant_searches;  // one an island of plants that may touch
     double time = 0;                                           // [s]
-    frond_report report = {};
+    frond_report report = {};                                  // of the last substep
+    frond_profile profile = {};                                // likewise
 
     World(std::unique_ptr<OwnBullet> own, btDynamicsWorld* bullet, const frond_world_def& def);
     ~World() override;

@@ -1,0 +1,581 @@
+/* frond_core.h - worlds, models and plants: all that a game calls. Include <frond/frond.h>, which holds the rules for
+ * units, ownership, errors and threads.
+ */
+#ifndef FROND_CORE_H
+#define FROND_CORE_H
+
+#include "frond/frond_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- world --------------------------------------------------------------------------------------------- */
+
+/* Runs job(data, i) for each i in 0 .. count-1, in any order, on any threads, the caller's among them, and returns when
+ * all have ended: a host's own threads. */
+typedef void frond_job_fn(void* data, int index);
+typedef void frond_parallel_for_fn(int count, frond_job_fn* job, void* data, void* user);
+
+typedef struct frond_world_def {
+    uint32_t cookie;         /* do not set */
+    frond_vec3 gravity;      /* [m/s^2], default (0, -9.81, 0) */
+    frond_effects effects;   /* a mask over every plant's, default FROND_EFFECT_ALL */
+    double max_substep;      /* longest step that the solver takes [s], 1e-6 .. 1, default 1/60 */
+    frond_response response; /* of all contacts, default FROND_RESPONSE_IMPULSE */
+    /* A plant falls asleep when no point of it has moved farther than this for half a period of its slowest sway, 0.5
+     * to 3 s, and nothing that moves touches it [m], 0 .. 0.01, default 5e-5; 0: none sleeps. It then stands still and
+     * costs nothing, until it is touched, pulled, bent or blown at, a pin or bond moves, or its neighbour leaves. */
+    double sleep_distance;
+    /* Threads for the steps of plants, each a job; results are the same bits for any number of them. Null (default):
+     * Bullet's task scheduler, if the host has set one (btSetTaskScheduler), else the caller's thread alone. */
+    frond_parallel_for_fn* parallel_for;
+    void* parallel_user;
+    frond_contact_tuning tuning; /* for comparisons */
+} frond_world_def;
+
+/* Trouble of a substep, bits of frond_report.trouble. */
+enum {
+    /* Cause: the linear solver or Newton hit its limit. Effect: the step is less accurate.
+     * Remedy: raise linear_iterations or newton_iterations of the plant's tuning, or use FROND_LINEAR_SOLVER_BLOCK. */
+    FROND_TROUBLE_NOT_CONVERGED = 1 << 0,
+    /* Cause: a plant's state became non-finite or its system could not be solved. Effect: it was put back to its
+     * last good state and brought to rest; or, where no step leads out of a shape that no admissible load can reach,
+     * into its modelled shape, where it is held. Remedy: smaller steps, weaker forces. */
+    FROND_TROUBLE_REWOUND = 1 << 1,
+    /* Cause: a tet turned inside out. Effect: none that stays with FROND_MECHANICS_TET_COROTATIONAL. Remedy: smaller
+     * steps. */
+    FROND_TROUBLE_INVERTED = 1 << 2,
+    /* Cause: a step diverged. Effect: it was solved again by implicit Euler with a line search, which costs several
+     * times as much and damps. Remedy: a shorter time step, or gentler pushes. */
+    FROND_TROUBLE_RETRIED = 1 << 3,
+    /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
+     * there for the step. Remedy: have the function of frond_world_set_wind_field write every velocity. */
+    FROND_TROUBLE_BAD_WIND = 1 << 7
+};
+
+/* Counts of the last substep. Times are in frond_profile (frond_expert.h). */
+typedef struct frond_report {
+    uint32_t trouble;                       /* FROND_TROUBLE_* */
+    int plant_count, node_count, tet_count; /* in the world */
+    int solver_iterations;                  /* of all plants; a direct solve counts as one */
+    double residual;                        /* largest relative residual of a linear solve [-] */
+    double time;                            /* simulated [s] */
+    int awake_count;                        /* plants that moved; the others slept */
+    int broken_count;                       /* fragments that came off */
+    int contact_count;                      /* points at which bodies touched plants */
+    int plant_contact_count;                /* and plants touched plants, or themselves */
+    frond_effects effects_run;              /* effects that something was done for */
+    int detail_count[FROND_DETAIL_COUNT];   /* awake plants in each detail; a plant that sleeps is in none */
+} frond_report;
+
+typedef struct frond_ray_hit {
+    frond_plant plant; /* null: nothing was hit */
+    int capsule;       /* the plant's capsule that was hit */
+    int node;          /* the cage node nearest to the point */
+    frond_vec3 point;  /* [m] */
+    double distance;   /* from the origin [m] */
+} frond_ray_hit;
+
+/* Returns the default settings of a world. */
+static inline frond_world_def frond_default_world_def(void) {
+    frond_world_def def;
+    frond_fill_def(&def, FROND_DEF_COOKIE('W'));
+    return def;
+}
+/* Makes an empty btMultiBodyDynamicsWorld that Frond owns. To use one that you have, see frond_bullet.hpp. */
+FROND_API frond_result frond_world_create(const frond_world_def* def, frond_world* out);
+/* Destroys a world with its plants and grabs. Null and stale handles are ignored. */
+FROND_API void frond_world_destroy(frond_world world);
+/* Tells whether a handle is of a world that exists. */
+FROND_API bool frond_world_is_valid(frond_world world);
+/* Advances a world by exactly dt [s], 0..1, in equal substeps no longer than max_substep. The same calls give the same
+ * bits. UNSUPPORTED for a world that was attached: its owner steps it. A step in which memory runs out, or a function
+ * of the host throws, is broken off: plants that were not done with it stand where it began, and the next one goes on.
+ */
+FROND_API frond_result frond_world_step(frond_world world, double dt);
+/* Sets gravity [m/s^2]. Of an attached world this sets the host's own gravity, of its bodies too. Plants that sleep
+ * wake. */
+FROND_API frond_result frond_world_set_gravity(frond_world world, frond_vec3 gravity);
+/* Sets a mask over every plant's effects. Plants that sleep wake. */
+FROND_API frond_result frond_world_set_effects(frond_world world, frond_effects effects);
+/* Sets which moment surfaces show, for pictures that are drawn between steps of a fixed length, so that what moves
+ * evenly looks so. frond_plant_get_surface then shows plants where they were between the last two substeps: fraction 1
+ * (default) at the end of the last one, 0 at its beginning, straight between and as far beyond, up to 2.
+ * FROND_INTERPOLATION_AS_MOTION_STATES: whenever it is asked, where the motion states of a Bullet world have its
+ * bodies. Everything else, frond_rigid_get_state too, is of the last substep's end. */
+#define FROND_INTERPOLATION_AS_MOTION_STATES (-1.0)
+FROND_API frond_result frond_world_set_interpolation(frond_world world, double fraction);
+/* Reports what the last substep did. */
+FROND_API frond_result frond_world_get_report(frond_world world, frond_report* out);
+/* Finds the nearest plant along a ray, through Bullet's own ray test against the capsules. direction need not have
+ * length one; max_distance [m] > 0. A miss is FROND_OK with a null out->plant. */
+FROND_API frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin, frond_vec3 direction,
+                                            double max_distance, frond_ray_hit* out);
+
+/* ---- wind: the air of a world --------------------------------------------------------------------------------- */
+
+/* A world has no air, which costs nothing, until it is given some here. Each segment of the chain then feels the air
+ * that passes it: stems across their axes, blades along their normals as they are turned now, both by skin friction as
+ * well. Forces follow the plant's velocity implicitly, so that a light leaf in a gale is stable at any time step.
+ * Plants do not shelter each other, and there is no lift but that of a slanted blade. */
+
+/* A mean wind, and gusts on it: velocities with Kaimal's spectra, f S(f) / sigma^2 = 4 n / (1 + 6 n)^(5/3) with
+ * n = f L / U, and the coherence in space of IEC 61400-1, carried along by the mean wind (Taylor's hypothesis). They
+ * are a function of place, time and seed and nothing else; a wind that is set anew while they blow takes them along.
+ * Across the wind and upwards they have 0.8 and 0.5 times the standard deviation and a third and a twelfth of the
+ * length scale that they have along it, as there. Height z [m] is against gravity, above the level of ground_height;
+ * gusts grow with it as the mean does. */
+typedef struct frond_wind_def {
+    uint32_t cookie;     /* do not set */
+    frond_vec3 velocity; /* mean, at reference_height [m/s], up to 200; default 0: still air */
+    double turbulence;   /* standard deviation of gusts along the wind over the mean speed [-], 0..1, default 0.2 */
+    double length_scale; /* of gusts along the wind, L above [m], 0.1 .. 1e4, default 20 */
+    uint64_t seed;       /* of the gusts; default 1 */
+    frond_wind_profile profile; /* default FROND_WIND_PROFILE_LOG */
+    double reference_height;    /* [m], 0.01 .. 1e4, default 10 as weather stations have it */
+    double roughness;           /* of the ground [m], 1e-6 .. half the reference height, default 0.03: open grassland */
+    double exponent;            /* of FROND_WIND_PROFILE_POWER [-], 0..1, default 1/7 */
+    double ground_height;       /* of the ground against gravity [m], default 0 */
+    double density;             /* of the air [kg/m^3], 0.01 .. 10, default 1.2 */
+} frond_wind_def;
+
+/* Gives the game's own wind: asked once a plant and substep, from one thread at a time but from any that the world was
+ * lent; it is to depend on place and time alone. points: count of them, world frame [m]; time: of the substep's
+ * end [s]. velocities [m/s]: what the world's frond_wind_def gives there, to be added to or replaced. */
+typedef void frond_wind_field_fn(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user);
+
+/* Returns the default settings of a wind: still air. */
+static inline frond_wind_def frond_default_wind_def(void) {
+    frond_wind_def def;
+    frond_fill_def(&def, FROND_DEF_COOKIE('A'));
+    return def;
+}
+/* Gives the world air, with a wind in it or still; a null def takes air and field away. Costs nothing where neither
+ * FROND_EFFECT_WIND nor FROND_EFFECT_AIR_DRAG is on. */
+FROND_API frond_result frond_world_set_wind(frond_world world, const frond_wind_def* def);
+/* Sets the game's own wind; in a world without air it makes still air first. A null field leaves the air to the
+ * frond_wind_def again. */
+FROND_API frond_result frond_world_set_wind_field(frond_world world, frond_wind_field_fn* field, void* user);
+/* Computes the velocity of the air at a point and the world's time [m/s], the game's field included; 0 in a world
+ * without air. */
+FROND_API frond_result frond_world_get_wind_at(frond_world world, frond_vec3 point, frond_vec3* out);
+
+/* ---- model: shape at rest, built once, read-only, shared by many plants ------------------------------------ */
+
+/* One set of physical constants for every mechanics, so that they can be compared. A field from `hollow` on that is
+ * zero means "does not have it", so that a material of which only the first four are set is a solid, isotropic,
+ * undamped and smooth one that never yields or breaks. A field out of its range is BAD_ARGUMENT with a text that names
+ * it. */
+typedef struct frond_material {
+    double density;   /* of the fresh tissue [kg/m^3], 1 .. 2e4 */
+    double young;     /* along the organ [Pa], 1e3 .. 1e12 */
+    double poisson;   /* [-], 0 .. 0.499 */
+    double thickness; /* of a blade, or the wall of what is drawn as an open sheet [m], 1e-6 .. 1 */
+    /* Inner over outer radius of an organ that is a tube [-], 0 (solid) .. 0.98. `young` and `density` are then the
+     * wall's. Blades and flowers, which are sheets, are never hollow. */
+    double hollow;
+    /* EI / GJ of the section: how much more easily the organ is twisted than bent [-]; EI is the mean of the two
+     * principal bending stiffnesses. 0: as an isotropic section of its shape, which for a round one is 1 + poisson;
+     * else 0.01 .. 100. */
+    double twist_to_bend;
+    /* Share of critical damping that the plant's first sway would have if all organs were of this material [-], 0 .. 1.
+     * Each organ damps its own bending, in proportion to stiffness: what sways n times as fast as the plant, a leaf on
+     * its own, has n times the ratio. frond_plant_def.material_damping scales it. */
+    double damping_ratio;
+    double friction; /* Coulomb's coefficient against what it touches [-], 0 .. 100 */
+    /* Strain of the outermost fibre, in bending or in pulling, beyond which a part of the deformation stays [-], 0
+     * (never), else 1e-6 .. 10. Sections then yield from the rim inwards, elastic and perfectly plastic. Where a plant
+     * stands with more than two thirds of it under its own weight, one and a half times that counts instead. */
+    double yield_strain;
+    /* Share of the elastic strain beyond yield_strain that becomes plastic, a second [1/s], 0 (none) .. 1e6. */
+    double creep_rate;
+    /* Tension in the outermost fibre at which the organ breaks, in bending or in pulling [Pa], 0 (never),
+     * else 1 .. 1e12. */
+    double strength;
+    /* Drag coefficient in air of the area that the organ turns to the flow [-]; 0: by its kind, 0.01 .. 10. Blades and
+     * flowers are then flat plates of the organ's aspect, fruits spheres, crowns 0.4 and everything else a long
+     * cylinder, both by Reynolds number (sources: plugin/src/plant/air_pieces.cpp). The skin's friction is added. */
+    double drag;
+} frond_material;
+/* A material for the organs of one kind or name: see frond_model_def.organs. */
+typedef struct frond_organ_material {
+    const char* organ; /* the organ's name, or its kind: "stem", "blade" ... */
+    frond_material material;
+} frond_organ_material;
+/* Returns the material that an organ of unknown kind has, a stem's: the preset "stem". */
+FROND_API frond_material frond_default_material(void);
+/* Looks up published values for the kinds "stem", "petiole", "blade", "midrib", "peduncle", "flower", "fruit",
+ * "branch", "root", "tendril", "crown" (foliage drawn as a solid) and "support" (stakes, pots), and for "grass_stem"
+ * and "grass_blade", which stems and blades get whose name or material names a grass. Sources stand in
+ * plugin/src/model/materials.cpp. BAD_ARGUMENT names the kinds there are. */
+FROND_API frond_result frond_material_preset(const char* kind, frond_material* out);
+
+typedef struct frond_model_def {
+    uint32_t cookie;        /* do not set */
+    double scale;           /* metres per file unit; 0 (default) trusts the file unless the plant would be shorter than
+                             * 2 cm or taller than 50 m, then takes the unit that makes sense and warns */
+    frond_vec3 up;          /* of the file; (0,0,0) (default) takes what the file declares, else guesses +y or +z */
+    double capsule_height;  /* h of the paper [m]; 0 chooses from the shape */
+    double capsule_radius;  /* r of the paper [m]; 0 fits the shape */
+    double cage_size;       /* wanted edge length of the cage's cells [m]; 0 chooses from the shape */
+    double cage_offset;     /* how far the cage reaches outside the surface [m]; 0 is the default */
+    double cage_smoothness; /* 0 cells as they are .. 1 (default 0.5) boundary drawn close to the surface */
+    frond_rest rest; /* default FROND_REST_STANDS_AS_MODELLED; tets of the caller's are taken as without gravity */
+    const frond_organ_material* organs; /* override presets, by organ name or kind; the last match wins; BAD_ARGUMENT
+                                         * for one that no organ has */
+    int organ_count;
+} frond_model_def;
+
+/* One tapered straight segment. parent is an index into the same array (smaller than its own), or -1 for a root. */
+typedef struct frond_stem {
+    int parent;
+    frond_vec3 begin, end;           /* [m] */
+    double radius_begin, radius_end; /* [m] */
+} frond_stem;
+
+typedef struct frond_model_info {
+    /* surface */
+    int vertex_count, triangle_count; /* of the render mesh */
+    int part_count, texture_count, organ_count;
+    int component_count;     /* parts of the surface that do not touch by sharing vertices */
+    int joint_count;         /* places where the cage joins such components */
+    int dropped_triangles;   /* with bad indices, without area, or given twice */
+    int repaired_vertices;   /* not finite, or normals that had to be made */
+    double scale;            /* metres per file unit that was used */
+    frond_vec3 up;           /* file axis that became +y */
+    frond_vec3 lower, upper; /* bounding box [m] */
+    /* cage */
+    int node_count, tet_count;
+    double min_dihedral, max_dihedral; /* over all tets [degree] */
+    double min_volume;                 /* smallest tet [m^3] */
+    double contained;         /* share of vertices that lie inside the cage [-]; the rest are attached from outside */
+    double attachment_error;  /* largest distance of an attached vertex from its place at rest [m] */
+    double volume;            /* of the cage [m^3] */
+    double mass;              /* of the plant [kg] */
+    double stiffening_factor; /* how much stiffer than its materials the plant was made so that it stands [-] */
+    /* chain */
+    int chain_node_count, capsule_count, root_count, fork_count;
+    double chain_length; /* of all capsules [m] */
+    /* cost of building [ms] */
+    double ms_import, ms_cage, ms_chain, ms_total;
+} frond_model_info;
+
+/* A run of triangles of one look and one organ. */
+typedef struct frond_part {
+    const char* name;     /* node or group in the file */
+    const char* material; /* in the file */
+    const char* organ;    /* organ name that Frond gave it */
+    const char* kind;     /* kind of organ: "stem", "blade" ... */
+    int first_triangle, triangle_count;
+    float color[4]; /* base colour, linear RGBA */
+    int texture;    /* index of the base-colour texture, -1: none */
+} frond_part;
+/* A texture as it came: the bytes of an image file (PNG, JPEG ...), to be decoded by the renderer. */
+typedef struct frond_texture_view {
+    const char* name; /* path or name in the file */
+    const uint8_t* bytes;
+    size_t byte_count;
+} frond_texture_view;
+/* An organ, and the ranges of its sections, one a capsule of the chain. They are those of the organ as it grew, a
+ * rod or a strip, not of the cage around it. A small organ can lie within another one's capsules; all from
+ * capsule_count on is then 0. */
+typedef struct frond_organ {
+    const char* name;        /* "leaf_3"; no two organs of a model share one */
+    const char* kind;        /* "stem", "blade" ... */
+    frond_material material; /* the preset of its kind, or what frond_model_def.organs put in its place */
+    int capsule_count;
+    double length;            /* of its capsules [m] */
+    double mass;              /* of its sections times their lengths [kg] */
+    frond_range thickness;    /* outer size where the section is thinnest [m] */
+    frond_range width;        /* and across that; of a blade as if it were laid flat [m] */
+    frond_range area;         /* of tissue: a tube's is its wall's [m^2] */
+    frond_range bending_thin; /* EI against bending towards the thin side [N m^2] */
+    frond_range bending_wide; /* EI against bending towards the wide side [N m^2] */
+    frond_range torsion;      /* GJ [N m^2] */
+} frond_organ;
+
+/* Returns the default settings of a model. */
+static inline frond_model_def frond_default_model_def(void) {
+    frond_model_def def;
+    frond_fill_def(&def, FROND_DEF_COOKIE('M'));
+    return def;
+}
+/* Loads a model from a file: mesh files that assimp reads (.obj .ply .glb .gltf .fbx .dae .stl), tet meshes (.msh .vtk)
+ * and plants as links and joints (.urdf). What assimp and urdfdom read is read in a process of its own with limits on
+ * time and memory, so that a damaged file cannot bring down the program; tet meshes are lists of numbers, read here and
+ * checked one by one. */
+FROND_API frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out);
+/* Makes a model from triangles, which may be a soup. xyz: vertex_count*3. indices: triangle_count*3, each in
+ * 0..vertex_count-1. */
+FROND_API frond_result frond_model_from_triangles(const float* xyz, int vertex_count, const int32_t* indices,
+                                                  int triangle_count, const frond_model_def* def, frond_model* out);
+/* Makes a model from a tree of tapered segments, and its surface with it. */
+FROND_API frond_result frond_model_from_stems(const frond_stem* stems, int stem_count, const frond_model_def* def,
+                                              frond_model* out);
+/* Makes a model from the caller's own tets, simulated as they are, node by node. xyz: node_count*3 [m]; tets:
+ * tet_count*4, in either orientation. The surface is the tets' boundary. scale and up of the def apply, the cage fields
+ * do not. */
+FROND_API frond_result frond_model_from_tets(const double* xyz, int node_count, const int32_t* tets, int tet_count,
+                                             const frond_model_def* def, frond_model* out);
+/* Destroys a model; plants made from it keep what they need. Null and stale handles are ignored. */
+FROND_API void frond_model_destroy(frond_model model);
+/* Tells whether a handle is of a model that exists. */
+FROND_API bool frond_model_is_valid(frond_model model);
+/* Reports sizes, counts and quality of a model. */
+FROND_API frond_result frond_model_get_info(frond_model model, frond_model_info* out);
+/* Describes a part of the surface; part: 0 .. frond_model_info.part_count - 1. Strings live as long as the model. */
+FROND_API frond_result frond_model_get_part(frond_model model, int part, frond_part* out);
+/* Describes an organ; organ: 0 .. frond_model_info.organ_count - 1. Strings live as long as the model. */
+FROND_API frond_result frond_model_get_organ(frond_model model, int organ, frond_organ* out);
+/* Gives a texture of the surface; texture: 0 .. frond_model_info.texture_count - 1. Borrowed from the model. */
+FROND_API frond_result frond_model_get_texture(frond_model model, int texture, frond_texture_view* out);
+
+/* ---- plant: one instance, which moves ---------------------------------------------------------------------- */
+
+typedef struct frond_plant_def {
+    uint32_t cookie;           /* do not set */
+    frond_vec3 position;       /* of the model's origin [m] */
+    frond_quat rotation;       /* need not have length one; default identity */
+    frond_mechanics mechanics; /* default FROND_MECHANICS_TET_COROTATIONAL */
+    /* Of the displacements within a tet, 1 (default) or 2. Linear tets are quick and lock: one cell across and five
+     * times as long as thick bends 3 % of what it should, which a cage made by Frond is calibrated for and the caller's
+     * own tets are not. Quadratic tets have a node in the middle of each edge too and bend such cells within 5 %, with
+     * some twenty times the work a step. Cages that Frond makes are fitted to their rods anew when a plant
+     * first asks for order 2, which takes some seconds. Chain mechanics move alike with both. */
+    int element_order;
+    frond_integrator integrator; /* default FROND_INTEGRATOR_BDF2 */
+    double mass_damping;         /* Rayleigh: D = mass_damping M + stiffness_damping K [1/s], default 0.1 */
+    double stiffness_damping;    /* [s], default 0.002 */
+    double material_damping; /* how much of their materials' damping_ratio the organs have, on top of the two above [-],
+                              * 0 (none) .. 100, default 1 */
+    double root_height;      /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
+                              * from the shape; negative pins none. A node on an edge is where both its ends are. */
+    frond_effects effects;   /* default FROND_EFFECT_DEFAULT */
+    /* Begins asleep, as modelled, as if it had come to rest so: a field of thousands then costs no steps until
+     * something moves them. Default false. */
+    bool starts_asleep;
+    /* Of Bullet's collision filter: the plant meets what has a group in its mask and has its group in the own mask,
+     * plants too. Default 1 and -1 (all). */
+    int group, mask;
+    void* user;          /* the caller's own, see frond_plant_get_user */
+    frond_tuning tuning; /* for comparisons */
+} frond_plant_def;
+
+/* The render mesh in the world's frame, ready for vertex buffers. */
+typedef struct frond_surface_view {
+    const float* positions; /* vertex_count*3 [m] */
+    const float* normals;   /* vertex_count*3, length one */
+    const float* uvs;       /* vertex_count*2, or null */
+    const uint8_t* colors;  /* vertex_count*4 RGBA, or null */
+    const int32_t* indices; /* triangle_count*3 */
+    int vertex_count, triangle_count;
+} frond_surface_view;
+
+/* A capsule as it is now in the world's frame. */
+typedef struct frond_capsule {
+    frond_vec3 begin, end; /* centres of the two half spheres [m] */
+    double radius;         /* [m] */
+} frond_capsule;
+
+/* A point at which a body of the Bullet world, another plant or the plant itself touched a plant in the last substep,
+ * or was about to. Each of two plants reports it; where a plant touches itself it is reported once. Plants that sleep
+ * report the contacts with which they fell asleep. */
+typedef struct frond_contact {
+    frond_vec3 point;   /* on the plant [m] */
+    frond_vec3 normal;  /* from the body to the plant, length one */
+    frond_vec3 impulse; /* on the plant in that substep [N s]; the body got the opposite */
+    double gap;         /* before the substep, below zero they overlapped [m] */
+    int capsule;        /* of the plant; where plants touch, the one that the touching part of the cage belongs to */
+    const void* body;   /* the btCollisionObject; borrowed from the host */
+    frond_plant other;  /* the plant that it is; null: a body */
+} frond_contact;
+
+/* Returns the default settings of a plant. */
+static inline frond_plant_def frond_default_plant_def(void) {
+    frond_plant_def def;
+    frond_fill_def(&def, FROND_DEF_COOKIE('P'));
+    return def;
+}
+/* Makes a plant, which stands in the world from its next step on, until it or the world is destroyed. It keeps what it
+ * needs of the model. */
+FROND_API frond_result frond_plant_create(frond_world world, frond_model model, const frond_plant_def* def,
+                                          frond_plant* out);
+/* Destroys a plant with its grabs. Null and stale handles are ignored. */
+FROND_API void frond_plant_destroy(frond_plant plant);
+/* Tells whether a handle is of a plant that exists. */
+FROND_API bool frond_plant_is_valid(frond_plant plant);
+/* Tells whether a plant is awake. False for stale handles, and for plants that sleep: see
+ * frond_world_def.sleep_distance. */
+FROND_API bool frond_plant_is_awake(frond_plant plant);
+/* Wakes a plant for a reason that Frond cannot see, such as a static body that was put elsewhere. */
+FROND_API frond_result frond_plant_wake(frond_plant plant);
+/* Returns frond_plant_def.user; null for an invalid handle. */
+FROND_API void* frond_plant_get_user(frond_plant plant);
+/* Switches what acts on this plant, which wakes; what is off costs nothing from the next step on. */
+FROND_API frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects);
+/* Returns the number of cage nodes: those of frond_cage_view first, in their order; with element_order 2 one in the
+ * middle of each edge follows, ordered by the edge's lower and then its higher node. 0 for an invalid handle. */
+FROND_API int frond_plant_get_node_count(frond_plant plant);
+/* Returns the number of capsules; 0 for an invalid handle. */
+FROND_API int frond_plant_get_capsule_count(frond_plant plant);
+/* Holds a cage node where it is. */
+FROND_API frond_result frond_plant_pin(frond_plant plant, int node);
+/* Lets a pinned cage node go. */
+FROND_API frond_result frond_plant_unpin(frond_plant plant, int node);
+/* Moves a pinned node [m] within the next step. BAD_ARGUMENT if it is not pinned. */
+FROND_API frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 position);
+/* Adds a force [N] on a node for the next frond_world_step (all its substeps) only. Forces on one node add up. */
+FROND_API frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force);
+/* Gives the render mesh as it is now, made when somebody asks for it, once a step; the arrays are the plant's own until
+ * its next step. With FROND_EFFECT_SURFACE off, in the plant or its world, it stays as it was, and normals do with
+ * FROND_EFFECT_NORMALS off. */
+FROND_API frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out);
+/* Copies the capsules as they are now. capsule_count must be the plant's; out: capsule_count. */
+FROND_API frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int capsule_count);
+/* Returns the number of contacts of the last substep; while the plant sleeps, of those with which it fell asleep. 0 for
+ * an invalid handle. */
+FROND_API int frond_plant_get_contact_count(frond_plant plant);
+/* Copies the contacts of the last substep. contact_count must be the plant's; out: contact_count. */
+FROND_API frond_result frond_plant_get_contacts(frond_plant plant, frond_contact* out, int contact_count);
+/* Finds the highest point of the surface against gravity [m]. */
+FROND_API frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out);
+
+/* ---- detail: near plants in full, far ones for less ---------------------------------------------------------------
+ * Call frond_world_set_viewer with the camera's place each frame: that is all. From the first call on plants are
+ * simulated in the detail that their distance asks for, as frond_default_detail_def says. Places and velocities go on
+ * without a jump: the difference to a shape that the other detail can have is blended out within a second. A body that
+ * touches a plant in FROND_DETAIL_MODAL makes it rods at once. Which detail a plant has depends on the calls and on
+ * nothing else, unless there is a budget. */
+
+/* Says how far off a plant is to count, given the distance to the viewer that counts otherwise [m] (with by_size [-]):
+ * a game's own order of importance. Not finite or below zero counts as zero. */
+typedef double frond_detail_fn(frond_plant plant, double distance, void* user);
+
+typedef struct frond_detail_def {
+    uint32_t cookie; /* do not set */
+    /* From which distance of the plant's middle from the viewer on it has less detail [m], each 0 .. 1e9, none smaller
+     * than the one before. */
+    double rod_from;   /* default 5 */
+    double half_from;  /* rods are stepped every second substep, by twice its length; default 12 */
+    double modal_from; /* default 25; the air is asked every fourth substep, the plant drawn at each */
+    double still_from; /* default 150 */
+    bool by_size;      /* distances count in sizes of the plant, as it looks on the screen, not metres; default false */
+    double hysteresis; /* share by which a plant has to come nearer to get detail back [-], 0 .. 0.9, default 0.15 */
+    /* Time that a substep of all plants may take [ms], 0 .. 1e6; 0 (default): any. Plants then lose detail, those that
+     * count as farthest first, as soon as more is measured, and get it back when there is time again. Results then
+     * depend on the machine's speed. */
+    double budget;
+    frond_detail_fn* distance; /* null (default): as it is */
+    void* user;
+} frond_detail_def;
+
+/* Returns the default distances of detail. */
+static inline frond_detail_def frond_default_detail_def(void) {
+    frond_detail_def def;
+    frond_fill_def(&def, FROND_DEF_COOKIE('D'));
+    return def;
+}
+/* Sets the distances of detail; null: all plants in full again. Without a viewer, all are at distance zero. */
+FROND_API frond_result frond_world_set_detail(frond_world world, const frond_detail_def* def);
+/* Sets the viewer's place [m]. Begins with the default def where none was set. */
+FROND_API frond_result frond_world_set_viewer(frond_world world, frond_vec3 position);
+/* Gives the detail that the plant has now; one that sleeps gets what it should have when it wakes. */
+FROND_API frond_result frond_plant_get_detail(frond_plant plant, frond_detail* out);
+
+/* ---- fragments: what broke off -----------------------------------------------------------------------------------
+ * With FROND_EFFECT_BREAKING a plant breaks at the capsule whose outermost fibre is strained most, one a substep, if
+ * that is more than its organ's strength / young and more than 1.5 times what it stands with. Rods tell bending and
+ * pulling apart; in a cage a capsule that is pulled breaks at half its strength or more. The capsule and all that grows
+ * beyond it become a rigid body with their mass and momentum. It is drawn in the plant's surface, its nodes, capsules
+ * and vertices are reported where it is, grabs on it pull it, forces and pins on its nodes end; other bodies and plants
+ * feel it, its own plant does not, which takes no part in FROND_EFFECT_PLANT_CONTACT and FROND_EFFECT_SELF_CONTACT any
+ * more. Bonds on it let go. Triangles across the break keep their place in the list, without area. */
+typedef struct frond_fragment {
+    frond_rigid rigid; /* the plant's: it ends with it, and frond_rigid_destroy leaves it alone */
+    int capsule;       /* at which it came off */
+    double mass;       /* [kg] */
+} frond_fragment;
+/* Returns the number of fragments; 0 for an invalid handle. */
+FROND_API int frond_plant_get_fragment_count(frond_plant plant);
+/* Describes a fragment, in the order in which they came off: 0 .. frond_plant_get_fragment_count - 1. */
+FROND_API frond_result frond_plant_get_fragment(frond_plant plant, int fragment, frond_fragment* out);
+/* Breaks a capsule whatever its strength and the effects: a harvest, or a plant that is restored. BAD_ARGUMENT if it
+ * came off already or is a root of its own. */
+FROND_API frond_result frond_plant_break(frond_plant plant, int capsule);
+/* Puts all fragments back: the plant is as modelled, at rest, without plastic strain; pins on nodes that had come off
+ * stay away. To restore a plant, reset it, break it at the same capsules in their order, then set its plastic state,
+ * its state and the states of its fragments. A fragment keeps the bend that it comes off with. */
+FROND_API frond_result frond_plant_reset(frond_plant plant);
+
+/* ---- grab: a spring between a point of a plant and a moving point, the mouse ---------------------------------- */
+
+/* Takes hold of the surface vertex nearest to `point` [m]. stiffness [N/m] > 0. The target starts at that vertex. */
+FROND_API frond_result frond_grab_create(frond_plant plant, frond_vec3 point, double stiffness, frond_grab* out);
+/* Moves the target [m], to which the spring pulls, in the world. */
+FROND_API frond_result frond_grab_move(frond_grab grab, frond_vec3 target);
+/* Gives the point of the plant that is held now, the target [m], and the force on the plant [N]. Any may be null. */
+FROND_API frond_result frond_grab_get(frond_grab grab, frond_vec3* point, frond_vec3* target, frond_vec3* force);
+/* Lets go. Null and stale handles are ignored. */
+FROND_API void frond_grab_destroy(frond_grab grab);
+/* Tells whether a handle is of a grab that exists. */
+FROND_API bool frond_grab_is_valid(frond_grab grab);
+
+/* ---- rigid: bodies that plants touch, for those who have no Bullet world of their own ------------------------- */
+
+typedef struct frond_rigid_state {
+    frond_vec3 position;         /* of the centre of mass [m] */
+    frond_quat rotation;         /* need not have length one when it is set */
+    frond_vec3 velocity;         /* [m/s] */
+    frond_vec3 angular_velocity; /* [rad/s] */
+} frond_rigid_state;
+
+typedef struct frond_rigid_def {
+    uint32_t cookie;         /* do not set */
+    frond_shape shape;       /* default FROND_SHAPE_SPHERE */
+    frond_vec3 size;         /* see FROND_SHAPES; default 0.1 each */
+    double mass;             /* [kg]; default 1; 0: nothing moves it but frond_rigid_set_state */
+    double friction;         /* default 0.5; Bullet multiplies it by the other body's or organ's */
+    frond_rigid_state state; /* at the beginning; default at the origin, at rest */
+} frond_rigid_def;
+
+/* Returns the default settings of a rigid body. */
+static inline frond_rigid_def frond_default_rigid_def(void) {
+    frond_rigid_def def;
+    frond_fill_def(&def, FROND_DEF_COOKIE('R'));
+    return def;
+}
+/* Makes a rigid body in a world. */
+FROND_API frond_result frond_rigid_create(frond_world world, const frond_rigid_def* def, frond_rigid* out);
+/* Destroys a rigid body. Null and stale handles are ignored. Its world's end is its end. */
+FROND_API void frond_rigid_destroy(frond_rigid rigid);
+/* Tells whether a handle is of a rigid body that exists. */
+FROND_API bool frond_rigid_is_valid(frond_rigid rigid);
+/* Gives position, rotation and velocities of a rigid body. */
+FROND_API frond_result frond_rigid_get_state(frond_rigid rigid, frond_rigid_state* out);
+/* Moves a rigid body: one without mass is carried there within the next step and takes plants along; one with mass is
+ * put there, with these velocities. BAD_ARGUMENT for a plane. */
+FROND_API frond_result frond_rigid_set_state(frond_rigid rigid, const frond_rigid_state* state);
+/* Returns the body as frond_contact.body names it; null for an invalid handle. */
+FROND_API const void* frond_rigid_get_body(frond_rigid rigid);
+
+/* ---- bond: a point of a plant held to a body: a fruit in a gripper, a pot that is carried --------------------- */
+
+/* Holds the surface vertex nearest to `point` [m] to the place of the body where it is now, turning with the body.
+ * Plant and body feel equal and opposite impulses, as contacts do (FROND_EFFECT_TWO_WAY; FROND_RESPONSE_NONE lets go).
+ * One bond lets the plant turn about the point; three hold it in every way: a plant in a pot has root_height -1 and
+ * some bonds around its foot. A body that leaves the world holds nothing any more. Both of one world, or BAD_ARGUMENT.
+ * In a Bullet world of your own, see bond() in frond_bullet.hpp. */
+FROND_API frond_result frond_bond_create(frond_plant plant, frond_vec3 point, frond_rigid rigid, frond_bond* out);
+/* Gives the point of the plant that is held [m], and the force on the plant in the last substep [N]. Either may be
+ * null. */
+FROND_API frond_result frond_bond_get(frond_bond bond, frond_vec3* point, frond_vec3* force);
+/* Destroys a bond. Null and stale handles are ignored. Its plant's end is its end. */
+FROND_API void frond_bond_destroy(frond_bond bond);
+/* Tells whether a handle is of a bond that exists. */
+FROND_API bool frond_bond_is_valid(frond_bond bond);
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* FROND_CORE_H */

@@ -1,0 +1,114 @@
+/* frond_expert.h - measuring plants and steering their solver. Include <frond/frond.h>, which holds the rules for
+ * units, ownership, errors and threads.
+ */
+#ifndef FROND_EXPERT_H
+#define FROND_EXPERT_H
+
+#include "frond/frond_core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- profile: where the time goes ------------------------------------------------------------------------------ */
+
+/* Wall clock of the last substep [ms]. */
+typedef struct frond_profile {
+    /* All of it, then its parts in the order in which they run. */
+    double ms_step, ms_collide, ms_effects, ms_assembly, ms_solve, ms_response, ms_capsules, ms_surface;
+    /* Of ms_collide, plants with plants: whose organs may meet, the spatial hash, tests and depths. */
+    double ms_broad, ms_hash, ms_narrow;
+    /* Each effect's, by bit. Gravity, damping, friction and two-way impulses are part of what others solve: they have
+     * no time of their own and are 0. Where plants are stepped by several threads the times of these add up, as those
+     * of assembly and solve do. */
+    double ms_of_effect[FROND_EFFECT_COUNT];
+} frond_profile;
+
+/* Reports how long the last substep took. */
+FROND_API frond_result frond_world_get_profile(frond_world world, frond_profile* out);
+/* Computes a number that is equal for two worlds that simulated identically with the same binary. */
+FROND_API frond_result frond_world_get_state_hash(frond_world world, uint64_t* out);
+
+/* ---- cage and chain of a model ----------------------------------------------------------------------------------- */
+
+typedef struct frond_cage_view {
+    const double* nodes; /* node_count*3, at rest [m] */
+    const int32_t* tets; /* tet_count*4, positive volume */
+    int node_count, tet_count;
+} frond_cage_view;
+typedef struct frond_chain_view {
+    const double* nodes;    /* node_count*3, at rest [m] */
+    const double* radii;    /* node_count [m] */
+    const int32_t* parents; /* node_count; -1 at a root. A node with a parent is the end of a capsule. */
+    int node_count;
+} frond_chain_view;
+
+/* Gives the cage of a model; borrowed from the model. */
+FROND_API frond_result frond_model_get_cage(frond_model model, frond_cage_view* out);
+/* Gives the chain of a model; borrowed from the model. */
+FROND_API frond_result frond_model_get_chain(frond_model model, frond_chain_view* out);
+
+/* ---- a plant's mechanics and state --------------------------------------------------------------------------------
+ */
+
+typedef struct frond_energy {
+    double kinetic, elastic, gravity; /* [J]; gravity is zero at the height of the world's origin */
+} frond_energy;
+
+/* Goes on with other mechanics, from the same shape and velocities: exactly between tets; between cage and chain as
+ * near as the one can take the other's shape. Pins, and the ground under its foot, stay. */
+FROND_API frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics mechanics);
+/* Goes on with another integrator, from the same shape and velocities. */
+FROND_API frond_result frond_plant_set_integrator(frond_plant plant, frond_integrator integrator);
+/* Copies positions [m] and velocities [m/s] of the cage's nodes in the world's frame, node_count*3 each. node_count
+ * must be the plant's. Either array may be null. */
+FROND_API frond_result frond_plant_get_state(frond_plant plant, double* positions, double* velocities, int node_count);
+/* Sets positions [m] and velocities [m/s] of the cage's nodes, as above. It moves pinned nodes too: they stay where
+ * they are put. Rods and springs take a shape of the cage as near as they can; frond_snapshot.h keeps theirs to the
+ * bit. */
+FROND_API frond_result frond_plant_set_state(frond_plant plant, const double* positions, const double* velocities,
+                                             int node_count);
+/* Returns how many numbers the plastic state has; 0 as long as nothing has yielded, or for an invalid handle. */
+FROND_API int frond_plant_get_plastic_count(frond_plant plant);
+/* Copies the plastic state, which belongs to the shape beside the state above. It is of use only to another plant of
+ * the same model and mechanics, broken at the same capsules. count must be what frond_plant_get_plastic_count returns.
+ */
+FROND_API frond_result frond_plant_get_plastic(frond_plant plant, double* values, int count);
+/* Sets the plastic state; count must be that of the plant which the values came from; 0 makes the plant elastic again.
+ * When mechanics change, tets hand their plastic state to other tets and the chain to the chain; between the two it is
+ * lost. */
+FROND_API frond_result frond_plant_set_plastic(frond_plant plant, const double* values, int count);
+/* Computes the energies of the plant as it is now. */
+FROND_API frond_result frond_plant_get_energy(frond_plant plant, frond_energy* out);
+/* Computes the strain of the outermost fibre of each capsule's organ by bending and pulling [-], against the shape
+ * without any load: what FROND_EFFECT_BREAKING compares with strength / young. 0 of fragments. capsule_count must be
+ * the plant's; out: capsule_count. */
+FROND_API frond_result frond_plant_get_strains(frond_plant plant, double* out, int capsule_count);
+/* Computes the force of the air on the whole plant, pinned nodes included, at the end of the last substep, in the
+ * world's frame [N]. */
+FROND_API frond_result frond_plant_get_air_force(frond_plant plant, frond_vec3* out);
+/* Computes the momentum of all nodes together, in the world's frame [kg m/s]. */
+FROND_API frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out);
+
+/* ---- advice: which settings for which accuracy -------------------------------------------------------------- */
+
+typedef struct frond_advice {
+    frond_plant_def plant; /* the default one with mechanics and integrator set */
+    double cage_size;      /* for a frond_model_def [m]; 0: the cage does not matter */
+    double capsule_height; /* for a frond_model_def [m]; 0: the chain does not matter */
+    double time_step;      /* at most; for frond_world_step or frond_world_def.max_substep [s] */
+    double error;          /* to expect of the tip, rms over two periods of a sway, over its peak [-] */
+    double cpu;            /* to expect: CPU seconds a simulated second, on the processor of the table */
+} frond_advice;
+
+/* Recommends settings for a model from a table of measured ones (plugin/src/api/recommend_front.inc, made by
+ * `frond study sway --advice`), brought to its length, its first sway and its number of capsules or tets. Either error
+ * or cpu is above zero: with `error`, 0..1, the cheapest settings that are as accurate; with `cpu` the most accurate
+ * that cost no more. Build the model anew with the sizes that come back. UNSUPPORTED, with a text that names what there
+ * is, if no settings do. */
+FROND_API frond_result frond_recommend(frond_model model, double error, double cpu, frond_advice* out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* FROND_EXPERT_H */
