@@ -121,6 +121,40 @@ void set_detail(Stage& s) {
     frond_world_set_viewer(s.world, s.input.vec());
 }
 
+void move_plants(Stage& s) {
+    const frond_plant plant = s.plant();
+    frond_plant_def def;
+    switch (s.input.below(4)) {
+        case 0:
+            frond_plant_set_transform(plant, s.input.vec(), {s.input.number(), s.input.number(), 0, 1});
+            break;
+        case 1:
+            frond_plant_reset(plant);
+            break;
+        case 2:
+            frond_world_shift_origin(s.world, s.input.vec());
+            break;
+        default:
+            if (frond_plant_get_def(plant, &def) != FROND_OK || s.plants.size() >= 4) return;
+            s.plants.emplace_back();
+            require(frond_plant_create(s.world, s.model, &def, &s.plants.back()) == FROND_OK,
+                    "a def is not taken back");
+    }
+}
+
+void list_what_there_is(Stage& s) {
+    std::vector<frond_plant> plants(size_t(frond_world_get_plant_count(s.world)));
+    require(frond_world_get_plants(s.world, plants.data(), int(plants.size())) == FROND_OK, "no list of plants");
+    for (frond_plant plant : plants) require(frond_plant_is_valid(plant), "a plant that is not there is listed");
+    std::vector<frond_event_info> events(size_t(frond_world_get_event_count(s.world)));
+    const int count = s.input.byte() < 220 ? int(events.size()) : s.input.integer();
+    if (frond_world_take_events(s.world, events.data(), count) != FROND_OK) return;
+    for (const frond_event_info& event : events) {
+        require(frond_plant_is_valid(event.plant), "an event of a plant that is not there");
+        require(frond_event_name(event.event)[0] != '?', "an event without a name");
+    }
+}
+
 void save_or_restore(Stage& s) {
     if (s.snapshot.empty() || s.input.below(2)) {
         s.snapshot.resize(frond_world_get_snapshot_size(s.world));
@@ -163,6 +197,9 @@ void look_at_plant(Stage& s) {
     frond_plant_get_strains(plant, strains.data(), int(strains.size()));
     require(frond_plant_is_valid(plant) || !frond_plant_is_awake(plant), "a plant that is not there is awake");
     require(frond_plant_get_user(plant) == nullptr, "a user's pointer from nowhere");
+    const float* previous = nullptr;
+    require((frond_plant_get_previous_positions(plant, &previous) == FROND_OK) == (previous != nullptr),
+            "previous positions are and are not");
 }
 
 void look_at_world(Stage& s) {
@@ -256,7 +293,7 @@ void hold(Stage& s) {
 }
 
 void change(Stage& s) {
-    switch (s.input.below(11)) {
+    switch (s.input.below(10)) {
         case 0:
             frond_plant_set_effects(s.plant(), s.input.raw<uint32_t>() & FROND_EFFECT_ALL);
             break;
@@ -267,24 +304,21 @@ void change(Stage& s) {
             frond_plant_break(s.plant(), s.input.integer());
             break;
         case 3:
-            frond_plant_reset(s.plant());
-            break;
-        case 4:
             frond_plant_wake(s.plant());
             break;
-        case 5:
+        case 4:
             frond_world_set_gravity(s.world, s.input.vec());
             break;
-        case 6:
+        case 5:
             frond_world_set_effects(s.world, s.input.raw<uint32_t>());
             break;
-        case 7:
+        case 6:
             frond_plant_destroy(s.plant());
             break;
-        case 8:
+        case 7:
             frond_world_set_interpolation(s.world, s.input.number());
             break;
-        case 9:
+        case 8:
             frond_plant_set_integrator(s.plant(), frond_integrator(s.input.below(FROND_INTEGRATOR_COUNT)));
             break;
         default:
@@ -298,10 +332,26 @@ void step(Stage& s) {
 }
 
 using Call = void (*)(Stage&);
-constexpr Call CALLS[] = {
-    create_plant, create_rigid,  set_rigid,     set_state,     set_wind, set_detail, save_or_restore,
-    set_plastic,  look_at_plant, look_at_world, look_at_model, hold,     hold,       change,
-    change,       step,          step,          step};
+constexpr Call CALLS[] = {create_plant,
+                          create_rigid,
+                          set_rigid,
+                          set_state,
+                          set_wind,
+                          set_detail,
+                          save_or_restore,
+                          set_plastic,
+                          look_at_plant,
+                          look_at_world,
+                          look_at_model,
+                          hold,
+                          hold,
+                          change,
+                          change,
+                          move_plants,
+                          step,
+                          step,
+                          step,
+                          list_what_there_is};
 
 }  // namespace
 

@@ -108,10 +108,38 @@ FROND_API frond_result frond_world_set_effects(frond_world world, frond_effects 
 FROND_API frond_result frond_world_set_interpolation(frond_world world, double fraction);
 /* Reports what the last substep did. */
 FROND_API frond_result frond_world_get_report(frond_world world, frond_report* out);
+/* Returns the number of plants in a world; 0 for an invalid handle. */
+FROND_API int frond_world_get_plant_count(frond_world world);
+/* Copies the handles of a world's plants, in the order in which they were made. plant_count must be the world's; out:
+ * plant_count. */
+FROND_API frond_result frond_world_get_plants(frond_world world, frond_plant* out, int plant_count);
+/* Moves the origin of a world to a point of it [m], so that coordinates stay small: `origin` is subtracted from all
+ * positions of plants, grabs' targets and the viewer, and of the rigid bodies and robots that Frond made; gusts go on
+ * where they were, and the wind's ground_height follows. Nothing wakes, and all goes on to rounding as it would have.
+ * In a Bullet world of your own, shift your own bodies before its next step. */
+FROND_API frond_result frond_world_shift_origin(frond_world world, frond_vec3 origin);
 /* Finds the nearest plant along a ray, through Bullet's own ray test against the capsules. direction need not have
  * length one; max_distance [m] > 0. A miss is FROND_OK with a null out->plant. */
 FROND_API frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin, frond_vec3 direction,
                                             double max_distance, frond_ray_hit* out);
+
+/* ---- events: what happened to plants ------------------------------------------------------------------------- */
+
+/* Something that happened to a plant in a substep. */
+typedef struct frond_event_info {
+    frond_event event;
+    double time;       /* at the substep's end [s] */
+    frond_plant plant; /* null if it was destroyed since */
+    int capsule;       /* that broke, or was touched; -1 of others */
+    const void* body;  /* that touched it, as frond_contact.body names it; null of others */
+    frond_plant other; /* the plant that touched it; null: a body */
+} frond_event_info;
+
+/* Returns how many events can be taken, 0 for invalid handles. A world keeps the last 65,536 from the first call on. */
+FROND_API int frond_world_get_event_count(frond_world world);
+/* Takes the events out of a world's list, in the order in which they happened: of all substeps since the last call.
+ * event_count must be what frond_world_get_event_count returns; out: event_count. */
+FROND_API frond_result frond_world_take_events(frond_world world, frond_event_info* out, int event_count);
 
 /* ---- wind: the air of a world --------------------------------------------------------------------------------- */
 
@@ -412,6 +440,17 @@ FROND_API bool frond_plant_is_awake(frond_plant plant);
 FROND_API frond_result frond_plant_wake(frond_plant plant);
 /* Returns frond_plant_def.user; null for an invalid handle. */
 FROND_API void* frond_plant_get_user(frond_plant plant);
+/* Gives the def with which a plant would be made as it is set now: with its position, rotation, mechanics, integrator
+ * and effects of the last calls that set them. */
+FROND_API frond_result frond_plant_get_def(frond_plant plant, frond_plant_def* out);
+/* Puts a plant elsewhere [m] and turns it, with its shape, velocities, pins and fragments; rotation need not have
+ * length one. A plant at rest stays at rest, unless gravity now comes from another side. Grabs and bonds hold it to
+ * where they did. It wakes, and what leaned on it does. */
+FROND_API frond_result frond_plant_set_transform(frond_plant plant, frond_vec3 position, frond_quat rotation);
+/* Puts a plant back to how frond_plant_create makes it with the def of frond_plant_get_def: as modelled, whole, at
+ * rest, without plastic strain, pinned at its root, without forces, asleep if the def says so; from there it goes on to
+ * the same bits. Grabs and bonds stay, except that bonds on fragments have let go. */
+FROND_API frond_result frond_plant_reset(frond_plant plant);
 /* Switches what acts on this plant, which wakes; what is off costs nothing from the next step on. */
 FROND_API frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects);
 /* Returns the number of cage nodes: those of frond_cage_view first, in their order; with element_order 2 one in the
@@ -431,6 +470,11 @@ FROND_API frond_result frond_plant_add_force(frond_plant plant, int node, frond_
  * its next step. With FROND_EFFECT_SURFACE off, in the plant or its world, it stays as it was, and normals do with
  * FROND_EFFECT_NORMALS off. */
 FROND_API frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out);
+/* Gives the positions that the surface had in the previous frame [m], vertex_count*3, for motion vectors: those that
+ * frond_plant_get_surface showed last before the world stepped or was interpolated otherwise. The plant keeps them from
+ * the first call on; that one, and the first after the plant was put elsewhere, gives the present positions. Borrowed
+ * until the plant's next step. */
+FROND_API frond_result frond_plant_get_previous_positions(frond_plant plant, const float** out);
 /* Copies the capsules as they are now. capsule_count must be the plant's; out: capsule_count. */
 FROND_API frond_result frond_plant_get_capsules(frond_plant plant, frond_capsule* out, int capsule_count);
 /* Returns the number of contacts of the last substep; while the plant sleeps, of those with which it fell asleep. 0 for
@@ -501,12 +545,10 @@ FROND_API int frond_plant_get_fragment_count(frond_plant plant);
 /* Describes a fragment, in the order in which they came off: 0 .. frond_plant_get_fragment_count - 1. */
 FROND_API frond_result frond_plant_get_fragment(frond_plant plant, int fragment, frond_fragment* out);
 /* Breaks a capsule whatever its strength and the effects: a harvest, or a plant that is restored. BAD_ARGUMENT if it
- * came off already or is a root of its own. */
+ * came off already or is a root of its own. To restore a plant, reset it, break it at the same capsules in their order,
+ * then set its plastic state, its state and the states of its fragments. A fragment keeps the bend that it comes off
+ * with; frond_plant_reset puts it back. */
 FROND_API frond_result frond_plant_break(frond_plant plant, int capsule);
-/* Puts all fragments back: the plant is as modelled, at rest, without plastic strain; pins on nodes that had come off
- * stay away. To restore a plant, reset it, break it at the same capsules in their order, then set its plastic state,
- * its state and the states of its fragments. A fragment keeps the bend that it comes off with. */
-FROND_API frond_result frond_plant_reset(frond_plant plant);
 
 /* ---- grab: a spring between a point of a plant and a moving point, the mouse ---------------------------------- */
 

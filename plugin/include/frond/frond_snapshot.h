@@ -4,8 +4,9 @@
  * In a snapshot is all that steps change: shape and motion of plants, what is lasting in them, pins, targets of grabs,
  * who sleeps, the time and the gusts that have passed, and the bodies that Frond made. Not what the host set up: defs,
  * effects, gravity, wind, and the bodies of a Bullet world of its own, which it puts back itself. Saving and restoring
- * both have Bullet look for contacts anew; from either, a world of Frond's own steps on to the same bits. UNSUPPORTED
- * with robots (frond_robot.h).
+ * both have Bullet look for contacts anew; from either, a world of Frond's own steps on to the same bits. Plants stay
+ * where the host put them: after frond_plant_set_transform and frond_world_shift_origin save anew. UNSUPPORTED with
+ * robots (frond_robot.h).
  */
 #ifndef FROND_SNAPSHOT_H
 #define FROND_SNAPSHOT_H

@@ -191,6 +191,16 @@ typedef enum frond_response { FROND_RESPONSES(FROND_RESPONSE_ENUM) FROND_RESPONS
 typedef enum frond_detail { FROND_DETAILS(FROND_DETAIL_ENUM) FROND_DETAIL_COUNT } frond_detail;
 #undef FROND_DETAIL_ENUM
 
+/* What happens to a plant: see frond_world_take_events. */
+#define FROND_EVENTS(X)                                                                                           \
+    X(BROKE, "broke")             /* a capsule broke, and a fragment came off */                                  \
+    X(TOUCHED, "touched")         /* a body or another plant began to push it; of two plants each has an event */ \
+    X(FELL_ASLEEP, "fell_asleep") /* it came to rest, and is not stepped any more */                              \
+    X(WOKE, "woke")               /* it is stepped again */
+#define FROND_EVENT_ENUM(code, text) FROND_EVENT_##code,
+typedef enum frond_event { FROND_EVENTS(FROND_EVENT_ENUM) FROND_EVENT_COUNT } frond_event;
+#undef FROND_EVENT_ENUM
+
 /* The shape that a file shows. */
 typedef enum frond_rest {
     FROND_REST_STANDS_AS_MODELLED, /* the plant as it stands under 9.81 m/s^2 along the model's -y; Frond finds the
@@ -230,6 +240,8 @@ FROND_API const char* frond_integrator_name(frond_integrator integrator);
 FROND_API const char* frond_response_name(frond_response response);
 /* Returns the short lower-case name of a detail, "modal"; "?" when it is out of range. */
 FROND_API const char* frond_detail_name(frond_detail detail);
+/* Returns the short lower-case name of an event, "woke"; "?" when it is out of range. */
+FROND_API const char* frond_event_name(frond_event event);
 /* Returns the short lower-case name of a rigid body's shape, "sphere"; "?" when it is out of range. */
 FROND_API const char* frond_shape_name(frond_shape shape);
 

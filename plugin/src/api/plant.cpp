@@ -14,12 +14,16 @@ static void check_effects(frond_effects effects) {
         fail(FROND_RESULT_BAD_ARGUMENT, "effects has unknown bits; use FROND_EFFECT_*");
 }
 
+static void check_rotation(const Quat& rotation, const char* name) {
+    const double length = rotation.norm();
+    if (!(length > 1e-9 && length < 1e9))
+        fail(FROND_RESULT_BAD_ARGUMENT, "%s has no direction; (0,0,0,1) turns nothing", name);
+}
+
 static void check_plant_def(const frond_plant_def* def) {
     check_def(def, 'P', "plant");
     check_vec(def->position, "def.position [m]");
-    const double length = Quat(def->rotation.w, def->rotation.x, def->rotation.y, def->rotation.z).norm();
-    if (!(length > 1e-9 && length < 1e9))
-        fail(FROND_RESULT_BAD_ARGUMENT, "def.rotation has no direction; (0,0,0,1) is none");
+    check_rotation(Quat(def->rotation.w, def->rotation.x, def->rotation.y, def->rotation.z), "def.rotation");
     check_row(number_of(def->mechanics), FROND_MECHANICS_COUNT, "def.mechanics");
     check_row(number_of(def->integrator), FROND_INTEGRATOR_COUNT, "def.integrator");
     check_row(number_of(def->tuning.linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.tuning.linear_solver");
@@ -90,6 +94,21 @@ static std::vector<frond_contact> contacts_of(const PlantBody& body) {
     return out;
 }
 
+// Makes it as it is now. What it was before goes to the previous frame, if somebody asks for that.
+static void make_surface(PlantBody& body) {
+    Plant& p = *body.plant;
+    const World& world = *body.world;
+    const double back = body.rest.asleep ? 0 : surfaces_back(world);
+    if (p.previous && (p.previous->substep != world.substep || p.previous->back != float(back))) {
+        p.previous->positions = p.surface_positions;
+        p.previous->substep = world.substep;
+        p.previous->back = float(back);
+    }
+    if (p.surface_positions.empty()) update_surface(*look_at(body).plant, FROND_EFFECT_ALL, back);
+    if ((p.surface_stale || p.surface_back != float(back)) && effects_of(body) & FROND_EFFECT_SURFACE)
+        update_surface(*look_at(body).plant, effects_of(body), back);
+}
+
 extern "C" {
 
 frond_result frond_plant_create(frond_world world, frond_model model, const frond_plant_def* def, frond_plant* out) {
@@ -152,6 +171,32 @@ frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects) {
         Plant& p = awaken(body);
         p.effects = effects;
         p.surface_stale = true;
+    });
+}
+
+frond_result frond_plant_get_def(frond_plant plant, frond_plant_def* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        *out = def_of(get(plant));
+    });
+}
+
+frond_result frond_plant_set_transform(frond_plant plant, frond_vec3 position, frond_quat rotation) {
+    return call([&] {
+        PlantBody& body = get(plant);
+        check_vec(position, "position [m]");
+        const Quat q(rotation.w, rotation.x, rotation.y, rotation.z);
+        check_rotation(q, "rotation");
+        place_plant(body, to_vec(position), q.normalized());
+    });
+}
+
+frond_result frond_plant_reset(frond_plant plant) {
+    return call([&] {
+        PlantBody& body = get(plant);
+        for (const Rigid* fragment : body.fragment_bodies) rigid_slots().erase(fragment->handle.id);
+        reset_plant(body);
     });
 }
 
@@ -280,16 +325,29 @@ frond_result frond_plant_get_energy(frond_plant plant, frond_energy* out) {
     });
 }
 
+frond_result frond_plant_get_previous_positions(frond_plant plant, const float** out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = nullptr;
+        PlantBody& body = get(plant);
+        Plant& p = *body.plant;
+        if (!p.previous) {
+            p.previous = std::make_unique<PreviousSurface>();
+            p.previous->substep = body.world->substep;
+            p.previous->back = float(body.rest.asleep ? 0 : surfaces_back(*body.world));
+        }
+        make_surface(body);
+        *out = (p.previous->positions.empty() ? p.surface_positions : p.previous->positions).data();
+    });
+}
+
 frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out) {
     return call([&] {
         check_pointer(out, "out");
         *out = {};
         PlantBody& body = get(plant);
         Plant& p = *body.plant;
-        const double back = body.rest.asleep ? 0 : surfaces_back(*body.world);
-        if (p.surface_positions.empty()) update_surface(*look_at(body).plant, FROND_EFFECT_ALL, back);
-        if ((p.surface_stale || p.surface_back != float(back)) && effects_of(body) & FROND_EFFECT_SURFACE)
-            update_surface(*look_at(body).plant, effects_of(body), back);
+        make_surface(body);
         const Surface& surface = p.model->surface;
         out->positions = p.surface_positions.data();
         out->normals = p.surface_normals.data();
@@ -374,16 +432,6 @@ frond_result frond_plant_break(frond_plant plant, int capsule) {
             fail(FROND_RESULT_BAD_ARGUMENT, "capsule %d has come off already; call frond_plant_reset first", capsule);
         awaken(body);
         break_off(*body.world, body, end);
-        show(body);
-    });
-}
-
-frond_result frond_plant_reset(frond_plant plant) {
-    return call([&] {
-        PlantBody& body = get(plant);
-        awaken(body);
-        for (const Rigid* fragment : body.fragment_bodies) rigid_slots().erase(fragment->handle.id);
-        reset(*body.world, body);
         show(body);
     });
 }

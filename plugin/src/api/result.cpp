@@ -32,6 +32,7 @@ static const char* const MASS_NAMES[] = {FROND_MASSES(ROW_TEXT)};
 static const char* const HASH_LAYOUT_NAMES[] = {FROND_HASH_LAYOUTS(ROW_TEXT)};
 static const char* const RESPONSE_NAMES[] = {FROND_RESPONSES(ROW_TEXT)};
 static const char* const SHAPE_NAMES[] = {FROND_SHAPES(ROW_TEXT)};
+static const char* const EVENT_NAMES[] = {FROND_EVENTS(ROW_TEXT)};
 static const char* const DETAIL_NAMES[] = {FROND_DETAILS(ROW_TEXT)};
 #undef ROW_TEXT
 #define EFFECT_TEXT(code, bit, text) text,
@@ -73,6 +74,9 @@ const char* frond_hash_layout_name(frond_hash_layout layout) {
 }
 const char* frond_response_name(frond_response response) {
     return row_name(RESPONSE_NAMES, number_of(response), "?");
+}
+const char* frond_event_name(frond_event event) {
+    return row_name(EVENT_NAMES, number_of(event), "?");
 }
 const char* frond_detail_name(frond_detail detail) {
     return row_name(DETAIL_NAMES, number_of(detail), "?");

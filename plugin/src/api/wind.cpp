@@ -35,11 +35,7 @@ frond_result frond_world_set_wind(frond_world world, const frond_wind_def* def) 
         }
         check_wind_def(def);
         std::unique_ptr<Wind> wind = make_wind(*def);
-        if (w.wind) {
-            wind->travelled = w.wind->travelled;
-            wind->field = w.wind->field;
-            wind->user = w.wind->user;
-        }
+        if (w.wind) take_over(*wind, up_of(gravity_of(w)), *w.wind);
         w.wind = std::move(wind);
     });
 }

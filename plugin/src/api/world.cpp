@@ -24,6 +24,10 @@ static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& de
     return {id};
 }
 
+static void check_count(int given, int own, const char* name, const char* what) {
+    if (given != own) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; this world has %d %s", name, given, own, what);
+}
+
 static int nearest_node(const Plant& plant, const Vec3& point) {
     const auto distance = [&](int i) { return (node_place(plant, i) - point).squaredNorm(); };
     int nearest = 0;
@@ -143,6 +147,49 @@ frond_result frond_world_get_state_hash(frond_world world, uint64_t* out) {
         check_pointer(out, "out");
         *out = 0;
         *out = state_hash(get(world));
+    });
+}
+
+int frond_world_get_plant_count(frond_world world) {
+    const std::shared_ptr<World> found = world_slots().find(world.id);
+    return found ? int(found->bodies.size()) : 0;
+}
+
+frond_result frond_world_get_plants(frond_world world, frond_plant* out, int plant_count) {
+    return call([&] {
+        const World& w = get(world);
+        check_count(plant_count, int(w.bodies.size()), "plant_count", "plants");
+        if (plant_count > 0) check_pointer(out, "out");
+        for (const auto& body : w.bodies) *out++ = body->handle;
+    });
+}
+
+int frond_world_get_event_count(frond_world world) {
+    const std::shared_ptr<World> found = world_slots().find(world.id);
+    if (!found) return 0;
+    found->events.are_kept = true;
+    return int(found->events.list.size());
+}
+
+frond_result frond_world_take_events(frond_world world, frond_event_info* out, int event_count) {
+    return call([&] {
+        World& w = get(world);
+        check_count(event_count, int(w.events.list.size()), "event_count", "events");
+        if (event_count > 0) check_pointer(out, "out");
+        std::copy(w.events.list.begin(), w.events.list.end(), out);
+        w.events.list.clear();
+    });
+}
+
+frond_result frond_world_shift_origin(frond_world world, frond_vec3 origin) {
+    return call([&] {
+        World& w = get(world);
+        check_vec(origin, "origin [m]");
+        for (const auto& body : w.bodies)
+            if (!((body->plant->position - to_vec(origin)).lpNorm<Eigen::Infinity>() <= LARGEST_COORDINATE))
+                fail(FROND_RESULT_BAD_ARGUMENT, "origin is farther than %g m from a plant; choose one that is nearer",
+                     LARGEST_COORDINATE);
+        shift_origin(w, to_vec(origin));
     });
 }
 

@@ -56,6 +56,7 @@ void compress(Plant& plant, double tolerance, bool keep_surface) {
     if (keep_surface) return;
     drop(plant.surface_positions);
     drop(plant.surface_normals);
+    if (plant.previous) drop(plant.previous->positions);
     plant.surface_stale = true;
 }
 

@@ -173,6 +173,7 @@ static std::shared_ptr<const Foot> foot_of(const Plant& plant, double root_heigh
     const auto shared =
         feet.find_or_make({plant.model.get(), plant.nodes->order, bool(plant.follow), root_height}, [&] {
             Foot foot;
+            foot.root_height = root_height;
             foot.pinned = find_held(plant, root_height);
             foot.pin_target = cage_places(plant);
             const double limit = root_height > 0 ? plant.model->surface.lower().y() + root_height : -INFINITY;
@@ -218,6 +219,33 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     return plant;
 }
 
+frond_plant_def def_of(const Plant& plant) {
+    frond_plant_def def = {};
+    def.cookie = FROND_DEF_COOKIE('P');
+    const Quat& q = plant.rotation;
+    def.position = {plant.position.x(), plant.position.y(), plant.position.z()};
+    def.rotation = {q.x(), q.y(), q.z(), q.w()};
+    def.mechanics = plant.which;
+    def.element_order = plant.nodes->order;
+    def.integrator = plant.settings.integrator;
+    def.mass_damping = plant.settings.mass_damping;
+    def.stiffness_damping = plant.settings.stiffness_damping;
+    def.material_damping = plant.material_damping;
+    def.root_height = plant.foot->root_height;
+    def.effects = plant.effects;
+    def.user = plant.user;
+    def.tuning.linear_solver = plant.settings.linear_solver;
+    def.tuning.linear_iterations = plant.settings.max_iterations;
+    def.tuning.linear_tolerance = plant.settings.tolerance;
+    def.tuning.mass = plant.mass;
+    def.tuning.newton_iterations = plant.settings.newton_iterations;
+    def.tuning.newton_tolerance = plant.settings.newton_tolerance;
+    def.tuning.spectral_radius = plant.settings.spectral_radius;
+    def.tuning.max_substeps = plant.max_substeps;
+    def.tuning.substep_tolerance = plant.substep_tolerance;
+    return def;
+}
+
 void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (which == plant.which) return;
     end_modal(plant);
@@ -247,15 +275,6 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     moved(plant);
     if (smoothly) begin_blend_out(plant.blend_out, places - cage_places(plant), velocities - cage_velocities(plant));
     plant.cage_stale = true;
-}
-
-void reset(Plant& plant) {
-    if (plant.fragments.empty()) return;
-    plant.fragments.clear();
-    plant.parting = no_parting();
-    take_mechanics(plant, plant.which);
-    apply_pins(plant);
-    moved(plant);
 }
 
 }  // namespace frond

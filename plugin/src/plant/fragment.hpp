@@ -43,8 +43,6 @@ std::shared_ptr<Parting> no_parting();
 int find_break(const Plant& plant);
 // Takes off what is beyond a capsule, by the chain node at its end, which is not gone yet. Returns the new fragment.
 const Fragment& break_off(Plant& plant, int node);
-// Puts all fragments back: as modelled, at rest, with nothing lasting.
-void reset(Plant& plant);
 // Takes what is gone away again after the mechanics changed.
 void leave_fragments(Plant& plant);
 // Chain nodes that are gone go along with the stump, so that cage nodes on both sides keep their places against it.

@@ -55,9 +55,17 @@ struct PoolSeat {
 
 // How a plant is held when it is made; shared by all plants of a model that are held alike.
 struct Foot {
+    double root_height;  // as in the plant's def [m]
     std::vector<uint8_t> pinned;
     VecX pin_target;
     std::vector<int> anchor;
+};
+
+// Where the surface was in the frame before the last one that was shown.
+struct PreviousSurface {
+    std::vector<float> positions;  // world frame [m]; empty: where it is
+    uint64_t substep;  // the last frame: the world's substeps until then, and how long before the end of the
+    float back;        // last one it was [s]
 };
 
 // Nodes that the host sees are the cage's, whatever moves. Where the mechanics move the chain, the cage follows it.
@@ -109,6 +117,7 @@ struct Plant {
     // What follows the cage.
     std::vector<Vec3> chain_positions;                      // model frame [m]
     std::vector<float> surface_positions, surface_normals;  // world frame
+    std::unique_ptr<PreviousSurface> previous;              // null: nobody has asked
     mutable VecX cage_x;                                    // model frame [m]; where it is not what the mechanics have
 
     // Folded: put away as what it takes to unfold it. Then all above that a step changes is empty.
@@ -159,6 +168,8 @@ struct Surroundings {
 
 // `def` has been checked by the caller.
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def);
+// With which it would be made as it is set now, but for what is the world's.
+frond_plant_def def_of(const Plant& plant);
 // A step in two halves, between which contacts may change what the first one found: effects and solve; then accept,
 // with what becomes lasting, or rewind, and the chain.
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);

@@ -21,6 +21,7 @@ struct Wind {
     frond_wind_def def;
     std::array<std::vector<Gust>, 3> gusts;  // of the velocity along, across and above the mean wind
     double travelled = 0;                    // way of the mean wind so far, along itself [m]
+    Vec3 origin = Vec3::Zero();              // of the world in that in which the gusts were made [m]
     frond_wind_field_fn* field = nullptr;    // the host's own
     mutable std::mutex field_mutex;          // it is asked from one thread at a time
     void* user = nullptr;
@@ -28,6 +29,10 @@ struct Wind {
 
 // `def` has been checked by the caller.
 std::unique_ptr<Wind> make_wind(const frond_wind_def& def);
+// The world's origin moves to this place of it: gusts and ground stay where they are.
+void shift_origin(Wind& wind, const Vec3& up, const Vec3& origin);
+// Has the gusts of a new wind go on where those of the one before are.
+void take_over(Wind& wind, const Vec3& up, const Wind& before);
 // The mean wind goes on for h [s].
 void pass_time(Wind& wind, double h);
 // Velocities at points [m/s], world frame; `up` is against gravity, length one. False if the host's field gave some

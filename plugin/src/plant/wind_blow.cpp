@@ -76,6 +76,25 @@ WindNow wind_now(const Wind& wind, const Vec3& up) {
     return now;
 }
 
+static void shift_gusts(Wind& wind, const Vec3& up, const Vec3& origin) {
+    wind.origin += origin;
+    const Vec3 moved = wind_now(wind, up).frame * origin;
+    for (std::vector<Gust>& gusts : wind.gusts)
+        for (Gust& gust : gusts) gust.phase -= gust.waves.dot(moved);
+}
+
+void shift_origin(Wind& wind, const Vec3& up, const Vec3& origin) {
+    shift_gusts(wind, up, origin);
+    wind.def.ground_height -= up.dot(origin);
+}
+
+void take_over(Wind& wind, const Vec3& up, const Wind& before) {
+    wind.travelled = before.travelled;
+    wind.field = before.field;
+    wind.user = before.user;
+    shift_gusts(wind, up, before.origin);
+}
+
 bool wind_velocities(const Wind& wind, const Vec3& up, double time, const std::vector<frond_vec3>& points,
                      std::vector<frond_vec3>& out) {
     out.resize(points.size());

@@ -77,6 +77,10 @@ Rigid* add_fragment(World& world, PlantBody& body, const Fragment& fragment) {
 void break_off(World& world, PlantBody& body, int chain_node) {
     const Fragment& fragment = break_off(*body.plant, chain_node);
     body.fragment_bodies.push_back(add_fragment(world, body, fragment));
+    const auto& capsules = body.plant->model->capsules;
+    const auto ends = [&](const std::array<int, 2>& capsule) { return capsule[1] == chain_node; };
+    const auto capsule = std::find_if(capsules.begin(), capsules.end(), ends);
+    add_event(world, FROND_EVENT_BROKE, body, int(capsule - capsules.begin()));
 }
 
 int break_overloaded(World& world, PlantBody& body) {
@@ -129,11 +133,6 @@ bool is_apart(const PlantBody& body, int capsule, const btCollisionObject& other
 void remove_fragments(World& world, PlantBody& body) {
     for (Rigid* fragment : body.fragment_bodies) remove_rigid(world, fragment);
     body.fragment_bodies.clear();
-}
-
-void reset(World& world, PlantBody& body) {
-    remove_fragments(world, body);
-    reset(*body.plant);
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -16,8 +16,7 @@ void carry_fragments(PlantBody& body);
 void pull_fragments(PlantBody& body, double h);
 // Whether a capsule and a body do not push each other: one is a fragment of the plant that came off.
 bool is_apart(const PlantBody& body, int capsule, const btCollisionObject& other);
-// Puts all fragments back; their bodies end.
-void reset(World& world, PlantBody& body);
+// Their bodies end.
 void remove_fragments(World& world, PlantBody& body);
 
 }  // namespace FROND_BULLET_PRECISION

@@ -130,6 +130,11 @@ static void enter_broad_phase(PlantBody& body, int group, int mask) {
                                                mask, bullet.getDispatcher()));
 }
 
+void enter_anew(PlantBody& body) {
+    const btBroadphaseProxy* proxy = body.getBroadphaseHandle();
+    if (proxy) enter_broad_phase(body, proxy->m_collisionFilterGroup, proxy->m_collisionFilterMask);
+}
+
 void hide(PlantBody& body) {
     const btBroadphaseProxy* proxy = body.getBroadphaseHandle();
     if (body.is_hidden || !proxy) return;

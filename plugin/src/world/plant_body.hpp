@@ -64,6 +64,7 @@ struct PlantBody : btSoftBody {
     frond_plant handle = {};
     Rest rest;
     std::unique_ptr<GrownIn> grown_in;  // null: in nothing
+    bool starts_asleep = false;         // when it is made, or reset
     bool is_hidden = false;             // from what sleeps and from what is static: asleep with nothing touching it
     bool is_looked_at = false;          // asleep, but unfolded for somebody to look
     int16_t new_for = 1;  // substeps in which what it stands in is yet to be found out; woken from a start asleep: none
@@ -98,6 +99,8 @@ void take_own_shape(PlantBody& body);
 // Sleepers that nothing touches make no pairs with each other and with what is static. A host's filter is kept.
 void hide(PlantBody& body);
 void show_again(PlantBody& body);
+// Into the broad phase as if it came into the world, without the pairs that it had.
+void enter_anew(PlantBody& body);
 // Moves the capsules to where the chain is.
 void move_capsules(PlantBody& body);
 void move_capsules(PlantBody* const* bodies, int count);  // at most MOST_LANES

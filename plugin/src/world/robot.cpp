@@ -48,6 +48,13 @@ void put_joint(Robot& robot, size_t link, double position) {
     drive_to(robot, link, position, 0, 0);
 }
 
+void shift_base(Robot& robot, const Vec3& origin) {
+    btTransform frame = robot.body->getBaseWorldTransform();
+    frame.setOrigin(to_bullet(from_bullet(frame.getOrigin()) - origin));
+    robot.body->setBaseWorldTransform(frame);
+    move_colliders(robot);
+}
+
 // An eighth of what is left to go is made up for in a substep, which neither overshoots nor lags much.
 void drive_to(Robot& robot, size_t link, double position, double speed, double force) {
     constexpr double GAIN = 0.125;

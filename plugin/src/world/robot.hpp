@@ -62,6 +62,7 @@ bool moves(const Robot& robot, size_t link);             // its joint does
 double joint_position(const Robot& robot, size_t link);  // [rad], [m]
 double joint_velocity(const Robot& robot, size_t link);
 void put_joint(Robot& robot, size_t link, double position);
+void shift_base(Robot& robot, const Vec3& origin);  // the world's origin moves there
 // Targets of a motor; what force it has at most.
 void drive_to(Robot& robot, size_t link, double position, double speed, double force);
 void drive_at(Robot& robot, size_t link, double velocity, double force);

@@ -124,6 +124,7 @@ void wake(PlantBody& body) {
     body.world->awake.push_back(&body);
     body.level.pending = 0;
     end_sway(body);
+    add_event(*body.world, FROND_EVENT_WOKE, body);
     // With what leans on it, or the other way round.
     const std::shared_ptr<const LastContacts> contacts = std::move(body.rest.contacts);
     if (!contacts) return;
@@ -213,8 +214,10 @@ void put_to_sleep(World& world) {
     for (size_t i = 0; i < count; i++)
         if (stirs[i]) island_stirs[size_t(touching.find(int(i)))] = 1;
     for (size_t i = 0; i < count; i++)
-        if (!world.taking_part[i]->rest.asleep && !island_stirs[size_t(touching.find(int(i)))])
+        if (!world.taking_part[i]->rest.asleep && !island_stirs[size_t(touching.find(int(i)))]) {
             fall_asleep(world, *world.taking_part[i]);
+            add_event(world, FROND_EVENT_FELL_ASLEEP, *world.taking_part[i]);
+        }
     const auto sleeps = [](const PlantBody* body) { return body->rest.asleep; };
     world.awake.erase(std::remove_if(world.awake.begin(), world.awake.end(), sleeps), world.awake.end());
     hide_sleepers_again(world);

@@ -171,6 +171,8 @@ void put_snapshot(World& world, Snapshot snapshot) {
     world.gravity_ahead.is_held = snapshot.is_held;
     put_touches(world, snapshot.touches, world.contacts, world.plant_contacts);
     find_contacts_anew(world);
+    world.events.list.clear();
+    world.events.touching.clear();
 }
 
 }  // namespace FROND_BULLET_PRECISION

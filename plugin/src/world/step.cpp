@@ -324,6 +324,7 @@ void take_step(World& world, btCollisionWorld& collision_world, double h) {
         for (PlantBody* body : world.awake) settle(world, *body, collision_world);
         world.profile.ms_capsules += timer.ms();
     }
+    note_touching(world);
     if (world.sleep_distance > 0) put_to_sleep(world);
     compress_looked_at(world);
     limit_motors(world, h);

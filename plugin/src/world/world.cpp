@@ -72,6 +72,7 @@ PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, int group, int 
     world.bodies.push_back(std::make_unique<PlantBody>(&world.soft_info, &world, std::move(plant)));
     PlantBody* body = world.bodies.back().get();
     body->index = int(world.bodies.size()) - 1;
+    body->starts_asleep = asleep;
     world.bullet->addCollisionObject(body, group, mask);
     if (asleep) {
         body->new_for = 2;
@@ -93,6 +94,7 @@ void remove_plant(World& world, PlantBody* body) {
     world.bullet->removeCollisionObject(body);
     world.contacts.clear();
     world.plant_contacts.clear();
+    forget_events(world, *body);
     world.bonds.remove_if([&](const Bond& bond) { return bond.plant == body; });
     for (std::vector<PlantBody*>* list : {&world.awake, &world.taking_part, &world.looked_at})
         list->erase(std::remove(list->begin(), list->end(), body), list->end());

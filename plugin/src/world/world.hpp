@@ -12,6 +12,7 @@
 #include "world/bond.hpp"
 #include "world/contact.hpp"
 #include "world/detail.hpp"
+#include "world/events.hpp"
 #include "world/gravity_ahead.hpp"
 #include "world/plant_contact.hpp"
 #include "world/rigid.hpp"
@@ -63,6 +64,7 @@ struct World final : btActionInterface {
     double time = 0;                                           // [s]
     frond_report report = {};                                  // of the last substep
     frond_profile profile = {};                                // likewise
+    Events events;
 
     World(std::unique_ptr<OwnBullet> own, btDynamicsWorld* bullet, const frond_world_def& def);
     ~World() override;
@@ -82,6 +84,14 @@ std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def
 // With a group and a mask of Bullet's collision filter.
 PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, int group, int mask, bool asleep);
 void remove_plant(World& world, PlantBody* body);
+// Puts a plant elsewhere, with its shape and its fragments. `rotation` has length one.
+void place_plant(PlantBody& body, const Vec3& position, const Quat& rotation);
+// With which the plant would be made as it is set now.
+frond_plant_def def_of(const PlantBody& body);
+// As if it was made now; grabs and bonds stay.
+void reset_plant(PlantBody& body);
+// The world's origin moves to this place of it [m].
+void shift_origin(World& world, const Vec3& origin);
 // Steps a world of Frond's own by exactly dt.
 void advance(World& world, double dt);
 Vec3 gravity_of(const World& world);

@@ -1,0 +1,39 @@
+// Events: what happened to plants since the host asked last.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <deque>
+#include <vector>
+
+#include "frond/frond_bullet.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+struct World;
+struct PlantBody;
+
+struct Events {
+    // A plant and what touches it. A body may be gone: it is only compared.
+    struct Touching {
+        const PlantBody* plant;
+        const btCollisionObject* other;
+        const PlantBody* other_plant;  // null: a body
+        bool operator<(const Touching& b) const {
+            return plant != b.plant ? std::less<>()(plant, b.plant) : std::less<>()(other, b.other);
+        }
+    };
+    bool are_kept = false;  // the host has asked for them
+    std::deque<frond_event_info> list;
+    std::vector<Touching> touching;  // in the last substep, sorted; those of sleepers stay
+};
+
+void add_event(World& world, frond_event event, const PlantBody& body, int capsule = -1);
+// After a substep: who began to touch whom.
+void note_touching(World& world);
+// A plant leaves the world, and with it what happened to it.
+void forget_events(World& world, const PlantBody& body);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

@@ -1,0 +1,96 @@
+// In: a plant of a world. Out: the same elsewhere, or as if it was made now.
+#include <algorithm>
+
+#include "world/convert.hpp"
+#include "world/fragments.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+btQuaternion quat_to_bullet(const Quat& q) {
+    return btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w()));
+}
+
+// It leaves where it is: what leaned on it moves, and what is known of its contacts holds no more.
+void leave_place(World& world, PlantBody& body) {
+    wake(body);
+    wake_neighbours(world, body);
+    for (const Contact& contact : world.contacts)
+        if (contact.plant == &body) contact.other->activate();
+    const auto is_its = [&](const Contact& contact) { return contact.plant == &body; };
+    world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(), is_its), world.contacts.end());
+    const auto has_it = [&](const PlantContact& contact) {
+        return contact.plants[0] == &body || contact.plants[1] == &body;
+    };
+    world.plant_contacts.erase(std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(), has_it),
+                               world.plant_contacts.end());
+    body.grown_in = nullptr;
+    body.new_for = 1;
+}
+
+}  // namespace
+
+void place_plant(PlantBody& body, const Vec3& position, const Quat& rotation) {
+    World& world = *body.world;
+    Plant& plant = *body.plant;
+    leave_place(world, body);
+    end_sway(body);
+    const Quat turn = rotation * plant.rotation.conjugate();
+    const btTransform by(quat_to_bullet(turn), to_bullet(position - turn * plant.position));
+    for (Rigid* fragment : body.fragment_bodies) {
+        btRigidBody& rigid = *fragment->body;
+        rigid.setLinearVelocity(by.getBasis() * rigid.getLinearVelocity());
+        rigid.setAngularVelocity(by.getBasis() * rigid.getAngularVelocity());
+        rigid.setCenterOfMassTransform(by * rigid.getWorldTransform());
+        rigid.activate(true);
+        world.bullet->updateSingleAabb(&rigid);
+    }
+    carry_fragments(body);
+    plant.position = position;
+    plant.rotation = rotation;
+    plant.surface_stale = true;
+    if (plant.previous) plant.previous->positions.clear();
+    body.setWorldTransform(btTransform(quat_to_bullet(rotation), to_bullet(position)));
+    body.setInterpolationWorldTransform(body.getWorldTransform());
+    enter_anew(body);
+}
+
+frond_plant_def def_of(const PlantBody& body) {
+    frond_plant_def def = def_of(*body.plant);
+    def.mechanics = body.level.own;
+    def.starts_asleep = body.starts_asleep;
+    const btBroadphaseProxy* proxy = body.getBroadphaseHandle();
+    def.group = body.is_hidden || !proxy ? body.filter_group : proxy->m_collisionFilterGroup;
+    def.mask = body.is_hidden || !proxy ? body.filter_mask : proxy->m_collisionFilterMask;
+    return def;
+}
+
+void reset_plant(PlantBody& body) {
+    World& world = *body.world;
+    std::unique_ptr<Plant> made = create_plant(body.plant->model, def_of(body));
+    leave_place(world, body);
+    remove_fragments(world, body);
+    made->position = body.plant->position;
+    made->rotation = body.plant->rotation;
+    made->grabs.splice(made->grabs.end(), body.plant->grabs);
+    if (body.plant->previous) made->previous = std::make_unique<PreviousSurface>();
+    body.plant = std::move(made);
+    body.level = {};
+    body.level.own = body.plant->which;
+    body.rest = {};
+    share_shape(body);
+    if (body.starts_asleep) {
+        body.new_for = 2;
+        world.awake.erase(std::remove(world.awake.begin(), world.awake.end(), &body), world.awake.end());
+        fall_asleep(world, body);
+    } else {
+        take_own_shape(body);
+        enter_anew(body);
+    }
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
