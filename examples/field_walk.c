@@ -57,8 +57,7 @@ int main(int argc, char** argv) {
     }
     plant_def.mechanics = FROND_MECHANICS_ROD;
     plant_def.starts_asleep = true;
-    plant_def.effects &=
-        ~FROND_EFFECT_PLANT_CONTACT; /* leaves stand in each other: one plant would wake the whole field */
+    plant_def.effects &= ~FROND_EFFECT_PLANT_CONTACT; /* leaves overlap: one plant would wake the whole field */
     for (i = 0; i < PLANTS; i++) {
         const double x = apart * (i % SIDE), z = apart * (i / SIDE - SIDE / 2 + 0.5);
         const int strip = (int)(x / 4) % KINDS;

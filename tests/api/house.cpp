@@ -54,11 +54,15 @@ std::string without_comments(const std::string& text) {
     return code;
 }
 
-// The comment that ends in the line before this one; empty: there is none.
+// The comment that ends in the line before this one, of C or of C++; empty: there is none.
 std::string comment_before(const std::vector<std::string>& lines, size_t line) {
-    if (line == 0 || lines[line - 1].find("*/") == std::string::npos) return "";
-    size_t first = line - 1;
-    while (first > 0 && lines[first].find("/*") == std::string::npos) first--;
+    size_t first = line;
+    while (first > 0 && lines[first - 1].rfind("//", 0) == 0) first--;
+    if (first == line) {
+        if (line == 0 || lines[line - 1].find("*/") == std::string::npos) return "";
+        first = line - 1;
+        while (first > 0 && lines[first].find("/*") == std::string::npos) first--;
+    }
     std::string text;
     for (size_t i = first; i < line; i++) text += lines[i] + " ";
     return text;
@@ -86,17 +90,16 @@ std::vector<std::string> glossary_column(size_t column) {
 TEST(House, EachPublicFunctionHasASentence) {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(PLUGIN + "include/frond")) {
-        if (entry.path().extension() != ".h") continue;
         const std::vector<std::string> lines = lines_of(read(entry.path().string()));
         for (size_t i = 0; i < lines.size(); i++) {
             std::smatch name;
-            static const std::regex DECLARATION("^(?:FROND_API|static inline) .*?(frond_\\w+)\\(");
+            static const std::regex DECLARATION("^(?:FROND_API|static inline) .*?(\\w+)\\(");
             if (!std::regex_search(lines[i], name, DECLARATION)) continue;
             count++;
             // A macro may stand between the two.
             size_t at = i;
             while (at > 0 && lines[at - 1].rfind("#define", 0) == 0) at--;
-            static const std::regex SENTENCE("/\\* [A-Z][a-z]+s [^]*\\.[^]*\\*/");
+            static const std::regex SENTENCE("^/[/*] [A-Z][a-z]+s [^]*\\.");
             EXPECT_TRUE(std::regex_search(comment_before(lines, at), SENTENCE))
                 << entry.path().filename() << ":" << i + 1 << ": say in a sentence what " << name[1]
                 << " does: \"Returns ...\"";

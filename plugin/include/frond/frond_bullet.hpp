@@ -32,18 +32,18 @@ inline namespace FROND_BULLET_PRECISION {
 // act for one substep. Call frond_world_destroy before the world is deleted and never while it steps.
 FROND_API frond_result attach(btDynamicsWorld* world, const frond_world_def* def, frond_world* out);
 
-// The Bullet world behind a handle, Frond's own or yours. Null for an invalid handle. Borrowed.
+// Returns the Bullet world behind a handle, Frond's own or yours; null for an invalid handle. Borrowed.
 FROND_API btDynamicsWorld* bullet_world(frond_world world);
 
-// The collision object of a plant: a btCompoundShape of btCapsuleShapes, one a capsule in their order, which Bullet's
-// ray tests, sweeps and contact tests see. Its user pointer and indices are yours. Null for an invalid handle.
+// Returns the collision object of a plant: a btCompoundShape of btCapsuleShapes, one a capsule in their order, which
+// Bullet's ray tests, sweeps and contact tests see. Its user pointer and indices are yours. Null for an invalid handle.
 // Borrowed.
 FROND_API btCollisionObject* bullet_object(frond_plant plant);
 
-// As frond_bond_create, to a body of yours that is in the plant's world: rigid, a link's collider, kinematic or static.
+// Makes a bond as frond_bond_create does, to a body of yours in the plant's world: rigid, of a link, carried or static.
 FROND_API frond_result bond(frond_plant plant, const btVector3& point, btCollisionObject* body, frond_bond* out);
 
-// The plant behind a collision object of Bullet's, e.g. from a ray test. Null if it is not a plant's.
+// Returns the plant behind a collision object of Bullet's, e.g. from a ray test; null if it is not a plant's.
 FROND_API frond_plant plant_of(const btCollisionObject* object);
 
 }  // namespace FROND_BULLET_PRECISION

@@ -15,10 +15,10 @@ class btMultiBodyJointMotor;
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// Link n of the robot is link n - 1 of the multi-body, whose frames are at centres of mass, along principal axes.
-// Null for an invalid handle. Borrowed.
+// Returns the robot's multi-body, whose link n - 1 is the robot's link n, with frames at centres of mass, along
+// principal axes; null for an invalid handle. Borrowed.
 FROND_API btMultiBody* multi_body(frond_robot robot);
-// Null for fixed joints too.
+// Returns the motor of a link's joint; null for an invalid handle and for fixed joints. Borrowed.
 FROND_API btMultiBodyJointMotor* joint_motor(frond_robot robot, int link);
 
 }  // namespace FROND_BULLET_PRECISION
