@@ -87,6 +87,22 @@ TEST(Robot, HasItsLinksWhereItsJointsPutThem) {
     EXPECT_NEAR(arm.state("elbow").joint_position, 0.4, 1e-6);
 }
 
+TEST(Robot, GoesOnAsItWasAfterTheOriginMoved) {
+    const RobotWorld here(ARM), there(ARM);
+    for (const RobotWorld* arm : {&here, &there}) {
+        ASSERT_EQ(frond_robot_drive_to(arm->robot, arm->link("lift"), 1.2, 0.5, 0), FROND_OK);
+        arm->step(30);
+    }
+    const frond_vec3 before = there.state("palm").position;
+    ASSERT_EQ(frond_world_shift_origin(there.world, {64, -8, 16}), FROND_OK) << frond_last_error();
+    EXPECT_NEAR(there.state("palm").position.x, before.x - 64, 1e-5);
+    EXPECT_NEAR(there.state("palm").position.y, before.y + 8, 1e-5);
+    for (const RobotWorld* arm : {&here, &there}) arm->step(60);
+    EXPECT_NEAR(there.state("palm").position.x, here.state("palm").position.x - 64, 1e-4);
+    EXPECT_NEAR(there.state("palm").position.y, here.state("palm").position.y + 8, 1e-4);
+    EXPECT_NEAR(there.state("lift").joint_position, here.state("lift").joint_position, 1e-5);
+}
+
 TEST(Robot, HasMotorsThatCarryItsWeight) {
     const RobotWorld arm(ARM);
     const double side = 3.14159265358979 / 2;

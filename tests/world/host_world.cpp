@@ -83,6 +83,46 @@ static std::string host_name(const ::testing::TestParamInfo<int>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, HostWorld, ::testing::Range(0, 6), host_name);
 
+// The host moves its own bodies: a ball that flies at the plant meets it as it would have.
+TEST_P(HostWorld, GoesOnAsItWasAfterItsOriginMoved) {
+    std::vector<double> places[2];
+    for (const bool moves : {false, true}) {
+        Host host(GetParam());
+        frond_world plants;
+        ASSERT_EQ(frond::attach(host.world.get(), nullptr, &plants), FROND_OK) << frond_last_error();
+        const frond_model model = make_small_model();
+        const frond_plant_def def = frond_default_plant_def();
+        frond_plant plant;
+        ASSERT_EQ(frond_plant_create(plants, model, &def, &plant), FROND_OK) << frond_last_error();
+        btTransform place = btTransform::getIdentity();
+        place.setOrigin(btVector3(btScalar(-0.5), btScalar(0.4), 0));
+        host.ball.setCenterOfMassTransform(place);
+        host.ball.setLinearVelocity(btVector3(3, 1, 0));
+        const auto step = [&](int count) {
+            for (int i = 0; i < count; i++) host.world->stepSimulation(btScalar(1.0 / 60), 1, btScalar(1.0 / 60));
+        };
+        step(5);
+        if (moves) {
+            ASSERT_EQ(frond_world_shift_origin(plants, {256, 8, -64}), FROND_OK) << frond_last_error();
+            for (btRigidBody* body : {&host.ground, &host.ball}) {
+                btTransform frame = body->getWorldTransform();
+                frame.setOrigin(frame.getOrigin() - btVector3(256, 8, -64));
+                body->setCenterOfMassTransform(frame);
+            }
+        }
+        step(25);
+        EXPECT_LT(host.ball.getLinearVelocity().x(), 2);  // it hit the plant
+        std::vector<double>& x = places[size_t(moves)];
+        x.resize(size_t(3 * frond_plant_get_node_count(plant)));
+        ASSERT_EQ(frond_plant_get_state(plant, x.data(), nullptr, int(x.size() / 3)), FROND_OK);
+        frond_world_destroy(plants);
+        frond_model_destroy(model);
+    }
+    const double way[] = {-256, -8, 64};
+    for (size_t i = 0; i < places[0].size(); i++)
+        ASSERT_NEAR(places[1][i] - way[i % 3], places[0][i], sizeof(btScalar) == 8 ? 1e-7 : 1e-3) << i;
+}
+
 TEST_P(HostWorld, StepsItsPlantsInEachSubstep) {
     Host host(GetParam());
     frond_world plants;
