@@ -61,6 +61,25 @@ TEST(Follow, ChangingMechanicsDoesNotMakeThePlantJump) {
     swing(*plant, 20);
 }
 
+// A chain holds one pinned node by a spring; a cage holds the node itself.
+TEST(Follow, APinIsHeldAfterAChangeOfMechanicsToo) {
+    for (const frond_mechanics first : {FROND_MECHANICS_ROD, FROND_MECHANICS_TET_COROTATIONAL}) {
+        const bool is_rod = first == FROND_MECHANICS_ROD;
+        const auto plant = make_plant(first);
+        const std::vector<Vec3>& nodes = plant->model->cage.nodes;
+        size_t top = 0;
+        for (size_t n = 0; n < nodes.size(); n++)
+            if (nodes[n].y() > nodes[top].y()) top = n;
+        pin_node(*plant, int(top));
+        swing(*plant, 10);
+        EXPECT_EQ(plant->pin_springs.size(), is_rod ? 1u : 0u);
+        set_mechanics(*plant, is_rod ? FROND_MECHANICS_TET_COROTATIONAL : FROND_MECHANICS_ROD);
+        swing(*plant, 10);
+        EXPECT_EQ(plant->pin_springs.size(), is_rod ? 0u : 1u);
+        EXPECT_LT((point(cage_places(*plant), int(top)) - nodes[top]).norm(), 1e-4);
+    }
+}
+
 TEST(Follow, PinsHoldCageNodesAndTheRootStaysWhereItIs) {
     const auto plant = make_plant(FROND_MECHANICS_ROD);
     const std::vector<Vec3>& nodes = plant->model->cage.nodes;

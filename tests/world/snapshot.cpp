@@ -126,6 +126,21 @@ TEST(Snapshot, FitsAnotherWorldThatWasMadeTheSameWay) {
     EXPECT_EQ(one.run(60), other.run(60));
 }
 
+TEST(Snapshot, HoldsAPinThatWasLetGoSince) {
+    Garden garden(4);
+    const frond_plant rod = garden.plants[3];  // holds one node by a spring
+    const int node = frond_plant_get_node_count(rod) - 1;
+    ASSERT_EQ(frond_plant_pin(rod, node), FROND_OK);
+    garden.run(10);
+    const std::vector<char> bytes = garden.save();
+    const std::vector<uint64_t> pinned = garden.run(30);
+    ASSERT_EQ(garden.restore(bytes), FROND_OK) << frond_last_error();
+    ASSERT_EQ(frond_plant_unpin(rod, node), FROND_OK);
+    EXPECT_NE(garden.run(30), pinned);
+    ASSERT_EQ(garden.restore(bytes), FROND_OK) << frond_last_error();
+    EXPECT_EQ(garden.run(30), pinned);
+}
+
 // Changes of velocity over such a time are beyond all rates that can be.
 TEST(Snapshot, IsTakenBackAfterAStepOfNextToNoTime) {
     Garden garden(2);

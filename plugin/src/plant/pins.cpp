@@ -81,7 +81,8 @@ static void pin_chain(Plant& plant) {
     PinGroup ground;                 // all that the model stands on
     for (size_t n = 0; n < plant.pinned.size(); n++) {
         if (!plant.pinned[n]) continue;
-        add_to_group(plant, int(n), groups[plant.anchor[n]]);
+        // What the ground does not hold was perhaps pinned while tets moved, which have no anchors.
+        add_to_group(plant, int(n), groups[plant.foot->pinned[n] ? plant.anchor[n] : plant.follow->nearest[n]]);
         if (n < plant.model->root.size() && plant.model->root[n]) add_to_group(plant, int(n), ground);
     }
     // A root that too few pinned nodes hang on stands as the ground does.
@@ -111,6 +112,7 @@ void apply_pins(Plant& plant) {
     if (plant.follow) {
         if (plant.pins_changed || !is_where_held(plant.motion)) pin_chain(plant);
     } else if (plant.pins_changed) {
+        plant.pin_springs.clear();
         plant.motion.pinned = plant.pinned;
         plant.motion.pin_target = plant.pin_target;
     }

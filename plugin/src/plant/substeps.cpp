@@ -27,8 +27,9 @@ double local_error(Plant& plant, const VecX& x, const VecX& v, double h) {
     }
     plant.trend.rate = (motion.v - v) / h;
     plant.trend.v_end = motion.v;
-    constexpr double WILD = 1e15;  // [m/s^2]: a step of next to no time tells of no trend
-    if (!(plant.trend.rate.lpNorm<Eigen::Infinity>() <= WILD)) plant.trend = {};
+    constexpr double WILD = 1e15;  // [m/s], [m/s^2]: a step of next to no time tells of no trend
+    const auto is_wild = [](const VecX& numbers) { return !(numbers.lpNorm<Eigen::Infinity>() <= WILD); };
+    if (is_wild(plant.trend.rate) || is_wild(plant.trend.v_end)) plant.trend = {};
     return 0.5 * std::sqrt(most);
 }
 

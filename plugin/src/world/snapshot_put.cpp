@@ -69,6 +69,11 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     end_modal(plant);
     set_mechanics(plant, saved.which);
     if (!saved.modal.empty()) put_modal(saved.modal.front(), plant);
+    plant.pinned = std::move(saved.pinned);
+    plant.pin_target = std::move(saved.pin_target);
+    plant.anchor = std::move(saved.anchor);
+    plant.pins_changed = true;
+    apply_pins(plant);  // for their springs; the rest is in the motion
     plant.motion = std::move(saved.motion);
     plant.trend = std::move(saved.trend);
     plant.blend_out = std::move(saved.blend_out);
@@ -77,9 +82,6 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     if (saved.has_own_elements || plant.own_elements) set_plastic(plant, saved.plastic);
     const size_t fibres = plant.fibres ? plant.fibres->list.size() : 0;
     plant.fibre_give = saved.fibre_give.size() == fibres ? std::move(saved.fibre_give) : std::vector<double>();
-    plant.pinned = std::move(saved.pinned);
-    plant.pin_target = std::move(saved.pin_target);
-    plant.anchor = std::move(saved.anchor);
     plant.pins_changed = saved.pins_changed;
     plant.pins_are_own = saved.pins_are_own;
     plant.has_user_force = saved.has_user_force;
