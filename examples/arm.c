@@ -32,7 +32,7 @@ static double length(frond_vec3 v) {
     return sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
-/* What the ground holds all plants with [N]. */
+/* Returns the force with which the ground holds all plants [N]. */
 static frond_vec3 held(const frond_plant* plants) {
     frond_vec3 sum = {0, 0, 0}, force;
     for (int i = 0; i < PLANTS; i++) {
@@ -42,7 +42,7 @@ static frond_vec3 held(const frond_plant* plants) {
     return sum;
 }
 
-/* What all links of the arm feel of plants [N]. */
+/* Returns the force of all plants on the arm's links [N]. */
 static frond_vec3 felt(frond_robot arm) {
     frond_vec3 sum = {0, 0, 0};
     frond_link_state state;

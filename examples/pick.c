@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
     snprintf(path, sizeof path, "%s/pick.webp", folder);
     check_picture(frond_film_write_webp(film, path));
 
-    /* What came off is in the hand. */
+    /* The fragment is in the hand. */
     check(frond_robot_get_link_state(hand, left, &palm));
     if (broken_at >= 0) {
         check(frond_plant_get_fragment(plant, 0, &broken));

@@ -244,7 +244,7 @@ std::string plot_of(const std::vector<PathFigures>& path, const std::string& bas
 
 void bench_field(const BenchOptions& options) {
     study::prepare_diagrams(options.out);
-    std::printf("scene field; one core unless told\n%s, %s, frond %s %s\n", study::processor_name().c_str(),
+    std::printf("scene field; one core unless stated\n%s, %s, frond %s %s\n", study::processor_name().c_str(),
                 FROND_COMPILER, frond_version_string(), FROND_COMMIT);
     std::printf("one more plant that sleeps keeps %.2f kB beyond its model\n", memory_of_sleeper(options));
     std::printf("all asleep but a path on which one walks behind a ball, median [ms]\n");

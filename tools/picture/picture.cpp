@@ -263,7 +263,7 @@ bool frond_picture_draw_box(frond_picture* picture, frond_vec3 center, frond_qua
         Frame& frame = open_frame(picture);
         const double size = std::sqrt(rotation.x * rotation.x + rotation.y * rotation.y + rotation.z * rotation.z +
                                       rotation.w * rotation.w);
-        if (!(size > 1e-6 && size < 1e6)) fail("the rotation is no quaternion; use (0, 0, 0, 1) for none");
+        if (!(size > 1e-6 && size < 1e6)) fail("the rotation is not a quaternion; use (0, 0, 0, 1) for none");
         rotation = {rotation.x / size, rotation.y / size, rotation.z / size, rotation.w / size};
         checked_point(half_extents, "the box's size");
         if (half_extents.x < 0 || half_extents.y < 0 || half_extents.z < 0)

@@ -36,7 +36,7 @@ const std::vector<Problem>& problems() {
         {"amplitude", "how much a 1 Hz mode keeps of its amplitude after 5 s without damping", "all of it",
          "share of the amplitude lost or gained [-]", MECHANICS | TIME_STEP | NEWTON, static_baseline, run_amplitude},
         {"far_amplitude", "how much of it is kept after 5 s by that beam let go from a far bend (P L^2 = 5 E I)",
-         "all of it, told by energy", "share of the amplitude lost or gained [-]", MECHANICS | TIME_STEP | NEWTON,
+         "all of it, by energy", "share of the amplitude lost or gained [-]", MECHANICS | TIME_STEP | NEWTON,
          static_baseline, run_far_amplitude},
         {"free_fall", "a stem that nothing holds falls for 1 s", "g t^2 / 2", "error of the way fallen [-]",
          MECHANICS | TIME_STEP, free_baseline, run_free_fall},

@@ -366,10 +366,10 @@ typedef struct frond_plant_def {
     frond_vec3 position;       /* of the model's origin [m] */
     frond_quat rotation;       /* need not have length one; default identity */
     frond_mechanics mechanics; /* default FROND_MECHANICS_TET_COROTATIONAL */
-    /* Of the displacements within a tet, 1 (default) or 2. Linear tets are quick and lock: one cell across and five
-     * times as long as thick bends 3 % of what it should, which a cage made by Frond is calibrated for and the caller's
-     * own tets are not. Quadratic tets have a node in the middle of each edge too and bend such cells within 5 %, with
-     * some twenty times the work a step. Cages that Frond makes are fitted to their rods anew when a plant
+    /* Order of the displacements within a tet, 1 (default) or 2. Linear tets are quick and lock: one cell across and
+     * five times as long as thick bends 3 % of what it should, which a cage made by Frond is calibrated for and the
+     * caller's own tets are not. Quadratic tets have a node in the middle of each edge too and bend such cells within 5
+     * %, with some twenty times the work a step. Cages that Frond makes are fitted to their rods anew when a plant
      * first asks for order 2, which takes some seconds. Chain mechanics move alike with both. */
     int element_order;
     frond_integrator integrator; /* default FROND_INTEGRATOR_BDF2 */
@@ -383,8 +383,8 @@ typedef struct frond_plant_def {
     /* Begins asleep, as modelled, as if it had come to rest so: a field of thousands then costs no steps until
      * something moves them. Default false. */
     bool starts_asleep;
-    /* Of Bullet's collision filter: the plant meets what has a group in its mask and has its group in the own mask,
-     * plants too. Default 1 and -1 (all). */
+    /* Bullet's collision filter: the plant collides with what has a group in its mask and has its group in the own
+     * mask, plants too. Default 1 and -1 (all). */
     int group, mask;
     void* user;          /* the caller's own, see frond_plant_get_user */
     frond_tuning tuning; /* for comparisons */

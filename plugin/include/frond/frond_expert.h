@@ -16,7 +16,7 @@ extern "C" {
 typedef struct frond_profile {
     /* All of it, then its parts in the order in which they run. */
     double ms_step, ms_collide, ms_effects, ms_assembly, ms_solve, ms_response, ms_capsules, ms_surface;
-    /* Of ms_collide, plants with plants: whose organs may meet, the spatial hash, tests and depths. */
+    /* The parts of ms_collide for plants with plants: broad phase, spatial hash, tests and depths. */
     double ms_broad, ms_hash, ms_narrow;
     /* Each effect's, by bit. Gravity, damping, friction and two-way impulses are part of what others solve: they have
      * no time of their own and are 0. Where plants are stepped by several threads the times of these add up, as those

@@ -48,7 +48,7 @@ typedef struct frond_robot_def {
     int group, mask;     /* of Bullet's collision filter, default 1 and -1 */
 } frond_robot_def;
 
-/* What does not change about a link. Strings are borrowed; they live as long as the robot. */
+/* The properties of a link that do not change. Strings are borrowed; they live as long as the robot. */
 typedef struct frond_robot_link {
     const char* name;
     const char* joint_name; /* "" of link 0 */

@@ -112,7 +112,7 @@ FROND_API void frond_fill_def(void* def, uint32_t cookie);
 
 /* ---- choices ------------------------------------------------------------------------------------------- */
 
-/* What a scene pays for. An effect runs only if its bit is set on the world AND on the plant. */
+/* The effects that a scene pays for. An effect runs only if its bit is set on the world AND on the plant. */
 #define FROND_EFFECTS(X)                                                                                            \
     X(GRAVITY, 0, "gravity")                                                                                        \
     X(DAMPING, 1, "damping")             /* mass_, stiffness_ and material_damping of the plant's def */            \
@@ -191,7 +191,7 @@ typedef enum frond_response { FROND_RESPONSES(FROND_RESPONSE_ENUM) FROND_RESPONS
 typedef enum frond_detail { FROND_DETAILS(FROND_DETAIL_ENUM) FROND_DETAIL_COUNT } frond_detail;
 #undef FROND_DETAIL_ENUM
 
-/* What happens to a plant: see frond_world_take_events. */
+/* The kinds of events of a plant: see frond_world_take_events. */
 #define FROND_EVENTS(X)                                                                                           \
     X(BROKE, "broke")             /* a capsule broke, and a fragment came off */                                  \
     X(TOUCHED, "touched")         /* a body or another plant began to push it; of two plants each has an event */ \

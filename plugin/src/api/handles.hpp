@@ -25,7 +25,7 @@ GrabSlots& grab_slots();
 RigidSlots& rigid_slots();
 BondSlots& bond_slots();
 
-// What a handle stands for; BAD_HANDLE when it stands for nothing.
+// Returns the object that a handle stands for; BAD_HANDLE if there is none.
 World& get(frond_world world);
 const std::shared_ptr<const Model> get(frond_model model);
 PlantBody& get(frond_plant plant);
@@ -33,7 +33,7 @@ GrabEntry get(frond_grab grab);
 Rigid& get(frond_rigid rigid);
 Bond& get(frond_bond bond);
 
-// Of what is about to be changed, after all that the caller gave was checked: stepped in full again.
+// Wakes a plant that is about to be changed, after all arguments were checked: it is stepped in full again.
 Plant& awaken(PlantBody& body);
 
 // Takes the handles of a plant, its grabs and its bonds back; the plant itself is the world's.

@@ -12,7 +12,7 @@ using namespace frond;
 
 namespace {
 
-// What one setting gave on a stem that sways once a second.
+// The result of one setting on a stem that sways once a second.
 struct Measured {
     frond_mechanics mechanics;
     frond_integrator integrator;

@@ -203,7 +203,7 @@ frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin, frond_ve
         check_vec(direction, "direction");
         check_range(max_distance, 1e-9, LARGEST_COORDINATE, "max_distance [m]");
         const Vec3 from = to_vec(origin), way = to_vec(direction);
-        if (!(way.norm() > 0)) fail(FROND_RESULT_BAD_ARGUMENT, "direction is zero; pass the way the ray goes");
+        if (!(way.norm() > 0)) fail(FROND_RESULT_BAD_ARGUMENT, "direction is zero; pass the direction of the ray");
         const RayHit hit = cast_ray(w, from, from + max_distance * way.normalized());
         if (!hit.body) return;
         out->plant = hit.body->handle;

@@ -16,7 +16,7 @@ std::shared_ptr<const Model> build_from_urdf(const std::string& path, const fron
 ImportOptions import_options(const frond_model_def& def);
 // How place_surface() moved a surface that was made as it stands.
 StemPlacement placement_of(const Surface& before, const Surface& after);
-// Of a model whose surface and organs stand.
+// The model has its surface and organs already.
 void find_chain(Model& model, const frond_model_def& def);
 // Cage, weight and moduli, of one whose chain stands too.
 void build_body(Model& model, const frond_model_def& def);

@@ -34,7 +34,7 @@ CageLoads cage_loads(const LoneOrgan& lone, const TetElements& elements, const M
 std::vector<Compliance> cage_compliances(const LoneOrgan& lone, const TetElements& elements, StaticStiffness& stiffness,
                                          const CageLoads& loads);
 
-// Of the edges of a cage's tets [m].
+// Returns the mean length of the edges of a cage's tets [m].
 double mean_edge(const Cage& cage);
 
 Compliance sum_of(const std::vector<Compliance>& shares);

@@ -27,7 +27,7 @@ std::vector<int> find_pieces(const Cage& cage) {
     return piece;
 }
 
-// Whether points span a triangle that fixes a body of that size.
+// Tells whether points span a triangle that fixes a body of that size.
 bool span_triangle(const std::vector<Vec3>& points, double size) {
     if (points.size() < 3) return false;
     Vec3 far = points[0];

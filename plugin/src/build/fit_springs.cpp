@@ -43,7 +43,7 @@ static std::vector<double> organ_factors(const Model& model) {
     return factors;
 }
 
-// What is wanting to both first sways together, as a factor of the moduli of organs that carry the plant.
+// The gap in both first sways together, as a factor of the moduli of organs that carry the plant.
 struct Gap {
     double error = INFINITY;  // mean of the logarithms of the frequencies' squares, rods over springs [-]
     double step = 0;          // of the logarithm of the factor [-]

@@ -18,7 +18,7 @@
 
 namespace frond {
 
-// Whether another organ grows out of an organ, one an organ.
+// Tells of each organ whether another one grows out of it.
 static std::vector<char> bearing_organs(const Model& model) {
     std::vector<char> bears(model.organs.size(), 0);
     for (const ChainNode& node : model.chain.nodes) {

@@ -14,12 +14,12 @@ struct RodSways {
 struct RodElements;
 RodSways find_sways(const Model& model, const RodElements& elements, frond_mechanics which);
 
-// What is wanting to a cage's sways.
+// The gap between the sways of a cage and of its rods.
 struct SwayGap {
     double error = 0;  // the larger one of the logarithms of the frequencies' squares, rods over cage [-]
     VecX change;  // the least one of the logarithms of the tets' moduli, in organs that carry the plant, that mends it
 };
-// Of a cage at x, whose exact stiffness is factorized; within bounds, `done` being what was changed before.
+// The cage is at x, its exact stiffness factorized; changes are within bounds, `done` are those made before.
 SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanics which, const VecX& x,
                  BlockFactor& stiffness, const std::vector<uint8_t>& still, const RodSways& rods, const VecX& done);
 

@@ -101,7 +101,7 @@ void drop_loose_tets(LoneOrgan& lone) {
     lone.firm_share = whole > 0 ? kept / whole : 0;
 }
 
-// What all organs share.
+// Data that all organs share.
 struct Tree {
     std::vector<int> parents;
     std::vector<double> borne;

@@ -15,7 +15,7 @@ struct LoneOrgan {
     std::map<int, double> borne;  // own node -> mass of what grows out of it there [kg]
     double firm_share;            // of the organ's volume: what was left, because it does not swing on a hinge [-]
 
-    // Whether there is enough of it to be bent.
+    // Tells whether there is enough of it to be bent.
     bool is_sound() const;
 };
 

@@ -18,8 +18,8 @@
 namespace frond {
 namespace {
 
-// Whether a tet that is moved at rest keeps, at each of its points, more than a third of its volume as modelled, and is
-// not drawn out.
+// Tells whether a tet that is moved at rest keeps, at each of its points, more than a third of its volume as modelled,
+// and is not drawn out.
 template <class Element>
 bool is_sound(const TetElements& elements, size_t e, const VecX& moved) {
     constexpr double LONGEST = 10;  // of an edge, over its length in the modelled shape [-]
@@ -128,7 +128,7 @@ bool balance(Search& search, double gravity) {
     return false;
 }
 
-// What came of a search for a rest shape.
+// The result of a search for a rest shape.
 struct Outcome {
     VecX rest;                   // empty unless the plant stands
     std::vector<double> shares;  // of organs in the energy of the motion in which it topples; empty unless it does

@@ -1,4 +1,4 @@
-// What the strains of moved nodes have in common, tet by tet.
+// Products of the strains of moved nodes, tet by tet.
 #pragma once
 
 #include "mechanics/tet_element.hpp"

@@ -14,7 +14,7 @@ struct Toppling {
     double overload = 0;  // how many times too heavy the body is [-]
 };
 
-// What weight takes from a body's stiffness at x: the positive one less the exact one.
+// Finds the stiffness that weight takes from a body at x: the positive one less the exact one.
 void take_by_weight(const Elements& elements, const Mechanics& row, const VecX& x, BlockMatrix& taken);
 
 // Sets the three numbers of each held node to zero.

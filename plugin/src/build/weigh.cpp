@@ -13,7 +13,7 @@ static Vec3 tet_centre(const Cage& cage, const Tet& tet) {
     return sum / 4;
 }
 
-// Of an organ's chain nodes the nearest to a place; of all nodes where it has none.
+// Finds the nearest of an organ's chain nodes to a place, or of all nodes where it has none.
 static int nearest_node(const Chain& chain, int organ, const Vec3& place) {
     int nearest = 0;
     double least = INFINITY;

@@ -1,4 +1,4 @@
-// What a plant weighs, as its tets and its chain carry it.
+// Finds a plant's weight, as its tets and its chain carry it.
 #pragma once
 
 #include "model/model.hpp"

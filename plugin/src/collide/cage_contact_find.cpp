@@ -17,7 +17,7 @@ ContactSearchPtr make_contact_search() {
     return ContactSearchPtr(new ContactSearch, [](ContactSearch* search) { delete search; });
 }
 
-// Of the tets around a node, which may be several where copies of cells overlap, the one in which it is deepest.
+// Finds the tet around a node in which it is deepest; there may be several where copies of cells overlap.
 static std::map<std::array<int, 2>, BodyPair> sort_into_pairs(const OverlapSearch& search) {
     std::map<std::array<int, 2>, BodyPair> pairs;
     const OverlapScene& scene = search.scene;

@@ -93,7 +93,7 @@ static void find_near_pieces(Collider& collider, const std::vector<Vec3>& nodes)
         for (const int a : collider.node_pieces[n])
             for (const int b : collider.node_pieces[n]) are_near(a, b);
 
-    // What overlaps at rest.
+    // Finds what overlaps at rest.
     OverlapSearch search;
     const std::vector<uint8_t> all(size_t(collider.piece_count), 1);
     find_overlaps(search, {{&collider, nodes.data(), all, true}}, HashSettings());

@@ -34,7 +34,7 @@ std::vector<WayOut> find_node_contacts(const OverlapSearch& search, const BodyPa
 void find_edge_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
                         const std::vector<WayOut>& node_ways, std::vector<CageContact>& out);
 
-// What both need of the scene.
+// Both searches need these of the scene.
 Vec3 face_normal(const OverlapScene& scene, int body, int face);
 ContactSide side_of_nodes(const Collider& collider, int body, const int* nodes, const double* weights, int count,
                           int tet);

@@ -26,7 +26,7 @@ static Vec3 edge_place(const OverlapScene& scene, int body, int edge, double alo
     return scene.place(body, ends[0]) + along * (scene.place(body, ends[1]) - scene.place(body, ends[0]));
 }
 
-// Whether the edge goes into b at an overlap, seen from its first node.
+// Tells whether the edge goes into b at an overlap, seen from its first node.
 static bool goes_in(const OverlapSearch& search, const BodyPair& pair, int edge, int overlap) {
     const OverlapScene& scene = search.scene;
     const Vec3 along = edge_place(scene, pair.a, edge, 1) - edge_place(scene, pair.a, edge, 0);
@@ -103,7 +103,7 @@ static bool make_ridge(const OverlapScene& scene, int body, int edge, Vec3& n, V
     return n.dot(scene.place(body, far_corner) - scene.place(body, ends[0])) < 0;
 }
 
-// Whether a direction across an edge points between the normals of its two faces, which form a ridge.
+// Tells whether a direction across an edge points between the normals of its two faces, which form a ridge.
 static bool is_outward(const OverlapScene& scene, int body, int edge, const Vec3& direction) {
     constexpr double ROUNDING = 0.01;
     Vec3 n, m;

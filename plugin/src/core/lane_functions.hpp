@@ -24,7 +24,7 @@ FROND_INLINE S number_of(const BitsOf<S>& bits) {
     return S(bits | EXPONENT) - BEGIN;
 }
 
-// Of normal numbers above zero, within 3e-16 of the larger of it and 1.
+// Takes normal numbers above zero; the error is within 3e-16 of the larger of the result and 1.
 template <class S>
 FROND_INLINE S logarithm(const S& x) {
     constexpr long long FRACTION = 0x000fffffffffffff, OF_ONE = 0x3ff0000000000000;

@@ -75,14 +75,14 @@ static void check_face(const char* text, long line, const ObjCounts& seen, const
             char* end;
             const long index = strtol(text, &end, 10);
             if (end == text && (field == 0 || (*text != '/' && *text != ' ' && *text != '\t' && *text)))
-                fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is no vertex of a face", line, text);
+                fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is not a vertex of a face", line, text);
             if (end != text) check_index(index, so_far[field], totals[field], names[field], line);
             text = end;
             if (*text != '/') break;
             ++text;
         }
         if (*text && *text != ' ' && *text != '\t')
-            fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is no vertex of a face", line, text);
+            fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is not a vertex of a face", line, text);
         ++corners;
     }
     if (corners == 0) fail(FROND_RESULT_FILE_FORMAT, "line %ld: the face has no vertices", line);

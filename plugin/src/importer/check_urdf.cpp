@@ -27,9 +27,8 @@ static void refuse_xacro(const XMLElement& root) {
         if (!strcmp(a->Name(), "xmlns:xacro"))
             for (const XMLElement* e = root.FirstChildElement(); e; e = e->NextSiblingElement())
                 if (!strncmp(e->Name(), "xacro:", 6))
-                    fail(FROND_RESULT_FILE_FORMAT,
-                         "line %d: <%s> is xacro, which is no URDF yet; run xacro on the file first", e->GetLineNum(),
-                         e->Name());
+                    fail(FROND_RESULT_FILE_FORMAT, "line %d: <%s> is xacro, not URDF; run xacro on the file first",
+                         e->GetLineNum(), e->Name());
 }
 
 // Capsules of a link's visuals or collisions become cylinders.

@@ -104,7 +104,7 @@ static std::string stem_of(const std::string& path, std::string& ending) {
     return name.substr(0, dot);
 }
 
-// Whether a file of that ending can be drawn.
+// Tells whether a file with that ending can be drawn.
 static bool is_drawable(const std::string& ending) {
     for (const char* known : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
         if (ending == known) return true;
@@ -167,7 +167,7 @@ static std::string squeeze(const std::string& text) {
     return out;
 }
 
-// Whether a picture's name is the other name, plain or marked as the one with the colours.
+// Tells whether a picture's name is the other name, plain or marked as the one with the colours.
 static bool is_named_after(const std::string& picture, const std::string& name) {
     if (name.empty() || picture.compare(0, name.size(), name) != 0) return false;
     const std::string rest = picture.substr(name.size());

@@ -49,7 +49,7 @@ static bool starts_with(const std::string& bytes, const char* text) {
     return bytes.compare(0, strlen(text), text) == 0;
 }
 
-// What the first bytes say, for the formats that have a mark; null if nothing.
+// Returns the format that the first bytes state, for those that have a mark; null if none.
 static const char* format_by_content(const std::string& bytes) {
     if (starts_with(bytes, "glTF")) return "GLB";
     if (starts_with(bytes, "Kaydara FBX Binary")) return "FBX";

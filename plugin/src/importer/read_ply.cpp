@@ -42,7 +42,7 @@ static PlyType type_of(const std::string& name, long line) {
                                            {"float", "float32"}, {"double", "float64"}};
     for (int i = 0; i < 8; ++i)
         if (name == NAMES[i][0] || name == NAMES[i][1]) return PlyType(i);
-    fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is no PLY type", line, name.c_str());
+    fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is not a PLY type", line, name.c_str());
 }
 
 static void read_property(std::istringstream& words, PlyHeader& header) {
@@ -70,7 +70,7 @@ static void read_format(std::istringstream& words, PlyHeader& header) {
     std::string format;
     words >> format;
     if (format != "ascii" && format != "binary_little_endian" && format != "binary_big_endian")
-        fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.30s\" is no PLY format", header.line, format.c_str());
+        fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.30s\" is not a PLY format", header.line, format.c_str());
     header.is_text = format == "ascii";
     header.is_big_endian = format == "binary_big_endian";
 }
@@ -152,7 +152,7 @@ static double read_text_value(PlyCursor& cursor, const PlyElement& element, size
     const auto result = std::from_chars(begin, end, value);
     const bool is_whole = result.ptr == end || uint8_t(*result.ptr) <= 32;
     if (result.ec == std::errc::invalid_argument || !is_whole)
-        fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is no number", cursor.line,
+        fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is not a number", cursor.line,
              std::string(begin, size_t(std::min<ptrdiff_t>(20, end - begin))).c_str());
     cursor.at = size_t(result.ptr - bytes.data());
     return value;

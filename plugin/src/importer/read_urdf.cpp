@@ -57,7 +57,7 @@ int take_mesh(Reader& reader, const std::string& reference) {
     Surface surface;
     try {
         MeshFile mesh = open_file(path);
-        if (mesh.format == FileFormat::URDF) fail(FROND_RESULT_FILE_FORMAT, "a mesh is no URDF file");
+        if (mesh.format == FileFormat::URDF) fail(FROND_RESULT_FILE_FORMAT, "a mesh is not a URDF file");
         mesh.ignores_up = true;
         check_file(mesh);
         surface = mesh.format == FileFormat::PLY ? read_ply(mesh) : read_scene(mesh);

@@ -251,7 +251,7 @@ static void append_word(std::string& out, size_t word) {
 }
 
 static void drop_extensions(Json& json) {
-    // What is dealt with is no longer required; the parser would refuse the names.
+    // Extensions that are dealt with are no longer required; the parser would refuse the names.
     json.erase("extensionsRequired");
     if (json.contains("materials") && json["materials"].is_array())
         for (Json& material : json["materials"]) {

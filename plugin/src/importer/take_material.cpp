@@ -66,7 +66,7 @@ static int take_reference(const aiScene& scene, const aiString& path, const Mesh
     return take_texture(surface, name + (path.C_Str()[0] == '*' ? path.C_Str() : ""), bytes);
 }
 
-// What the material says before it is judged.
+// The material's values before they are judged.
 struct Look {
     aiColor4D color{1, 1, 1, 1};
     bool has_color = false, has_reference = false;  // to a texture, found or not
@@ -87,7 +87,7 @@ static Look read_look(const aiScene& scene, const aiMaterial& material, const Me
         return false;
     };
     look.has_reference = take_first({aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE, aiTextureType_AMBIENT});
-    // What shines by itself and reflects nothing is drawn flat: its look is what it emits.
+    // A material that shines by itself and reflects nothing is drawn flat: its look is what it emits.
     aiColor4D emitted(0, 0, 0, 1);
     material.Get(AI_MATKEY_COLOR_EMISSIVE, emitted);
     if (!look.has_reference && look.has_color && is_black(look.color) && !is_black(emitted)) {

@@ -273,7 +273,7 @@ static double unit_of_dae(const std::string& bytes) {
     return value > 1e-20 && value < 1e20 ? value : 1;
 }
 
-// What the file declares goes to Surface::scale, up and up_declared. The matrix is what assimp has not yet applied.
+// The file's declarations go to Surface::scale, up and up_declared. The matrix is what assimp has not yet applied.
 static Mat4 frame_of(const aiScene& scene, const MeshFile& file, Surface& surface) {
     Mat4 frame = Mat4::Identity();
     surface.up_declared = true;

@@ -11,7 +11,7 @@
 
 namespace frond {
 
-// What a link's element holds.
+// The contents of a link's element.
 struct UrdfNotes {
     int line = 0;
     std::vector<bool> visual_capsules, collision_capsules;  // one a geometry: it is a capsule

@@ -29,7 +29,7 @@ std::string find_importer() {
     if (wanted && *wanted) {
         if (is_program(wanted)) return wanted;
         fail(FROND_RESULT_FILE_NOT_FOUND,
-             "the environment variable FROND_IMPORTER is \"%s\", which is no program; set it to the path of "
+             "the environment variable FROND_IMPORTER is \"%s\", which is not a program; set it to the path of "
              "frond-import, or "
              "unset it",
              wanted);

@@ -214,7 +214,7 @@ static ImportResult run_program(const std::string& path, const ImportLimits& wan
     if (stat(path.c_str(), &status) != 0) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
     if (S_ISDIR(status.st_mode))
         fail(FROND_RESULT_FILE_NOT_FOUND, "%s is a directory; give a file in it", path.c_str());
-    if (!S_ISREG(status.st_mode)) fail(FROND_RESULT_FILE_NOT_FOUND, "%s is no regular file", path.c_str());
+    if (!S_ISREG(status.st_mode)) fail(FROND_RESULT_FILE_NOT_FOUND, "%s is not a regular file", path.c_str());
     if (access(path.c_str(), R_OK) != 0) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
     if (status.st_size == 0) fail(FROND_RESULT_FILE_FORMAT, "%s: the file is empty", name.c_str());
     if (double(status.st_size) > LARGEST_FILE)

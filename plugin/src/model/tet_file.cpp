@@ -64,7 +64,7 @@ static Value text_value(TetFile& file) {
     if (result.ec == std::errc::result_out_of_range && result.ptr == end && std::is_floating_point<Value>::value)
         return word.find("e-") != std::string::npos || word.find("E-") != std::string::npos ? Value(0)
                                                                                             : Value(INFINITY);
-    if (result.ec != std::errc() || result.ptr != end) fail_at(file, "\"" + word.substr(0, 40) + "\" is no number");
+    if (result.ec != std::errc() || result.ptr != end) fail_at(file, "\"" + word.substr(0, 40) + "\" is not a number");
     return value;
 }
 
@@ -119,7 +119,7 @@ static TetFile open_tet_file(const std::string& path) {
     struct stat status;
     if (path.find('\0') != std::string::npos) fail(FROND_RESULT_FILE_NOT_FOUND, "the path has a zero byte");
     if (stat(path.c_str(), &status) != 0) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
-    if (!S_ISREG(status.st_mode)) fail(FROND_RESULT_FILE_NOT_FOUND, "%s is no regular file", path.c_str());
+    if (!S_ISREG(status.st_mode)) fail(FROND_RESULT_FILE_NOT_FOUND, "%s is not a regular file", path.c_str());
     if (status.st_size == 0) fail(FROND_RESULT_FILE_FORMAT, "%s: the file is empty", file.name.c_str());
     if (status.st_size > LARGEST_FILE)
         fail(FROND_RESULT_FILE_FORMAT, "%s: the file is larger than 1 GiB", file.name.c_str());

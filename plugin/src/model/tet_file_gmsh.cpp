@@ -65,7 +65,7 @@ static void read_format(TetFile& file, GmshReading& reading) {
     file.is_binary = true;
     const int64_t one = read_whole(file);
     file.is_binary = false;
-    if (one != 1 && one != 16777216) fail_at(file, "the byte order cannot be told");
+    if (one != 1 && one != 16777216) fail_at(file, "the byte order cannot be determined");
     reading.is_swapped = one != 1;
 }
 

@@ -75,7 +75,7 @@ static void begin_numbers(TetFile& file, const VtkReading& reading) {
 
 static size_t checked_type(TetFile& file, const std::string& type) {
     const size_t size = type_size(type);
-    if (size == 0) fail_at(file, "\"" + type.substr(0, 40) + "\" is no type of numbers");
+    if (size == 0) fail_at(file, "\"" + type.substr(0, 40) + "\" is not a type of numbers");
     return size;
 }
 

@@ -22,7 +22,7 @@ void Archive::copy(void* value, size_t size) {
 
 void Archive::check_row(int row, int rows) {
     if (row < 0 || row >= rows)
-        fail(FROND_RESULT_FILE_FORMAT, "the snapshot names a choice that there is not; it is damaged");
+        fail(FROND_RESULT_FILE_FORMAT, "the snapshot contains an unknown choice; it is damaged");
 }
 
 size_t Archive::count(size_t written, size_t least) {

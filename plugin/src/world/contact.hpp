@@ -28,11 +28,12 @@ std::vector<Contact> find_contacts(World& world, double h);
 
 // Triggers and the like push nothing; characters do though Bullet lets them through.
 bool pushes(const btCollisionObject& object);
-// Whether bodies may push it. Null: no.
+// Tells whether bodies may push it; null: no.
 bool takes_part(const World& world, const PlantBody* body);
-// Whether it has no end.
+// Tells whether it has no end.
 bool is_plane(const btCollisionObject& object);
-// Of an infinite plane with the plants that Bullet's broad phase pairs with it: its narrow phase leaves them to this.
+// Adds the contacts of an infinite plane with the plants that Bullet's broad phase pairs with it: its narrow phase
+// leaves them to this.
 void add_plane_contacts(World& world, btCollisionObject& plane, double h, std::vector<Contact>& contacts);
 
 // Between the two halves of all plants' steps: impulses for the world's contacts, of plants with bodies and with each

@@ -16,7 +16,7 @@ struct ContactIsland {
     std::vector<Bond*> bonds;
 };
 
-// Of plants that are awake.
+// Finds the islands of plants that are awake.
 std::vector<ContactIsland> find_contact_islands(World& world);
 
 }  // namespace FROND_BULLET_PRECISION

@@ -1,4 +1,4 @@
-// What a host's btIDebugDraw is shown of plants by debugDrawWorld. Bullet itself draws the capsules, as it draws any
+// Shows plants to a host's btIDebugDraw in debugDrawWorld. Bullet itself draws the capsules, as it draws any
 // shape; this adds the cages' edges (DBG_DrawWireframe) and, where plants are touched, points, normals and impulses
 // (DBG_DrawContactPoints).
 #include <LinearMath/btIDebugDraw.h>

@@ -74,13 +74,13 @@ void give(PlantBody& body, frond_detail wanted) {
     level.now = wanted;
 }
 
-// What a step of it will take in a detail [ms].
+// Estimates the time that a step of it will take in a detail [ms].
 double cost_of(const Detail& detail, const PlantBody& body, frond_detail wanted) {
     const double ms = wanted == body.level.now && body.level.ms > 0 ? double(body.level.ms) : detail.ms_of[int(wanted)];
     return ms / body.level.every;
 }
 
-// What the budget leaves of a wish; `left` is what of it is not planned yet [ms].
+// Returns the detail that the budget allows; `left` is the time that is not planned yet [ms].
 frond_detail affordable(const Detail& detail, const PlantBody& body, frond_detail wanted, double& left) {
     constexpr double KEEP = 0.7;  // of what is left, that a plant which gets more detail must find room in [-]
     for (; is_simulated(wanted); wanted = frond_detail(wanted + 1)) {

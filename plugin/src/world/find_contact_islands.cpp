@@ -13,7 +13,7 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// What moves when the object is pushed: itself, or a multi-body with all its links. Null: nothing.
+// Returns the object that moves when this one is pushed: itself, or a multi-body with all its links. Null: nothing.
 const void* pushed_with(const btCollisionObject& object) {
     if (const auto* link = btMultiBodyLinkCollider::upcast(&object)) return link->m_multiBody;
     return object.isStaticOrKinematicObject() ? nullptr : &object;

@@ -66,7 +66,7 @@ void find_contacts_anew(World& world) {
     compress_looked_at(world);
     world.own->solver.reset();
 
-    // What plants have grown in goes by those numbers.
+    // Overlaps with which plants were made are stored by those numbers.
     for (const auto& body : world.bodies) {
         if (!body->grown_in) continue;
         GrownIn kept;

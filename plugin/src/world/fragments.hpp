@@ -14,7 +14,7 @@ int break_overloaded(World& world, PlantBody& body);
 void carry_fragments(PlantBody& body);
 // The user's springs on what came off.
 void pull_fragments(PlantBody& body, double h);
-// Whether a capsule and a body do not push each other: one is a fragment of the plant that came off.
+// Tells whether a capsule and a body do not push each other: one is a fragment of the plant that came off.
 bool is_apart(const PlantBody& body, int capsule, const btCollisionObject& other);
 // Their bodies end.
 void remove_fragments(World& world, PlantBody& body);

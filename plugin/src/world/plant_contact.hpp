@@ -28,7 +28,7 @@ struct PlantContact {
 bool is_by_the_same(const PlantContact& contact);
 // Takes hold of the points on both sides as they are now.
 void take_attachments(PlantContact& contact);
-// Whether the effects that let its plants touch are on.
+// Tells whether the effects that let its plants touch are on.
 bool may_touch(const World& world, const PlantContact& contact);
 
 // Of one plant, with bodies and with plants.

@@ -136,8 +136,8 @@ void add_row(Bond& bond, double h, std::vector<Row>& rows) {
     rows.push_back(std::move(row));
 }
 
-// Whether no row would push anything: all are apart and come no nearer in the step than they may. Then nobody has to
-// know how plants answer.
+// Tells whether no row would push anything: all are apart and come no nearer in the step than they may. Then nobody has
+// to know how plants answer.
 bool all_wait(const std::vector<Row>& rows, double h) {
     const auto waits = [&](const Row& row) {
         const Touch& touch = row.touch;
@@ -212,7 +212,7 @@ const std::vector<Mat3>& compliances_of(Coupler& coupler, Sides& sides, size_t b
     return compliances = std::move(found);
 }
 
-// What the plants of a row pass on to their other rows.
+// Passes the change of a row's plants on to their other rows.
 void couple_by_plants(Coupler& coupler, int by, std::vector<Coupling>& row) {
     const Row& at = coupler.rows[size_t(by)];
     for (size_t k = 0; k < 2; k++) {

@@ -51,7 +51,7 @@ Rigid* add_rigid(World& world, const frond_rigid_def& def) {
     info.m_startWorldTransform = frame_of(def.state);
     info.m_friction = btScalar(def.friction);
     rigid->body = std::make_unique<btRigidBody>(info);
-    // What the host carries about stays awake, or Bullet would not see how fast it moves.
+    // A body that the host carries about stays awake, or Bullet would not see how fast it moves.
     if (mass == 0 && !rigid->is_plane) {
         rigid->body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
         rigid->body->setActivationState(DISABLE_DEACTIVATION);

@@ -30,7 +30,7 @@ struct RobotLink {
     double speed = 0;                                        // that the motor keeps; 0: none [rad/s], [m/s]
 };
 
-// What can be drawn of a robot, a vertex each in its link's frame.
+// The surface of a robot, each vertex in its link's frame.
 struct RobotSurface {
     std::vector<Vec3> places;  // [m]
     std::vector<int> link;     // of each place

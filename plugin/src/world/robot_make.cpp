@@ -35,7 +35,7 @@ bool drop_floating_root(UrdfTree& tree) {
         std::none_of(tree.links.begin() + 2, tree.links.end(), [](const UrdfLink& link) { return link.parent == 0; });
     if (!is_lone)
         fail(FROND_RESULT_UNSUPPORTED,
-             "a joint floats that is not the only one of a root without mass and shapes; give what floats a file of "
+             "only the one joint of a root without mass and shapes may float; give each floating part a file of "
              "its own");
     tree.links.erase(tree.links.begin());
     for (UrdfLink& link : tree.links) link.parent--;

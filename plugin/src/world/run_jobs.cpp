@@ -11,7 +11,7 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// What is thrown in a job is thrown again by the thread that waits for all.
+// An exception in a job is thrown again by the thread that waits for all.
 struct Jobs : btIParallelForBody {
     const std::function<void(size_t)>& job;
     mutable std::mutex mutex;

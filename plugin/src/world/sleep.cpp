@@ -40,7 +40,7 @@ void wake_blown(World& world) {
         if ((Vec3(air[i].x, air[i].y, air[i].z) - asked[i]->rest.air).norm() > GUST) wake(*asked[i]);
 }
 
-// What moves most is at the end.
+// It begins at the end, where points move most.
 bool are_within(const VecX& a, const VecX& b, double distance) {
     constexpr Eigen::Index MANY = 24;
     if (a.size() != b.size()) return false;

@@ -15,7 +15,7 @@ struct World;
 struct PlantBody;
 struct LastContacts;
 
-// What is known of a plant's rest.
+// The known history of a plant's rest.
 struct Rest {
     bool asleep = false;
     std::shared_ptr<const LastContacts> contacts;  // with which it sleeps; null: none
@@ -37,7 +37,7 @@ void wake_neighbours(World& world, const btCollisionObject& leaving);
 // to touch them. Contacts of plants that sleep on are taken out.
 void wake_by_world(World& world);
 void wake_touched(World& world, double h);
-// Whether a body may push what sleeps.
+// Tells whether a body may push what sleeps.
 bool is_moving(btCollisionObject& object);
 
 // After a substep: how long has the plant been still?

@@ -98,12 +98,12 @@ struct Snapshot {
     SavedTouches touches;
 };
 
-// What the world is now. Sleeping plants are looked at.
+// Describes the world as it is now. Sleeping plants are looked at.
 Snapshot take_snapshot(World& world);
 // Throws BAD_ARGUMENT or FILE_FORMAT, with nothing changed, if it does not fit the world.
 void check_snapshot(World& world, const Snapshot& snapshot);
 void put_snapshot(World& world, Snapshot snapshot);
-// Of a plant's model, place and settings.
+// Returns a hash of a plant's model, place and settings.
 uint64_t kind_of(const Plant& plant);
 
 // With a head that tells version and precision, and a checksum.

@@ -139,21 +139,21 @@ std::vector<uint8_t> bytes_of(Snapshot& snapshot) {
 Snapshot snapshot_from(const uint8_t* bytes, size_t count) {
     Head head;
     if (count < sizeof head)
-        fail(FROND_RESULT_FILE_FORMAT, "the snapshot has %zu bytes, less than its head; pass all of it", count);
+        fail(FROND_RESULT_FILE_FORMAT, "the snapshot has %zu bytes, fewer than its header; pass all of it", count);
     std::memcpy(&head, bytes, sizeof head);
     bytes += sizeof head;
     count -= sizeof head;
     if (std::memcmp(head.magic, MAGIC, sizeof MAGIC) != 0)
-        fail(FROND_RESULT_FILE_FORMAT, "this is no snapshot; pass what frond_world_save wrote");
+        fail(FROND_RESULT_FILE_FORMAT, "this is not a snapshot; pass what frond_world_save wrote");
     if (head.length != count)
-        fail(FROND_RESULT_FILE_FORMAT, "the snapshot says %llu bytes and has %zu; pass all of it and no more",
+        fail(FROND_RESULT_FILE_FORMAT, "the snapshot declares %llu bytes and has %zu; pass all of it and no more",
              static_cast<unsigned long long>(head.length), count);
     const Head own = head_of(bytes, count);
     if (std::memcmp(head.version, own.version, sizeof own.version) != 0 || head.layout != own.layout)
         fail(FROND_RESULT_FILE_FORMAT,
              "the snapshot is of another version of Frond than " FROND_VERSION_STRING "; save it anew with this one");
     if (head.precision != own.precision)
-        fail(FROND_RESULT_FILE_FORMAT, "the snapshot is of a Bullet of %u bytes a number, this one has %u",
+        fail(FROND_RESULT_FILE_FORMAT, "the snapshot was made with a Bullet of %u bytes a number, this one has %u",
              head.precision, own.precision);
     if (head.checksum != own.checksum) fail(FROND_RESULT_FILE_FORMAT, "the snapshot is damaged; its checksum differs");
     Archive archive(bytes, count);

@@ -14,7 +14,7 @@ inline namespace FROND_BULLET_PRECISION {
 namespace {
 
 [[noreturn]] void damaged(const char* what) {
-    fail(FROND_RESULT_FILE_FORMAT, "the snapshot's %s cannot be; it is damaged", what);
+    fail(FROND_RESULT_FILE_FORMAT, "the snapshot's %s is impossible; it is damaged", what);
 }
 
 void check_count(size_t saved, size_t own, const char* what) {
@@ -200,7 +200,7 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
 void check_rigid(const SavedRigid& saved, const Rigid& own) {
     if (saved.is_plane != own.is_plane || saved.is_fragment != (own.grown_on != nullptr))
         fail(FROND_RESULT_BAD_ARGUMENT,
-             "the rigid bodies are others than in the snapshot; make the same ones in the same order");
+             "the rigid bodies differ from those in the snapshot; make the same ones in the same order");
     for (const auto* frame : {&saved.frame, &saved.frame_before}) check_frame(*frame, "rigid bodies");
     for (const auto* v :
          {&saved.velocity, &saved.angular_velocity, &saved.velocity_before, &saved.angular_velocity_before})
@@ -230,7 +230,7 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
         const SavedBond& saved = snapshot.bonds[i++];
         if (saved.vertex != bond.vertex)
             fail(FROND_RESULT_BAD_ARGUMENT,
-                 "a bond holds another point than in the snapshot; make the same bonds in the same order");
+                 "a bond holds a different point from that in the snapshot; make the same bonds in the same order");
         check_numbers(saved.impulse, "bonds");
         if (!(saved.length > 0 && saved.length <= MOST)) damaged("bonds");
     }

@@ -21,7 +21,7 @@ Vec3 gravity_of(const World& world) {
     return from_bullet(world.bullet->getGravity());
 }
 
-// What was done for an effect, and the time it took [ms].
+// Records what was done for an effect, and the time it took [ms].
 static void add_effect(World& world, frond_effects effect, double ms) {
     world.report.effects_run |= effect;
     size_t bit = 0;
@@ -140,8 +140,8 @@ void mark_touched(World& world) {
         if (body->plant->is_touched || body->plant->has_user_force) body->level.is_due = true;
 }
 
-// What remains of a step when nothing pushes the plants any more, of one or of those that went abreast; plants that may
-// break move their capsules later.
+// Takes the rest of a step when nothing pushes the plants any more, of one or of those that went abreast; plants that
+// may break move their capsules later.
 void finish(const World& world, PlantBody* const* bodies, int count, const Surroundings& surroundings) {
     constexpr double LATELY = 0.3;
     for (int i = 0; i < count; i++) {
@@ -204,7 +204,7 @@ void run_job(const World& world, const StepJob& job, const Surroundings& surroun
     finish(world, job.bodies.data(), job.count, surroundings);
 }
 
-// Whether a plant can be stepped with those of a job.
+// Tells whether a plant can be stepped with those of a job.
 bool goes_with(const StepJob& job, const PlantBody& body) {
     return job.bodies[0]->level.pending == body.level.pending && go_alike(*job.bodies[0]->plant, *body.plant);
 }
@@ -237,7 +237,7 @@ std::vector<StepJob> share_out(const World& world, const Surroundings& surroundi
     return jobs;
 }
 
-// What has to be done by one thread, plant by plant.
+// Does what has to be done by one thread, plant by plant.
 void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
     frond_report& report = world.report;
     report.detail_count[body.level.now]++;
