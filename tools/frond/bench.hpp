@@ -1,4 +1,4 @@
-// What frond bench is asked for.
+// Options of frond bench.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ void bench_kinds();
 void bench_effects(const BenchOptions& options);
 void bench_guard();
 void step_for_guard();  // for valgrind to count
-// What the latter has counted.
+// Takes the steps that the latter counts.
 void step_all_effects();
 
 double now();  // [ms]

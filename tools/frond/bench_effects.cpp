@@ -67,7 +67,7 @@ const std::vector<Row>& rows() {
     return table;
 }
 
-// What callgrind counts is the last step of some.
+// Callgrind counts the last step of some.
 void step_in_callgrind(const Case& c, frond_model model, const std::string& name) {
     constexpr int WARM_UP = 3;
     frond_world world = {};
@@ -101,7 +101,7 @@ void step_in_callgrind(const Case& c, frond_model model, const std::string& name
     frond_world_destroy(world);
 }
 
-// What a part of callgrind's output says.
+// Reads a part of callgrind's output.
 struct Counted {
     double instructions = 0;
     bool collides = false;  // code that looks for touches of plants ran

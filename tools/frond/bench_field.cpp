@@ -21,7 +21,7 @@ double now() {
 
 namespace {
 
-// What the process has allocated [kB].
+// Returns how much the process has allocated [kB].
 double memory() {
     const struct mallinfo2 info = mallinfo2();
     return double(info.uordblks + info.hblkhd) / 1024;

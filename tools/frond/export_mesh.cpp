@@ -27,7 +27,7 @@ void close(std::ofstream& file, const std::string& path) {
 
 namespace {
 
-// What assimp calls the format of a file name's ending.
+// Returns assimp's name of the format with a file name's ending.
 const char* format_of(const std::string& path) {
     static const std::map<std::string, const char*> FORMATS = {
         {".gltf", "gltf2"}, {".glb", "glb2"}, {".obj", "obj"}, {".ply", "plyb"}};

@@ -1,4 +1,4 @@
-// Of measured numbers, how large a share of them is.
+// Returns the value below which a share of the measured numbers lies.
 #pragma once
 
 #include <algorithm>

@@ -22,7 +22,7 @@ struct RunOptions {
     View view;
 };
 
-// What a run was like: kept for every step, reduced at the end.
+// The measurements of a run: kept for every step, reduced at the end.
 struct Record {
     std::vector<frond_report> reports;
     std::vector<frond_profile> profiles;
@@ -182,7 +182,7 @@ nlohmann::ordered_json play_once(const RunOptions& options, const Casting& casti
         play.step();
         if (film && i % options.every == 0) film->add(*studio, play.stage);
 
-        // What a game does each frame: take the surface of every plant that it draws.
+        // Does what a game does each frame: takes the surface of every plant that it draws.
         for (size_t k = 0; k < play.stage.plants.size(); k++) {
             frond_surface_view view;
             if (play.stage.sees(k)) must(frond_plant_get_surface(play.stage.plants[k], &view));

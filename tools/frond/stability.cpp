@@ -100,7 +100,7 @@ void add_stability(CLI::App& app) {
     CLI::Option* bullet =
         command->add_flag("--bullet", options->bullet,
                           "Bullet's own soft bodies in the cases that they can be put through, beside Frond");
-    // What would have no effect beside another one is told rather than ignored.
+    // An option that has no effect beside another one is an error rather than ignored.
     integrator->excludes(quick, of_default);
     for (CLI::Option* option : {names, mechanics, integrator, of_default, json, html}) option->excludes(list, bullet);
     list->excludes(quick, bullet);

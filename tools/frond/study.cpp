@@ -18,7 +18,7 @@ struct StudyOptions {
     bool quick = false;
 };
 
-// What was asked for, in the order of the tables for "all".
+// The requested problems, in the order of the tables for "all".
 struct Chosen {
     std::vector<const study::Problem*> problems;
     std::vector<const study::FigureRow*> figures;

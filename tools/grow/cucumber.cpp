@@ -11,7 +11,7 @@ namespace {
 constexpr int VERTICES = 22004, TRIANGLES = 30244;
 constexpr int NODES = 20;
 
-// What grows at each node, from the ground up. Lengths in metres, angles in degrees.
+// The organs at each node, from the ground up. Lengths in metres, angles in degrees.
 struct Node {
     double petiole;  // its length
     double blade;    // from petiole to tip

@@ -33,7 +33,7 @@ TubeMesh add_cucumber_fruit(GrownPlant& plant, const CucumberFruit& fruit, Rando
 // Five petals and a throat about an axis.
 void add_cucumber_flower(GrownPlant& plant, Vec center, Vec axis, double size, Random random);
 
-// What the stem climbs. Lengths in metres.
+// The stake that the stem climbs. Lengths in metres.
 struct CucumberStake {
     Vec foot;                  // where it comes out of the ground
     double top;                // its height

@@ -43,7 +43,7 @@ struct GrownPlant {
     std::vector<GrownImage> images;
 };
 
-// What can be set about a kind. Changing a value moves vertices; only that of `leaves` changes how many there are.
+// The settings of a kind. Changing a value moves vertices; only that of `leaves` changes how many there are.
 struct GrownParameter {
     const char* name;
     double value;  // default

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double STEP = 1.0 / 60;  // [s]
 
-// What the kernels of one plant with one mechanics share: places as modelled, forces, and M + h^2 K.
+// Data that the kernels of one plant with one mechanics share: places as modelled, forces, and M + h^2 K.
 struct Body {
     std::shared_ptr<const Model> model;
     const Mechanics& row;

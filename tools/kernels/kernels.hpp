@@ -15,19 +15,19 @@ struct Kernel {
 };
 std::vector<Kernel> make_kernels();
 
-// What one run of a kernel does.
+// The work of one run of a kernel.
 struct Work {
     double instructions = 0;
     double flops = 0;  // additions, subtractions, products, quotients and roots
     double bytes = 0;  // read and written, in whichever cache
 };
-// Of each kernel, by its name: this program runs itself in valgrind's callgrind, and objdump tells what each
-// instruction is. Empty if one of them is missing.
+// Counts the work of each kernel, by its name: this program runs itself in valgrind's callgrind, and objdump tells what
+// each instruction is. Empty if one of them is missing.
 std::map<std::string, Work> count_work();
-// What callgrind sees.
+// Runs the kernels for callgrind to count.
 void run_to_be_counted(const std::vector<Kernel>& kernels);
 
-// Of one core, measured; all in a second.
+// The measured limits of one core; all in a second.
 struct Ceilings {
     double products_and_sums;  // four lanes, each rounded by itself, as Frond has them [flop/s]
     double fused;              // the same as fused products, which Frond does without [flop/s]

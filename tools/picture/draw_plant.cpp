@@ -17,7 +17,7 @@ bool is_thin(const char* kind) {
 void draw_surface(frond_picture* picture, frond_plant plant, frond_model model, const frond_model_info& info) {
     frond_surface_view view;
     require(frond_plant_get_surface(plant, &view), "the plant's surface");
-    // What cannot be decoded is left away; the base colour stays.
+    // A texture that cannot be decoded is left out; the base colour stays.
     std::vector<int> textures(size_t(info.texture_count), -1);
     for (int i = 0; i < info.texture_count; i++) {
         frond_texture_view texture;

@@ -61,7 +61,7 @@ frond_picture_scene frond_default_picture_scene(void) {
 
 frond_picture_camera frond_picture_frame(frond_vec3 lower, frond_vec3 upper, frond_vec3 up, double azimuth,
                                          double elevation, double aspect) {
-    // What makes no sense becomes the unit box seen in the default way.
+    // Bounds that make no sense become the unit box seen in the default way.
     const bool sound = drawable(lower) && drawable(upper) && lower.x <= upper.x && lower.y <= upper.y &&
                        lower.z <= upper.z && aspect >= 1e-3 && aspect <= 1e3 && std::isfinite(azimuth) &&
                        std::isfinite(elevation);

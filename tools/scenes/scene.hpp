@@ -63,7 +63,7 @@ private:
     std::unique_ptr<Work> work;
 };
 
-// What is on the stage while a scene runs.
+// The objects on the stage while a scene runs.
 struct Stage {
     Settings settings;
     std::unique_ptr<Team> team;  // null with one thread
@@ -95,7 +95,7 @@ struct Stage {
     // Turned about its own height by `turn` [rad].
     frond_plant plant(frond_model model, frond_vec3 position, double turn = 0);
     frond_rigid rigid(const frond_rigid_def& def);
-    // Whether a plant stands in view, or somewhat beside it.
+    // Tells whether a plant stands in view, or somewhat beside it.
     bool sees(size_t plant) const;
 };
 
@@ -109,7 +109,7 @@ struct Scene {
     const char* without = nullptr;  // a setting with which it is played, and pictured, for comparison
 };
 const std::vector<Scene>& scenes();
-// Of the scene `field`.
+// The settings of the scene `field`.
 void field_defaults(Settings& settings);
 void build_field(Stage& stage);
 void drive_field(Stage& stage);

@@ -392,7 +392,7 @@ void build_wind(Stage& stage) {
 
 }  // namespace
 
-// Of the chain's nodes near that height, the one that carries most others.
+// Finds among the chain's nodes near that height the one that carries most others.
 double contact_depth(frond_plant plant, double above) {
     std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
     must(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())));

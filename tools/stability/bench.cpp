@@ -16,7 +16,7 @@ Bench::Bench(const Cell& cell)
     world_def.max_substep = cell.dt;
     plant_def.mechanics = cell.mechanics;
     plant_def.integrator = cell.integrator;
-    // What is bent far is to come back.
+    // A plant that is bent far is to come back.
     plant_def.effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
 }
 

@@ -1,4 +1,4 @@
-// What a method cannot pass, with the reason in a line.
+// The cases that a method cannot pass, with the reason in a line.
 #include "stability/stability.hpp"
 
 namespace frond::stability {

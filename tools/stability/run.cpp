@@ -22,7 +22,7 @@ double cpu_seconds() {
     return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-// What a child tells, and then the text.
+// The head of a child's report; the text follows.
 struct Head {
     Color color;
     uint32_t trouble;

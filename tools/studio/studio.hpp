@@ -9,7 +9,7 @@
 
 namespace frond::tools {
 
-// What the user asked a picture to be.
+// The user's settings of a picture.
 struct View {
     int width = 1280, height = 720;
     double azimuth = 0.5, elevation = 0.15;  // [rad]

@@ -54,7 +54,7 @@ private:
     std::array<std::array<double, 3>, 3> normal = {};
 };
 
-// What a mode did after it was let go: its share in x and all energy at every step, the first at time zero.
+// The motion of a mode after its release: its share in x and all energy at every step, the first at time zero.
 struct Record {
     std::vector<double> share, energy;
     double dt;

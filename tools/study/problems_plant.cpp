@@ -78,7 +78,7 @@ double farthest_vertex(const Shape& a, const Shape& b) {
     return most;
 }
 
-// What a plant comes to rest at, as numbers to compare.
+// The shape in which a plant comes to rest, as numbers to compare.
 using AtRest = std::function<std::vector<double>(const Setup& setup)>;
 
 // Rods have no cage to lock, so they are the reference where there are any; else the default mechanics.

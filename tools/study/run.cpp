@@ -62,7 +62,7 @@ struct Warnings {
 };
 thread_local Warnings* Warnings::current = nullptr;
 
-// What is to be run of a problem.
+// The runs of a problem that are to be done.
 struct Plan {
     const Problem* problem;
     std::vector<Sweep> sweeps;

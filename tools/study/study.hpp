@@ -17,7 +17,7 @@ using tools::SceneError;
 // How much is done: what a test has time for, what a coffee break has, all of it.
 enum class Effort { TINY, QUICK, FULL };
 
-// What is simulated.
+// The simulated body.
 enum class Body {
     MESH,  // a square beam of structured tets of our own, simulated as they are
     STEM,  // a round stem, in Frond's calibrated cage or on its chain
@@ -38,7 +38,7 @@ struct Setup {
     double dt = 1.0 / 60;  // [s]
     frond_plant_def plant = elastic_plant_def();
 };
-// Whether the chain moves and the cage follows.
+// Tells whether the chain moves and the cage follows.
 bool moves_chain(frond_mechanics mechanics);
 // "tet_corotational, stem, 10, 1/60 s, bdf2 ..." of what differs from `baseline`; "baseline" if nothing does.
 std::string difference(const Setup& setup, const Setup& baseline);
@@ -53,7 +53,7 @@ struct Value {
     double measured, known;
 };
 
-// What a run of a problem gave.
+// The result of a run of a problem.
 struct Outcome {
     double error = 0;           // as the problem defines it
     double cpu_per_second = 0;  // CPU seconds per simulated second at the setup's time step
@@ -64,7 +64,7 @@ struct Outcome {
 
 class Model;
 
-// What problems share while a study runs: how much to do, and converged references.
+// Data that problems share while a study runs: how much to do, and converged references.
 struct Session {
     Effort effort = Effort::QUICK;
     std::vector<std::string> notes;  // sentences for the report, such as how well a reference converged
@@ -72,7 +72,7 @@ struct Session {
     std::map<std::string, std::shared_ptr<const Model>> models;
 };
 
-// What a problem is run over.
+// The axes that a problem is run over.
 enum Axis : unsigned {
     MECHANICS = 1,
     RESOLUTION = 2,  // with element order and body

@@ -24,7 +24,7 @@ std::vector<double> time_steps(Effort effort) {
                       {1.0 / 15, 1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480});
 }
 
-// What is solved directly has none.
+// A direct solver has none.
 std::vector<double> tolerances(int linear_solver, Effort effort) {
     if (linear_solver == FROND_LINEAR_SOLVER_DIRECT) return {1e-4};
     return by<double>(effort, {1e-4}, {1e-4}, {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8});

@@ -21,7 +21,7 @@ struct Beam {
     static constexpr double LENGTH = 1;  // [m]
     static constexpr double DRAG = 1.2;  // coefficient in air [-]
 };
-// What other programs were tried on: 0.1 m wide, 10 MPa, 800 kg/m^3, in 1170 or 20090 tets.
+// The beam that other programs were tried on: 0.1 m wide, 10 MPa, 800 kg/m^3, in 1170 or 20090 tets.
 Beam peers_beam();
 // Of the section that a body gives it.
 double area_of(const Beam& beam, Body body);

@@ -74,7 +74,7 @@ static frond_effects effects_of(const PlantBody& body) {
     return body.plant->effects & body.world->effects;
 }
 
-// Of one plant, as it feels them.
+// The contacts of one plant, with the signs that it feels.
 static std::vector<frond_contact> contacts_of(const PlantBody& body) {
     std::vector<frond_contact> out;
     const LastContacts* kept = body.rest.contacts.get();

@@ -80,7 +80,7 @@ frond_joint kind_of(UrdfJoint joint) {
     }
 }
 
-// What plants do to a link: of those that sleep, what they did when they fell asleep.
+// Sums the forces of plants on a link: plants that sleep count with those when they fell asleep.
 void add_contacts(const Robot& robot, size_t link, frond_link_state& state) {
     const World& world = *robot.world;
     const btCollisionObject* collider = robot.links[link].collider.get();

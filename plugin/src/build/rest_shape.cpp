@@ -87,7 +87,7 @@ struct Search {
     }
 };
 
-// Of the node that moves farthest; -1 if none moves.
+// Returns the node that moves farthest; -1 if none moves.
 int organ_of_largest(const Model& model, const TetElements& elements, const VecX& move) {
     int node = 0;
     for (int i = 1; i < move.size() / 3; i++)

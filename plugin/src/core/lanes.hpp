@@ -84,7 +84,7 @@ template <class S, class = std::enable_if_t<!std::is_arithmetic_v<S>>>
 FROND_INLINE void set_lane(S& a, int lane, double value) {
     a[lane] = value;
 }
-// Of what a comparison gives.
+// Returns one lane of the result of a comparison.
 FROND_INLINE bool lane_of(int mask, int) {
     return mask != 0;
 }

@@ -28,7 +28,7 @@ struct AttachmentDerivative {
 AttachmentDerivative derivative_at(const Attachment& attachment, const VecX& x);
 Vec3 attachment_place(const Attachment& attachment, const VecX& x);
 Vec3 attachment_velocity(const Attachment& attachment, const VecX& x, const VecX& v);
-// What a force at the point [N] is for the nodes.
+// Distributes a force at the point [N] over the nodes.
 void add_attachment_force(const Attachment& attachment, const VecX& x, const Vec3& force, VecX& f);
 // Adds J^T B J, J the derivative of the point by the nodes at x, B symmetric [N/m] or [N s/m].
 void add_attachment_block(const Attachment& attachment, const VecX& x, const Mat3& block, BlockMatrix& A);

@@ -1,4 +1,4 @@
-// What rows of BatchMechanics have in common.
+// Parts that rows of BatchMechanics share.
 #pragma once
 
 #include <algorithm>

@@ -36,7 +36,7 @@ struct FourPoints {
                 of_tets(elements.lambda),
                 of_tets(elements.mu)};
     }
-    // Of what is given at nodes, the differences from the first corner as points see it, as columns.
+    // Takes values at nodes; gives the differences from the first corner as points see it, as columns.
     FROND_INLINE Lanes33<S> edges(const double* x) const {
         const QuadraticTet& nodes = elements.nodes.of_tet[tet];
         Lanes33<S> out;

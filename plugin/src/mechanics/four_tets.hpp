@@ -42,7 +42,7 @@ struct FourTets {
     FROND_INLINE TetShareLanes<S> share() const {
         return {at_rest(), of_tets(elements.volume), of_tets(elements.lambda), of_tets(elements.mu)};
     }
-    // Of what is given at nodes, the differences from the first corner, as columns.
+    // Takes values at nodes; gives the differences from the first corner, as columns.
     FROND_INLINE Lanes33<S> edges(const double* x) const {
         Lanes33<S> out;
         for (int r = 0; r < 3; ++r) {

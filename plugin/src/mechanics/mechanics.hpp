@@ -12,7 +12,7 @@
 
 namespace frond {
 
-// What a mechanics needs at rest; read-only, shared by all plants of a model. Its nodes are blocks of three numbers of
+// The rest data of a mechanics; read-only, shared by all plants of a model. Its nodes are blocks of three numbers of
 // x: places or, where a mechanics says so, rotation vectors.
 struct Elements {
     int node_count = 0;
@@ -33,7 +33,7 @@ protected:
     Elements& operator=(Elements&&) = default;
 };
 
-// What of the deformation at a point of integration is lasting: F = F_e F_p.
+// The plastic part of the deformation at a point of integration: F = F_e F_p.
 struct TetPlastic {
     Mat3 rest_inverse;  // the tet's, times F_p^-1 [1/m]
     Mat3 inverse;       // F_p^-1, of determinant one
@@ -74,7 +74,7 @@ struct Masses {
 // Which derivative of the force: the exact one, or one that is always positive semi-definite.
 enum class Tangent { exact, positive };
 
-// What one solve knows of the end of a step.
+// The data of one solve about the end of a step.
 struct Ahead {
     const double *way, *v;                       // numbers as x: from there to where v leads [m], and v [m/s]
     double step;                                 // [s]
@@ -82,7 +82,7 @@ struct Ahead {
     const std::vector<double>& element_damping;  // and beside that of each; empty: none [s]
 };
 
-// What can be worked out for several plants abreast: each number of a vector or a matrix is there once a lane
+// The functions that work on several plants as a batch: each number of a vector or a matrix is there once a lane
 // (core/lanes.hpp), and comes out as if its plant were alone.
 struct BatchMechanics {
     // As in Mechanics.
@@ -120,8 +120,8 @@ struct Mechanics {
     // Rotary inertia of each pair of nodes, place and rotation, by the rate of the rotation vector at x [kg m^2]; null
     // where no node turns.
     void (*rotary_inertia)(const Elements& elements, const VecX& x, std::vector<Mat3>& out);
-    // Whether all elements are strained and turned little on the way, so that forces and stiffness at `to` are worth
-    // taking for a step that begins at `from`.
+    // Tells whether all elements are strained and turned little on the way, so that forces and stiffness at `to` are
+    // worth taking for a step that begins at `from`.
     bool (*is_calm)(const Elements& elements, const VecX& from, const VecX& to);
     // Derivative of a tet's forces on its n nodes by their places at rest [N/m]: of the force on a by a move of b at
     // [n a + b], nodes in the order of element_nodes(). Null where the rest shape is known without it.
@@ -130,7 +130,8 @@ struct Mechanics {
     bool (*yields)(const Elements& elements, const VecX& x);
     // For a plant of its own that has yielded.
     std::unique_ptr<Elements> (*copy)(const Elements& elements);
-    // What of such a copy's deformation at x becomes lasting within h [s]. Elastic energy does not grow by it.
+    // Makes plastic the part of such a copy's deformation at x that yields or creeps within h [s]. Elastic energy does
+    // not grow by it.
     void (*flow)(Elements& own, const VecX& x, double h);
     // All that is lasting, in numbers; set throws BAD_ARGUMENT, with nothing changed, for what get cannot have given.
     std::vector<double> (*get_plastic)(const Elements& own);

@@ -7,7 +7,7 @@
 
 namespace frond {
 
-// Of a solid round section, with c = 1/k the radius of the elastic core over the section's.
+// The limit of a solid round section, with c = 1/k the radius of the elastic core over the section's.
 static double round_limit(double k) {
     if (k <= 1) return k;
     const double c = 1 / k;

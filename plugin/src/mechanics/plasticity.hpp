@@ -19,16 +19,16 @@ struct Yield {
     bool flat = false;  // a sheet
 };
 
-// What a section bears bent by k times the curvature of its first yield, over what it bore then: from k below 1, to 1.5
-// of a sheet and 1.70 of a solid round one.
+// The moment of a section bent by k times the curvature of its first yield, over the moment then: from k below 1,
+// to 1.5 of a sheet and 1.70 of a solid round one.
 double section_limit(const Yield& yield, double k);
 
-// Of an element with elastic strain `strain` [-] after a time h [s]: the share of it that stays elastic, 0 .. 1, and
+// For an element with elastic strain `strain` [-] after a time h [s]: the share of it that stays elastic, 0 .. 1, and
 // `hardening` brought up to date, which is the lasting strain in sum over yield.strain. `bending` is the share of the
 // strain that is from bending; what is from pulling has no core that could stay elastic.
 double elastic_share(const Yield& yield, double strain, double bending, double h, double& hardening);
 
-// Of an organ's material and kind; strain as the material's.
+// The limits follow from an organ's material and kind; strain is measured as the material's.
 Yield yield_of(const Model& model, int organ);
 // A plant stands on its materials, whatever they are: no element yields with less than 1.5 times the strain that it
 // stands with.

@@ -14,7 +14,7 @@ struct Part {
 };
 using Parts = std::array<Part, 2>;
 
-// Of a corner the second part is not used.
+// For a corner the second part is not used.
 constexpr std::array<Parts, 10> parts_at(int q) {
     using Element = QuadraticTetElement;
     std::array<Parts, 10> out = {};

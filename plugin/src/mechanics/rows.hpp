@@ -1,4 +1,4 @@
-// What makes the rows in mechanics.cpp.
+// Functions that make the rows in mechanics.cpp.
 #pragma once
 
 #include "mechanics/mechanics.hpp"
@@ -10,7 +10,7 @@ Mechanics tet_linear(int order);
 Mechanics tet_corotational(int order);
 Mechanics tet_neohookean(int order);
 
-// What they have in common.
+// Parts that they share.
 template <int ORDER>
 std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which);
 Masses tet_masses(const Elements&, frond_mass mass);

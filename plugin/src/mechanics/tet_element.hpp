@@ -29,12 +29,12 @@ double lumped_share(int order, size_t node);
 // Derivative of a tet's volume at rest by the places of its nodes [m^2].
 void volume_slopes(const TetElements& elements, size_t e, std::vector<Vec3>& out);
 
-// What every row of the tets is given.
+// The data that every row of the tets gets.
 inline const TetElements& as_tets(const Elements& elements) {
     return static_cast<const TetElements&>(elements);
 }
 
-// What a material is given: the share of a tet that one point of integration stands for.
+// The data that a material gets: the share of a tet that one point of integration stands for.
 struct TetShare {
     const Mat3& rest_inverse;
     double volume, lambda, mu;

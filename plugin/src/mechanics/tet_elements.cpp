@@ -162,13 +162,14 @@ double lumped_share(int order, size_t node) {
     return node < 4 ? 1.0 / 36 : 4.0 / 27;
 }
 
-// Of linear tets, lumped: a quarter to each node. Consistent: the shape functions' own products, (1 + delta) / 20.
+// Masses of linear tets, lumped: a quarter to each node. Consistent: the shape functions' own products, (1 + delta)
+// / 20.
 static double linear_share(size_t a, size_t b, bool lumped) {
     if (lumped) return a == b ? lumped_share(1, a) : 0.0;
     return a == b ? 1.0 / 10 : 1.0 / 20;
 }
 
-// Of quadratic tets, consistent: products of the shape functions, which depend on what the nodes have in common.
+// Masses of quadratic tets, consistent: products of the shape functions, which depend on what the nodes have in common.
 // Lumped: the diagonal of that, scaled to the tet's mass (Hinton, Rock, Zienkiewicz 1976, "A note on mass lumping and
 // related processes"), since sums of rows are negative at corners.
 static double quadratic_share(size_t a, size_t b, bool lumped) {

@@ -13,7 +13,7 @@
 
 namespace frond {
 
-// What one pass over the tets adds up; what is null is left out.
+// The sums that one pass over the tets makes; those that are null are left out.
 template <class Law, class Group>
 struct TetPass {
     const TetElements& elements;

@@ -6,7 +6,8 @@
 
 namespace frond {
 
-// Whether some tet may be strained or turned on the way by more than tets that are calm; and whether one may yield.
+// Tells whether some tet may be strained or turned on the way by more than tets that are calm; and whether one may
+// yield.
 bool any_tet_is_wild(const Elements& elements, const VecX& from, const VecX& to);
 bool any_tet_may_yield(const Elements& elements, const VecX& x);
 // The same of several plants, a bit each: BatchMechanics.

@@ -78,7 +78,7 @@ FROND_INLINE Frame<S> principal_frame(const Lanes33<S>& F) {
     out.U.r[1] = select(c11 == smallest, sign1, one) * out.U.r[1];
     out.U.r[2] = select((c00 == smallest) | (c11 == smallest), one, turned) * out.U.r[2];
     const S c_most = select(c00 > c11, c00, c11), largest = select(c22 > c_most, c22, c_most);
-    // What is not finite stays so, and no solver is asked for it.
+    // Numbers that are not finite stay so, and no solver gets them.
     const auto is_flat = !(smallest > FLAT * largest);
     if (any(is_flat))
         for (int lane = 0; lane < LANES<S>; ++lane) {
@@ -127,7 +127,7 @@ struct Neohookean {
         return {F, cof, dot(F, F), dot(F.r[0], cof.r[0])};
     }
 
-    // What stress and stiffness are made of.
+    // The terms that stress and stiffness are made of.
     template <class S>
     struct Slopes {
         S m, l;     // the material's own constants [Pa]

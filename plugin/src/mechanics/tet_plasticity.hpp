@@ -1,4 +1,4 @@
-// What the plasticity of tets shares between materials.
+// The plasticity of tets, as far as materials share it.
 #pragma once
 
 #include "mechanics/tet_element.hpp"
@@ -14,7 +14,7 @@ struct Strained {
 // Nearly the same by Green's strain, for strains that are small; without a rotation, and of any F.
 double green_strain(const TetShare& share, const Mat3& F);
 Strained strained_at(const TetShare& share, const Mat3& F);
-// Whether that strain is beyond `most`, which is never where `most` is zero. Most tets are told without a rotation.
+// Tells whether that strain is beyond `most`, never where `most` is zero. Most tets need no rotation for it.
 bool exceeds(const TetShare& share, const Mat3& F, double most, Strained& out);
 // Up to which square of its deviator, of Green's strain, a tet is far from its yield; infinite where it has none.
 double green_square_allowed(const TetElements& elements, size_t e);
