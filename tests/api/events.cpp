@@ -1,4 +1,4 @@
-// What happened to plants, in one list.
+// Events of plants, in one list.
 #include <algorithm>
 #include <cstring>
 #include <vector>
@@ -127,7 +127,7 @@ TEST(Events, OfTwoPlantsThatTouchEachHasOne) {
     }
     EXPECT_TRUE(first);
     EXPECT_TRUE(second);
-    // What happened to a plant goes with it.
+    // A plant's events end with it.
     ASSERT_EQ(frond_plant_break(other, 0), FROND_OK);
     EXPECT_EQ(frond_world_get_event_count(small.world), 1);
     frond_plant_destroy(other);

@@ -21,7 +21,7 @@ bool look(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
     return static_cast<Touch*>(data)->found;
 }
 
-// Whether a hand of 3 cm can go straight from one place to another.
+// Tells whether a hand of 3 cm can go straight from one place to another.
 bool is_free(fcl::BroadPhaseCollisionManagerd& manager, const fcl::Vector3d& from, const fcl::Vector3d& to) {
     fcl::CollisionObjectd hand(std::make_shared<fcl::Sphered>(0.03));
     for (int i = 0; i <= 100; i++) {

@@ -244,7 +244,7 @@ TEST(Place, ADefIsThatOfThePlantAsItIsSet) {
     EXPECT_EQ(now.group, def.group);
     EXPECT_EQ(now.mask, def.mask);
     EXPECT_EQ(now.user, def.user);
-    // What was set since counts.
+    // The def has what was set since.
     ASSERT_EQ(frond_plant_set_mechanics(small.plant, FROND_MECHANICS_TET_LINEAR), FROND_OK);
     ASSERT_EQ(frond_plant_set_integrator(small.plant, FROND_INTEGRATOR_BDF2), FROND_OK);
     ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_EFFECT_DEFAULT), FROND_OK);
@@ -362,7 +362,7 @@ TEST(Place, MotionVectorsReachFromTheFrameBefore) {
     ASSERT_EQ(frond_world_set_interpolation(small.world, 1), FROND_OK);
     EXPECT_EQ(surface_of(small.plant), last);
     EXPECT_EQ(surface_before(small.plant, last.size()), between);
-    // What is put elsewhere leaves no streak.
+    // A plant that is put elsewhere leaves no streak.
     ASSERT_EQ(frond_plant_set_transform(small.plant, {9, 0, 0}, {0, 0, 0, 1}), FROND_OK);
     const std::vector<float> elsewhere = surface_of(small.plant);
     EXPECT_EQ(surface_before(small.plant, elsewhere.size()), elsewhere);

@@ -1,4 +1,4 @@
-// What the cage weighs and what the chain carries: organ by organ the same, in every mechanics.
+// The cage weighs what the chain carries: organ by organ the same, in every mechanics.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -17,14 +17,14 @@ struct BlockOnSlab {
     BlockOnSlab() { block.move(Vec3(0.15, 0.1 - IN, 0.15)); }
     std::vector<CollisionBody> bodies() const { return {block.body(), slab.body()}; }
     bool follow(CageContact& contact) const { return follow_contact(block.body(), slab.body(), REACH, contact); }
-    // Of a corner of the block, as the search finds it.
+    // The contact of a corner of the block, as the search finds it.
     CageContact corner() const {
         for (const CageContact& contact : contacts_of(bodies()))
             if (contact.kind == CONTACT_NODE_IN_TET && contact.a.body == 0 && contact.normal.y() > 0.99) return contact;
         ADD_FAILURE() << "no corner is in the slab";
         return {};
     }
-    // Of a lower edge of the block, at a place along it, in the middle of the slab's top.
+    // The contact of a lower edge of the block, at a place along it, in the middle of the slab's top.
     CageContact edge(double along) const {
         CageContact contact = corner();
         for (const auto& [begin, end] : block.collider.edges) {

@@ -73,7 +73,7 @@ TEST(Lanes, HaveTheFunctionsThatTheyAreNamedFor) {
     }
 }
 
-// Whether any lane but the others is.
+// Tells whether any lane but the others is.
 struct AskLanes {
     unsigned& wrong;
     template <class S>

@@ -93,7 +93,7 @@ void set_state(Stage& s) {
     frond_plant_set_state(plant, x.data(), v.data(), s.input.byte() < 250 ? count : s.input.integer());
 }
 
-// What a game may write there.
+// Values that a game may write there.
 void blow(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user) {
     for (int i = 0; i < count; i++) velocities[i] = {*static_cast<double*>(user) * points[i].y, std::sin(time), 0};
 }

@@ -1,4 +1,4 @@
-// What holds for every row of the table of mechanics: energy, force and stiffness belong together.
+// These hold for every row of the table of mechanics: energy, force and stiffness belong together.
 #include "mechanics/mechanics.hpp"
 
 #include <gtest/gtest.h>

@@ -53,7 +53,7 @@ TEST(ElasticShare, FollowsTheSectionHoweverTheLoadingIsCut) {
         EXPECT_NEAR(elastic, 0.02 * section_limit(yield, bent / 0.02), 1e-12);
         EXPECT_NEAR(bent - elastic, 0.02 * hardening, 1e-12);
     }
-    // What is pulled has no core.
+    // A section that is pulled has no core.
     hardening = 0;
     EXPECT_NEAR(0.05 * elastic_share(yield, 0.05, 0, NEVER, hardening), 0.02, 1e-12);
 }

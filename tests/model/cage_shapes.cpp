@@ -40,7 +40,7 @@ int count_bodies(const Cage& cage) {
     return bodies;
 }
 
-// What must hold for whatever goes in.
+// Checks what must hold for whatever goes in.
 void expect_valid(const Surface& surface, const Made& made, double least_angle = 10) {
     ASSERT_FALSE(made.cage.tets.empty());
     EXPECT_GT(made.report.min_volume, 0);

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-// What holds for every chain.
+// Checks what holds for every chain.
 void expect_forest(const Grown& grown) {
     const Chain& chain = grown.chain;
     ASSERT_FALSE(chain.nodes.empty());

@@ -1,4 +1,4 @@
-// What a plant looks like comes in from where files keep it: materials, pictures beside the model, what glows.
+// A plant's look is imported from where files keep it: materials, pictures beside the model, what glows.
 #include <gtest/gtest.h>
 
 #include "model/import.hpp"

@@ -178,7 +178,7 @@ TEST(Organs, OfALargeRoundShapeThatIsHeldUpAreFoliage) {
     const Grown grown = grow(sketch);
     ASSERT_EQ(grown.organs.size(), 2u) << "all of the ball is of one kind";
     EXPECT_EQ(grown.organs[1].kind, "crown");
-    // What encloses nothing is a heap of leaves.
+    // A crown that encloses nothing is a heap of leaves.
     Sketch heap = ball_tree();
     for (size_t i = 0; i < heap.surface.triangles.size(); i += 2)
         std::swap(heap.surface.triangles[i][0], heap.surface.triangles[i][1]);

@@ -36,7 +36,7 @@ struct Deepest {
     int late = 0;                    // steps with more than allowed
 };
 
-// Of all steps from 2 to 4 s. Rods do not touch by their cages.
+// The largest overlap of all steps from 2 to 4 s. Rods do not touch by their cages.
 Deepest play(const Placement& placement, frond_mechanics mechanics, int steps_a_second) {
     CornPair pair(FROND_RESPONSE_IMPULSE, mechanics, 1.0 / steps_a_second, placement);
     const bool by_cages = mechanics != FROND_MECHANICS_ROD && mechanics != FROND_MECHANICS_SPRING_CHAIN;

@@ -27,7 +27,7 @@ std::shared_ptr<const Model> load(const std::string& name, double capsule_radius
     return model;
 }
 
-// Of the first sways [Hz].
+// Frequencies of the first sways [Hz].
 std::array<double, 2> frequencies(const std::shared_ptr<const Model>& model, frond_mechanics which, int order = 1) {
     ensure_rest_shape(*model, which, order);
     const auto system = make_system(model, which, FROND_MASS_LUMPED, order);

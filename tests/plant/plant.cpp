@@ -1,4 +1,4 @@
-// What follows the cage: surface, normals and chain of one plant, without a world.
+// Everything that follows the cage: surface, normals and chain of one plant, without a world.
 #include "plant/plant.hpp"
 
 #include <gtest/gtest.h>

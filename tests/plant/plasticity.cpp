@@ -1,5 +1,5 @@
-// What a plant keeps of being bent: nothing below its yield, a set beyond it in rods as in tets, no energy out of
-// nothing.
+// Plastic strain of a plant that was bent: nothing below its yield, a set beyond it in rods as in tets, no energy out
+// of nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -130,7 +130,7 @@ TEST(Wind, GustsAreCoherentAcrossTheWindAsStated) {
     }
 }
 
-// What passes here now was upwind before.
+// The air that passes here now was upwind before.
 TEST(Wind, GustsAreCarriedAlong) {
     const auto wind = make_wind(plain_def());
     const Vec3 upwind = wind_at(*wind, Vec3(-16, 3, 1));

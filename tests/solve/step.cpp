@@ -1,4 +1,4 @@
-// What holds for a step with every mechanics, integrator, linear solver and mass.
+// These hold for a step with every mechanics, integrator, linear solver and mass.
 #include <gtest/gtest.h>
 
 #include "support/rig.hpp"

@@ -76,7 +76,7 @@ TEST_P(EveryProblem, RunsAndKeepsItsError) {
         best = std::min(best, point.outcome.error);
     }
     EXPECT_LE(best, bound_of(problem)) << "best error " << best;
-    // What rests on a refined reference says how well that converged.
+    // A problem with a refined reference states how well that converged.
     const bool is_refined = std::string(find_problem(problem).answer).find("refined") != std::string::npos;
     EXPECT_TRUE(!is_refined || !result.notes.empty());
 }

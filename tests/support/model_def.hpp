@@ -1,5 +1,5 @@
-// What the build and plants are given where no C API checks it first: metres, y up, cages as they are by default; one
-// solve a step, no damping but the materials', which must be asked for.
+// The defs that the build and plants get where no C API checks it first: metres, y up, cages as they are by default;
+// one solve a step, no damping but the materials', which must be asked for.
 #pragma once
 
 #include "build/build.hpp"

@@ -19,7 +19,7 @@ struct TriangleMesh {
     std::vector<Triangle> triangles;
 };
 
-// What of one mesh is inside another.
+// The part of one mesh that is inside another.
 struct MeshOverlap {
     int pairs = 0;     // of triangles that cross
     double depth = 0;  // deepest [m]; see deepest_overlap

@@ -125,7 +125,7 @@ struct Placement {
     frond_vec3 place;
     std::array<double, 2> turns;
 };
-// Of the scene corn_pair, and of examples/pair.c.
+// The plants of the scene corn_pair, and of examples/pair.c.
 constexpr Placement AS_IN_SCENE = {{0.9, 0, 0.03}, {0.1, -0.05}}, AS_IN_EXAMPLE = {{0.9, 0, 0.03}, {0, 0}};
 
 struct CornPair : Stand {

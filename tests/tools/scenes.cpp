@@ -264,7 +264,7 @@ TEST(Snap, ACornStalkBreaksNearTheMomentThatItsStrengthBears) {
         const double moment = length_of({by_hand.x + by_weight.x, by_hand.y + by_weight.y, by_hand.z + by_weight.z});
         const double known = stalk.strength * M_PI * std::pow(b.radius, 3) / 4;
         EXPECT_NEAR(moment / known, 1, 0.25);  // leaves that fall over pull as well
-        // What came off falls over, the stump stands up again.
+        // The fragment falls over, the stump stands up again.
         for (int i = 0; i < 240; i++) play.step();
         must(frond_rigid_get_state(b.broken.rigid, &after));
         EXPECT_LT(after.position.y, before.position.y - 0.2);

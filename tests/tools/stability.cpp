@@ -1,4 +1,4 @@
-// What the table of hard cases takes for explained: a criterion that a method is known to miss, nothing else.
+// The explained red cells of the table of hard cases: a criterion that a method is known to miss, nothing else.
 #include "stability/stability.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What is strained beyond its strength breaks, and what comes off is a rigid body.
+// An organ that is strained beyond its strength breaks, and the fragment is a rigid body.
 #include <gtest/gtest.h>
 
 #include <cmath>

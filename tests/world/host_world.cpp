@@ -282,7 +282,7 @@ TEST(Attach, IsRefusedTwiceAndAllowedAgainAfterDestroy) {
     frond_world_destroy(second);
 }
 
-// What a clock that failed says.
+// The value of a clock that failed.
 TEST(Attach, StepsThatAreNoTimeMoveNoPlant) {
     Host host(0);
     frond_world world = {};

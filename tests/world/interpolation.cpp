@@ -120,7 +120,7 @@ TEST_P(Interpolation, GoesOnWithoutAJumpFromStepToStep) {
         widest = std::max(widest, farthest(now, end));
     }
     EXPECT_GT(widest, 0.005);
-    // What was put somewhere stands there.
+    // A body that was put somewhere stands there.
     std::vector<double> xyz(size_t(3 * frond_plant_get_node_count(small.plant)));
     ASSERT_EQ(frond_plant_get_state(small.plant, xyz.data(), nullptr, int(xyz.size() / 3)), FROND_OK);
     ASSERT_EQ(frond_plant_set_state(small.plant, xyz.data(), nullptr, int(xyz.size() / 3)), FROND_OK);

@@ -1,4 +1,4 @@
-// What a host expects of a guest in its Bullet world: zones in its profiler, memory from its allocators, all of it
+// A host expects of a guest in its Bullet world: zones in its profiler, memory from its allocators, all of it
 // back.
 #include <LinearMath/btAlignedAllocator.h>
 #include <LinearMath/btQuickprof.h>

@@ -144,7 +144,7 @@ TEST_P(Sleep, ComesNotWhileAPlantSways) {
         before = stand.places(plant);
         stand.steps(1);
     }
-    // What it did in its last step awake is next to nothing.
+    // Its motion in its last step awake is next to nothing.
     const std::vector<double> after = stand.places(plant);
     for (size_t i = 0; i < after.size(); i++) ASSERT_NEAR(before[i], after[i], 5e-5);
 }
@@ -372,7 +372,7 @@ TEST(Wake, DoesNotComeFromWhatIsRefused) {
         EXPECT_NE(refused(), FROND_OK) << name;
         EXPECT_FALSE(frond_plant_is_awake(plant)) << name;
     }
-    // What is pinned is told while it sleeps too.
+    // Pins are reported while it sleeps too.
     const auto holds = [&](int i) {
         const frond_vec3 here = {places[size_t(3 * i)], places[size_t(3 * i + 1)], places[size_t(3 * i + 2)]};
         return frond_plant_move_pin(plant, i, here) == FROND_OK;

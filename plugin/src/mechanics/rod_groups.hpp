@@ -20,7 +20,7 @@ struct PiecesOfOne {
         : first(first), count(int(std::min(size_t(MANY), rods.size() - first))) {
         for (int lane = 0; lane < MANY; ++lane) rod[lane] = &rods[first + size_t(std::min(lane, count - 1))];
     }
-    // Whether all begin where those that ended at that node do.
+    // Tells whether all begin where those that ended at that node do.
     FROND_INLINE static bool begins_at(int) { return false; }
     FROND_INLINE static int last_node() { return -1; }
     FROND_INLINE Lanes3<S> vector(Vec3 RodSegment::*of) const {

@@ -79,7 +79,7 @@ std::vector<double> measure_distances(const Topology& topology, std::vector<int>
     for (size_t i = 0; i < roots.size(); i++) begin_at(roots[i], start.empty() ? 0 : start[i]);
     spread();
 
-    // What no way leads to begins at its own lowest point.
+    // A component that no path leads to begins at its own lowest point.
     std::vector<int> lost;
     for (size_t i = 0; i < distance.size(); i++)
         if (!std::isfinite(distance[i])) lost.push_back(int(i));

@@ -136,7 +136,7 @@ static void place_nodes(const Lattice& lattice, Joining& joining) {
     }
 }
 
-// What each copy mostly carries; what is inside takes after its neighbours.
+// Finds what each copy mostly carries; copies inside take after their neighbours.
 static void find_patches(const Topology& topology, const Patches& patches, const Cover& cover, Copies& copies) {
     const size_t count = copies.cell.size();
     std::vector<std::vector<int>> carried(count);

@@ -26,7 +26,7 @@ struct Filler {
     std::vector<double> left;  // of each patch's tissue that found no place yet [m^3]
 };
 
-// What a skin's triangle contributes to the cells below it and to its own.
+// Adds a skin's triangle to the cells below it and to its own.
 struct Slice {
     CellIndex cell;
     double area;    // seen along z, positive where the outside is up [m^2]
@@ -138,7 +138,7 @@ static void fill_copy(Filler& filler, int copy, size_t patch, double amount) {
     }
 }
 
-// What a skin encloses in each cell: all that is up there, column by column from the top.
+// Finds the volume that a skin encloses in each cell: all that is above, column by column from the top.
 static void fill_skin(Filler& filler, size_t patch, std::vector<Slice>& slices,
                       const std::vector<std::pair<CellIndex, int>>& copies_by_cell) {
     const double cell_size = filler.draft.cover.lattice.cell_size;
@@ -178,7 +178,7 @@ static void fill_skin(Filler& filler, size_t patch, std::vector<Slice>& slices,
     }
 }
 
-// What found no place goes wherever there is room, first with its own patch, then anywhere.
+// A copy that found no place goes wherever there is room, first with its own patch, then anywhere.
 static void place_leftovers(Filler& filler) {
     const Draft& draft = filler.draft;
     std::vector<std::vector<int>> patch_tets(filler.left.size());

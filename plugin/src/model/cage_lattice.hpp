@@ -29,7 +29,7 @@ struct Polygon {
     int count = 0;
 };
 Polygon polygon_of(const Vec3& a, const Vec3& b, const Vec3& c);
-// What lies between two planes across an axis.
+// The space between two planes across an axis.
 Polygon clip(const Polygon& polygon, int axis, double low, double high);
 double area_of(const Polygon& polygon, Vec3& centre);
 

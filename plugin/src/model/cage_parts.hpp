@@ -10,7 +10,7 @@ namespace frond {
 // The tets of copy c are c * TETS_PER_COPY and the ones that follow.
 constexpr int TETS_PER_COPY = 12;
 
-// What the stages after the copies share.
+// Data that the stages after the copies share.
 struct Draft {
     const Topology& topology;
     const Patches& patches;

@@ -79,7 +79,7 @@ static Edges find_edges(const Topology& topology, const std::vector<char>& repea
     return edges;
 }
 
-// Whether a triangle runs along its edge from the smaller point to the larger.
+// Tells whether a triangle runs along its edge from the smaller point to the larger.
 static bool runs_up(const Topology& topology, int t, int edge, const Edges& edges) {
     const auto& own = edges.triangle_edges[size_t(t)];
     const size_t k = own[0] == edge ? 0 : own[1] == edge ? 1 : 2;

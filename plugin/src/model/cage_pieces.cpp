@@ -17,7 +17,7 @@ static constexpr double SCRAP = 1.5;
 // So many places of a piece are looked at when distances are compared.
 static constexpr size_t SAMPLES = 48;
 
-// Whether a segment reaches into an enlarged cell.
+// Tells whether a segment reaches into an enlarged cell.
 static bool reaches(const Cover& cover, int cell, const Vec3& a, const Vec3& b) {
     const Vec3 low = cover.lattice.low(cover.cells.cells()[size_t(cell)]) - Vec3::Constant(cover.margin);
     const double size = cover.lattice.cell_size + 2 * cover.margin;
@@ -207,7 +207,7 @@ static bool face_through_inside(const Gatherer& gatherer, const Nearness& nearne
     return outward(gatherer, a).dot(way) < 0 && outward(gatherer, b).dot(way) > 0;
 }
 
-// Whether a piece can be reached from another within a few cells along the surface.
+// Tells whether a piece can be reached from another within a few cells along the surface.
 static bool is_near_along(Gatherer& gatherer, int from, int to) {
     std::vector<int> front = {from}, next;
     const int mark = ++gatherer.search;

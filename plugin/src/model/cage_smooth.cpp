@@ -98,7 +98,7 @@ static std::vector<Vec3> find_nearest_places(const Smoother& smoother) {
     return nearest;
 }
 
-// Whether the tets around a node are well shaped; sets their frames.
+// Tells whether the tets around a node are well shaped; sets their frames.
 static bool are_sound(Smoother& smoother, int node) {
     static const double LARGEST_COSINE = std::cos(SMALLEST_ANGLE * 3.14159265358979323846 / 180);
     static const double SMALLEST_COSINE = std::cos(LARGEST_ANGLE * 3.14159265358979323846 / 180);
@@ -123,7 +123,7 @@ static bool holds(const Smoother::Frame& frame, const Vec3& place) {
     return weights.minCoeff() >= TOLERANCE && weights.sum() <= 1 - TOLERANCE;
 }
 
-// Whether a vertex may be bound to a tet: one of its own copy or of a copy that carries the same piece next door.
+// Tells whether a vertex may be bound to a tet: one of its own copy or of a copy that carries the same piece next door.
 static bool belongs(const Smoother& smoother, int vertex, int tet) {
     const Draft& draft = smoother.draft;
     const int home = draft.vertex_copy[size_t(vertex)], copy = tet / TETS_PER_COPY;
@@ -132,7 +132,7 @@ static bool belongs(const Smoother& smoother, int vertex, int tet) {
     return std::binary_search(near.begin(), near.end(), copy);
 }
 
-// Whether all vertices that were in the tets around still are in one of them; notes those that changed.
+// Tells whether all vertices that were in the tets around still are in one of them; notes those that changed.
 static bool keeps_vertices(Smoother& smoother, int node) {
     const std::vector<int>& around = smoother.node_tets[size_t(node)];
     smoother.changes.clear();

@@ -1,4 +1,4 @@
-// What weight does to the capsules of a chain. A tree is statically determinate: forces and moments follow from the
+// The effect of weight on the capsules of a chain. A tree is statically determinate: forces and moments follow from the
 // masses alone, summed from the tips to the root.
 #pragma once
 

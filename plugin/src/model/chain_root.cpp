@@ -76,7 +76,7 @@ Feet choose_feet(const Surface& surface, const Topology& topology, const std::ve
     return feet;
 }
 
-// What holds each component up: bits of these.
+// Each component is held up by some of these, as bits.
 enum Hold { STANDS_ON_SUPPORT = 1, STANDS = 2, HANGS_HIGH = 4 };
 
 std::vector<int> find_holds(const Surface& surface, const Topology& topology, const Feet& feet) {
@@ -120,7 +120,7 @@ RootPoints find_root_points(const Surface& surface, const Topology& topology, co
         const double low = feet.low[component][what], lift = low - feet.ground[what];
         const int hold = what == PLANT ? holds[component] : 0;
         if (lift > (hold & (STANDS | HANGS_HIGH) ? LEVEL : GROUND) * height || (hold & STANDS_ON_SUPPORT)) continue;
-        // What hangs from above and happens to touch the ground is rooted only if it is all that is there.
+        // A component that hangs and happens to touch the ground is rooted only if there is no other.
         if ((hold & HANGS_HIGH) && lift > 0) continue;
         for (int p : topology.triangles[t]) {
             const double y = topology.points[size_t(p)].y() - low;

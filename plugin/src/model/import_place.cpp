@@ -124,7 +124,7 @@ static void turn_surface(Surface& surface, const Vec3& up) {
     surface.up = up;
 }
 
-// What is called a lily is no 20 m high.
+// A plant that is called a lily is not 20 m high.
 static double tallest_of(const Surface& surface, const std::string& file) {
     std::vector<std::string> names = {file};
     for (const Part& part : surface.parts) {

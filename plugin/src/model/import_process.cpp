@@ -206,7 +206,7 @@ static std::string last_line(std::string text) {
 }
 
 static ImportResult run_program(const std::string& path, const ImportLimits& wanted, UrdfUse use) {
-    // What can be told without the program.
+    // Checks what can be checked without the program.
     const std::string name = file_name(path);
     struct stat status;
     if (path.empty() || path.find('\0') != std::string::npos)

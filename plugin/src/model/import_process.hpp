@@ -6,7 +6,7 @@
 
 namespace frond {
 
-// What the program may use; 0 chooses by the size of the file.
+// Limits of the program; 0 chooses by the size of the file.
 struct ImportLimits {
     double cpu_seconds = 0;
     double wall_seconds = 0;

@@ -1,6 +1,6 @@
 // Materials: one row a kind of organ. In: a kind's name. Out: constants of fresh, living tissue, SI units.
 //
-// What is tabulated is the modulus of the whole organ in bending along its axis (rind, pith and cavity together),
+// The table gives the modulus of the whole organ in bending along its axis (rind, pith and cavity together),
 // because that is what a rod or a calibrated cage of one material needs; so every preset is solid. For a hollow culm
 // give the wall's modulus and `hollow`. Fresh tissue is mostly water, so its density is near 1000 kg/m^3; Poisson's
 // ratio of wet tissue taken as solid is near 0.3 when the air spaces are counted in. "Estimate" marks what no source
@@ -63,7 +63,7 @@ struct MaterialRow {
     Material material;
 };
 
-// What holds for more than one row, all estimates:
+// These hold for more than one row, all estimates:
 // - damping_ratio of soft organs is twice that of wood [15]: their tissue is wetter, and pith and rind shear against
 //   each other; well below what whole plants show [16], because air and leaves do the rest there.
 // - yield_strain is at nine tenths of the strain at which the organ breaks where a source calls the organ brittle [1],

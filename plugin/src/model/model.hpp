@@ -18,12 +18,12 @@ struct ChainArrays {
 // Under which a plant stands as it was modelled, along the model's -y [m/s^2].
 constexpr double GRAVITY = 9.81;
 
-// Of the displacements within a tet: 1 linear, 2 quadratic.
+// Order of the displacements within a tet: 1 linear, 2 quadratic.
 constexpr int HIGHEST_ORDER = 2;
 
-// What each mechanics, in elements of each order, has of its own so that a plant stands as modelled and sways alike in
-// all: found for linear tets and the default mechanics at load, for the others when first asked for. By order less one
-// and mechanics; what moves the chain has no order and stands with the first.
+// The data that each mechanics, in elements of each order, has of its own so that a plant stands as modelled and sways
+// alike in all: found for linear tets and the default mechanics at load, for the others when first asked for. By order
+// less one and mechanics; what moves the chain has no order and stands with the first.
 struct RestShapes {
     template <class T>
     using Each = std::array<std::array<T, FROND_MECHANICS_COUNT>, HIGHEST_ORDER>;

@@ -10,13 +10,13 @@ struct NameClue {
     bool species = false;  // only a word such as "tomato", which may mean the fruit or the whole plant
 };
 
-// What one name of a node or material says, whole words only, in the common languages of model files.
+// The meaning of one name of a node or material, whole words only, in the common languages of model files.
 NameClue read_name(const std::string& name);
 // "maize_blade", "wheat culm": grasses have stiffer stems and blades than herbs.
 bool names_a_grass(const std::string& name);
 // "BushBerries": a round solid that stands on the ground may be foliage.
 bool names_a_bush(const std::string& name);
-// Whether names speak of a herb or a pot plant, and none of a tree: it grows to some metres at most.
+// Tells whether names speak of a herb or a pot plant, and none of a tree: it grows to some metres at most.
 bool names_a_herb(const std::vector<std::string>& names);
 // For each part its kind, or empty; node names go before material names.
 std::vector<std::string> kinds_by_name(const Surface& surface);

@@ -51,7 +51,7 @@ static bool is_green(const std::array<float, 4>& color) {
     return color[1] > 1.1f * color[0] && color[1] > 1.3f * color[2];
 }
 
-// What is green and grows on wood is foliage, however solid it was drawn.
+// A green component that grows on wood is foliage, however solid it was drawn.
 static void find_foliage(const Surface& surface, std::vector<std::string>& named) {
     if (std::find(named.begin(), named.end(), "branch") == named.end()) return;
     for (size_t i = 0; i < named.size(); i++) {

@@ -253,7 +253,8 @@ static std::string without(const std::string& name, const std::set<std::string>&
     return out;
 }
 
-// Whether a material is called after a colour; those that share a name with a fruit or a flower count when told to.
+// Tells whether a material is called after a colour; those that share a name with a fruit or a flower count when told
+// to.
 static bool is_color_name(const std::string& name, bool with_species) {
     static const std::set<std::string> shades = {"light", "dark", "pale", "bright", "deep", "medium"};
     static const std::set<std::string> colors = {"green", "yellow", "brown",  "red",     "blue",

@@ -52,7 +52,7 @@ double hole_share(const Organ& organ);
 // Saint-Venant's torsion constant of one compact outline from its area and principal second moments [m^4]: exact for
 // ellipses and rectangles of any aspect, within 6 % for an equilateral triangle; never more than the polar moment.
 double torsion_constant(double area, double inertia_thin, double inertia_wide);
-// Of a rectangle: Saint-Venant's series; w t^3 / 3 for a thin strip [m^4].
+// The torsion constant of a rectangle: Saint-Venant's series; w t^3 / 3 for a thin strip [m^4].
 double strip_torsion_constant(double width, double thickness);
 
 // How stems given by a caller were moved with the surface made of them.

@@ -1,4 +1,4 @@
-// What the sources of Section share: two ways to look at the surface around a capsule.
+// Parts that the sources of Section share: two ways to look at the surface around a capsule.
 #pragma once
 
 #include "model/section.hpp"
@@ -18,7 +18,7 @@ struct Spread {
     Vec3 thin;
 };
 
-// What planes across a capsule cut out of the surface, averaged over the planes.
+// The cuts of planes across a capsule with the surface, averaged over the planes.
 struct Outline {
     bool found = false;                 // at least one plane cuts one closed, compact outline
     double area;                        // inside [m^2]

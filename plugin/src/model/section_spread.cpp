@@ -118,7 +118,7 @@ Spread measure_spread(const std::vector<Patch>& patches, const CapsuleFrame& fra
     }
     normal.diagonal().array() += 1e-9 * total;
     const Eigen::Matrix<double, 3, 2> bow = normal.ldlt().solve(right);
-    // What is left is the spread of the section itself.
+    // The rest is the spread of the section itself.
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
     for (const Patch& patch : patches) {
         const Vec3 offset = patch.position - frame.begin;

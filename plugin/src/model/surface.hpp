@@ -33,7 +33,7 @@ struct Surface {
     std::vector<Part> parts;          // cover the triangles without gap
     std::vector<Texture> textures;
 
-    // What the import put right.
+    // Counts of what the import repaired.
     int dropped_triangles = 0, repaired_vertices = 0;
     double scale = 1;         // metres per file unit
     Vec3 up = Vec3::UnitY();  // file axis that became +y

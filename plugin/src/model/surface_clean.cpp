@@ -134,7 +134,7 @@ static void keep_used(std::vector<Value>& values, const std::vector<int>& number
 }
 
 static void drop_vertices(Surface& surface, const std::vector<char>& usable) {
-    // What is in use keeps its order.
+    // Vertices in use keep their order.
     std::vector<int> number(surface.positions.size(), -1);
     for (const Triangle& triangle : surface.triangles)
         for (int corner : triangle) number[size_t(corner)] = 0;

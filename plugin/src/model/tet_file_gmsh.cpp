@@ -46,7 +46,7 @@ static void skip_line_end(TetFile& file) {
     }
 }
 
-// What stands between a section's name line and its end is binary, if the file is.
+// The text between a section's name line and its end is binary, if the file is.
 static void begin_numbers(TetFile& file, const GmshReading& reading) {
     file.is_binary = reading.is_binary;
     file.is_swapped = reading.is_swapped;

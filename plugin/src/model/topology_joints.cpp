@@ -2,7 +2,7 @@
 // every tree that does not hold a root yet looks for its cheapest way to another, all at once, so that their number
 // halves each round. Distances come from one box tree a component and one over all components, searched nearest first.
 //
-// What a joint costs is its length and a little more, so that a leaf which crosses other leaves and almost touches its
+// A joint costs its length and a little more, so that a leaf which crosses other leaves and almost touches its
 // stem hangs on the stem: more if the other end is no larger than this one, and more if this end is not the largest of
 // its tree. Components that stand on the ground side by side are roots: each gathers what hangs on it, and only then
 // are they tied to each other, at the foot, where that does no harm.
@@ -34,7 +34,7 @@ struct Edge {
     Joint joint{-1, -1, Vec3::Zero(), Vec3::Zero()};
 };
 
-// What is below a node costs at least so much.
+// Anything below a node costs at least so much.
 struct Promise {
     double cost;
     int item, node;  // -1: a node of the tree over the items, else of that item's triangles
@@ -45,7 +45,7 @@ struct Promise {
     }
 };
 
-// What is being joined: items, each a list of triangles.
+// The things to be joined: items, each a list of triangles.
 struct Forest {
     const Topology& topology;
     double likeness, head;
@@ -81,7 +81,7 @@ static Corners corners_of(const Topology& topology, int triangle) {
     return {topology.points[size_t(corner[0])], topology.points[size_t(corner[1])], topology.points[size_t(corner[2])]};
 }
 
-// What an item pays for hanging on another one.
+// Returns what an item pays for hanging on another one.
 static double likeness_cost(const Forest& forest, double size, double other) {
     return forest.likeness * size * (size < ALIKE * other ? size / other : 1);
 }

@@ -74,10 +74,10 @@ enum class UrdfUse { SEEN, COLLIDES };
 UrdfTree import_urdf(const std::string& path, UrdfUse use);
 bool is_urdf(const std::string& path);
 
-// Of each link in the root's frame, all joints at zero.
+// The frame of each link in the root's frame, all joints at zero.
 std::vector<UrdfFrame> link_frames(const UrdfTree& tree);
 
-// Whether indices and sizes agree and numbers are such as can be simulated; else why not, "" if so.
+// Tells whether indices and sizes agree and numbers are such as can be simulated; else why not, "" if so.
 std::string what_is_wrong_with(const UrdfTree& tree);
 
 }  // namespace frond

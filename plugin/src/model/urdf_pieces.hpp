@@ -19,7 +19,8 @@ std::vector<UrdfPiece> list_pieces(const UrdfTree& tree, const Quat& turn);
 // The nearest link on the way to the root that has a piece; -1 if there is none.
 std::vector<int> shown_parents(const UrdfTree& tree, const std::vector<UrdfPiece>& pieces);
 
-// Whether all pieces are cylinders and capsules, so that their sections are known; and those as stems, one a piece.
+// Tells whether all pieces are cylinders and capsules, so that their sections are known; and those as stems, one a
+// piece.
 bool are_stems(const std::vector<UrdfPiece>& pieces);
 std::vector<frond_stem> stems_of(const UrdfTree& tree, const std::vector<UrdfPiece>& pieces);
 

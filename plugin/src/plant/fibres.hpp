@@ -24,7 +24,7 @@ struct Fibres {
 };
 Fibres make_fibres(const Model& model, int order);
 
-// Whether none would pull where the plant is now; chain_positions are brought there.
+// Tells whether none would pull where the plant is now; chain_positions are brought there.
 bool are_slack(Plant& plant);
 
 // After a solve over h [s]: pulls together what is drawn out. Nothing is done where nothing is.

@@ -31,7 +31,7 @@ struct OffCourse {
     }
 };
 
-// Whether a node `is_one`, which is asked of nodes among which any has a square above that of even or odd ones.
+// Tells whether a node `is_one`, which is asked of nodes among which any has a square above that of even or odd ones.
 template <class Of, class IsOne>
 struct FindNode {
     const Of& of;
@@ -68,7 +68,7 @@ bool has_node(const Of& of, int count, double even, double odd, const IsOne& is_
     return found;
 }
 
-// Whether all places, not the rotations of a chain, are nearer than that to `from`.
+// Tells whether all places, not the rotations of a chain, are nearer than that to `from`.
 bool are_near(const Plant& plant, const VecX& from, double distance) {
     const VecX& x = plant.motion.x;
     const double most = distance * distance;

@@ -245,7 +245,7 @@ void unpin_node(Plant& plant, int node);
 void move_pin(Plant& plant, int node, const Vec3& target);
 // What the pins are for the nodes of the mechanics.
 void apply_pins(Plant& plant);
-// Whether the nodes of a chain that are held are where they shall be.
+// Tells whether the nodes of a chain that are held are where they shall be.
 bool is_where_held(const Motion& motion);
 
 // Lets go of what would snap back at once.

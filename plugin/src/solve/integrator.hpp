@@ -39,14 +39,14 @@ Bdf2 bdf2_after(double h_before, double h);
 // cannot be solved.
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report);
 
-// Whether something pushed the plant that its integrator does not look back beyond. Impulses are answered to by the
-// last stage; one that is much shorter than the step is softer than what the step's forces bend, by the square of that,
-// and would be pushed on by the same each step: then the step is of implicit Euler, which has one stage.
+// Tells whether something pushed the plant that its integrator does not look back beyond. Impulses are answered to by
+// the last stage; one that is much shorter than the step is softer than what the step's forces bend, by the square of
+// that, and would be pushed on by the same each step: then the step is of implicit Euler, which has one stage.
 inline bool is_pushed(const StepInput& input) {
     return !input.motion.history.valid && input.motion.history.shaken;
 }
 
-// Whether a guess of where a plant will be is near enough to be used.
+// Tells whether a guess of where a plant will be is near enough to be used.
 inline bool is_calm(const System& system, const VecX& from, const VecX& to) {
     return system.row->is_calm(*system.elements, from, to);
 }
@@ -54,7 +54,7 @@ inline bool is_calm(const System& system, const VecX& from, const VecX& to) {
 // Adds the rotary inertia of free nodes that turn to the matrix in workspace.A.
 void add_inertia(Workspace& workspace, double scale);
 
-// Whether impulses are answered to by a mass alone, since the step solved no system.
+// Tells whether impulses are answered to by a mass alone, since the step solved no system.
 bool responds_by_mass(const Workspace& workspace, const SolveSettings& settings);
 // x = M^-1 b for a lumped mass, with workspace.drag beside it; rows of held nodes are left as they are.
 void divide_by_mass(const Workspace& workspace, const VecX& b, VecX& x);

@@ -23,8 +23,8 @@ struct PlantContact {
     Vec3 impulse = Vec3::Zero();            // on the first; that of the last substep until this one's is known [N s]
 };
 
-// Whether both sides still are touched by what they were touched by then: what holds its points is of the mechanics
-// that they had.
+// Tells whether both sides still are touched by what they were touched by then: what holds its points is of the
+// mechanics that they had.
 bool is_by_the_same(const PlantContact& contact);
 // Takes hold of the points on both sides as they are now.
 void take_attachments(PlantContact& contact);
