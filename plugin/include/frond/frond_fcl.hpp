@@ -53,7 +53,7 @@ public:
     void remove_from(fcl::BroadPhaseCollisionManager<S>& manager) const {
         for (const auto& object : objects) manager.unregisterObject(object.get());
     }
-    // Puts them where the plant is now. Managers have to be told: manager.update().
+    // Puts them where the plant is now. Call manager.update() afterwards.
     void update() {
         if (cage)
             update_cage();

@@ -1,7 +1,7 @@
 /* frond_snapshot.h - a world as bytes, to go back to: roll-back networking, undo. Compiles as C99 and as C++; the rules
  * of frond.h for handles, errors and threads hold.
  *
- * In a snapshot is all that steps change: shape and motion of plants, what is lasting in them, pins, targets of grabs,
+ * In a snapshot is all that steps change: shape and motion of plants, their plastic strain, pins, targets of grabs,
  * who sleeps, the time and the gusts that have passed, and the bodies that Frond made. Not what the host set up: defs,
  * effects, gravity, wind, and the bodies of a Bullet world of its own, which it puts back itself. Saving and restoring
  * both have Bullet look for contacts anew; from either, a world of Frond's own steps on to the same bits. Plants stay
