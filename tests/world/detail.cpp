@@ -65,6 +65,28 @@ double largest_speed_change(const State& before, const State& after) {
     return most;
 }
 
+// Damping of any strength: a modal plant comes back slowly, and stays a number.
+TEST(Detail, OfAPlantInTreacleIsFinite) {
+    for (const double damping : {50.0, 1e4, 1e6}) {
+        frond_world world = {};
+        frond_plant plant = {};
+        const frond_world_def def = frond_default_world_def();
+        must(frond_world_create(&def, &world));
+        const frond_model model = make_small_model();
+        frond_plant_def plant_def = frond_default_plant_def();
+        plant_def.mass_damping = damping;
+        must(frond_plant_create(world, model, &plant_def, &plant));
+        const State modelled(plant);
+        must(frond_world_set_viewer(world, {60, 0, 0}));
+        for (int i = 0; i < 30; i++) must(frond_world_step(world, H));
+        EXPECT_EQ(detail_of(plant), FROND_DETAIL_MODAL);
+        const State now(plant);
+        for (size_t i = 0; i < now.x.size(); i++) ASSERT_NEAR(now.x[i], modelled.x[i], 0.05) << damping;
+        frond_world_destroy(world);
+        frond_model_destroy(model);
+    }
+}
+
 // Corn in wind, while the viewer goes away beyond everything and comes back.
 TEST(Detail, IsHandedOverWithoutAJumpBothWays) {
     frond_world world = {};

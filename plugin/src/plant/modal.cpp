@@ -22,19 +22,23 @@ struct State {
 State after(const State& start, double rest, double c, double k, double t) {
     const double a = 0.5 * c, d = k - a * a, x = start.place - rest;
     double cosine, sine_over;  // of sqrt(d) t, the second over sqrt(d)
+    double fall = std::exp(-a * t);
     if (d > 1e-9 * k) {
         const double omega = std::sqrt(d);
         cosine = std::cos(omega * t);
         sine_over = std::sin(omega * t) / omega;
     } else if (d < -1e-9 * k) {
         const double omega = std::sqrt(-d);
-        cosine = std::cosh(omega * t);
-        sine_over = std::sinh(omega * t) / omega;
+        // Where damping is strong cosh is beyond all numbers and what it falls by below them, so both are taken
+        // together.
+        const double slow = std::exp(-k / (omega + a) * t), quick = std::exp(-(omega + a) * t);
+        cosine = 0.5 * (slow + quick);
+        sine_over = 0.5 * (slow - quick) / omega;
+        fall = 1;
     } else {
         cosine = 1;
         sine_over = t;
     }
-    const double fall = std::exp(-a * t);
     return {rest + fall * (x * (cosine + a * sine_over) + start.speed * sine_over),
             fall * (start.speed * (cosine - a * sine_over) - k * x * sine_over)};
 }
