@@ -5,7 +5,7 @@
 
 #include "support/stems.hpp"
 
-namespace {
+namespace events_tests {
 
 void step(frond_world world, int count) {
     for (int i = 0; i < count; i++) ASSERT_EQ(frond_world_step(world, 1.0 / 60), FROND_OK) << frond_last_error();
@@ -41,8 +41,6 @@ frond_rigid drop_ball(frond_world world, const frond_vec3& place, const frond_ve
     EXPECT_EQ(frond_rigid_create(world, &def, &ball), FROND_OK);
     return ball;
 }
-
-}  // namespace
 
 TEST(Events, HaveNames) {
     EXPECT_STREQ(frond_event_name(FROND_EVENT_BROKE), "broke");
@@ -159,3 +157,5 @@ TEST(Events, WrongCallsAreRefusedAndChangeNothing) {
     EXPECT_EQ(frond_world_take_events(small.world, list, 1), FROND_OK);
     EXPECT_EQ(frond_world_take_events(small.world, nullptr, 0), FROND_OK);
 }
+
+}  // namespace events_tests

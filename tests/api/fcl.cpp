@@ -9,7 +9,7 @@
 
 #include "support/stems.hpp"
 
-namespace {
+namespace fcl_tests {
 
 struct Touch {
     bool found = false;
@@ -71,4 +71,4 @@ TEST(FclPlant, TellsOfAPlantThatIsGone) {
     EXPECT_THROW(plant.update(), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace fcl_tests

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace house_tests {
 
 const std::string PLUGIN = std::string(FROND_SOURCE_DIR) + "/plugin/";
 
@@ -84,8 +84,6 @@ std::vector<std::string> glossary_column(size_t column) {
     }
     return cells;
 }
-
-}  // namespace
 
 TEST(House, EachPublicFunctionHasASentence) {
     int count = 0;
@@ -165,3 +163,5 @@ TEST(House, ReleaseNotesNameWhatThereIs) {
     }
     EXPECT_GT(count, 60);
 }
+
+}  // namespace house_tests

@@ -7,7 +7,7 @@
 #include "frond/frond_robot.h"
 #include "support/stems.hpp"
 
-namespace {
+namespace limits_tests {
 
 // Refused within a time that a game can wait for.
 template <class Call>
@@ -80,4 +80,4 @@ TEST(Limits, EndlessNamesAreRefused) {
                    "no material");
 }
 
-}  // namespace
+}  // namespace limits_tests

@@ -8,7 +8,7 @@
 
 #include "support/stems.hpp"
 
-namespace {
+namespace place_tests {
 
 constexpr double H = 1.0 / 60;
 constexpr bool IS_DOUBLE = sizeof(btScalar) == sizeof(double);
@@ -69,8 +69,6 @@ INSTANTIATE_TEST_SUITE_P(Place, EveryPlace,
                          testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN,
                                          FROND_MECHANICS_ROD, FROND_MECHANICS_SPRING_CHAIN),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
-
-}  // namespace
 
 TEST_P(EveryPlace, APlantAtRestStaysAtRestElsewhere) {
     SmallWorld small(def(), 0, FROND_REST_STANDS_AS_MODELLED);
@@ -432,3 +430,5 @@ TEST(Place, WrongCallsAreRefusedAndChangeNothing) {
     EXPECT_EQ(before, after);
     EXPECT_TRUE(frond_plant_is_awake(small.plant));
 }
+
+}  // namespace place_tests

@@ -13,7 +13,7 @@
 
 extern "C" int frond_robot_from_c(const char* file, double* reached);
 
-namespace {
+namespace robot_tests {
 
 const char* const ARM = FROND_SOURCE_DIR "/models/arm/arm.urdf";
 
@@ -261,4 +261,4 @@ TEST(Robot, AsksForAWorldThatTakesMultiBodies) {
     frond_world_destroy(world);
 }
 
-}  // namespace
+}  // namespace robot_tests

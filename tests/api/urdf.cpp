@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-namespace {
+namespace urdf_tests {
 
 std::string file_of(const char* name) {
     return std::string(FROND_SOURCE_DIR "/models/urdf/") + name;
@@ -181,4 +181,4 @@ TEST(UrdfPlant, WhatIsWrongWithAFileIsSaid) {
     }
 }
 
-}  // namespace
+}  // namespace urdf_tests

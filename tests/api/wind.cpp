@@ -4,7 +4,7 @@
 
 #include "support/stems.hpp"
 
-namespace {
+namespace wind_tests {
 
 void step(frond_world world, int steps) {
     for (int i = 0; i < steps; i++) ASSERT_EQ(frond_world_step(world, 1.0 / 60), FROND_OK) << frond_last_error();
@@ -174,4 +174,4 @@ TEST(Wind, NonsenseOfAFieldIsReportedAndHarmsNothing) {
     EXPECT_TRUE(std::isfinite(tip.x + tip.y + tip.z));
 }
 
-}  // namespace
+}  // namespace wind_tests

@@ -9,7 +9,7 @@
 using namespace frond;
 using frond::test::model_def;
 
-namespace {
+namespace rest_shape_tests {
 
 // A thick stem with a thin arm that reaches far out; `young` is the arm's.
 std::shared_ptr<const Model> gallows(double young) {
@@ -92,4 +92,4 @@ TEST(Strengthen, FindsTheOrganThatGivesWay) {
     }
 }
 
-}  // namespace
+}  // namespace rest_shape_tests

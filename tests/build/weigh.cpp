@@ -9,7 +9,7 @@
 #include "support/model_def.hpp"
 
 namespace frond::test {
-namespace {
+namespace weigh_tests {
 
 struct WeighedPlant : testing::TestWithParam<const char*> {
     std::shared_ptr<const Model> model = build_from_file(
@@ -64,5 +64,6 @@ TEST_P(WeighedPlant, WeighsTheSameInAllMechanics) {
     }
 }
 
-}  // namespace
+}  // namespace weigh_tests
+
 }  // namespace frond::test

@@ -10,7 +10,7 @@
 #include "support/cages.hpp"
 
 namespace frond::test {
-namespace {
+namespace cage_contact_tests {
 
 bool same(const ContactSide& a, const ContactSide& b) {
     return a.body == b.body && a.organ == b.organ && a.node_count == b.node_count && a.nodes == b.nodes &&
@@ -297,5 +297,6 @@ TEST(CageContact, SeventeenPlantsOfTwentyThousandTetsAgreeInEveryLayout) {
     EXPECT_GT(expected.size(), 100u);
 }
 
-}  // namespace
+}  // namespace cage_contact_tests
+
 }  // namespace frond::test

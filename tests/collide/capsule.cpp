@@ -14,7 +14,7 @@
 #include "support/referee.hpp"
 
 namespace frond::test {
-namespace {
+namespace capsule_tests {
 
 constexpr double REFEREE_TOLERANCE = 1e-5;  // of FCL's distances [m]
 
@@ -250,5 +250,6 @@ TEST(Capsule, TimesOfContactAreThoseOfTheFormula) {
     EXPECT_EQ(first_impact(stem, moved(stem, way, way), stem, stem)->time, 0);
 }
 
-}  // namespace
+}  // namespace capsule_tests
+
 }  // namespace frond::test

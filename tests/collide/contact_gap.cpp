@@ -7,7 +7,7 @@
 #include "support/cages.hpp"
 
 namespace frond::test {
-namespace {
+namespace contact_gap_tests {
 
 constexpr double REACH = 0.01, IN = 0.002;  // [m]
 
@@ -83,5 +83,6 @@ TEST(ContactGap, DoesNotSlideFarAlongAnEdgeThatLiesFlat) {
     }
 }
 
-}  // namespace
+}  // namespace contact_gap_tests
+
 }  // namespace frond::test

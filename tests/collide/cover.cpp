@@ -8,7 +8,7 @@
 #include "support/cages.hpp"
 
 namespace frond::test {
-namespace {
+namespace cover_tests {
 
 // Along the stem, where the test's pieces are cut.
 std::vector<Axis> axes_of(const TestCage& cage, const std::function<Vec3(const Vec3&)>& moved) {
@@ -88,5 +88,6 @@ TEST(Cover, APlantThatNothingIsNearHasNoPieces) {
     EXPECT_TRUE(find_meeting_pieces({}, 0.01).empty());
 }
 
-}  // namespace
+}  // namespace cover_tests
+
 }  // namespace frond::test

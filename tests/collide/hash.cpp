@@ -9,7 +9,7 @@
 #include "support/meshes.hpp"
 
 namespace frond::test {
-namespace {
+namespace hash_tests {
 
 using Pairs = std::vector<std::array<int, 2>>;
 
@@ -114,5 +114,6 @@ TEST(Hash, ATableOfOneBucketTellsEachPairOnce) {
     }
 }
 
-}  // namespace
+}  // namespace hash_tests
+
 }  // namespace frond::test

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace frond::test {
-namespace {
+namespace lanes_tests {
 
 // All functions of a list of numbers, in lanes of a width.
 struct Functions {
@@ -95,5 +95,6 @@ TEST(Lanes, TellWhetherThereIsAny) {
     }
 }
 
-}  // namespace
+}  // namespace lanes_tests
+
 }  // namespace frond::test

@@ -11,7 +11,7 @@
 #include "grow/grow.hpp"
 
 namespace frond::grow {
-namespace {
+namespace files_test_tests {
 
 std::string read_bytes(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -99,5 +99,6 @@ TEST(GrowKinds, UnknownKindsAndSettingsAreRefusedWithTheNamesThereAre) {
     EXPECT_NE(text_of_refusal("cucumber", {{"droop", std::nan("")}}).find("droop must be from"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace files_test_tests
+
 }  // namespace frond::grow

@@ -10,7 +10,7 @@
 #include "grow/grow.hpp"
 
 namespace frond::grow {
-namespace {
+namespace plant_test_tests {
 
 using Point = std::array<double, 3>;
 
@@ -274,5 +274,6 @@ TEST(GrownPlants, OrgansCrossOnlyWhereTheyAreAttached) {
     }
 }
 
-}  // namespace
+}  // namespace plant_test_tests
+
 }  // namespace frond::grow

@@ -8,7 +8,7 @@
 #include "support/meshes.hpp"
 
 namespace frond::test {
-namespace {
+namespace block_matrix_tests {
 
 TEST(BlockMatrix, HasABlockForExactlyThePairsThatShareATet) {
     const Model model = tree_model(4, 3, 2);
@@ -42,5 +42,6 @@ TEST(BlockMatrix, MultipliesAsItsDenseTwin) {
     EXPECT_NEAR((y - dense(A) * x).norm(), 0, 1e-12);
 }
 
-}  // namespace
+}  // namespace block_matrix_tests
+
 }  // namespace frond::test

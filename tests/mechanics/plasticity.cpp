@@ -12,7 +12,7 @@
 #include "support/meshes.hpp"
 
 namespace frond::test {
-namespace {
+namespace plasticity_tests {
 
 constexpr double NEVER = 1e9;  // of creep, so that the time of a return does not matter [s]
 
@@ -280,5 +280,6 @@ TEST_P(EveryTet, TakesBackTheNumbersThatItGave) {
     EXPECT_EQ(row.energy(*other, x), row.energy(*own, x));
 }
 
-}  // namespace
+}  // namespace plasticity_tests
+
 }  // namespace frond::test

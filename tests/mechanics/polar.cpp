@@ -3,17 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
-
+#include "core/decompose.hpp"
 #include "support/meshes.hpp"
 
 namespace frond::test {
-namespace {
+namespace polar_tests {
 
 Mat3 rotation_by_svd(const Mat3& F) {
-    const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    return svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+    const SingularParts svd = singular_parts(F);
+    const double sign = (svd.U * svd.V.transpose()).determinant() < 0 ? -1 : 1;
+    return svd.U * Vec3(1, 1, sign).asDiagonal() * svd.V.transpose();
 }
 
 // A gradient with the given principal stretches.
@@ -83,5 +82,6 @@ TEST(Polar, KnowsHowFarItIsFromWhereItIsNotUnique) {
     EXPECT_NEAR(polar_decomposition(stretched(dice, s)).gaps, (1.3 + 0.8) * (1.3 - 0.4) * (0.8 - 0.4), 1e-12);
 }
 
-}  // namespace
+}  // namespace polar_tests
+
 }  // namespace frond::test

@@ -11,7 +11,7 @@
 #include "support/soups.hpp"
 
 namespace frond::test {
-namespace {
+namespace cage_shapes_tests {
 
 struct Made {
     Topology topology;
@@ -399,5 +399,6 @@ TEST(Cage, EmbedsInTheCallersTetsAsTryingAllDoes) {
     EXPECT_THROW(embed(surface, Cage{}), Error);
 }
 
-}  // namespace
+}  // namespace cage_shapes_tests
+
 }  // namespace frond::test

@@ -6,7 +6,7 @@
 #include "core/timer.hpp"
 
 namespace frond {
-namespace {
+namespace chain_make_tests {
 
 using namespace test;
 
@@ -325,5 +325,6 @@ TEST(Chain, IsQuick) {
     RecordProperty("milliseconds", int(timer.ms()));
 }
 
-}  // namespace
+}  // namespace chain_make_tests
+
 }  // namespace frond

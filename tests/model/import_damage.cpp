@@ -17,7 +17,7 @@
 
 using namespace frond;
 
-namespace {
+namespace import_damage_tests {
 
 struct Quiet : testing::Test {
     void SetUp() override { set_log(nullptr, nullptr); }
@@ -80,8 +80,6 @@ int count_descriptors() {
     closedir(directory);
     return count;
 }
-
-}  // namespace
 
 TEST_F(ImportDamage, FilesCutAnywhereAreRefusedOrPartlyRead) {
     files::Folder folder;
@@ -342,3 +340,5 @@ TEST(ImportStream, RefusesASurfaceThatDoesNotHoldTogether) {
     bad.scale = NAN;
     EXPECT_FALSE(is_accepted(bad));
 }
+
+}  // namespace import_damage_tests

@@ -8,7 +8,7 @@
 #include "support/materials.hpp"
 
 namespace frond {
-namespace {
+namespace materials_tests {
 
 const char* const KINDS[] = {"stem",   "petiole", "blade",   "midrib",  "peduncle",   "flower",     "fruit",
                              "branch", "root",    "tendril", "support", "grass_stem", "grass_blade"};
@@ -117,5 +117,6 @@ TEST(Materials, RefusalsNameTheValueAndTheRange) {
               "twist_to_bend of organ \"leaf_7\" is 200; give a value from 0.01 to 100, or 0 for none");
 }
 
-}  // namespace
+}  // namespace materials_tests
+
 }  // namespace frond

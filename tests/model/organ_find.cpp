@@ -9,7 +9,7 @@
 #include "support/materials.hpp"
 
 namespace frond {
-namespace {
+namespace organ_find_tests {
 
 using namespace test;
 
@@ -398,5 +398,6 @@ TEST(Organs, RefuseMaterialsThatFitNothingOrAreAbsurd) {
     EXPECT_NE(failure(sketch, {}, 1), "");
 }
 
-}  // namespace
+}  // namespace organ_find_tests
+
 }  // namespace frond

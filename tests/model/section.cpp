@@ -10,7 +10,7 @@
 #include "support/materials.hpp"
 
 namespace frond {
-namespace {
+namespace section_tests {
 
 constexpr double LENGTH = 1;  // of the bodies, along +y [m]
 
@@ -247,5 +247,6 @@ TEST(Section, TwistsAsItsMaterialSays) {
         EXPECT_NEAR(section.bending_thin() / section.twisting(), 1.25, 5e-3);  // 1 + nu
 }
 
-}  // namespace
+}  // namespace section_tests
+
 }  // namespace frond

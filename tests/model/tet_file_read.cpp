@@ -14,7 +14,7 @@
 
 using namespace frond;
 
-namespace {
+namespace tet_file_read_tests {
 
 struct TetFiles : testing::Test {
     void SetUp() override { set_log(nullptr, nullptr); }
@@ -199,8 +199,6 @@ std::vector<Row> rows() {
 TetMesh cube() {
     return {NODES, TETS, {0, 0, 0, 1, 1}, {"stem", "leaf"}};
 }
-
-}  // namespace
 
 TEST_F(TetFiles, EveryFormatReadsTheSameCube) {
     files::Folder folder;
@@ -403,3 +401,5 @@ TEST_F(TetFiles, LooseNodesAndRepeatedTetsAreDropped) {
     EXPECT_EQ(cage.tets.size(), 5u);
     EXPECT_EQ(surface.triangles.size(), 12u);
 }
+
+}  // namespace tet_file_read_tests

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace frond::test {
-namespace {
+namespace tet_geometry_tests {
 
 // Edges of 2, 3 and 4 m along x, y and z, away from the origin.
 const std::vector<Vec3> NODES = {{9, 9, 9}, {1, 1, 1}, {3, 1, 1}, {1, 4, 1}, {1, 1, 5}};
@@ -30,5 +30,6 @@ TEST(TetGeometry, WeightsGiveThePlaceBackInsideAndOutside) {
     }
 }
 
-}  // namespace
+}  // namespace tet_geometry_tests
+
 }  // namespace frond::test

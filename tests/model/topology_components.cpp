@@ -9,7 +9,7 @@
 #include "support/soups.hpp"
 
 namespace frond::test {
-namespace {
+namespace topology_components_tests {
 
 double distance_of(const Topology& topology, int t, int u) {
     Corners a, b;
@@ -185,5 +185,6 @@ TEST(Topology, MeasuresTrianglesAsSamplingDoes) {
     }
 }
 
-}  // namespace
+}  // namespace topology_components_tests
+
 }  // namespace frond::test

@@ -6,7 +6,7 @@
 
 #include "canvas.hpp"
 
-namespace {
+namespace test_compare_tests {
 
 // A little plant: stem and leaves that bend by `bend` radians; `missing` leaves one out.
 std::vector<uint8_t> draw_plant(double bend, int missing, int samples = 4, double shift = 0) {
@@ -49,8 +49,6 @@ frond_picture_difference compare(const std::vector<uint8_t>& a, const std::vecto
                                       heat ? heat->data() : nullptr));
     return difference;
 }
-
-}  // namespace
 
 TEST(PictureCompare, SamePicturesDifferByNothing) {
     const std::vector<uint8_t> plant = draw_plant(0.3, -1);
@@ -155,3 +153,5 @@ TEST(PictureCompare, PlantLooksAsInItsReference) {
     EXPECT_TRUE(difference.same) << "worst difference " << difference.worst << " at " << difference.worst_x << ", "
                                  << difference.worst_y << "; see " << kept;
 }
+
+}  // namespace test_compare_tests

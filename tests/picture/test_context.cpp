@@ -5,7 +5,7 @@
 
 extern "C" int picture_header_works_in_c(void);
 
-namespace {
+namespace test_context_tests {
 
 std::vector<uint8_t> draw_ball(const frond_picture_def& def) {
     Canvas canvas(def);
@@ -16,8 +16,6 @@ std::vector<uint8_t> draw_ball(const frond_picture_def& def) {
     EXPECT_TRUE(frond_picture_draw_sphere(canvas.picture, {0.1, 0, 0}, 0.6, {0.6f, 0.2f, 0.1f, 1}));
     return canvas.end();
 }
-
-}  // namespace
 
 TEST(PictureContext, HeaderWorksInC) {
     EXPECT_TRUE(picture_header_works_in_c());
@@ -77,3 +75,5 @@ TEST(PictureContext, TwoPicturesDoNotDisturbEachOther) {
     EXPECT_GT(at(ball, 0, 0).r, at(ball, 0, 0).g + 40);
     EXPECT_LT(std::abs(at(empty, 0, 0).r - at(empty, 0, 0).g), 40);
 }
+
+}  // namespace test_context_tests

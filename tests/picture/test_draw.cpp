@@ -5,7 +5,7 @@
 
 #include "canvas.hpp"
 
-namespace {
+namespace test_draw_tests {
 
 // A PNG's bytes: opaque green on the left, transparent on the right.
 std::vector<uint8_t> half_cut_png() {
@@ -38,8 +38,6 @@ std::vector<uint8_t> draw_nothing(const frond_picture_scene& scene) {
     canvas.begin(scene);
     return canvas.end();
 }
-
-}  // namespace
 
 TEST(PictureDraw, BallHasALightSideAndADarkSide) {
     Canvas canvas;
@@ -402,3 +400,5 @@ TEST(PictureDraw, FarFromTheOriginLooksTheSame) {
         frond_picture_compare(near.data(), far.data(), WIDTH, HEIGHT, FROND_PICTURE_TOLERANCE, &difference, nullptr));
     EXPECT_TRUE(difference.same) << difference.worst;
 }
+
+}  // namespace test_draw_tests

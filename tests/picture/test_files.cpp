@@ -7,7 +7,7 @@
 
 #include "canvas.hpp"
 
-namespace {
+namespace test_files_tests {
 
 std::vector<uint8_t> read_file(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -26,8 +26,6 @@ std::vector<uint8_t> moving_disc(int width, int height, int step) {
         }
     return pixels;
 }
-
-}  // namespace
 
 TEST(PictureFiles, PngComesBackExactly) {
     std::vector<uint8_t> pixels(37 * 23 * 3);
@@ -144,3 +142,5 @@ TEST(PictureFiles, SheetShowsFirstToLastFrame) {
         EXPECT_EQ(pixels[(size_t(4 + k / 3 * 14 + 5) * width + size_t(4 + k % 3 * 24 + 10)) * 3], k * 29 / 5 * 8);
     frond_picture_free(pixels);
 }
+
+}  // namespace test_files_tests

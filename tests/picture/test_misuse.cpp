@@ -4,7 +4,7 @@
 
 #include "canvas.hpp"
 
-namespace {
+namespace test_misuse_tests {
 
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 const frond_color RED = {1, 0, 0, 1};
@@ -32,8 +32,6 @@ std::vector<bool> draw_all(frond_picture* picture) {
             frond_picture_draw_tets(picture, nodes, 4, tets, 1, 1, RED, RED),
             frond_picture_draw_text(picture, 0, 0, 12, RED, "text")};
 }
-
-}  // namespace
 
 TEST(PictureMisuse, DefsAreChecked) {
     frond_picture* picture = reinterpret_cast<frond_picture*>(1);
@@ -315,3 +313,5 @@ TEST(PictureMisuse, ComparisonsAreChecked) {
     expect_refused(frond_picture_compare_file(nullptr, 1, 1, "x.png", 1, &difference, nullptr), "null");
     EXPECT_FALSE(difference.same);
 }
+
+}  // namespace test_misuse_tests

@@ -14,7 +14,7 @@
 #include "support/sanitized.hpp"
 
 namespace frond::test {
-namespace {
+namespace agree_tests {
 
 constexpr double ALIKE = 0.05;  // by how much mechanics may differ, relatively
 
@@ -154,5 +154,6 @@ TEST(SpringChain, IsStifferWithThickerCapsules) {
     EXPECT_GT(frequencies(load("corn", 0.02), FROND_MECHANICS_SPRING_CHAIN)[0], 1.2 * as_shape[0]);
 }
 
-}  // namespace
+}  // namespace agree_tests
+
 }  // namespace frond::test

@@ -12,7 +12,7 @@
 #include "support/soups.hpp"
 
 namespace frond::test {
-namespace {
+namespace air_tests {
 
 constexpr double DENSITY = 1.2, VISCOSITY = 1.5e-5;
 
@@ -372,5 +372,6 @@ TEST(Air, BlowsInTheFrameOfTheWorld) {
                 1e-6 * air_force(*straight.plant).norm());
 }
 
-}  // namespace
+}  // namespace air_tests
+
 }  // namespace frond::test

@@ -14,7 +14,7 @@
 #include "support/soups.hpp"
 
 namespace frond::test {
-namespace {
+namespace batch_tests {
 
 constexpr double H = 1.0 / 60;
 
@@ -262,5 +262,6 @@ TEST(PlantBatch, GoOnPastHalfATurn) {
     EXPECT_EQ(together.alone, 3);  // first steps
 }
 
-}  // namespace
+}  // namespace batch_tests
+
 }  // namespace frond::test

@@ -12,7 +12,7 @@
 #include "support/sanitized.hpp"
 
 namespace frond::test {
-namespace {
+namespace damping_tests {
 
 constexpr double H = 1.0 / 240;
 
@@ -161,5 +161,6 @@ TEST_P(EveryDamping, DampsNothingWhereTheEffectIsOff) {
     EXPECT_EQ(off.plant->motion.x, none.plant->motion.x);
 }
 
-}  // namespace
+}  // namespace damping_tests
+
 }  // namespace frond::test

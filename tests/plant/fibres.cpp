@@ -11,7 +11,7 @@
 #include "support/soups.hpp"
 
 namespace frond::test {
-namespace {
+namespace fibres_tests {
 
 constexpr double LENGTH = 0.5, WIDTH = 0.05, H = 1.0 / 60;
 
@@ -163,5 +163,6 @@ TEST(Fibres, AreForCagesThatLackThem) {
     EXPECT_TRUE(make_fibres(tet, 1).list.empty());
 }
 
-}  // namespace
+}  // namespace fibres_tests
+
 }  // namespace frond::test

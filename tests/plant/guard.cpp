@@ -10,7 +10,7 @@
 #include "support/model_def.hpp"
 
 namespace frond::test {
-namespace {
+namespace guard_tests {
 
 constexpr double H = 1.0 / 60;
 
@@ -233,5 +233,6 @@ TEST(Guard, WhatIsHeldBentDoesNotStartFromTheModelledShape) {
     EXPECT_FALSE(start_from_modelled(*plant));
 }
 
-}  // namespace
+}  // namespace guard_tests
+
 }  // namespace frond::test

@@ -6,7 +6,7 @@
 #include "support/model_def.hpp"
 
 namespace frond::test {
-namespace {
+namespace long_steps_tests {
 
 // A stiff post with an arm, from which a fruit hangs on a thread that swings back by its weight 15 times as hard as by
 // its own stiffness.
@@ -111,5 +111,6 @@ TEST(LongSteps, KeepASwingThatOneSolveCannotFollow) {
     }
 }
 
-}  // namespace
+}  // namespace long_steps_tests
+
 }  // namespace frond::test

@@ -9,7 +9,7 @@
 #include "support/materials.hpp"
 
 namespace frond::test {
-namespace {
+namespace plasticity_tests {
 
 constexpr double H = 1.0 / 120;
 
@@ -197,5 +197,6 @@ TEST(PlasticityOfTets, BeginsAtOneEnergyWhateverTheirModuli) {
         EXPECT_NEAR(stiff->yields[e].strain, soft->yields[e].strain / 2, 1e-12);
 }
 
-}  // namespace
+}  // namespace plasticity_tests
+
 }  // namespace frond::test

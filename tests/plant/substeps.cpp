@@ -8,7 +8,7 @@
 #include "support/materials.hpp"
 
 namespace frond::test {
-namespace {
+namespace substeps_tests {
 
 constexpr double H = 1.0 / 30;
 
@@ -120,5 +120,6 @@ TEST_P(Substeps, MoveWhatIsHeldEvenly) {
     EXPECT_EQ(plant->trouble & FROND_TROUBLE_REWOUND, 0u);
 }
 
-}  // namespace
+}  // namespace substeps_tests
+
 }  // namespace frond::test

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace frond::test {
-namespace {
+namespace wind_tests {
 
 frond_wind_def plain_def() {
     frond_wind_def def = {};
@@ -218,5 +218,6 @@ TEST(Wind, UpIsAgainstGravity) {
     EXPECT_EQ(up_of(Vec3(0, 0, 0)), Vec3(0, 1, 0));
 }
 
-}  // namespace
+}  // namespace wind_tests
+
 }  // namespace frond::test

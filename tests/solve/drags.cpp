@@ -5,7 +5,7 @@
 #include "support/rig.hpp"
 
 namespace frond::test {
-namespace {
+namespace drags_tests {
 
 struct EveryDrag : EveryCombination {
     const double H = time_step();
@@ -125,5 +125,6 @@ TEST(Drags, ThatAreNotSoundAreRefused) {
     EXPECT_FALSE(rig.step(0.01).ok);
 }
 
-}  // namespace
+}  // namespace drags_tests
+
 }  // namespace frond::test

@@ -7,7 +7,7 @@
 #include "support/rig.hpp"
 
 namespace frond::test {
-namespace {
+namespace failure_tests {
 
 constexpr double H = 1.0 / 60;
 
@@ -115,5 +115,6 @@ TEST(Failure, CollapsedToAPointComesBack) {
     EXPECT_LT(rig.elastic_energy(), 1e-9);
 }
 
-}  // namespace
+}  // namespace failure_tests
+
 }  // namespace frond::test

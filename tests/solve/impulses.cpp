@@ -8,7 +8,7 @@
 #include "support/meshes.hpp"
 
 namespace frond::test {
-namespace {
+namespace impulses_tests {
 
 std::vector<std::vector<Coupling>> alone(double inverse_mass) {
     return {{{0, inverse_mass * Mat3::Identity()}}};
@@ -105,5 +105,6 @@ TEST(Impulses, NothingThatIsNailedDownIsPushed) {
     EXPECT_EQ(impulses[0].norm(), 0);
 }
 
-}  // namespace
+}  // namespace impulses_tests
+
 }  // namespace frond::test

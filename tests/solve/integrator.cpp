@@ -3,13 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "support/dense.hpp"
 #include "support/rig.hpp"
 
 namespace frond::test {
-namespace {
+namespace integrator_tests {
 
 struct EveryIntegrator : testing::TestWithParam<int> {
     const frond_integrator which = frond_integrator(GetParam());
@@ -86,12 +84,11 @@ struct Mode {
             for (Eigen::Index j = 0; j < n; ++j)
                 M(i, j) = 0.5 * (kinetic_energy(*rig.system, VecX::Unit(n, i) + VecX::Unit(n, j)) -
                                  kinetic_energy(*rig.system, VecX::Unit(n, i) - VecX::Unit(n, j)));
-        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(dense(K).bottomRightCorner(free, free),
-                                                                              M.bottomRightCorner(free, free));
+        const Modes modes = modes_of(dense(K).bottomRightCorner(free, free), M.bottomRightCorner(free, free));
         const Eigen::Index index = number < 0 ? free + number : number;
         shape = VecX::Zero(n);
-        shape.tail(free) = modes.eigenvectors().col(index);
-        omega = std::sqrt(modes.eigenvalues()[index]);
+        shape.tail(free) = modes.shapes.col(index);
+        omega = std::sqrt(modes.values[index]);
     }
     double place() const { return shape.dot(M * (rig.motion.x - positions_of(*rig.model))); }
     double speed() const { return shape.dot(M * rig.motion.v) / omega; }
@@ -313,5 +310,6 @@ TEST_P(EveryIntegrator, AStepThatFailsLeavesThePastOfTheNextOneUnused) {
     EXPECT_EQ(rig.motion.x, twin.motion.x);
 }
 
-}  // namespace
+}  // namespace integrator_tests
+
 }  // namespace frond::test

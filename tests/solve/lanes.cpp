@@ -6,7 +6,7 @@
 #include "support/rig.hpp"
 
 namespace frond::test {
-namespace {
+namespace lanes_tests {
 
 struct Narrow {
     const int before = most_lanes();
@@ -35,5 +35,6 @@ TEST_P(EveryBody, MovesAlikeInLanesOfAnyWidth) {
     EXPECT_EQ(ends[0], ends[1]);
 }
 
-}  // namespace
+}  // namespace lanes_tests
+
 }  // namespace frond::test

@@ -4,7 +4,7 @@
 #include "support/rig.hpp"
 
 namespace frond::test {
-namespace {
+namespace newton_tests {
 
 // A soft beam thrown sideways hard, with all kinds of damping and a spring.
 Rig thrown(int iterations, double tolerance, double young = 2e5, double speed = 6,
@@ -108,5 +108,6 @@ TEST(Newton, IteratedStepsSolveTheEquationAtTheEndOfTheStep) {
     }
 }
 
-}  // namespace
+}  // namespace newton_tests
+
 }  // namespace frond::test

@@ -4,7 +4,7 @@
 #include "support/rig.hpp"
 
 namespace frond::test {
-namespace {
+namespace node_compliance_tests {
 
 // C' A^-1 B by whole solves.
 Mat3 by_whole_solves(Rig& rig, const std::vector<NodeBlock>& at, const std::vector<NodeBlock>& by) {
@@ -67,5 +67,6 @@ TEST(NodeCompliance, IsThatOfWholeSolvesForEverySolverAndIntegrator) {
         }
 }
 
-}  // namespace
+}  // namespace node_compliance_tests
+
 }  // namespace frond::test

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace frond {
-namespace {
+namespace one_sided_tests {
 
 class RandomRows : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(OneSided, RandomRows, testing::Values(1, 2, 5, 20, 80));
@@ -47,5 +47,6 @@ TEST(OneSided, WhatCannotBeSolvedIsToldAndPullsNothing) {
     EXPECT_EQ(p, VecX::Zero(3));
 }
 
-}  // namespace
+}  // namespace one_sided_tests
+
 }  // namespace frond

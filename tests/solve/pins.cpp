@@ -4,7 +4,7 @@
 #include "support/rig.hpp"
 
 namespace frond::test {
-namespace {
+namespace pins_tests {
 
 struct EveryPin : EveryCombination {
     const double H = time_step();
@@ -79,5 +79,6 @@ TEST_P(EveryPin, LetsGoAndTakesHoldAnyTime) {
     EXPECT_EQ(Vec3(point(rig.motion.x, 3)), place);
 }
 
-}  // namespace
+}  // namespace pins_tests
+
 }  // namespace frond::test

@@ -5,7 +5,7 @@
 #include "support/meshes.hpp"
 
 namespace frond::test {
-namespace {
+namespace response_tests {
 
 struct Bodies {
     Eigen::MatrixXd W;
@@ -118,5 +118,6 @@ TEST(Impulses, OfBodiesThatHaveNothingToDoWithEachOtherAreFoundApart) {
     EXPECT_EQ(together, alone);
 }
 
-}  // namespace
+}  // namespace response_tests
+
 }  // namespace frond::test

@@ -4,7 +4,7 @@
 #include "support/rig.hpp"
 
 namespace frond::test {
-namespace {
+namespace springs_tests {
 
 struct EverySpring : EveryCombination {
     const double H = time_step();
@@ -67,5 +67,6 @@ TEST_P(EverySpring, StaysStableHoweverStiff) {
     EXPECT_NEAR((point(rig.motion.x, corners[0]) - rig.loads.springs[0].target).norm(), 0, 1e-5);
 }
 
-}  // namespace
+}  // namespace springs_tests
+
 }  // namespace frond::test

@@ -4,7 +4,7 @@
 #include "support/rig.hpp"
 
 namespace frond::test {
-namespace {
+namespace step_tests {
 
 struct EveryStep : EveryCombination {
     const double H = time_step();
@@ -262,5 +262,6 @@ TEST(Step, ReportsWhatItCost) {
     EXPECT_LT(report.residual, 1e-8);
 }
 
-}  // namespace
+}  // namespace step_tests
+
 }  // namespace frond::test

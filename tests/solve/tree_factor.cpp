@@ -8,7 +8,7 @@
 #include "support/meshes.hpp"
 
 namespace frond::test {
-namespace {
+namespace tree_factor_tests {
 
 TEST(TreeFactor, IsForTreesOnly) {
     EXPECT_FALSE(make_tree_plan(make_block_pattern(0, std::vector<Tet>{})));
@@ -20,5 +20,6 @@ TEST(TreeFactor, IsForTreesOnly) {
     EXPECT_FALSE(make_block_plan(make_tet_elements(tree_model(6, 5, 3)).pattern).tree);
 }
 
-}  // namespace
+}  // namespace tree_factor_tests
+
 }  // namespace frond::test

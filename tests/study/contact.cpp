@@ -3,7 +3,7 @@
 
 #include "study/figures.hpp"
 
-namespace {
+namespace contact_tests {
 
 using frond::study::Effort;
 using frond::study::Figure;
@@ -33,4 +33,4 @@ TEST(ContactFigure, TellsWhatIsLeftOverTime) {
     EXPECT_EQ(script.find("$c2 using"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace contact_tests

@@ -6,7 +6,7 @@
 
 using namespace frond::study;
 
-namespace {
+namespace front_tests {
 
 Point point(double cpu, double error, const char* failure = "") {
     Point p = {"series", {}, {}, failure, false, false};
@@ -50,4 +50,4 @@ TEST(Front, OfNothingIsNothing) {
     EXPECT_TRUE(points.empty());
 }
 
-}  // namespace
+}  // namespace front_tests

@@ -8,7 +8,7 @@
 
 using namespace frond::study;
 
-namespace {
+namespace known_tests {
 
 struct Digits {
     double load, down, short_by, degrees;
@@ -175,4 +175,4 @@ TEST(Known, ReconfigurationHasThePublishedDigits) {
     EXPECT_NEAR(vogel, -2.0 / 3, 0.01);
 }
 
-}  // namespace
+}  // namespace known_tests

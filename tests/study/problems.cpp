@@ -12,7 +12,7 @@
 
 using namespace frond::study;
 
-namespace {
+namespace problems_tests {
 
 using Choice = frond::study::Setup;  // in a test's body Setup is another one
 
@@ -219,4 +219,4 @@ TEST(Amplitude, IsKeptAsTheIntegratorsSay) {
     EXPECT_NEAR(1 - problem.run(setup, session).error, std::exp(-300 * zeta * std::atan(z)), 0.02);
 }
 
-}  // namespace
+}  // namespace problems_tests

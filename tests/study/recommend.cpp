@@ -9,7 +9,7 @@
 
 using namespace frond::study;
 
-namespace {
+namespace recommend_tests {
 
 // Slow and soft, about as measured, quick and stiff.
 const Beam BEAMS[] = {{0.03, 2e7, 900, 0.4, {}}, {0.02, 1.28e8, 1000, 0.3, {}}, {0.015, 2e9, 600, 0.3, {}}};
@@ -108,4 +108,4 @@ TEST(Recommend, RefusesWhatCannotBeAndSaysWhatCan) {
     EXPECT_NE(std::string(frond_last_error()).find("the cheapest take"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace recommend_tests

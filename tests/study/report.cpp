@@ -10,7 +10,7 @@
 
 using namespace frond::study;
 
-namespace {
+namespace report_tests {
 
 // Two points, one of which failed with a text that needs quoting.
 Result little_result() {
@@ -140,4 +140,4 @@ TEST(Problems, ThatDoNotExistGiveTheNamesThereAre) {
     }
 }
 
-}  // namespace
+}  // namespace report_tests

@@ -1,22 +1,20 @@
-// Dense twins of sparse things, for small tests.
+// Dense twins of sparse things, for small tests; compiled once, since Eigen's decompositions take long.
 #pragma once
-
-#include <Eigen/Dense>
 
 #include "mechanics/block_matrix.hpp"
 
 namespace frond::test {
 
-inline Eigen::MatrixXd dense(const BlockMatrix& A) {
-    const BlockPattern& pattern = *A.pattern;
-    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * pattern.node_count, 3 * pattern.node_count);
-    for (int j = 0; j < pattern.node_count; ++j)
-        for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
-            const int i = pattern.row[size_t(k)];
-            out.block<3, 3>(3 * i, 3 * j) = A.block(k);
-            if (i != j) out.block<3, 3>(3 * j, 3 * i) = A.block(k).transpose();
-        }
-    return out;
-}
+Eigen::MatrixXd dense(const BlockMatrix& A);
+// Of a symmetric matrix, in ascending order.
+VecX eigenvalues_of(const Eigen::MatrixXd& A);
+// K v = value M v; shapes are columns, of unit mass.
+struct Modes {
+    VecX values;
+    Eigen::MatrixXd shapes;
+};
+Modes modes_of(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M);
+VecX solve_dense(const Eigen::MatrixXd& A, const VecX& b);
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& A);
 
 }  // namespace frond::test

@@ -8,13 +8,15 @@
 #include <fcl/narrowphase/detail/gjk_solver_indep.h>
 #include <fcl/narrowphase/distance.h>
 
+#include "core/decompose.hpp"
+
 namespace frond::test {
 
 // FCL's capsules lie along z.
 static fcl::Transform3d frame_of(const Capsule& capsule) {
     fcl::Transform3d frame = fcl::Transform3d::Identity();
     const Vec3 axis = capsule.end - capsule.begin;
-    if (axis.squaredNorm() > 0) frame.linear() = Quat::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
+    if (axis.squaredNorm() > 0) frame.linear() = turn_between(Vec3::UnitZ(), axis).toRotationMatrix();
     frame.translation() = 0.5 * (capsule.begin + capsule.end);
     return frame;
 }

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace animation_tests {
 
 constexpr int SAMPLES = 7;  // 60 steps, every tenth, and the start
 
@@ -90,4 +90,4 @@ TEST(AnimationExport, RefusesOtherFormatsAndNoTime) {
     EXPECT_NE(std::system(still.c_str()), 0);
 }
 
-}  // namespace
+}  // namespace animation_tests

@@ -8,7 +8,7 @@
 
 using namespace frond::tools;
 
-namespace {
+namespace boxes_tests {
 
 double between(std::mt19937& random, double low, double high) {
     return low + (high - low) * double(random()) / double(std::mt19937::max());
@@ -71,4 +71,4 @@ TEST_P(Boxes, ComeToRestOnLeavesAndStay) {
     }
 }
 
-}  // namespace
+}  // namespace boxes_tests

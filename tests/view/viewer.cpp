@@ -11,7 +11,7 @@
 
 using namespace frond::tools;
 
-namespace {
+namespace viewer_tests {
 
 constexpr int WIDTH = 640, HEIGHT = 480;
 
@@ -244,4 +244,4 @@ TEST(ViewPicture, ShowsEachOverlay) {
     frond_picture_destroy(picture);
 }
 
-}  // namespace
+}  // namespace viewer_tests

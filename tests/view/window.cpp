@@ -15,7 +15,7 @@
 
 using namespace frond::tools;
 
-namespace {
+namespace window_tests {
 
 constexpr int WIDTH = 480, HEIGHT = 360;
 
@@ -153,4 +153,4 @@ TEST(ViewWithoutAScreen, SaysWhatToDoInstead) {
     }
 }
 
-}  // namespace
+}  // namespace window_tests

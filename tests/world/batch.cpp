@@ -15,7 +15,7 @@
 #include "frond/frond_snapshot.h"
 #include "support/stems.hpp"
 
-namespace {
+namespace batch_tests {
 
 constexpr double H = 1.0 / 60;
 constexpr int COUNT = 7, HIT = 3;
@@ -237,4 +237,4 @@ TEST(BatchedPlants, PlantsGoAsAloneWhileTheirDetailChanges) {
     EXPECT_GT(cages, 10 * COUNT);
 }
 
-}  // namespace
+}  // namespace batch_tests

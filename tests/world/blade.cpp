@@ -6,7 +6,7 @@
 #include "frond/frond.h"
 #include "support/stems.hpp"
 
-namespace {
+namespace blade_tests {
 
 constexpr double H = 1.0 / 60;
 constexpr double LENGTH = 0.3, HALF_WIDTH = 0.06, HEIGHT = 0.5;  // [m]
@@ -128,4 +128,4 @@ TEST_P(Blade, IsFeltAtItsRim) {
     EXPECT_GT(down - other, 0.002);
 }
 
-}  // namespace
+}  // namespace blade_tests

@@ -5,7 +5,7 @@
 #include "frond/frond_bullet.hpp"
 #include "support/stems.hpp"
 
-namespace {
+namespace bond_tests {
 
 frond_rigid add_body(frond_world world, double mass, frond_vec3 place, frond_vec3 velocity = {0, 0, 0}) {
     frond_rigid_def def = frond_default_rigid_def();
@@ -168,4 +168,4 @@ TEST(Bond, RefusesWhatCannotBe) {
     EXPECT_TRUE(frond_bond_is_valid(bond));
 }
 
-}  // namespace
+}  // namespace bond_tests

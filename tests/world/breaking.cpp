@@ -6,7 +6,7 @@
 
 #include "frond/frond.h"
 
-namespace {
+namespace breaking_tests {
 
 constexpr double H = 1.0 / 120, LENGTH = 0.6, RADIUS = 0.006, YOUNG = 2e8;
 
@@ -315,4 +315,4 @@ TEST(Breaking, WrongCallsAreToldSo) {
     stem.step(2);
 }
 
-}  // namespace
+}  // namespace breaking_tests

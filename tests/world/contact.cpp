@@ -13,7 +13,7 @@
 #include "support/sanitized.hpp"
 #include "support/stems.hpp"
 
-namespace {
+namespace contact_tests {
 
 constexpr btScalar H = btScalar(1.0 / 60);
 
@@ -385,4 +385,4 @@ TEST_P(EveryBody, IsFeltByALinkOfAMultiBody) {
     EXPECT_GT(impulse, 0.1);
 }
 
-}  // namespace
+}  // namespace contact_tests

@@ -7,7 +7,7 @@
 #include "frond/frond_bullet.hpp"
 #include "support/stems.hpp"
 
-namespace {
+namespace debug_draw_tests {
 
 struct Drawer : btIDebugDraw {
     int mode = 0;
@@ -81,4 +81,4 @@ TEST(DebugDraw, LeavesTheHostsMarksAlone) {
     EXPECT_EQ(object->getUserIndex2(), 8);
 }
 
-}  // namespace
+}  // namespace debug_draw_tests

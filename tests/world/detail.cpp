@@ -13,7 +13,7 @@
 #include "support/sanitized.hpp"
 #include "support/stems.hpp"
 
-namespace {
+namespace detail_tests {
 
 constexpr double H = 1.0 / 60;
 
@@ -390,4 +390,4 @@ TEST(Detail, KeepsABudget) {
     EXPECT_EQ(now.last, FROND_DETAIL_MODAL);
 }
 
-}  // namespace
+}  // namespace detail_tests

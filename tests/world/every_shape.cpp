@@ -16,7 +16,7 @@
 #include "frond/frond_bullet.hpp"
 #include "support/stems.hpp"
 
-namespace {
+namespace every_shape_tests {
 
 constexpr double STEM_AT = 0.5, REACH = 0.6, RADIUS = 0.01;  // its height, length and thickness [m]
 
@@ -243,4 +243,4 @@ TEST_P(EveryCharacter, PushesAStemAside) {
     scene.world.removeCollisionObject(&ghost);
 }
 
-}  // namespace
+}  // namespace every_shape_tests

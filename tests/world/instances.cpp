@@ -8,7 +8,7 @@
 #include "frond/frond.h"
 #include "support/sanitized.hpp"
 
-namespace {
+namespace instances_tests {
 
 constexpr double H = 1.0 / 60;
 
@@ -122,4 +122,4 @@ TEST(Instances, ThatAreLookedAtAreFoldedAgain) {
     EXPECT_LT((kilobytes() - before) / 50, 1);
 }
 
-}  // namespace
+}  // namespace instances_tests

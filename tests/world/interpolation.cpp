@@ -7,7 +7,7 @@
 #include "frond/frond_bullet.hpp"
 #include "support/stems.hpp"
 
-namespace {
+namespace interpolation_tests {
 
 constexpr double H = 1.0 / 60;
 
@@ -149,4 +149,4 @@ TEST(InterpolationSetting, IsChecked) {
         EXPECT_EQ(frond_world_set_interpolation(small.world, wrong), FROND_RESULT_BAD_ARGUMENT) << wrong;
 }
 
-}  // namespace
+}  // namespace interpolation_tests

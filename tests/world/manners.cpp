@@ -12,7 +12,7 @@
 #include "frond/frond_bullet.hpp"
 #include "support/stems.hpp"
 
-namespace {
+namespace manners_tests {
 
 std::vector<std::string> open_zones;
 std::set<std::string> seen_zones;  // "outer/inner"
@@ -92,4 +92,4 @@ TEST(Manners, BulletsObjectsLiveInBulletsMemoryAndAllOfItIsGivenBack) {
     btAlignedAllocSetCustomAligned(nullptr, nullptr);
 }
 
-}  // namespace
+}  // namespace manners_tests

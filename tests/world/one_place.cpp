@@ -4,7 +4,7 @@
 
 #include "support/stems.hpp"
 
-namespace {
+namespace one_place_tests {
 
 struct OnePlace : testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Plants, OnePlace, testing::Range(0, int(FROND_MECHANICS_COUNT)), [](const auto& info) {
@@ -47,4 +47,4 @@ TEST_P(OnePlace, LetsPlantsPartAboveTheirFeet) {
     }
 }
 
-}  // namespace
+}  // namespace one_place_tests

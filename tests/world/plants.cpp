@@ -11,7 +11,7 @@
 #include "support/sanitized.hpp"
 #include "support/stand.hpp"
 
-namespace {
+namespace plants_tests {
 
 using frond::Vec3;
 using frond::test::CornPair;
@@ -319,4 +319,4 @@ TEST(Plants, DoNotPassThroughThemselves) {
     EXPECT_LT(closest(false), 0);
 }
 
-}  // namespace
+}  // namespace plants_tests

@@ -9,7 +9,7 @@
 #include "frond/frond.h"
 #include "support/sanitized.hpp"
 
-namespace {
+namespace quadratic_tests {
 
 constexpr double YOUNG = 1e8, POISSON = 0.3;
 
@@ -164,4 +164,4 @@ TEST_P(EveryTets, StandAsModelled) {
     frond_model_destroy(model);
 }
 
-}  // namespace
+}  // namespace quadratic_tests

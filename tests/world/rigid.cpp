@@ -4,7 +4,7 @@
 
 #include "support/stems.hpp"
 
-namespace {
+namespace rigid_tests {
 
 frond_rigid add(frond_world world, frond_shape shape, frond_vec3 size, double mass, frond_vec3 place) {
     frond_rigid_def def = frond_default_rigid_def();
@@ -57,4 +57,4 @@ TEST_P(EveryShape, PushesAPlantThatIsInItsWay) {
     EXPECT_GT(pushed, 0);
 }
 
-}  // namespace
+}  // namespace rigid_tests

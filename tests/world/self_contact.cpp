@@ -3,7 +3,7 @@
 
 #include "support/stems.hpp"
 
-namespace {
+namespace self_contact_tests {
 
 struct SelfContact : testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Plants, SelfContact, testing::Range(0, int(FROND_MECHANICS_COUNT)), [](const auto& info) {
@@ -49,4 +49,4 @@ TEST_P(SelfContact, LetsTheCornStand) {
     frond_model_destroy(model);
 }
 
-}  // namespace
+}  // namespace self_contact_tests

@@ -9,7 +9,7 @@
 #include "frond/frond.h"
 #include "support/sanitized.hpp"
 
-namespace {
+namespace sleep_tests {
 
 constexpr double H = 1.0 / 60;
 
@@ -395,4 +395,4 @@ TEST(Wake, TakesNoStaleHandleAndNoAbsurdDistance) {
     }
 }
 
-}  // namespace
+}  // namespace sleep_tests

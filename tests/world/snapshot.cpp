@@ -9,7 +9,7 @@
 #include "frond/frond_snapshot.h"
 #include "support/stems.hpp"
 
-namespace {
+namespace snapshot_tests {
 
 constexpr double H = 1.0 / 60;
 
@@ -259,7 +259,7 @@ TEST_F(Refused, WhenOfAnotherVersion) {
 }
 
 TEST_F(Refused, WhenNoSnapshotAtAll) {
-    refuse(std::vector<char>(1000, 'x'), FROND_RESULT_FILE_FORMAT, "no snapshot");
+    refuse(std::vector<char>(1000, 'x'), FROND_RESULT_FILE_FORMAT, "not a snapshot");
     EXPECT_EQ(frond_world_restore(garden.world, nullptr, 10), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(frond_world_restore({}, bytes.data(), bytes.size()), FROND_RESULT_BAD_HANDLE);
     EXPECT_EQ(frond_world_save(garden.world, bytes.data(), 3), FROND_RESULT_BAD_ARGUMENT);
@@ -286,4 +286,4 @@ TEST_F(Refused, WhenPlantsHaveOtherSettings) {
     refuse(bytes, FROND_RESULT_BAD_ARGUMENT, "another model, place or setting");
 }
 
-}  // namespace
+}  // namespace snapshot_tests

@@ -4,7 +4,7 @@
 
 #include "support/stems.hpp"
 
-namespace {
+namespace strains_tests {
 
 constexpr double LENGTH = 0.6, RADIUS = 0.006, YOUNG = 2e8;
 
@@ -120,4 +120,4 @@ TEST(SetIntegrator, GoesOnFromTheSameMotion) {
     }
 }
 
-}  // namespace
+}  // namespace strains_tests

@@ -8,7 +8,7 @@
 #include "support/sanitized.hpp"
 #include "support/stand.hpp"
 
-namespace {
+namespace struck_tests {
 
 using frond::test::must;
 using frond::test::Stand;
@@ -97,4 +97,4 @@ TEST_P(Struck, GetsNoMoreEnergyThanTheBallHad) {
     EXPECT_LE(rewound, 10);  // of 1350 steps
 }
 
-}  // namespace
+}  // namespace struck_tests

@@ -13,7 +13,7 @@
 #include "frond/frond.h"
 #include "support/stems.hpp"
 
-namespace {
+namespace threads_tests {
 
 constexpr double H = 1.0 / 60;
 
@@ -303,4 +303,4 @@ TEST(Threads, GiveTheSameBitsToIslandsOfContacts) {
     }
 }
 
-}  // namespace
+}  // namespace threads_tests

@@ -30,18 +30,18 @@ struct Case {
     frond_effects never = 0;  // effects that would answer to the one that is counted
 };
 
-struct Row {
+struct EffectRow {
     frond_effects effect;
     std::function<void(Case&)> idle, work;  // what there is for it to do
 };
 
 void nothing(Case&) {}
 
-const std::vector<Row>& rows() {
+const std::vector<EffectRow>& rows() {
     const auto touched = [](Case& c) { c.ball = 0.1; };
     const auto blown = [](Case& c) { c.wind = 8; };
     const auto pulled = [](Case& c) { c.force = 40; };
-    static const std::vector<Row> table = {
+    static const std::vector<EffectRow> table = {
         {FROND_EFFECT_GRAVITY,
          [](Case& c) {
              c.world.gravity = {0, 0, 0};
@@ -102,16 +102,16 @@ void step_in_callgrind(const Case& c, frond_model model, const std::string& name
 }
 
 // Reads a part of callgrind's output.
-struct Counted {
+struct EffectCount {
     double instructions = 0;
     bool collides = false;  // code that looks for touches of plants ran
 };
 
-Counted read_part(const std::vector<std::string>& lines) {
+EffectCount read_effect_part(const std::vector<std::string>& lines) {
     static const char* const COLLISION[] = {"find_cage_contacts", "gap_between",        "find_meeting_pieces",
                                             "cover_pieces",       "place_shape",        "add_capsule_contacts",
                                             "contact_at",         "respond_to_contacts"};
-    Counted counted;
+    EffectCount counted;
     for (const std::string& line : lines) {
         if (begins_with(line, "totals: ")) counted.instructions = std::strtod(line.c_str() + 8, nullptr);
         if (begins_with(line, "summary: ") && counted.instructions == 0)
@@ -122,10 +122,10 @@ Counted read_part(const std::vector<std::string>& lines) {
     return counted;
 }
 
-std::map<std::string, Counted> count_in_valgrind() {
-    std::map<std::string, Counted> all;
+std::map<std::string, EffectCount> count_in_valgrind() {
+    std::map<std::string, EffectCount> all;
     for (const auto& [name, lines] : count_self("bench effects --inside", "--collect-atstart=no"))
-        all[name] = read_part(lines);
+        all[name] = read_effect_part(lines);
     if (all.empty()) throw SceneError("valgrind did not count; install it with tools/install-packages");
     return all;
 }
@@ -136,7 +136,7 @@ void step_all_effects() {
     frond_model model = {};
     const frond_model_def def = frond_default_model_def();
     must(frond_model_load(model_path("corn/corn.obj").c_str(), &def, &model));
-    for (const Row& row : rows()) {
+    for (const EffectRow& row : rows()) {
         const std::string name = frond_effect_name(row.effect);
         const auto play = [&](const char* what, frond_effects world, frond_effects plant, const auto& scene) {
             Case c;
@@ -157,7 +157,7 @@ void step_all_effects() {
 }
 
 void bench_effects(const BenchOptions& options) {
-    const std::map<std::string, Counted> all = count_in_valgrind();
+    const std::map<std::string, EffectCount> all = count_in_valgrind();
     const char* const columns[] = {"without", "off", "masked", "idle", "unserved", "work"};
     if (options.csv)
         std::printf("effect,without,off,masked,idle,unserved,work,idle_collides,processor,compiler,version,commit\n");
@@ -168,7 +168,7 @@ void bench_effects(const BenchOptions& options) {
             "to do;\nunserved: off where there is something to do; work: on there\n%-14s %11s %9s %9s %9s %11s %11s\n",
             FROND_COMPILER, frond_version_string(), FROND_COMMIT, "effect", "without", "off +", "masked +", "idle +",
             "unserved", "work +");
-    for (const Row& row : rows()) {
+    for (const EffectRow& row : rows()) {
         const std::string name = frond_effect_name(row.effect);
         std::map<std::string, double> n;
         for (const char* column : columns) n[column] = all.at(name + " " + column).instructions;

@@ -16,14 +16,14 @@ namespace frond::tools {
 
 namespace {
 
-constexpr int PULL = 20, STEPS = 10;
+constexpr int PULLED = 20, STEPS = 10;
 
 // Ten steps are counted when the plant was just let go, and ten when it sways, a second later.
-struct Window {
+struct CountWindow {
     const char* name;
     int begin;  // step
 };
-constexpr Window WINDOWS[] = {{"let go", PULL}, {"swaying", PULL + 60}};
+constexpr CountWindow WINDOWS[] = {{"let go", PULLED}, {"swaying", PULLED + 60}};
 
 // A corn plant pulled by a leaf and let go, in one mechanics.
 void sway_in_callgrind(frond_model model, frond_mechanics mechanics) {
@@ -38,10 +38,10 @@ void sway_in_callgrind(frond_model model, frond_mechanics mechanics) {
     std::string part;  // callgrind reads it a little later than it is told
     int i = 0;
     const auto step = [&] {
-        if (i++ < PULL) must(frond_plant_add_force(plant, node, {0.5, 0, 0}));
+        if (i++ < PULLED) must(frond_plant_add_force(plant, node, {0.5, 0, 0}));
         must(frond_world_step(world, 1.0 / 60));
     };
-    for (const Window& window : WINDOWS) {
+    for (const CountWindow& window : WINDOWS) {
         while (i < window.begin) step();
         CALLGRIND_TOGGLE_COLLECT;
         while (i < window.begin + STEPS) step();
@@ -52,16 +52,16 @@ void sway_in_callgrind(frond_model model, frond_mechanics mechanics) {
     frond_world_destroy(world);
 }
 
-struct Counted {
+struct GuardCount {
     double all = 0, guard = 0;  // instructions
 };
 
 // "cfn=(12) name" names a function that is called, later only by its number; the line after "calls=" has what it took.
-Counted read_part(const std::vector<std::string>& lines) {
+GuardCount read_guard_part(const std::vector<std::string>& lines) {
     static const char* const GUARD[] = {"ends_off_course", "has_run_away",    "is_far_out",
                                         "is_plausible",    "are_finite",      "look_at_energy",
                                         "watch_recovery",  "damp_recovering", "jump_with_pins"};
-    Counted counted;
+    GuardCount counted;
     std::map<std::string, bool> is_guard;
     bool counts = false, is_call = false, in_guard = false;
     for (const std::string& line : lines) {
@@ -103,7 +103,7 @@ void bench_guard() {
     std::printf("instructions of a step of a corn plant, by callgrind\n%-26s %12s %12s %8s\n", "mechanics", "all",
                 "guard", "share");
     for (const auto& [name, lines] : parts) {
-        const Counted counted = read_part(lines);
+        const GuardCount counted = read_guard_part(lines);
         std::printf("%-26s %12.0f %12.0f %7.2f%%\n", name.c_str(), counted.all / STEPS, counted.guard / STEPS,
                     100 * counted.guard / counted.all);
     }

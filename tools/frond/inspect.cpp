@@ -140,7 +140,7 @@ void print_kinds(const nlohmann::ordered_json& organs) {
     }
 }
 
-void print(const nlohmann::ordered_json& out) {
+void print_model(const nlohmann::ordered_json& out) {
     const auto number = [&](const char* group, const char* field) { return out[group][field].get<double>(); };
     const auto count = [&](const char* group, const char* field) { return out[group][field].get<int>(); };
     std::printf("%s\n", out["file"].get<std::string>().c_str());
@@ -185,7 +185,7 @@ void inspect(const InspectOptions& options) {
     if (options.json)
         std::printf("%s\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     else
-        print(out);
+        print_model(out);
     if (options.shot.empty()) return;
     stage.plant(model, {0, 0, 0});
     Studio studio(options.view);

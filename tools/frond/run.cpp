@@ -87,7 +87,7 @@ nlohmann::ordered_json summary(const Play& play, const Record& record) {
     return out;
 }
 
-void print(const nlohmann::ordered_json& out) {
+void print_run(const nlohmann::ordered_json& out) {
     std::printf("%s: %d plants, %d nodes, %d tets, %s, %s, %s\n", out["scene"].get<std::string>().c_str(),
                 out["plants"].get<int>(), out["nodes"].get<int>(), out["tets"].get<int>(),
                 out["mechanics"].get<std::string>().c_str(), out["integrator"].get<std::string>().c_str(),
@@ -231,7 +231,7 @@ void run(const RunOptions& options) {
         results.push_back(play_once(take, casting));
         if (options.json) continue;
         if (takes.size() > 1) std::printf("%s:\n", take.shot.c_str());
-        print(results.back());
+        print_run(results.back());
     }
     const nlohmann::ordered_json all = takes.size() > 1 ? nlohmann::ordered_json(results) : results.front();
     if (options.json) std::printf("%s\n", all.dump(2).c_str());

@@ -13,7 +13,7 @@ double cucumber_side_vein(double along, double off, double sharp) {
 
 namespace {
 
-const Rgb BLADE{0.22, 0.44, 0.14};
+const Rgb BLADE_DARK{0.22, 0.44, 0.14};
 
 // How light the texture is at a place of the half leaf, 0 blade .. 1 vein.
 double vein_light(double fore, double aside) {
@@ -54,7 +54,7 @@ double vein_light(double fore, double aside) {
 
 GrownImage cucumber_blade_image() {
     GrownImage image{"cucumber_blade.png", 192, 320, {}, {}};
-    fill_palette(image, BLADE, CUCUMBER_VEIN);
+    fill_palette(image, BLADE_DARK, CUCUMBER_VEIN);
     Random random(42);
     for (int row = 0; row < image.height; row++) {
         for (int column = 0; column < image.width; column++) {

@@ -6,7 +6,8 @@ namespace {
 
 constexpr int LEAVES = 12, RAYS = 21, RIM = 21;
 
-const Rgb STEM{0.45, 0.58, 0.26}, BLADE{0.25, 0.44, 0.15}, VEIN{0.50, 0.64, 0.30}, BRACT{0.36, 0.52, 0.20};
+const Rgb SUNFLOWER_STEM{0.45, 0.58, 0.26}, SUNFLOWER_BLADE{0.25, 0.44, 0.15}, VEIN_PALE{0.50, 0.64, 0.30},
+    BRACT{0.36, 0.52, 0.20};
 const Rgb RAY{0.98, 0.76, 0.08}, RAY_DEEP{0.90, 0.55, 0.05}, DISK{0.30, 0.17, 0.07}, DISK_RIM{0.62, 0.40, 0.10};
 
 struct Sunflower {
@@ -31,8 +32,8 @@ void grow_stem(Sunflower& f) {
     const int rings = 24;
     for (int r = 0; r < rings; r++) {
         const double s = std::pow(r / (rings - 1.0), 0.8);
-        tube.rings.push_back(
-            {f.axis(s) - Vec{0, r == 0 ? 0.02 : 0.0, 0}, f.radius(s), mix(scaled(STEM, 0.85), STEM, s)});
+        tube.rings.push_back({f.axis(s) - Vec{0, r == 0 ? 0.02 : 0.0, 0}, f.radius(s),
+                              mix(scaled(SUNFLOWER_STEM, 0.85), SUNFLOWER_STEM, s)});
     }
     tube.close_end = true;
     add_tube(f.plant, tube);
@@ -48,7 +49,7 @@ void grow_leaf(Sunflower& f, int i) {
         curve_through({foot, foot + (0.5 * reach) * (out + 0.85 * up), foot + reach * (out + 0.55 * up)}, 4);
     Tube stalk;
     stalk.sides = 4;
-    for (const Vec& p : line) stalk.rings.push_back({p, 0.0036, mix(STEM, VEIN, 0.5)});
+    for (const Vec& p : line) stalk.rings.push_back({p, 0.0036, mix(SUNFLOWER_STEM, VEIN_PALE, 0.5)});
     stalk.end_reach = 0.002;
     begin_organ(f.plant, "petiole_" + std::to_string(i + 1), f.petiole);
     add_tube(f.plant, stalk);
@@ -69,7 +70,7 @@ void grow_leaf(Sunflower& f, int i) {
                Vec{0, 0.30 * fore - hang * std::max(0.0, fore) * fore / size + fold * std::fabs(side) * half + wave, 0};
     };
     sheet.tint = [&](int row, int column) {
-        return mix(BLADE, VEIN, column == 2 ? mix(0.9, 0.3, row / 8.0) : column % 2 ? 0.0 : 0.18);
+        return mix(SUNFLOWER_BLADE, VEIN_PALE, column == 2 ? mix(0.9, 0.3, row / 8.0) : column % 2 ? 0.0 : 0.18);
     };
     begin_organ(f.plant, "leaf_" + std::to_string(i + 1), f.blade);
     add_sheet(f.plant, sheet);
@@ -90,7 +91,7 @@ void grow_head(Sunflower& f) {
                   {center + 0.034 * axis, 0.98 * radius, DISK_RIM},
                   {center + 0.040 * axis, 0.78 * radius, DISK_RIM},
                   {center + 0.0415 * axis, 0.62 * radius, DISK},
-                  {center + 0.0425 * axis, 0.30 * radius, mix(DISK, VEIN, 0.25)}};
+                  {center + 0.0425 * axis, 0.30 * radius, mix(DISK, VEIN_PALE, 0.25)}};
     dish.end_reach = 0.0003;
     dish.tint = [&](int r, int s) { return scaled(dish.rings[r].color, (r + s) % 2 ? 0.85 : 1.1); };
     add_tube(f.plant, dish);
@@ -126,9 +127,9 @@ GrownPlant grow_sunflower(const GrownSettings& value, uint64_t seed) {
     f.random = Random(seed);
     f.height = value.at("height"), f.leaf_size = value.at("leaf_size"), f.head = value.at("head_size");
     f.nod = value.at("nod"), f.facing = value.at("azimuth") * PI / 180;
-    f.stem = add_material(f.plant, "stem", STEM);
-    f.petiole = add_material(f.plant, "petiole", STEM);
-    f.blade = add_material(f.plant, "blade", BLADE);
+    f.stem = add_material(f.plant, "stem", SUNFLOWER_STEM);
+    f.petiole = add_material(f.plant, "petiole", SUNFLOWER_STEM);
+    f.blade = add_material(f.plant, "blade", SUNFLOWER_BLADE);
     f.bract = add_material(f.plant, "bract", BRACT);
     f.ray = add_material(f.plant, "petal", RAY);
     f.disk = add_material(f.plant, "flower", DISK);

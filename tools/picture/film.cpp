@@ -13,13 +13,10 @@
 
 using namespace picture;
 
-namespace {
-struct EncoderDeleter {
-    void operator()(WebPAnimEncoder* encoder) const noexcept { WebPAnimEncoderDelete(encoder); }
-};
-}  // namespace
-
 struct frond_film {
+    struct EncoderDeleter {
+        void operator()(WebPAnimEncoder* encoder) const noexcept { WebPAnimEncoderDelete(encoder); }
+    };
     frond_film_def def;
     std::unique_ptr<WebPAnimEncoder, EncoderDeleter> encoder;
     WebPConfig config;
@@ -34,15 +31,10 @@ namespace {
 
 constexpr uint32_t FILM_COOKIE = 0xf11e01u;
 
-Registry<frond_film>& registry() {
-    // Never destroyed: a host may destroy films while it exits.
-    static Registry<frond_film>& films = *new Registry<frond_film>;
-    return films;
-}
-
 frond_film& living(const frond_film* film) {
     if (!film) fail("the film is null; make one with frond_film_create");
-    if (!registry().holds(film)) fail("the film has been destroyed, or never was one; make one with frond_film_create");
+    if (!Registry<frond_film>::instance().holds(film))
+        fail("the film has been destroyed, or never was one; make one with frond_film_create");
     return *const_cast<frond_film*>(film);
 }
 
@@ -124,14 +116,14 @@ bool frond_film_create(const frond_film_def* def, frond_film** out) {
             film->small_width = std::min(def->sheet_width, def->width);
             film->small_height = std::max(1, int(int64_t(film->small_width) * def->height / def->width));
         }
-        registry().add(film.get());
+        Registry<frond_film>::instance().add(film.get());
         *out = film.release();
     });
 }
 
 void frond_film_destroy(frond_film* film) {
     guarded([&] {
-        if (film && registry().remove(film)) delete film;
+        if (film && Registry<frond_film>::instance().remove(film)) delete film;
     });
 }
 

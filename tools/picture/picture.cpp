@@ -28,15 +28,9 @@ namespace {
 
 constexpr uint32_t PICTURE_COOKIE = 0x91c7e01u;
 
-Registry<frond_picture>& registry() {
-    // Never destroyed: a host may destroy pictures while it exits.
-    static Registry<frond_picture>& pictures = *new Registry<frond_picture>;
-    return pictures;
-}
-
 frond_picture& living(const frond_picture* picture) {
     if (!picture) fail("the picture is null; make one with frond_picture_create");
-    if (!registry().holds(picture))
+    if (!Registry<frond_picture>::instance().holds(picture))
         fail("the picture has been destroyed, or never was one; make one with frond_picture_create");
     return *const_cast<frond_picture*>(picture);
 }
@@ -138,14 +132,14 @@ bool frond_picture_create(const frond_picture_def* def, frond_picture** out) {
             made->renderer = create_renderer(*def);
             made->description = std::string(platform_name(*made->context)) + ", " + describe(*made->renderer);
         }
-        registry().add(made.get());
+        Registry<frond_picture>::instance().add(made.get());
         *out = made.release();
     });
 }
 
 void frond_picture_destroy(frond_picture* picture) {
     guarded([&] {
-        if (picture && registry().remove(picture)) destroy(picture);
+        if (picture && Registry<frond_picture>::instance().remove(picture)) destroy(picture);
     });
 }
 

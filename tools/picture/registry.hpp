@@ -23,6 +23,12 @@ public:
         return objects_.count(object) > 0;
     }
 
+    // That of a kind of object; never destroyed, since a host may destroy objects while it exits.
+    static Registry& instance() {
+        static Registry& registry = *new Registry;
+        return registry;
+    }
+
 private:
     std::mutex mutex_;
     std::unordered_set<const Object*> objects_;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int ALL = 10000;
 constexpr double APART = 0.7, STRIP = 8, PATH = 0.35, RAGGED = 0.12;  // [m]
-constexpr double WALK_SPEED = 1.3, BALL_SPEED = 1.8, BALL = 0.2;      // [m/s], [m]
+constexpr double WALKER_SPEED = 1.3, BALL_SPEED = 1.8, BALL = 0.2;    // [m/s], [m]
 constexpr double GARDEN = 6;                                          // how far from the path cucumbers grow [m]
 constexpr double EYES = 1.65;                                         // [m]
 
@@ -117,7 +117,7 @@ void drive_field(Stage& stage) {
     for (size_t i = 2; i < stage.rigids.size(); i++) {
         frond_rigid_state state;
         must(frond_rigid_get_state(stage.rigids[i], &state));
-        state.position.x += WALK_SPEED * stage.settings.dt;
+        state.position.x += WALKER_SPEED * stage.settings.dt;
         must(frond_rigid_set_state(stage.rigids[i], &state));
         if (i == 2) eyes = {state.position.x, EYES, state.position.z};
     }

@@ -124,8 +124,10 @@ frond_rigid Stage::rigid(const frond_rigid_def& def) {
 std::string model_path(const std::string& name) {
     std::vector<std::string> folders;
     if (const char* folder = std::getenv("FROND_MODELS")) folders.push_back(folder);
+    std::error_code none;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
+    folders.push_back((program.parent_path() / FROND_MODELS_FROM_PROGRAM).string());
     folders.push_back(FROND_MODELS_BUILD_PATH);
-    folders.push_back(FROND_MODELS_INSTALL_PATH);
     for (const std::string& folder : folders) {
         const std::filesystem::path path = std::filesystem::path(folder) / name;
         if (std::filesystem::exists(path)) return path.string();

@@ -7,13 +7,11 @@
 namespace frond::stability {
 namespace {
 
-constexpr double BACK = 4, NEAR = 0.15, DRIVEN_NEAR = 0.25;  // as Frond's
-
 using Move = frond_vec3 (*)(const frond_vec3&);
 
 void come_back(BulletBeam& beam) {
-    beam.run(BACK);
-    beam.expect_shape(NEAR);
+    beam.run(COME_BACK);
+    beam.expect_shape(NEAR_LET_GO);
 }
 
 template <class Put>
@@ -54,7 +52,7 @@ frond_vec3 wrung(const frond_vec3& p) {
     return {c * p.x - s * p.z, p.y, s * p.x + c * p.z};
 }
 
-void scatter(BulletMethod method, double dt) {
+void scatter_beam(BulletMethod method, double dt) {
     come_back_from(method, dt, [](BulletBeam& beam, const frond_vec3& p) {
         return p + frond_vec3{beam.between(-0.5, 0.5), beam.between(-0.5, 0.5), beam.between(-0.5, 0.5)};
     });
@@ -85,7 +83,7 @@ void stretch(BulletMethod method, double dt) {
     beam.run(2, [&](double time) { beam.move(beam.top, from + frond_vec3{0, TIMES * std::min(1.0, time), 0}); });
     beam.let_go(beam.top);
     beam.run(10);
-    beam.expect_shape(NEAR);
+    beam.expect_shape(NEAR_LET_GO);
 }
 
 // Pushed aside at its top and let go: there is nothing to be compared with but that it does not fly apart.
@@ -124,8 +122,8 @@ void drive(BulletMethod method, double dt, double duration, const Where& where) 
     beam.run(duration,
              [&](double time) { beam.move_foot([&](const frond_vec3& p) { return where(p, time + beam.dt); }); });
     beam.move_foot([](const frond_vec3& p) { return p; });
-    beam.run(BACK);
-    beam.expect_shape(DRIVEN_NEAR);
+    beam.run(COME_BACK);
+    beam.expect_shape(NEAR_DRIVEN);
 }
 
 void teleport(BulletMethod method, double dt) {
@@ -133,8 +131,8 @@ void teleport(BulletMethod method, double dt) {
     BulletBeam beam(method, dt, make_lattice(0.1, 2, even_heights(1, 10)), plain_material());
     beam.box = 30;
     beam.move_foot([&](const frond_vec3& p) { return p + way; });
-    beam.run(BACK);
-    beam.expect_shape(DRIVEN_NEAR, way);
+    beam.run(COME_BACK);
+    beam.expect_shape(NEAR_DRIVEN, way);
 }
 void spin(BulletMethod method, double dt) {
     constexpr double SPEED = 100;
@@ -160,8 +158,8 @@ void gravity_for(BulletMethod method, double dt, const Gravity& gravity) {
     BulletBeam beam(method, dt, make_lattice(0.1, 2, even_heights(1, 10)), plain_material());
     beam.run(2, [&](double) { beam.set_gravity(gravity(beam)); });
     beam.set_gravity({0, -9.81, 0});
-    beam.run(BACK);
-    beam.expect_shape(DRIVEN_NEAR);
+    beam.run(COME_BACK);
+    beam.expect_shape(NEAR_DRIVEN);
 }
 void gravity_100(BulletMethod method, double dt) {
     gravity_for(method, dt, [](BulletBeam&) { return frond_vec3{0, -981, 0}; });
@@ -182,8 +180,8 @@ void hit_by(BulletMethod method, double dt, double mass_ratio, double speed) {
     btRigidBody& ball = beam.add(new btSphereShape(btScalar(0.05)), mass_ratio * MASS, {-0.4, 0.6, 0}, {speed, 0, 0});
     beam.run(1);
     beam.remove(ball);
-    beam.run(BACK);
-    beam.expect_shape(DRIVEN_NEAR);
+    beam.run(COME_BACK);
+    beam.expect_shape(NEAR_DRIVEN);
 }
 void light_ball(BulletMethod method, double dt) {
     hit_by(method, dt, 1e-4, 5);
@@ -202,7 +200,7 @@ void stand_in(BulletMethod method, double dt, const btVector3& half, const frond
     BulletBeam beam(method, dt, make_lattice(0.1, 2, even_heights(1, 10)), plain_material());
     beam.add(new btBoxShape(half), 0, at, {});
     beam.run(2);
-    beam.expect_shape(DRIVEN_NEAR);
+    beam.expect_shape(NEAR_DRIVEN);
 }
 void in_a_box(BulletMethod method, double dt) {
     stand_in(method, dt, btVector3(btScalar(0.5), btScalar(0.5), btScalar(0.5)), {0, 0.3, 0});
@@ -218,7 +216,7 @@ void odd_steps(BulletMethod method, double dt) {
     for (double time = 0; time < 6; time += dt)
         if (count++ % 3 != 0) beam.step(dt * std::pow(10, beam.between(-3, 0)));
     beam.run(dt);
-    beam.expect_shape(DRIVEN_NEAR);
+    beam.expect_shape(NEAR_DRIVEN);
 }
 
 }  // namespace
@@ -229,7 +227,7 @@ const std::vector<BulletCase>& bullet_cases() {
         {"crushed_to_plane", put<to_plane>},
         {"crushed_to_line", put<to_line>},
         {"mirrored", put<mirrored>},
-        {"scattered", scatter},
+        {"scattered", scatter_beam},
         {"scrambled_beam", scramble},
         {"folded_double", put<folded>},
         {"wrung", put<wrung>},

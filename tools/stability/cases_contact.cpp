@@ -6,9 +6,6 @@
 namespace frond::stability {
 namespace {
 
-constexpr double BACK = 4;     // given to come back [s]
-constexpr double NEAR = 0.25;  // of the shape at rest, in sizes of the plant [-]
-
 double mass_of(frond_model model) {
     frond_model_info info;
     must(frond_model_get_info(model, &info));
@@ -36,8 +33,8 @@ void hit(Bench& bench, const frond_rigid_def& ball, const frond_vec3& at) {
     must(frond_rigid_get_state(rigid, &state));
     bench.expect(std::isfinite(length(state.position)), "place of the ball [m]", length(state.position), 1e9);
     frond_rigid_destroy(rigid);
-    bench.run(BACK);
-    bench.expect_shape(plant, rest, NEAR);
+    bench.run(COME_BACK);
+    bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
 void hit_by(Bench& bench, double mass_ratio, double speed) {
@@ -70,7 +67,7 @@ void stand_in(Bench& bench, const frond_rigid_def& body) {
     const frond_plant plant = bench.add(herb());
     const Places rest = bench.places(plant);
     bench.run(2, [&](double) { bench.expect(bench.fastest() <= CALM, "speed [m/s]", bench.fastest(), CALM); });
-    bench.expect_shape(plant, rest, NEAR);
+    bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
 frond_rigid_def block(const frond_vec3& half, const frond_vec3& at) {
@@ -112,8 +109,8 @@ void squeeze(Bench& bench) {
         }
     });
     for (frond_rigid plate : plates) frond_rigid_destroy(plate);
-    bench.run(BACK);
-    bench.expect_shape(plant, rest, NEAR);
+    bench.run(COME_BACK);
+    bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
 // Pressed down on by a plate, to half of its height.
@@ -128,8 +125,8 @@ void press(Bench& bench) {
         must(frond_rigid_set_state(plate, &state));
     });
     frond_rigid_destroy(plate);
-    bench.run(BACK);
-    bench.expect_shape(plant, rest, NEAR);
+    bench.run(COME_BACK);
+    bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
 void drop(Bench& bench) {
@@ -161,8 +158,8 @@ void tear(Bench& bench) {
     });
     frond_bond_destroy(bond);
     frond_rigid_destroy(rigid);
-    bench.run(BACK);
-    bench.expect_shape(plant, rest, NEAR);
+    bench.run(COME_BACK);
+    bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
 // Stems that snap under a ball of ten times their mass, which lies on what is left.

@@ -6,8 +6,6 @@
 namespace frond::stability {
 namespace {
 
-constexpr double BACK = 4;     // given to come back [s]
-constexpr double NEAR = 0.25;  // of the shape at rest, a sway that is left included; in sizes of the plant [-]
 constexpr double HELD = 0.05;  // of the herb [m]
 
 struct Held {
@@ -29,10 +27,10 @@ void teleport(Bench& bench) {
     const frond_vec3 way = {10, 0, 0};
     bench.run(0.2);
     bench.move(herb.plant, herb.foot, [&](const frond_vec3& p) { return p + way; });
-    bench.run(BACK);
+    bench.run(COME_BACK);
     Places rest = herb.rest;
     for (frond_vec3& p : rest) p = p + way;
-    bench.expect_shape(herb.plant, rest, NEAR);
+    bench.expect_shape(herb.plant, rest, NEAR_DRIVEN);
 }
 
 // Places of the foot as functions of time, then back where it was.
@@ -42,8 +40,8 @@ void drive(Bench& bench, const std::function<frond_vec3(const frond_vec3&, doubl
         bench.move(herb.plant, herb.foot, [&](const frond_vec3& p) { return where(p, time + bench.cell.dt); });
     });
     bench.move(herb.plant, herb.foot, [](const frond_vec3& p) { return p; });
-    bench.run(BACK);
-    bench.expect_shape(herb.plant, herb.rest, NEAR);
+    bench.run(COME_BACK);
+    bench.expect_shape(herb.plant, herb.rest, NEAR_DRIVEN);
 }
 
 void spin(Bench& bench) {
@@ -82,8 +80,8 @@ void gravity_for(Bench& bench, const std::function<frond_vec3(double)>& gravity)
     const Places rest = bench.places(plant);
     bench.run(2, [&](double time) { must(frond_world_set_gravity(bench.world(), gravity(time))); });
     must(frond_world_set_gravity(bench.world(), {0, -9.81, 0}));
-    bench.run(BACK);
-    bench.expect_shape(plant, rest, NEAR);
+    bench.run(COME_BACK);
+    bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
 void gravity_100(Bench& bench) {
@@ -118,8 +116,8 @@ void gust(Bench& bench) {
     must(frond_world_set_wind(bench.world(), &wind));
     bench.run(2);
     must(frond_world_set_wind(bench.world(), nullptr));
-    bench.run(BACK);
-    bench.expect_shape(plant, rest, NEAR);
+    bench.run(COME_BACK);
+    bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
 // The wind turns round at full strength in each step.
@@ -135,8 +133,8 @@ void squall(Bench& bench) {
         must(frond_world_set_wind(bench.world(), &wind));
     });
     must(frond_world_set_wind(bench.world(), nullptr));
-    bench.run(BACK);
-    bench.expect_shape(plant, rest, NEAR);
+    bench.run(COME_BACK);
+    bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
 }  // namespace

@@ -6,9 +6,6 @@
 namespace frond::stability {
 namespace {
 
-constexpr double BACK = 4;     // given to come back [s]
-constexpr double NEAR = 0.15;  // of the shape at rest, a sway that is left included; in sizes of the plant [-]
-
 // The beam, put where `to` takes its nodes; its foot stays.
 void come_back_from(Bench& bench, const std::function<frond_vec3(const frond_vec3&)>& to) {
     bench.plant_def.root_height = FOOT;
@@ -19,8 +16,8 @@ void come_back_from(Bench& bench, const std::function<frond_vec3(const frond_vec
     for (frond_vec3& p : x)
         if (p.y > FOOT) p = to(p);
     bench.put(plant, x);
-    bench.expect_no_energy_from_nothing(BACK, at_rest);
-    bench.expect_shape(plant, rest, NEAR);
+    bench.expect_no_energy_from_nothing(COME_BACK, at_rest);
+    bench.expect_shape(plant, rest, NEAR_LET_GO);
 }
 
 void crush_to_point(Bench& bench) {
@@ -102,8 +99,8 @@ void kick(Bench& bench) {
     Places v(rest.size());
     for (frond_vec3& one : v) one = {bench.between(-100, 100), bench.between(-100, 100), bench.between(-100, 100)};
     bench.push(plant, v);
-    bench.expect_no_energy_from_nothing(BACK, at_rest);
-    bench.expect_shape(plant, rest, NEAR);
+    bench.expect_no_energy_from_nothing(COME_BACK, at_rest);
+    bench.expect_shape(plant, rest, NEAR_LET_GO);
 }
 
 // By a spring that is stiffer than the beam is.
@@ -118,7 +115,7 @@ void stretch(Bench& bench) {
     bench.run(2, [&](double time) { must(frond_grab_move(grab, {0, 1 + TIMES * std::min(1.0, time), 0})); });
     frond_grab_destroy(grab);
     bench.run(10);
-    bench.expect_shape(plant, rest, NEAR);
+    bench.expect_shape(plant, rest, NEAR_LET_GO);
 }
 
 // A pinned node of the tip goes once around the stem and through the loop, then all let go.
@@ -135,7 +132,7 @@ void tie_knot(Bench& bench) {
                                   {radius * std::sin(2 * turn), 0.35 + 0.2 * std::cos(turn), radius * std::sin(turn)}));
     });
     must(frond_plant_unpin(plant, int(tip)));
-    bench.run(BACK);
+    bench.run(COME_BACK);
     bench.expect_shape(plant, rest, 0.3);
 }
 
@@ -157,7 +154,7 @@ void tear_apart(Bench& bench) {
             must(frond_plant_move_pin(plant, int(ends[k]), rest[ends[k]] + frond_vec3{(2 * k - 1) * way, 0, 0}));
     });
     for (size_t end : ends) must(frond_plant_unpin(plant, int(end)));
-    bench.run(BACK);
+    bench.run(COME_BACK);
     bench.expect_shape(plant, rest, 0.25);
 }
 

@@ -10,6 +10,10 @@
 
 namespace frond::stability {
 
+constexpr double COME_BACK = 4;  // time that most cases give a plant to come back [s]
+// How near it then is to the shape at rest, a sway that is left included; in sizes of the plant [-].
+constexpr double NEAR_LET_GO = 0.15, NEAR_DRIVEN = 0.25;
+
 class Bench;
 
 // One choice of what a case is run with. The world's substeps are as long as the step: nothing divides it.

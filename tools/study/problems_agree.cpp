@@ -9,7 +9,6 @@
 namespace frond::study {
 namespace {
 
-constexpr double G = 9.81;      // [m/s^2]
 constexpr double ASIDE = 0.01;  // share of the weight that draws the plant aside before it is let go [-]
 
 // With cells and capsules as they are by default.

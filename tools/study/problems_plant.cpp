@@ -25,7 +25,6 @@ ModelPtr load_plant(const PlantCase& plant, frond_model_def def) {
 
 namespace {
 
-constexpr double G = 9.81;  // [m/s^2]
 const LoadFunction WEIGHT = [](Trial& trial, double share) { trial.set_gravity({0, -G * share, 0}); };
 
 // Plants of linear tets, which grow as they turn, may never rest.

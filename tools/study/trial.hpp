@@ -8,6 +8,8 @@
 
 namespace frond::study {
 
+constexpr double G = 9.81;  // [m/s^2]
+
 // A beam of 1 m upright from the origin, clamped at its foot.
 struct Beam {
     double width;    // side of the square, diameter of the round [m]

@@ -96,8 +96,11 @@ private:
             capsules[i]->lz = axis.norm();
             capsules[i]->computeLocalAABB();
             fcl::Transform3<S> frame = fcl::Transform3<S>::Identity();
-            if (axis.norm() > 0)
-                frame.linear() = fcl::Quaternion<S>::FromTwoVectors(fcl::Vector3<S>::UnitZ(), axis).toRotationMatrix();
+            if (axis.norm() > 0) {
+                frame.linear().col(2) = axis.normalized();
+                frame.linear().col(0) = frame.linear().col(2).unitOrthogonal();
+                frame.linear().col(1) = frame.linear().col(2).cross(frame.linear().col(0));
+            }
             frame.translation() = S(0.5) * (begin + end);
             objects[i]->setTransform(frame);
         }

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <new>
 
+#include "core/convert.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
-#include "core/types.hpp"
 
 namespace frond {
 
@@ -28,13 +28,6 @@ frond_result call(Body&& body) noexcept {
     } catch (...) {
         return report_failure(FROND_RESULT_INTERNAL, "an unknown exception");
     }
-}
-
-inline Vec3 to_vec(const frond_vec3& p) {
-    return Vec3(p.x, p.y, p.z);
-}
-inline frond_vec3 from_vec(const Vec3& p) {
-    return {p.x(), p.y(), p.z()};
 }
 
 // Arguments. `name` is what the header calls the argument.

@@ -1,6 +1,7 @@
 // frond_fill_def, frond_default_material: all defaults of the C API.
 #include "api/call.hpp"
 #include "api/robots.hpp"
+#include "core/decompose.hpp"
 #include "frond/frond_robot.h"
 
 using namespace frond;
@@ -84,7 +85,7 @@ static frond_rigid_def rigid_def() {
 
 static frond_robot_def robot_def() {
     frond_robot_def def = {};
-    const Quat upright = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
+    const Quat upright = turn_between(Vec3::UnitZ(), Vec3::UnitY());
     def.rotation = {upright.x(), upright.y(), upright.z(), upright.w()};
     def.is_fixed = true;
     def.friction = 0.5;

@@ -5,6 +5,7 @@
 
 #include "build/build_urdf.hpp"
 #include "build/weigh.hpp"
+#include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/timer.hpp"
@@ -84,7 +85,7 @@ std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_mod
 StemPlacement placement_of(const Surface& before, const Surface& after) {
     StemPlacement placed;
     placed.scale = after.scale;
-    placed.turn = Quat::FromTwoVectors(after.up, Vec3::UnitY()).toRotationMatrix();
+    placed.turn = turn_between(after.up, Vec3::UnitY()).toRotationMatrix();
     placed.shift = after.positions.front() - placed.image(before.positions.front());
     return placed;
 }

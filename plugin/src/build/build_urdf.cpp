@@ -1,5 +1,6 @@
 #include "build/build_urdf.hpp"
 
+#include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/timer.hpp"
 #include "model/organ_clues.hpp"
@@ -109,7 +110,7 @@ static std::shared_ptr<const Model> build(const UrdfTree& tree, const frond_mode
     auto model = std::make_shared<Model>();
     // URDF has +z up.
     const bool is_upright = import_options(def).up.isZero(0);
-    const Quat turn = is_upright ? Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY()) : Quat::Identity();
+    const Quat turn = is_upright ? turn_between(Vec3::UnitZ(), Vec3::UnitY()) : Quat::Identity();
     const std::vector<UrdfPiece> pieces = list_pieces(tree, turn);
     model->ms_import = total.ms();
     if (are_stems(pieces))

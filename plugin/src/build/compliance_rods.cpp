@@ -9,9 +9,9 @@ namespace frond {
 namespace {
 
 // Of each load, about the origin.
-using Loads = Eigen::Matrix<double, 3, LOAD_COUNT>;
+using LoadColumns = Eigen::Matrix<double, 3, LOAD_COUNT>;
 struct NodeLoads {
-    Loads force = Loads::Zero(), moment = Loads::Zero();
+    LoadColumns force = LoadColumns::Zero(), moment = LoadColumns::Zero();
 };
 
 // Mass of each chain node with all that grows out of it.
@@ -96,8 +96,8 @@ std::vector<Compliance> rod_compliances(const Model& plant, int organ, const Loa
         const Vec3 chord = nodes[i].position - nodes[parent].position;
         Mat3 frame;  // thin, wide, axis
         frame << section.thin, section.wide(), section.axis;
-        const Loads& force = loads[i].force;
-        Loads moment, change;  // in the middle, and from end to end
+        const LoadColumns& force = loads[i].force;
+        LoadColumns moment, change;  // in the middle, and from end to end
         for (int l = 0; l < LOAD_COUNT; l++) {
             moment.col(l) = loads[i].moment.col(l) - middle.cross(Vec3(force.col(l)));
             change.col(l) = chord.cross(Vec3(force.col(l)));

@@ -45,7 +45,8 @@ static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std:
     constexpr double CLOSE = 0.3;       // of logarithms of frequencies' squares: modes that sway together [-]
     std::vector<VecX> basis, weighted;  // of unit mass, and times the masses
     VecX next = move_along(direction, still);
-    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(MOST_STEPS, MOST_STEPS);
+    VecX diagonal = VecX::Zero(MOST_STEPS),
+         beside = VecX::Zero(MOST_STEPS);  // of the matrix that the basis makes of it
     int steps = 0;
     for (double size = 0; steps < MOST_STEPS; steps++) {
         const VecX product = times_mass(node_mass, still, next);
@@ -59,13 +60,14 @@ static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std:
         for (int pass = 0; pass < 2; pass++)
             for (int j = 0; j <= steps; j++) {
                 const double common = weighted[size_t(j)].dot(next);
-                T(steps, j) += common;
+                if (j == steps) diagonal[j] += common;
+                if (j == steps - 1) beside[j] += common;
                 next -= common * basis[size_t(j)];
             }
     }
     if (steps == 0) return {};
-    // The solver looks below the diagonal only.
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(T.topLeftCorner(steps, steps));
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes;
+    modes.computeFromTridiagonal(diagonal.head(steps), beside.head(steps - 1));
     // The part of a mode in the static move is its part in the push over the square of its frequency.
     const Eigen::ArrayXd push = modes.eigenvectors().row(0).transpose().array(), inverse = modes.eigenvalues().array();
     const auto near = [&](Eigen::Index j) -> Eigen::ArrayXd {

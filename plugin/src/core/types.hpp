@@ -20,6 +20,8 @@ using Triangle = std::array<int, 3>;
 using Tet = std::array<int, 4>;
 using Color = std::array<uint8_t, 4>;  // RGBA, sRGB
 
+constexpr double PI = 3.14159265358979323846;
+
 // The i-th point of a vector that holds x y z x y z ...
 inline auto point(VecX& x, int i) {
     return x.segment<3>(3 * Eigen::Index(i));

@@ -15,7 +15,6 @@ namespace frond {
 using tinyxml2::XMLElement;
 
 static constexpr size_t LARGEST_TEXT = size_t(64) << 20;  // [byte]
-static constexpr size_t MOST_LINKS = 20000, MOST_SHAPES = 100000;
 
 static std::string attribute(const XMLElement& element, const char* name) {
     const char* value = element.Attribute(name);
@@ -35,7 +34,7 @@ static void refuse_xacro(const XMLElement& root) {
 static std::vector<bool> take_capsules(XMLElement& link, const char* name, size_t& shapes) {
     std::vector<bool> capsules;
     for (XMLElement* e = link.FirstChildElement(name); e; e = e->NextSiblingElement(name)) {
-        if (++shapes > MOST_SHAPES) fail(FROND_RESULT_FILE_FORMAT, "the file has more than %zu shapes", MOST_SHAPES);
+        if (++shapes > MOST_SHAPES) fail(FROND_RESULT_FILE_FORMAT, "the file has more than %u shapes", MOST_SHAPES);
         XMLElement* geometry = e->FirstChildElement("geometry");
         XMLElement* capsule = geometry ? geometry->FirstChildElement("capsule") : nullptr;
         if (capsule) capsule->SetName("cylinder");
@@ -86,7 +85,7 @@ static void take_link(XMLElement& link, UrdfText& text, size_t& shapes) {
     if (!text.links.emplace(name, notes).second)
         fail(FROND_RESULT_FILE_FORMAT, "line %d: there are two links \"%.64s\"; give each its own name", line,
              name.c_str());
-    if (text.links.size() > MOST_LINKS) fail(FROND_RESULT_FILE_FORMAT, "the file has more than %zu links", MOST_LINKS);
+    if (text.links.size() > MOST_LINKS) fail(FROND_RESULT_FILE_FORMAT, "the file has more than %u links", MOST_LINKS);
 }
 
 static std::string end_of(const XMLElement& joint, const char* end) {

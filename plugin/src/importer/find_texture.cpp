@@ -24,7 +24,7 @@ static std::string real_path(const std::string& path) {
     return path.find('\0') == std::string::npos && realpath(path.c_str(), resolved) ? resolved : "";
 }
 
-static bool is_file(const std::string& path) {
+static bool is_regular_file(const std::string& path) {
     struct stat status;
     return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
 }
@@ -74,7 +74,7 @@ static std::string find_exactly(const std::string& folder, std::string reference
     // As written, if that stays inside.
     const std::string path = real_path(reference[0] == '/' ? reference : root + "/" + reference);
     const std::string inside = root == "/" ? root : root + "/";
-    if (path.compare(0, inside.size(), inside) == 0 && is_file(path)) return path;
+    if (path.compare(0, inside.size(), inside) == 0 && is_regular_file(path)) return path;
 
     // By its bare name.
     const std::string name = reference.substr(reference.rfind('/') + 1);

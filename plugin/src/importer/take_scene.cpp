@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "core/decompose.hpp"
 #include "core/log.hpp"
 #include "importer/importer.hpp"
 
@@ -282,8 +283,7 @@ static Mat4 frame_of(const aiScene& scene, const MeshFile& file, Surface& surfac
         surface.scale = unit > 1e-20 && unit < 1e20 ? unit : 0.01;
         const int axis = int_of(scene.mMetaData, "UpAxis", 1), sign = int_of(scene.mMetaData, "UpAxisSign", 1);
         if (axis >= 0 && axis < 3) surface.up = Vec3::Unit(axis) * (sign < 0 ? -1 : 1);
-        frame.topLeftCorner<3, 3>() =
-            surface.scale * Quat::FromTwoVectors(surface.up, Vec3::UnitY()).toRotationMatrix();
+        frame.topLeftCorner<3, 3>() = surface.scale * turn_between(surface.up, Vec3::UnitY()).toRotationMatrix();
     } else if (file.format == FileFormat::DAE) {
         surface.scale = unit_of_dae(file.bytes);
         if (file.bytes.find("<up_axis>Z_UP") != std::string::npos) surface.up = Vec3::UnitZ();

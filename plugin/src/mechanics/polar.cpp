@@ -2,9 +2,9 @@
 // is well, else by singular values.
 #include "mechanics/polar.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "core/decompose.hpp"
 #include "mechanics/polar_lanes.hpp"
 
 namespace frond {
@@ -18,9 +18,9 @@ Polar polar_decomposition(const Mat3& F) {
 Polar polar_by_values(const Mat3& F) {
     const double size = F.squaredNorm(), det = F.determinant();
     if (!std::isfinite(size)) return {Mat3::Constant(size - size), size - size, 0, det};
-    const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double sign = svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1.0 : 1.0;
-    const Mat3 R = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+    const SingularParts svd = singular_parts(F);
+    const double sign = svd.U.determinant() * svd.V.determinant() < 0 ? -1.0 : 1.0;
+    const Mat3 R = svd.U * Vec3(1, 1, sign).asDiagonal() * svd.V.transpose();
     const double trace = R.cwiseProduct(F).sum();
     return {R, trace, 0.5 * ((trace * trace - size) * trace - 2 * det), det};
 }

@@ -10,7 +10,7 @@ namespace {
 // Looks that are nearly as far as they may go are left to the plant alone, which knows to the last bit.
 constexpr double NEARLY = 1 - 1e-9;
 
-struct FindInertia {
+struct FindInertiaOfBatch {
     const RodElements& elements;
     const NumbersInLines& x;
     NumbersInLines& out;
@@ -86,7 +86,7 @@ void set_ahead(const Elements& body, const NumbersInLines& x, const Ahead& ahead
 
 void rotary_inertia(const Elements& body, const NumbersInLines& x, NumbersInLines& out) {
     make_room(out, x.size() / 6 * 9);
-    run_in_lanes(lanes_of(body, x), FindInertia{as_rods(body), x, out});
+    run_in_lanes(lanes_of(body, x), FindInertiaOfBatch{as_rods(body), x, out});
 }
 
 unsigned not_calm(const Elements& body, const NumbersInLines& from, const NumbersInLines& to, double part) {

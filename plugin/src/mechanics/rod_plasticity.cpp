@@ -17,7 +17,7 @@ void apply(const RodPlastic& plastic, RodSegment& rod) {
     rod.rest_curvature = plastic.rest_curvature + Vec3(0, plastic.bend_wide, plastic.bend_thin);
 }
 
-constexpr size_t NUMBERS = 4;  // of a piece: stretch, the two curvatures, hardening
+constexpr size_t NUMBERS_OF_PIECE = 4;  // of a piece: stretch, the two curvatures, hardening
 
 }  // namespace
 
@@ -79,16 +79,16 @@ std::vector<double> plastic_of_rods(const Elements& body) {
 
 void set_plastic_of_rods(Elements& body, const std::vector<double>& values) {
     RodElements& elements = static_cast<RodElements&>(body);
-    if (values.size() != NUMBERS * elements.segments.size())
+    if (values.size() != NUMBERS_OF_PIECE * elements.segments.size())
         fail(FROND_RESULT_BAD_ARGUMENT, "%zu numbers of what is lasting were given, but a plant of these rods has %zu",
-             values.size(), NUMBERS * elements.segments.size());
+             values.size(), NUMBERS_OF_PIECE * elements.segments.size());
     for (size_t s = 0; s < elements.segments.size(); ++s) {
-        const double* v = values.data() + NUMBERS * s;
+        const double* v = values.data() + NUMBERS_OF_PIECE * s;
         if (!(v[3] >= 0))
             fail(FROND_RESULT_BAD_ARGUMENT, "what is lasting has a hardening of %g; it is never below 0", v[3]);
     }
     for (size_t s = 0; s < elements.segments.size(); ++s) {
-        const double* v = values.data() + NUMBERS * s;
+        const double* v = values.data() + NUMBERS_OF_PIECE * s;
         RodPlastic& plastic = elements.plastic[s];
         plastic.stretch = v[0], plastic.bend_wide = v[1], plastic.bend_thin = v[2], plastic.hardening = v[3];
         apply(plastic, elements.segments[s]);

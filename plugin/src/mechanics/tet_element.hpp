@@ -83,31 +83,6 @@ struct LinearTet {
     static void add_to_nodes(int, const std::array<Vec3, 4>& corners, std::vector<Vec3>& out) {
         for (size_t k = 0; k < 4; ++k) out[k] += corners[k];
     }
-
-    // Adds the nodes' forces -V P b for the stress P (first Piola-Kirchhoff); they add up to nothing.
-    static void add_force(const TetElements& elements, size_t e, const TetShare& share, int, const Mat3& P, VecX& f) {
-        const Tet& tet = elements.ordered[e];
-        const Mat3 forces = P * share.rest_inverse.transpose() * share.volume;
-        for (int a = 0; a < 3; ++a) point(f, tet[size_t(a) + 1]) -= forces.col(a);
-        point(f, tet[0]) += forces.col(0) + forces.col(1) + forces.col(2);
-    }
-
-    static void add_stiffness(const TetElements& elements, size_t e, int, const TetStiffness& k, BlockMatrix& K) {
-        const std::array<int, 10>& slot = elements.slots[e];
-        const Mat3 k10 = -(k.k11 + k.k21.transpose() + k.k31.transpose());
-        const Mat3 k20 = -(k.k21 + k.k22 + k.k32.transpose());
-        const Mat3 k30 = -(k.k31 + k.k32 + k.k33);
-        K.block(slot[0]) -= k10 + k20 + k30;
-        K.block(slot[1]) += k10;
-        K.block(slot[2]) += k.k11;
-        K.block(slot[3]) += k20;
-        K.block(slot[4]) += k.k21;
-        K.block(slot[5]) += k.k22;
-        K.block(slot[6]) += k30;
-        K.block(slot[7]) += k.k31;
-        K.block(slot[8]) += k.k32;
-        K.block(slot[9]) += k.k33;
-    }
 };
 
 struct QuadraticTetElement {
@@ -157,22 +132,6 @@ struct QuadraticTetElement {
 
     static void add_to_nodes(int q, const std::array<Mat3, 16>& corners, std::vector<Mat3>& out);
     static void add_to_nodes(int q, const std::array<Vec3, 4>& corners, std::vector<Vec3>& out);
-
-    static void add_force(const TetElements& elements, size_t e, const TetShare& share, int q, const Mat3& P, VecX& f) {
-        const QuadraticTet& tet = elements.nodes.of_tet[e];
-        const Mat3 forces = P * share.rest_inverse.transpose() * share.volume;
-        std::array<Vec3, 4> corner;
-        for (size_t c = 1; c < 4; ++c) corner[c] = -forces.col(Eigen::Index(c) - 1);
-        corner[0] = -(corner[1] + corner[2] + corner[3]);
-        for (size_t c = 0; c < 4; ++c) {
-            point(f, tet[c]) += CORNER * corner[c];
-            point(f, tet[size_t(TET_BETWEEN[c][q])]) += MORE * corner[c];
-        }
-        for (size_t k = 0; k < 6; ++k)
-            point(f, tet[4 + k]) += EDGE * (corner[size_t(TET_EDGES[k][0])] + corner[size_t(TET_EDGES[k][1])]);
-    }
-
-    static void add_stiffness(const TetElements& elements, size_t e, int q, const TetStiffness& k, BlockMatrix& K);
 };
 
 // Gradients of a field, given at the nodes, at each of a tet's points of integration: `take(share, gradient)`.

@@ -107,26 +107,43 @@ struct TetRowInLanes {
 };
 
 template <class Law>
-Mechanics tet_row_in_lanes(const char* name, int order, bool needs_search) {
-    Mechanics row = tet_row<PointByPoint<Law>>(name, order, needs_search);
-    const auto take = [&](auto rows) {
-        row.add_force = rows.add_force;
-        row.add_stiffness = rows.add_stiffness;
-        row.add_force_and_stiffness = rows.add_both;
-        row.add_force_stiffness_and_damping = rows.add_damped;
-        if (Law::GOES_AHEAD) row.add_ahead = rows.add_ahead;
+Mechanics tet_row(const char* name, int order, bool needs_search) {
+    const auto row = [&](auto rows, auto lanes, auto make, auto is_calm, auto yields, auto rest_derivative) {
+        return Mechanics{name,
+                         make,
+                         tet_masses,
+                         rows.energy,
+                         lanes.add_force,
+                         lanes.add_stiffness,
+                         lanes.add_both,
+                         lanes.add_damped,
+                         Law::GOES_AHEAD ? lanes.add_ahead : nullptr,
+                         nullptr,
+                         is_calm,
+                         rest_derivative,
+                         yields,
+                         copy_tets,
+                         rows.flow,
+                         plastic_of_tets,
+                         set_plastic_of_tets,
+                         tet_section_strains,
+                         without_tets,
+                         needs_search,
+                         false};
     };
-    if (order == 2)
-        take(TetRowInLanes<Law, FourPoints>());
-    else
-        take(TetRowInLanes<Law, FourTets>());
-    return row;
+    using Points = PointByPoint<Law>;
+    if (order == 1)
+        return row(TetRow<Points, LinearTet>(), TetRowInLanes<Law, FourTets>(), make_tets<1>, tets_are_calm<LinearTet>,
+                   tets_yield<LinearTet>, rest_derivative<Points, LinearTet>);
+    return row(TetRow<Points, QuadraticTetElement>(), TetRowInLanes<Law, FourPoints>(), make_tets<2>,
+               tets_are_calm<QuadraticTetElement>, tets_yield<QuadraticTetElement>,
+               rest_derivative<Points, QuadraticTetElement>);
 }
 
-// Of which plants go abreast too.
+// Of which plants are stepped as batches too.
 template <class Law>
 Mechanics batched_tet_row(const char* name, int order) {
-    Mechanics row = tet_row_in_lanes<Law>(name, order, false);
+    Mechanics row = tet_row<Law>(name, order, false);
     if (order == 2) return row;
     static const BatchMechanics BATCH = {TetBatch<Law>::set_ahead, nullptr, tets_not_calm, tets_may_yield};
     row.batch = &BATCH;

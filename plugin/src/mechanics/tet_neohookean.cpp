@@ -6,11 +6,10 @@
 //
 // The positive stiffness takes the negative parts out of the second derivative of W by F, in closed form in the frame
 // of the stretches: three pairs of shear and turn, and a 3x3 matrix for the stretches themselves.
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <cmath>
 #include <utility>
 
+#include "core/decompose.hpp"
 #include "mechanics/tet_lanes.hpp"
 
 namespace frond {
@@ -26,8 +25,8 @@ struct Frame {
 
 // U and V of what is nearly flat: the squares of F have lost the digits of the smallest stretch.
 std::pair<Mat3, Mat3> turns_of_flat(const Mat3& F) {
-    const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Mat3 U = svd.matrixU(), V = svd.matrixV();
+    const SingularParts svd = singular_parts(F);
+    Mat3 U = svd.U, V = svd.V;
     if (U.determinant() < 0) U.col(2) *= -1;
     if (V.determinant() < 0) V.col(2) *= -1;
     return {U, V};
@@ -96,9 +95,9 @@ FROND_INLINE Frame<S> principal_frame(const Lanes33<S>& F) {
 }
 
 Mat3 without_negative_part(const Mat3& A) {
-    const Eigen::SelfAdjointEigenSolver<Mat3> parts(A);
-    if (parts.eigenvalues()[0] >= 0) return A;
-    return parts.eigenvectors() * parts.eigenvalues().cwiseMax(0).asDiagonal() * parts.eigenvectors().transpose();
+    const SymmetricParts parts = symmetric_parts(A);
+    if (parts.values[0] >= 0) return A;
+    return parts.vectors * parts.values.cwiseMax(0).asDiagonal() * parts.vectors.transpose();
 }
 
 template <class S>
@@ -243,7 +242,7 @@ struct Neohookean {
 }  // namespace
 
 Mechanics tet_neohookean(int order) {
-    return tet_row_in_lanes<Neohookean>("tet_neohookean", order, true);
+    return tet_row<Neohookean>("tet_neohookean", order, true);
 }
 
 }  // namespace frond

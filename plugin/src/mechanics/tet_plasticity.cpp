@@ -8,10 +8,10 @@
 // tets have a mean square strain of EI k^2 L over the sum of their E V, k being the rod's curvature then.
 #include "mechanics/tet_plasticity.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "mechanics/polar.hpp"
 #include "mechanics/sections.hpp"
@@ -22,9 +22,9 @@ namespace frond {
 
 namespace {
 
-constexpr double FLATTEST = 0.05;       // least stretch that still flows [-]
-constexpr double LOG_OVER_GREEN = 2.2;  // strains: down to a stretch of 0.4 the logarithmic one is no larger [-]
-constexpr size_t NUMBERS = 10;          // of a point: F_p^-1 by columns, hardening
+constexpr double FLATTEST = 0.05;        // least stretch that still flows [-]
+constexpr double LOG_OVER_GREEN = 2.2;   // strains: down to a stretch of 0.4 the logarithmic one is no larger [-]
+constexpr size_t NUMBERS_OF_POINT = 10;  // of a point: F_p^-1 by columns, hardening
 
 // Von Mises: of a bar pulled by e the deviator is (1 + nu) e (2/3, -1/3, -1/3).
 double as_pulled(const TetShare& share, double deviator_norm) {
@@ -62,7 +62,7 @@ std::vector<double> strain_in_cage(const Model& model, const TetElements& elemen
 Strained strained_at(const TetShare& share, const Mat3& F) {
     const Mat3 S = polar_decomposition(F).rotation.transpose() * F;
     Strained out = {0.5 * (S + S.transpose()), 0};
-    const Vec3 stretch = Eigen::SelfAdjointEigenSolver<Mat3>(out.S, Eigen::EigenvaluesOnly).eigenvalues();
+    const Vec3 stretch = symmetric_values(out.S);
     if (!(stretch[0] > FLATTEST)) return out;
     const Eigen::Array3d strain = stretch.array().log();
     out.strain = as_pulled(share, (strain - strain.mean()).matrix().norm());
@@ -84,10 +84,10 @@ bool exceeds(const TetShare& share, const Mat3& F, double most, Strained& out) {
 }
 
 Mat3 flow_of(const Mat3& S, double elastic) {
-    const Eigen::SelfAdjointEigenSolver<Mat3> parts(S);
-    const Eigen::Array3d strain = parts.eigenvalues().array().log();
+    const SymmetricParts parts = symmetric_parts(S);
+    const Eigen::Array3d strain = parts.values.array().log();
     const Eigen::Array3d change = ((elastic - 1) * (strain - strain.mean())).exp();
-    return parts.eigenvectors() * change.matrix().asDiagonal() * parts.eigenvectors().transpose();
+    return parts.vectors * change.matrix().asDiagonal() * parts.vectors.transpose();
 }
 
 // The largest strain that a tet stands with.
@@ -161,14 +161,14 @@ void set_plastic_of_tets(Elements& body, const std::vector<double>& values) {
     constexpr double TOLERANCE = 1e-3;  // of the volume
     TetElements& elements = static_cast<TetElements&>(body);
     std::vector<TetPlastic> plastic = elements.plastic;
-    if (values.size() != NUMBERS * plastic.size())
+    if (values.size() != NUMBERS_OF_POINT * plastic.size())
         fail(FROND_RESULT_BAD_ARGUMENT, "%zu numbers of what is lasting were given, but a plant of these tets has %zu",
-             values.size(), NUMBERS * plastic.size());
+             values.size(), NUMBERS_OF_POINT * plastic.size());
     const size_t points = elements.nodes.order == 1 ? LinearTet::POINTS : QuadraticTetElement::POINTS;
     for (size_t p = 0; p < plastic.size(); ++p) {
         TetPlastic& l = plastic[p];
-        l.inverse = Eigen::Map<const Mat3>(values.data() + NUMBERS * p);
-        l.hardening = values[NUMBERS * p + 9];
+        l.inverse = Eigen::Map<const Mat3>(values.data() + NUMBERS_OF_POINT * p);
+        l.hardening = values[NUMBERS_OF_POINT * p + 9];
         if (!(std::abs(l.inverse.determinant() - 1) < TOLERANCE) || !(l.hardening >= 0))
             fail(FROND_RESULT_BAD_ARGUMENT,
                  "what is lasting changes the volume of tet %zu or its hardening is below 0; give numbers that "

@@ -1,5 +1,5 @@
-// A row of the table of mechanics from a material and an element. A material ("law") says what follows from the
-// gradient of deformation F at one point:
+// What a row of the table of mechanics does tet by tet, from a material and an element; the rest is in tet_lanes.hpp. A
+// material ("law") says what follows from the gradient of deformation F at one point:
 //   Strain strain(share, F)                         what the rest is made of
 //   double energy(share, strain)                    a volume [J/m^3]
 //   Mat3 stress(share, strain)                      first Piola-Kirchhoff, dW/dF [Pa]
@@ -25,71 +25,6 @@ struct TetRow {
             }
         }
         return energy;
-    }
-
-    static int add_force(const Elements& body, const VecX& x, VecX& f) {
-        const TetElements& elements = as_tets(body);
-        int inverted = 0;
-        for (size_t e = 0; e < elements.tets.size(); ++e) {
-            const auto places = Element::places(elements, e, x);
-            bool is_inverted = false;
-            for (int q = 0; q < Element::POINTS; ++q) {
-                const TetShare share = Element::share(elements, e, q);
-                const auto strain = Law::strain(share, Element::gradient(share, places, q));
-                Element::add_force(elements, e, share, q, Law::stress(share, strain), f);
-                is_inverted |= Law::inverted(strain);
-            }
-            inverted += is_inverted;
-        }
-        return inverted;
-    }
-
-    static void add_stiffness(const Elements& body, const VecX& x, Tangent tangent, double scale, BlockMatrix& K) {
-        const TetElements& elements = as_tets(body);
-        for (size_t e = 0; e < elements.tets.size(); ++e) {
-            const auto places = Element::places(elements, e, x);
-            for (int q = 0; q < Element::POINTS; ++q) {
-                const TetShare share = Element::share(elements, e, q);
-                const auto strain = Law::strain(share, Element::gradient(share, places, q));
-                Element::add_stiffness(elements, e, q, Law::stiffness(share, strain, tangent, scale), K);
-            }
-        }
-    }
-
-    // `also` is given each element's stiffness after it was added to K.
-    template <class Also>
-    static int add_all(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K, Also&& also) {
-        const TetElements& elements = as_tets(body);
-        int inverted = 0;
-        for (size_t e = 0; e < elements.tets.size(); ++e) {
-            const auto places = Element::places(elements, e, x);
-            bool is_inverted = false;
-            for (int q = 0; q < Element::POINTS; ++q) {
-                const TetShare share = Element::share(elements, e, q);
-                const auto strain = Law::strain(share, Element::gradient(share, places, q));
-                Element::add_force(elements, e, share, q, Law::stress(share, strain), f);
-                const TetStiffness k = Law::stiffness(share, strain, tangent, 1);
-                Element::add_stiffness(elements, e, q, k, K);
-                also(elements, e, q, k);
-                is_inverted |= Law::inverted(strain);
-            }
-            inverted += is_inverted;
-        }
-        return inverted;
-    }
-
-    static int add_both(const Elements& body, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K) {
-        return add_all(body, x, tangent, f, K, [](const TetElements&, size_t, int, const TetStiffness&) {});
-    }
-
-    static int add_damped(const Elements& body, const VecX& x, const std::vector<double>& damping, VecX& f,
-                          BlockMatrix& K, BlockMatrix& D) {
-        const auto damp = [&](const TetElements& elements, size_t e, int q, const TetStiffness& k) {
-            const double b = damping[e];
-            Element::add_stiffness(elements, e, q, {b * k.k11, b * k.k21, b * k.k31, b * k.k22, b * k.k32, b * k.k33},
-                                   D);
-        };
-        return add_all(body, x, Tangent::positive, f, K, damp);
     }
 
     // As much of it as is not too far.
@@ -163,38 +98,6 @@ void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<
             }
         Element::add_to_nodes(q, corners, out);
     }
-}
-
-template <class Law>
-Mechanics tet_row(const char* name, int order, bool needs_search) {
-    const auto row = [&](auto rows, auto make, auto is_calm, auto yields, auto rest_derivative) {
-        return Mechanics{name,
-                         make,
-                         tet_masses,
-                         rows.energy,
-                         rows.add_force,
-                         rows.add_stiffness,
-                         rows.add_both,
-                         rows.add_damped,
-                         nullptr,
-                         nullptr,
-                         is_calm,
-                         rest_derivative,
-                         yields,
-                         copy_tets,
-                         rows.flow,
-                         plastic_of_tets,
-                         set_plastic_of_tets,
-                         tet_section_strains,
-                         without_tets,
-                         needs_search,
-                         false};
-    };
-    if (order == 1)
-        return row(TetRow<Law, LinearTet>(), make_tets<1>, tets_are_calm<LinearTet>, tets_yield<LinearTet>,
-                   rest_derivative<Law, LinearTet>);
-    return row(TetRow<Law, QuadraticTetElement>(), make_tets<2>, tets_are_calm<QuadraticTetElement>,
-               tets_yield<QuadraticTetElement>, rest_derivative<Law, QuadraticTetElement>);
 }
 
 }  // namespace frond

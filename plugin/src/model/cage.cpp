@@ -14,7 +14,7 @@
 namespace frond {
 
 // A cage whose cell size was chosen has no more tets than this; else larger cells are tried.
-static constexpr size_t MOST_TETS = 4000;
+static constexpr size_t MOST_TETS_TRIED = 4000;
 static constexpr int TRIES = 12;
 
 // Twelve tets a copy: each half of each face with the middle. The diagonals of cells whose indices sum up to an odd
@@ -117,7 +117,7 @@ void make_cage(const Surface& surface, const Topology& topology, const std::vect
     for (int tried = 1;; ++tried) {
         const Cover cover = make_cover(topology, make_lattice(topology, cell_size), options.offset);
         const Copies copies = make_copies(topology, patches, cover);
-        if (options.cell_size == 0 && tried < TRIES && TETS_PER_COPY * copies.cell.size() > MOST_TETS) {
+        if (options.cell_size == 0 && tried < TRIES && TETS_PER_COPY * copies.cell.size() > MOST_TETS_TRIED) {
             cell_size *= 1.2;
             continue;
         }

@@ -38,7 +38,7 @@ CageReport measure_cage(const Surface& surface, const Cage& cage, const Embeddin
         report.volume += volume;
         double of_smallest = 1, of_largest = -1;
         dihedral_cosines(corners, of_smallest, of_largest);
-        const double degrees = 180 / 3.14159265358979323846;
+        const double degrees = 180 / PI;
         report.min_dihedral = std::min(report.min_dihedral, degrees * std::acos(std::clamp(of_smallest, -1.0, 1.0)));
         report.max_dihedral = std::max(report.max_dihedral, degrees * std::acos(std::clamp(of_largest, -1.0, 1.0)));
     }

@@ -15,7 +15,7 @@ static constexpr int FACE_STEPS = 4;
 // A component smaller than this many cells has no copies of its own.
 static constexpr double SCRAP = 1.5;
 // So many places of a piece are looked at when distances are compared.
-static constexpr size_t SAMPLES = 48;
+static constexpr size_t NODE_SAMPLES = 48;
 
 // Tells whether a segment reaches into an enlarged cell.
 static bool reaches(const Cover& cover, int cell, const Vec3& a, const Vec3& b) {
@@ -179,8 +179,8 @@ static Nearness measure_nearness(const Gatherer& gatherer, int a, int b) {
     const size_t first_a = size_t(pieces.first[size_t(a)]), count_a = size_t(pieces.first[size_t(a) + 1]) - first_a;
     const size_t first_b = size_t(pieces.first[size_t(b)]), count_b = size_t(pieces.first[size_t(b) + 1]) - first_b;
     Nearness best;
-    for (size_t i = 0; i < count_a; i += count_a / SAMPLES + 1)
-        for (size_t k = 0; k < count_b; k += count_b / SAMPLES + 1) {
+    for (size_t i = 0; i < count_a; i += count_a / NODE_SAMPLES + 1)
+        for (size_t k = 0; k < count_b; k += count_b / NODE_SAMPLES + 1) {
             const int entry_a = pieces.entries[first_a + i], entry_b = pieces.entries[first_b + k];
             const double squared =
                 (gatherer.cover.centre[size_t(entry_a)] - gatherer.cover.centre[size_t(entry_b)]).squaredNorm();

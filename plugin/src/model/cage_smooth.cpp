@@ -18,7 +18,7 @@ static constexpr double NEAREST = 0.15;
 // Share of the way to the mean of the neighbours, a pass.
 static constexpr double RELAXATION = 0.25;
 // So many triangles of a copy are looked at for the nearest place.
-static constexpr int SAMPLES = 150;
+static constexpr int TRIANGLE_SAMPLES = 150;
 // Rounding is worse than this nowhere.
 static constexpr double TOLERANCE = -1e-10;
 
@@ -81,7 +81,7 @@ static std::vector<Vec3> find_nearest_places(const Smoother& smoother) {
     std::vector<double> squared(draft.cage.nodes.size(), 1e300);
     for (size_t copy = 0; copy < copy_triangles.size(); ++copy) {
         const std::vector<int>& triangles = copy_triangles[copy];
-        for (size_t i = 0; i < triangles.size(); i += triangles.size() / SAMPLES + 1) {
+        for (size_t i = 0; i < triangles.size(); i += triangles.size() / TRIANGLE_SAMPLES + 1) {
             const Triangle& corner = draft.topology.triangles[size_t(triangles[i])];
             const Corners corners = {draft.topology.points[size_t(corner[0])], draft.topology.points[size_t(corner[1])],
                                      draft.topology.points[size_t(corner[2])]};
@@ -100,8 +100,8 @@ static std::vector<Vec3> find_nearest_places(const Smoother& smoother) {
 
 // Tells whether the tets around a node are well shaped; sets their frames.
 static bool are_sound(Smoother& smoother, int node) {
-    static const double LARGEST_COSINE = std::cos(SMALLEST_ANGLE * 3.14159265358979323846 / 180);
-    static const double SMALLEST_COSINE = std::cos(LARGEST_ANGLE * 3.14159265358979323846 / 180);
+    static const double LARGEST_COSINE = std::cos(SMALLEST_ANGLE * PI / 180);
+    static const double SMALLEST_COSINE = std::cos(LARGEST_ANGLE * PI / 180);
     const Cage& cage = smoother.draft.cage;
     smoother.frames.clear();
     for (int e : smoother.node_tets[size_t(node)]) {

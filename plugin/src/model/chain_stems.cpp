@@ -9,11 +9,11 @@ namespace frond {
 
 namespace {
 
-constexpr int USUAL_COUNT = 20;  // capsules along the longest way
-constexpr int LEAST_COUNT = 2;   // of a piece
+constexpr int USUAL_STEM_COUNT = 20;  // capsules along the longest way
+constexpr int LEAST_COUNT = 2;        // of a piece
 constexpr int MOST_COUNT = 2000;
 
-struct Piece {
+struct StemPiece {
     int parent;
     Vec3 begin, end;
     double radius_begin, radius_end, length;
@@ -28,12 +28,12 @@ struct Piece {
 };
 
 // Where the surface was moved to: the same turn, scale and shift take the stems along.
-std::vector<Piece> place_stems(const frond_stem* stems, int count, const Surface& surface,
-                               const StemPlacement& placed) {
-    std::vector<Piece> pieces;
+std::vector<StemPiece> place_stems(const frond_stem* stems, int count, const Surface& surface,
+                                   const StemPlacement& placed) {
+    std::vector<StemPiece> pieces;
     for (int i = 0; i < count; i++) {
         const frond_stem& stem = stems[i];
-        Piece piece = {};
+        StemPiece piece = {};
         piece.parent = stem.parent;
         piece.begin = placed.image(Vec3(stem.begin.x, stem.begin.y, stem.begin.z));
         piece.end = placed.image(Vec3(stem.end.x, stem.end.y, stem.end.z));
@@ -47,7 +47,7 @@ std::vector<Piece> place_stems(const frond_stem* stems, int count, const Surface
 }
 
 // The length of the longest way from a root to a tip.
-double longest_way(const std::vector<Piece>& pieces) {
+double longest_way(const std::vector<StemPiece>& pieces) {
     std::vector<double> reach(pieces.size());
     double longest = 0;
     for (size_t i = 0; i < pieces.size(); i++) {
@@ -58,13 +58,13 @@ double longest_way(const std::vector<Piece>& pieces) {
 }
 
 // Even cuts, and one where each child grows out; even ones that come too near to these give way.
-void cut_pieces(std::vector<Piece>& pieces, double height) {
+void cut_pieces(std::vector<StemPiece>& pieces, double height) {
     std::vector<std::vector<double>> joints(pieces.size());
-    for (const Piece& piece : pieces)
+    for (const StemPiece& piece : pieces)
         if (piece.parent >= 0)
             joints[size_t(piece.parent)].push_back(pieces[size_t(piece.parent)].nearest(piece.begin));
     for (size_t i = 0; i < pieces.size(); i++) {
-        Piece& piece = pieces[i];
+        StemPiece& piece = pieces[i];
         const int count = std::clamp(int(std::lround(piece.length / height)), LEAST_COUNT, MOST_COUNT);
         std::vector<double> fixed = joints[i];
         fixed.insert(fixed.end(), {0.0, 1.0});
@@ -94,7 +94,7 @@ Section round_section(const Vec3& along, double radius, const Organ& organ) {
     return section;
 }
 
-struct Maker {
+struct StemChain {
     const std::vector<Organ>& organs;
     double given_radius;
     Chain chain = {};
@@ -119,9 +119,9 @@ struct Maker {
 };
 
 // The node of the parent from which a piece grows; with a gap or a side step between, a capsule of its own bridges it.
-int begin_of(Maker& maker, const std::vector<Piece>& pieces, const Piece& piece) {
+int begin_of(StemChain& maker, const std::vector<StemPiece>& pieces, const StemPiece& piece) {
     if (piece.parent < 0) return maker.add(piece.begin, -1, piece.radius_begin, piece.organ);
-    const Piece& parent = pieces[size_t(piece.parent)];
+    const StemPiece& parent = pieces[size_t(piece.parent)];
     const double joint = parent.nearest(piece.begin);
     size_t nearest = 0;
     for (size_t k = 1; k < parent.cuts.size(); k++)
@@ -133,10 +133,10 @@ int begin_of(Maker& maker, const std::vector<Piece>& pieces, const Piece& piece)
 }
 
 // Each vertex to the nearest node of its own piece.
-void bind_vertices(Maker& maker, const Surface& surface, const std::vector<Piece>& pieces) {
+void bind_vertices(StemChain& maker, const Surface& surface, const std::vector<StemPiece>& pieces) {
     maker.chain.vertex_node.assign(surface.positions.size(), 0);
     for (const Part& part : surface.parts) {
-        const Piece& piece = pieces[size_t(std::stoi(part.name.substr(5)))];
+        const StemPiece& piece = pieces[size_t(std::stoi(part.name.substr(5)))];
         for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
             for (int vertex : surface.triangles[size_t(t)]) {
                 const double along = piece.nearest(surface.positions[size_t(vertex)]);
@@ -153,11 +153,11 @@ void bind_vertices(Maker& maker, const Surface& surface, const std::vector<Piece
 Chain make_chain_of_stems(const frond_stem* stems, int stem_count, const Surface& surface, const StemPlacement& placed,
                           const std::vector<Organ>& organs, const ChainOptions& options,
                           std::vector<Section>& sections) {
-    std::vector<Piece> pieces = place_stems(stems, stem_count, surface, placed);
-    const double height = options.height > 0 ? options.height : longest_way(pieces) / USUAL_COUNT;
+    std::vector<StemPiece> pieces = place_stems(stems, stem_count, surface, placed);
+    const double height = options.height > 0 ? options.height : longest_way(pieces) / USUAL_STEM_COUNT;
     cut_pieces(pieces, height);
-    Maker maker = {organs, options.radius};
-    for (Piece& piece : pieces) {
+    StemChain maker = {organs, options.radius};
+    for (StemPiece& piece : pieces) {
         piece.nodes.push_back(begin_of(maker, pieces, piece));
         for (size_t k = 1; k < piece.cuts.size(); k++)
             piece.nodes.push_back(maker.add(piece.place(piece.cuts[k]), piece.nodes.back(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "model/import.hpp"
@@ -88,8 +89,8 @@ static Vec3 guess_up(const Surface& surface) {
 
 // The shortest turn that takes an axis to +y.
 static Mat3 turn_to_y(const Vec3& up) {
-    if (up.y() < -1 + 1e-12) return Eigen::AngleAxisd(3.14159265358979323846, Vec3::UnitX()).toRotationMatrix();
-    return Quat::FromTwoVectors(up, Vec3::UnitY()).toRotationMatrix();
+    if (up.y() < -1 + 1e-12) return Eigen::AngleAxisd(PI, Vec3::UnitX()).toRotationMatrix();
+    return turn_between(up, Vec3::UnitY()).toRotationMatrix();
 }
 
 // The power of ten (so millimetres and centimetres too) that brings the height nearest to one metre.

@@ -3,11 +3,11 @@
 // taken without sign, all point nearly the same way, or when open edges run along it on both sides; a ring of a tube
 // has normals all around and no open edge along it. That works for closed thin leaves and for coarse tubes alike. A
 // large round component that is held up stands for leaves; if it encloses a volume it is a crown drawn as a solid.
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "core/decompose.hpp"
 #include "model/bands.hpp"
 #include "model/organ_clues.hpp"
 
@@ -73,12 +73,10 @@ static std::vector<double> measure_flatness(const Topology& topology, const Band
         for (int i = bands.first[t]; i < bands.first[t + 1]; i++) spread[size_t(bands.piece[size_t(i)])] += share;
     }
     std::vector<double> flat(bands.pieces.size(), 0.0);
-    Eigen::SelfAdjointEigenSolver<Mat3> solver;
     for (size_t i = 0; i < spread.size(); i++) {
         const double whole = spread[i].trace();
         if (!(whole > 0)) continue;
-        solver.computeDirect(spread[i] / whole, Eigen::EigenvaluesOnly);
-        flat[i] = solver.eigenvalues()[2];
+        flat[i] = symmetric_values_direct(spread[i] / whole)[2];
     }
     return flat;
 }

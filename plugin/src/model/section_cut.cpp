@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/decompose.hpp"
 #include "model/section_parts.hpp"
 
 namespace frond {
@@ -151,12 +152,12 @@ void average(const std::array<PlaneCut, 3>& cuts, const CapsuleFrame& frame, Out
         inverse += WEIGHTS[plane] * cuts[plane].moments.inverse();
     }
     if (!(weight > 0)) return;
-    const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(Matrix2d((inverse / weight).inverse()));
+    const SymmetricParts2 parts = symmetric_parts_2(Matrix2d((inverse / weight).inverse()));
     outline.found = true;
     outline.area = area / weight;
-    outline.inertia_thin = eigen.eigenvalues()[0];
-    outline.inertia_wide = eigen.eigenvalues()[1];
-    const Vector2d direction = eigen.eigenvectors().col(0);
+    outline.inertia_thin = parts.values[0];
+    outline.inertia_wide = parts.values[1];
+    const Vector2d direction = parts.vectors.col(0);
     outline.thin = (direction.x() * frame.across + direction.y() * frame.other).normalized();
 }
 

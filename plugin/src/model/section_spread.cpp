@@ -2,17 +2,17 @@
 // capsule's surface across its axis is measured after the capsule's own bow along the axis is taken out, so that an
 // arching leaf is not mistaken for a thick one.
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "core/decompose.hpp"
 #include "model/section_parts.hpp"
 
 namespace frond {
 namespace {
 
 // A share of surface that belongs to a capsule.
-struct Patch {
+struct Tile {
     Vec3 position;
     double area;
 };
@@ -21,7 +21,7 @@ struct Patch {
 // across its longest edge until it is small.
 struct Sharer {
     const Chain& chain;
-    std::vector<std::vector<Patch>>& patches;
+    std::vector<std::vector<Tile>>& patches;
     std::vector<int> capsules = {};  // that may have a share of this triangle
     double small = 0;                // [m]
 
@@ -45,7 +45,7 @@ struct Sharer {
     // The corners with 1/12 and the middle with 3/4 of the area have the same second moments as the triangle.
     void add(int capsule, const Vec3& a, const Vec3& b, const Vec3& c) {
         const double area = (b - a).cross(c - a).norm() / 2;
-        std::vector<Patch>& list = patches[size_t(capsule)];
+        std::vector<Tile>& list = patches[size_t(capsule)];
         for (const Vec3& p : {a, b, c}) list.push_back({p, area / 12});
         list.push_back({(a + b + c) / 3, area * 3 / 4});
     }
@@ -65,12 +65,12 @@ struct Sharer {
 };
 
 // A triangle's share goes to capsules of its own organ that begin or end where its corners are bound.
-std::vector<std::vector<Patch>> collect_patches(const Surface& surface, const Chain& chain) {
+std::vector<std::vector<Tile>> collect_patches(const Surface& surface, const Chain& chain) {
     constexpr double SMALL = 1.0 / 16;  // of a capsule
     // No triangle falls into more than some hundreds of pieces, and all together not into many millions.
     constexpr double MOST_PIECES = 8e6, FINEST = 24;
     const double fineness = std::clamp(std::sqrt(MOST_PIECES / double(surface.triangles.size())), 1.0, FINEST);
-    std::vector<std::vector<Patch>> patches(chain.nodes.size());
+    std::vector<std::vector<Tile>> patches(chain.nodes.size());
     std::vector<std::vector<int>> touching(chain.nodes.size());  // capsules at a node
     for (size_t i = 0; i < chain.nodes.size(); i++) {
         if (chain.nodes[i].parent < 0) continue;
@@ -102,12 +102,12 @@ std::vector<std::vector<Patch>> collect_patches(const Surface& surface, const Ch
     return patches;
 }
 
-Spread measure_spread(const std::vector<Patch>& patches, const CapsuleFrame& frame) {
+Spread measure_spread(const std::vector<Tile>& patches, const CapsuleFrame& frame) {
     // Offsets across the axis as a parabola along it, by least squares weighted with area.
     Mat3 normal = 1e-12 * Mat3::Identity();
     Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
     double total = 0;
-    for (const Patch& patch : patches) {
+    for (const Tile& patch : patches) {
         const Vec3 offset = patch.position - frame.begin;
         const double s = offset.dot(frame.axis) / frame.length;
         const Vec3 powers(1, s, s * s);
@@ -120,16 +120,16 @@ Spread measure_spread(const std::vector<Patch>& patches, const CapsuleFrame& fra
     const Eigen::Matrix<double, 3, 2> bow = normal.ldlt().solve(right);
     // The rest is the spread of the section itself.
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-    for (const Patch& patch : patches) {
+    for (const Tile& patch : patches) {
         const Vec3 offset = patch.position - frame.begin;
         const double s = offset.dot(frame.axis) / frame.length;
         const Eigen::RowVector2d y =
             Eigen::RowVector2d(offset.dot(frame.across), offset.dot(frame.other)) - Vec3(1, s, s * s).transpose() * bow;
         covariance += patch.area / total * y.transpose() * y;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
-    const Eigen::Vector2d direction = eigen.eigenvectors().col(0);
-    return {total, std::max(eigen.eigenvalues()[0], 0.0), std::max(eigen.eigenvalues()[1], 0.0),
+    const SymmetricParts2 parts = symmetric_parts_2(covariance);
+    const Eigen::Vector2d direction = parts.vectors.col(0);
+    return {total, std::max(parts.values[0], 0.0), std::max(parts.values[1], 0.0),
             (direction[0] * frame.across + direction[1] * frame.other).normalized()};
 }
 
@@ -137,7 +137,7 @@ Spread measure_spread(const std::vector<Patch>& patches, const CapsuleFrame& fra
 
 std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
                                     const std::vector<CapsuleFrame>& frames) {
-    const std::vector<std::vector<Patch>> patches = collect_patches(surface, chain);
+    const std::vector<std::vector<Tile>> patches = collect_patches(surface, chain);
     std::vector<Spread> spreads(patches.size(), {0, 0, 0, Vec3::UnitX()});
     for (size_t i = 0; i < patches.size(); i++)
         if (!patches[i].empty()) spreads[i] = measure_spread(patches[i], frames[i]);

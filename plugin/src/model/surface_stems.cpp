@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/convert.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "model/import.hpp"
@@ -10,11 +11,6 @@
 namespace frond {
 
 static constexpr int SIDES = 10, CAP_RINGS = 3, MOST_RINGS = 48, MOST_STEMS = 100000;
-static constexpr double PI = 3.14159265358979323846;
-
-static Vec3 vec_of(const frond_vec3& value) {
-    return {value.x, value.y, value.z};
-}
 
 static void check_stems(const frond_stem* stems, int stem_count) {
     if (!stems) fail(FROND_RESULT_BAD_ARGUMENT, "stems must not be null");
@@ -22,7 +18,7 @@ static void check_stems(const frond_stem* stems, int stem_count) {
         fail(FROND_RESULT_BAD_ARGUMENT, "stem_count is %d; it must be 1..%d", stem_count, MOST_STEMS);
     for (int i = 0; i < stem_count; ++i) {
         const frond_stem& stem = stems[i];
-        const Vec3 begin = vec_of(stem.begin), end = vec_of(stem.end);
+        const Vec3 begin = to_vec(stem.begin), end = to_vec(stem.end);
         if (stem.parent < -1 || stem.parent >= i)
             fail(FROND_RESULT_BAD_ARGUMENT,
                  "stem %d has parent %d; it must be an earlier stem (0..%d), or -1 for a root", i, stem.parent, i - 1);
@@ -51,7 +47,7 @@ static void warn_of_gaps(const frond_stem* stems, int stem_count) {
         const frond_stem& parent = stems[stems[i].parent];
         const double reach = std::max(parent.radius_begin, parent.radius_end) + stems[i].radius_begin;
         const double gap =
-            distance_to_segment(vec_of(stems[i].begin), vec_of(parent.begin), vec_of(parent.end)) - reach;
+            distance_to_segment(to_vec(stems[i].begin), to_vec(parent.begin), to_vec(parent.end)) - reach;
         if (gap <= 0) continue;
         if (gaps++ == 0) first = i;
     }
@@ -91,7 +87,7 @@ static double corner_radius(double radius) {
 }
 
 static void add_stem(Surface& surface, const frond_stem& stem, int index) {
-    const Vec3 begin = vec_of(stem.begin), end = vec_of(stem.end);
+    const Vec3 begin = to_vec(stem.begin), end = to_vec(stem.end);
     const double length = (end - begin).norm();
     const Vec3 axis = (end - begin) / length, side = axis.unitOrthogonal(), depth = axis.cross(side);
     const std::vector<Ring> rings = rings_of(stem, length);

@@ -15,7 +15,7 @@
 
 namespace frond {
 
-static constexpr long long LARGEST_FILE = 1ll << 30;  // [byte]
+static constexpr long long LARGEST_TET_FILE = 1ll << 30;  // [byte]
 
 static bool has_ending(const std::string& path, const char* ending) {
     const size_t length = strlen(ending);
@@ -43,6 +43,14 @@ std::string read_line(TetFile& file) {
     ++file.line;
     while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
     return line;
+}
+
+void skip_line_end(TetFile& file) {
+    while (!is_at_end(file) && file.bytes[file.at] != '\n' && uint8_t(file.bytes[file.at]) <= 32) ++file.at;
+    if (!is_at_end(file) && file.bytes[file.at] == '\n') {
+        ++file.at;
+        ++file.line;
+    }
 }
 
 std::string read_word(TetFile& file) {
@@ -121,7 +129,7 @@ static TetFile open_tet_file(const std::string& path) {
     if (stat(path.c_str(), &status) != 0) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
     if (!S_ISREG(status.st_mode)) fail(FROND_RESULT_FILE_NOT_FOUND, "%s is not a regular file", path.c_str());
     if (status.st_size == 0) fail(FROND_RESULT_FILE_FORMAT, "%s: the file is empty", file.name.c_str());
-    if (status.st_size > LARGEST_FILE)
+    if (status.st_size > LARGEST_TET_FILE)
         fail(FROND_RESULT_FILE_FORMAT, "%s: the file is larger than 1 GiB", file.name.c_str());
     FILE* stream = fopen(path.c_str(), "rb");
     if (!stream) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));

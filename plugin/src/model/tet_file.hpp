@@ -19,6 +19,8 @@ struct TetFile {
 bool is_at_end(const TetFile& file);
 // The rest of the line, without its end. Empty at the end of the file.
 std::string read_line(TetFile& file);
+// Blanks, and the end of the line behind them.
+void skip_line_end(TetFile& file);
 // The next word of text; fails at the end of the file.
 std::string read_word(TetFile& file);
 // Numbers: words in text, 4- or 8-byte values in binary.

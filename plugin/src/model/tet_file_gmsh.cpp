@@ -38,14 +38,6 @@ static bool is_other_volume(int64_t type) {
            type == 93;
 }
 
-static void skip_line_end(TetFile& file) {
-    while (file.at < file.bytes.size() && file.bytes[file.at] != '\n' && uint8_t(file.bytes[file.at]) <= 32) ++file.at;
-    if (file.at < file.bytes.size() && file.bytes[file.at] == '\n') {
-        ++file.at;
-        ++file.line;
-    }
-}
-
 // The text between a section's name line and its end is binary, if the file is.
 static void begin_numbers(TetFile& file, const GmshReading& reading) {
     file.is_binary = reading.is_binary;

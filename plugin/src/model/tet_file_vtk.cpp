@@ -40,14 +40,6 @@ static size_t type_size(const std::string& type) {
     return 0;
 }
 
-static void skip_line_end(TetFile& file) {
-    while (!is_at_end(file) && file.bytes[file.at] != '\n' && uint8_t(file.bytes[file.at]) <= 32) ++file.at;
-    if (!is_at_end(file) && file.bytes[file.at] == '\n') {
-        ++file.at;
-        ++file.line;
-    }
-}
-
 static double read_of_type(TetFile& file, const std::string& type) {
     if (!file.is_binary) return read_real(file);
     if (is_word(type, "float")) return double(read_float(file));

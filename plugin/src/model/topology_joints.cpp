@@ -14,7 +14,6 @@
 #include <numeric>
 
 #include "model/box_tree.hpp"
-#include "model/triangle_distance.hpp"
 
 namespace frond {
 
@@ -75,11 +74,6 @@ struct Forest {
 };
 
 }  // namespace
-
-static Corners corners_of(const Topology& topology, int triangle) {
-    const Triangle& corner = topology.triangles[size_t(triangle)];
-    return {topology.points[size_t(corner[0])], topology.points[size_t(corner[1])], topology.points[size_t(corner[2])]};
-}
 
 // Returns what an item pays for hanging on another one.
 static double likeness_cost(const Forest& forest, double size, double other) {

@@ -2,8 +2,14 @@
 #pragma once
 
 #include "model/topology.hpp"
+#include "model/triangle_distance.hpp"
 
 namespace frond {
+
+inline Corners corners_of(const Topology& topology, int triangle) {
+    const Triangle& corner = topology.triangles[size_t(triangle)];
+    return {topology.points[size_t(corner[0])], topology.points[size_t(corner[1])], topology.points[size_t(corner[2])]};
+}
 
 // Fills the joints of a topology whose triangles and components stand.
 void join_components(Topology& topology);

@@ -5,15 +5,9 @@
 #include <limits>
 
 #include "model/topology_joints.hpp"
-#include "model/triangle_distance.hpp"
 #include "model/union_find.hpp"
 
 namespace frond {
-
-static Corners corners_of(const Topology& topology, int triangle) {
-    const Triangle& corner = topology.triangles[size_t(triangle)];
-    return {topology.points[size_t(corner[0])], topology.points[size_t(corner[1])], topology.points[size_t(corner[2])]};
-}
 
 // The point of a part that is nearest to another one, and its triangle.
 static void find_nearest(const Topology& topology, const Part& part, const Vec3& to, int& triangle, Vec3& nearest) {

@@ -9,6 +9,9 @@
 
 namespace frond {
 
+// What is refused as too large.
+constexpr uint32_t MOST_LINKS = 20000, MOST_SHAPES = 100000;
+
 // A frame in another one: places go to turn * place + origin.
 struct UrdfFrame {
     Vec3 origin = Vec3::Zero();  // [m]

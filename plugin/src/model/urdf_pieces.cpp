@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/convert.hpp"
 #include "core/error.hpp"
 
 namespace frond {
@@ -39,12 +40,8 @@ bool are_stems(const std::vector<UrdfPiece>& pieces) {
     });
 }
 
-static Vec3 vec_of(const frond_vec3& v) {
-    return {v.x, v.y, v.z};
-}
-
 static double distance_to(const frond_stem& stem, const Vec3& point) {
-    const Vec3 begin = vec_of(stem.begin), way = vec_of(stem.end) - begin;
+    const Vec3 begin = to_vec(stem.begin), way = to_vec(stem.end) - begin;
     const double along = std::clamp((point - begin).dot(way) / way.squaredNorm(), 0.0, 1.0);
     return (point - begin - along * way).norm();
 }

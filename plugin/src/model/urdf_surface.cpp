@@ -8,29 +8,28 @@
 
 namespace frond {
 
-static constexpr double PI = 3.14159265358979323846;
-static constexpr int SIDES = 12, CAP_RINGS = 4, MOST_RINGS = 48, MOST_CELLS = 16;
+static constexpr int URDF_SIDES = 12, URDF_CAP_RINGS = 4, MOST_URDF_RINGS = 48, MOST_CELLS = 16;
 
 // A circle around the z axis.
-struct Ring {
+struct UrdfRing {
     double along, radius;  // [m]
 };
 
 // From the lower pole to the upper one, poles themselves left out.
-static std::vector<Ring> rings_of(const UrdfShape& shape) {
+static std::vector<UrdfRing> rings_of(const UrdfShape& shape) {
     const bool is_sphere = shape.kind == UrdfKind::SPHERE, is_flat = shape.kind == UrdfKind::CYLINDER;
     const double radius = shape.size[0], half = is_sphere ? 0 : 0.5 * shape.size[1];
-    std::vector<Ring> rings;
+    std::vector<UrdfRing> rings;
     if (!is_flat)
-        for (int k = CAP_RINGS - 1; k > 0; --k) {
-            const double angle = 0.5 * PI * k / CAP_RINGS;
+        for (int k = URDF_CAP_RINGS - 1; k > 0; --k) {
+            const double angle = 0.5 * PI * k / URDF_CAP_RINGS;
             rings.push_back({-half - radius * std::sin(angle), radius * std::cos(angle)});
         }
-    const int pieces = is_sphere ? 0 : std::clamp(int(std::ceil(half / radius)), 1, MOST_RINGS);
+    const int pieces = is_sphere ? 0 : std::clamp(int(std::ceil(half / radius)), 1, MOST_URDF_RINGS);
     for (int k = 0; k <= pieces; ++k) rings.push_back({pieces ? half * (2.0 * k / pieces - 1) : 0, radius});
     if (!is_flat)
-        for (int k = 1; k < CAP_RINGS; ++k) {
-            const double angle = 0.5 * PI * k / CAP_RINGS;
+        for (int k = 1; k < URDF_CAP_RINGS; ++k) {
+            const double angle = 0.5 * PI * k / URDF_CAP_RINGS;
             rings.push_back({half + radius * std::sin(angle), radius * std::cos(angle)});
         }
     return rings;
@@ -38,22 +37,22 @@ static std::vector<Ring> rings_of(const UrdfShape& shape) {
 
 static void add_round(Surface& surface, const UrdfPiece& piece) {
     const UrdfShape& shape = *piece.shape;
-    const std::vector<Ring> rings = rings_of(shape);
+    const std::vector<UrdfRing> rings = rings_of(shape);
     const double reach = shape.kind == UrdfKind::CYLINDER ? 0.5 * shape.size[1]
                          : shape.kind == UrdfKind::SPHERE ? shape.size[0]
                                                           : 0.5 * shape.size[1] + shape.size[0];
-    const int first = int(surface.positions.size()), last = first + 1 + SIDES * int(rings.size());
+    const int first = int(surface.positions.size()), last = first + 1 + URDF_SIDES * int(rings.size());
     surface.positions.push_back(piece.frame * Vec3(0, 0, -reach));
-    for (const Ring& ring : rings)
-        for (int k = 0; k < SIDES; ++k) {
-            const double angle = 2 * PI * k / SIDES;
+    for (const UrdfRing& ring : rings)
+        for (int k = 0; k < URDF_SIDES; ++k) {
+            const double angle = 2 * PI * k / URDF_SIDES;
             surface.positions.push_back(piece.frame *
                                         Vec3(ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.along));
         }
     surface.positions.push_back(piece.frame * Vec3(0, 0, reach));
-    const auto at = [first](int ring, int k) { return first + 1 + ring * SIDES + k % SIDES; };
+    const auto at = [first](int ring, int k) { return first + 1 + ring * URDF_SIDES + k % URDF_SIDES; };
     const int top = int(rings.size()) - 1;
-    for (int k = 0; k < SIDES; ++k) {
+    for (int k = 0; k < URDF_SIDES; ++k) {
         surface.triangles.push_back({first, at(0, k + 1), at(0, k)});
         for (int ring = 0; ring < top; ++ring) {
             surface.triangles.push_back({at(ring, k), at(ring, k + 1), at(ring + 1, k + 1)});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/decompose.hpp"
 #include "core/error.hpp"
 
 namespace frond {
@@ -86,7 +87,7 @@ Quat turn_of(const Section& section) {
 }  // namespace
 
 std::string urdf_of(const Model& model, const std::string& name) {
-    const Quat upright = Quat::FromTwoVectors(Vec3::UnitY(), Vec3::UnitZ());
+    const Quat upright = turn_between(Vec3::UnitY(), Vec3::UnitZ());
     const std::vector<ChainNode>& nodes = model.chain.nodes;
     std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(name) + "\">\n  <link name=\"ground\"/>\n";
     std::vector<std::string> link(nodes.size(), "ground");

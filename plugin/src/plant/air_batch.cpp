@@ -115,7 +115,7 @@ unsigned ask_field(AirBatch& air, const Surroundings& surroundings, int plant_co
 }
 
 template <class Of>
-struct GatherPieces {
+struct GatherPiecesOfBatch {
     AirBatch& air;
     Batch& step;
     int count;  // of chain nodes
@@ -253,8 +253,8 @@ unsigned gather_air(AirBatch& air, Batch& step, Plant* const* plants, int plant_
     } else {
         air.wind.assign(n, 0);
     }
-    run_of<GatherPieces>(step, air, step, count, surroundings.wind->def.density, h,
-                         (effects & FROND_EFFECT_AIR_DRAG) != 0);
+    run_of<GatherPiecesOfBatch>(step, air, step, count, surroundings.wind->def.density, h,
+                                (effects & FROND_EFFECT_AIR_DRAG) != 0);
     return unsound;
 }
 

@@ -3,9 +3,9 @@
 // Elements of the capsules that are gone leave the plant's system, and their mass with them; nodes stay in their places
 // in all arrays, so that a plant's state keeps its shape, and are held. Cage nodes and vertices go by the tets they are
 // in, tets by the capsule that they belong to.
+#include "core/decompose.hpp"
 #include "plant/fragment.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "mechanics/rotation.hpp"
@@ -83,11 +83,11 @@ void set_inertia(const Plant& plant, const VecX& mass, Fragment& fragment) {
         const Vec3 arm = point(modelled, i) - centre;
         inertia += mass[i] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
     }
-    const Eigen::SelfAdjointEigenSolver<Mat3> own(inertia);
-    Mat3 axes = own.eigenvectors();
+    const SymmetricParts principal = symmetric_parts(inertia);
+    Mat3 axes = principal.vectors;
     if (axes.determinant() < 0) axes.col(2) *= -1;
     fragment.axes = plant.rotation.toRotationMatrix() * turn_of(plant, int(plant.fragments.size()) - 1) * axes;
-    fragment.moments = own.eigenvalues();
+    fragment.moments = principal.values;
 }
 
 // Of the mass that left the nodes.

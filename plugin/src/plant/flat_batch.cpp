@@ -14,7 +14,7 @@ namespace frond {
 
 namespace {
 
-struct FindFrames {
+struct FindFramesOfBatch {
     const Plant* const* plants;
     int count;
     const std::vector<int>& capsules;
@@ -63,7 +63,7 @@ void look_at_chains(const Plant* const* plants, int count, const std::vector<int
     make_room(out.x, numbers * lanes);
     make_room(out.turns, numbers / 6 * 9 * lanes);
     make_room(out.frames, 9 * capsules.size() * lanes);
-    run_in_lanes(out.lanes, FindFrames{plants, count, capsules, flats, out});
+    run_in_lanes(out.lanes, FindFramesOfBatch{plants, count, capsules, flats, out});
 }
 
 }  // namespace frond

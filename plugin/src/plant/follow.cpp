@@ -1,8 +1,8 @@
 #include "plant/follow.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "core/decompose.hpp"
 #include "mechanics/rotation.hpp"
 
 namespace frond {
@@ -135,11 +135,11 @@ bool fit_rigid(const std::vector<Vec3>& from, const std::vector<Vec3>& to, const
     const Eigen::Matrix3Xd a = points_of(from), b = points_of(to);
     const Vec3 from_middle = a.rowwise().mean(), to_middle = b.rowwise().mean();
     const Mat3 spread = (b.colwise() - to_middle) * (a.colwise() - from_middle).transpose();
-    const Eigen::JacobiSVD<Mat3> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    if (!(svd.singularValues()[1] > 1e-6 * svd.singularValues()[0])) return false;
+    const SingularParts svd = singular_parts(spread);
+    if (!(svd.values[1] > 1e-6 * svd.values[0])) return false;
     Mat3 sign = Mat3::Identity();
-    sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    rotation = svd.matrixU() * sign * svd.matrixV().transpose();
+    sign(2, 2) = (svd.U * svd.V.transpose()).determinant() < 0 ? -1 : 1;
+    rotation = svd.U * sign * svd.V.transpose();
     image = to_middle + rotation * (origin - from_middle);
     return true;
 }

@@ -12,8 +12,6 @@
 
 namespace frond {
 
-namespace {
-
 using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 // Opens what Eigen keeps protected: factorizing a matrix that is ordered already, in place and without allocating.
@@ -33,8 +31,6 @@ struct Ldlt : Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering
     }
     int64_t fill() const { return m_matrix.nonZeros(); }
 };
-
-}  // namespace
 
 struct DirectFactor {
     std::vector<int> order, source;  // nodes as they are eliminated; value k of the ordered matrix is values[source[k]]

@@ -17,7 +17,7 @@ constexpr int PARTS = 4;  // of a sum over rows, see front_solve.cpp
 
 // Rows of three columns.
 template <class S, int ROWS>
-struct Tile {
+struct BatchTile {
     S at[3][ROWS];
 
     FROND_INLINE void get(const double* from, size_t stride) {
@@ -58,7 +58,7 @@ FROND_INLINE void for_rows(int row, int nodes, const Work& work) {
 }
 
 template <class S>
-struct Panel {
+struct BatchPanel {
     double *L, *LD;
     size_t stride;
     int column;
@@ -66,10 +66,10 @@ struct Panel {
     template <int ROWS>
     FROND_INLINE void tile(int row) const {
         const size_t at = size_t(LANES<S>) * (size_t(column) * stride + size_t(row));
-        Tile<S, ROWS> a;
+        BatchTile<S, ROWS> a;
         a.get(L + at, stride);
         a.take_off(L + LANES<S> * row, LD + LANES<S> * column, stride, column);
-        Tile<S, ROWS> l;
+        BatchTile<S, ROWS> l;
 #pragma GCC unroll 6
         for (int r = 0; r < ROWS; ++r) {
             l.at[0][r] = a.at[0][r] * corner.inverse[0];
@@ -85,7 +85,7 @@ struct Panel {
 };
 
 template <class S>
-struct Update {
+struct BatchUpdate {
     double* update;
     const double *L, *LD;  // of the further rows
     size_t update_stride, stride;
@@ -93,14 +93,14 @@ struct Update {
     template <int ROWS>
     FROND_INLINE void tile(int row) const {
         double* at = update + size_t(LANES<S>) * (size_t(column) * update_stride + size_t(row));
-        Tile<S, ROWS> a;
+        BatchTile<S, ROWS> a;
         a.get(at, update_stride);
         a.take_off(L + LANES<S> * row, LD + LANES<S> * column, stride, count);
         a.put(at, update_stride);
     }
 };
 
-struct Factorize {
+struct FactorizeFrontBatch {
     const FrontPlan& plan;
     const BlockMatrix& A;
     FrontBatch& factor;
@@ -167,12 +167,12 @@ struct Factorize {
         const int own = padded(front.own), count = 3 * front.own;
         S sound = before;
         for (int column = 0; column < count; column += 3) {
-            Tile<S, 3> a;
+            BatchTile<S, 3> a;
             a.get(L + LANES<S> * (size_t(column) * stride + size_t(column)), stride);
             a.take_off(L + LANES<S> * column, products + LANES<S> * column, stride, column);
             const Corner<S> corner =
                 corner_of<S>(a.at[0][0], a.at[0][1], a.at[0][2], a.at[1][1], a.at[1][2], a.at[2][2]);
-            const Panel<S> panel = {L, products, stride, column, corner};
+            const BatchPanel<S> panel = {L, products, stride, column, corner};
             for_rows<S>(column, front.own - column / 3, panel);
             for_rows<S>(own, front.rows, panel);
             const size_t at = size_t(3 * front.first + column);
@@ -185,8 +185,9 @@ struct Factorize {
         }
         const double *further = L + LANES<S> * own, *further_products = products + LANES<S> * own;
         for (int k = 0; k < front.rows; ++k)
-            for_rows<S>(3 * k, front.rows - k,
-                        Update<S>{update, further, further_products, size_t(padded(front.rows)), stride, 3 * k, count});
+            for_rows<S>(
+                3 * k, front.rows - k,
+                BatchUpdate<S>{update, further, further_products, size_t(padded(front.rows)), stride, 3 * k, count});
         return sound;
     }
 
@@ -205,7 +206,7 @@ struct Factorize {
     }
 };
 
-struct Solve {
+struct SolveFrontBatch {
     const FrontPlan& plan;
     const FrontBatch& factor;
     double *all, *y;  // numbers in the order of elimination, and those of one front's rows
@@ -310,14 +311,14 @@ struct TakeApart {
 };
 
 // Of the memory that only factorize() needs.
-struct Room {
+struct BatchRoom {
     NumbersInLines updates, products;
 };
 
 }  // namespace
 
 unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontBatch& factor) {
-    static thread_local Room room;
+    static thread_local BatchRoom room;
     const size_t lanes = A.values.size() / (9 * size_t(A.pattern->block_count()));
     factor.lanes = int(lanes);
     make_large_enough(room.updates, lanes * plan.update_size);
@@ -326,7 +327,7 @@ unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontBatch& fact
     make_room(factor.pivot, lanes * 3 * plan.order.size());
     make_room(factor.inverse, factor.pivot.size());
     unsigned failed = 0;
-    run_in_lanes(factor.lanes, Factorize{plan, A, factor, room.updates.data(), room.products.data(), failed});
+    run_in_lanes(factor.lanes, FactorizeFrontBatch{plan, A, factor, room.updates.data(), room.products.data(), failed});
     return failed;
 }
 
@@ -336,7 +337,7 @@ void solve(const FrontPlan& plan, FrontBatch& factor, const NumbersInLines& b, N
     make_room(factor.front, lanes * plan.longest);
     for (size_t k = 0; k < plan.order.size(); ++k)
         std::copy_n(b.data() + three * size_t(plan.order[k]), three, factor.ordered.data() + three * k);
-    run_in_lanes(factor.lanes, Solve{plan, factor, factor.ordered.data(), factor.front.data()});
+    run_in_lanes(factor.lanes, SolveFrontBatch{plan, factor, factor.ordered.data(), factor.front.data()});
     x.resize(b.size());
     for (size_t k = 0; k < plan.order.size(); ++k)
         std::copy_n(factor.ordered.data() + three * k, three, x.data() + three * size_t(plan.order[k]));

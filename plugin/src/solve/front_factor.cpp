@@ -131,7 +131,7 @@ struct Room {
     std::vector<Quad> updates, products;
 };
 
-struct Factorize {
+struct FactorizeFronts {
     const FrontPlan& plan;
     const BlockMatrix& A;
     FrontFactor& factor;
@@ -229,7 +229,7 @@ bool factorize(const FrontPlan& plan, const BlockMatrix& A, FrontFactor& factor)
     factor.pivot.resize(3 * Eigen::Index(plan.order.size()));
     factor.inverse.resize(factor.pivot.size());
     bool ok = false;
-    run_in_lanes(Factorize{plan, A, factor, numbers_of(room.updates), numbers_of(room.products), ok});
+    run_in_lanes(FactorizeFronts{plan, A, factor, numbers_of(room.updates), numbers_of(room.products), ok});
     return ok;
 }
 

@@ -11,9 +11,9 @@ namespace frond {
 
 namespace {
 
-constexpr int ROWS = 4;  // at once
+constexpr int ROWS_AT_ONCE = 4;  // at once
 
-struct Solve {
+struct SolveFronts {
     const FrontPlan& plan;
     const FrontFactor& factor;
     double *all, *y;  // numbers in the order of elimination, and those of one front's rows
@@ -26,7 +26,7 @@ struct Solve {
         for (int k = 0; k < own; k += 3, L += 3 * stride) {
             const double y0 = y[k], y1 = y[k + 1] - L[k + 1] * y0;
             const double y2 = (y[k + 2] - L[k + 2] * y0) - L[stride + k + 2] * y1;
-            for (int i = k / ROWS * ROWS; i < stride; i += ROWS) {
+            for (int i = k / ROWS_AT_ONCE * ROWS_AT_ONCE; i < stride; i += ROWS_AT_ONCE) {
                 FourLanes rest = load<FourLanes>(y + i);
                 rest -= load<FourLanes>(L + i) * y0;
                 rest -= load<FourLanes>(L + stride + i) * y1;
@@ -53,7 +53,7 @@ struct Solve {
         for (int k = own - 3; k >= 0; k -= 3) {
             const double* column = L + k * stride;
             FourLanes sum[3] = {};
-            for (int i = k / ROWS * ROWS; i < stride; i += ROWS) {
+            for (int i = k / ROWS_AT_ONCE * ROWS_AT_ONCE; i < stride; i += ROWS_AT_ONCE) {
                 const FourLanes x = load<FourLanes>(y + i);
                 for (int c = 0; c < 3; ++c) sum[c] += load<FourLanes>(column + c * stride + i) * x;
             }
@@ -102,7 +102,7 @@ void solve(const FrontPlan& plan, FrontFactor& factor, const VecX& b, VecX& x) {
     factor.ordered.resize(b.size());
     factor.front.resize(Eigen::Index(plan.longest));
     for (size_t k = 0; k < plan.order.size(); ++k) point(factor.ordered, int(k)) = point(b, plan.order[k]);
-    run_in_lanes(Solve{plan, factor, factor.ordered.data(), factor.front.data()});
+    run_in_lanes(SolveFronts{plan, factor, factor.ordered.data(), factor.front.data()});
     x.resize(b.size());
     for (size_t k = 0; k < plan.order.size(); ++k) point(x, plan.order[k]) = point(factor.ordered, int(k));
 }

@@ -5,11 +5,11 @@
 // interactive contact force problems").
 #include "solve/impulses.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "core/decompose.hpp"
 #include "model/union_find.hpp"
 
 namespace frond {
@@ -29,12 +29,11 @@ constexpr double IMMOVABLE = 1e-12;  // [1/kg]
 }  // namespace
 
 Mat3 firm_inverse(const Mat3& block) {
-    const Eigen::SelfAdjointEigenSolver<Mat3> ways(0.5 * (block + block.transpose()));
+    const SymmetricParts ways = symmetric_parts(0.5 * (block + block.transpose()));
     Vec3 inverse = Vec3::Zero();
     for (int i = 0; i < 3; i++)
-        if (ways.eigenvalues()[i] > std::max(IMMOVABLE, 1e-9 * ways.eigenvalues()[2]))
-            inverse[i] = 1 / ways.eigenvalues()[i];
-    return ways.eigenvectors() * inverse.asDiagonal() * ways.eigenvectors().transpose();
+        if (ways.values[i] > std::max(IMMOVABLE, 1e-9 * ways.values[2])) inverse[i] = 1 / ways.values[i];
+    return ways.vectors * inverse.asDiagonal() * ways.vectors.transpose();
 }
 
 namespace {
@@ -45,7 +44,7 @@ struct Change {
 };
 
 // One island: its touches in a row.
-struct Search {
+struct ImpulseSearch {
     const std::vector<Touch>& touches;
     const CouplingTable& coupling;
     const std::vector<int>& island;
@@ -54,7 +53,7 @@ struct Search {
     std::vector<std::unique_ptr<Own>> own;  // of those that push or did
 };
 
-const Own& own_of(Search& search, int k) {
+const Own& own_of(ImpulseSearch& search, int k) {
     std::unique_ptr<Own>& own = search.own[size_t(k)];
     if (own) return *own;
     own = std::make_unique<Own>();
@@ -67,14 +66,13 @@ const Own& own_of(Search& search, int k) {
     }
     const double along = touch.normal.dot(own->block * touch.normal);
     const Mat3 flat = Mat3::Identity() - touch.normal * touch.normal.transpose();
-    const Eigen::SelfAdjointEigenSolver<Mat3> sliding(flat * own->block * flat, Eigen::EigenvaluesOnly);
-    const double across = sliding.eigenvalues()[2];
+    const double across = symmetric_values(flat * own->block * flat)[2];
     own->along = along > IMMOVABLE ? 1 / along : 0;
     own->across = across > IMMOVABLE ? 1 / across : 0;
     return *own;
 }
 
-void add_impulse(Search& search, int k, const Vec3& change) {
+void add_impulse(ImpulseSearch& search, int k, const Vec3& change) {
     search.impulses.segment<3>(3 * k) += change;
     for (const Coupling& c : search.coupling.row(search.island[size_t(k)]))
         search.velocities.segment<3>(3 * search.place[size_t(c.other)]) += c.block.transpose() * change;
@@ -103,7 +101,7 @@ Vec3 corrected(const Touch& touch, const Own& own, Vec3 velocity, const Vec3& be
 }
 
 // A round over the touches. What is not felt is not passed on to the others, who are many.
-Change sweep(Search& search, double unfelt) {
+Change sweep(ImpulseSearch& search, double unfelt) {
     Change change;
     for (int k = 0; k < int(search.island.size()); k++) {
         const Touch& touch = search.touches[size_t(search.island[size_t(k)])];
@@ -123,7 +121,7 @@ Change sweep(Search& search, double unfelt) {
 }
 
 // Rounds until they change nothing.
-int solve_island(Search& search, const ImpulseLimits& limits, double unfelt, bool& converged) {
+int solve_island(ImpulseSearch& search, const ImpulseLimits& limits, double unfelt, bool& converged) {
     VecX way = VecX::Zero(search.impulses.size()), way_faster = way, from, from_velocities;
     double last = 0;  // square of the last round's change
     for (int iteration = 1;; iteration++) {
@@ -166,7 +164,7 @@ ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTab
     report.converged = true;
     for (const std::vector<int>& island : coupling.islands) {
         const Eigen::Index size = 3 * Eigen::Index(island.size());
-        Search search = {touches, coupling, island, place, VecX::Zero(size), VecX(size), {}};
+        ImpulseSearch search = {touches, coupling, island, place, VecX::Zero(size), VecX(size), {}};
         search.own.resize(island.size());
         for (size_t k = 0; k < island.size(); k++) {
             place[size_t(island[k])] = int(k);

@@ -8,7 +8,7 @@ namespace frond {
 namespace {
 
 // False if a block of the diagonal is not positive definite.
-bool make(const BlockMatrix& A, LinearScratch& scratch) {
+bool invert_blocks(const BlockMatrix& A, LinearScratch& scratch) {
     const BlockPattern& pattern = *A.pattern;
     scratch.inverse_blocks.resize(9 * size_t(pattern.node_count));
     for (int j = 0; j < pattern.node_count; ++j) {
@@ -20,7 +20,7 @@ bool make(const BlockMatrix& A, LinearScratch& scratch) {
     return true;
 }
 
-void apply(const BlockMatrix& A, const LinearScratch& scratch, const VecX& r, VecX& z) {
+void apply_blocks(const BlockMatrix& A, const LinearScratch& scratch, const VecX& r, VecX& z) {
     z.resize(r.size());
     for (int j = 0; j < A.pattern->node_count; ++j)
         point(z, j) = Eigen::Map<const Mat3>(scratch.inverse_blocks.data() + 9 * size_t(j)) * point(r, j);
@@ -30,7 +30,7 @@ void apply(const BlockMatrix& A, const LinearScratch& scratch, const VecX& r, Ve
 
 LinearResult solve_pcg_block_jacobi(const BlockMatrix& A, const VecX& b, const LinearLimits& limits,
                                     LinearScratch& scratch, VecX& x) {
-    return solve_pcg({make, apply}, A, b, limits, scratch, x);
+    return solve_pcg({invert_blocks, apply_blocks}, A, b, limits, scratch, x);
 }
 
 }  // namespace frond

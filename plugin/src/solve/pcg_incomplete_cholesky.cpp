@@ -39,7 +39,7 @@ bool factorize_in_place(const BlockPattern& pattern, std::vector<double>& values
 }
 
 // False if no shift helps, or a block of the diagonal is not positive from the start.
-bool make(const BlockMatrix& A, LinearScratch& scratch) {
+bool factorize_incompletely(const BlockMatrix& A, LinearScratch& scratch) {
     constexpr double FIRST_SHIFT = 1e-3, LAST_SHIFT = 10;
     const BlockPattern& pattern = *A.pattern;
     for (int j = 0; j < pattern.node_count; ++j) {
@@ -57,7 +57,7 @@ bool make(const BlockMatrix& A, LinearScratch& scratch) {
 }
 
 // z = L^-T L^-1 r
-void apply(const BlockMatrix& A, const LinearScratch& scratch, const VecX& r, VecX& z) {
+void apply_incomplete_factor(const BlockMatrix& A, const LinearScratch& scratch, const VecX& r, VecX& z) {
     const BlockPattern& pattern = *A.pattern;
     const auto block = [&](int slot) { return Eigen::Map<const Mat3>(scratch.incomplete.data() + 9 * size_t(slot)); };
     z = r;
@@ -79,7 +79,7 @@ void apply(const BlockMatrix& A, const LinearScratch& scratch, const VecX& r, Ve
 
 LinearResult solve_pcg_incomplete_cholesky(const BlockMatrix& A, const VecX& b, const LinearLimits& limits,
                                            LinearScratch& scratch, VecX& x) {
-    return solve_pcg({make, apply}, A, b, limits, scratch, x);
+    return solve_pcg({factorize_incompletely, apply_incomplete_factor}, A, b, limits, scratch, x);
 }
 
 }  // namespace frond

@@ -8,7 +8,7 @@ namespace frond {
 namespace {
 
 // False if a number of the diagonal is not above zero.
-bool make(const BlockMatrix& A, LinearScratch& scratch) {
+bool invert_diagonal(const BlockMatrix& A, LinearScratch& scratch) {
     const BlockPattern& pattern = *A.pattern;
     VecX& inverse = scratch.inverse_diagonal;
     inverse.resize(3 * pattern.node_count);
@@ -21,7 +21,7 @@ bool make(const BlockMatrix& A, LinearScratch& scratch) {
     return true;
 }
 
-void apply(const BlockMatrix&, const LinearScratch& scratch, const VecX& r, VecX& z) {
+void apply_diagonal(const BlockMatrix&, const LinearScratch& scratch, const VecX& r, VecX& z) {
     z = scratch.inverse_diagonal.cwiseProduct(r);
 }
 
@@ -29,7 +29,7 @@ void apply(const BlockMatrix&, const LinearScratch& scratch, const VecX& r, VecX
 
 LinearResult solve_pcg_jacobi(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
                               VecX& x) {
-    return solve_pcg({make, apply}, A, b, limits, scratch, x);
+    return solve_pcg({invert_diagonal, apply_diagonal}, A, b, limits, scratch, x);
 }
 
 }  // namespace frond

@@ -21,14 +21,14 @@ struct Row {
     std::vector<Along> others;
 };
 
-struct Search {
+struct CorrectionSearch {
     const std::vector<Touch>& touches;
     const CouplingTable& coupling;
     std::vector<double> pushes, speeds;  // along the normals
     std::vector<Row> rows;
 };
 
-const Row& row_of(Search& search, int i) {
+const Row& row_of(CorrectionSearch& search, int i) {
     Row& row = search.rows[size_t(i)];
     if (row.known) return row;
     row.known = true;
@@ -45,7 +45,7 @@ const Row& row_of(Search& search, int i) {
 }
 
 // A round over an island's touches; returns whether another one is of use.
-bool sweep(Search& search, const std::vector<int>& island, double tolerance, double unfelt) {
+bool sweep(CorrectionSearch& search, const std::vector<int>& island, double tolerance, double unfelt) {
     constexpr double IMMOVABLE = 1e-12;  // [1/kg]
     double most = 0, largest = 0, speed = 0;
     for (const int i : island) {
@@ -75,8 +75,8 @@ void correct_positions(const std::vector<Touch>& touches, const CouplingTable& c
     if (std::none_of(touches.begin(), touches.end(), overlaps)) return;
     const size_t count = touches.size();
     const int rounds = std::min(settings.limits.iterations, MOST);
-    Search search = {touches, coupling, std::vector<double>(count, 0), std::vector<double>(count, 0),
-                     std::vector<Row>(count)};
+    CorrectionSearch search = {touches, coupling, std::vector<double>(count, 0), std::vector<double>(count, 0),
+                               std::vector<Row>(count)};
     for (const std::vector<int>& island : coupling.islands)
         for (int round = 0; round < rounds && sweep(search, island, settings.limits.tolerance, UNSEEN); round++) {
         }

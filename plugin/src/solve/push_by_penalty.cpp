@@ -13,14 +13,15 @@ namespace frond {
 
 namespace {
 
-struct Spring {
+struct ContactSpring {
     Mat3 own = Mat3::Zero();       // what the touch answers to itself [1/kg]
     double along = 0, across = 0;  // of that; across no less than any direction's
     bool known = false;
 };
 
-const Spring& spring_of(std::vector<Spring>& springs, const Touch& touch, const std::vector<Coupling>& row, int i) {
-    Spring& spring = springs[size_t(i)];
+const ContactSpring& spring_of(std::vector<ContactSpring>& springs, const Touch& touch,
+                               const std::vector<Coupling>& row, int i) {
+    ContactSpring& spring = springs[size_t(i)];
     if (spring.known) return spring;
     spring.known = true;
     for (const Coupling& c : row)
@@ -38,7 +39,7 @@ double wanted_speed(const Touch& touch, double h) {
 }
 
 // What one spring pushes in place of `before`, with all others as they are.
-Vec3 pushed(const Touch& touch, const Spring& spring, Vec3 velocity, const Vec3& before,
+Vec3 pushed(const Touch& touch, const ContactSpring& spring, Vec3 velocity, const Vec3& before,
             const ResponseSettings& settings) {
     if (touch.is_bond) return before + firm_inverse(spring.own) * (touch.wanted - velocity);
     const double give = 1 / (settings.h * settings.h * settings.stiffness);  // [1/kg]
@@ -60,7 +61,7 @@ Vec3 pushed(const Touch& touch, const Spring& spring, Vec3 velocity, const Vec3&
 void push_by_penalty(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
                      Pushes& out) {
     constexpr int ROUNDS = 8;
-    std::vector<Spring> springs(touches.size());
+    std::vector<ContactSpring> springs(touches.size());
     std::vector<Vec3> velocities;
     for (const Touch& touch : touches) velocities.push_back(touch.velocity);
     out.impulses.assign(touches.size(), Vec3::Zero());
@@ -71,7 +72,7 @@ void push_by_penalty(const std::vector<Touch>& touches, const CouplingTable& cou
             const bool waits = impulse.isZero(0) && velocities[i].dot(touch.normal) >= wanted_speed(touch, settings.h);
             if (waits && !touch.is_bond) continue;
             const std::vector<Coupling>& row = coupling.row(int(i));
-            const Spring& spring = spring_of(springs, touch, row, int(i));
+            const ContactSpring& spring = spring_of(springs, touch, row, int(i));
             const Vec3 by = pushed(touch, spring, velocities[i], impulse, settings) - impulse;
             impulse += by;
             for (const Coupling& c : row) velocities[size_t(c.other)] += c.block.transpose() * by;

@@ -11,7 +11,7 @@ namespace frond {
 
 namespace {
 
-constexpr int SIX = 6, OWN = 0, TO_PARENT = 36, INVERSE = 72, NUMBERS = 78;  // of a pair
+constexpr int OWN = 0, TO_PARENT = 36, INVERSE = 72, NUMBERS = 78;  // of a pair
 
 template <class S>
 FROND_INLINE const double* entry_at(const BlockMatrix& A, int slot, int i) {
@@ -31,7 +31,7 @@ FROND_INLINE S dot_of_six(const S* a, const S* b) {
 }
 
 // Unrolled by hand, as it were: six numbers stay in registers only if loops over them are gone.
-struct Factorize {
+struct FactorizeTreeBatch {
     const TreePlan& plan;
     const BlockMatrix& A;
     double* numbers;
@@ -125,7 +125,7 @@ struct Factorize {
     }
 };
 
-struct Solve {
+struct SolveTreeBatch {
     const TreePlan& plan;
     const double* numbers;
     double* y;
@@ -247,13 +247,13 @@ unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeBatch& factor
     make_room(factor.numbers, size_t(factor.lanes) * NUMBERS * plan.pairs.size());
     unsigned failed = 0;
     factor.begun.assign(plan.pairs.size(), 0);
-    run_in_lanes(factor.lanes, Factorize{plan, A, factor.numbers.data(), factor.begun.data(), failed});
+    run_in_lanes(factor.lanes, FactorizeTreeBatch{plan, A, factor.numbers.data(), factor.begun.data(), failed});
     return failed;
 }
 
 void solve(const TreePlan& plan, const TreeBatch& factor, const NumbersInLines& b, NumbersInLines& x) {
     x = b;
-    run_in_lanes(factor.lanes, Solve{plan, factor.numbers.data(), x.data()});
+    run_in_lanes(factor.lanes, SolveTreeBatch{plan, factor.numbers.data(), x.data()});
 }
 
 void relative_residuals(const BlockMatrix& A, const NumbersInLines& b, const NumbersInLines& x, NumbersInLines& left,

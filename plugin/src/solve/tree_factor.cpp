@@ -14,7 +14,6 @@ namespace frond {
 
 namespace {
 
-constexpr int SIX = 6;
 using Block = double[SIX][SIX];
 
 // Six numbers in registers.
@@ -106,7 +105,7 @@ FROND_INLINE void eliminate(TreeFactor::Pair& pair, Block& parent) {
     for (int k = 0; k < SIX; ++k) Six<S>(over[k]).put(C[k]);
 }
 
-struct Factorize {
+struct FactorizeTree {
     const TreePlan& plan;
     const BlockMatrix& A;
     TreeFactor& factor;
@@ -134,7 +133,7 @@ struct Factorize {
     }
 };
 
-struct Solve {
+struct SolveTree {
     const TreePlan& plan;
     const TreeFactor& factor;
     double* y;
@@ -199,13 +198,13 @@ std::optional<TreePlan> make_tree_plan(const BlockPattern& pattern) {
 bool factorize(const TreePlan& plan, const BlockMatrix& A, TreeFactor& factor) {
     factor.pairs.resize(plan.pairs.size());
     bool ok = false;
-    run_in_lanes(Factorize{plan, A, factor, ok});
+    run_in_lanes(FactorizeTree{plan, A, factor, ok});
     return ok;
 }
 
 void solve(const TreePlan& plan, const TreeFactor& factor, const VecX& b, VecX& x) {
     x = b;
-    run_in_lanes(Solve{plan, factor, x.data()});
+    run_in_lanes(SolveTree{plan, factor, x.data()});
 }
 
 void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<NodeBlock>& right_side,

@@ -20,6 +20,8 @@ struct TreePlan {
 // None if the pattern is no such tree.
 std::optional<TreePlan> make_tree_plan(const BlockPattern& pattern);
 
+constexpr int SIX = 6;  // numbers of a pair
+
 // Pairs are eliminated from the last one to the first; a row of the factor is one of a pair's six numbers, in that
 // order.
 struct TreeFactor {

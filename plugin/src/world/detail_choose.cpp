@@ -15,7 +15,7 @@ inline namespace FROND_BULLET_PRECISION {
 namespace {
 
 // Of a plant that must move as the host wants it.
-bool is_held(const World& world, const PlantBody& body) {
+bool is_used_by_host(const World& world, const PlantBody& body) {
     const Plant& plant = *body.plant;
     return plant.has_user_force || !plant.grabs.empty() || !plant.fragments.empty() || plant.pins_are_own ||
            !plant.stands_on_roots ||
@@ -120,7 +120,7 @@ frond_detail detail_of(const World& world, const PlantBody& body) {
 }
 
 bool is_still(const World& world, const PlantBody& body) {
-    return world.detail && detail_of(world, body) == FROND_DETAIL_STILL && !is_held(world, body);
+    return world.detail && detail_of(world, body) == FROND_DETAIL_STILL && !is_used_by_host(world, body);
 }
 
 void choose_details(World& world) {
@@ -140,7 +140,7 @@ void choose_details(World& world) {
     for (PlantBody* body : order) {
         Level& level = body->level;
         frond_detail wanted = wanted_at(def, level.distance, level.now);
-        const bool held = is_held(world, *body);
+        const bool held = is_used_by_host(world, *body);
         const bool is_touched = world.time < level.touched && wanted == FROND_DETAIL_MODAL;
         if (held || is_touched) wanted = std::min(wanted, FROND_DETAIL_ROD);
         const double half_from = def.half_from * (level.every > 1 ? 1 - def.hysteresis : 1);

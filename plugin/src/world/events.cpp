@@ -22,15 +22,15 @@ void add_event(World& world, frond_event event, const PlantBody& body, int capsu
 
 namespace {
 
-struct Touch {
+struct TouchedPair {
     Events::Touching who;
     int capsule;
     bool pushes;
 };
 
 // Both sides of a contact of two plants, one of a plant with itself.
-std::vector<Touch> list_touches(const World& world) {
-    std::vector<Touch> list;
+std::vector<TouchedPair> list_touches(const World& world) {
+    std::vector<TouchedPair> list;
     for (const Contact& c : world.contacts)
         list.push_back({{c.plant, c.other, nullptr}, c.capsule, c.gap <= 0 || !c.impulse.isZero(0)});
     for (const PlantContact& c : world.plant_contacts)
@@ -54,7 +54,7 @@ void note_touching(World& world) {
     std::vector<Events::Touching> now;
     for (const Events::Touching& who : before)
         if (who.plant->rest.asleep || (who.other_plant && who.other_plant->rest.asleep)) now.push_back(who);
-    for (const Touch& touch : list_touches(world)) {
+    for (const TouchedPair& touch : list_touches(world)) {
         const bool is_known = is_among(before, touch.who);
         if (!is_known && !touch.pushes) continue;
         const auto is_it = [&](const Events::Touching& who) {

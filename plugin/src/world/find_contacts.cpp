@@ -239,7 +239,7 @@ int way_along(const Contact& contact) {
 }
 
 // Of what is held: 2 where the capsule itself is, 1 where it grows out of that.
-int is_held(const Plant& plant, int capsule) {
+int how_held(const Plant& plant, int capsule) {
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
     const std::vector<uint8_t> path = path_down(plant, end);
     int held = 0;
@@ -263,7 +263,7 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
         const bool goes_through = contact.gap < -AXIS * radius;
         const bool may_lift = way > 0 && contact.other->isKinematicObject();  // what is static lifts nothing
         if (!goes_through && !may_lift) continue;
-        if (is_held(*contact.plant->plant, contact.capsule) >= (goes_through ? 1 : 2)) useless.push_back(contact);
+        if (how_held(*contact.plant->plant, contact.capsule) >= (goes_through ? 1 : 2)) useless.push_back(contact);
     }
     if (useless.empty()) return;
     const auto end_of = [](const Contact& contact) {

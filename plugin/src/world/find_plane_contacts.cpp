@@ -46,7 +46,7 @@ bool may_meet(const World& world, const PlantBody& body, const btCollisionObject
 }
 
 // Held nodes cannot be pushed.
-bool is_held(const Plant& plant, int node) {
+bool is_held_node(const Plant& plant, int node) {
     return plant.follow && plant.motion.pinned[2 * size_t(node)];
 }
 
@@ -102,7 +102,7 @@ void add_pieces(PlantBody& body, const Plane& plane, double h, std::vector<Conta
         for (const double along : {0.0, 1.0}) {
             const int node = along > 0 ? end : begin;
             if (along == 0 && !is_root) continue;
-            if (plane.height(plant.chain_positions[size_t(node)]) - wide >= FAR || is_held(plant, node)) continue;
+            if (plane.height(plant.chain_positions[size_t(node)]) - wide >= FAR || is_held_node(plant, node)) continue;
             if (is_apart(body, int(i), plane.object) || is_between_pieces(body, int(i), plane.normal_in_world))
                 continue;
             add_at_node(body, int(i), along, reach_of(plant, plane, node, h), plane, contacts);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/decompose.hpp"
 #include "core/lanes.hpp"
 #include "plant/flat_batch.hpp"
 #include "world/convert.hpp"
@@ -19,7 +20,7 @@ btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
     const btVector3 middle = to_bullet(0.5 * (begin + end));
     if (axis == Vec3::Zero()) return btTransform(btQuaternion::getIdentity(), middle);
     if (!(axis.y() > BACK)) {
-        const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), axis);
+        const Quat turn = turn_between(Vec3::UnitY(), axis);
         return btTransform(btQuaternion(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), btScalar(turn.w())),
                            middle);
     }

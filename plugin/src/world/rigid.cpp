@@ -2,30 +2,25 @@
 
 #include <algorithm>
 
+#include "core/convert.hpp"
+#include "world/convert.hpp"
 #include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-static btVector3 to_bullet(const frond_vec3& v) {
-    return btVector3(btScalar(v.x), btScalar(v.y), btScalar(v.z));
-}
-static frond_vec3 from_bullet(const btVector3& v) {
-    return {double(v.x()), double(v.y()), double(v.z())};
-}
-
 static btTransform frame_of(const frond_rigid_state& state) {
     const frond_quat& q = state.rotation;
     const Quat turn = Quat(q.w, q.x, q.y, q.z).normalized();
     return btTransform(btQuaternion(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), btScalar(turn.w())),
-                       to_bullet(state.position));
+                       to_bullet(to_vec(state.position)));
 }
 
 static std::unique_ptr<btCollisionShape> make_shape(frond_shape shape, const frond_vec3& size) {
     const btScalar x = btScalar(size.x), y = btScalar(size.y);
     switch (shape) {
         case FROND_SHAPE_BOX:
-            return std::make_unique<btBoxShape>(to_bullet(size));
+            return std::make_unique<btBoxShape>(to_bullet(to_vec(size)));
         case FROND_SHAPE_CAPSULE:
             return std::make_unique<btCapsuleShape>(x, 2 * y);
         case FROND_SHAPE_CYLINDER:
@@ -56,8 +51,8 @@ Rigid* add_rigid(World& world, const frond_rigid_def& def) {
         rigid->body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
         rigid->body->setActivationState(DISABLE_DEACTIVATION);
     }
-    rigid->body->setLinearVelocity(to_bullet(def.state.velocity));
-    rigid->body->setAngularVelocity(to_bullet(def.state.angular_velocity));
+    rigid->body->setLinearVelocity(to_bullet(to_vec(def.state.velocity)));
+    rigid->body->setAngularVelocity(to_bullet(to_vec(def.state.angular_velocity)));
     world.bullet->addRigidBody(rigid->body.get());
     world.rigids.push_back(std::move(rigid));
     return world.rigids.back().get();
@@ -76,10 +71,10 @@ void remove_rigid(World& world, Rigid* rigid) {
 frond_rigid_state state_of(const Rigid& rigid) {
     const btTransform& frame = rigid.body->getWorldTransform();
     const btQuaternion q = frame.getRotation();
-    return {from_bullet(frame.getOrigin()),
+    return {from_vec(from_bullet(frame.getOrigin())),
             {double(q.x()), double(q.y()), double(q.z()), double(q.w())},
-            from_bullet(rigid.body->getLinearVelocity()),
-            from_bullet(rigid.body->getAngularVelocity())};
+            from_vec(from_bullet(rigid.body->getLinearVelocity())),
+            from_vec(from_bullet(rigid.body->getAngularVelocity()))};
 }
 
 void set_state(Rigid& rigid, const frond_rigid_state& state) {
@@ -88,8 +83,8 @@ void set_state(Rigid& rigid, const frond_rigid_state& state) {
     body.setWorldTransform(frame);
     if (body.isKinematicObject()) return;  // its velocity follows from where it was
     body.setInterpolationWorldTransform(frame);
-    body.setLinearVelocity(to_bullet(state.velocity));
-    body.setAngularVelocity(to_bullet(state.angular_velocity));
+    body.setLinearVelocity(to_bullet(to_vec(state.velocity)));
+    body.setAngularVelocity(to_bullet(to_vec(state.angular_velocity)));
     body.activate(true);
 }
 

@@ -2,9 +2,9 @@
 // offsets follow btMultiBody.h: those of links are at their centres of mass, along principal axes.
 #include <BulletCollision/CollisionShapes/btEmptyShape.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "world/convert.hpp"
@@ -49,11 +49,11 @@ RobotLink weigh(const UrdfLink& link, bool needs_mass) {
     RobotLink out;
     out.centre = link.centre;
     out.mass = link.mass;
-    const Eigen::SelfAdjointEigenSolver<Mat3> solver(link.inertia);
-    Mat3 axes = solver.eigenvectors();
+    const SymmetricParts principal = symmetric_parts(link.inertia);
+    Mat3 axes = principal.vectors;
     if (axes.determinant() < 0) axes.col(0) *= -1;
     out.centre.turn = (link.centre.turn * Quat(axes)).normalized();
-    out.inertia = solver.eigenvalues().cwiseMax(0);
+    out.inertia = principal.values.cwiseMax(0);
     if (!needs_mass) return out;
     if (out.mass < 1e-6) {
         warn("link \"%s\" moves and has no mass; taking %g kg", link.name.c_str(), LIGHT);
