@@ -235,21 +235,16 @@ TEST(PictureDraw, CageFacesTintWhatIsBehind) {
     EXPECT_TRUE(same_color(at(pixels, -0.9, 0.8), at(empty, -0.9, 0.8)));
 }
 
-TEST(PictureDraw, ArrowPointAndTextShowWhereTheyAre) {
+TEST(PictureDraw, ArrowAndPointShowWhereTheyAre) {
     Canvas canvas;
     canvas.begin(front_scene());
     ASSERT_TRUE(frond_picture_draw_arrow(canvas.picture, {-0.5, 0, 0}, {0.5, 0, 0}, 4, {0.8f, 0, 0, 1}));
     ASSERT_TRUE(frond_picture_draw_point(canvas.picture, {0, 0.5, 0}, 10, {0, 0, 0.8f, 1}));
-    ASSERT_TRUE(frond_picture_draw_text(canvas.picture, 5, 5, 14, {0, 0, 0, 1}, "Frond \xff\x01 2"));
     const std::vector<uint8_t> pixels = canvas.end(), empty = draw_nothing(front_scene());
     EXPECT_GT(at(pixels, -0.2, 0).r, at(pixels, -0.2, 0).g + 120);
     EXPECT_GT(at(pixels, 0.35, 0.04).r, at(pixels, 0.35, 0.04).g + 120) << "the head is wider than the line";
     EXPECT_TRUE(same_color(at(pixels, 0.6, 0), at(empty, 0.6, 0)));
     EXPECT_GT(at(pixels, 0, 0.5).b, at(pixels, 0, 0.5).g + 120);
-    int dark = 0;
-    for (int y = 5; y < 20; y++)
-        for (int x = 5; x < 60; x++) dark += pixels[(size_t(y) * WIDTH + x) * 3] < 100;
-    EXPECT_GT(dark, 30);
 }
 
 TEST(PictureDraw, GlassLetsThroughAndThrowsNoShadow) {

@@ -29,8 +29,7 @@ std::vector<bool> draw_all(frond_picture* picture) {
             frond_picture_draw_line(picture, {0, 0, 0}, {0, 1, 0}, 1, RED),
             frond_picture_draw_arrow(picture, {0, 0, 0}, {0, 1, 0}, 1, RED),
             frond_picture_draw_point(picture, {0, 0, 0}, 1, RED),
-            frond_picture_draw_tets(picture, nodes, 4, tets, 1, 1, RED, RED),
-            frond_picture_draw_text(picture, 0, 0, 12, RED, "text")};
+            frond_picture_draw_tets(picture, nodes, 4, tets, 1, 1, RED, RED)};
 }
 
 TEST(PictureMisuse, DefsAreChecked) {
@@ -150,7 +149,6 @@ TEST(PictureMisuse, NumbersOfDrawCallsAreChecked) {
         expect_refused(frond_picture_draw_line(p, {0, 0, 0}, {0, 1, 0}, 1, color), "colour");
         expect_refused(frond_picture_draw_arrow(p, {0, 0, 0}, {0, 1, 0}, 1, color), "colour");
         expect_refused(frond_picture_draw_point(p, {0, 0, 0}, 1, color), "colour");
-        expect_refused(frond_picture_draw_text(p, 0, 0, 12, color, "text"), "colour");
     }
     for (double bad : {NaN, 1e9, -1e300}) {
         const frond_vec3 point = {0, bad, 0};
@@ -164,18 +162,14 @@ TEST(PictureMisuse, NumbersOfDrawCallsAreChecked) {
         expect_refused(frond_picture_draw_arrow(p, point, {0, 1, 0}, 1, RED), "begin");
         expect_refused(frond_picture_draw_arrow(p, {0, 1, 0}, point, 1, RED), "end");
         expect_refused(frond_picture_draw_point(p, point, 1, RED), "point");
-        expect_refused(frond_picture_draw_text(p, bad, 0, 12, RED, "text"), "x");
-        expect_refused(frond_picture_draw_text(p, 0, bad, 12, RED, "text"), "y");
         expect_refused(frond_picture_draw_sphere(p, {0, 0, 0}, bad, RED), "radius");
         expect_refused(frond_picture_draw_capsule(p, {0, 0, 0}, {0, 1, 0}, bad, RED), "radius");
         expect_refused(frond_picture_draw_line(p, {0, 0, 0}, {0, 1, 0}, bad, RED), "width");
         expect_refused(frond_picture_draw_arrow(p, {0, 0, 0}, {0, 1, 0}, bad, RED), "width");
         expect_refused(frond_picture_draw_point(p, {0, 0, 0}, bad, RED), "size");
-        expect_refused(frond_picture_draw_text(p, 0, 0, bad, RED, "text"), "height");
     }
     expect_refused(frond_picture_draw_box(p, {0, 0, 0}, {0, 0, 0, 0}, {1, 1, 1}, RED), "quaternion");
     expect_refused(frond_picture_draw_box(p, {0, 0, 0}, {0, 0, 0, 1}, {-1, 1, 1}, RED), "negative");
-    expect_refused(frond_picture_draw_text(p, 0, 0, 12, RED, nullptr), "null");
     EXPECT_EQ(canvas.end().size(), size_t(WIDTH * HEIGHT * 3));
 }
 

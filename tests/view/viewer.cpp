@@ -1,4 +1,4 @@
-// The viewer without a window: what the mouse, keys and the panel do.
+// The viewer without a window: what the mouse and the keys do.
 #include "view/viewer.hpp"
 
 #include <gtest/gtest.h>
@@ -169,38 +169,6 @@ TEST(ViewBall, FliesAtWhatIsUnderTheMouse) {
     for (const frond_rigid rigid : viewer.play->stage.rigids) EXPECT_TRUE(frond_rigid_is_valid(rigid));
 }
 
-TEST(ViewPanel, TellsCostsAndDoesWhatIsClicked) {
-    Viewer viewer = view_of("corn");
-    advance(viewer, viewer.settings.dt);
-    std::string all;
-    int effects = 0;
-    size_t wind_row = 0, row = 0;
-    for (const Row& line : panel_of(viewer)) {
-        all += line.text + "\n";
-        if (line.text.find("[x]") != std::string::npos || line.text.find("[  ]") != std::string::npos) effects++;
-        if (line.text.find(" wind") != std::string::npos) wind_row = row;
-        row++;
-    }
-    for (const char* word : {"mechanics: rod", "integrator: bdf2", "assembly", "solve", "collide", "capsules",
-                             "surface", "trouble so far: none"})
-        EXPECT_NE(all.find(word), std::string::npos) << word << "\n" << all;
-    EXPECT_EQ(effects, FROND_EFFECT_COUNT);
-    const frond_effects before = viewer.settings.plant.effects;
-    move_mouse(viewer, PANEL_LEFT + 60, PANEL_TOP + (double(wind_row) + 0.5) * ROW_HEIGHT);
-    press_button(viewer, Button::LEFT);
-    release_button(viewer, Button::LEFT);
-    EXPECT_EQ(viewer.settings.plant.effects, before ^ FROND_EFFECT_WIND);
-    // Hidden, it is not in the way; its keys work.
-    press(viewer, 'h');
-    press_button(viewer, Button::LEFT);
-    EXPECT_EQ(viewer.settings.plant.effects, before ^ FROND_EFFECT_WIND);
-    release_button(viewer, Button::LEFT);
-    press(viewer, 'c');
-    EXPECT_TRUE(viewer.overlays[size_t(Overlay::CAGE)]);
-    press(viewer, 'h');
-    EXPECT_TRUE(viewer.shows_panel);
-}
-
 TEST(ViewStrain, GoesFromBlueOverGreenToRed) {
     const auto blue = strain_color(0), green = strain_color(RED_STRAIN / 3), red = strain_color(5 * RED_STRAIN);
     EXPECT_GT(blue[2], blue[0] + 60);
@@ -223,7 +191,6 @@ TEST(ViewPicture, ShowsEachOverlay) {
         const uint8_t* pixels = frond_picture_get_pixels(picture);
         return std::vector<uint8_t>(pixels, pixels + WIDTH * HEIGHT * 3);
     };
-    viewer.shows_panel = false;
     const std::vector<uint8_t> plain = shoot();
     for (const Overlay overlay : {Overlay::CAGE, Overlay::CAPSULES, Overlay::STRAIN}) {
         viewer.overlays[size_t(overlay)] = true;
@@ -239,8 +206,6 @@ TEST(ViewPicture, ShowsEachOverlay) {
         }
         viewer.overlays[size_t(overlay)] = false;
     }
-    viewer.shows_panel = true;
-    EXPECT_NE(shoot(), plain);
     frond_picture_destroy(picture);
 }
 

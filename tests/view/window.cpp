@@ -122,6 +122,21 @@ TEST_F(ViewWindow, KeysAndTheWheelReachTheViewer) {
     EXPECT_FALSE(window.is_open());
 }
 
+TEST_F(ViewWindow, ThePanelTakesTheMouseWhereItIs) {
+    Viewer viewer = viewer_of("corn");
+    Window window(viewer, "test");
+    User user(window, screen);
+    user.move(40, 16);  // its title
+    user.button(1, true);
+    EXPECT_EQ(viewer.drag, Viewer::Drag::NONE);
+    user.button(1, false);
+    user.key("h");
+    user.move(40, 17);
+    user.button(1, true);
+    EXPECT_EQ(viewer.drag, Viewer::Drag::ORBIT);
+    user.button(1, false);
+}
+
 // What the screen shows is the picture.
 TEST_F(ViewWindow, ShowsThePicture) {
     Viewer viewer = viewer_of("corn");
@@ -131,10 +146,11 @@ TEST_F(ViewWindow, ShowsThePicture) {
     user.see(4);
     const std::vector<uint8_t> shown = screen.pixels(user.left, user.top, WIDTH, HEIGHT);
     ASSERT_EQ(shown.size(), size_t(3 * WIDTH * HEIGHT));
+    const std::vector<uint8_t> drawn = window.pixels();
     double difference = 0;
     int dark = 0;
     for (size_t i = 0; i < shown.size(); i++) {
-        difference += std::abs(int(shown[i]) - int(window.pixels()[i]));
+        difference += std::abs(int(shown[i]) - int(drawn[i]));
         dark += shown[i] < 60;
     }
     EXPECT_LT(difference / (3 * WIDTH * HEIGHT), 2);

@@ -1,8 +1,5 @@
-// In: lines, arrows, dots, cages, text. Out: overlay vertices of a frame.
-#include <stb/stb_easy_font.h>
-
+// In: lines, arrows, dots, cages. Out: overlay vertices of a frame.
 #include <algorithm>
-#include <cstring>
 
 #include "frame.hpp"
 
@@ -121,26 +118,6 @@ void append_tets(Frame& frame, const double* nodes, int node_count, const int32_
         }
         run.index_count = frame.indices.size() - run.first_index;
         if (run.index_count > 0) frame.glass.push_back(run);
-    }
-}
-
-void append_text(Frame& frame, double x, double y, double height, frond_color color, const char* text) {
-    // stb_easy_font draws lines of 12 units as quads of 4 vertices of 16 bytes; other characters than ASCII are not in
-    // it.
-    std::string printable;
-    for (const char* c = text; *c && printable.size() < 4096; c++)
-        if ((*c >= 32 && *c < 127) || *c == '\n') printable += *c;
-    std::vector<unsigned char> buffer(printable.size() * 400 + 400);
-    const int quads = stb_easy_font_print(0, 0, &printable[0], nullptr, buffer.data(), int(buffer.size()));
-    const double scale = height / 12;
-    for (int quad = 0; quad < quads; quad++) {
-        TextVertex corner[4];
-        for (int k = 0; k < 4; k++) {
-            float xy[2];
-            std::memcpy(xy, buffer.data() + 16 * size_t(4 * quad + k), sizeof xy);
-            corner[k] = {{float(x + scale * xy[0]), float(y + scale * xy[1])}, {color.r, color.g, color.b, color.a}};
-        }
-        for (int k : {0, 1, 2, 0, 2, 3}) frame.text.push_back(corner[k]);
     }
 }
 

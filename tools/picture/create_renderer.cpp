@@ -76,11 +76,6 @@ void make_arrays(Renderer& renderer) {
     glVertexAttribDivisor(0, 1);
     glVertexAttribDivisor(3, 1);
 
-    glBindVertexArray(renderer.text_array.make());
-    glBindBuffer(GL_ARRAY_BUFFER, renderer.text_vertices.make());
-    attribute(0, 2, GL_FLOAT, false, sizeof(TextVertex), offsetof(TextVertex, position));
-    attribute(3, 4, GL_FLOAT, false, sizeof(TextVertex), offsetof(TextVertex, color));
-
     renderer.empty_array.make();
     glBindVertexArray(0);
 }
@@ -199,7 +194,6 @@ RendererPointer create_renderer(const frond_picture_def& def) {
     renderer->glass.build(SURFACE_VERTEX, GLASS_FRAGMENT);
     renderer->line.build(LINE_VERTEX, FLAT_FRAGMENT);
     renderer->point.build(POINT_VERTEX, POINT_FRAGMENT);
-    renderer->text.build(TEXT_VERTEX, FLAT_FRAGMENT);
     make_arrays(*renderer);
     make_targets(*renderer);
     make_samplers(*renderer);

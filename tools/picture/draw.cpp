@@ -24,7 +24,6 @@ void upload_frame(Renderer& renderer, const Frame& frame, const SceneUniforms& s
     upload(GL_ELEMENT_ARRAY_BUFFER, renderer.mesh_indices, frame.indices);
     upload(GL_ARRAY_BUFFER, renderer.line_vertices, frame.lines);
     upload(GL_ARRAY_BUFFER, renderer.point_vertices, frame.points);
-    upload(GL_ARRAY_BUFFER, renderer.text_vertices, frame.text);
 }
 
 void bind_maps(const Renderer& renderer) {
@@ -121,11 +120,6 @@ void draw_overlays(Renderer& renderer, const Frame& frame) {
             glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(frame.points.size()));
         }
     }
-    // Text lies on the picture.
-    glDisable(GL_DEPTH_TEST);
-    renderer.text.use();
-    glBindVertexArray(renderer.text_array);
-    glDrawArrays(GL_TRIANGLES, 0, GLsizei(frame.text.size()));
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
 }

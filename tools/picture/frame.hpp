@@ -38,11 +38,6 @@ struct PointVertex {
     float color[4];
 };
 
-struct TextVertex {
-    float position[2];  // [pixel] from the upper left
-    float color[4];
-};
-
 struct Frame {
     frond_picture_scene scene;
     Vec origin{0, 0, 0};  // of all positions here
@@ -52,7 +47,6 @@ struct Frame {
     std::vector<MeshRun> glass;  // lie over what is behind
     std::vector<LineVertex> lines;
     std::vector<PointVertex> points;
-    std::vector<TextVertex> text;
     Box solid_box, box;  // of what throws shadows, and of everything; relative to origin
 };
 
@@ -66,7 +60,6 @@ void append_arrow(Frame& frame, Vec begin, Vec end, double width, frond_color co
 void append_point(Frame& frame, Vec point, double size, frond_color color);
 void append_tets(Frame& frame, const double* nodes, int node_count, const int32_t* tets, int tet_count, double width,
                  frond_color line, frond_color fill);
-void append_text(Frame& frame, double x, double y, double height, frond_color color, const char* text);
 
 // The scene with defaults put in for what is zero; fails with a text if it makes no sense.
 frond_picture_scene checked_scene(const frond_picture_scene& scene);

@@ -152,9 +152,6 @@ bool frond_picture_draw_point(frond_picture* picture, frond_vec3 point, double s
  * nodes: node_count*3 [m]; tets: tet_count*4. */
 bool frond_picture_draw_tets(frond_picture* picture, const double* nodes, int node_count, const int32_t* tets,
                              int tet_count, double width, frond_color line, frond_color fill);
-/* Printable ASCII; x, y: left and top from the picture's upper left corner, height: of a line [pixel], 4..1000. */
-bool frond_picture_draw_text(frond_picture* picture, double x, double y, double height, frond_color color,
-                             const char* text);
 
 /* ---- plants (library frond_picture_plant) ------------------------------------------------------------------------ */
 

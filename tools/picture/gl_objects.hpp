@@ -104,10 +104,9 @@ struct Renderer {
     int samples = 1;  // that OpenGL really has
     int sky_size = 512;
     int shade_size = 96;  // of the map of what the sky gives to the ground
-    Program depth, depth_cut, cover, shade, surface, ground, background, glass, line, point, text;
-    Name<Kind::BUFFER> uniforms, mesh_vertices, mesh_indices, ground_vertices, line_vertices, point_vertices,
-        text_vertices;
-    Name<Kind::VERTEX_ARRAY> mesh_array, ground_array, empty_array, line_array, point_array, text_array;
+    Program depth, depth_cut, cover, shade, surface, ground, background, glass, line, point;
+    Name<Kind::BUFFER> uniforms, mesh_vertices, mesh_indices, ground_vertices, line_vertices, point_vertices;
+    Name<Kind::VERTEX_ARRAY> mesh_array, ground_array, empty_array, line_array, point_array;
     Name<Kind::TEXTURE> sun_map, sun_cover, sky_map, ground_map, white;
     Name<Kind::SAMPLER> compare, plain, smooth;
     Name<Kind::RENDERBUFFER> color, depth_buffer, resolved;

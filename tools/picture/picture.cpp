@@ -318,13 +318,3 @@ bool frond_picture_draw_tets(frond_picture* picture, const double* nodes, int no
         append_tets(frame, nodes, node_count, tets, tet_count, width, line, fill);
     });
 }
-
-bool frond_picture_draw_text(frond_picture* picture, double x, double y, double height, frond_color color,
-                             const char* text) {
-    return guarded([&] {
-        Frame& frame = open_frame(picture);
-        checked_pointer(text, "the text");
-        append_text(frame, checked_size(x, -1e5, 1e5, "x"), checked_size(y, -1e5, 1e5, "y"),
-                    checked_size(height, 4, 1000, "the text's height"), checked_color(color, "the colour"), text);
-    });
-}

@@ -397,16 +397,6 @@ void main() {
 }
 )";
 
-const char* const TEXT_VERTEX = R"(
-layout(location = 0) in vec2 position;
-layout(location = 3) in vec4 color;
-out vec4 flat_color;
-void main() {
-    flat_color = color;
-    gl_Position = vec4(position.x / (0.5 * viewport.x) - 1.0, 1.0 - position.y / (0.5 * viewport.y), 0.0, 1.0);
-}
-)";
-
 const char* const FLAT_FRAGMENT = R"(
 in vec4 flat_color;
 out vec4 pixel;

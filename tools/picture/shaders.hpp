@@ -22,7 +22,6 @@ extern const char* const GLASS_FRAGMENT;
 extern const char* const LINE_VERTEX;
 extern const char* const POINT_VERTEX;
 extern const char* const POINT_FRAGMENT;
-extern const char* const TEXT_VERTEX;
 extern const char* const FLAT_FRAGMENT;
 
 }  // namespace picture

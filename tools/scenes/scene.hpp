@@ -39,6 +39,7 @@ struct Settings {
         double value;
     };
     std::vector<OrganOverride> organs;  // material.<organ or kind>.<field>=value
+    double stiffness = 1;               // factor on Young's modulus of all organs of plant files [-]
 };
 // One "key=value"; throws a SceneError that names the keys or values there are.
 void apply_setting(Settings& settings, const std::string& assignment);

@@ -109,6 +109,8 @@ const std::vector<Key>& keys() {
          [](Settings& s, const std::string& value) { s.threads = whole(value, 1, 256); }},
         {"grab_stiffness", "of the user's spring [N/m], 0: as it takes",
          [](Settings& s, const std::string& value) { s.grab_stiffness = number(value); }},
+        {"stiffness", "factor on Young's modulus of all organs",
+         [](Settings& s, const std::string& value) { s.stiffness = number(value, 1e-6, 1e6); }},
         triple("gravity", "x,y,z [m/s^2]", &Settings::world, &frond_world_def::gravity),
         real("max_substep", "longest solver step [s]", &Settings::world, &frond_world_def::max_substep),
         choice("hash_layout", "where cages meet, row of the table", FROND_HASH_LAYOUT_COUNT, frond_hash_layout_name,

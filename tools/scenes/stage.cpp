@@ -28,10 +28,10 @@ Stage::~Stage() {
     for (frond_model model : models) frond_model_destroy(model);
 }
 
-// Materials by organ name: as the model has them, with the fields that were set for the organ or its kind. The last
-// setting wins.
-static std::map<std::string, frond_material> changed_materials(frond_model model,
-                                                               const std::vector<Settings::OrganOverride>& overrides) {
+// Materials by organ name: as the model has them, with the fields that were set for the organ or its kind, the last of
+// which wins, and as stiff as was asked for.
+static std::map<std::string, frond_material> changed_materials(frond_model model, const Settings& settings) {
+    const std::vector<Settings::OrganOverride>& overrides = settings.organs;
     frond_model_info info;
     must(frond_model_get_info(model, &info));
     std::map<std::string, frond_material> materials;
@@ -41,6 +41,7 @@ static std::map<std::string, frond_material> changed_materials(frond_model model
         frond_organ organ;
         must(frond_model_get_organ(model, i, &organ));
         names += std::string(i ? ", " : "") + organ.name;
+        if (settings.stiffness != 1) materials.emplace(organ.name, organ.material);
         for (size_t k = 0; k < overrides.size(); k++) {
             if (overrides[k].organ != organ.name && overrides[k].organ != organ.kind) continue;
             materials.emplace(organ.name, organ.material).first->second.*overrides[k].field = overrides[k].value;
@@ -49,17 +50,18 @@ static std::map<std::string, frond_material> changed_materials(frond_model model
     }
     for (size_t k = 0; k < overrides.size(); k++)
         if (!used[k]) throw SceneError("no organ is called \"" + overrides[k].organ + "\"; there are " + names);
+    for (auto& [organ, material] : materials) material.young *= settings.stiffness;
     return materials;
 }
 
 frond_model Stage::load(const std::string& path) {
     frond_model model = {};
     must(frond_model_load(path.c_str(), &settings.model, &model));
-    if (!settings.organs.empty()) {
+    if (!settings.organs.empty() || settings.stiffness != 1) {
         // The organs' kinds are known now; load again with their materials.
         std::map<std::string, frond_material> materials;
         try {
-            materials = changed_materials(model, settings.organs);
+            materials = changed_materials(model, settings);
         } catch (...) {
             frond_model_destroy(model);
             throw;

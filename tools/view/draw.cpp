@@ -1,4 +1,4 @@
-// In: a viewer. Out: a frame: the stage, overlays, the hand's force and the panel.
+// In: a viewer. Out: a frame: the stage, overlays, the hand's force.
 #include <algorithm>
 
 #include "studio/studio.hpp"
@@ -27,15 +27,6 @@ void draw_strained(frond_picture* picture, frond_plant plant, const Shades& shad
     must(frond_picture_draw_mesh(picture, &mesh));
 }
 
-void draw_panel(const Viewer& viewer, frond_picture* picture) {
-    const frond_color dark = {0.02f, 0.03f, 0.05f, 1}, live = {0.02f, 0.06f, 0.35f, 1};
-    double y = PANEL_TOP;
-    for (const Row& row : panel_of(viewer)) {
-        must(frond_picture_draw_text(picture, PANEL_LEFT, y, ROW_HEIGHT, row.action ? live : dark, row.text.c_str()));
-        y += ROW_HEIGHT;
-    }
-}
-
 }  // namespace
 
 std::array<uint8_t, 4> strain_color(double strain) {
@@ -62,7 +53,6 @@ void draw(Viewer& viewer, frond_picture* picture) {
     for (size_t i = 0; i < stage.plants.size() && is_on(Overlay::STRAIN); i++)
         if (stage.sees(i)) draw_strained(picture, stage.plants[i], viewer.shades.at(stage.plant_models[i].id));
     if (frond_grab_is_valid(viewer.hand.grab)) must(frond_picture_draw_grab(picture, viewer.hand.grab));
-    if (viewer.shows_panel) draw_panel(viewer, picture);
     must(frond_picture_end(picture));
 }
 

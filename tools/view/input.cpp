@@ -1,27 +1,11 @@
-// In: keys, buttons and the mouse. Out: what they do.
-#include <cmath>
-
+// In: keys, buttons and the mouse. Out: commands, drags, a turned camera.
 #include "view/viewer.hpp"
 
 namespace frond::tools {
 
-static bool is_over_panel(const Viewer& viewer) {
-    return viewer.shows_panel && viewer.mouse_x < PANEL_LEFT + PANEL_WIDTH;
-}
-
-// True if there is something to click under the mouse.
-static bool click_panel(Viewer& viewer) {
-    if (!is_over_panel(viewer)) return false;
-    const std::vector<Row> rows = panel_of(viewer);
-    const double row = std::floor((viewer.mouse_y - PANEL_TOP) / ROW_HEIGHT);
-    if (row < 0 || row >= double(rows.size()) || !rows[size_t(row)].action) return false;
-    rows[size_t(row)].action(viewer);
-    return true;
-}
-
 void press(Viewer& viewer, char key) {
-    for (const Row& row : panel_of(viewer))
-        if (row.key == key && key) return row.action(viewer);
+    for (const Command& command : commands())
+        if (command.key == key) return command.run(viewer);
 }
 
 void move_mouse(Viewer& viewer, double x, double y) {
@@ -35,7 +19,6 @@ void move_mouse(Viewer& viewer, double x, double y) {
 
 void press_button(Viewer& viewer, Button button) {
     if (viewer.drag != Viewer::Drag::NONE) return;
-    if (button == Button::LEFT && click_panel(viewer)) return;
     viewer.drag_button = button;
     viewer.drag = button == Button::MIDDLE                      ? Viewer::Drag::PAN
                   : button == Button::LEFT && take_hold(viewer) ? Viewer::Drag::HAND

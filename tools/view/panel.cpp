@@ -1,4 +1,8 @@
-// The lines of text beside the picture.
+// The panel: commands, sliders, effects and what the last steps cost, as widgets of Dear ImGui.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cfloat>
 #include <cstdio>
 
 #include "view/viewer.hpp"
@@ -7,27 +11,7 @@ namespace frond::tools {
 
 namespace {
 
-template <class... Values>
-std::string text_of(const char* format, Values... values) {
-    char text[128];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
-}
-
-Row overlay_row(const Viewer& viewer, char key, const char* name, Overlay overlay) {
-    const bool is_on = viewer.overlays[size_t(overlay)];
-    return {text_of("[%c] %s: %s", key, name, is_on ? "on" : "off"), key,
-            [overlay](Viewer& v) { v.overlays[size_t(overlay)] = !v.overlays[size_t(overlay)]; }};
-}
-
-Row effect_row(const Viewer& viewer, int bit) {
-    const frond_effects effect = 1u << bit;
-    const bool is_on = viewer.settings.plant.effects & effect, ran = viewer.report.effects_run & effect;
-    const double ms = viewer.cost.ms_of_effect[bit];
-    const std::string cost = !ran ? "" : ms > 0 ? text_of("  %.3f ms", ms) : "  at work";
-    return {text_of("    %s %-14s", is_on ? "[x]" : "[  ]", frond_effect_name(effect)) + cost, 0,
-            [effect](Viewer& v) { toggle_effect(v, effect); }};
-}
+constexpr float LEFT = 8, TOP = 8, WIDTH = 300;  // [pixel]
 
 std::string trouble_text(uint32_t trouble) {
     std::string text;
@@ -39,56 +23,133 @@ std::string trouble_text(uint32_t trouble) {
     return "trouble so far:" + (text.empty() ? " none" : text);
 }
 
-void add_costs(const Viewer& viewer, std::vector<Row>& rows) {
+void show_commands(Viewer& viewer) {
+    bool is_left = true;
+    for (const Command& command : commands()) {
+        const std::string key = command.key == ' ' ? "space" : std::string(1, command.key);
+        // What follows ### is the button's identity, so that its name may change.
+        const std::string label = "[" + key + "] " + command.name(viewer) + "###" + key;
+        // A name with a value takes a line of its own.
+        const bool is_wide = command.key == 'm' || command.key == 'i';
+        if (!is_left && !is_wide) ImGui::SameLine();
+        const float half = 0.5f * (ImGui::GetWindowContentRegionWidth() - ImGui::GetStyle().ItemSpacing.x);
+        if (ImGui::Button(label.c_str(), {is_wide ? -1 : half, 0})) command.run(viewer);
+        is_left = is_wide || !is_left;
+    }
+}
+
+// A slider between two lengths on a scale of ratios, where 0 lets the library choose. True once it is let go.
+bool slide_length(const char* name, double& metres, double least, double most) {
+    float value = float(metres);
+    const bool is_chosen = metres == 0;
+    ImGui::SetNextItemWidth(-130);
+    if (ImGui::SliderFloat(name, &value, float(least), float(most), is_chosen ? "chosen" : "%.3f m",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+        metres = value;
+    bool is_done = ImGui::IsItemDeactivatedAfterEdit();
+    if (is_chosen) return is_done;
+    ImGui::SameLine();
+    ImGui::PushID(name);
+    if (ImGui::SmallButton("x")) {
+        metres = 0;
+        is_done = true;
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("let Frond choose it");
+    ImGui::PopID();
+    return is_done;
+}
+
+void show_sliders(Viewer& viewer) {
+    const Stage& stage = viewer.play->stage;
+    float wind = float(wind_speed(viewer.settings));
+    ImGui::SetNextItemWidth(-130);
+    if (ImGui::SliderFloat("wind", &wind, 0, 20, "%.1f m/s", ImGuiSliderFlags_AlwaysClamp))
+        set_wind_speed(viewer, double(wind));
+    // These make models anew, which takes a moment: once the mouse lets go.
+    float stiffness = float(viewer.wanted.stiffness);
+    ImGui::SetNextItemWidth(-130);
+    if (ImGui::SliderFloat("stiffness", &stiffness, 0.1f, 10, "x %.2f",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+        viewer.wanted.stiffness = double(stiffness);
+    bool is_done = ImGui::IsItemDeactivatedAfterEdit();
+    const double height = std::max(stage.upper.y - stage.lower.y, 1e-6);
+    is_done |= slide_length("capsule height", viewer.wanted.capsule_height, height / 60, height / 4);
+    is_done |= slide_length("cell size", viewer.wanted.cage_size, height / 25, height / 4);
+    if (is_done) take_wanted(viewer);
+    if (!viewer.refusal.empty()) ImGui::TextWrapped("%s", viewer.refusal.c_str());
+}
+
+void show_effects(Viewer& viewer) {
+    if (!ImGui::CollapsingHeader("effects", ImGuiTreeNodeFlags_DefaultOpen)) return;
+    for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++) {
+        const frond_effects effect = 1u << bit;
+        const std::string name = frond_effect_name(effect);
+        bool is_on = viewer.settings.plant.effects & effect;
+        if (ImGui::Checkbox((name + "###effect " + name).c_str(), &is_on)) toggle_effect(viewer, effect);
+        if (!(viewer.report.effects_run & effect)) continue;
+        ImGui::SameLine(180);
+        const double ms = viewer.cost.ms_of_effect[bit];
+        if (ms > 0)
+            ImGui::Text("%.3f ms", ms);
+        else
+            ImGui::TextUnformatted("at work");
+    }
+}
+
+void plot(const char* name, const char* value, const History& history, float least, float most) {
+    const std::string label = std::string(value) + "  " + name + "###plot " + name;
+    ImGui::PlotLines(label.c_str(), history.values.data(), int(history.values.size()), history.next, nullptr, least,
+                     most, {130, 20});
+}
+
+void show_times(const Viewer& viewer) {
     const frond_report& report = viewer.report;
-    const frond_profile& cost = viewer.cost;
-    const auto tell = [&](const std::string& text) { rows.push_back({text, 0, nullptr}); };
-    tell("");
-    tell(text_of("%d plants, %d awake, %d tets; %.2f s", report.plant_count, report.awake_count, report.tet_count,
-                 viewer.play->stage.time));
-    tell(text_of("a step: %.2f ms; %.0f frames a second", cost.ms_step,
-                 viewer.frame_time > 0 ? 1 / viewer.frame_time : 0.0));
-    const struct {
-        const char* name;
-        double ms;
-    } stages[] = {{"collide", cost.ms_collide}, {"effects", cost.ms_effects},   {"assembly", cost.ms_assembly},
-                  {"solve", cost.ms_solve},     {"response", cost.ms_response}, {"capsules", cost.ms_capsules},
-                  {"surface", cost.ms_surface}};
-    for (const auto& stage : stages) tell(text_of("    %.3f ms  %s", stage.ms, stage.name));
-    tell(text_of("%d contacts with bodies, %d of plants", report.contact_count, report.plant_contact_count));
-    tell(trouble_text(viewer.trouble));
-    if (viewer.overlays[size_t(Overlay::STRAIN)])
-        tell(text_of("strain: blue 0, red %.0f %% and more", 100 * RED_STRAIN));
+    ImGui::Text("%d plant%s, %d awake, %d tets; %.2f s", report.plant_count, report.plant_count == 1 ? "" : "s",
+                report.awake_count, report.tet_count, viewer.play->stage.time);
+    ImGui::Text("%d contacts with bodies, %d of plants", report.contact_count, report.plant_contact_count);
+    ImGui::TextUnformatted(trouble_text(viewer.trouble).c_str());
+    if (viewer.overlays[size_t(Overlay::STRAIN)]) ImGui::Text("strain: blue 0, red %.0f %% and more", 100 * RED_STRAIN);
+    ImGui::Text("a step: %.2f ms; %.0f frames a second", viewer.cost.ms_step,
+                viewer.frame_time > 0 ? 1 / viewer.frame_time : 0.0);
+    if (!ImGui::CollapsingHeader("time by stage", ImGuiTreeNodeFlags_DefaultOpen)) return;
+    // One scale for all, so that the heights compare.
+    float most = 1e-3f;
+    for (const History& history : viewer.stage_times)
+        most = std::max(most, *std::max_element(history.values.begin(), history.values.end()));
+    for (size_t i = 0; i < viewer.stage_times.size(); i++) {
+        char value[32];
+        std::snprintf(value, sizeof value, "%6.3f ms", viewer.cost.*STAGE_TIMES[i].ms);
+        plot(STAGE_TIMES[i].name, value, viewer.stage_times[i], 0, most);
+    }
+}
+
+void show_energies(Viewer& viewer) {
+    // Closed, it costs nothing.
+    viewer.measures_energy = ImGui::CollapsingHeader("energy");
+    if (!viewer.measures_energy) return;
+    for (size_t i = 0; i < viewer.energies.size(); i++) {
+        const History& history = viewer.energies[i];
+        char value[32];
+        const size_t last = (size_t(history.next) + history.values.size() - 1) % history.values.size();
+        std::snprintf(value, sizeof value, "%9.3g J", double(history.values[last]));
+        plot(ENERGIES[i].name, value, history, FLT_MAX, FLT_MAX);
+    }
 }
 
 }  // namespace
 
-std::vector<Row> panel_of(const Viewer& viewer) {
-    const frond_plant_def& plant = viewer.settings.plant;
-    std::vector<Row> rows;
-    rows.push_back({text_of("[space] %s", viewer.is_paused ? "go on" : "pause"), ' ',
-                    [](Viewer& v) { v.is_paused = !v.is_paused; }});
-    rows.push_back({"[n] one step", 'n', [](Viewer& v) {
-                        v.is_paused = true;
-                        step_once(v);
-                    }});
-    rows.push_back({"[r] from the start", 'r', [](Viewer& v) { reset(v); }});
-    rows.push_back({"[b] throw a ball", 'b', [](Viewer& v) { throw_ball(v); }});
-    rows.push_back({text_of("[m] mechanics: %s", frond_mechanics_name(plant.mechanics)), 'm', [](Viewer& v) {
-                        set_mechanics(v, frond_mechanics((v.settings.plant.mechanics + 1) % FROND_MECHANICS_COUNT));
-                    }});
-    rows.push_back({text_of("[i] integrator: %s", frond_integrator_name(plant.integrator)), 'i', [](Viewer& v) {
-                        set_integrator(v, frond_integrator((v.settings.plant.integrator + 1) % FROND_INTEGRATOR_COUNT));
-                    }});
-    rows.push_back(overlay_row(viewer, 'c', "cage", Overlay::CAGE));
-    rows.push_back(overlay_row(viewer, 'k', "capsules", Overlay::CAPSULES));
-    rows.push_back(overlay_row(viewer, 't', "contacts", Overlay::CONTACTS));
-    rows.push_back(overlay_row(viewer, 's', "strain", Overlay::STRAIN));
-    rows.push_back({"[h] hide this", 'h', [](Viewer& v) { v.shows_panel = !v.shows_panel; }});
-    rows.push_back({"effects:", 0, nullptr});
-    for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++) rows.push_back(effect_row(viewer, bit));
-    add_costs(viewer, rows);
-    return rows;
+void show_panel(Viewer& viewer) {
+    if (!viewer.shows_panel) return;
+    ImGui::SetNextWindowPos({LEFT, TOP}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints({WIDTH, 0}, {WIDTH, ImGui::GetIO().DisplaySize.y - 2 * TOP});
+    ImGui::SetNextWindowBgAlpha(0.8f);
+    ImGui::Begin("frond", nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+    show_commands(viewer);
+    show_sliders(viewer);
+    show_times(viewer);
+    show_energies(viewer);
+    show_effects(viewer);
+    ImGui::End();
 }
 
 }  // namespace frond::tools

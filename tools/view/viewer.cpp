@@ -33,29 +33,43 @@ Shades shades_of(frond_plant plant) {
     return nearest;
 }
 
+frond_energy energy_of(const Stage& stage) {
+    frond_energy sum = {};
+    for (frond_plant plant : stage.plants) {
+        frond_energy energy;
+        must(frond_plant_get_energy(plant, &energy));
+        for (const PlantEnergy& row : ENERGIES) sum.*row.joule += energy.*row.joule;
+    }
+    return sum;
+}
+
+void note_energies(Viewer& viewer) {
+    const frond_energy now = energy_of(viewer.play->stage);
+    for (size_t i = 0; i < viewer.energies.size(); i++) viewer.energies[i].add(now.*ENERGIES[i].joule);
+}
+
 void note_cost(Viewer& viewer) {
     constexpr double LATELY = 0.1;
     must(frond_world_get_report(viewer.play->stage.world, &viewer.report));
     viewer.trouble |= viewer.report.trouble;
     frond_profile now;
     must(frond_world_get_profile(viewer.play->stage.world, &now));
+    for (size_t i = 0; i < viewer.stage_times.size(); i++) viewer.stage_times[i].add(now.*STAGE_TIMES[i].ms);
     const frond_profile before = viewer.cost;
     viewer.cost = now;
     if (before.ms_step == 0) return;
-    const auto smooth = [&](double frond_profile::*field) {
-        viewer.cost.*field = before.*field + LATELY * (now.*field - before.*field);
-    };
-    for (double frond_profile::*field :
-         {&frond_profile::ms_step, &frond_profile::ms_collide, &frond_profile::ms_effects, &frond_profile::ms_assembly,
-          &frond_profile::ms_solve, &frond_profile::ms_response, &frond_profile::ms_capsules,
-          &frond_profile::ms_surface})
-        smooth(field);
-    for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++)
-        viewer.cost.ms_of_effect[bit] =
-            before.ms_of_effect[bit] + LATELY * (now.ms_of_effect[bit] - before.ms_of_effect[bit]);
+    const auto smooth = [&](double& value, double old) { value = old + LATELY * (value - old); };
+    smooth(viewer.cost.ms_step, before.ms_step);
+    for (const StageTime& stage : STAGE_TIMES) smooth(viewer.cost.*stage.ms, before.*stage.ms);
+    for (int bit = 0; bit < FROND_EFFECT_COUNT; bit++) smooth(viewer.cost.ms_of_effect[bit], before.ms_of_effect[bit]);
 }
 
 }  // namespace
+
+void History::add(double value) {
+    values[size_t(next)] = float(value);
+    next = (next + 1) % int(values.size());
+}
 
 Viewer make_viewer(const Casting& casting, const Settings& settings, int width, int height) {
     Viewer viewer;
@@ -63,6 +77,8 @@ Viewer make_viewer(const Casting& casting, const Settings& settings, int width, 
     viewer.settings = settings;
     viewer.width = width;
     viewer.height = height;
+    const double wind = wind_speed(settings);
+    if (wind > 0) viewer.wind_direction = (1 / wind) * settings.wind.velocity;
     // One substep a step, so that pictures between two of them are known.
     viewer.settings.dt = std::min(settings.dt, settings.world.max_substep);
     reset(viewer);
@@ -72,15 +88,17 @@ Viewer make_viewer(const Casting& casting, const Settings& settings, int width, 
 }
 
 void reset(Viewer& viewer) {
+    viewer.play = std::make_unique<Play>(viewer.casting, viewer.settings);
     viewer.hand = {};
     viewer.drag = Viewer::Drag::NONE;
-    viewer.play = nullptr;
-    viewer.play = std::make_unique<Play>(viewer.casting, viewer.settings);
+    viewer.wanted = Wanted(viewer.settings);
     const Stage& stage = viewer.play->stage;
     viewer.own_rigids = stage.rigids.size();
     viewer.left_over = 0;
     viewer.report = {};
     viewer.cost = {};
+    viewer.stage_times = {};
+    viewer.energies = {};
     viewer.trouble = 0;
     viewer.shades.clear();
     for (size_t i = 0; i < stage.plants.size(); i++)
@@ -92,6 +110,7 @@ void step_once(Viewer& viewer) {
     follow_mouse(viewer);
     viewer.play->step();
     note_cost(viewer);
+    if (viewer.measures_energy) note_energies(viewer);
 }
 
 void advance(Viewer& viewer, double seconds) {
@@ -124,6 +143,33 @@ void toggle_effect(Viewer& viewer, frond_effects effect) {
     viewer.settings.plant.effects ^= effect;
     for (frond_plant plant : viewer.play->stage.plants)
         must(frond_plant_set_effects(plant, viewer.settings.plant.effects));
+}
+
+double wind_speed(const Settings& settings) {
+    return length(settings.wind.velocity);
+}
+
+void set_wind_speed(Viewer& viewer, double speed) {
+    frond_wind_def wind = viewer.settings.wind;
+    wind.velocity = speed * viewer.wind_direction;
+    must(frond_world_set_wind(viewer.play->stage.world, &wind));
+    viewer.settings.wind = wind;
+    if (!(viewer.settings.plant.effects & FROND_EFFECT_WIND)) toggle_effect(viewer, FROND_EFFECT_WIND);
+}
+
+void take_wanted(Viewer& viewer) {
+    const Settings before = viewer.settings;
+    viewer.settings.stiffness = viewer.wanted.stiffness;
+    viewer.settings.model.capsule_height = viewer.wanted.capsule_height;
+    viewer.settings.model.cage_size = viewer.wanted.cage_size;
+    try {
+        reset(viewer);
+        viewer.refusal.clear();
+    } catch (const SceneError& error) {
+        viewer.settings = before;
+        viewer.wanted = Wanted(before);
+        viewer.refusal = error.what();
+    }
 }
 
 // As heavy for its size as a football, and fast enough to fly as far as the plants are high.

@@ -1,9 +1,9 @@
-// Viewer: a scene to play in. What a window tells comes in as calls, what it shows goes out as a frame of a picture; of
-// windows it knows nothing.
+// Viewer: a scene to play in. A window's events come in as calls; a frame of a picture and a panel of Dear ImGui go
+// out. It knows nothing of windows.
 #pragma once
 
 #include <array>
-#include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 
@@ -25,9 +25,47 @@ struct Hand {
 // Which capsule each vertex of a model's surface is nearest to; one model's plants share it.
 using Shades = std::vector<int>;
 
+// The last values of something, one a step; the oldest is at `next`.
+struct History {
+    std::array<float, 240> values = {};
+    int next = 0;
+    void add(double value);
+};
+
+// The stages of a step, in the order in which they run, and the energies of plants.
+struct StageTime {
+    const char* name;
+    double frond_profile::*ms;
+};
+constexpr StageTime STAGE_TIMES[] = {
+    {"collide", &frond_profile::ms_collide},   {"effects", &frond_profile::ms_effects},
+    {"assembly", &frond_profile::ms_assembly}, {"solve", &frond_profile::ms_solve},
+    {"response", &frond_profile::ms_response}, {"capsules", &frond_profile::ms_capsules},
+    {"surface", &frond_profile::ms_surface}};
+struct PlantEnergy {
+    const char* name;
+    double frond_energy::*joule;
+};
+constexpr PlantEnergy ENERGIES[] = {
+    {"kinetic", &frond_energy::kinetic}, {"elastic", &frond_energy::elastic}, {"gravity", &frond_energy::gravity}};
+
+// Settings of models, which take a new start: as the panel's sliders show them, ahead of the viewer's own settings
+// while the mouse holds one.
+struct Wanted {
+    double stiffness = 1;                      // [-]
+    double capsule_height = 0, cage_size = 0;  // [m], 0: chosen by the library
+    Wanted() = default;
+    explicit Wanted(const Settings& settings)
+        : stiffness(settings.stiffness),
+          capsule_height(settings.model.capsule_height),
+          cage_size(settings.model.cage_size) {}
+};
+
 struct Viewer {
     Casting casting;
     Settings settings;  // with what was switched since
+    Wanted wanted;
+    std::string refusal;  // why what was wanted could not be had; empty: it could
     std::unique_ptr<Play> play;
     Camera camera;
     int width, height;  // of the picture [pixel]
@@ -35,9 +73,13 @@ struct Viewer {
     bool is_paused = false, shows_panel = true;
     double left_over = 0;  // of the time that passed, not stepped yet [s]
     frond_report report = {};
-    frond_profile cost = {};  // smoothed
-    uint32_t trouble = 0;     // of all steps so far
-    double frame_time = 0;    // smoothed [s]
+    frond_profile cost = {};                                  // smoothed
+    std::array<History, std::size(STAGE_TIMES)> stage_times;  // [ms]
+    std::array<History, std::size(ENERGIES)> energies;        // of all plants [J]
+    bool measures_energy = false;
+    frond_vec3 wind_direction = {1, 0, 0};
+    uint32_t trouble = 0;   // of all steps so far
+    double frame_time = 0;  // smoothed [s]
     double mouse_x = 0, mouse_y = 0;
     enum class Drag { NONE, HAND, ORBIT, PAN } drag = Drag::NONE;
     Button drag_button = Button::LEFT;
@@ -48,13 +90,21 @@ struct Viewer {
 
 // The stage as the scene begins. Throws a SceneError.
 Viewer make_viewer(const Casting& casting, const Settings& settings, int width, int height);
-// From the start again, with what was switched.
+// From the start again, with the settings as they are now. Throws a SceneError, and then changes nothing.
 void reset(Viewer& viewer);
 // Time passes, as long as it is not paused; several steps, one or none.
 void advance(Viewer& viewer, double seconds);
 void step_once(Viewer& viewer);
 
-// What the user does. Keys are those that the panel names; others are ignored.
+// What a key or its button in the panel does.
+struct Command {
+    char key;
+    std::string (*name)(const Viewer& viewer);
+    void (*run)(Viewer& viewer);
+};
+const std::vector<Command>& commands();
+
+// What the user does. Keys without a command are ignored.
 void press(Viewer& viewer, char key);
 void move_mouse(Viewer& viewer, double x, double y);
 void press_button(Viewer& viewer, Button button);
@@ -65,6 +115,11 @@ void turn_wheel(Viewer& viewer, double clicks);
 void set_mechanics(Viewer& viewer, frond_mechanics mechanics);
 void set_integrator(Viewer& viewer, frond_integrator integrator);
 void toggle_effect(Viewer& viewer, frond_effects effect);
+// The mean wind at the reference height [m/s]; plants feel it from now on.
+void set_wind_speed(Viewer& viewer, double speed);
+double wind_speed(const Settings& settings);
+// Takes over what is wanted and starts again; if the library refuses, keeps what there is and says why in `refusal`.
+void take_wanted(Viewer& viewer);
 // From beside the camera, at what is under the mouse.
 void throw_ball(Viewer& viewer);
 
@@ -83,14 +138,8 @@ void move_hand(Viewer& viewer);
 void follow_mouse(Viewer& viewer);
 void let_go(Viewer& viewer);
 
-// Lines of text at the left: what a key or a click there does, and what the last steps cost.
-struct Row {
-    std::string text;
-    char key = 0;                         // that does it; 0: none
-    std::function<void(Viewer&)> action;  // empty: it only tells
-};
-constexpr double ROW_HEIGHT = 15, PANEL_LEFT = 12, PANEL_TOP = 10, PANEL_WIDTH = 290;  // [pixel]
-std::vector<Row> panel_of(const Viewer& viewer);
+// The panel at the left, as widgets of Dear ImGui in its current frame.
+void show_panel(Viewer& viewer);
 
 // The strain at which a colour is red [-].
 constexpr double RED_STRAIN = 0.01;

@@ -1,10 +1,16 @@
-// GLFW gives the window, its EGL context and what the user does; tools/picture draws into that context.
+// GLFW gives the window, its EGL context and what the user does; tools/picture and, over it, Dear ImGui draw into that
+// context.
 #include "view/window.hpp"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
 
 #include "studio/studio.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
 
 namespace frond::tools {
 
@@ -36,7 +42,7 @@ void on_button(GLFWwindow* window, int button, int action, int) {
     const Button known[] = {Button::LEFT, Button::RIGHT, Button::MIDDLE};  // as GLFW counts them
     if (button > 2) return;
     tell(window, [&](Viewer& viewer) {
-        if (action == GLFW_PRESS) press_button(viewer, known[button]);
+        if (action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse) press_button(viewer, known[button]);
         if (action == GLFW_RELEASE) release_button(viewer, known[button]);
     });
 }
@@ -49,7 +55,7 @@ void on_move(GLFWwindow* window, double x, double y) {
 }
 
 void on_character(GLFWwindow* window, unsigned code) {
-    if (code < 128) tell(window, [&](Viewer& viewer) { press(viewer, char(code)); });
+    if (code < 128 && !ImGui::GetIO().WantTextInput) tell(window, [&](Viewer& viewer) { press(viewer, char(code)); });
 }
 
 void on_key(GLFWwindow* window, int key, int, int action, int) {
@@ -57,6 +63,7 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
 }
 
 void on_wheel(GLFWwindow* window, double, double clicks) {
+    if (ImGui::GetIO().WantCaptureMouse) return;
     tell(window, [&](Viewer& viewer) { turn_wheel(viewer, clicks); });
 }
 
@@ -76,6 +83,11 @@ Window::Window(Viewer& viewer, const char* title) : viewer(viewer) {
         glfwSwapInterval(1);
         listen();
         make_picture();
+        // After the viewer's own listeners, which it calls too.
+        ImGui::CreateContext();
+        ImGui::GetIO().IniFilename = nullptr;
+        if (!ImGui_ImplGlfw_InitForOpenGL(window, true) || !ImGui_ImplOpenGL3_Init("#version 330 core"))
+            throw SceneError("Dear ImGui finds no OpenGL 3.3");
     } catch (...) {
         glfwTerminate();
         throw;
@@ -84,6 +96,9 @@ Window::Window(Viewer& viewer, const char* title) : viewer(viewer) {
 }
 
 Window::~Window() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
     frond_picture_destroy(picture);
     glfwTerminate();
 }
@@ -131,20 +146,40 @@ void Window::frame() {
     last = now;
     if (is_hidden) return;
     const clock::time_point start = clock::now();
-    draw(viewer, picture);
-    must(frond_picture_present(picture, 0, viewer.width, viewer.height));
+    draw_all();
     glfwSwapBuffers(window);
     if (is_quick || seconds(clock::now() - start) < SLOW) return;
     is_quick = true;
     make_picture();
 }
 
-const uint8_t* Window::pixels() const {
-    return frond_picture_get_pixels(picture);
+void Window::draw_all() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    // A command may put another stage in the place of this one: before it is drawn.
+    show_panel(viewer);
+    ImGui::Render();
+    draw(viewer, picture);
+    must(frond_picture_present(picture, 0, viewer.width, viewer.height));
+    glDisable(GL_FRAMEBUFFER_SRGB);  // its colours are those of the screen
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-void Window::write(const std::string& png_path) const {
-    must(frond_picture_write(picture, png_path.c_str()));
+std::vector<uint8_t> Window::pixels() {
+    draw_all();
+    const size_t row = 3 * size_t(viewer.width), rows = size_t(viewer.height);
+    std::vector<uint8_t> upwards(row * rows), pixels;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, viewer.width, viewer.height, GL_RGB, GL_UNSIGNED_BYTE, upwards.data());
+    for (size_t i = rows; i-- > 0;)
+        pixels.insert(pixels.end(), upwards.begin() + long(i * row), upwards.begin() + long((i + 1) * row));
+    return pixels;
+}
+
+void Window::write(const std::string& png_path) {
+    must(frond_picture_write_png(png_path.c_str(), pixels().data(), viewer.width, viewer.height));
 }
 
 void Window::get_place(int& x, int& y) const {

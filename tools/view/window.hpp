@@ -21,15 +21,16 @@ public:
     bool is_open() const;
     // Takes in what happened, lets time pass, draws, shows.
     void frame();
-    // Of the last frame, width*height*3 of the viewer's, rows from the top.
-    const uint8_t* pixels() const;
-    void write(const std::string& png_path) const;
+    // Draws again what the last frame showed: width*height*3 of the viewer's, rows from the top.
+    std::vector<uint8_t> pixels();
+    void write(const std::string& png_path);
     // Where its upper left corner is on the screen.
     void get_place(int& x, int& y) const;
 
 private:
     void listen();
     void make_picture();
+    void draw_all();
     Viewer& viewer;
     GLFWwindow* window = nullptr;
     frond_picture* picture = nullptr;
