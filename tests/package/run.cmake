@@ -1,4 +1,5 @@
-# Installs the build into a prefix of its own, then builds and runs programs against it: with find_package and with pkg-config.
+# Installs the build into a prefix and moves that. Runs the command there, then builds and runs programs against it: with
+# find_package and with pkg-config.
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
     if(NOT result EQUAL 0)
@@ -13,7 +14,11 @@ set(flags "")
 if(SANITIZE)
     set(flags "-fsanitize=address,undefined")
 endif()
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+file(RENAME ${WORK}/installed ${prefix})
+if(EXISTS ${prefix}/bin/frond)
+    run(${prefix}/bin/frond run corn --steps 2)
+endif()
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_C_FLAGS=${flags}
     -DCMAKE_CXX_FLAGS=${flags} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_C_COMPILER=${CC})
 run(${CMAKE_COMMAND} --build ${WORK}/build -j 2)

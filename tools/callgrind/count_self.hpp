@@ -1,4 +1,4 @@
-// This program once more, inside valgrind's callgrind, which counts instructions: the same number in every run.
+// Runs this program again inside Valgrind's callgrind, which counts instructions: the same number in every run.
 #pragma once
 
 #include <map>
@@ -7,11 +7,11 @@
 
 namespace frond::tools {
 
-// What callgrind wrote at each CALLGRIND_DUMP_STATS_AT, line by line, under the name that was given there. The program
-// is run with `arguments`, valgrind with `options`. Empty where there is no valgrind, or the program failed in it.
+// Returns what callgrind wrote at each CALLGRIND_DUMP_STATS_AT, line by line, under the name given there. Runs the
+// program with `arguments` and Valgrind with `options`. Empty if Valgrind is missing or the program failed in it.
 std::map<std::string, std::vector<std::string>> count_self(const std::string& arguments, const std::string& options);
 
-// Does a line of it begin with that?
+// Returns whether a line begins with that word.
 bool begins_with(const std::string& line, const char* word);
 
 }  // namespace frond::tools

@@ -1,4 +1,4 @@
-// frond bench step: time of a step by stage. frond bench contact: of contact, by the number of plants that touch.
+// frond bench step: time of a step by stage. frond bench contact: time of contact by the number of plants that touch.
 // Nothing sleeps meanwhile.
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ struct Stages {
     }
 };
 
-// Warms up, then times steps of the moving plant from the same state again and again; minimum and median over all.
+// Warms up, then times steps of the moving plant from the same state repeatedly; prints minimum and median of all.
 void bench_step(const BenchOptions& options) {
     constexpr int WARM_UP = 60, STEPS = 30;
     const Casting casting = cast(options.what);
@@ -77,7 +77,7 @@ void bench_step(const BenchOptions& options) {
     }
 }
 
-// Stages of plants that touch, in the order in which they run.
+// Stages of steps in which plants touch, in the order in which they run.
 struct ContactStage {
     const char* name;
     double (*ms)(const frond_profile& profile);
@@ -92,7 +92,7 @@ constexpr ContactStage CONTACT_STAGES[] = {
 };
 constexpr size_t CONTACT_STAGE_COUNT = sizeof CONTACT_STAGES / sizeof CONTACT_STAGES[0];
 
-// Some plants of a field that have settled against each other: the median of each stage.
+// Plants of a field that have settled against each other, and the median of each stage.
 struct ContactFigures {
     int plants = 0, tets = 0, contacts = 0;
     double ms[CONTACT_STAGE_COUNT] = {};
@@ -145,7 +145,7 @@ void bench_contact(const BenchOptions& options) {
         std::printf("\n%-8d %8d %8d", f.plants, f.tets, f.contacts);
         for (const double ms : f.ms) std::printf(" %9.3f", ms);
     }
-    // Time goes as the number of plants to this power, from two plants to all.
+    // Time grows as the number of plants to this power, between two plants and all.
     const ContactFigures &few = all[1], &many = all.back();
     const double ratio = std::log(double(many.plants) / few.plants);
     std::printf("\n%-8s %8s %8.2f", "growth", "",

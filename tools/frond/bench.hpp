@@ -11,9 +11,9 @@ namespace frond::tools {
 struct BenchOptions {
     std::string what = "drag";
     int rounds = 20;
-    int most = 17;  // plants, or leaves
+    int most = 17;  // largest number of plants, leaves or tets
     bool csv = false;
-    std::string out;  // folder for diagrams; empty: none
+    std::string out;  // folder for diagrams; empty: no diagrams
     std::vector<std::string> assignments;
 };
 
@@ -23,10 +23,10 @@ void bench_field(const BenchOptions& options);
 void bench_kinds();
 void bench_effects(const BenchOptions& options);
 void bench_guard();
-void step_for_guard();  // for valgrind to count
-// Takes the steps that the latter counts.
+void step_for_guard();  // run inside Valgrind, which counts instructions
+// Takes the steps whose instructions bench_effects counts.
 void step_all_effects();
 
-double now();  // [ms]
+double now();  // time of a steady clock [ms]
 
 }  // namespace frond::tools

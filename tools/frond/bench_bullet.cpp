@@ -1,5 +1,4 @@
-// frond bench versus-bullet: Frond and Bullet's own soft bodies, of the same tets and the same material, under the same
-// load.
+// frond bench versus-bullet: compares Frond with Bullet's own soft bodies: same tets, same material, same load.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -22,17 +21,17 @@ using stability::FOOT;
 using stability::Lattice;
 using stability::Places;
 
-// Upright as modelled without weight, then pulled sideways, undamped, for a second.
+// The body stands upright as modelled, without weight, and is then pulled sideways, undamped, for a second.
 constexpr frond_vec3 PULL = {3, 0, 0};  // [m/s^2]
-constexpr int FRAMES = 60;              // a second
-constexpr int FINE = 16;                // steps a frame of the motion that errors are told from
-const char* const NO_END = "no end";    // within the time that is given to a run
+constexpr int FRAMES = 60;              // per second
+constexpr int FINE = 16;                // steps per frame of the reference motion that errors are measured against
+const char* const NO_END = "no end";    // within the time limit of a run
 
-// Beams of a metre, of 200, 1,600 and 20,480 tets: so many cells across and along. Cages of plants overlap, which
-// tets of the caller must not.
+// Beams 1 m long of 200, 1,600 and 20,480 tets: cells across and along. Cages of plants may overlap, tets from the
+// caller may not.
 constexpr int BODIES[][2] = {{2, 10}, {4, 20}, {8, 64}};
 
-// Where the top is after each frame, and what a frame takes.
+// Position of the top after each frame, and time of a frame.
 struct Run {
     Places top;
     double frame = 0;  // median [s]
@@ -89,7 +88,7 @@ Run run_bullet(const Lattice& lattice, BulletMethod method, int steps) {
     return run([&] { body.run(1.0 / FRAMES); }, [&] { return body.place(body.top); });
 }
 
-// Root of the mean square of how far the top is from where it should be, over that of its way.
+// Returns the RMS distance of the top from its reference position, relative to its RMS displacement.
 double error_of(const Run& made, const Run& exact) {
     double error = 0, way = 0;
     const frond_vec3 start = exact.top.front();
@@ -100,7 +99,7 @@ double error_of(const Run& made, const Run& exact) {
     return std::sqrt(error / way);
 }
 
-// In a process of its own, as Bullet's world may not come back from a step: how long a frame takes and, as text, the
+// Measures in a separate process, as Bullet's world may never return from a step: time of a frame and, as text, the
 // error.
 stability::Verdict measure(const std::function<Run()>& make, const Run& exact) {
     const stability::Limits limits = {20, 1};
@@ -148,7 +147,7 @@ void bench_versus_bullet(const BenchOptions& options) {
             "%7s %-7s %-16s %9s %10s %9s\n",
             FRAMES * FINE, study::processor_name().c_str(), FROND_COMPILER, frond_version_string(), FROND_COMMIT,
             "tets", "program", "method", "step", "frame", "error");
-    // Methods that came to no end once do not with more tets or shorter steps.
+    // A method that once failed to finish in time will not finish with more tets or shorter steps.
     std::array<bool, size_t(BulletMethod::COUNT)> ends;
     ends.fill(true);
     for (const auto& [across, along] : BODIES) {

@@ -1,7 +1,7 @@
-// frond bench effects: instructions of a step without each effect, with it but nothing to do for it, and at work.
+// frond bench effects: counts instructions of a step without each effect, with the effect idle, and with it at work.
 //
 // Valgrind's callgrind counts them, so they are exact: the command runs itself in it, steps each case there, and reads
-// what was counted for that one step.
+// the count of that one step.
 #include <valgrind/callgrind.h>
 
 #include <cmath>
@@ -18,21 +18,21 @@ namespace frond::tools {
 
 namespace {
 
-// Two plants of corn, a ball and the air of one case.
+// Two corn plants, a ball and the wind of one case.
 struct Case {
     frond_world_def world = frond_default_world_def();
     frond_plant_def plant = frond_default_plant_def();
-    double apart = 5;         // of the plants [m]
-    double ball = 5;          // of the ball from the stalk [m]
+    double apart = 5;         // distance between the plants [m]
+    double ball = 5;          // distance of the ball from the stalk [m]
     double wind = 0;          // [m/s]
-    double force = 0;         // on a leaf [N]
-    bool look = false;        // somebody looks at the surface
-    frond_effects never = 0;  // effects that would answer to the one that is counted
+    double force = 0;         // force on a leaf [N]
+    bool look = false;        // the surface is requested after each step
+    frond_effects never = 0;  // effects switched off because they would respond to the measured one
 };
 
 struct EffectRow {
     frond_effects effect;
-    std::function<void(Case&)> idle, work;  // what there is for it to do
+    std::function<void(Case&)> idle, work;  // changes that leave the effect idle, and that put it to work
 };
 
 void nothing(Case&) {}
@@ -67,7 +67,7 @@ const std::vector<EffectRow>& rows() {
     return table;
 }
 
-// Callgrind counts the last step of some.
+// Takes some steps, of which callgrind counts the last.
 void step_in_callgrind(const Case& c, frond_model model, const std::string& name) {
     constexpr int WARM_UP = 3;
     frond_world world = {};
@@ -101,10 +101,10 @@ void step_in_callgrind(const Case& c, frond_model model, const std::string& name
     frond_world_destroy(world);
 }
 
-// Reads a part of callgrind's output.
+// Figures of one part of callgrind's output.
 struct EffectCount {
     double instructions = 0;
-    bool collides = false;  // code that looks for touches of plants ran
+    bool collides = false;  // code that detects contacts of plants ran
 };
 
 EffectCount read_effect_part(const std::vector<std::string>& lines) {

@@ -1,4 +1,5 @@
-// frond bench field: what a field costs, asleep but for a path, all in wind, and with a crowd in it.
+// frond bench field: cost of a field that sleeps except along a path, of one all in wind, and of one with a crowd in
+// it.
 #include <btBulletDynamicsCommon.h>
 #include <malloc.h>
 
@@ -21,7 +22,7 @@ double now() {
 
 namespace {
 
-// Returns how much the process has allocated [kB].
+// Returns the memory that the process has allocated [kB].
 double memory() {
     const struct mallinfo2 info = mallinfo2();
     return double(info.uordblks + info.hblkhd) / 1024;
@@ -113,7 +114,8 @@ struct StaticField {
     }
 };
 
-// What one more plant keeps that sleeps, of four kinds, where each kind has its model and what its plants share [kB].
+// Returns the memory that one more sleeping plant takes [kB], averaged over four kinds whose models and shared data
+// exist already.
 double memory_of_sleeper(const BenchOptions& options) {
     constexpr int COUNT = 1000;
     Play play(cast("field"), field_settings(options, {"patch_wind=0", "plants=4"}));
@@ -135,12 +137,12 @@ double memory_of_sleeper(const BenchOptions& options) {
 
 struct PathFigures {
     int plants;
-    double whole, frond, still;  // medians: a step of the world, Frond's share of it, Bullet's with static bodies [ms]
-    double awake;                // plants, mean
+    double whole, frond, still;  // medians: a step of the world, Frond's part of it, Bullet's with static bodies [ms]
+    double awake;                // mean number of plants awake
     double beyond() const { return whole - still; }
 };
 
-// All asleep but for those on the path.
+// Measures steps in which all plants sleep except those along the path.
 PathFigures measure_path(int count, const BenchOptions& options) {
     constexpr int WARM_UP = 30, STEPS = 240;
     const Casting casting = cast("field");
@@ -169,7 +171,8 @@ PathFigures measure_path(int count, const BenchOptions& options) {
     return figures;
 }
 
-// A thousand of some forty pieces in wind, in full wherever they are; where the time of a step goes [ms].
+// Measures a thousand rod plants of some forty segments in wind, at full detail wherever they are, by the stages of a
+// step [ms].
 void bench_wind(const BenchOptions& options) {
     constexpr int WARM_UP = 30, STEPS = 60, COUNT = 1000;
     const char* const PIECES = "capsule_height=0.23";  // [m]
@@ -207,7 +210,7 @@ void bench_wind(const BenchOptions& options) {
     }
 }
 
-// Fifty come in; with and without a budget.
+// Measures fifty walkers that come in, with a budget or without.
 void bench_crowd(const BenchOptions& options, double budget) {
     constexpr int STEPS = 600;
     Play play(cast("field"), field_settings(options, {"walkers=50", "budget=" + std::to_string(budget),

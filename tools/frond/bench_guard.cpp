@@ -1,7 +1,7 @@
-// frond bench guard: what the looks for steps gone wrong cost in a step that has not.
+// frond bench guard: cost of the checks for failed steps in a step that succeeds.
 //
-// Valgrind's callgrind counts the instructions of steps of a plant that was just let go, and of one that sways, and of
-// those functions in them.
+// Valgrind's callgrind counts the instructions of steps of a plant that was just let go and of one that sways, and
+// those of the checking functions within them.
 #include <valgrind/callgrind.h>
 
 #include <cstdio>
@@ -18,14 +18,14 @@ namespace {
 
 constexpr int PULLED = 20, STEPS = 10;
 
-// Ten steps are counted when the plant was just let go, and ten when it sways, a second later.
+// Ten steps are counted after the plant was let go, and ten while it sways, a second later.
 struct CountWindow {
     const char* name;
-    int begin;  // step
+    int begin;  // first counted step
 };
 constexpr CountWindow WINDOWS[] = {{"let go", PULLED}, {"swaying", PULLED + 60}};
 
-// A corn plant pulled by a leaf and let go, in one mechanics.
+// Pulls a corn plant by a leaf and lets it go, with one mechanics.
 void sway_in_callgrind(frond_model model, frond_mechanics mechanics) {
     const frond_world_def world_def = frond_default_world_def();
     frond_world world = {};
@@ -35,7 +35,7 @@ void sway_in_callgrind(frond_model model, frond_mechanics mechanics) {
     frond_plant plant = {};
     must(frond_plant_create(world, model, &def, &plant));
     const int node = frond_plant_get_node_count(plant) - 1;
-    std::string part;  // callgrind reads it a little later than it is told
+    std::string part;  // outlives the loop, as callgrind reads it a little after the request
     int i = 0;
     const auto step = [&] {
         if (i++ < PULLED) must(frond_plant_add_force(plant, node, {0.5, 0, 0}));
@@ -56,7 +56,7 @@ struct GuardCount {
     double all = 0, guard = 0;  // instructions
 };
 
-// "cfn=(12) name" names a function that is called, later only by its number; the line after "calls=" has what it took.
+// "cfn=(12) name" names a called function, later given only by its number; the line after "calls=" has the call's cost.
 GuardCount read_guard_part(const std::vector<std::string>& lines) {
     static const char* const GUARD[] = {"ends_off_course", "has_run_away",    "is_far_out",
                                         "is_plausible",    "are_finite",      "look_at_energy",
@@ -72,7 +72,7 @@ GuardCount read_guard_part(const std::vector<std::string>& lines) {
             const std::string number = line.substr(open, close - open);
             if (close + 1 < line.size())
                 for (const char* word : GUARD) is_guard[number] |= line.find(word, close) != std::string::npos;
-            // What one of them calls is in what it took.
+            // The cost of a checking function includes the functions that it calls.
             if (names_called)
                 counts = is_guard[number] && !in_guard;
             else

@@ -1,5 +1,5 @@
-// Plants of one kind in a wind, one of the figures of frond bench field: what a step costs with each by itself, and
-// side by side in the lanes of the processor.
+// Part of frond bench field: cost of a step of plants of one kind in wind, each by itself and batched in the
+// processor's lanes.
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -42,7 +42,7 @@ KindFigures measure_kind(const Kind& kind, bool in_lanes) {
         def.effects &= ~uint32_t(FROND_EFFECT_PLANT_CONTACT);
         def.position = {0.7 * (i % SIDE), 0, 0.7 * (i / SIDE)};
         def.rotation = {0, std::sin(0.1 * i), 0, std::cos(0.1 * i)};
-        // Only plants of the same settings share lanes; a direct solver does not ask for this one.
+        // Only plants of the same settings share lanes; a direct solver ignores this one.
         if (!in_lanes) def.tuning.linear_tolerance *= 1 + 1e-3 * i;
         frond_plant plant = {};
         must(frond_plant_create(world, kind.model, &def, &plant));

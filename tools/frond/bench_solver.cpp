@@ -1,4 +1,4 @@
-// frond bench solver: a step of plants from small to very large in light air, by linear solver, and how it grows.
+// frond bench solver: cost of a step of plants from small to very large in a light wind, by linear solver and size.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -19,10 +19,10 @@ struct SolverCase {
     const char* name;
     frond_mechanics mechanics;
     int order, plants;
-    int leaves;          // of a grown tree, 0: the corn
+    int leaves;          // leaves of a grown tree; 0: the corn plant
     double cage, chain;  // sizes of cells and capsules [m], 0: Frond's choice
 };
-// The trees of tets grow by their leaves, their cells being alike.
+// Trees of tets grow by their number of leaves; their cells keep one size.
 constexpr SolverCase CASES[] = {
     {"corn", FROND_MECHANICS_TET_COROTATIONAL, 1, 1, 0, 0, 0},
     {"17 corn plants", FROND_MECHANICS_TET_COROTATIONAL, 1, 17, 0, 0, 0},
@@ -51,14 +51,14 @@ frond_model load(const SolverCase& one) {
 }
 
 struct SolverFigures {
-    frond_report report;                    // of the last step
+    frond_report report;                    // report of the last step
     int pieces;                             // tets or rods
     double assembly, solve, step, surface;  // medians [ms]
 };
 
 SolverFigures measure(const SolverCase& one, frond_model model, frond_linear_solver solver, int steps) {
     constexpr int WARM_UP = 5;
-    constexpr double APART = 50;  // [m], so that none touch
+    constexpr double APART = 50;  // distance at which none touch [m]
     frond_world_def world_def = frond_default_world_def();
     world_def.sleep_distance = 0;
     frond_world world = {};
@@ -100,7 +100,7 @@ SolverFigures measure(const SolverCase& one, frond_model model, frond_linear_sol
     return figures;
 }
 
-// Conjugate gradients take minutes for what is large.
+// Conjugate gradients take minutes for large plants.
 bool is_worth_it(frond_linear_solver solver, int pieces) {
     constexpr int LARGE = 2000;
     return solver <= FROND_LINEAR_SOLVER_DIRECT || pieces < LARGE;
@@ -134,7 +134,8 @@ void print_row(const SolverRow& row) {
     std::fflush(stdout);
 }
 
-// A step of single plants of linear elements over their tets, a line a solver that can do them all.
+// Plots a step of single plants of linear tets over their number of tets, with a line for each solver that can solve
+// them all.
 std::string plot_of(const std::vector<SolverRow>& rows, const std::string& base) {
     std::string data, lines;
     for (const frond_linear_solver solver : {FROND_LINEAR_SOLVER_BLOCK, FROND_LINEAR_SOLVER_DIRECT}) {

@@ -1,5 +1,5 @@
-// The subcommands of frond; each adds itself to the command line and runs when it was chosen. What their options may
-// be.
+// The subcommands of frond, each of which adds itself to the command line and runs when chosen, and validators of their
+// options.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,9 +15,9 @@ void add_study(CLI::App& app);
 void add_export(CLI::App& app);
 void add_stability(CLI::App& app);
 
-// A finite number from least to most, which CLI::Range does not ask for.
+// Accepts a finite number from least to most; CLI::Range does not check that it is finite.
 CLI::Validator real_in(double least, double most);
-// A file whose name has the ending of the format that is written, ".png".
+// Accepts a file whose name has the ending of the written format, such as ".png".
 CLI::Validator file_ending_in(const std::string& ending);
 
 }  // namespace frond::tools

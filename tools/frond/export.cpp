@@ -1,5 +1,5 @@
-// frond export SCENE|FILE: steps a scene and writes what came of it for other programs: the surface as a mesh file, its
-// way there as morph targets or a vertex cache, states as a table, the plant as URDF.
+// frond export SCENE|FILE: steps a scene and writes the result for other programs: the surface as a mesh file, its
+// motion as morph targets or a vertex cache, states as a table, the plant as URDF.
 #include "export.hpp"
 
 #include <cmath>
@@ -13,14 +13,14 @@ namespace {
 
 struct ExportOptions {
     std::string what, out, animation, csv, cache, urdf;
-    double at = 0;  // [s]
-    int every = 2;  // steps from sample to sample of the animation
+    double at = 0;  // time at which the mesh is written [s]
+    int every = 2;  // steps between samples of the animation
     std::vector<std::string> assignments;
 };
 
-// ---- what happens until then ----------------------------------------------------------------------------------------
+// ---- records of the motion ------------------------------------------------------------------------------------------
 
-// Vertices of all plants, a sample a step, as a point cache that Blender and Maya lay onto the mesh of the first one:
+// Vertices of all plants, a sample per step, as a point cache that Blender and Maya apply to the mesh of the first one:
 // PC2, little-endian.
 class PointCache {
 public:
@@ -56,12 +56,12 @@ private:
         file.write(reinterpret_cast<const char*>(&sample_count), 4);
     }
     std::string path;
-    float rate;  // samples a frame of 1/24 s
+    float rate;  // samples per frame of 1/24 s
     std::ofstream file;
     int32_t points = 0, samples = 0;
 };
 
-// A line a step and plant: time, tip, force and moment of the ground, energies, contacts.
+// A line for each step and plant: time, tip, force and moment of the ground, energies, contacts.
 class Table {
 public:
     explicit Table(const std::string& path) : path(path), file(open_to_write(path)) {

@@ -1,4 +1,4 @@
-// Export: files that other programs read, of what stands on a stage.
+// Export: files for other programs of the plants on a stage.
 #pragma once
 
 #include <fstream>
@@ -11,19 +11,19 @@ namespace frond::tools {
 std::ofstream open_to_write(const std::string& path, bool binary = false);
 void close(std::ofstream& file, const std::string& path);
 
-// Surfaces of all plants at a moment.
+// Surfaces of all plants at one time.
 struct Sample {
-    double time;                                      // [s]
-    std::vector<std::vector<float>> places, normals;  // of each plant, its vertices' [m]
+    double time;                                      // time of the sample [s]
+    std::vector<std::vector<float>> places, normals;  // vertex positions [m] and normals of each plant
 };
 Sample sample_of(const Stage& stage);
 
-// .gltf .glb .obj .ply; throws a SceneError for other endings.
+// Checks for .gltf, .glb, .obj or .ply; throws a SceneError for other endings.
 void check_mesh_ending(const std::string& path);
-// Surfaces as they are now: a mesh and a node for each part of each plant.
+// Writes the surfaces as they are now: a mesh and a node for each part of each plant.
 void write_mesh(const std::string& out, const Stage& stage);
-// The way through all samples, at least two: .gltf .glb. Each sample is a morph target, of which one after the other
-// has weight one.
+// Writes the motion through all samples, at least two, as .gltf or .glb. Each sample is a morph target; one after the
+// other has weight one.
 void write_animation(const std::string& out, const Stage& stage, const std::vector<Sample>& samples);
 
 }  // namespace frond::tools

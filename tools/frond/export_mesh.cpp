@@ -1,5 +1,5 @@
-// In: a stage, and samples of how it moved. Out: mesh files, by assimp. Its exporter writes morph targets, but not when
-// they have which weight: that is added to the file afterwards.
+// In: a stage, and samples of its motion. Out: mesh files, by assimp. Its exporter writes morph targets but not the
+// time course of their weights, which is added to the file afterwards.
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
@@ -36,7 +36,7 @@ const char* format_of(const std::string& path) {
     return found->second;
 }
 
-// Textures are written beside the mesh as they came.
+// Writes a texture beside the mesh, with its bytes unchanged.
 std::string write_texture(const std::string& out, frond_model model, int texture) {
     frond_texture_view view;
     must(frond_model_get_texture(model, texture, &view));
@@ -65,7 +65,7 @@ aiMaterial* material_of(const frond_part& part, const std::string& texture) {
     return material;
 }
 
-// The entries of `from` for the vertices that have a number, in its order.
+// Returns the entries of `from` for the numbered vertices, in the order of their numbers.
 aiVector3D* take(const std::map<int32_t, unsigned>& number, const float* from) {
     auto* out = new aiVector3D[number.size()];
     for (const auto& [vertex, own] : number) {
@@ -75,7 +75,8 @@ aiVector3D* take(const std::map<int32_t, unsigned>& number, const float* from) {
     return out;
 }
 
-// The vertices that a part's triangles use, in their order; one target a sample of the plant's.
+// Makes a part's mesh of the vertices that its triangles use, in their order, with one morph target per sample of the
+// plant.
 aiMesh* mesh_of(const frond_surface_view& view, const frond_part& part, size_t plant,
                 const std::vector<Sample>& samples) {
     const int32_t* corners = view.indices + 3 * size_t(part.first_triangle);
@@ -185,10 +186,10 @@ std::string padded(std::string bytes, char with) {
     return bytes;
 }
 
-// The two parts of a glTF file, whichever way it keeps them.
+// JSON and buffer of a glTF file, whether in one file (.glb) or two (.gltf).
 struct Gltf {
     nlohmann::json json;
-    std::string bytes;  // of its one buffer
+    std::string bytes;  // contents of its one buffer
 };
 
 constexpr size_t GLB_HEAD = 12, CHUNK_HEAD = 8;

@@ -1,4 +1,4 @@
-// frond inspect FILE: what came in, what was repaired, cage and chain.
+// frond inspect FILE: prints what was read and repaired, the cage and the chain.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -102,7 +102,7 @@ nlohmann::ordered_json describe(const std::string& file, frond_model model) {
     return out;
 }
 
-// Organs of one kind and material: how many, and between what their sections lie.
+// Organs of one kind and material: their number and the range of each section property.
 struct KindLine {
     nlohmann::ordered_json material;
     std::string kind;

@@ -6,7 +6,7 @@
 
 namespace {
 
-// CLI11 tells that a command is missing where one is named that there is not.
+// Names a command that does not exist; CLI11 would only report that a command is missing.
 int explain(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<std::string> words = app.remaining(true);
     if (!dynamic_cast<const CLI::RequiredError*>(&error) || words.empty()) return app.exit(error);

@@ -1,4 +1,4 @@
-// Returns the value below which a share of the measured numbers lies.
+// Quantiles of measured values.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace frond::tools {
 
-// The value below which that share of them is; 0 of none.
+// Returns the value below which that share of the values lies; 0 if there are none.
 inline double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1) + 0.5);

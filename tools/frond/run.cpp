@@ -1,4 +1,4 @@
-// frond run SCENE|FILE: steps a scene, writes pictures, says what it cost.
+// frond run SCENE|FILE: steps a scene, writes pictures, prints what it cost.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,8 +15,8 @@ namespace {
 
 struct RunOptions {
     std::string what, shot, frames;
-    int steps = -1;  // none given: the scene's own length
-    int every = 2;   // steps a frame
+    int steps = -1;  // -1: the scene's own length
+    int every = 2;   // steps per frame
     bool json = false;
     std::vector<std::string> assignments;
     View view;
@@ -27,7 +27,7 @@ struct Record {
     std::vector<frond_report> reports;
     std::vector<frond_profile> profiles;
     frond_vec3 tip_at_start = {}, tip = {};
-    double farthest = 0;  // tip from where it was at the start [m]
+    double farthest = 0;  // largest distance of the tip from its start [m]
     uint32_t trouble = 0;
 };
 
@@ -112,7 +112,7 @@ void print_run(const nlohmann::ordered_json& out) {
         ms["contact"].get<double>(), ms["capsules"].get<double>(), ms["surface"].get<double>());
 }
 
-// Frames as PNG files, a contact sheet and a moving picture.
+// Writes frames as PNG files, a contact sheet and a moving picture.
 class Film {
 public:
     Film(const std::string& folder, const View& view, double frames_per_second) : folder(folder) {
@@ -144,7 +144,7 @@ private:
     frond_film* film = nullptr;
 };
 
-// The vertex that is highest at the start; it is followed, since another one may be the highest later.
+// Returns the vertex that is highest at the start; it is followed, since another may be highest later.
 int tip_vertex(frond_plant plant) {
     frond_surface_view view;
     must(frond_plant_get_surface(plant, &view));
@@ -182,7 +182,7 @@ nlohmann::ordered_json play_once(const RunOptions& options, const Casting& casti
         play.step();
         if (film && i % options.every == 0) film->add(*studio, play.stage);
 
-        // Does what a game does each frame: takes the surface of every plant that it draws.
+        // Takes the surface of every plant that is drawn, as a game does each frame.
         for (size_t k = 0; k < play.stage.plants.size(); k++) {
             frond_surface_view view;
             if (play.stage.sees(k)) must(frond_plant_get_surface(play.stage.plants[k], &view));
@@ -208,7 +208,8 @@ nlohmann::ordered_json play_once(const RunOptions& options, const Casting& casti
     return summary(play, record);
 }
 
-// A scene that has something to be compared with is played twice, (a) that way and (b) as it is, and always pictured.
+// Returns the runs of a scene. One with a setting to compare with runs twice, (a) with it and (b) as is, always
+// pictured.
 std::vector<RunOptions> takes_of(const RunOptions& options, const Scene& scene) {
     if (!scene.without) return {options};
     RunOptions a = options;

@@ -1,4 +1,4 @@
-// frond stability: hard cases, as a table of green and red.
+// frond stability: runs hard cases and prints a table of green and red.
 #include <algorithm>
 #include <cstdio>
 #include <functional>
@@ -19,7 +19,7 @@ struct StabilityOptions {
     bool list = false, bullet = false;
 };
 
-// The row of a table that has that name.
+// Returns the row of a table that has that name.
 int row_called(const std::string& name, const char* kind, int count, const std::function<const char*(int)>& name_of) {
     std::string names;
     for (int row = 0; row < count; row++) {
@@ -29,7 +29,7 @@ int row_called(const std::string& name, const char* kind, int count, const std::
     throw SceneError("there is no " + std::string(kind) + " \"" + name + "\"; there are " + names);
 }
 
-// A file that is asked for, opened before anything is run.
+// A requested output file, opened before anything runs.
 class Page {
 public:
     explicit Page(const std::string& path) : path(path) {
@@ -100,11 +100,12 @@ void add_stability(CLI::App& app) {
     CLI::Option* bullet =
         command->add_flag("--bullet", options->bullet,
                           "Bullet's own soft bodies in the cases that they can be put through, beside Frond");
-    // An option that has no effect beside another one is an error rather than ignored.
+    // An option that would have no effect beside another one is an error.
     integrator->excludes(quick, of_default);
     for (CLI::Option* option : {names, mechanics, integrator, of_default, json, html}) option->excludes(list, bullet);
     list->excludes(quick, bullet);
-    // The soft bodies' table shows what a game could wait for: about as long as what it simulates takes.
+    // In the soft bodies' table a cell may take about as long as the time that it simulates: what a game could wait
+    // for.
     constexpr int WITH_BULLET = 6;
     const CLI::Option* seconds = command
                                      ->add_option("--seconds", options->limits.seconds,

@@ -1,4 +1,4 @@
-// frond study: what accuracy costs in time.
+// frond study: measures what accuracy costs in time.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -54,7 +54,7 @@ void list_problems() {
     for (const study::FigureRow& figure : study::figures()) std::printf("%-18s %s\n", figure.name, figure.shows);
 }
 
-// Writes and draws what belongs to one name.
+// Writes the table and the diagram of one problem or figure.
 template <class Subject>
 void write_diagram(const Subject& subject, const std::string& folder, const std::string& name) {
     const std::string base = folder + "/" + name, script = folder + "/gnuplot/" + name + ".gp";
@@ -73,7 +73,7 @@ void tell(const study::Result& result) {
     std::fflush(stdout);
 }
 
-// "run 12 of 40" on a terminal; writes down what a problem gave as soon as it has ended.
+// Prints "run 12 of 40" on a terminal; writes a problem's results as soon as it has ended.
 class Writer : public study::Watcher {
 public:
     Writer(std::string folder, const study::Provenance& provenance)

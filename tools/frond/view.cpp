@@ -1,4 +1,4 @@
-// frond view SCENE|FILE: a window in which a scene is played with.
+// frond view SCENE|FILE: opens a window in which to play with a scene.
 #include "view/window.hpp"
 
 #include <memory>
@@ -34,7 +34,7 @@ void set_overlays(Viewer& viewer, const std::vector<std::string>& names) {
 void view(const ViewOptions& options) {
     const Casting casting = cast(options.what);
     std::vector<std::string> assignments = options.assignments;
-    // A plant of the user's is not pulled by anybody else.
+    // Only the user pulls a plant of the user's own file.
     if (!casting.file.empty()) assignments.insert(assignments.begin(), "pull=0");
     Viewer viewer = make_viewer(casting, settings_of(casting, assignments), options.view.width, options.view.height);
     set_overlays(viewer, options.view.overlays);

@@ -1,4 +1,4 @@
-// In: nothing. Out: what one core can compute and move at most.
+// In: nothing. Out: the highest rates at which one core computes and moves data.
 #include <algorithm>
 #include <chrono>
 #include <vector>
@@ -10,10 +10,10 @@ namespace frond::kernels {
 
 namespace {
 
-constexpr int CHAINS = 12;  // of results that wait for each other, enough to hide how long one takes
+constexpr int CHAINS = 12;  // independent dependency chains, enough to hide an operation's latency
 constexpr int ROUNDS = 1 << 16;
 
-// One product and one sum a chain and round; what they come to is used, so that they are done.
+// One product and one sum per chain and round; the results are used, so that the compiler keeps them.
 template <class S>
 FROND_INLINE double chains(double by, double more) {
     S sum[CHAINS];
@@ -51,7 +51,7 @@ double chains_of_two(double by, double more) {
 }
 #endif
 
-// The best of some goes [s].
+// Returns the time of the fastest of some runs [s].
 template <class Job>
 double least_seconds(const Job& job) {
     constexpr int GOES = 9;

@@ -1,7 +1,7 @@
-// In: this program. Out: what its kernels do, instruction by instruction.
+// In: this program. Out: the work of its kernels, instruction by instruction.
 //
-// Callgrind counts how often the instruction at each address ran, objdump says which it is: how many numbers it works
-// on, and how many bytes of memory it names.
+// Callgrind counts how often the instruction at each address ran; objdump gives the instruction: how many numbers it
+// works on, and how many bytes of memory it names.
 #include <valgrind/callgrind.h>
 
 #include <array>
@@ -24,7 +24,7 @@ struct Instruction {
     double flops = 0, bytes = 0;
 };
 
-// As objdump writes it in Intel's way: "vmulpd ymm0,ymm1,YMMWORD PTR [rax]".
+// Reads an instruction as objdump prints it in Intel syntax: "vmulpd ymm0,ymm1,YMMWORD PTR [rax]".
 Instruction read_instruction(const std::string& text) {
     static const std::pair<const char*, int> SIZES[] = {{"YMMWORD PTR", 32}, {"XMMWORD PTR", 16}, {"QWORD PTR", 8},
                                                         {"DWORD PTR", 4},    {"WORD PTR", 2},     {"BYTE PTR", 1}};
@@ -47,7 +47,7 @@ Instruction read_instruction(const std::string& text) {
     return out;
 }
 
-// By address.
+// Returns the program's instructions by address.
 std::unordered_map<unsigned long, Instruction> disassemble(const std::string& program) {
     std::unordered_map<unsigned long, Instruction> all;
     const std::string command = "objdump -d -M intel --no-show-raw-insn '" + program + "' 2> /dev/null";
@@ -65,7 +65,8 @@ std::unordered_map<unsigned long, Instruction> disassemble(const std::string& pr
     return all;
 }
 
-// Lines are "0xaddress line count"; the one after "calls=" has what the call took, which is counted where it ran.
+// Lines are "0xaddress line count"; the one after "calls=" has the cost of the call, which is counted in the called
+// function.
 Work read_part(const std::vector<std::string>& lines, const std::string& program,
                const std::unordered_map<unsigned long, Instruction>& instructions) {
     Work work;

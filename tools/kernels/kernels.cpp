@@ -1,4 +1,4 @@
-// The kernels: assembly, factors and solutions of a corn plant and of a tree.
+// The kernels: assembly, factorisations and solves of a corn plant and of a tree.
 #include "kernels/kernels.hpp"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double STEP = 1.0 / 60;  // [s]
 
-// Data that the kernels of one plant with one mechanics share: places as modelled, forces, and M + h^2 K.
+// Data shared by the kernels of one plant with one mechanics: positions as modelled, forces, and M + h^2 K.
 struct Body {
     std::shared_ptr<const Model> model;
     const Mechanics& row;
@@ -38,7 +38,7 @@ struct Body {
         const Masses masses = row.masses(*elements, FROND_MASS_LUMPED);
         for (int slot = 0; slot < elements->pattern.block_count(); ++slot)
             A.block(slot).diagonal().array() += masses.slot[size_t(slot)];
-        // A rotation has no mass of its own.
+        // Rotations have no mass of their own.
         for (int node = 0; row.moves_chain && node < elements->node_count; ++node)
             A.block(elements->pattern.start[size_t(node)]).diagonal().array() += 1e-9;
         plan = make_block_plan(elements->pattern);
@@ -64,7 +64,7 @@ void add_assembly(const std::string& plant, const std::string& pieces, size_t co
 void add_solver(const std::string& plant, const std::string& name, const std::shared_ptr<Body>& body,
                 frond_linear_solver which, std::vector<Kernel>& all) {
     const size_t blocks = size_t(body->elements->pattern.block_count());
-    // Without the residual, which is the same for all.
+    // The residual is left out, as it is the same for all solvers.
     if (which == FROND_LINEAR_SOLVER_BLOCK) {
         all.push_back({plant + "/factor, " + name, blocks, [body] { factorize(body->scratch.block, body->A); }});
         all.push_back({plant + "/solve, " + name, blocks, [body] { solve(body->scratch.block, body->b, body->x); }});

@@ -1,5 +1,5 @@
-// frond_kernels: the loops of a step by Google Benchmark, with what they compute and move, and how near that is to what
-// this processor could do. Options are Google Benchmark's.
+// frond_kernels: the loops of a step by Google Benchmark, with the work that they do and how near that is to this
+// processor's limits. Options are Google Benchmark's.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -11,7 +11,7 @@ namespace frond::kernels {
 
 namespace {
 
-// Adds how much of its time each run would need if it ran into the nearest ceiling.
+// Adds the share of its time that each run would need if it ran at the nearest limit.
 class Reporter : public benchmark::ConsoleReporter {
 public:
     explicit Reporter(const Ceilings& ceilings) : ConsoleReporter(OO_Tabular), ceilings(ceilings) {}
