@@ -1,5 +1,5 @@
-/* arm: a robot arm reaches through three corn plants and stops among them. What its links feel is what the ground under
- * the plants holds. Writes frames, a contact sheet and a moving picture.    arm [MODELS [FOLDER]] */
+/* arm: a robot arm reaches through three corn plants and stops among them. The force on its links agrees with what
+ * the ground under the plants holds. Writes frames, a contact sheet and a moving picture.    arm [MODELS [FOLDER]] */
 #include <frond/frond_robot.h>
 #include <math.h>
 #include <stdio.h>
@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
     snprintf(path, sizeof path, "%s/arm.webp", folder);
     check_picture(frond_film_write_webp(film, path));
 
-    /* The ground holds what it held before, and what the arm pushes with. */
+    /* The ground holds what it held before, plus the force of the arm. */
     pushed = held(plants);
     add(&pushed, standing, -1);
     felt_last = felt(arm);

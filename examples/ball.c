@@ -1,5 +1,5 @@
-/* ball: a football is thrown at a corn plant. It brushes through the leaves, hits the stalk, and both feel it. Writes
- * frames, a contact sheet and a moving picture.    ball [MODEL [FOLDER]] */
+/* ball: a football is thrown at a corn plant. It brushes through the leaves and hits the stalk; both feel the
+ * impulse. Writes frames, a contact sheet and a moving picture.    ball [MODEL [FOLDER]] */
 #include <frond/frond.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -93,5 +93,5 @@ int main(int argc, char** argv) {
     frond_picture_destroy(picture);
     frond_world_destroy(world);
     frond_model_destroy(model);
-    return touched == 0 || state.velocity.x > 6; /* it was felt on both sides */
+    return touched == 0 || state.velocity.x > 6; /* both sides felt the impulse */
 }

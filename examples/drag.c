@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     check(frond_model_get_info(model, &info));
     check(frond_plant_get_tip(plant, &start));
 
-    /* The studio: a camera that sees the plant with room to move. */
+    /* The studio: a camera that sees the plant with a margin for its motion. */
     mkdir(folder, 0777);
     picture_def.width = film_def.width = 600;
     picture_def.height = film_def.height = 720;
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
     check_picture(frond_film_create(&film_def, &film));
 
     for (int step = 0; step < STEPS; step++) {
-        /* The hand takes the stem at three quarters of its height, draws it aside, holds it and lets go. */
+        /* The hand takes hold of the stem at three quarters of its height, pulls it aside, holds it and lets go. */
         if (step == TAKE) {
             const frond_vec3 stem = {0, 0.75 * info.upper.y, 0};
             check(frond_grab_create(plant, stem, 200, &grab));
@@ -95,5 +95,5 @@ int main(int argc, char** argv) {
     frond_picture_destroy(picture);
     frond_world_destroy(world);
     frond_model_destroy(model);
-    return !(farthest > 0.15 && tip.x - start.x < 0.7 * farthest); /* it was drawn aside, and went back */
+    return !(farthest > 0.15 && tip.x - start.x < 0.7 * farthest); /* it was pulled aside, and went back */
 }

@@ -1,5 +1,5 @@
-/* field_walk: a character walks a path through a field of 2,500 plants that sleep until somebody comes, behind a ball
- * that rolls ahead; far plants are simulated for less. Writes a picture from above and one from eye level.
+/* field_walk: a character follows a rolling ball on a path through a field of 2,500 plants that sleep until somebody
+ * comes; distant plants are simulated at lower detail. Writes a picture from above and one from eye level.
  *
  *     field_walk [MODELS [FOLDER]] */
 #include <frond/frond.h>
@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
     static frond_vec3 places[PLANTS];
     static int kinds[PLANTS];
     const char* folder = argc > 2 ? argv[2] : "field_pictures";
-    const double apart = 0.7, speed = 1.3, seen = 14; /* of the plants [m], of the character [m/s], in pictures [m] */
+    const double apart = 0.7, speed = 1.3, seen = 14; /* distances of plants [m]; speed [m/s]; view [m] */
     const frond_color cloth = {0.15f, 0.25f, 0.55f, 1}, leather = {0.55f, 0.16f, 0.07f, 1};
     frond_world_def world_def = frond_default_world_def();
     frond_model_def model_def = frond_default_model_def();
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
         check(frond_rigid_get_state(walker, &state));
         state.position.x += speed / 60;
         check(frond_rigid_set_state(walker, &state));
-        /* All that a game has to do for the field: say where the camera is. */
+        /* All that a game has to do for the field: set the position of the camera. */
         check(frond_world_set_viewer(world, (frond_vec3){state.position.x - 2, 1.7, 0}));
         check(frond_world_step(world, 1.0 / 60));
         check(frond_world_get_report(world, &report));
@@ -120,5 +120,5 @@ int main(int argc, char** argv) {
     frond_picture_destroy(picture);
     frond_world_destroy(world);
     for (i = 0; i < KINDS; i++) frond_model_destroy(models[i]);
-    return touched < STEPS / 4 || most_awake < 5 || most_awake > PLANTS / 10; /* only what is met wakes */
+    return touched < STEPS / 4 || most_awake < 5 || most_awake > PLANTS / 10; /* only plants near the path wake */
 }

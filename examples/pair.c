@@ -1,5 +1,5 @@
-/* pair: two corn plants that stand in each other's leaves come apart. Writes a picture without response (a) and one
- * with it (b), contact points drawn.    pair [MODEL [FOLDER]] */
+/* pair: two corn plants that overlap with their leaves come apart. Writes a picture without contact response (a) and
+ * one with it (b), with contact points.    pair [MODEL [FOLDER]] */
 #include <frond/frond.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ static void check_picture(bool ok) {
     exit(1);
 }
 
-/* Two plants for two seconds; how deep they are in each other at the end [m]. */
+/* Runs two plants for two seconds; returns how deep they overlap at the end [m]. */
 static double play(frond_model model, frond_response response, frond_picture* picture, const frond_picture_scene* scene,
                    const char* path) {
     frond_world_def world_def = frond_default_world_def();
@@ -87,5 +87,5 @@ int main(int argc, char** argv) {
 
     frond_picture_destroy(picture);
     frond_model_destroy(model);
-    return without < 0.01 || with > 0.002; /* they were in each other, and came apart */
+    return without < 0.01 || with > 0.002; /* they overlapped, and came apart */
 }

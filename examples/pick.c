@@ -1,5 +1,5 @@
-/* pick: a hand reaches for a cucumber, closes its fingers, draws it away until its stalk breaks, and lowers it. Writes
- * frames, a contact sheet and a moving picture.    pick [MODELS [FOLDER]] */
+/* pick: a hand reaches for a cucumber, closes its fingers, pulls it away until its stalk breaks, and lowers it.
+ * Writes frames, a contact sheet and a moving picture.    pick [MODELS [FOLDER]] */
 #include <frond/frond_robot.h>
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +23,7 @@ static void check_picture(bool ok) {
 
 enum { COME = 30, CLOSE = 150, DRAW = 210, LOWER = 420, STEPS = 540, STEPS_A_FRAME = 15 };
 
-/* Where an organ ends below [m]. */
+/* Returns the lower end of an organ [m]. */
 static frond_vec3 lower_end(frond_plant plant, frond_model model, const char* organ) {
     frond_vec3 end = {0, INFINITY, 0};
     frond_surface_view view;
@@ -71,8 +71,8 @@ int main(int argc, char** argv) {
     int reach, rise, left, right, broken_at = -1;
     char path[1024];
 
-    /* A fruit comes off its stalk in a chain of rods; in a cage both share cells, and weigh what these do, so they are
-     * small. Fingers that grip want short steps. */
+    /* With rods, a fruit comes off its stalk. They take their masses from the cage's cells, which fruit and stalk
+     * share, so these are small. Gripping fingers need short steps. */
     model_def.cage_size = 0.1;
     world_def.max_substep = 1.0 / 240;
     check(frond_world_create(&world_def, &world));
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
     check(frond_plant_create(world, cucumber, &plant_def, &plant));
     end = lower_end(plant, cucumber, "fruit_3");
 
-    /* The hand stands beyond the fruit as the stem sees it, open, with rubber on its fingers. */
+    /* The hand stands beyond the fruit, seen from the stem; it is open, with rubber on its fingers. */
     turn = 0.5 * atan2(-end.x, -end.z);
     away = 1 + 0.72 / hypot(end.x, end.z);
     hand_def.position = (frond_vec3){away * end.x, 0, away * end.z};
@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
     check_picture(frond_film_create(&film_def, &film));
 
     for (int step = 0; step < STEPS; step++) {
-        /* To the fruit, fingers together, away, and down. */
+        /* Reach for the fruit, close the fingers, pull away, lower. */
         if (step == COME) check(frond_robot_drive_to(hand, reach, 0.48, 0.3, 0));
         if (step == CLOSE) check(frond_robot_drive_at(hand, left, 0.1, 0));
         if (step == CLOSE) check(frond_robot_drive_at(hand, right, 0.1, 0));
@@ -152,5 +152,5 @@ int main(int argc, char** argv) {
     end = (frond_vec3){fruit.position.x - palm.position.x, fruit.position.y - palm.position.y,
                        fruit.position.z - palm.position.z};
     return !(broken_at > DRAW &&
-             sqrt(dot(end, end)) < 0.25); /* its stalk held until it was drawn, and the hand has it */
+             sqrt(dot(end, end)) < 0.25); /* its stalk held until it was pulled, and the hand holds it */
 }

@@ -22,7 +22,7 @@ static void check_picture(bool ok) {
 
 enum { PLANTS = 4, STEPS = 480 };
 
-/* Of all vertices [m]. */
+/* Returns the mean height of all vertices [m]. */
 static double mean_height(frond_plant plant) {
     frond_surface_view view;
     double sum = 0;
@@ -49,10 +49,10 @@ int main(int argc, char** argv) {
     bool stand = true;
     int i;
 
-    /* The chain alone: drawn as it grew, it gives way to its weight, with more capsules the more smoothly. */
+    /* Rods: the plant is drawn as it grew and sags under its weight, the more smoothly the more capsules it has. */
     model_def.rest = FROND_REST_WITHOUT_GRAVITY;
     plant_def.mechanics = FROND_MECHANICS_ROD;
-    plant_def.mass_damping = 4; /* come to rest soon */
+    plant_def.mass_damping = 4; /* comes to rest soon */
     check(frond_world_create(&world_def, &world));
     for (i = 0; i < PLANTS; i++) {
         model_def.capsule_height = heights[i];
@@ -91,5 +91,5 @@ int main(int argc, char** argv) {
     frond_picture_destroy(picture);
     frond_world_destroy(world);
     for (i = 0; i < PLANTS; i++) frond_model_destroy(models[i]);
-    return !stand; /* they gave way, and came to rest upright */
+    return !stand; /* they sagged, and came to rest upright */
 }

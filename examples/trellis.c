@@ -1,5 +1,5 @@
-/* trellis: a cucumber with its stake, set aslant, comes to lean on a trellis of static boxes. Writes a picture of it,
- * the contact points drawn.    trellis [MODEL [FOLDER]] */
+/* trellis: a cucumber with its stake, tilted, comes to lean on a trellis of static boxes. Writes a picture of it,
+ * with the contact points.    trellis [MODEL [FOLDER]] */
 #include <frond/frond.h>
 #include <math.h>
 #include <stdio.h>
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     ground_def.shape = FROND_SHAPE_PLANE;
     check(frond_rigid_create(world, &ground_def, &ground));
 
-    /* Two posts and four slats, which nothing moves. */
+    /* Two posts and four slats, all static. */
     for (i = 0; i < POSTS + SLATS; i++) {
         defs[i] = frond_default_rigid_def();
         defs[i].shape = FROND_SHAPE_BOX;
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     }
     check(frond_plant_get_tip(plant, &tip));
 
-    /* Where it touches slats; the ground is touched too. */
+    /* Count the contacts with slats; the ground is touched too. */
     count = frond_plant_get_contact_count(plant);
     contacts = malloc((size_t)(count + 1) * sizeof *contacts);
     check(frond_plant_get_contacts(plant, contacts, count));

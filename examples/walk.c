@@ -1,5 +1,5 @@
-/* walk: a character's capsule walks through a row of ten corn plants and takes their leaves along. Writes a picture of
- * it in their midst.    walk [MODEL [FOLDER]] */
+/* walk: a character's capsule walks through a row of ten corn plants and pushes their leaves along. Writes a picture
+ * of it in their midst.    walk [MODEL [FOLDER]] */
 #include <frond/frond.h>
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +24,7 @@ enum { PLANTS = 10, STEPS = 180, MIDST = 130 };
 
 int main(int argc, char** argv) {
     const char* folder = argc > 2 ? argv[2] : "walk_pictures";
-    const double apart = 0.35, speed = 1.2; /* of the plants [m], of the character [m/s] */
+    const double apart = 0.35, speed = 1.2; /* distance of the plants [m], speed of the character [m/s] */
     frond_world_def world_def = frond_default_world_def();
     frond_model_def model_def = frond_default_model_def();
     frond_plant_def plant_def = frond_default_plant_def();
@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
     double farthest = 0;
     int moved = 0, step, i;
 
-    /* A row of plants, a little to the left and to the right of the way. */
+    /* A row of plants, a little to the left and to the right of the path. */
     check(frond_world_create(&world_def, &world));
     check(frond_model_load(argc > 1 ? argv[1] : "models/corn/corn.obj", &model_def, &model));
     check(frond_model_get_info(model, &info));

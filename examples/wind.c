@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     double strongest = 0, farthest = 0;
     int step, i;
 
-    /* The plants, as quick rods. */
+    /* The plants, as rods, which are fast. */
     check(frond_world_create(&world_def, &world));
     check(frond_model_load(argc > 1 ? argv[1] : "models/corn/corn.obj", &model_def, &model));
     check(frond_model_get_info(model, &info));
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
     check_picture(frond_film_create(&film_def, &film));
 
     for (step = 0; step < STEPS; step++) {
-        /* A breeze of 8 m/s at weather stations' height, then a gale of 20. */
+        /* A breeze of 8 m/s at the height of weather stations, then a gale of 20. */
         if (step == 0 || step == GALE) {
             wind_def.velocity.x = step < GALE ? 8 : 20;
             check(frond_world_set_wind(world, &wind_def));
@@ -97,5 +97,5 @@ int main(int argc, char** argv) {
     frond_picture_destroy(picture);
     frond_world_destroy(world);
     frond_model_destroy(model);
-    return !(strongest > 10 && force.x > 0); /* it blew, and was felt */
+    return !(strongest > 10 && force.x > 0); /* it blew, and the plant felt it */
 }

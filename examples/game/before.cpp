@@ -1,4 +1,4 @@
-// game: a small Bullet game as many are: its own world, a walking character, crates with motion states, a debug drawer.
+// game: a typical small Bullet game: its own world, a walking character, crates with motion states, a debug drawer.
 // game_before is the game without plants; game_after is the same game with them: `diff before.cpp after.cpp`.
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <BulletDynamics/Character/btKinematicCharacterController.h>
@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-// Counts what it is asked to draw; a real one draws it.
+// Counts what it should draw; a real one draws it.
 struct CountingDrawer : btIDebugDraw {
     int lines = 0, mode = DBG_DrawWireframe | DBG_DrawContactPoints;
     void drawLine(const btVector3&, const btVector3&, const btVector3&) override { lines++; }

@@ -1,4 +1,4 @@
-// Events of plants, in one list.
+// Events of plants, in one list per world.
 #include <algorithm>
 #include <cstring>
 #include <vector>
@@ -18,7 +18,7 @@ std::vector<frond_event_info> events_of(frond_world world) {
     return list;
 }
 
-// Its events are kept from the beginning.
+// A world whose events are recorded from the beginning.
 struct WatchedWorld : SmallWorld {
     explicit WatchedWorld(frond_rest rest = FROND_REST_WITHOUT_GRAVITY)
         : SmallWorld(frond_default_plant_def(), 0, rest) {
@@ -73,7 +73,7 @@ TEST(Events, TellOfSleepAndOfWaking) {
     EXPECT_EQ(list[0].plant.id, small.plant.id);
     EXPECT_EQ(list[0].capsule, -1);
     EXPECT_EQ(list[0].body, nullptr);
-    EXPECT_NEAR(list[0].time, steps / 60.0, 1e-6);  // steps are of Bullet's numbers
+    EXPECT_NEAR(list[0].time, steps / 60.0, 1e-6);  // time steps have Bullet's precision
     ASSERT_EQ(frond_plant_wake(small.plant), FROND_OK);
     ASSERT_EQ(frond_plant_wake(small.plant), FROND_OK);
     list = events_of(small.world);
@@ -87,7 +87,7 @@ TEST(Events, TellWhoTouchedAPlantOnce) {
     step(small.world, 60);
     const std::vector<frond_event_info> list = events_of(small.world);
     ASSERT_GE(count_of(list, FROND_EVENT_TOUCHED), 1);
-    EXPECT_LE(count_of(list, FROND_EVENT_TOUCHED), 3);  // it may come back
+    EXPECT_LE(count_of(list, FROND_EVENT_TOUCHED), 3);  // it may touch again
     const auto touched = std::find_if(list.begin(), list.end(),
                                       [](const frond_event_info& info) { return info.event == FROND_EVENT_TOUCHED; });
     EXPECT_EQ(touched->plant.id, small.plant.id);
@@ -100,7 +100,7 @@ TEST(Events, TellWhoTouchedAPlantOnce) {
 
 TEST(Events, ABodyThatIsLeanedOnTouchesOnce) {
     WatchedWorld small;
-    drop_ball(small.world, {-0.06, 0.55, 0}, {0, 0, 0}, 0);  // carried: stays where it is
+    drop_ball(small.world, {-0.06, 0.55, 0}, {0, 0, 0}, 0);  // static
     frond_grab grab = {};
     ASSERT_EQ(frond_grab_create(small.plant, {0, 0.6, 0}, 100, &grab), FROND_OK);
     ASSERT_EQ(frond_grab_move(grab, {-0.2, 0.6, 0}), FROND_OK);
@@ -125,7 +125,7 @@ TEST(Events, OfTwoPlantsThatTouchEachHasOne) {
     }
     EXPECT_TRUE(first);
     EXPECT_TRUE(second);
-    // A plant's events end with it.
+    // A plant's events are removed with it.
     ASSERT_EQ(frond_plant_break(other, 0), FROND_OK);
     EXPECT_EQ(frond_world_get_event_count(small.world), 1);
     frond_plant_destroy(other);

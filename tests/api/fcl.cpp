@@ -1,5 +1,5 @@
-// FCL sees plants: a straight reach is free without the plant, blocked by it, and free again when the plant is bent
-// away.
+// FCL sees plants: a straight reach is free without the plant, blocked by it, and free again once the plant is bent
+// aside.
 #include "frond/frond_fcl.hpp"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
@@ -21,7 +21,7 @@ bool look(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
     return static_cast<Touch*>(data)->found;
 }
 
-// Tells whether a hand of 3 cm can go straight from one place to another.
+// Returns whether a sphere with a radius of 3 cm can go straight from one point to another.
 bool is_free(fcl::BroadPhaseCollisionManagerd& manager, const fcl::Vector3d& from, const fcl::Vector3d& to) {
     fcl::CollisionObjectd hand(std::make_shared<fcl::Sphered>(0.03));
     for (int i = 0; i <= 100; i++) {
@@ -49,7 +49,7 @@ TEST_P(FclParts, BlockAReachAndGiveWayWhenTheyAreBentAside) {
     EXPECT_FALSE(is_free(manager, from, to));
     EXPECT_TRUE(is_free(manager, from + fcl::Vector3d(0.4, 0, 0), to + fcl::Vector3d(0.4, 0, 0)));
 
-    // The user draws the stem aside; FCL's objects follow when they are told.
+    // The user pulls the stem aside; FCL's objects follow when they are updated.
     frond_grab grab;
     ASSERT_EQ(frond_grab_create(small.plant, {0, 0.6, 0}, 3000, &grab), FROND_OK);
     ASSERT_EQ(frond_grab_move(grab, {0.25, 0.5, 0}), FROND_OK);

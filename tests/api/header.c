@@ -1,4 +1,4 @@
-/* The public header compiles as C99, and a C program can do all of hello. */
+/* The public header compiles as C99, and a C program can do everything that hello does. */
 #include "frond/frond.h"
 
 int frond_hello_from_c(double* tip_height) {

@@ -1,4 +1,4 @@
-// The house: each public function has a sentence of its own, and names in headers and glossary agree.
+// House rules: each public function has a sentence of its own, and names in headers and glossary agree.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-// The C headers, one after the other.
+// Returns the C headers, one after the other.
 std::string headers() {
     std::string text;
     for (const auto& entry : std::filesystem::directory_iterator(PLUGIN + "include/frond"))
@@ -54,7 +54,7 @@ std::string without_comments(const std::string& text) {
     return code;
 }
 
-// The comment that ends in the line before this one, of C or of C++; empty: there is none.
+// Returns the comment that ends in the line before this one, in C or C++ style; empty: there is none.
 std::string comment_before(const std::vector<std::string>& lines, size_t line) {
     size_t first = line;
     while (first > 0 && lines[first - 1].rfind("//", 0) == 0) first--;
@@ -72,7 +72,7 @@ std::set<std::string> words_of(const std::string& text) {
     return matches(text, std::regex("[a-z]+"));
 }
 
-// A cell of each row of the glossary's tables of terms.
+// Returns one cell of each row of the glossary's tables of terms.
 std::vector<std::string> glossary_column(size_t column) {
     std::vector<std::string> cells;
     for (const std::string& line : lines_of(read(PLUGIN + "GLOSSARY.md"))) {
@@ -94,7 +94,7 @@ TEST(House, EachPublicFunctionHasASentence) {
             static const std::regex DECLARATION("^(?:FROND_API|static inline) .*?(\\w+)\\(");
             if (!std::regex_search(lines[i], name, DECLARATION)) continue;
             count++;
-            // A macro may stand between the two.
+            // A macro may stand between comment and declaration.
             size_t at = i;
             while (at > 0 && lines[at - 1].rfind("#define", 0) == 0) at--;
             static const std::regex SENTENCE("^/[/*] [A-Z][a-z]+s [^]*\\.");
@@ -118,7 +118,7 @@ TEST(House, EnumValuesBeginWithTheirEnumsName) {
             if (value == "FROND_OK") continue;
             EXPECT_EQ(value.rfind(prefix, 0), 0u) << value << " of " << prefix;
         }
-        // A table's rows get the prefix from the macro that lists them.
+        // Rows of a table get the prefix from the macro that lists them.
         const std::set<std::string> macros = matches(body, std::regex("\\((FROND_\\w+_ENUM)\\)"), 1);
         for (const std::string& macro : macros)
             EXPECT_NE(code.find("#define " + macro + "(code, text) " + prefix + "##code"), std::string::npos) << macro;
@@ -128,14 +128,14 @@ TEST(House, EnumValuesBeginWithTheirEnumsName) {
 
 TEST(House, NamesAreWordsOfTheGlossary) {
     const std::string text = read(PLUGIN + "GLOSSARY.md"), code = without_comments(headers());
-    // Each type is in the glossary's list, and all that the list names is there.
+    // Each type is in the glossary's list, and each name in the list exists.
     const std::set<std::string> types = matches(code, std::regex("(?:\\} |typedef uint32_t )(frond_\\w+);"), 1);
     const std::set<std::string> listed = matches(text, std::regex("`(frond_\\w+)`"), 1);
     EXPECT_GT(types.size(), 40u);
     for (const std::string& type : types) EXPECT_EQ(listed.count(type), 1u) << "list " << type << " in GLOSSARY.md";
     const std::set<std::string> names = matches(code, std::regex("\\bfrond_\\w+"));
     for (const std::string& name : listed) EXPECT_EQ(names.count(name), 1u) << name << " of GLOSSARY.md is no name";
-    // No name has a word that the glossary replaced, unless it is a term of its own.
+    // No name contains a word that the glossary replaced, unless it is also a term.
     std::set<std::string> terms, replaced;
     for (const std::string& cell : glossary_column(0))
         for (const std::string& word : words_of(cell)) terms.insert(word);

@@ -1,4 +1,4 @@
-// Absurd sizes from a caller: refused with a text, before time or memory is spent on them.
+// Absurd sizes from a caller are refused with a text, before time or memory is spent on them.
 #include <chrono>
 #include <cstring>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace limits_tests {
 
-// Refused within a time that a game can wait for.
+// Expects a refusal within a time that a game can wait for.
 template <class Call>
 void expect_refused(Call&& call, frond_result code, const char* word) {
     const auto start = std::chrono::steady_clock::now();

@@ -1,4 +1,5 @@
-// Every public function, called wrongly: a result code and a text that names the remedy, nothing changed, no crash.
+// Every public function, called wrongly: it returns a code and a text that names the remedy, changes nothing and does
+// not crash.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -13,7 +14,7 @@ extern "C" int frond_hello_from_c(double* tip_height);
 static const double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 static const double INFINITE = std::numeric_limits<double>::infinity();
 
-// The last error names the thing that was wrong.
+// Returns whether the last error names what was wrong.
 static ::testing::AssertionResult error_names(const char* word) {
     if (std::strstr(frond_last_error(), word)) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << "\"" << frond_last_error() << "\" does not name " << word;
@@ -70,7 +71,7 @@ TEST(Header, OfAnotherVersionMakesDefsThatAreRefused) {
                   FROND_VERSION_MINOR + 1);
     EXPECT_TRUE(error_names(version));
     EXPECT_TRUE(error_names(frond_version_string()));
-    // Another patch version is the same API; another kind of def is another mistake.
+    // Another patch version has the same API; a def of another kind is a different mistake.
     frond_fill_def(&def, FROND_DEF_COOKIE('P') + 1);
     EXPECT_EQ(frond_plant_create(small.world, small.model, &def, &plant), FROND_OK);
     def.cookie = FROND_DEF_COOKIE('W');
@@ -391,7 +392,7 @@ TEST(Misuse, OfGrabsIsRefused) {
     ASSERT_EQ(frond_grab_create(small.plant, {0, 1, 0}, 10, &grab), FROND_OK) << frond_last_error();
     EXPECT_EQ(frond_grab_move(grab, {0, INFINITE, 0}), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(frond_grab_get(grab, nullptr, nullptr, nullptr), FROND_OK);
-    frond_plant_destroy(small.plant);  // takes its grabs along
+    frond_plant_destroy(small.plant);  // its grabs are destroyed with it
     EXPECT_FALSE(frond_grab_is_valid(grab));
     EXPECT_EQ(frond_grab_move(grab, {0, 0, 0}), FROND_RESULT_BAD_HANDLE);
     frond_grab_destroy(grab);
@@ -410,7 +411,7 @@ TEST(Misuse, HandlesOfADestroyedWorldAreStale) {
     EXPECT_FALSE(frond_world_is_valid(world));
     EXPECT_FALSE(frond_plant_is_valid(plant));
     EXPECT_FALSE(frond_grab_is_valid(grab));
-    SmallWorld another;  // takes the freed slots; the old handles stay stale
+    SmallWorld another;  // reuses the freed slots; the old handles stay stale
     EXPECT_FALSE(frond_world_is_valid(world));
     EXPECT_FALSE(frond_plant_is_valid(plant));
     frond_plant_destroy(plant);
@@ -479,7 +480,7 @@ TEST(Misuse, OfRigidBodiesIsRefused) {
     EXPECT_EQ(frond_rigid_get_body(rigid), nullptr);
     EXPECT_EQ(frond_rigid_get_state(rigid, &state), FROND_RESULT_BAD_HANDLE);
 
-    // A plane stays where it is, and a world takes its bodies along.
+    // A plane stays where it is, and a world's bodies are destroyed with it.
     def = good;
     def.shape = FROND_SHAPE_PLANE;
     ASSERT_EQ(frond_rigid_create(small.world, &def, &rigid), FROND_OK) << frond_last_error();

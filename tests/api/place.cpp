@@ -1,4 +1,4 @@
-// Plants that are put elsewhere, put back and asked for; worlds whose origin moves; surfaces of the previous frame.
+// Plants that are moved, reset and queried; worlds with shifted origins; surfaces of the previous frame.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -41,7 +41,7 @@ std::vector<float> surface_before(frond_plant plant, size_t count) {
     return {positions, positions + count};
 }
 
-// The largest difference after the second was moved by `way`.
+// Returns the largest difference after the second is moved by `way`.
 template <class Number>
 double difference(const std::vector<Number>& a, const std::vector<Number>& b, const frond_vec3& way = {0, 0, 0}) {
     EXPECT_EQ(a.size(), b.size());
@@ -51,7 +51,7 @@ double difference(const std::vector<Number>& a, const std::vector<Number>& b, co
     return most;
 }
 
-// Turned about the vertical.
+// Returns the rotation by an angle about the vertical axis.
 frond_quat about_y(double angle) {
     return {0, std::sin(angle / 2), 0, std::cos(angle / 2)};
 }
@@ -79,7 +79,7 @@ TEST_P(EveryPlace, APlantAtRestStaysAtRestElsewhere) {
     EXPECT_LT(difference(places_of(small.plant), before, {30, 2, -7}), 1e-12);
     step(small.world, 60);
     EXPECT_LT(difference(places_of(small.plant), before, {30, 2, -7}), 2e-5);
-    // Turned about the vertical too, it has the same forces.
+    // Rotated about the vertical axis as well, it has the same forces.
     ASSERT_EQ(frond_plant_set_transform(small.plant, {0, 0, 0}, about_y(2)), FROND_OK);
     frond_vec3 tip = {}, still = {};
     ASSERT_EQ(frond_plant_get_tip(small.plant, &tip), FROND_OK);
@@ -242,7 +242,7 @@ TEST(Place, ADefIsThatOfThePlantAsItIsSet) {
     EXPECT_EQ(now.group, def.group);
     EXPECT_EQ(now.mask, def.mask);
     EXPECT_EQ(now.user, def.user);
-    // The def has what was set since.
+    // The def includes changes made since creation.
     ASSERT_EQ(frond_plant_set_mechanics(small.plant, FROND_MECHANICS_TET_LINEAR), FROND_OK);
     ASSERT_EQ(frond_plant_set_integrator(small.plant, FROND_INTEGRATOR_BDF2), FROND_OK);
     ASSERT_EQ(frond_plant_set_effects(small.plant, FROND_EFFECT_DEFAULT), FROND_OK);
@@ -257,7 +257,7 @@ TEST(Place, ADefIsThatOfThePlantAsItIsSet) {
     EXPECT_EQ(frond_plant_create(small.world, small.model, &now, &other), FROND_OK) << frond_last_error();
 }
 
-// Gusts, a ball that lies on the ground and one that hits the plant, a grab and a viewer.
+// Each world has gusts, a ball on the ground, a grab and a viewer.
 TEST_P(EveryPlace, AWorldGoesOnAsItWasAfterItsOriginMoved) {
     const frond_vec3 origin = {512, -16, 2048};  // exact in both precisions
     SmallWorld here(def()), there(def());
@@ -287,7 +287,7 @@ TEST_P(EveryPlace, AWorldGoesOnAsItWasAfterItsOriginMoved) {
     ASSERT_EQ(frond_world_shift_origin(there.world, origin), FROND_OK) << frond_last_error();
     const frond_vec3 way = {-origin.x, -origin.y, -origin.z};
     EXPECT_LT(difference(places_of(there.plant), places_of(here.plant), way), 1e-10);
-    EXPECT_LT(difference(surface_of(there.plant), surface_of(here.plant), way), 2e-4);  // of floats so far away
+    EXPECT_LT(difference(surface_of(there.plant), surface_of(here.plant), way), 2e-4);  // floats at that distance
     for (int i = 0; i < 60; i++) {
         const frond_vec3 point = {0.1 * i, 2, -3}, moved = {point.x + way.x, point.y + way.y, point.z + way.z};
         frond_vec3 a = {}, b = {};
@@ -307,7 +307,7 @@ TEST_P(EveryPlace, AWorldGoesOnAsItWasAfterItsOriginMoved) {
     EXPECT_NEAR(lies[1].position.x - lies[0].position.x, way.x, 1e-3);
     EXPECT_NEAR(lies[1].position.y - lies[0].position.y, way.y, 1e-3);
     EXPECT_EQ(targets[1].x, targets[0].x + way.x);
-    // A wind that is set anew takes the gusts along.
+    // A new wind definition keeps the shifted gusts.
     frond_wind_def wind = frond_default_wind_def();
     wind.velocity = {4, 0, 1};
     wind.ground_height = way.y;
@@ -330,7 +330,7 @@ TEST(Place, WhatSleepsDoesNotWakeWhenTheOriginMoves) {
     EXPECT_FALSE(frond_plant_is_awake(small.plant));
     EXPECT_LT(difference(places_of(small.plant), before, {-100, 0, 0}), 1e-12);
     EXPECT_LT(difference(surface_of(small.plant), drawn, {-100, 0, 0}), 2e-5);
-    // A ray finds it there.
+    // A ray finds the plant at its new position.
     frond_ray_hit hit = {};
     ASSERT_EQ(frond_world_cast_ray(small.world, {-101, 0.2, 0}, {1, 0, 0}, 5, &hit), FROND_OK);
     EXPECT_EQ(hit.plant.id, small.plant.id);
@@ -339,20 +339,20 @@ TEST(Place, WhatSleepsDoesNotWakeWhenTheOriginMoves) {
 TEST(Place, MotionVectorsReachFromTheFrameBefore) {
     SmallWorld small;
     const std::vector<float> first = surface_of(small.plant);
-    EXPECT_EQ(surface_before(small.plant, first.size()), first);  // asked for the first time
+    EXPECT_EQ(surface_before(small.plant, first.size()), first);  // first query
     ASSERT_EQ(frond_plant_add_force(small.plant, frond_plant_get_node_count(small.plant) - 1, {5, 0, 0}), FROND_OK);
     std::vector<float> last = first;
     for (int frame = 0; frame < 5; frame++) {
         step(small.world, 2);
         const std::vector<float> now = surface_of(small.plant);
         EXPECT_NE(now, last);
-        // However often they are asked for in a frame.
+        // Repeated queries within a frame return the same.
         EXPECT_EQ(surface_before(small.plant, now.size()), last);
         EXPECT_EQ(surface_of(small.plant), now);
         EXPECT_EQ(surface_before(small.plant, now.size()), last);
         last = now;
     }
-    // Between steps too.
+    // The same holds between steps.
     ASSERT_EQ(frond_world_set_interpolation(small.world, 0.5), FROND_OK);
     const std::vector<float> between = surface_of(small.plant);
     EXPECT_EQ(surface_before(small.plant, last.size()), last);
@@ -360,7 +360,7 @@ TEST(Place, MotionVectorsReachFromTheFrameBefore) {
     ASSERT_EQ(frond_world_set_interpolation(small.world, 1), FROND_OK);
     EXPECT_EQ(surface_of(small.plant), last);
     EXPECT_EQ(surface_before(small.plant, last.size()), between);
-    // A plant that is put elsewhere leaves no streak.
+    // A plant that is moved elsewhere leaves no streak.
     ASSERT_EQ(frond_plant_set_transform(small.plant, {9, 0, 0}, {0, 0, 0, 1}), FROND_OK);
     const std::vector<float> elsewhere = surface_of(small.plant);
     EXPECT_EQ(surface_before(small.plant, elsewhere.size()), elsewhere);
@@ -370,7 +370,7 @@ TEST(Place, MotionVectorsReachFromTheFrameBefore) {
     ASSERT_EQ(frond_plant_reset(small.plant), FROND_OK);
     const std::vector<float> anew = surface_of(small.plant);
     EXPECT_EQ(surface_before(small.plant, anew.size()), anew);
-    // The origin takes the frame before along.
+    // The previous frame is shifted with the origin.
     step(small.world, 1);
     const std::vector<float> shown = surface_of(small.plant);
     const std::vector<float> previous = surface_before(small.plant, shown.size());

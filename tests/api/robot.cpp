@@ -1,5 +1,5 @@
-// Robots from URDF files: their links move as the joints say, their motors carry them, and they feel plants as the
-// ground under the plants does.
+// Robots from URDF files: their links move according to their joints, their motors carry them, and the force of plants
+// on them agrees with that on the ground under the plants.
 #include "frond/frond_robot.hpp"
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -72,7 +72,7 @@ TEST(Robot, HasTheLinksOfItsFile) {
     EXPECT_NEAR(reached, 1, 0.01);
 }
 
-// The file's z is the world's y, its y the world's -z.
+// The file's z is the world's y, and its y the world's -z.
 TEST(Robot, HasItsLinksWhereItsJointsPutThem) {
     const RobotWorld arm(ARM, false, {1, 0, 2});
     ASSERT_EQ(frond_robot_set_joint(arm.robot, arm.link("turn"), 0.5), FROND_OK);
@@ -109,11 +109,11 @@ TEST(Robot, HasMotorsThatCarryItsWeight) {
     ASSERT_EQ(frond_robot_set_joint(arm.robot, arm.link("lift"), side), FROND_OK);
     arm.step(60);
     EXPECT_NEAR(arm.state("lift").joint_position, side, 0.01);
-    // Each mass at its arm, the fingers' 0.2 kg 0.12 m beyond the wrist.
+    // Each mass at its lever arm; the fingers' 0.2 kg are 0.12 m beyond the wrist.
     const double moment = 9.81 * (4 * 0.35 + 2.5 * 1.05 + 0.5 * 1.47 + 0.2 * (1.44 + 0.12));
     EXPECT_NEAR(std::abs(arm.state("lift").motor_force), moment, 0.02 * moment);
     EXPECT_NEAR(std::abs(arm.state("turn").motor_force), 0, 0.5);
-    // Without its motor it falls.
+    // Without its motor the arm falls.
     ASSERT_EQ(frond_robot_release(arm.robot, arm.link("lift")), FROND_OK);
     arm.step(20);
     EXPECT_GT(arm.state("lift").joint_position, side + 0.1);
@@ -125,13 +125,13 @@ TEST(Robot, IsDrivenToPlacesAndAtSpeeds) {
     ASSERT_EQ(frond_robot_drive_at(arm.robot, arm.link("turn"), -0.8, 0), FROND_OK);
     ASSERT_EQ(frond_robot_drive_to(arm.robot, arm.link("left"), 0.03, 0, 0), FROND_OK);
     arm.step(60);
-    EXPECT_NEAR(arm.state("lift").joint_position, 0.5, 0.05);  // no faster than it was allowed
+    EXPECT_NEAR(arm.state("lift").joint_position, 0.5, 0.05);  // within its speed limit
     EXPECT_NEAR(arm.state("turn").joint_velocity, -0.8, 0.02);
     arm.step(180);
     EXPECT_NEAR(arm.state("lift").joint_position, 1.2, 0.01);
     EXPECT_NEAR(arm.state("turn").joint_position, -0.8 * 4, 0.05);
     EXPECT_NEAR(arm.state("left").joint_position, 0.03, 0.001);
-    // A limit stops what is driven against it.
+    // A joint limit stops a link that is driven against it.
     ASSERT_EQ(frond_robot_drive_at(arm.robot, arm.link("right"), 0.1, 0), FROND_OK);
     arm.step(120);
     EXPECT_NEAR(arm.state("right").joint_position, 0.04, 0.005);
@@ -170,7 +170,7 @@ TEST(Robot, MovesLinksThatTouchNothing) {
     EXPECT_EQ(link.body, nullptr);
 }
 
-// A stem is bent by the forearm, which then stays where it is.
+// The forearm bends a stem and then stays where it is.
 struct Pressed : testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(Robot, Pressed, testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
@@ -182,7 +182,7 @@ TEST_P(Pressed, LinksFeelWhatHoldsThePlant) {
     def.mechanics = GetParam();
     frond_plant plant = {};
     ASSERT_EQ(frond_plant_create(arm.world, model, &def, &plant), FROND_OK) << frond_last_error();
-    // The arm lies level, 0.45 m high, beside the stem.
+    // The arm is level, 0.45 m high, beside the stem.
     ASSERT_EQ(frond_robot_set_joint(arm.robot, arm.link("turn"), -0.5), FROND_OK);
     ASSERT_EQ(frond_robot_set_joint(arm.robot, arm.link("lift"), 1.7), FROND_OK);
     arm.step(10);
@@ -193,7 +193,7 @@ TEST_P(Pressed, LinksFeelWhatHoldsThePlant) {
     EXPECT_NEAR(weight.y, 9.81 * info.mass, 0.02 * 9.81 * info.mass);
     EXPECT_NEAR(weight.x, 0, 0.02 * weight.y);
 
-    // It turns into the stem.
+    // The arm turns into the stem.
     ASSERT_EQ(frond_robot_drive_to(arm.robot, arm.link("turn"), 0.15, 0.3, 0), FROND_OK);
     arm.step(300);
     const frond_link_state upper = arm.state("upper_arm"), fore = arm.state("forearm");
@@ -201,7 +201,7 @@ TEST_P(Pressed, LinksFeelWhatHoldsThePlant) {
     EXPECT_GT(upper.contact_count + fore.contact_count, 0);
     EXPECT_GT(length(link), 0.5);
     ASSERT_EQ(frond_plant_get_root_force(plant, {0, 0, 0}, &held, nullptr), FROND_OK);
-    // Ground, weight and links together: the ground and the links hold the plant's weight.
+    // Balance of forces: the ground and the links carry the plant's weight.
     const frond_vec3 rest = {held.x - weight.x - link.x, held.y - weight.y - link.y, held.z - weight.z - link.z};
     EXPECT_LT(length(rest), 0.05 * length(link));
     frond_model_destroy(model);

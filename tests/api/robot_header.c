@@ -1,4 +1,4 @@
-/* The header of robots compiles as C99, and a C program can load one and move it. */
+/* The robot header compiles as C99, and a C program can load a robot and move it. */
 #include "frond/frond_robot.h"
 
 int frond_robot_from_c(const char* file, double* reached) {

@@ -1,4 +1,4 @@
-// Plants from URDF files: links become organs, joints the tree, and what is wrong with a file is said.
+// Plants from URDF files: links become organs, joints become the tree, and errors in a file are reported.
 #include "support/urdf.hpp"
 
 #include <cstring>
@@ -38,7 +38,7 @@ TEST(UrdfPlant, OfEveryShapeStands) {
     EXPECT_STREQ(seedling.organs.at("stem").kind, "stem");
     EXPECT_STREQ(seedling.organs.at("leaf_1").kind, "blade");
     EXPECT_STREQ(seedling.organs.at("berry").kind, "fruit");
-    // The name says nothing, the file does.
+    // The kind comes from the file, not from the name.
     EXPECT_STREQ(seedling.organs.at("part_7").kind, "blade");
     frond_material grass;
     ASSERT_EQ(frond_material_preset("grass_blade", &grass), FROND_OK);
@@ -49,7 +49,7 @@ TEST(UrdfPlant, OfEveryShapeStands) {
     EXPECT_LT(wandering(seedling.model, FROND_MECHANICS_TET_COROTATIONAL), 0.003);
 }
 
-// A leaf that hangs on one stem by its joint, and all but touches another one.
+// Returns a leaf that its joint attaches to one stem and that all but touches another.
 std::string two_stems(const char* parent) {
     return urdf_robot(urdf_link("ground", "") + urdf_stem("stem_a") + urdf_stem("stem_b") +
                       urdf_link("leaf", urdf_visual("<box size=\"0.15 0.04 0.002\"/>", "0.095 0 0")) +
@@ -58,7 +58,7 @@ std::string two_stems(const char* parent) {
                                                        : urdf_joint("stem_b", "leaf", "-0.2 0 0.3")));
 }
 
-// The stem on which the leaf's part of the chain hangs, by where that is.
+// Returns the x coordinate of the stem to which the leaf's part of the chain is connected.
 double x_of_leaf_foot(const Loaded& loaded) {
     frond_chain_view chain;
     EXPECT_EQ(frond_model_get_chain(loaded.model, &chain), FROND_OK);
@@ -95,7 +95,7 @@ TEST(UrdfPlant, MeshesAreFoundByPackagePath) {
     const Loaded found(file);
     unsetenv("FROND_PACKAGE_PATH");
     EXPECT_EQ(found.organs.size(), 2u);
-    // Beside the file's own folders.
+    // Found beside the file's own folders.
     folder.write("p/plants/leaf.obj", leaf);
     EXPECT_EQ(Loaded(file).organs.size(), 2u);
 }

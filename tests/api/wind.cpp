@@ -1,4 +1,4 @@
-// The air of a world through the C API: what is refused, and what it does to a plant.
+// The air of a world through the C API: refused input, and its effect on a plant.
 #include <cmath>
 #include <cstring>
 
@@ -114,7 +114,7 @@ TEST(Wind, IsWhatItIsAskedForAndGrowsWithHeight) {
     ASSERT_EQ(frond_world_get_wind_at(small.world, {3, 1, 1}, &low), FROND_OK);
     EXPECT_NEAR(high.x, 8, 1e-9);
     EXPECT_NEAR(low.x, 8 * std::log(1 / 0.03) / std::log(10 / 0.03), 1e-9);
-    // Height is against gravity.
+    // Height is measured against gravity.
     ASSERT_EQ(frond_world_set_gravity(small.world, {0, 0, -9.81}), FROND_OK);
     ASSERT_EQ(frond_world_get_wind_at(small.world, {3, 1, 10}, &high), FROND_OK);
     EXPECT_NEAR(high.x, 8, 1e-6);
@@ -148,7 +148,7 @@ TEST(Wind, FieldOfTheGamesIsAskedOnceAPlantAndSubstep) {
     EXPECT_GT(force.z, 0.01);
     ASSERT_EQ(frond_world_get_wind_at(small.world, {0, 1, 0}, &air), FROND_OK);
     EXPECT_EQ(air.z, 10);
-    // Another wind keeps the field; without one nothing is asked any more.
+    // Another wind keeps the field; without a field, its function is no longer called.
     const frond_wind_def def = breeze();
     ASSERT_EQ(frond_world_set_wind(small.world, &def), FROND_OK);
     ASSERT_EQ(frond_world_get_wind_at(small.world, {0, 1, 0}, &air), FROND_OK);

@@ -1,4 +1,4 @@
-// A plant that is written as URDF is the same plant when it is read again.
+// A plant written as URDF is the same plant when it is read back.
 #include "frond/frond_robot.h"
 #include "support/urdf.hpp"
 

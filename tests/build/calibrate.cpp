@@ -1,4 +1,4 @@
-// A cage bends as the rod with the organ's true section does, and a plant stands as it was modelled.
+// A calibrated cage bends as a rod with the organ's true section does, and a plant stands as it was modelled.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,13 +10,13 @@
 using namespace frond;
 using frond::test::model_def;
 
-// A straight stem, held at its begin.
+// A straight stem, held at its beginning.
 struct Stem {
     const char* name;
     Vec3 begin, end;
     double radius_begin, radius_end;
-    double cell = 0;    // of the cage [m]; 0 lets Frond choose
-    double hollow = 0;  // of the material
+    double cell = 0;    // size of the cage's cells [m]; 0: Frond's choice
+    double hollow = 0;  // hollow share of the radius
     double young = 1e9;
     static constexpr double DENSITY = 1000;
 
@@ -51,8 +51,8 @@ static std::shared_ptr<const Model> build(const Stem& stem) {
     return build_from_stems(&given, 1, def);
 }
 
-// How far the end of a clamped beam moves under a force of one newton on it, and under its own weight taken across at
-// one m/s^2, by the beam formula [m].
+// Displacement of the end of a clamped beam under a force of one newton on it, and under its own weight, taken across
+// at one m/s^2, by the beam formula [m].
 struct BeamAnswer {
     double force = 0, weight = 0;
 };
@@ -170,7 +170,7 @@ TEST_P(EveryStem, SagsUnderItsOwnWeightAsTheBeamFormulaSays) {
     }
 }
 
-// Inverse iteration from a move across.
+// Returns the first natural frequency by inverse iteration from a transverse displacement.
 static double first_frequency(const Model& model, const Vec3& across) {
     Cantilever cage(model);
     const VecX masses = mechanics(FROND_MECHANICS_TET_LINEAR).masses(cage.elements, FROND_MASS_LUMPED).node;
@@ -189,7 +189,7 @@ static double first_frequency(const Model& model, const Vec3& across) {
 
 TEST(Calibration, MakesAStemSwayAsTheBeamFormulaSays) {
     for (const Stem& stem : STEMS) {
-        // Round ends weigh something beyond the formula's length: four thirds of a radius.
+        // Round ends add mass beyond the formula's length: four thirds of a radius.
         if (stem.radius_begin != stem.radius_end || stem.radius_begin > 0.06 * stem.length()) continue;
         const auto model = build(stem);
         const double wanted = std::pow(1.8751041, 2) / (2 * M_PI) *
@@ -198,7 +198,7 @@ TEST(Calibration, MakesAStemSwayAsTheBeamFormulaSays) {
     }
 }
 
-// Turn of the cage's upper end under a moment of one newton metre about the axis [rad].
+// Returns the rotation of the cage's upper end under a moment of one newton metre about the axis [rad].
 static double twist(const Model& model, double length) {
     Cantilever cage(model);
     std::vector<int> end;
@@ -218,7 +218,7 @@ static double twist(const Model& model, double length) {
     return turn;
 }
 
-// Four-node tets resist twist more than bending, and bending comes first.
+// Four-node tets resist twist more than bending, and calibration favours bending.
 TEST(Calibration, LetsARoundStemTwist) {
     for (const Stem& stem : STEMS) {
         if (stem.radius_begin != stem.radius_end || stem.axis() != Vec3(Vec3::UnitY())) continue;
@@ -230,7 +230,7 @@ TEST(Calibration, LetsARoundStemTwist) {
     }
 }
 
-// Where the end comes to lie under a force that keeps its direction, raised in steps, by Newton's method.
+// Returns the position of the end under a force of constant direction, raised in steps, by Newton's method.
 static Vec3 pulled_end(const Model& model, frond_mechanics which, const Vec3& force) {
     constexpr int STEPS = 10, MOST_ROUNDS = 100;
     Cantilever cage(model);
@@ -248,8 +248,8 @@ static Vec3 pulled_end(const Model& model, frond_mechanics which, const Vec3& fo
     return end_of(model, x);
 }
 
-// Bisshopp and Drucker (1945): under P L^2 / EI = 1 the end of a level cantilever sinks by 0.30172 of the length and
-// draws back by 0.05643.
+// Bisshopp and Drucker (1945): under P L^2 / EI = 1 the end of a level cantilever sinks by 0.30172 of its length and
+// moves towards the clamp by 0.05643.
 TEST(Calibration, HoldsUnderALargeLoad) {
     for (const Stem& stem : {STEMS[1], STEMS[3], STEMS[6], STEMS[7], STEMS[11]}) {
         const auto model = build(stem);
@@ -281,7 +281,7 @@ TEST(Calibration, ScalesWithTheMaterial) {
         EXPECT_NEAR(stiff->tet_young[e] / soft->tet_young[e], 100, 1e-3);
 }
 
-// A stem with two boughs.
+// Returns a stem with two boughs.
 static std::vector<frond_stem> boughs() {
     return {{-1, {0, 0, 0}, {0, 0.5, 0}, 0.012, 0.01},
             {0, {0, 0.5, 0}, {0.05, 1, 0}, 0.01, 0.006},
@@ -329,7 +329,7 @@ TEST(RestShape, StiffensAPlantThatCannotCarryItselfAndSaysSo) {
     EXPECT_LT(largest_unbalance(*model, FROND_MECHANICS_TET_COROTATIONAL), 1e-6);
 }
 
-// Greenhill (1881): a column of weight w per length topples above w L^3 / EI = 7.8373. The factor by which a softer
+// Greenhill (1881): a column of weight w per length buckles above w L^3 / EI = 7.8373. The factor by which a softer
 // column is stiffened must bring it to that limit, to the step of the search and the tolerance of the calibration.
 TEST(RestShape, FindsGreenhillsLimit) {
     const double length = 1, radius = 0.01;
@@ -344,7 +344,7 @@ TEST(RestShape, FindsGreenhillsLimit) {
         def.organs = &organ;
         def.organ_count = 1;
         const auto model = build_from_stems(&stem, 1, def);
-        // A given material gets what it needs to stand and two per cent.
+        // A given material becomes as stiff as it must be to stand, plus two per cent.
         EXPECT_NEAR(model->organ_stiffer.front(), std::max(1.0, 1.02 / share), 0.03 / share) << share;
     }
 }

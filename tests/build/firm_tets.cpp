@@ -1,11 +1,11 @@
-// Tets that are held, and tets that swing on a hinge.
+// Tets that are held firmly, and tets that turn about a hinge.
 #include "build/firm_tets.hpp"
 
 #include <gtest/gtest.h>
 
 using namespace frond;
 
-// A tet, one that shares a face with it, one that shares an edge with that, and one that shares a node.
+// Returns a tet, one that shares a face with it, one that shares an edge with that, and one that shares a node.
 static Cage four_tets() {
     Cage cage;
     cage.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},  {0, 0, 1},   {1, 1, 1},

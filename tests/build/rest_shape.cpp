@@ -1,4 +1,4 @@
-// The shape without gravity: weight bends it to the shape that was modelled, and organs that give way are told apart.
+// The shape without gravity: weight bends it to the modelled shape, and organs that are too soft are identified.
 #include <gtest/gtest.h>
 
 #include "build/build.hpp"
@@ -11,7 +11,7 @@ using frond::test::model_def;
 
 namespace rest_shape_tests {
 
-// A thick stem with a thin arm that reaches far out; `young` is the arm's.
+// Returns a thick stem with a long thin arm; `young` is Young's modulus.
 std::shared_ptr<const Model> gallows(double young) {
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.6, 0}, 0.02, 0.02},
                                 {0, {0, 0.6, 0}, {0.7, 0.65, 0}, 0.004, 0.003}};
@@ -56,7 +56,7 @@ TEST_P(EveryTets, WeightBendsItToTheShapeThatWasModelled) {
 TEST_P(EveryTets, NewtonsMethodFindsItInAFewRounds) {
     if (which == FROND_MECHANICS_TET_LINEAR) GTEST_SKIP() << "swells where it turns far, so that whole moves overshoot";
     const auto model = gallows(2e8);
-    ensure_rest_shape(*model, which, order);  // and the moduli
+    ensure_rest_shape(*model, which, order);  // calibrates the moduli too
     TetElements elements = make_tet_elements(*model, nullptr, order);
     const std::vector<uint8_t> held = with_middles(elements.nodes, model->root);
     RestSystem system(elements, held);
@@ -73,7 +73,7 @@ TEST_P(EveryTets, NewtonsMethodFindsItInAFewRounds) {
     EXPECT_LT(moves[7], 1e-9);
 }
 
-// A heavy head on a thin neck on a thick foot: it is the neck that has to be stiffer, not the head whose weight it is.
+// A heavy head on a thin neck on a thick foot: the neck has to be stiffened, not the head, whose weight bends it.
 TEST(Strengthen, FindsTheOrganThatGivesWay) {
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.4, 0}, 0.03, 0.03},
                                 {0, {0, 0.4, 0}, {0, 0.9, 0}, 0.004, 0.004},

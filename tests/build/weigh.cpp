@@ -1,4 +1,4 @@
-// The cage weighs what the chain carries: organ by organ the same, in every mechanics.
+// The cage weighs as much as the chain carries: the same organ by organ, with every mechanics.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -34,7 +34,7 @@ TEST_P(WeighedPlant, HangsEachTetOnItsOwnOrgan) {
     }
 }
 
-// An organ that the chain leaves out, a tie, hangs on others.
+// An organ without chain nodes, such as a tie, hangs on others.
 TEST_P(WeighedPlant, GivesOrgansOfTheChainTheMassOfTheirTets) {
     std::vector<double> tets(model->organs.size(), 0), chain(tets), borne(tets);
     const std::vector<int> hangs = hang_tets(*model);

@@ -1,5 +1,5 @@
-// Contacts of cages: the same from every layout of the hash; found wherever FCL sees boundaries cross; with depths and
-// normals by which bodies come apart the right way.
+// Contacts of cages: the same with every layout of the hash, found wherever FCL sees boundaries cross, and with depths
+// and normals along which bodies separate in the right direction.
 #include "collide/cage_contact.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ void expect_sound(const std::vector<CollisionBody>& bodies, const std::vector<Ca
         ASSERT_TRUE(contact.point.allFinite() && contact.normal.allFinite());
         EXPECT_NEAR(contact.normal.norm(), 1, 1e-12);
         EXPECT_GT(contact.depth, 0);
-        // Opposite forces along the normal on both points have no torque.
+        // Opposite forces along the normal on both points exert no torque.
         const Vec3 a = place_of(bodies, contact.a), b = place_of(bodies, contact.b);
         EXPECT_LT((contact.point - a).norm(), 1e-12);
         EXPECT_LT((b - a).cross(contact.normal).norm(), 1e-9);
@@ -42,7 +42,7 @@ void expect_sound(const std::vector<CollisionBody>& bodies, const std::vector<Ca
     }
 }
 
-// Bends a plant into a circle of the curvature [1/m]; beyond a full turn it is in itself.
+// Bends a plant into a circle of the given curvature [1/m]; beyond a full turn it overlaps itself.
 void bend(TestCage& cage, double curvature) {
     for (Vec3& place : cage.places) {
         const double angle = curvature * place.y(), radius = 1 / curvature + place.x();
@@ -83,7 +83,7 @@ TEST(CageContact, BoundariesThatCrossGiveContacts) {
     Dice dice(2);
     std::array<int, 2> seen = {};
     for (int n = 0; n < 300; ++n) {
-        // Rods, blades and blocks, coarse, so that they often cross without a node inside.
+        // Rods, blades and blocks, so coarse that they often cross without a node inside.
         const auto random_box = [&] {
             return box_cage(int(dice.uniform(1, 4)), int(dice.uniform(1, 3)), 1,
                             Vec3(dice.uniform(0.2, 1.5), dice.uniform(0.05, 0.8), dice.uniform(0.02, 0.3)));
@@ -97,7 +97,7 @@ TEST(CageContact, BoundariesThatCrossGiveContacts) {
         const std::vector<CageContact> contacts = contacts_of(bodies);
         expect_sound(bodies, contacts);
         const bool cross = deepest_overlap(a.boundary(), b.boundary()).pairs > 0;
-        // Where they do not cross, one can still be inside the other.
+        // If they do not cross, one can still be inside the other.
         EXPECT_TRUE(!cross || !contacts.empty()) << n;
         for (const CageContact& contact : contacts) EXPECT_TRUE(cross || contact.kind == CONTACT_NODE_IN_TET) << n;
         ++seen[cross];
@@ -107,7 +107,7 @@ TEST(CageContact, BoundariesThatCrossGiveContacts) {
 }
 
 TEST(CageContact, BladesThatCrossWithoutANodeInsideArePushedApartAtTheirRims) {
-    // Rims of two blades that stand on each other, 1 cm past each other: one lies along x above, the other along z.
+    // Rims of two upright blades that overlap by 1 cm: one lies along x above, the other is rotated about y.
     TestCage upper = box_cage(3, 1, 1, {0.6, 0.2, 0.004}), lower = box_cage(3, 1, 1, {0.6, 0.2, 0.004});
     upper.move({-0.27, -0.005, -0.002});
     lower.move({-0.31, -0.195, -0.002});
@@ -127,8 +127,8 @@ TEST(CageContact, BladesThatCrossWithoutANodeInsideArePushedApartAtTheirRims) {
 }
 
 TEST(CageContact, WhatSankDeepComesOutWhereItWentIn) {
-    // A block, 0.35 m deep in a slab of 0.5 m: its deepest nodes are nearer to the slab's lower side than to where they
-    // came in.
+    // A block, 0.35 m deep in a slab of 0.5 m: its deepest nodes are nearer to the slab's lower side than to the side
+    // where they entered.
     const TestCage ground = box_cage(6, 5, 6, {1.2, 0.5, 1.2});
     TestCage block = box_cage(4, 8, 4, {0.4, 0.8, 0.4});
     block.move({0.41, 0.15, 0.37});
@@ -157,7 +157,7 @@ TEST(CageContact, WhatIsWhollyInsideLeavesByTheNearestFace) {
     }
 }
 
-// Turns both and moves a towards b until it is at most 0.02 m in it. False if they never met.
+// Turns both and moves a towards b until they overlap by at most 0.02 m. Returns false if they never met.
 bool bring_together(TestCage& a, TestCage& b, Dice& dice) {
     constexpr double STEP = 0.02, FAR = 1.2;
     a.move(-a.middle());
@@ -174,7 +174,7 @@ bool bring_together(TestCage& a, TestCage& b, Dice& dice) {
 }
 
 TEST(CageContact, ContactsAreAsDeepAsTheDeepestPairOfFaces) {
-    // Edges that hang on a node inside go under ridges that the node itself is not under.
+    // Edges of a node that is inside may reach deeper, under ridges that the node itself is not under.
     Dice dice(11);
     for (int n = 0; n < 60; ++n) {
         const bool blades = n % 2;
@@ -206,7 +206,7 @@ TEST(CageContact, ConvexBodiesComeApartAlongTheirDeepestContacts) {
             way += step;
         }
         EXPECT_FALSE(crosses()) << n;
-        EXPECT_LT(way.norm(), 0.06) << n;  // they went at most 0.02 into each other
+        EXPECT_LT(way.norm(), 0.06) << n;  // they overlapped by at most 0.02 m
     }
     EXPECT_EQ(overlapped, 60);
 }
@@ -214,7 +214,7 @@ TEST(CageContact, ConvexBodiesComeApartAlongTheirDeepestContacts) {
 TEST(CageContact, PartsOfAPlantCollideButNotWhereTheyGrowOutOfEachOther) {
     const TestCage tree = tree_cage(12, 8, 6);
     EXPECT_TRUE(contacts_of({tree.body(true)}).empty());
-    // Bent a little it does not touch itself; rolled up it does, if it shall.
+    // Bent a little the plant does not touch itself; rolled up it does, if self-contact is on.
     TestCage bent = tree;
     bend(bent, 0.3);
     EXPECT_TRUE(contacts_of({bent.body(true)}).empty());
@@ -240,7 +240,7 @@ TEST(CageContact, PartsOfAPlantCollideButNotWhereTheyGrowOutOfEachOther) {
 TEST(CageContact, ABladeThatFoldsOnItselfIsFound) {
     TestCage blade = box_cage(20, 2, 1, {1, 0.2, 0.01}, 0.1);
     for (Vec3& place : blade.places) {
-        // Rolled about an axis along y with a radius that hardly grows: the second turn lies in the first.
+        // Rolled about an axis along y with a radius that hardly grows, so that the second turn overlaps the first.
         const double radius = 0.1 + place.z() + 0.002 * place.x(), angle = place.x() / 0.1;
         place = Vec3(radius * std::sin(angle), place.y(), radius * std::cos(angle));
     }
@@ -261,7 +261,7 @@ TEST(CageContact, BodiesWithoutPiecesTakeNoPart) {
     EXPECT_TRUE(contacts_of({}).empty());
 }
 
-// Not a benchmark: that all layouts agree on a scene of the size that the paper names, and what each costs here.
+// Not a benchmark: checks that all layouts agree on a scene of the paper's size, and prints what each costs here.
 TEST(CageContact, SeventeenPlantsOfTwentyThousandTetsAgreeInEveryLayout) {
     const TestCage tree = tree_cage(30, 20, 10);
     std::vector<TestCage> trees(17, tree);

@@ -1,11 +1,11 @@
-// Distances of capsules and triangles, with FCL as referee, and times of contact, with small steps in time as referee.
-// Wrong answers of FCL 0.7 that these tests keep clear of:
+// Distances of capsules and triangles, with FCL as referee, and times of contact, with small time steps as referee.
+// Wrong results of FCL 0.7 that these tests avoid:
 // - scenes of millimetres: absolute tolerances make it miss most collisions of capsules with triangles; scenes here
-//   have size 1, and answers within 1e-5 of touching are not judged;
+//   have size 1, and results within 1e-5 of touching are not judged;
 // - penetration depth, which is often off by more than 5 %: only distance and overlap are compared;
-// - fcl::distance and fcl::collide know no capsule against a triangle, say so on stderr and return the largest double:
-//   its own GJK (GJKSolver_indep) is asked directly;
-// - fcl::conservativeAdvancement misses contacts: small steps in time judge moving shapes.
+// - fcl::distance and fcl::collide do not support a capsule against a triangle, report it on stderr and return the
+//   largest double: its own GJK (GJKSolver_indep) is called directly;
+// - fcl::conservativeAdvancement misses contacts: small time steps judge moving shapes.
 #include "collide/capsule.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace frond::test {
 namespace capsule_tests {
 
-constexpr double REFEREE_TOLERANCE = 1e-5;  // of FCL's distances [m]
+constexpr double REFEREE_TOLERANCE = 1e-5;  // tolerance of FCL's distances [m]
 
 Vec3 random_point(Dice& dice, double size) {
     return Vec3(dice.uniform(-size, size), dice.uniform(-size, size), dice.uniform(-size, size));
@@ -32,7 +32,7 @@ Corners random_triangle(Dice& dice) {
     return {corner, corner + random_point(dice, 0.8), corner + random_point(dice, 0.8)};
 }
 
-// Points that lie on the axes and the surfaces' distance between them; the normal leads from b to a.
+// Checks that the points lie on the axes, the surfaces' distance is between them, and the normal points from b to a.
 void expect_consistent(const Gap& gap, double radius) {
     ASSERT_TRUE(gap.normal.allFinite() && gap.on_a.allFinite() && gap.on_b.allFinite() && std::isfinite(gap.distance));
     EXPECT_NEAR(gap.normal.norm(), 1, 1e-12);
@@ -43,7 +43,7 @@ void expect_consistent(const Gap& gap, double radius) {
     }
 }
 
-// The referee gives -1 or 0 where shapes overlap.
+// The referee returns -1 or 0 if shapes overlap.
 void expect_same(const Gap& gap, double referee, bool referee_overlaps) {
     if (gap.distance > REFEREE_TOLERANCE) {
         EXPECT_NEAR(gap.distance, referee, REFEREE_TOLERANCE);
@@ -64,7 +64,7 @@ void expect_same_as_referee(const Capsule& a, const Capsule& b) {
 
 TEST(Capsule, RandomPairsAreAsFarApartAsTheRefereeSays) {
     Dice dice(1);
-    std::array<int, 4> met = {};  // ends of the axes that are nearest: none, of one, of both; and overlaps
+    std::array<int, 4> met = {};  // pairs whose nearest points are ends of no axis, of one, of both; and overlaps
     for (int n = 0; n < 5000; ++n) {
         const Capsule a = random_capsule(dice), b = random_capsule(dice);
         expect_same_as_referee(a, b);
@@ -107,7 +107,7 @@ TEST(Capsule, KnownGapsAreExact) {
     EXPECT_DOUBLE_EQ(gap_between(along_x, Capsule{{0.3, 1, 0}, {0.3, 2, 0}, 0.2}).distance, 0.7);
     EXPECT_DOUBLE_EQ(gap_between(along_x, Capsule{{4, 4, 0}, {9, 4, 0}, 0.2}).distance, 4.7);
     EXPECT_EQ(gap_between(along_x, Capsule{{0, 1, -1}, {0, 1, 1}, 0.2}).normal, Vec3(0, -1, 0));
-    // Axes that cross, and a capsule in itself: as deep as both radii.
+    // Axes that cross, and a capsule in itself: as deep as the sum of the radii.
     EXPECT_DOUBLE_EQ(gap_between(along_x, Capsule{{0, -1, 0}, {0, 1, 0}, 0.2}).distance, -0.3);
     EXPECT_EQ(std::abs(gap_between(along_x, Capsule{{0, -1, 0}, {0, 1, 0}, 0.2}).normal.z()), 1);
     EXPECT_EQ(gap_between(along_x, along_x).normal.x(), 0);
@@ -146,8 +146,8 @@ TEST(Capsule, DegenerateTrianglesAreAsFarAwayAsTheRefereeSays) {
         const Capsule a = random_capsule(dice);
         const Corners flat = random_triangle(dice);
         const Vec3 along = a.end - a.begin, aside = along.cross(random_point(dice, 1)).normalized();
-        // The axis beside the face and parallel to it, in its plane, along an edge; a triangle that is a segment or a
-        // point.
+        // The axis is beside the face and parallel to it, in its plane, or along an edge; triangles that are a segment
+        // or a point.
         const Vec3 at = a.begin + dice.uniform(-0.5, 0.5) * along + dice.uniform(0, 0.6) * aside;
         const Vec3 third = along.cross(aside);
         expect_same_as_referee(a, Corners{at, at + along, at + third});
@@ -159,7 +159,7 @@ TEST(Capsule, DegenerateTrianglesAreAsFarAwayAsTheRefereeSays) {
     }
 }
 
-// What moves between two shapes that are alike.
+// Moves a shape, and interpolates between two shapes of one kind.
 Capsule moved(const Capsule& capsule, const Vec3& begin, const Vec3& end) {
     return {capsule.begin + begin, capsule.end + end, capsule.radius};
 }
@@ -173,8 +173,8 @@ Corners between(const Corners& before, const Corners& after, double time) {
     return now;
 }
 
-// Steps through time: a meeting that the steps see is found, no later than they see it; at the time that was found the
-// shapes touch, and before it the steps see them apart.
+// Checks the impact with small time steps: if the steps see a contact, it is found, no later than by them; at the time
+// found the shapes touch, and before it the steps see them apart.
 template <class Other>
 void expect_impact(const Capsule& a0, const Capsule& a1, const Other& b0, const Other& b1, int& hits) {
     constexpr int STEPS = 400;
@@ -201,7 +201,7 @@ TEST(Capsule, MovingCapsulesMeetWhenSmallStepsSaySo) {
         const Capsule a = random_capsule(dice), b = random_capsule(dice);
         const Vec3 way = dice.uniform(0.3, 3) * (b.begin - a.begin) + random_point(dice, 0.5);
         const Vec3 other = random_point(dice, 0.5);
-        // Straight on; and turning and stretching on the way.
+        // Straight on, and with rotation and stretching.
         expect_impact(a, moved(a, way, way), b, moved(b, other, other), hits);
         expect_impact(a, moved(a, way, way + random_point(dice, 1)), b, random_capsule(dice), hits);
     }
@@ -231,7 +231,7 @@ TEST(Capsule, TimesOfContactAreThoseOfTheFormula) {
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->time, (0.2 - 0.03) / way.x(), 1e-5);
     EXPECT_LT((hit->gap.normal - Vec3(-1, 0, 0)).norm(), 1e-9);
-    // Thin ones: a needle through a needle and through a face, whatever the speed.
+    // Thin shapes: a needle through a needle and through a face, at any speed.
     const Capsule needle = {{-1, -1e-3, 0}, {-1, 1e-3, 0}, 1e-6}, other = {{0, 0, -1e-3}, {0, 0, 1e-3}, 1e-6};
     for (const double far : {2.0, 2e3, 2e6}) {
         const Vec3 on(far, 0, 0);
@@ -243,7 +243,7 @@ TEST(Capsule, TimesOfContactAreThoseOfTheFormula) {
         ASSERT_TRUE(through);
         EXPECT_NEAR(through->time * far, 1, 1e-5);
     }
-    // Past each other with a hair's breadth between them, resting, and overlapping from the start.
+    // Past each other at a hair's breadth, at rest, and overlapping from the start.
     const Capsule past = moved(ball, Vec3(0, 0, 0.03001), Vec3(0, 0, 0.03001));
     EXPECT_FALSE(first_impact(past, moved(past, way, way), stem, stem));
     EXPECT_FALSE(first_impact(ball, ball, stem, stem));

@@ -1,5 +1,5 @@
-// Contacts that are followed: to where the two are nearest by now, no farther than they touched, and only on the same
-// side.
+// Contacts that are followed: to the points where the two are nearest now, within the reach of the old ones, and only
+// on the same side.
 #include "collide/contact_gap.hpp"
 
 #include <gtest/gtest.h>
@@ -11,20 +11,20 @@ namespace contact_gap_tests {
 
 constexpr double REACH = 0.01, IN = 0.002;  // [m]
 
-// A block on a slab, a little in it; the slab is body 1.
+// A block that overlaps a slab slightly; the slab is body 1.
 struct BlockOnSlab {
     TestCage block = box_cage(1, 1, 1, Vec3(0.1, 0.1, 0.1)), slab = box_cage(4, 1, 4, Vec3(0.4, 0.1, 0.4));
     BlockOnSlab() { block.move(Vec3(0.15, 0.1 - IN, 0.15)); }
     std::vector<CollisionBody> bodies() const { return {block.body(), slab.body()}; }
     bool follow(CageContact& contact) const { return follow_contact(block.body(), slab.body(), REACH, contact); }
-    // The contact of a corner of the block, as the search finds it.
+    // Returns the contact of a corner of the block, as the search finds it.
     CageContact corner() const {
         for (const CageContact& contact : contacts_of(bodies()))
             if (contact.kind == CONTACT_NODE_IN_TET && contact.a.body == 0 && contact.normal.y() > 0.99) return contact;
         ADD_FAILURE() << "no corner is in the slab";
         return {};
     }
-    // The contact of a lower edge of the block, at a place along it, in the middle of the slab's top.
+    // Returns a contact of a lower edge of the block, at a share of its length, in the middle of the slab's top.
     CageContact edge(double along) const {
         CageContact contact = corner();
         for (const auto& [begin, end] : block.collider.edges) {
@@ -71,7 +71,7 @@ TEST(ContactGap, EndsWhereTheOtherIsOutOfReachOrLiesAnotherWayRound) {
     EXPECT_EQ(contact.depth, depth);
 }
 
-// Anywhere along it is as near: what bears there stays about there.
+// All points along the edge are equally near: a contact stays about where it was.
 TEST(ContactGap, DoesNotSlideFarAlongAnEdgeThatLiesFlat) {
     for (const double along : {0.3, 0.5, 0.7}) {
         BlockOnSlab scene;

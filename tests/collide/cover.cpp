@@ -1,4 +1,4 @@
-// Covers: capsules hold their pieces, and the pieces that meet are all that have contacts.
+// Covers: capsules contain their regions of a cage, and the regions whose capsules meet have all contacts.
 #include "collide/cover.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace frond::test {
 namespace cover_tests {
 
-// Along the stem, where the test's pieces are cut.
+// Returns the axes of the regions, into which the test's stem is cut by height.
 std::vector<Axis> axes_of(const TestCage& cage, const std::function<Vec3(const Vec3&)>& moved) {
     std::vector<Axis> axes;
     for (int p = 0; p < cage.collider.piece_count; ++p)
@@ -82,9 +82,9 @@ TEST(Cover, APlantThatNothingIsNearHasNoPieces) {
     EXPECT_FALSE(pieces[0].empty());
     EXPECT_FALSE(pieces[1].empty());
     EXPECT_TRUE(pieces[2].empty());
-    // The margin counts.
+    // The margin is taken into account.
     EXPECT_FALSE(find_meeting_pieces({a.body(false), c.body(false)}, 5)[0].empty());
-    // At rest nothing of a plant meets itself but what is near anyhow.
+    // Without bodies, nothing meets.
     EXPECT_TRUE(find_meeting_pieces({}, 0.01).empty());
 }
 

@@ -1,4 +1,4 @@
-// Every layout of the hash finds the pairs that trying all of them finds, whatever its cells and its table.
+// Every layout of the hash finds the pairs that brute force finds, with any cell size and table size.
 #include "collide/hash.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using Pairs = std::vector<std::array<int, 2>>;
 Pairs pairs_of(frond_hash_layout layout, const BoxSet& items, const BoxSet& queries, int table_size, double cell_size) {
     HashMemory memory;
     Pairs pairs;
-    // Twice, so that memory from before does not show.
+    // Run twice, so that leftovers in reused memory would show.
     for (int n = 0; n < 2; ++n) {
         pairs.clear();
         hash_row(layout).find(items, queries, table_size, cell_size, memory, pairs);
@@ -74,7 +74,7 @@ TEST(Hash, BoxesThatTouchAreAPairAndThoseOfAGroupAreNot) {
     }
 }
 
-// Places as far apart as numbers reach, and some beyond.
+// Boxes as far apart as doubles reach, and beyond.
 TEST(Hash, EveryLayoutTakesBoxesWhoseWayApartIsNoNumber) {
     const double far = 1.7e308;
     for (const double farthest : {1e18, far, double(INFINITY)}) {
@@ -87,7 +87,7 @@ TEST(Hash, EveryLayoutTakesBoxesWhoseWayApartIsNoNumber) {
     }
 }
 
-// Cells are then made larger: boxes that are thousands of them wide would take minutes.
+// Cells are made larger then: boxes that are thousands of cells wide would take minutes.
 TEST(Hash, BoxesOfAPlantThatIsDrawnOutToAThousandTimesItsSizeAreFoundInAWhile) {
     Dice dice(2);
     const BoxSet items = random_boxes(dice, 1500, 1e3, 1e3, 2), queries = random_boxes(dice, 1500, 1e3, 1e3, 2);
@@ -101,7 +101,7 @@ TEST(Hash, BoxesOfAPlantThatIsDrawnOutToAThousandTimesItsSizeAreFoundInAWhile) {
     }
 }
 
-// A pair is told once, however many cells and buckets its boxes share.
+// A pair is reported once, however many cells and buckets its boxes share.
 TEST(Hash, ATableOfOneBucketTellsEachPairOnce) {
     Dice dice(3);
     const BoxSet items = random_boxes(dice, 50, 1, 1, 2), queries = random_boxes(dice, 50, 1, 1, 2);

@@ -1,4 +1,4 @@
-// Lanes: functions are right, and each number comes out as if it were alone, to the last bit, whatever the width.
+// Lanes: functions are correct, and each number is the same as if computed alone, to the last bit, for any width.
 #include "core/lane_functions.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace frond::test {
 namespace lanes_tests {
 
-// All functions of a list of numbers, in lanes of a width.
+// Applies all functions to a list of numbers, in lanes of a given width.
 struct Functions {
     const std::vector<double>& in;
     std::vector<double>& out;
@@ -73,7 +73,7 @@ TEST(Lanes, HaveTheFunctionsThatTheyAreNamedFor) {
     }
 }
 
-// Tells whether any lane but the others is.
+// Counts wrong results of any() and bits_of() when a single lane is set.
 struct AskLanes {
     unsigned& wrong;
     template <class S>

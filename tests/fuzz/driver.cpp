@@ -2,8 +2,8 @@
 //
 //     fuzz_calls [-runs=N] [-max_total_time=S] [-seed=N] [-max_len=N] [corpus folder or file ...]
 //
-// Runs the corpus as it is, then mutations of it. What a run was given is written to crash.bin before it, so that it
-// can be run again after a crash.
+// Runs the corpus as it is, then mutations of it. The input of each run is first written to crash.bin, so that it can
+// be run again after a crash.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -110,7 +110,7 @@ void mutate(Bytes& bytes, std::mt19937& random, const std::vector<Bytes>& corpus
 
 void run(const Bytes& bytes) {
     std::ofstream("crash.bin", std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), long(bytes.size()));
-    const Bytes copy(bytes);  // of its own length, for the address sanitizer
+    const Bytes copy(bytes);  // of exact length, for the address sanitizer
     LLVMFuzzerTestOneInput(copy.data(), copy.size());
 }
 

@@ -1,11 +1,11 @@
-// Target: calls of the C API in any order with any arguments. Those that read files, and robots, are fuzz_urdf's.
+// Target: calls of the C API in any order with any arguments. Functions that read files, and robots, are in fuzz_urdf.
 #include "fuzz/input.hpp"
 
 using namespace frond::fuzz;
 
 namespace {
 
-// Handles that are good, gone and made up.
+// Handles that are valid, destroyed and invented.
 struct Stage {
     Input& input;
     frond_model model = {};
@@ -93,7 +93,7 @@ void set_state(Stage& s) {
     frond_plant_set_state(plant, x.data(), v.data(), s.input.byte() < 250 ? count : s.input.integer());
 }
 
-// Values that a game may write there.
+// Writes values as a game might.
 void blow(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user) {
     for (int i = 0; i < count; i++) velocities[i] = {*static_cast<double*>(user) * points[i].y, std::sin(time), 0};
 }
@@ -356,7 +356,7 @@ constexpr Call CALLS[] = {create_plant,
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    constexpr int MOST = 60;  // calls
+    constexpr int MOST = 60;  // largest number of calls
     Input input = {data, size};
     Stage stage = {input, shared_model(), {}, {}, {}, {}, {}, {}};
     frond_world_def def = frond_default_world_def();

@@ -1,4 +1,4 @@
-// Target: mesh files and arrays, through import to a cage, and a step of the plant.
+// Target: mesh files and arrays, from import to a cage, and a step of the plant.
 #include <unistd.h>
 
 #include <filesystem>
@@ -33,7 +33,7 @@ void try_model(frond_result result, frond_model model) {
     frond_model_destroy(model);
 }
 
-// The default one in most fields.
+// A def with default values in most fields.
 struct RandomDef {
     frond_organ_material organ = {};
     frond_model_def def = frond_default_model_def();
@@ -61,7 +61,7 @@ void try_file(Input& input) {
     static const std::string base =
         (std::filesystem::temp_directory_path() / ("frond_fuzz_" + std::to_string(getpid()) + ".")).string();
     const std::string path = base + ENDS[input.below(9)];
-    // The def is the default one: all bytes are the file's.
+    // The def is the default one, so that all bytes go to the file.
     std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(input.data), long(input.left));
     const frond_model_def def = frond_default_model_def();
     frond_model model = {};

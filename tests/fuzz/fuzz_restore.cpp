@@ -1,4 +1,4 @@
-// Target: frond_world_restore, with a head that is right but for what the bytes make of it.
+// Target: frond_world_restore, mostly with a header whose length and checksum are repaired after the bytes' changes.
 #include "fuzz/input.hpp"
 
 using namespace frond::fuzz;
@@ -40,7 +40,7 @@ struct Garden {
 
 }  // namespace
 
-// The bytes: where in the snapshot, and what is written there; so that small files go far.
+// The bytes select positions in the snapshot and what is written there, so that small inputs reach far.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     static Garden garden;
     Input input = {data, size};

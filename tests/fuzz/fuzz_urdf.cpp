@@ -43,7 +43,7 @@ std::string shape(Input& input, const char* tag) {
     return std::string("<") + tag + ">" + origin + "<geometry>" + geometry(input) + "</geometry></" + tag + ">";
 }
 
-// A tree, mostly, of links with numbers of all kinds.
+// Returns a robot of links with numbers of all kinds, mostly a tree.
 std::string made_up(Input& input) {
     static const char* const JOINTS[] = {"fixed", "revolute", "continuous", "prismatic", "floating", "planar", "ball"};
     const int links = 1 + input.below(8);
@@ -98,7 +98,7 @@ void try_plant(const std::string& path) {
     frond_model_destroy(model);
 }
 
-// Calls for its joints and links, most of them with numbers of links that there are.
+// Calls functions of joints and links, mostly with valid link numbers.
 void drive(Input& input, frond_robot robot, frond_plant plant) {
     const int count = frond_robot_get_link_count(robot);
     for (int i = 0; i < 12 && !input.is_empty(); i++) {

@@ -1,4 +1,5 @@
-// Input: the bytes of a run, taken one choice after the other; zeros at their end. And what has to hold after any call.
+// Input: the bytes of a run, consumed one choice at a time, followed by zeros; and the conditions that hold after any
+// call.
 #pragma once
 
 #include <cmath>
@@ -33,7 +34,7 @@ struct Input {
         left -= count;
         return value;
     }
-    // Mostly numbers that mean something, sometimes any.
+    // Returns mostly meaningful numbers, sometimes arbitrary ones.
     double number() {
         static const double KNOWN[] = {0,   1,   -1,   0.1,  0.5,    -0.3,   2,   10,      1e-6,
                                        1e6, 1e9, 1e10, 1e30, -1e308, 1e-310, NAN, INFINITY};
@@ -58,7 +59,7 @@ inline void require(bool holds, const char* what) {
     std::abort();
 }
 
-// Whatever was done, what a plant tells is finite.
+// Whatever was done, all that a plant reports is finite.
 inline void require_finite(frond_plant plant) {
     const int nodes = frond_plant_get_node_count(plant);
     if (nodes == 0) return;

@@ -21,7 +21,7 @@ std::string read_bytes(const std::filesystem::path& path) {
     return bytes.str();
 }
 
-// A locale that writes 1.234,5: set for the life of this object.
+// A locale that writes 1.234,5, active during the lifetime of this object.
 struct OddNumbers : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
     char do_thousands_sep() const override { return '.'; }
@@ -37,7 +37,7 @@ TEST(GrowFiles, CommittedFilesAreReproducedByteForByte) {
         const std::filesystem::path folder = std::filesystem::path(FROND_SOURCE_DIR) / "models" / kind;
         const GrownPlant plant = grow_plant(kind);
         const std::string name = kind;
-        // EXPECT_TRUE instead of EXPECT_EQ: a difference of two megabytes is no help to anybody.
+        // EXPECT_TRUE instead of EXPECT_EQ, since a printed difference of two megabytes would help nobody.
         EXPECT_TRUE(read_bytes(folder / (name + ".obj")) == obj_text(plant, name + ".mtl")) << name;
         EXPECT_EQ(read_bytes(folder / (name + ".mtl")), mtl_text(plant));
         for (const GrownImage& image : plant.images)

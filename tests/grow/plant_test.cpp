@@ -1,4 +1,4 @@
-// Grown plants: their exact counts, sound triangles, and organs that hang together and keep apart from each other.
+// Grown plants: exact counts, sound triangles, and organs that are connected but do not cross others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,14 +24,14 @@ Point cross(const Point& a, const Point& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// The plant as a reader of the OBJ file gets it, rounded.
+// Returns the plant with the rounded numbers that a reader of the OBJ file gets.
 GrownPlant rounded(GrownPlant plant) {
     for (Point& p : plant.positions)
         for (double& x : p) x = std::round(x * 1e5) / 1e5;
     return plant;
 }
 
-// The edge from p to q passes through the triangle (Moeller, Trumbore 1997).
+// Returns whether the edge from p to q passes through the triangle (Moeller, Trumbore 1997).
 bool edge_passes(const Point& p, const Point& q, const Point& a, const Point& b, const Point& c) {
     const Point d = minus(q, p), e1 = minus(b, a), e2 = minus(c, a), h = cross(d, e2);
     const double det = dot(e1, h);
@@ -55,7 +55,7 @@ struct Box {
     }
 };
 
-// Pairs of organs whose triangles cross.
+// Returns the pairs of organs whose triangles cross.
 std::set<std::pair<std::string, std::string>> crossings(const GrownPlant& plant) {
     std::vector<Box> triangles(plant.triangles.size()), organs(plant.organs.size());
     for (size_t o = 0; o < plant.organs.size(); o++) {
@@ -116,7 +116,7 @@ TEST(GrownCucumber, HasThePapersCountsAndHeight) {
     const GrownPlant plant = grow_plant("cucumber");
     EXPECT_EQ(plant.positions.size(), 22004u);
     EXPECT_EQ(plant.triangles.size(), 30244u);
-    // The stake looks out above the plant.
+    // The stake is higher than the plant.
     double top = -1, stake_top = -1;
     for (const GrownOrgan& organ : plant.organs)
         for (int v = organ.first_vertex; v < organ.first_vertex + organ.vertex_count; v++) {
@@ -127,7 +127,7 @@ TEST(GrownCucumber, HasThePapersCountsAndHeight) {
     EXPECT_NEAR(stake_top, 2.13, 0.02);
 }
 
-// Where twine holds, it has corners in common with stem and stake, so that the three are one piece of surface.
+// The twine shares corners with stem and stake, so that the three are one connected component.
 TEST(GrownCucumber, IsTiedToItsStakeFromTheGroundToTheTop) {
     const GrownPlant plant = rounded(grow_plant("cucumber"));
     std::map<std::string, std::set<Point>> places;
@@ -170,7 +170,7 @@ TEST(GrownPlants, SettingsAndSeedsMoveVerticesButKeepTheCounts) {
     }
 }
 
-// The size of the largest in the literature on simulated trees (Zhao, Barbič 2013).
+// 18000 leaves: the size of the largest in the literature on simulated trees (Zhao, Barbič 2013).
 TEST(GrownTree, HasAsManyLeavesAsItIsAskedFor) {
     for (int leaves : {100, 1800, 18000}) {
         const GrownPlant tree = grow_plant("tree", {{"leaves", leaves}});
@@ -248,7 +248,7 @@ TEST(GrownPlants, EveryOrganHangsOnTheStem) {
     for (const GrownKind& kind : grown_kinds()) {
         const GrownPlant plant = rounded(grow_plant(kind.name));
         const auto pairs = crossings(plant);
-        // Spread from the stem over organs that touch.
+        // Spread from the stem over touching organs.
         std::set<std::string> held{kind.name == std::string("tree") ? "trunk" : "stem"};
         for (size_t before = 0; before != held.size();) {
             before = held.size();
@@ -261,7 +261,7 @@ TEST(GrownPlants, EveryOrganHangsOnTheStem) {
 }
 
 TEST(GrownPlants, OrgansCrossOnlyWhereTheyAreAttached) {
-    // Kinds of organs that may touch; those but the stem only their own: leaf_3 sits on petiole_3.
+    // Kinds of organs that may touch; except for the stem, each only its own partner: leaf_3 sits on petiole_3.
     const std::set<std::pair<std::string, std::string>> attached = {
         {"petiole", "leaf"}, {"peduncle", "fruit"}, {"fruit", "flower_fruit"}, {"ear", "silk"}};
     for (const char* kind : {"corn", "cucumber"}) {

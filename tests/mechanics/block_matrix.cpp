@@ -1,4 +1,4 @@
-// The matrix of 3x3 blocks against a dense twin.
+// The matrix of 3x3 blocks, compared with a dense copy.
 #include "mechanics/block_matrix.hpp"
 
 #include <gtest/gtest.h>

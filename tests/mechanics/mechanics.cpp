@@ -1,4 +1,4 @@
-// These hold for every row of the table of mechanics: energy, force and stiffness belong together.
+// Properties of every row of the table of mechanics: energy, force and stiffness are consistent.
 #include "mechanics/mechanics.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Mechanics, EveryMechanics,
                                           testing::Values(1, 2)),
                          row_name);
 
-// Gradients of deformation at all points of all tets.
+// Returns the deformation gradients at all points of all tets.
 template <class Element>
 std::vector<Mat3> gradients(const TetElements& elements, const VecX& x) {
     std::vector<Mat3> all;
@@ -56,10 +56,10 @@ std::vector<Mat3> gradients(const TetElements& elements, const VecX& x) {
     return elements.nodes.order == 1 ? gradients<LinearTet>(elements, x) : gradients<QuadraticTetElement>(elements, x);
 }
 
-// Shapes from nearly at rest to torn about; the last ones have tets inside out.
+// Shapes from nearly at rest to strongly distorted; the last ones have inverted tets.
 struct Case {
     Model model;
-    double amount;  // of random displacement, per edge length
+    double amount;  // random displacement per edge length
 };
 std::vector<Case> cases() {
     const Stuff stuff = {1000, 1e3, 0.3}, soft = {500, 100, 0.45}, cork = {200, 1e3, 0.0};
@@ -69,7 +69,7 @@ std::vector<Case> cases() {
             {box_model(1, 1, 1, {1, 1, 1}, stuff), 1.0}};
 }
 
-// Turned, moved and torn about; for corotational shapes away from where the rotation jumps.
+// Returns a rotated, translated and distorted shape, away from where the corotational rotation jumps.
 VecX deformed(const Case& c, const TetElements& elements, Dice& dice) {
     for (;;) {
         const Mat3 R = dice.rotation();
@@ -79,7 +79,7 @@ VecX deformed(const Case& c, const TetElements& elements, Dice& dice) {
         x += dice.vector(x.size(), c.amount);
         bool smooth = true;
         for (const Mat3& F : gradients(elements, x)) {
-            // Stretches are the roots of F^T F; the smallest is negative inside out.
+            // Stretches are square roots of eigenvalues of F^T F; the smallest is negative in inverted tets.
             const Vec3 s = symmetric_values(F.transpose() * F).cwiseMax(0).cwiseSqrt();
             smooth &= s[1] + (F.determinant() < 0 ? -s[0] : s[0]) > 0.2 * s[2];
         }
@@ -87,7 +87,7 @@ VecX deformed(const Case& c, const TetElements& elements, Dice& dice) {
     }
 }
 
-// Shapes at rest are torn about too, by less, so that no tet is flat.
+// Shapes at rest are distorted too, but less, so that no tet is flat.
 TEST_P(EveryMechanics, RestDerivativeIsThatOfTheForce) {
     Dice dice(2);
     for (const Case& c : cases())
@@ -100,7 +100,7 @@ TEST_P(EveryMechanics, RestDerivativeIsThatOfTheForce) {
             const size_t e = size_t(repeat) % elements.tets.size();
             std::vector<Mat3> derivative;
             row.rest_derivative(elements, e, x, derivative);
-            // All other tets without stiffness.
+            // Give all other tets zero stiffness.
             TetElements one = elements;
             for (size_t other = 0; other < one.mu.size(); ++other)
                 if (other != e) one.mu[other] = one.lambda[other] = 0;
@@ -188,7 +188,7 @@ TEST_P(EveryMechanics, BothTangentsAgreeAtRest) {
     EXPECT_GT(exact.norm(), 0);
 }
 
-// A compressed body may buckle: its exact stiffness must say so, or it is the wrong derivative.
+// A compressed body may buckle, so its exact stiffness must have negative eigenvalues.
 TEST(Corotational, ExactStiffnessTurnsNegativeUnderCompression) {
     const TetElements elements = make_tet_elements(single_tet_model());
     const VecX x = 0.5 * elements.rest_positions;
@@ -199,7 +199,7 @@ TEST(Corotational, ExactStiffnessTurnsNegativeUnderCompression) {
     EXPECT_LT(eigenvalues_of(dense(K)).minCoeff(), -1);
 }
 
-// Inside out it is squeezed, and the way back leads downhill all along.
+// An inverted tet is compressed; on the path back the force never reverses.
 TEST(Neohookean, PushesATetThatIsInsideOutBackThroughItself) {
     const TetElements elements = make_tet_elements(single_tet_model(1, {1000, 1e3, 0.3}));
     VecX x = elements.rest_positions;
@@ -211,7 +211,7 @@ TEST(Neohookean, PushesATetThatIsInsideOutBackThroughItself) {
     }
 }
 
-// Against the closed form of its energy for a stretch along the axes.
+// Compares the energy with its closed form for a stretch along the axes.
 TEST(Neohookean, HasTheEnergyOfItsFormula) {
     const double E = 2e4, nu = 0.4, mu = E / (2 * (1 + nu)), lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
     const TetElements elements = make_tet_elements(single_tet_model(1, {1000, E, nu}));
@@ -236,7 +236,7 @@ TEST_P(EveryMechanics, GivesNoForceUnderRigidMotion) {
     const double scale = stiffness(elements, elements.rest_positions, Tangent::exact).norm();
     for (int repeat = 0; repeat < 20; ++repeat) {
         const Vec3 shift(dice.uniform(-9, 9), dice.uniform(-9, 9), dice.uniform(-9, 9));
-        // Linear strain does not tell a turn from a stretch, but it knows an infinitesimal one.
+        // Linear strain mistakes a finite rotation for a stretch, but not an infinitesimal one.
         const Vec3 spin(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1));
         const Mat3 R = dice.rotation();
         VecX x = elements.rest_positions;
@@ -245,7 +245,7 @@ TEST_P(EveryMechanics, GivesNoForceUnderRigidMotion) {
             point(x, i) = shift + (is_linear() ? Vec3(p + spin.cross(p)) : Vec3(R * p));
         }
         EXPECT_NEAR(force(elements, x).norm(), 0, 1e-13 * scale);
-        // Energies that are differences of larger numbers keep their rounding.
+        // Energies that are differences of larger numbers have rounding errors of these.
         double rounding = 1e-20 * scale;
         if (!is_hookean())
             for (size_t e = 0; e < elements.tets.size(); ++e) rounding += 2e-15 * elements.mu[e] * elements.volume[e];
@@ -270,7 +270,7 @@ TEST_P(EveryMechanics, ForcesAddUpToNothing) {
         Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
         for (int i = 0; i < elements.node_count; ++i) {
             sum += point(f, i);
-            // Linear forces belong to the places at rest; the true ones to where the nodes are.
+            // The torque of linear forces vanishes about the rest positions, that of the others about the current ones.
             const VecX& arm = is_linear() ? elements.rest_positions : x;
             torque += point(arm, i).cross(Vec3(point(f, i)));
         }
@@ -298,7 +298,7 @@ TEST_P(EveryMechanics, OnePassGivesTheSameAsTwo) {
     }
 }
 
-// The damping of a solve is that of all elements and each one's own beside it.
+// The damping of a solve is that of all elements plus each element's own.
 TEST_P(EveryMechanics, OnePassAheadIsMadeOfTheRest) {
     if (!row.add_ahead) GTEST_SKIP() << "goes the long way";
     Dice dice(7);
@@ -334,7 +334,7 @@ TEST_P(EveryMechanics, CountsTetsThatAreInsideOut) {
 }
 
 TEST_P(EveryMechanics, StretchesABarAsYoungsModulusSays) {
-    // Uniaxial stress: strain s along x, -nu s across; energy E s^2 / 2 a volume for small s.
+    // Uniaxial stress: strain s along x, -nu s across; energy E s^2 / 2 per volume for small s.
     const Stuff stuff = {1000, 2e6, 0.35};
     const TetElements elements = elements_of(box_model(3, 1, 1, {3, 1, 1}, stuff));
     const double s = 1e-4;
@@ -346,7 +346,7 @@ TEST_P(EveryMechanics, StretchesABarAsYoungsModulusSays) {
         }
         return row.energy(elements, x);
     };
-    // Stretched and squeezed alike, so that what is odd in the strain falls out; the next term is s^2 smaller.
+    // The mean over stretch and compression, so that odd powers of strain cancel; the next term is smaller by s^2.
     EXPECT_NEAR((energy(s) + energy(-s)) / 2, 0.5 * 2e6 * s * s * 3, (is_hookean() ? 1e-9 : 1e-7) * 2e6 * s * s);
 }
 

@@ -1,5 +1,5 @@
-// Plasticity: the law of a section against the integral over its fibres, the set that a bent rod keeps, creep, and
-// elastic energy that never grows by it.
+// Plasticity: the law of a section compared with the integral over its fibres, the plastic curvature of a bent rod,
+// creep, and elastic energy that plastic flow never increases.
 #include "mechanics/plasticity.hpp"
 
 #include <gtest/gtest.h>
@@ -14,9 +14,10 @@
 namespace frond::test {
 namespace plasticity_tests {
 
-constexpr double NEVER = 1e9;  // of creep, so that the time of a return does not matter [s]
+constexpr double NEVER = 1e9;  // time of flow after which creep is complete, so that its rate does not matter [s]
 
-// Moment over that of the first yield, by fibres: sum of y clamp(k y) over sum of y^2, y over the rim's distance.
+// Returns the moment over that at first yield, by fibres: sum of y clamp(k y) over sum of y^2, with y over the rim's
+// distance.
 double moment_by_fibres(double k, const std::function<double(double)>& width) {
     constexpr int FIBRES = 20000;
     double moment = 0, first = 0;
@@ -53,14 +54,14 @@ TEST(ElasticShare, FollowsTheSectionHoweverTheLoadingIsCut) {
         EXPECT_NEAR(elastic, 0.02 * section_limit(yield, bent / 0.02), 1e-12);
         EXPECT_NEAR(bent - elastic, 0.02 * hardening, 1e-12);
     }
-    // A section that is pulled has no core.
+    // A section in tension has no elastic core.
     hardening = 0;
     EXPECT_NEAR(0.05 * elastic_share(yield, 0.05, 0, NEVER, hardening), 0.02, 1e-12);
 }
 
 // ---- rods -------------------------------------------------------------------------------------------------------
 
-// A straight stem of 20 pieces and 1 m, of radius 1 cm.
+// Returns a straight stem of 20 segments and 1 m with a radius of 1 cm.
 Model stem_model(double yield_strain, double creep = 0) {
     Model model;
     Organ organ;
@@ -85,7 +86,7 @@ Model stem_model(double yield_strain, double creep = 0) {
     return model;
 }
 
-// The stem as an arc of a circle, its pieces as long as at rest [1/m].
+// Returns the stem bent to an arc of the given curvature [1/m], its segments as long as at rest.
 VecX arc(const Elements& elements, double curvature) {
     VecX x = elements.modelled;
     for (int i = 0; i < elements.node_count; i += 2) {
@@ -106,7 +107,7 @@ std::unique_ptr<Elements> bend_beyond(const Model& model, double curvature, doub
 }
 
 TEST(RodPlasticity, KeepsTheSetOfElasticPerfectlyPlasticBending) {
-    const double first = 0.02 / 0.01;  // curvature of the first yield [1/m]
+    const double first = 0.02 / 0.01;  // curvature at first yield [1/m]
     for (double k : {1.2, 2.0, 5.0}) {
         const auto own = bend_beyond(stem_model(0.02), k * first, NEVER);
         const double set = k * first - first * section_limit({0.02, 0, 0, false}, k);
@@ -114,7 +115,7 @@ TEST(RodPlasticity, KeepsTheSetOfElasticPerfectlyPlasticBending) {
             EXPECT_NEAR(std::hypot(plastic.bend_thin, plastic.bend_wide), set, 0.01 * k * first);
             EXPECT_NEAR(plastic.hardening * first, set, 0.01 * k * first);
         }
-        // Its shape without load is that arc.
+        // Its unloaded shape is the arc of that curvature.
         VecX f = VecX::Zero(own->modelled.size());
         mechanics(FROND_MECHANICS_ROD).add_force(*own, arc(*own, set), f);
         VecX whole = VecX::Zero(f.size());
@@ -148,7 +149,7 @@ TEST(RodPlasticity, CreepsAtItsRateTowardsTheYield) {
     EXPECT_GT(start, 0.2);
     for (int n = 0; n < 120; ++n) row.flow(*own, x, 1.0 / 60);
     EXPECT_NEAR(excess(), start * std::exp(-0.5 * 2), 0.01 * start);
-    // However long a step is.
+    // The result does not depend on the step's length.
     auto other = bend_beyond(stem_model(0.02, 0.5), curvature, 1e-9);
     row.flow(*other, x, 2);
     EXPECT_NEAR(row.energy(*other, x), row.energy(*own, x), 1e-3 * row.energy(*own, x));
@@ -174,7 +175,7 @@ TEST(RodPlasticity, BentToAndFroAThousandTimesItHoldsNoMoreEnergy) {
 
 // ---- tets -------------------------------------------------------------------------------------------------------
 
-// Share of a pulled bar's energy that is of its volume, which stays: (1 - 2 nu) / 3.
+// Share of a stretched bar's energy that is volumetric and does not yield: (1 - 2 nu) / 3.
 constexpr double OF_VOLUME = 0.4 / 3;
 
 struct EveryTet : testing::TestWithParam<std::pair<int, int>> {
@@ -186,7 +187,7 @@ struct EveryTet : testing::TestWithParam<std::pair<int, int>> {
         model.organs.front().material.creep_rate = creep;
         return model;
     }
-    // Pulled by s along z as a bar is, by nu s narrower.
+    // Returns a bar stretched by s along z and contracted by nu s across.
     VecX pulled(const Elements& elements, double s) const {
         VecX x = elements.modelled;
         for (int i = 0; i < elements.node_count; ++i)
@@ -210,10 +211,10 @@ TEST_P(EveryTet, KeepsWhatIsBeyondTheYieldOfAPulledBar) {
     const VecX x = pulled(*own, 0.03);
     const double energy = row.energy(*own, x);
     row.flow(*own, x, NEVER);
-    // Elastic strain is now what the section's law leaves of it; three times the yield's is 1.60 of it.
+    // The elastic strain is now what the section's law leaves; at three times the yield strain this is 1.60 of it.
     const double left = section_limit({0.01, 0, 0, false}, 3) / 3;
     EXPECT_NEAR(row.energy(*own, x) / energy, OF_VOLUME + (1 - OF_VOLUME) * left * left, 0.03);
-    // Once more changes nothing but what a second look rounds.
+    // A second flow changes nothing but rounding.
     const double after = row.energy(*own, x);
     row.flow(*own, x, NEVER);
     EXPECT_NEAR(row.energy(*own, x), after, 1e-3 * after);

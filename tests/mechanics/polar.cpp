@@ -1,4 +1,4 @@
-// The rotation nearest to a deformation gradient, against Eigen's singular values and by its own properties.
+// The rotation nearest to a deformation gradient, compared with Eigen's singular values and by its own properties.
 #include "mechanics/polar.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ Mat3 rotation_by_svd(const Mat3& F) {
     return svd.U * Vec3(1, 1, sign).asDiagonal() * svd.V.transpose();
 }
 
-// A gradient with the given principal stretches.
+// Returns a gradient with the given principal stretches.
 Mat3 stretched(Dice& dice, const Vec3& stretches) {
     return dice.rotation() * stretches.asDiagonal() * dice.rotation();
 }
@@ -31,7 +31,7 @@ TEST(Polar, AgreesWithSingularValuesOnRandomGradients) {
     for (int n = 0; n < 20000; ++n) {
         const Vec3 s(dice.uniform(0.05, 3), dice.uniform(0.05, 3), dice.uniform(-1.5, 3));
         const Mat3 F = stretched(dice, s);
-        // Where the two smallest values nearly cancel there is no unique answer.
+        // If the two smallest values nearly cancel, the nearest rotation is not unique.
         Vec3 sorted = s.cwiseAbs();
         std::sort(sorted.data(), sorted.data() + 3);
         if (sorted[0] * (s.z() < 0 ? -1 : 1) + sorted[1] < 0.01) continue;

@@ -1,5 +1,5 @@
-// Rods: force is minus the gradient of the energy, stiffness its derivative; turning and moving a rod costs nothing; a
-// tree that stands is in balance as modelled.
+// Rods: force is minus the gradient of the energy, stiffness its derivative; rigid motion costs no energy; a tree that
+// stands is in equilibrium as modelled.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace frond::test {
 namespace rod_tests {
 
-// A forked chain with flat and round pieces that leave its root in all directions.
+// Returns a forked chain of flat and round segments in many directions.
 Model chain_model(bool stands = false) {
     Model model;
     Organ organ;
@@ -43,7 +43,7 @@ Model chain_model(bool stands = false) {
     return model;
 }
 
-// Places torn about and nodes turned by up to `turn`.
+// Returns displaced nodes, rotated by up to `turn`.
 VecX deformed(const RodElements& elements, Dice& dice, double shift, double turn) {
     VecX x = elements.modelled;
     for (int i = 0; i < elements.node_count; ++i)
@@ -116,7 +116,7 @@ TEST_P(EveryRod, PositiveStiffnessIsNeverNegativeAndExactWithoutLoad) {
     EXPECT_LT((at_rest - stiffness(elements, elements.modelled, Tangent::exact)).norm(), 1e-9 * at_rest.norm());
 }
 
-// Also where there are fewer pieces than lanes.
+// Also with fewer segments than lanes.
 TEST_P(EveryRod, ForceAndStiffnessAheadAreThoseOfTheirParts) {
     Dice dice(7);
     const RodElements elements = make_rod_elements(chain_model(true), which);
@@ -181,7 +181,7 @@ TEST(Rod, StandsInBalanceAsModelled) {
         f[Eigen::Index(6 * i) + 1] -= GRAVITY * elements.mass[i];
         weight += GRAVITY * elements.mass[i];
     }
-    // All but the root, which the ground holds.
+    // Excludes the root, which the ground holds.
     EXPECT_LT(f.tail(f.size() - 6).norm(), 1e-9 * weight);
 }
 

@@ -40,7 +40,7 @@ int count_bodies(const Cage& cage) {
     return bodies;
 }
 
-// Checks what must hold for whatever goes in.
+// Checks what must hold for every input.
 void expect_valid(const Surface& surface, const Made& made, double least_angle = 10) {
     ASSERT_FALSE(made.cage.tets.empty());
     EXPECT_GT(made.report.min_volume, 0);
@@ -66,7 +66,7 @@ double tissue_of(const Cage& cage) {
     return sum;
 }
 
-// The nodes of the tets that hold vertices for which `chosen` is true.
+// Returns the nodes of the tets that contain vertices for which `chosen` is true.
 template <class Chosen>
 std::set<int> nodes_of(const Surface& surface, const Made& made, const Chosen& chosen) {
     std::set<int> nodes;
@@ -106,7 +106,7 @@ TEST(Cage, DoesNotWeldLeavesThatPassAtHalfACell) {
 }
 
 TEST(Cage, KeepsTheArmsOfANarrowStripApart) {
-    // A strip that turns round in a half circle; its arms are 0.4 cells apart.
+    // A strip bent round in a half circle; its arms are 0.4 cells apart.
     const double cell = 0.1;
     Surface surface;
     add_sheet(surface, 2, 60, [](double s, double t) {
@@ -139,7 +139,7 @@ TEST(Cage, BranchesWhereTheSurfaceForks) {
 }
 
 TEST(Cage, KeepsAThinTubeOnePiece) {
-    // A tube thinner than a cell, off the lattice's planes, its triangles longer than a cell: one copy a cell.
+    // A tube thinner than a cell, off the lattice's planes, with triangles longer than a cell: one copy per cell.
     for (const bool lids : {false, true}) {
         Surface surface;
         add_tube(surface, {0.013, 0, 0.017}, 0.02, 2, 8, 5, lids);
@@ -151,11 +151,11 @@ TEST(Cage, KeepsAThinTubeOnePiece) {
 }
 
 TEST(Cage, KeepsTheTwoFacesOfABladeTogether) {
-    // A flat box, four cells wide and a third of a cell thick: the faces do not meet within most cells.
+    // A flat box, four cells wide and a third of a cell thick: its faces do not meet in most cells.
     const double cell = 0.1;
     Surface surface;
     const auto box = [](double s, double t) {
-        // Around the cross-section by s.
+        // s runs around the cross-section.
         const double w = 0.4, d = 0.03, round = 2 * (w + d), at = s * round;
         if (at < w) return Vec3(at - w / 2, t, -d / 2);
         if (at < w + d) return Vec3(w / 2, t, at - w - d / 2);
@@ -284,7 +284,7 @@ TEST(Cage, KeepsTheOffset) {
     for (double offset : {0.05, 0.15}) {
         const Made made = make(surface, {0.1, offset, 0});
         expect_valid(surface, made);
-        // Places that far from the surface are still inside.
+        // Points at that distance from the surface are still inside.
         Surface around;
         for (double x : {0.03, 0.52, 0.97})
             for (double z : {-0.999 * offset, 0.999 * offset})
@@ -377,7 +377,7 @@ TEST(Cage, EmbedsInTheCallersTetsAsTryingAllDoes) {
     }
     const Embedding embedding = embed(surface, made.cage);
     for (size_t v = 0; v < surface.positions.size(); ++v) {
-        // The largest smallest weight over all tets tells whether it is inside.
+        // A point is inside if, over all tets, the largest of their smallest weights is not negative.
         double best = -1e300;
         for (size_t e = 0; e < made.cage.tets.size(); ++e) {
             Eigen::Matrix4d corners;

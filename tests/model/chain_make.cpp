@@ -1,4 +1,4 @@
-// Chains of shapes whose skeletons are known, of soups and of hostile input.
+// Chains of shapes with known skeletons, of triangle soups and of hostile input.
 #include <gtest/gtest.h>
 
 #include "chain_shapes.hpp"
@@ -122,7 +122,7 @@ TEST(Chain, GivesEachOfFiveLeavesABranch) {
             if (children[i] > 0) continue;
             const bool blade = grown.organs[size_t(nodes[i].organ)].kind == "blade";
             (blade ? leaf_tips : stem_tips)++;
-            // Leaves end 0.3 m out; the stem is not pulled aside by them.
+            // Leaves end 0.3 m out; they do not shift the stem's axis.
             EXPECT_NEAR(std::hypot(nodes[i].position.x(), nodes[i].position.z()), blade ? 0.3 : 0.0, 0.02);
         }
         EXPECT_EQ(leaf_tips, 5);
@@ -248,7 +248,7 @@ TEST(Chain, BindsVerticesToTheNearestNodeAlongTheSurface) {
         const double y = grown.surface.positions[v].y();
         EXPECT_NEAR(grown.chain.nodes[size_t(grown.chain.vertex_node[v])].position.y(), y, 0.0501);
     }
-    // Two tubes side by side: no vertex goes to the other one's nodes, however near.
+    // Two tubes side by side: no vertex is assigned to the other tube's nodes, however near.
     Sketch pair;
     pair.begin_part("stem_a");
     pair.tube(line({0, 0, 0}, {0, 1, 0}, 20), 0.01, 8);
@@ -266,7 +266,7 @@ TEST(Chain, OfSoupsIsAForestThatCoversAllVertices) {
         expect_forest(grown);
         if (HasFatalFailure()) return;
     }
-    // Heights that do not fit the shape at all.
+    // Capsule heights that do not suit the shape.
     for (const double height : {0.003, 0.2, 50.0}) expect_forest(grow(soup(7, 200, 0.1), {height, 0}));
 }
 
@@ -320,7 +320,7 @@ TEST(Chain, IsQuick) {
     const std::vector<Organ> organs = find_organs(surface, topology, nullptr, 0);
     Timer timer;
     make_chain(surface, topology, organs, {});
-    // 0.1 s for 30,000 triangles is the goal; sanitizers and busy machines get room.
+    // The goal is 0.1 s for 30,000 triangles; sanitizers and busy machines get more.
     EXPECT_LT(timer.ms(), 3000) << triangles;
     RecordProperty("milliseconds", int(timer.ms()));
 }

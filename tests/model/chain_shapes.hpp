@@ -1,4 +1,4 @@
-// Surfaces for the tests of organs and chains: tubes, blades, plants of both, soups.
+// Surfaces for the tests of organs and chains: tubes, blades, plants of both, triangle soups.
 #pragma once
 
 #include <cmath>
@@ -27,7 +27,8 @@ struct Sketch {
         surface.triangles.push_back({a, b, c});
         surface.parts.back().triangle_count++;
     }
-    // An open tube along a line of places; a ring of `sides` corners at each. Returns the first ring's first vertex.
+    // Adds an open tube along a line of points, with a ring of `sides` corners at each. Returns the first ring's first
+    // vertex.
     int tube(const std::vector<Vec3>& line, double radius, int sides) {
         const int first = int(surface.positions.size());
         for (size_t i = 0; i < line.size(); i++) {
@@ -47,7 +48,7 @@ struct Sketch {
             }
         return first;
     }
-    // A flat strip of the given width along a line of places.
+    // Adds a flat strip of the given width along a line of points.
     void strip(const std::vector<Vec3>& line, double width, const Vec3& across, int cells = 2) {
         const int first = int(surface.positions.size());
         for (const Vec3& place : line)
@@ -67,7 +68,7 @@ inline std::vector<Vec3> line(const Vec3& from, const Vec3& to, int cells) {
     return places;
 }
 
-// A stem of 1 m and `leaves` leaves of 0.3 m around it, each a component that crosses the stem.
+// Returns a stem of 1 m and `leaves` leaves of 0.3 m around it, each a component that crosses the stem.
 inline Sketch leafy_plant(int leaves, bool names) {
     Sketch sketch;
     sketch.begin_part(names ? "stem" : "");
@@ -89,7 +90,7 @@ inline Sketch soup(int seed, int triangles, double size) {
         const Vec3 middle(dice(-1, 1), dice(-1, 1), dice(-1, 1));
         int corner[3];
         for (int& c : corner) {
-            // Some corners are shared, so that there are components of all sizes and edges of many triangles.
+            // Some corners are shared, so that there are components of all sizes and edges with many triangles.
             if (!sketch.surface.positions.empty() && dice(0, 1) < 0.3)
                 c = int(dice(0, double(sketch.surface.positions.size())));
             else

@@ -1,5 +1,5 @@
-// Damaged, absurd and hostile files: an error with name and cause or a valid surface, in bounded time, never a crash
-// here.
+// Damaged, absurd and hostile files: each gives an error with name and cause or a valid surface, in bounded time, and
+// never crashes this process.
 #include <dirent.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -44,7 +44,7 @@ void expect_valid(const Surface& surface) {
     ASSERT_EQ(surface.normals.size(), surface.positions.size());
 }
 
-// True if it was refused; the text must name the file.
+// Returns whether the file was refused; the text must name it.
 bool is_refused(const std::string& path, const std::string& name) {
     try {
         ImportLimits limits;
@@ -87,8 +87,8 @@ TEST_F(ImportDamage, FilesCutAnywhereAreRefusedOrPartlyRead) {
         for (int tenth = 0; tenth < 10; ++tenth) {
             const std::string cut = sample.bytes.substr(0, sample.bytes.size() * size_t(tenth) / 10);
             const bool refused = is_refused(folder.write(sample.name, cut), sample.name);
-            // A cut OBJ is a shorter OBJ, and the end of an FBX is padding; everything else has an end that must be
-            // there.
+            // A truncated OBJ is a shorter OBJ, and an FBX ends with padding; every other format has an end that must
+            // be present.
             const bool may_pass = sample.name[2] == 'o' || std::string(sample.name) == "b.fbx";
             EXPECT_TRUE(refused || may_pass) << sample.name << " cut to " << cut.size();
         }
@@ -204,7 +204,7 @@ TEST_F(ImportDamage, DeepNestingDoesNotCrash) {
     is_refused(folder.write("deep.dae", dae), "deep.dae");
 }
 
-// ---- the process ----
+// ---- the importer's process ----
 
 TEST_F(ImportDamage, AWrongImporterIsNamedWithItsRemedy) {
     files::Folder folder;
@@ -274,7 +274,7 @@ TEST_F(ImportDamage, ManyThreadsImportAtOnceAndNothingIsLeaked) {
 }
 
 TEST_F(ImportDamage, WorksWithoutStandardDescriptors) {
-    // In a child of its own, so that this process keeps them.
+    // In a child process, so that this process keeps its descriptors.
     files::Folder folder;
     const std::string path = folder.write("a.obj", files::obj());
     const pid_t child = fork();

@@ -1,4 +1,4 @@
-// Files for the tests of the import: a small plant, a stem and a mirrored leaf in two nodes, written in each format.
+// Files for the import tests: a small plant of a stem and a mirrored leaf, in two nodes, written in each format.
 #pragma once
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 
 namespace files {
 
-// A folder that goes away with its owner.
+// A folder that is deleted with its owner.
 struct Folder {
     std::string path;
     Folder() {
@@ -41,7 +41,7 @@ std::string bytes_of(const std::vector<Value>& values) {
     return std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
 }
 
-// The stem, 0.5 m tall, a prism of four sides without ends: 8 vertices, 8 triangles. y is up.
+// Returns the stem, 0.5 m tall, a prism of four sides without ends: 8 vertices, 8 triangles. y is up.
 inline std::vector<float> stem_positions() {
     const float r = 0.01f, h = 0.5f;
     return {r, 0, r, r, 0, -r, -r, 0, -r, -r, 0, r, r, h, r, r, h, -r, -r, h, -r, -r, h, r};
@@ -54,8 +54,8 @@ inline std::vector<uint32_t> stem_indices() {
     }
     return indices;
 }
-// The leaf in its node's frame: 4 vertices, 2 triangles that look down. The node mirrors x, turns nothing and lifts it
-// by 0.4.
+// Returns the leaf in its node's frame: 4 vertices, 2 triangles facing down. The node mirrors x, does not rotate, and
+// raises it by 0.4.
 inline std::vector<float> leaf_positions() {
     return {0, 0, 0, 0.2f, 0, 0, 0.2f, 0, 0.1f, 0, 0, 0.1f};
 }
@@ -66,7 +66,7 @@ inline std::vector<uint32_t> leaf_indices() {
     return {0, 1, 2, 0, 2, 3};
 }
 
-// In formats without nodes the leaf is written where its node would put it.
+// In formats without nodes the leaf is written in its final position.
 inline std::string obj(bool with_colors = false, const std::string& material_library = "") {
     std::string out = material_library.empty() ? "" : "mtllib " + material_library + "\n";
     const std::vector<float> stem = stem_positions();
@@ -162,12 +162,12 @@ inline std::string glb_of(std::string json, std::string binary) {
     return out + binary;
 }
 
-// A few bytes that begin like a PNG: the import does not decode.
+// Returns a few bytes that begin like a PNG: the import does not decode images.
 inline std::string png() {
     return std::string("\x89PNG\r\n\x1a\n") + std::string(24, '\x07');
 }
 
-// stem (96 + 96 bytes), leaf (48 + 24 bytes), uvs (32), image (32).
+// Returns the buffer: stem (96 + 96 bytes), leaf (48 + 24 bytes), uvs (32), image (32).
 inline std::string glb_binary() {
     std::vector<float> uvs = leaf_uvs_bottom_up();
     for (size_t i = 1; i < uvs.size(); i += 2) uvs[i] = 1 - uvs[i];
@@ -229,7 +229,7 @@ inline std::string dae_mesh(const std::string& id, const std::vector<float>& pos
            "-v\" offset=\"0\"/><p>" + corners + "</p></triangles></mesh></geometry>";
 }
 
-// y-up positions in centimetres, in a file that declares z up if wanted.
+// Returns y-up positions in centimetres, in a file that declares z up if requested.
 inline std::string dae(bool is_z_up) {
     std::vector<float> stem = stem_positions(), leaf = leaf_positions();
     for (std::vector<float>* positions : {&stem, &leaf})
@@ -274,7 +274,7 @@ struct FbxProperty {
 
 inline FbxProperty fbx_text(const std::string& value) {
     FbxProperty property{"\"" + value + "\"", "S"};
-    // "Model::stem" is written back to front in binary.
+    // "Model::stem" is stored in reverse order in binary.
     std::string stored = value;
     const size_t colon = value.find("::");
     if (colon != std::string::npos) stored = value.substr(colon + 2) + std::string("\0\1", 2) + value.substr(0, colon);
@@ -373,7 +373,7 @@ inline FbxNode fbx_geometry(int64_t id, const std::string& name, const std::vect
                 {{"Type", {fbx_text("LayerElementMaterial")}, {}}, {"TypedIndex", {fbx_int(0)}, {}}}}}}}};
 }
 
-// In units of `unit` centimetres, with an up axis of 1 (y) or 2 (z).
+// Returns a file in units of `unit` centimetres, with up axis 1 (y) or 2 (z).
 inline std::string fbx(bool is_binary, int up_axis = 1, double unit = 1) {
     std::vector<float> stem = stem_positions(), leaf = leaf_positions();
     const double lift = 40 / unit;

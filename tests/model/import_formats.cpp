@@ -1,4 +1,4 @@
-// Each format's small plant comes in with its nodes' transforms, names, colours and texture coordinates.
+// Each format's small plant is imported with its nodes' transforms, names, colours and texture coordinates.
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -20,7 +20,7 @@ static Vec3 face_normal(const Surface& surface, int triangle) {
     return (surface.positions[size_t(t[1])] - a).cross(surface.positions[size_t(t[2])] - a).normalized();
 }
 
-// Stem and leaf at their places: the leaf lifted and mirrored, and still looking down.
+// Checks that stem and leaf are in place: the leaf raised and mirrored, and still facing down.
 static void expect_plant(const Surface& surface) {
     EXPECT_NEAR(surface.lower().x(), -0.2, 1e-6);
     EXPECT_NEAR(surface.upper().x(), 0.01, 1e-6);
@@ -40,7 +40,7 @@ static void expect_plant(const Surface& surface) {
         EXPECT_NEAR(surface.positions[size_t(corner)].y(), 0.4, 1e-6);
         EXPECT_LT(surface.normals[size_t(corner)].y(), -0.99f);
     }
-    // The stem's sides look outwards.
+    // The stem's sides face outwards.
     for (int t = stem->first_triangle; t < stem->first_triangle + 8; ++t) {
         const Triangle& corners = surface.triangles[size_t(t)];
         Vec3 middle = Vec3::Zero();
@@ -55,7 +55,7 @@ TEST(Import, ReadsObj) {
     expect_plant(surface);
     EXPECT_EQ(find_part(surface, "leaf")->material, "green");
     ASSERT_EQ(surface.uvs.size(), 12u);
-    // The file's v counts from the bottom; ours from the top.
+    // The file's v is counted from the bottom, ours from the top.
     const int first = surface.triangles[size_t(find_part(surface, "leaf")->first_triangle)][0];
     EXPECT_NEAR(surface.uvs[size_t(first)].y(), 1, 1e-6);
 }
@@ -116,7 +116,7 @@ TEST(Import, KeepsVertexColorsOfObjAndItsVertexCount) {
 }
 
 TEST(Import, ObjWithoutNormalsKeepsExactlyItsVertices) {
-    // A grid whose neighbours share their corners: as many vertices as lines "v", not one for each corner.
+    // A grid of quads that share their corners: as many vertices as "v" lines, not one for each corner.
     std::string text;
     for (int j = 0; j < 20; ++j)
         for (int i = 0; i < 30; ++i)
@@ -221,7 +221,7 @@ TEST(Import, ReadsGltfWithItsBufferBesideIt) {
 }
 
 TEST(Import, ReadsQuantizedGltf) {
-    // A quad in 16-bit whole numbers, scaled by its node, with normals in bytes.
+    // A quad in 16-bit integers, scaled by its node, with normals in bytes.
     std::string binary;
     for (const auto& corner :
          std::vector<std::array<int16_t, 4>>{{0, 0, 0, 0}, {32767, 0, 0, 0}, {32767, 0, 16384, 0}, {0, 0, 16384, 0}})
@@ -310,7 +310,7 @@ TEST(Import, LeavesCoarserLevelsOfDetailOut) {
 }
 
 TEST(Import, SkinnedMeshesStandAsTheirBonesDo) {
-    // One triangle, bound to a joint that stands 0.3 m up and is turned by 90 degrees about z; bound at the origin.
+    // One triangle, bound to a joint at the origin; the joint is then 0.3 m up and rotated by 90 degrees about z.
     std::string binary = files::bytes_of(std::vector<float>{0, 0, 0, 0.1f, 0, 0, 0, 0.1f, 0});
     for (int i = 0; i < 3; ++i) binary += std::string(4, '\0');
     for (int i = 0; i < 3; ++i) binary += files::bytes_of(std::vector<float>{1, 0, 0, 0});

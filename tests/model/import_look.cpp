@@ -1,4 +1,4 @@
-// A plant's look is imported from where files keep it: materials, pictures beside the model, what glows.
+// A plant's appearance is imported from all places where files keep it: materials, images beside the model, emission.
 #include <gtest/gtest.h>
 
 #include "model/import.hpp"

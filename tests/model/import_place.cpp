@@ -1,4 +1,4 @@
-// Placing: scale and up axis, as told, as declared or guessed.
+// Placing: scale and up axis, as requested, as declared or guessed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ static void keep_warning(const char* message, void*) {
     last_warning = message;
 }
 
-// A bent stem with three leaves that reach out at its upper half; it stands on the origin and grows along `up`.
+// Returns a bent stem with three leaves on its upper half; it stands on the origin and grows along `up`.
 static Surface make_plant(double height, const Vec3& up) {
     Surface surface;
     const Vec3 side = up.unitOrthogonal(), depth = up.cross(side);
@@ -83,7 +83,7 @@ TEST(Place, APlantCalledAHerbIsNoTree) {
         EXPECT_NEAR(surface.scale, row.scale, 1e-9) << row.file;
         EXPECT_EQ(last_warning.empty(), row.scale == 1) << row.file;
     }
-    // A scale that is given is taken.
+    // A given scale is used.
     Surface surface = make_plant(20, Vec3::UnitY());
     place_surface(surface, {1, Vec3::Zero(), "lily.glb"});
     EXPECT_EQ(surface.scale, 1);
@@ -99,7 +99,7 @@ TEST(Place, TakesScaleAndUpAsTold) {
 }
 
 TEST(Place, ScaleIsPerFileUnitEvenWhenTheFileDeclaredAnother) {
-    // A file in centimetres that was already brought to metres, and to y up from z.
+    // A file in centimetres that was already converted to metres, and from z up to y up.
     Surface surface = make_plant(1, Vec3::UnitY());
     surface.scale = 0.01;
     surface.up = Vec3::UnitZ();
@@ -134,7 +134,7 @@ TEST(Place, AnOrganDrawnAlongXFromItsFootStands) {
     place_surface(surface, {});
     EXPECT_EQ(surface.up, Vec3::UnitX());
     EXPECT_NEAR(surface.height(), 1, 0.05);
-    // A row of plants around the origin stays as it is.
+    // A row of plants around the origin stays in place.
     for (Vec3& position : row.positions) position.x() -= 0.5;
     place_surface(row, {});
     EXPECT_EQ(row.up, Vec3::UnitY());
@@ -183,7 +183,7 @@ TEST(Place, FetchesAPlantFromFarAway) {
     EXPECT_NEAR(surface.lower().x() + surface.upper().x(), 0, 1e-9);
     EXPECT_NE(last_warning, "");
 
-    // A metre beside the origin is an artist's choice.
+    // A metre beside the origin is the artist's choice.
     Surface near = make_plant(1, Vec3::UnitY());
     for (Vec3& position : near.positions) position.x() += 5;
     place_surface(near, {0, Vec3::UnitY()});

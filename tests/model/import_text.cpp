@@ -1,4 +1,4 @@
-// Text that assimp stumbles over comes in all the same.
+// Text that assimp fails on is imported all the same.
 #include <gtest/gtest.h>
 
 #include "model/import.hpp"

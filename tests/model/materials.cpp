@@ -1,4 +1,4 @@
-// Materials: what every kind of organ is given, and what is refused.
+// Materials: the defaults of every kind of organ, and the values that are refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,7 +53,8 @@ TEST(Materials, ArePresetForEveryKindAndInRange) {
     EXPECT_EQ(material_preset(""), nullptr);
 }
 
-// Stiffer and stronger from petals to wood; what yields does so before it breaks, at strains that tissue bears.
+// Stiffness and strength increase from petals to wood; materials that yield do so before they break, at strains that
+// tissue can bear.
 TEST(Materials, PresetsAreInPhysicalOrder) {
     const char* const rising[] = {"flower", "blade", "midrib", "petiole", "stem", "grass_stem", "branch", "support"};
     for (size_t i = 1; i < std::size(rising); i++) {
@@ -75,7 +76,7 @@ TEST(Materials, PresetsAreInPhysicalOrder) {
         EXPECT_LE(material.damping_ratio, 0.15) << kind;
         EXPECT_GT(material.friction, 0) << kind;
         EXPECT_LE(material.friction, 1) << kind;
-        // An axis is never stiffer in twisting than an isotropic one; blades are strips and get theirs from that.
+        // An axis never resists twist more than an isotropic one; blades are strips, whose torsion follows from that.
         if (material.twist_to_bend > 0) {
             EXPECT_GT(material.twist_to_bend, 1 + material.poisson) << kind;
         }
@@ -84,7 +85,7 @@ TEST(Materials, PresetsAreInPhysicalOrder) {
     EXPECT_EQ(material_preset("grass_blade")->twist_to_bend, 0);
 }
 
-// A material is its numbers and nothing else: none of them goes unchecked.
+// A material consists of its numbers only, and all of them are checked.
 TEST(Materials, EveryNumberHasARange) {
     EXPECT_EQ(std::size(FIELDS) * sizeof(double), sizeof(Material));
     const Material good = plain_material(1000, 1e8, 0.3, 1e-3);

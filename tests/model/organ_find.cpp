@@ -1,4 +1,4 @@
-// Organs by name and by shape, their names and materials.
+// Organs by name and by shape, and their names and materials.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -71,7 +71,7 @@ TEST(OrganNames, AreReadInSeveralSpellingsAndLanguages) {
         {"Soil", "support"},
         {"ground", "support"},
         {"earth", "support"},
-        // Words that only contain such a word.
+        // Words that merely contain such a word.
         {"Stemonitis", ""},
         {"ecosystem", ""},
         {"near", ""},
@@ -104,7 +104,7 @@ TEST(OrganNames, OfASpeciesMeanTheFruitOnlyBesideOtherParts) {
     EXPECT_EQ(kinds({{"flower", ""}}), Kinds({""}));
     EXPECT_EQ(kinds({{"tomato_1", ""}, {"tomato_2", ""}}), Kinds({"", ""}));
     EXPECT_EQ(kinds({{"stem", ""}, {"tomato_1", ""}, {"TomatoPlant", ""}}), Kinds({"stem", "fruit", ""}));
-    // Node names before material names, both before a mere species.
+    // Node names take precedence over material names, and both over the name of a species.
     EXPECT_EQ(kinds({{"trunk", "leaf"}, {"Object_3", "leaf"}, {"cucumber", "leaf"}}),
               Kinds({"branch", "blade", "blade"}));
     EXPECT_EQ(kinds({{"root", ""}, {"root", "bark"}}), Kinds({"", "branch"}));
@@ -146,7 +146,7 @@ TEST(OrganNames, OfColorsAreNoFruits) {
     EXPECT_EQ(kind_of("Berry", "Green"), "fruit");
 }
 
-// A trunk, and on top of it a ball as children's books draw trees.
+// Returns a trunk with a ball on top, as trees are drawn in children's books.
 Sketch ball_tree() {
     Sketch sketch;
     sketch.begin_part("trunk");
@@ -178,12 +178,12 @@ TEST(Organs, OfALargeRoundShapeThatIsHeldUpAreFoliage) {
     const Grown grown = grow(sketch);
     ASSERT_EQ(grown.organs.size(), 2u) << "all of the ball is of one kind";
     EXPECT_EQ(grown.organs[1].kind, "crown");
-    // A crown that encloses nothing is a heap of leaves.
+    // A crown that encloses no volume is a heap of leaves.
     Sketch heap = ball_tree();
     for (size_t i = 0; i < heap.surface.triangles.size(); i += 2)
         std::swap(heap.surface.triangles[i][0], heap.surface.triangles[i][1]);
     EXPECT_EQ(grow(heap).organs[1].kind, "blade");
-    // Stems that fill the same box with little surface are none.
+    // Stems that fill the same box with little surface are no crown.
     Sketch bare;
     bare.tube(line({0, 0, 0}, {0, 4, 0}, 8), 0.1, 8);
     const int first = bare.tube(line({-1, 4, 0}, {1, 6, 0}, 8), 0.05, 8);
@@ -242,7 +242,7 @@ TEST(Organs, HaveTheirKindsColorWhereTheFileBringsNone) {
     const Grown plain = grow(sketch);
     EXPECT_GT(plain.surface.parts[0].color[0], 1.2f * plain.surface.parts[0].color[1]) << "wood is brown";
     EXPECT_GT(plain.surface.parts[1].color[1], 1.2f * plain.surface.parts[1].color[0]) << "leaves are green";
-    // Beside a colour grey was chosen as well.
+    // Next to a colour, grey was chosen as well.
     sketch.surface.parts[1].color = pink;
     const Grown pale = grow(sketch);
     EXPECT_EQ(pale.surface.parts[0].color, grey);
@@ -265,7 +265,7 @@ TEST(Organs, AreToldByShapeWhereNamesSayNothing) {
 }
 
 TEST(Organs, OfOneMeshAreToldByLocalShape) {
-    // A tube whose last ring goes over into a wide sheet.
+    // A tube whose last ring continues as a wide sheet.
     Sketch sketch;
     const int first = sketch.tube(line({0, 0, 0}, {0, 1, 0}, 20), 0.01, 8);
     const int ring = first + 20 * 8;
@@ -309,7 +309,7 @@ TEST(Organs, OfATallPlantAreOfWood) {
 
 TEST(Organs, ReorderSurfaceAndTopologyAlike) {
     Sketch sketch = leafy_plant(7, false);
-    // Mixed up, so that parts cannot be split without moving triangles.
+    // Shuffled, so that parts cannot be split without moving triangles.
     std::mt19937_64 engine(1);
     for (size_t i = sketch.surface.triangles.size(); i-- > 1;)
         std::swap(sketch.surface.triangles[i], sketch.surface.triangles[engine() % (i + 1)]);

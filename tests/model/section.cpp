@@ -1,4 +1,5 @@
-// Sections: area, second moments and torsion of outlines against closed forms; what material makes of them.
+// Sections: area, second moments and torsion constant of outlines compared with closed forms, and the effect of the
+// material.
 #include "model/section.hpp"
 
 #include <gtest/gtest.h>
@@ -12,9 +13,9 @@
 namespace frond {
 namespace section_tests {
 
-constexpr double LENGTH = 1;  // of the bodies, along +y [m]
+constexpr double LENGTH = 1;  // length of the bodies along +y [m]
 
-// A surface, its one organ, and what they become.
+// A surface, its one organ, and its chain and sections.
 struct Sample {
     Surface surface;
     Topology topology;
@@ -29,7 +30,7 @@ struct Sample {
         chain = make_chain(surface, topology, organs, {0.1, 0});
         sections = measure_sections(surface, topology, organs, chain);
     }
-    // Away from the ends, whose capsules reach into the caps.
+    // Returns the sections away from the ends, whose capsules extend into the caps.
     std::vector<Section> inner() const {
         EXPECT_GT(sections.size(), 6u);
         return {sections.begin() + 2, sections.end() - 1};
@@ -40,8 +41,8 @@ Material wood(double thickness = 1e-3) {
     return plain_material(800, 1e9, 0.25, thickness);
 }
 
-// A prism over a polygon in the xz-plane, in rings 0.05 m apart; `closed` joins the last corner with the first, and the
-// ends are closed by fans.
+// Returns a prism over a polygon in the xz-plane, in rings 0.05 m apart; `closed` joins the last corner with the first
+// and closes the ends by fans.
 Surface prism(const std::vector<Vec3>& corners, bool closed) {
     constexpr int RINGS = 20;
     Surface surface;
@@ -101,7 +102,7 @@ TEST(Torsion, IsNearForAnEquilateralTriangle) {
     EXPECT_NEAR(torsion_constant(area, inertia, inertia) / (std::sqrt(3) / 80), 1, 0.06);
 }
 
-// The section of from_stems' ten-sided tube is that of the round stem within 0.1 %.
+// The section of a ten-sided tube from stems equals that of the round stem within 0.1 %.
 TEST(Section, OfAStemIsTheSolidCircle) {
     const double r = 0.01, area = M_PI * r * r, inertia = area * r * r / 4;
     const Sample sample(stem(r, r), "stem", wood());
@@ -154,7 +155,7 @@ TEST(Section, OfAPrismIsItsRectangle) {
             if (width > depth) {
                 EXPECT_NEAR(std::abs(section.thin.dot(tilt)), 1, 1e-4);
             }
-            // Bending towards the thin side turns the section about the wide one.
+            // Bending towards the thin side rotates the section about its wide axis.
             EXPECT_NEAR(section.rotary_inertia().z() / (800 * thin), 1, 1e-4);
             EXPECT_NEAR(section.rotary_inertia().y() / (800 * wide), 1, 1e-4);
         }
@@ -168,7 +169,7 @@ TEST(Section, DoesNotCareWhichWayTheTrianglesRun) {
     for (const Section& section : sample.inner()) EXPECT_NEAR(section.area / 6e-4, 1, 1e-4);
 }
 
-// Triangles run at random: no outline can be told, but the spread of the surface still gives the stem.
+// Triangles with random orientation: the outline is unknown, but the spread of the surface still gives the stem.
 TEST(Section, OfASoupIsNearTheStem) {
     const double r = 0.01, area = M_PI * r * r, inertia = area * r * r / 4;
     Surface soup = stem(r, r);
@@ -184,7 +185,7 @@ TEST(Section, OfASoupIsNearTheStem) {
 TEST(Section, OfAStripHasItsOwnWidthAndThickness) {
     const double w = 0.04, t = 5e-4, area = w * t;
     for (bool doubled : {false, true}) {
-        // With two faces 0.01 mm apart it is drawn twice, but no thicker than its material says.
+        // With two faces 0.01 mm apart it is drawn twice, but is no thicker than its material.
         const Surface surface =
             doubled ? prism(rectangle(w, 1e-5), true) : prism({{-w / 2, 0, 0}, {0, 0, 0}, {w / 2, 0, 0}}, false);
         const Sample sample(surface, "blade", wood(t));
@@ -194,7 +195,7 @@ TEST(Section, OfAStripHasItsOwnWidthAndThickness) {
             EXPECT_NEAR(section.area / area, 1, 0.01) << doubled;
             EXPECT_NEAR(section.inertia_wide / (area * w * w / 12), 1, 0.03) << doubled;
             EXPECT_NEAR(std::abs(section.thin.z()), 1, 1e-3) << doubled;
-            // A blade is never softer than the round midrib that its sheet does not show.
+            // A blade is never softer than its round midrib, which its sheet does not show.
             const double rib = std::pow(w / 40, 4) * M_PI / 4;
             EXPECT_NEAR(section.inertia_thin / rib, 1, 0.05) << doubled;
             EXPECT_NEAR(section.torsion / (w * t * t * t / 3 + 2 * rib), 1, 0.05) << doubled;
@@ -224,7 +225,7 @@ TEST(Section, OfATubeIsItsWall) {
         EXPECT_NEAR(section.inertia_thin / inertia, 1, 2e-3);
         EXPECT_NEAR(section.torsion / (2 * inertia), 1, 2e-3);
         EXPECT_NEAR(section.mass() / (800 * area), 1, 2e-3);
-        EXPECT_NEAR(section.thickness / (2 * r), 1, 2e-3);  // outer
+        EXPECT_NEAR(section.thickness / (2 * r), 1, 2e-3);  // outer thickness
     }
     EXPECT_NEAR(hole_share(tube.organs[0]), h * h, 1e-15);
     EXPECT_EQ(hole_share({"leaf", "blade", material}), 0);

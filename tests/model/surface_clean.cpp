@@ -1,4 +1,4 @@
-// Cleaning a surface: what goes, what stays, and the normals that are made.
+// Cleaning a surface: what is removed, what is kept, and the computed normals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ static const std::vector<Vec3> SQUARE = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1,
 TEST(Clean, DropsBadFlatAndRepeatedTrianglesAndKeepsTheOrder) {
     Surface surface = make(SQUARE, {{0, 1, 2}, {0, 1, 9}, {0, -1, 2}, {1, 1, 2}, {0, 2, 3}, {1, 2, 0}, {3, 2, 0}});
     surface.positions.push_back({2, 0, 0});
-    surface.triangles.push_back({0, 1, 4});  // on a line
+    surface.triangles.push_back({0, 1, 4});  // collinear
     surface.parts[0].triangle_count = 8;
     clean_surface(surface);
     EXPECT_EQ(surface.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
@@ -91,7 +91,7 @@ TEST(Clean, RefusesWhenNothingIsLeft) {
     }
 }
 
-// Large triangles across the plant, a little beside each other so that none is given twice.
+// Returns large triangles across the plant, slightly offset so that none is a duplicate.
 static Surface make_pile(int count) {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
@@ -134,7 +134,7 @@ TEST(Clean, SmallButRealTrianglesStay) {
 }
 
 TEST(Normals, AreSmoothOverASphereAndAcrossItsSeam) {
-    // Every triangle has vertices of its own: only their places are shared.
+    // Every triangle has vertices of its own: only their positions coincide.
     Surface surface;
     const int n = 24;
     const auto at = [](int i, int j) {

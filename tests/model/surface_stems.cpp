@@ -1,4 +1,4 @@
-// Stems become tubes: closed, outward, of the radii and places that were asked for.
+// Stems become tubes: closed, oriented outwards, with the requested radii and positions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ static frond_stem stem(int parent, Vec3 begin, Vec3 end, double radius_begin, do
     return {parent, {begin.x(), begin.y(), begin.z()}, {end.x(), end.y(), end.z()}, radius_begin, radius_end};
 }
 
-// Signed volume by the divergence theorem: right and positive only if closed and outward.
+// Returns the signed volume by the divergence theorem: correct and positive only if closed and oriented outwards.
 static double volume_of(const Surface& surface, const Part& part) {
     double volume = 0;
     for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
@@ -38,7 +38,7 @@ TEST(Stems, AreClosedTubesOfTheRightVolume) {
         EXPECT_EQ((edges.count({edge.second, edge.first})), 1u);
     }
     const double cone = pi * length * (a * a + a * b + b * b) / 3, caps = 2 * pi * (a * a * a + b * b * b) / 3;
-    // A polygon of ten sides has 0.935 of its circle's area; its corners lie 1.033 radii out, so that it bends alike.
+    // A ten-sided polygon has 0.935 of its circle's area; its corners lie 1.033 radii out, so that it bends alike.
     EXPECT_NEAR(volume_of(surface, surface.parts[0]) / (cone + caps), 0.935 * 1.033 * 1.033, 0.01);
 }
 

@@ -1,4 +1,4 @@
-// Tet files: the same five tets in each format, then cut and changed ones; and what becomes of them as a cage.
+// Tet files: the same five tets in each format, then truncated and changed files; and the cage made of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -237,7 +237,7 @@ TEST_F(TetFiles, CutFilesAreRefused) {
         for (size_t count = 0; count < row.bytes.size(); count += 7) {
             try {
                 const TetMesh mesh = import_tets(folder.write(row.name, row.bytes.substr(0, count)));
-                // What is missing can only be what is not needed: region numbers, or the end of the last section.
+                // Only what is not needed can be missing: region numbers, or the end of the last section.
                 EXPECT_EQ(mesh.tets.size(), 5u) << row.name << " cut to " << count;
             } catch (const Error& error) {
                 EXPECT_EQ(error.code, FROND_RESULT_FILE_FORMAT);
@@ -309,7 +309,7 @@ TEST_F(TetFiles, ErrorsNameLineAndCause) {
 
 TEST_F(TetFiles, TakenTetsKeepTheirNodesAndGetTheirBoundary) {
     TetMesh mesh = cube();
-    std::swap(mesh.tets[1][0], mesh.tets[1][1]);  // inside out
+    std::swap(mesh.tets[1][0], mesh.tets[1][1]);  // inverted
     Surface surface;
     Cage cage;
     Embedding embedding;
@@ -324,7 +324,7 @@ TEST_F(TetFiles, TakenTetsKeepTheirNodesAndGetTheirBoundary) {
     EXPECT_EQ(cage.tet_organ, (std::vector<int>{0, 0, 0, 1, 1}));
     EXPECT_EQ(cage.tet_fill, std::vector<double>(5, 1.0));
 
-    // Twelve outer faces, outwards: the divergence theorem gives the volume again.
+    // Twelve outer faces, oriented outwards: the divergence theorem gives the same volume.
     ASSERT_EQ(surface.triangles.size(), 12u);
     double enclosed = 0;
     for (const Triangle& t : surface.triangles)
@@ -335,7 +335,7 @@ TEST_F(TetFiles, TakenTetsKeepTheirNodesAndGetTheirBoundary) {
     ASSERT_EQ(surface.parts.size(), 2u);
     EXPECT_EQ(surface.parts[1].name, "leaf");
 
-    // Every vertex is bound to the node that it is.
+    // Every vertex is attached to its own node.
     for (size_t v = 0; v < surface.positions.size(); ++v) {
         Vec3 bound = Vec3::Zero();
         for (size_t k = 0; k < 4; ++k)

@@ -1,4 +1,4 @@
-// Volume and weights of a tet against closed forms.
+// Volume and weights of a tet, compared with closed forms.
 #include "model/tet_geometry.hpp"
 
 #include <gtest/gtest.h>

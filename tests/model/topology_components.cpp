@@ -20,7 +20,7 @@ double distance_of(const Topology& topology, int t, int u) {
     return std::sqrt(nearest_of_triangles(a, b).squared);
 }
 
-// No cycles, every component reached, places on the triangles that they name.
+// Checks that there are no cycles, that every component is reached, and that points are on the named triangles.
 void expect_tree(const Topology& topology) {
     ASSERT_EQ(int(topology.joints.size()), topology.component_count - 1);
     UnionFind sets(size_t(topology.component_count));
@@ -82,7 +82,7 @@ TEST(Topology, JoinsHundredsOfLooseCardsToTheStem) {
 }
 
 TEST(Topology, JoinsNearestComponentsAsAllPairsWould) {
-    // Equal small cards far apart: what a joint costs grows with its length alone.
+    // Equal small cards far apart, so that the cost of a joint depends on its length only.
     Surface surface;
     std::mt19937_64 engine(5);
     for (int i = 0; i < 60; ++i) {

@@ -1,4 +1,4 @@
-// The C++ side of the installed package: plants in a Bullet world of one's own.
+// The C++ part of the installed package: plants in the caller's own Bullet world.
 #include <btBulletDynamicsCommon.h>
 #include <frond/frond_bullet.hpp>
 

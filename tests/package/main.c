@@ -1,4 +1,4 @@
-/* A program outside the tree that uses the installed package: a stem sways. */
+/* A program outside the source tree that uses the installed package: a stem sways. */
 #include <frond/frond.h>
 #include <stdio.h>
 

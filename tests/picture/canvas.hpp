@@ -1,4 +1,4 @@
-// Canvas: a small picture to draw on in tests, and a look at its pixels.
+// Canvas: a small picture to draw on in tests, and access to its pixels.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ inline frond_picture_def small_def() {
     return def;
 }
 
-// Looks along -z at a square of two metres around the origin, light from the upper left front.
+// Returns a scene that looks along -z at a square of two metres around the origin, lit from the upper left front.
 inline frond_picture_scene front_scene() {
     frond_picture_scene scene = frond_default_picture_scene();
     scene.camera.eye = {0, 0, 6};
@@ -39,7 +39,7 @@ inline frond_picture_scene front_scene() {
 struct Canvas {
     frond_picture* picture = nullptr;
     bool shared = false;
-    // One picture serves all tests that do not mind, since making one takes longer than drawing.
+    // One picture is shared by all tests that allow it, since creating one takes longer than drawing.
     Canvas() : shared(true) {
         static Canvas& canvas = *new Canvas(small_def());
         picture = canvas.picture;
@@ -64,7 +64,7 @@ struct Canvas {
     }
 };
 
-// x, y in the front scene's metres: the picture shows -1..1 upwards.
+// Returns a pixel; x, y in the front scene's metres: the picture shows -1..1 upwards.
 inline Pixel at(const std::vector<uint8_t>& pixels, double x, double y) {
     const int column = int(WIDTH / 2.0 + x * HEIGHT / 2), row = int(HEIGHT / 2.0 - y * HEIGHT / 2);
     const size_t i = (size_t(row) * WIDTH + size_t(column)) * 3;

@@ -1,4 +1,4 @@
-// Comparison: passes what only edges do differently, fails what a person would see. And one reference picture.
+// Comparison: passes if only edges differ, fails if a person would see the difference. And one reference picture.
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -8,7 +8,7 @@
 
 namespace test_compare_tests {
 
-// A little plant: stem and leaves that bend by `bend` radians; `missing` leaves one out.
+// Draws a small plant: a stem that bends by `bend` radians with leaves, of which `missing` is left out.
 std::vector<uint8_t> draw_plant(double bend, int missing, int samples = 4, double shift = 0) {
     frond_picture_def def = small_def();
     def.width = 320, def.height = 240;
@@ -61,7 +61,7 @@ TEST(PictureCompare, SamePicturesDifferByNothing) {
 
 TEST(PictureCompare, ForgivesAntiAliasingAndRounding) {
     const std::vector<uint8_t> plant = draw_plant(0.3, -1);
-    // No anti-aliasing at all, a shift of a third of a pixel, and the lowest bit.
+    // No anti-aliasing at all, an offset of a third of a pixel, and changes of the lowest bit.
     EXPECT_TRUE(compare(plant, draw_plant(0.3, -1, 1)).same);
     EXPECT_TRUE(compare(plant, draw_plant(0.3, -1, 4, 0.002)).same)
         << compare(plant, draw_plant(0.3, -1, 4, 0.002)).worst;
@@ -86,7 +86,7 @@ TEST(PictureCompare, SeesAMissingLeafAndWhereItWas) {
     EXPECT_GT(difference.worst, 10);
     EXPECT_GT(difference.share, 0.001);
     EXPECT_LT(difference.share, 0.2);
-    // The leaf stands to the right of the stem in the upper half; there the difference is bright, elsewhere black.
+    // The leaf is to the right of the stem in the upper half; there the difference is bright, elsewhere black.
     EXPECT_GT(difference.worst_x, 160);
     EXPECT_GT(heat[(size_t(difference.worst_y) * 320 + size_t(difference.worst_x)) * 3], 150);
     EXPECT_EQ(heat[0], 0);
@@ -130,7 +130,7 @@ TEST(PictureCompare, KeepsADifferencePictureOnFailureOnly) {
     EXPECT_EQ(width, 3 * 320 + 8);
     EXPECT_EQ(height, 240);
     frond_picture_free(sheet);
-    // Another size is an error, kept too.
+    // Another size is an error, and is written too.
     std::remove(kept.c_str());
     EXPECT_FALSE(frond_picture_compare_file(plant.data(), 240, 320, reference.c_str(), FROND_PICTURE_TOLERANCE,
                                             &difference, kept.c_str()));
@@ -138,7 +138,7 @@ TEST(PictureCompare, KeepsADifferencePictureOnFailureOnly) {
     frond_picture_free(sheet);
 }
 
-// FROND_UPDATE_PICTURES=1 writes the reference anew.
+// FROND_UPDATE_PICTURES=1 rewrites the reference.
 TEST(PictureCompare, PlantLooksAsInItsReference) {
     const std::vector<uint8_t> plant = draw_plant(0.3, -1);
     const std::string reference = std::string(FROND_PICTURE_TESTS) + "/reference/little_plant.png";

@@ -1,4 +1,4 @@
-// Contexts: platforms, the caller's own context, and that a host's context survives.
+// Contexts: platforms, the caller's own context, and restoring a host's context.
 #include <cstdlib>
 
 #include "canvas.hpp"

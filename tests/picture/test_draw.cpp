@@ -1,4 +1,4 @@
-// What is drawn: light, shadow, cuts, two sides, overlays; and hostile meshes.
+// Drawing: light, shadow, cutouts, two sides, overlays; and hostile meshes.
 #include <cstring>
 #include <limits>
 #include <random>
@@ -7,9 +7,9 @@
 
 namespace test_draw_tests {
 
-// A PNG's bytes: opaque green on the left, transparent on the right.
+// Returns the bytes of a TGA file: opaque green on the left, transparent on the right.
 std::vector<uint8_t> half_cut_png() {
-    // 4 x 4 BMP files cannot hold alpha in a way that every reader knows; TGA can, and is quickly written.
+    // Not every reader knows alpha in a BMP file; TGA holds it, and is quickly written.
     std::vector<uint8_t> tga = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 8, 0, 32, 0x28};
     for (int y = 0; y < 8; y++)
         for (int x = 0; x < 8; x++) {
@@ -48,7 +48,7 @@ TEST(PictureDraw, BallHasALightSideAndADarkSide) {
 }
 
 TEST(PictureDraw, ShadowFallsAwayFromTheSun) {
-    // Seen from straight above: x to the right, z downwards.
+    // Seen from straight above: x to the right, z downwards on the picture.
     frond_picture_scene scene = front_scene();
     scene.camera.eye = {0, 6, 0};
     scene.camera.up = {0, 0, -1};
@@ -59,7 +59,7 @@ TEST(PictureDraw, ShadowFallsAwayFromTheSun) {
     ASSERT_TRUE(frond_picture_draw_box(canvas.picture, {-0.3, 0.5, 0}, {0, 0, 0, 1}, {0.15, 0.05, 0.15},
                                        {0.5f, 0.5f, 0.5f, 1}));
     const std::vector<uint8_t> pixels = canvas.end();
-    // The box floats at half a metre; light of 45 degrees moves its shadow by that much to the right.
+    // The box floats at half a metre; light at 45 degrees moves its shadow by that much to the right.
     const int shadow = at(pixels, 0.2, 0).sum(), left = at(pixels, -0.85, 0).sum(), far = at(pixels, 0.2, 0.8).sum();
     EXPECT_LT(shadow, far - 120);
     EXPECT_LT(shadow, left - 120);
@@ -140,7 +140,7 @@ TEST(PictureDraw, CutLeafThrowsACutShadow) {
     canvas.begin(scene);
     const std::vector<uint8_t> bytes = half_cut_png();
     Sheet sheet(0, 0, 1);
-    // Lying flat at zero, from -0.6 to 0 in x; the cut half is the right one.
+    // Flat at height zero, from -0.6 to 0 in x; the transparent half is the right one.
     sheet.positions = {-0.6f, 0, 0.3f, 0, 0, 0.3f, 0, 0, -0.3f, -0.6f, 0, -0.3f};
     for (size_t i = 0; i < 12; i++) sheet.normals[i] = i % 3 == 1 ? 1.0f : 0.0f;
     ASSERT_TRUE(frond_picture_add_texture(canvas.picture, bytes.data(), bytes.size(), &sheet.part.texture));
@@ -345,7 +345,7 @@ TEST(PictureDraw, RandomMeshesDoNoHarm) {
         std::vector<uint8_t> colors(120);
         for (auto* array : {&positions, &normals, &uvs})
             for (float& value : *array) {
-                // Any bits, or something ordinary.
+                // Arbitrary bits, or an ordinary number.
                 const uint32_t bits = uint32_t(random());
                 if (random() % 4 == 0)
                     std::memcpy(&value, &bits, 4);

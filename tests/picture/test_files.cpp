@@ -1,4 +1,4 @@
-// PNG and WebP: what is written comes back.
+// PNG and WebP: files are read back as they were written.
 #include <webp/demux.h>
 
 #include <cstdio>
@@ -14,7 +14,7 @@ std::vector<uint8_t> read_file(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-// A white disc that moves to the right on a blue ground.
+// Draws a white disc that moves to the right on a blue background.
 std::vector<uint8_t> moving_disc(int width, int height, int step) {
     std::vector<uint8_t> pixels(size_t(width) * height * 3);
     for (int y = 0; y < height; y++)

@@ -1,4 +1,4 @@
-// Misuse of every function: a text, nothing done, nobody dies.
+// Misuse of every function: it gives a text, does nothing and does not crash.
 #include <cmath>
 #include <limits>
 
@@ -9,14 +9,14 @@ namespace test_misuse_tests {
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 const frond_color RED = {1, 0, 0, 1};
 
-// The call failed and said something that contains `word`.
+// Expects that the call failed with a text that contains `word`.
 void expect_refused(bool result, const char* word) {
     EXPECT_FALSE(result);
     EXPECT_NE(std::string(frond_picture_last_error()).find(word), std::string::npos)
         << "said: " << frond_picture_last_error() << ", expected: " << word;
 }
 
-// All drawing calls with sound arguments.
+// Makes all drawing calls with valid arguments.
 std::vector<bool> draw_all(frond_picture* picture) {
     static const double nodes[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     static const int32_t tets[4] = {0, 1, 2, 3};

@@ -1,7 +1,7 @@
-// placements: how many pairs of corn plants that were made in each other are out of each other from 2 to 4 s, by FCL.
-// Two of the placements are those of the scene corn_pair and of examples/pair.c, the others random.
+// placements: counts the pairs of overlapping corn plants that are apart from 2 to 4 s, measured by FCL. Two of the
+// placements are those of the scene corn_pair and of examples/pair.c, the others are random.
 //     placements [COUNT [STEPS_A_SECOND [MECHANICS [AT_LEAST]]]]
-// Fails if fewer than AT_LEAST of them are less than 1 mm in each other.
+// Fails if fewer than AT_LEAST of them overlap by less than 1 mm.
 #include <cstdio>
 #include <cstdlib>
 #include <random>
@@ -14,12 +14,12 @@ namespace {
 
 constexpr double APART = 0.001;  // [m]
 
-// From the generator's bits, so that all libraries draw alike.
+// Returns a random number from the generator's bits, so that all standard libraries give the same.
 double between(std::mt19937& random, double low, double high) {
     return low + (high - low) * double(random()) / double(std::mt19937::max());
 }
 
-// Plants 0.8 to 1 m from each other, turned anyhow, whose cages are in each other by 1 cm or more.
+// Returns plants 0.8 to 1 m apart, with random rotations, whose cages overlap by 1 cm or more.
 Placement draw_placement(std::mt19937& random) {
     constexpr double NEAREST = 0.8, FARTHEST = 1, IN = 0.01;  // [m]
     for (;;) {
@@ -33,10 +33,10 @@ Placement draw_placement(std::mt19937& random) {
 
 struct Deepest {
     double cages = 0, surfaces = 0;  // [m]
-    int late = 0;                    // steps with more than allowed
+    int late = 0;                    // steps with more overlap than allowed
 };
 
-// The largest overlap of all steps from 2 to 4 s. Rods do not touch by their cages.
+// Returns the largest overlap of all steps from 2 to 4 s. Rods do not touch by their cages.
 Deepest play(const Placement& placement, frond_mechanics mechanics, int steps_a_second) {
     CornPair pair(FROND_RESPONSE_IMPULSE, mechanics, 1.0 / steps_a_second, placement);
     const bool by_cages = mechanics != FROND_MECHANICS_ROD && mechanics != FROND_MECHANICS_SPRING_CHAIN;

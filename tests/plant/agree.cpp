@@ -1,5 +1,5 @@
-// All mechanics agree on whole plants: corn and cucumber stand where their rods stand and sway as fast, by the modes of
-// stiffness and mass and by a free sway alike.
+// All mechanics agree on whole plants: corn and cucumber stand where their rods stand and have the same natural
+// frequencies, by the modes of stiffness and mass as well as by free vibration.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace frond::test {
 namespace agree_tests {
 
-constexpr double ALIKE = 0.05;  // by how much mechanics may differ, relatively
+constexpr double ALIKE = 0.05;  // allowed relative difference between mechanics
 
 std::shared_ptr<const Model> load(const std::string& name, double capsule_radius = 0) {
     static std::map<std::pair<std::string, double>, std::shared_ptr<const Model>> models;
@@ -27,7 +27,7 @@ std::shared_ptr<const Model> load(const std::string& name, double capsule_radius
     return model;
 }
 
-// Frequencies of the first sways [Hz].
+// Returns the first natural frequencies [Hz].
 std::array<double, 2> frequencies(const std::shared_ptr<const Model>& model, frond_mechanics which, int order = 1) {
     ensure_rest_shape(*model, which, order);
     const auto system = make_system(model, which, FROND_MASS_LUMPED, order);
@@ -39,7 +39,7 @@ std::array<double, 2> frequencies(const std::shared_ptr<const Model>& model, fro
     return {std::sqrt(sways[0].square) / (2 * M_PI), std::sqrt(sways[1].square) / (2 * M_PI)};
 }
 
-// The frequency of the highest peak of a signal's spectrum, seen through Hann's window [Hz].
+// Returns the frequency of the highest peak of a signal's spectrum, with Hann's window [Hz].
 double main_frequency(const std::vector<double>& signal, double h) {
     double mean = 0, best = 0, largest = 0;
     for (double s : signal) mean += s / double(signal.size());
@@ -58,8 +58,8 @@ double main_frequency(const std::vector<double>& signal, double h) {
 }
 
 struct Standing {
-    Vec3 tip;          // under weight [m]
-    double frequency;  // of a free sway, let go from where a hundredth of the weight draws it along x [Hz]
+    Vec3 tip;          // position under weight [m]
+    double frequency;  // frequency of free vibration after a pull along x by a hundredth of the weight [Hz]
 };
 Standing watch(const std::shared_ptr<const Model>& model, frond_mechanics which) {
     constexpr double H = 1.0 / 120, DURATION = 8, LONG_STEP = 0.1, ASIDE = 0.01;  // [s], [-]
@@ -114,7 +114,7 @@ TEST_P(EveryPlant, HasTheSameFirstSwaysInAllMechanics) {
     }
 }
 
-// A cage of quadratic tets is fitted anew.
+// A cage of quadratic tets is calibrated separately.
 TEST(QuadraticTets, SwayAsTheRodsOfTheirPlantDo) {
     if (SANITIZED) GTEST_SKIP() << "takes minutes";
     const auto model = load("corn");
@@ -122,7 +122,7 @@ TEST(QuadraticTets, SwayAsTheRodsOfTheirPlantDo) {
     for (const frond_mechanics which :
          {FROND_MECHANICS_TET_LINEAR, FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN}) {
         const auto own = frequencies(model, which, 2);
-        // Measured: 0.8, 5.2 (leaves in tune with the stem) and 0.5 %.
+        // Measured: 0.8, 5.2 (leaves in resonance with the stem) and 0.5 %.
         const double alike = which == FROND_MECHANICS_TET_COROTATIONAL ? 0.06 : 0.02;
         for (size_t i : {0, 1}) EXPECT_NEAR(own[i], rods[i], alike * rods[i]) << mechanics(which).name << " sway " << i;
     }
@@ -148,7 +148,7 @@ TEST_P(EveryKind, StandsAndSwaysLikeRods) {
     EXPECT_NEAR(standing.frequency, rods.frequency, ALIKE * rods.frequency);
 }
 
-// Fig 7 of the paper: the radius drives the springs.
+// Fig 7 of the paper: the radius determines the springs.
 TEST(SpringChain, IsStifferWithThickerCapsules) {
     const auto as_shape = frequencies(load("corn"), FROND_MECHANICS_SPRING_CHAIN);
     EXPECT_GT(frequencies(load("corn", 0.02), FROND_MECHANICS_SPRING_CHAIN)[0], 1.2 * as_shape[0]);

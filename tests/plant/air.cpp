@@ -1,5 +1,5 @@
-// Air: drag of a pole, of bodies that fall and of blades that bend is that of the formulas and of what was published;
-// still air only takes energy; a gale upsets no step; off means nothing at all.
+// Air: the drag of a pole, of falling bodies and of bending blades agrees with formulas and published values; still air
+// only removes energy; a gale makes no step unstable; switched off, air has no effect at all.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ frond_wind_def wind_def(double speed, double turbulence = 0) {
     return def;
 }
 
-// Some twenty capsules along L, of one material; without gravity.
+// Returns a def with some twenty capsules along L, one material and no gravity.
 frond_model_def long_def(double L, const frond_organ_material& organ) {
     frond_model_def def = model_def();
     def.capsule_height = L / 20;
@@ -40,7 +40,7 @@ frond_model_def long_def(double L, const frond_organ_material& organ) {
     return def;
 }
 
-// Upright, its normal along x.
+// Returns an upright sheet with its normal along x.
 std::shared_ptr<const Model> sheet_model(const char* name, double L, double W, const Material& material) {
     Surface surface;
     add_sheet(surface, 2, 40, [&](double s, double t) { return Vec3(0, t * L, (s - 0.5) * W); });
@@ -104,7 +104,7 @@ Material stiff(double drag = 0) {
     return material;
 }
 
-// ---- one piece -------------------------------------------------------------------------------------------------
+// ---- one segment -----------------------------------------------------------------------------------------------
 
 AirPiece piece_of(AirShape shape, double coefficient, const Vec3& area) {
     AirPiece piece = {};
@@ -112,7 +112,7 @@ AirPiece piece_of(AirShape shape, double coefficient, const Vec3& area) {
     piece.coefficient = coefficient;
     piece.area = area;
     piece.size = 0.04;
-    piece.skin = 0;  // what it does is looked at alone
+    piece.skin = 0;  // skin friction is tested separately
     piece.chord_along = 0.5;
     piece.chord_across = 0.1;
     return piece;
@@ -145,7 +145,7 @@ TEST(Resistance, OfACompactPieceIsDragAlongTheFlow) {
     EXPECT_NEAR((force_on(compact, FRAME, velocity) - 0.5 * DENSITY * 0.5 * seen * 3 * velocity).norm(), 0, 1e-12);
 }
 
-// White 1991: Re = 1000: 1.1 for a cylinder, 0.61 for a sphere; very slow spheres obey Stokes.
+// White 1991: at Re = 1000, 1.1 for a cylinder and 0.61 for a sphere; very slow spheres obey Stokes.
 TEST(Resistance, FollowsTheReynoldsNumber) {
     const double slow = 1000 * VISCOSITY / 0.04;
     const AirPiece cylinder = piece_of(AirShape::ROUND, 0, {0, 0.04, 0.04});
@@ -158,7 +158,7 @@ TEST(Resistance, FollowsTheReynoldsNumber) {
     EXPECT_TRUE(air_resistance(sphere, FRAME, Vec3::Zero(), DENSITY).isZero(0));
 }
 
-// 1.328 / sqrt Re of each side (Blasius), the way along the blade or across it.
+// 1.328 / sqrt Re for each side (Blasius), with the flow along the blade or across it.
 TEST(Resistance, OfTheSkinIsThatOfAFlatPlate) {
     AirPiece sheet = piece_of(AirShape::SHEET, 1.3, {0, 0.02, 0});
     sheet.skin = 0.04;
@@ -188,7 +188,7 @@ TEST_P(EveryAir, PoleHasTheDragOfTheFormulaAndItsRootHoldsIt) {
     EXPECT_NEAR(force.y() / known, 0, 0.01);
     EXPECT_NEAR(force.z() / known, 0, 0.01);
 
-    // What holds the root: all that its elements and the air do there.
+    // The reaction at the root balances the forces of its elements and of the air.
     VecX f = VecX::Zero(pole.plant->motion.x.size());
     mechanics(which).add_force(elements_of(*pole.plant->system), pole.plant->motion.x, f);
     add_attachment_force(pole.plant->loads.drags[0].attachment, pole.plant->motion.x, Vec3::Zero(), f);
@@ -201,14 +201,14 @@ TEST_P(EveryAir, PoleHasTheDragOfTheFormulaAndItsRootHoldsIt) {
     EXPECT_NEAR(reaction.x() / known, -1, 0.01);
 }
 
-// A plate falls with sqrt(2 m g / (rho Cd A)), a stem with its own Reynolds number's coefficient.
+// A plate falls at sqrt(2 m g / (rho Cd A)), a stem with the coefficient of its own Reynolds number.
 TEST_P(EveryAir, FreePlateAndStemFallWithTheirTerminalVelocities) {
-    Material leaf = plain_material(900, 1e11, 0.3, 0.5e-3);  // or its tips would bend away
+    Material leaf = plain_material(900, 1e11, 0.3, 0.5e-3);  // stiff, or its tips would bend away
     leaf.drag = 1.5;
     Blown plate(sheet_model("leaf", 0.8, 0.08, leaf), which, wind_def(0), FROND_INTEGRATOR_BDF2, -1);
     plate.lay_down();
     plate.surroundings.gravity = {0, -GRAVITY, 0};
-    plate.run(0.9, 1.0 / 120);  // four times as long as it takes; it will begin to glide
+    plate.run(0.9, 1.0 / 120);  // four times the settling time; later it begins to glide
     const double weight = node_mass_of(*plate.plant->system).sum() * GRAVITY;
     EXPECT_NEAR(-plate.mean_velocity().y() / std::sqrt(2 * weight / (DENSITY * 1.5 * 0.8 * 0.08)), 1, 0.03);
 
@@ -222,7 +222,7 @@ TEST_P(EveryAir, FreePlateAndStemFallWithTheirTerminalVelocities) {
     EXPECT_NEAR(drag / (node_mass_of(*stem.plant->system).sum() * GRAVITY), 1, 0.03);
 }
 
-// Drag of a bent blade over that of a stiff one, by the Cauchy number; the digits follow from the differential equation
+// Drag of a bent blade over that of a stiff one, by the Cauchy number; the values follow from the differential equation
 // of Gosselin, de Langre, Machado-Almeida 2010 (tests/study/known.cpp solves it).
 struct Reconfigured {
     double C, R;
@@ -276,7 +276,7 @@ TEST_P(EveryAir, StillAirOnlyTakesEnergyFromASway) {
     EXPECT_LT(with.energy(), 0.5 * without.energy());
 }
 
-// A leaf of grass in gusts about 60 m/s, at half of the frames of a film, is not drawn out.
+// A leaf of grass in gusts around 60 m/s, at steps of 1/30 s, is not stretched.
 TEST_P(EveryAir, LightLeafInAGaleIsStableAtLongSteps) {
     const Material leaf = *material_preset("grass_blade");
     const auto model = sheet_model("leaf", 0.8, 0.06, leaf);
@@ -289,7 +289,7 @@ TEST_P(EveryAir, LightLeafInAGaleIsStableAtLongSteps) {
         for (int n = 0; n < 60; ++n) {
             blade.step(1.0 / 30);
             EXPECT_EQ(blade.plant->trouble & FROND_TROUBLE_REWOUND, 0u) << integrator(method).name << " step " << n;
-            // The wind is there at once, so that the first steps are wild.
+            // The wind sets in at once, so that the first steps overshoot.
             const double reach = (n < 10 ? 2 : 1.5) * 0.8;
             for (const Vec3& p : blade.plant->chain_positions) ASSERT_LT(p.norm(), reach) << "step " << n;
             mean += blade.plant->chain_positions.back().x() / 60;
@@ -298,7 +298,7 @@ TEST_P(EveryAir, LightLeafInAGaleIsStableAtLongSteps) {
     }
 }
 
-// What a whole step may turn, a part of one may too.
+// A substep may turn as far as a whole step may.
 TEST(Air, BlownAboutALeafIsSteppedInPartsWithoutASearch) {
     const auto model = sheet_model("leaf", 0.8, 0.06, *material_preset("grass_blade"));
     for (const double speed : {11, 12, 13}) {
@@ -317,7 +317,7 @@ TEST(Air, BlownAboutALeafIsSteppedInPartsWithoutASearch) {
 
 TEST(Air, WithoutOneOfBothEffectsTheOtherHalfIsLeftOut) {
     const auto model = stem_model(0.6, 0.01, plain_material(100, 1e7, 0.3, 1e-3));
-    // The wind alone pushes, however fast the plant moves; drag alone does not know of the wind.
+    // Wind alone pushes, however fast the plant moves; drag alone ignores the wind.
     Blown pushed(model, FROND_MECHANICS_ROD, wind_def(5)), dragged(model, FROND_MECHANICS_ROD, wind_def(5));
     pushed.plant->effects &= ~uint32_t(FROND_EFFECT_AIR_DRAG);
     dragged.plant->effects &= ~uint32_t(FROND_EFFECT_WIND);
@@ -360,7 +360,7 @@ TEST(Air, IsSwitchedWhileAPlantStands) {
     EXPECT_EQ(air_force(*blown.plant).norm(), 0);
 }
 
-// A plant that stands turned feels the wind of the world.
+// A rotated plant feels the world's wind.
 TEST(Air, BlowsInTheFrameOfTheWorld) {
     const auto model = stem_model(0.6, 0.01, plain_material(100, 1e8, 0.3, 1e-3));
     Blown straight(model, FROND_MECHANICS_ROD, wind_def(5)), turned(model, FROND_MECHANICS_ROD, wind_def(5));

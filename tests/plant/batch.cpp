@@ -1,5 +1,5 @@
-// Plants that are stepped side by side go as each alone does, to the last bit, in lanes of any width, whatever happens
-// to one of them.
+// Batched plants move exactly as each alone does, to the last bit, in lanes of any width, whatever happens to one of
+// them.
 #include "plant/batch.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace batch_tests {
 
 constexpr double H = 1.0 / 60;
 
-// A stem with branches whose organs damp differently, or a blade.
+// Returns a stem with branches whose organs damp differently, or a blade.
 std::shared_ptr<const Model> model_of(bool is_blade) {
     frond_model_def def = model_def();
     def.capsule_height = 0.08;
@@ -49,13 +49,13 @@ struct Width {
     ~Width() { most_lanes() = before; }
 };
 
-// Plants of a model, here and there, turned this way and that, in gusts.
+// Plants of a model at several positions, with several rotations, in gusts.
 struct Field {
     std::vector<std::unique_ptr<Plant>> plants;
     std::unique_ptr<Wind> wind;
     Surroundings surroundings;
-    int batched = 0, alone = 0;  // steps taken; who goes alone assembles in a workspace of its own
-    int pulled = 0;              // of those abreast, by fibres
+    int batched = 0, alone = 0;  // plants stepped; those stepped alone assemble in a workspace of their own
+    int pulled = 0;              // batched plants whose fibres pulled
 
     Field(const std::shared_ptr<const Model>& model, int count, double speed,
           frond_mechanics which = FROND_MECHANICS_ROD) {
@@ -107,7 +107,7 @@ struct Field {
     }
 };
 
-// What hosts do to single plants meanwhile.
+// Disturbs single plants as hosts do.
 void disturb(Field& field, int step) {
     Plant& third = *field.plants[2];
     if (step == 60) pin_node(third, node_count_of(third) - 1);
@@ -129,7 +129,7 @@ void disturb(Field& field, int step) {
     }
 }
 
-// Zeros have the same sign too.
+// Compares bits, so that zeros must have the same sign.
 bool are_same_bits(const VecX& a, const VecX& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), size_t(a.size()) * sizeof(double)) == 0;
 }
@@ -173,7 +173,8 @@ TEST_P(BatchedPlants, GoAsAlone) {
             if (HasFatalFailure()) FAIL() << "plant " << i << " in step " << step;
         }
     }
-    // A gale takes most chains out, and stems as cages yield; two that are left over by fours go alone.
+    // A gale takes most chains out of batches, and stems with cages too; the two left over by batches of four step
+    // alone.
     const bool is_calm = which == FROND_MECHANICS_ROD ? speed <= 10 : is_blade;
     EXPECT_GT(together.batched, is_calm ? steps * (lanes == 2 ? 9 : 8) : 40);
     EXPECT_GT(together.alone, 11);
@@ -183,7 +184,7 @@ TEST_P(BatchedPlants, GoAsAlone) {
     }
 }
 
-// A host's field, which turns with the place.
+// A host's wind field that varies with position.
 void field_of_host(const frond_vec3* points, int count, double time, frond_vec3* velocities, void*) {
     for (int i = 0; i < count; i++)
         velocities[i] = {velocities[i].x + std::sin(points[i].z + time), 0.5 * std::sin(points[i].x), velocities[i].z};
@@ -202,7 +203,7 @@ TEST(PlantBatch, AreBlownByAFieldOfTheHostAsAlone) {
     EXPECT_GT(together.batched, 5 * 50);
 }
 
-// Straight, and as soft as can stand.
+// Returns a straight stem, as soft as can stand.
 std::shared_ptr<const Model> soft_stem() {
     frond_model_def def = model_def();
     def.capsule_height = 0.1;
@@ -214,7 +215,7 @@ std::shared_ptr<const Model> soft_stem() {
     return build_from_stems(&stem, 1, def);
 }
 
-// Rolled up less and less towards its end, which is turned by `angle` [rad].
+// Returns a shape whose curvature decreases towards its end, which is rotated by `angle` [rad].
 VecX rolled_up(const Plant& plant, double angle) {
     VecX x = elements_of(*plant.system).modelled;
     Vec3 before = Vec3::Zero(), place = before;
@@ -232,7 +233,7 @@ VecX rolled_up(const Plant& plant, double angle) {
 }
 
 TEST(PlantBatch, GoOnPastHalfATurn) {
-    constexpr double FROM = M_PI - 0.2, RATE = 8;  // of the end's turn [rad], [rad/s]
+    constexpr double FROM = M_PI - 0.2, RATE = 8;  // rotation of the end [rad] and its rate [rad/s]
     const auto model = soft_stem();
     Field together(model, 3, 0.1), apart(model, 3, 0.1);
     for (Field* field : {&together, &apart}) {
@@ -255,7 +256,7 @@ TEST(PlantBatch, GoOnPastHalfATurn) {
             EXPECT_EQ(plant.trouble, 0u) << "plant " << i << " in step " << step;
             EXPECT_EQ(plant.report.work, 0);
             EXPECT_TRUE(step == 0 || plant.motion.history.valid);
-            // There and back.
+            // The rotation passes half a turn and comes back.
             EXPECT_EQ(end(plant) < 0, step == 1) << end(plant) << ", plant " << i << " in step " << step;
         }
     }

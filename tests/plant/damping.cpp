@@ -1,5 +1,5 @@
-// Material damping: the first sway decays with the organs' ratio, each organ damps what bends in itself, and a ratio of
-// zero costs and changes nothing.
+// Material damping: the first mode decays with the organs' damping ratio, each organ damps its own bending, and a ratio
+// of zero costs nothing and changes nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace damping_tests {
 
 constexpr double H = 1.0 / 240;
 
-// Two stems one on the other, 0.8 m in all, each with a damping ratio of its own.
+// Returns two stems one on top of the other, 0.8 m in all, each with its own damping ratio.
 std::shared_ptr<const Model> stem_model(double low_ratio, double high_ratio, frond_rest rest) {
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.4, 0}, 0.02, 0.02}, {0, {0, 0.4, 0}, {0, 0.8, 0}, 0.02, 0.016}};
     frond_organ_material organs[] = {{"stem_0", plain_material(1000, 2e7, 0.3, 1e-3)},
@@ -33,7 +33,7 @@ std::shared_ptr<const Model> stem_model(double low_ratio, double high_ratio, fro
     return build_from_stems(stems, 2, def);
 }
 
-// A plant whose top was given a push and that sways freely, only material damping on.
+// A plant that vibrates freely after a push at its top, with material damping only.
 struct Swaying {
     std::unique_ptr<Plant> plant;
     Surroundings surroundings;
@@ -63,8 +63,8 @@ struct Swaying {
         return e.kinetic + e.elastic + e.gravity - still;
     }
 
-    // By how fast the energy falls over six swings of the tip, for a cage that is not symmetric lets a sway wander into
-    // the plane across; the first swing is left out, in which higher modes die away.
+    // Returns the damping ratio from the decay of energy over six half periods of the tip; energy, as an asymmetric
+    // cage spreads vibration to the perpendicular plane. The first swing is left out, in which higher modes decay.
     double decay() {
         double before = 0, last = 0;
         int turns = 0, steps = 0;
@@ -79,7 +79,7 @@ struct Swaying {
         }
         EXPECT_EQ(turns, 8) << "it does not sway";
         const double slope = (steps * sum_te - sum_t * sum_e) / (steps * sum_tt - sum_t * sum_t);
-        const double decrement = -0.5 * slope * steps * H / 6;  // over half a period
+        const double decrement = -0.5 * slope * steps * H / 6;  // logarithmic decrement of half a period
         return decrement / std::hypot(decrement, M_PI);
     }
 };
@@ -97,14 +97,14 @@ INSTANTIATE_TEST_SUITE_P(Mechanics, EveryDamping,
 TEST_P(EveryDamping, FirstSwayDecaysWithTheRatioThatIsGiven) {
     for (double ratio : {0.02, 0.1}) {
         const auto model = stem_model(ratio, ratio, FROND_REST_WITHOUT_GRAVITY);
-        // A cage of one cell across sways in a shape of its own.
+        // A cage of one cell across has a slightly different mode shape.
         const double few_per_cent = which == FROND_MECHANICS_ROD ? 0.03 : 0.06;
         EXPECT_NEAR(Swaying(model, which, 1, false).decay(), ratio, few_per_cent * ratio);
         EXPECT_NEAR(Swaying(model, which, 0.5, false).decay(), 0.5 * ratio, few_per_cent * ratio);
     }
 }
 
-// Weight makes the sway slower and takes none of its damping away.
+// Weight lowers the frequency but does not change the damping.
 TEST_P(EveryDamping, FirstSwayDecaysWithTheRatioUnderWeightToo) {
     const auto model = stem_model(0.05, 0.05, FROND_REST_STANDS_AS_MODELLED);
     EXPECT_NEAR(Swaying(model, which, 1, true).decay(), 0.05, 0.05 * 0.05);
@@ -135,7 +135,7 @@ TEST_P(EveryDamping, RatioOfZeroChangesNoBit) {
     EXPECT_NE(run(0.05, 1), without);
 }
 
-// Elements that all damp alike take the short way; the long way gives the same.
+// Elements with equal damping take a shorter computation; the general one gives the same.
 TEST_P(EveryDamping, OneRatioOrTwoAlmostAlikeMoveAlike) {
     for (frond_integrator method : {FROND_INTEGRATOR_IMPLICIT_EULER, FROND_INTEGRATOR_BDF2, FROND_INTEGRATOR_SDIRK2,
                                     FROND_INTEGRATOR_GENERALIZED_ALPHA}) {

@@ -1,5 +1,5 @@
-// Fibres: a blade in a cage is not drawn out, neither by a hand nor by what hangs on it; what is soft by its material
-// gives as it should; a cage that lacks nothing has none; slack ones change no bit.
+// Fibres: a blade in a cage is not stretched, neither by a hand nor by a hanging weight; soft materials stretch as they
+// should; cages that need no fibres have none; slack fibres change no bit.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace fibres_tests {
 
 constexpr double LENGTH = 0.5, WIDTH = 0.05, H = 1.0 / 60;
 
-// Upright, its normal along x.
+// Returns an upright blade with its normal along x.
 std::shared_ptr<const Model> blade(double young, double thickness) {
     Surface surface;
     add_sheet(surface, 2, 30, [](double s, double t) { return Vec3(0, t * LENGTH, (s - 0.5) * WIDTH); });
@@ -47,8 +47,8 @@ double chain_length(const Plant& plant) {
     return sum;
 }
 
-// A hand takes the end of the blade's rim and pulls that far beyond, softly enough for the force asked for. Returns
-// the chain's length then, over that before [-].
+// Pulls the end of the blade's rim by a hand whose target is `way` beyond, with a spring soft enough for the requested
+// force. Returns the chain's length afterwards over that before [-].
 double drawn(Plant& plant, const Vec3& way, double force, double& held) {
     const double before = chain_length(plant);
     const int vertex = nearest_vertex(plant, plant.position + Vec3(0, LENGTH, WIDTH / 2));
@@ -74,7 +74,7 @@ TEST_P(Pulled, BladeIsNotDrawnOut) {
     const auto plant = plant_of(model, GetParam());
     EXPECT_LT(drawn(*plant, {0, 0.2, 0}, 5, force), 1.04);
     EXPECT_GT(force, 4);
-    // The rim that the hand holds stays at the blade.
+    // The rim that the hand holds stays with the blade.
     const Vec3 tip = plant->to_world(plant->chain_positions.back());
     EXPECT_LT((vertex_position(*plant, plant->grabs.back().vertex) - tip).norm(), 1.3 * WIDTH);
 
@@ -95,8 +95,8 @@ TEST_P(Pulled, BladeComesBackAndStandsStill) {
         EXPECT_LT((point(plant->motion.x, i) - point(plant->nodes->modelled, i)).norm(), 0.01 * LENGTH) << i;
 }
 
-// By Hooke's law, but for the slack: the cage carries a share of the pull from the start, the fibres theirs beyond
-// that.
+// By Hooke's law except for the slack: the cage carries a share of the pull from the start, the fibres theirs beyond
+// the slack.
 TEST_P(Pulled, SoftTissueGivesAsItShould) {
     constexpr double YOUNG = 2e5, RADIUS = 0.006;
     const frond_stem stem = {-1, {0, 0, 0}, {0, LENGTH, 0}, RADIUS, RADIUS};
@@ -131,7 +131,8 @@ TEST_P(Pulled, SlackFibresChangeNoBit) {
     EXPECT_GT((with->motion.x - with->nodes->modelled).norm(), 0.001);
 }
 
-// Pulls are the plant's own: what is taut all the time, as what hangs and is heavy, is not begun anew in every step.
+// Fibre forces are internal: fibres that stay taut, as under a hanging weight, do not restart the integrator in each
+// step.
 TEST_P(Pulled, IntegratorsLookBackBeyondTautFibres) {
     constexpr int STEPS = 60;
     for (const frond_integrator integrator :
@@ -156,7 +157,7 @@ TEST_P(Pulled, IntegratorsLookBackBeyondTautFibres) {
 TEST(Fibres, AreForCagesThatLackThem) {
     EXPECT_GT(make_fibres(*blade(5e8, 3e-4), 1).list.size(), 4u);
     EXPECT_TRUE(plant_of(blade(5e8, 3e-4), FROND_MECHANICS_TET_COROTATIONAL)->fibres);
-    EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_MECHANICS_TET_LINEAR)->fibres);  // grows when it turns
+    EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_MECHANICS_TET_LINEAR)->fibres);  // linear tets grow when they rotate
     EXPECT_FALSE(plant_of(blade(5e8, 3e-4), FROND_MECHANICS_ROD)->fibres);
     Model tet;
     tet.calibrated = false;

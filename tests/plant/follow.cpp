@@ -1,5 +1,5 @@
-// Where the chain moves, the cage follows: exactly at rest, back again from any shape the chain can take, and across a
-// change of mechanics.
+// If the chain moves, the cage follows: exactly at rest, reversibly from any shape that the chain can take, and across
+// a change of mechanics.
 #include <gtest/gtest.h>
 
 #include "build/build.hpp"
@@ -61,7 +61,7 @@ TEST(Follow, ChangingMechanicsDoesNotMakeThePlantJump) {
     swing(*plant, 20);
 }
 
-// A chain holds one pinned node by a spring; a cage holds the node itself.
+// A chain holds a pinned node by a spring; a cage holds the node itself.
 TEST(Follow, APinIsHeldAfterAChangeOfMechanicsToo) {
     for (const frond_mechanics first : {FROND_MECHANICS_ROD, FROND_MECHANICS_TET_COROTATIONAL}) {
         const bool is_rod = first == FROND_MECHANICS_ROD;

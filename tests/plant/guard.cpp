@@ -1,4 +1,4 @@
-// Guards: what no plant can have come to is noticed, and led back from; what it can have come to is left alone.
+// Guards: states that a plant cannot have reached are detected and recovered from; reachable ones are left alone.
 #include "plant/guard.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ Surroundings earth() {
     return surroundings;
 }
 
-// How far the farthest place is from where it is modelled, in sizes of the plant.
+// Returns the largest distance of a node from its modelled position, in sizes of the plant.
 double away(const Plant& plant) {
     const VecX& x = plant.motion.x;
     double most = 0;
@@ -50,7 +50,7 @@ double away(const Plant& plant) {
     return most / double(plant.size);
 }
 
-// Every node of the cage that is free at a random place, by the same call as a host's.
+// Puts every free node of the cage at a random position, by the function that hosts call.
 void scramble(Plant& plant, double far) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(-far, far);
@@ -62,7 +62,7 @@ void scramble(Plant& plant, double far) {
     set_state(plant, places.data(), nullptr);
 }
 
-// As far as a hand bends it, so that it is not torn.
+// Bends the plant as far as a hand does, without tearing it.
 void bend(Plant& plant) {
     std::vector<double> places;
     for (int i = 0; i < node_count_of(plant); i++) {
@@ -96,7 +96,7 @@ TEST_P(EveryShape, ScrambledComesBackWithinTwoSecondsAndKeepsNoSet) {
     EXPECT_LE(plant->recovers_for, 0);
 }
 
-// Bent as far as a hand bends it: none of the guards takes part.
+// Bent as far as a hand bends it, none of the guards acts.
 TEST_P(EveryShape, FarBentIsLeftAlone) {
     const auto plant = stem(GetParam());
     Surroundings surroundings = earth();
@@ -126,7 +126,7 @@ TEST_P(EveryShape, EnergyOutOfNothingIsTold) {
     EXPECT_TRUE(look_at_energy(*plant, H).comes_from_nowhere);
 }
 
-// As if each step had searched and given up where the plant is.
+// Simulates steps whose searches all failed at the current position.
 TEST_P(EveryShape, StartsFromItsModelledShapeWhereSearchesFindNoWayUnlessItIsPulled) {
     for (const bool is_pulled : {true, false}) {
         const auto plant = stem(GetParam());
@@ -151,7 +151,7 @@ TEST_P(EveryShape, StartsFromItsModelledShapeWhereSearchesFindNoWayUnlessItIsPul
     }
 }
 
-// On the ground it does so at once: bodies would push what is still seen of the other shape.
+// On the ground this happens at once, as bodies would collide with the rest of the old shape that is still visible.
 TEST_P(EveryShape, FadesFromThereUnlessSomethingTouchesIt) {
     for (const bool is_touched : {true, false}) {
         const auto plant = stem(GetParam());
@@ -185,9 +185,9 @@ TEST_P(EveryShape, GoesAlongWithAFootThatIsPutElsewhere) {
         EXPECT_LT((point(plant->motion.x, i) - point(elements_of(*plant->system).modelled, i) - way).norm(), 0.02);
 }
 
-// No step leads anywhere in a pull of 1e5 times its weight, and searches for one end sooner and sooner.
+// Under a pull of 1e5 times its weight no step succeeds, and searches end sooner and sooner.
 TEST_P(EveryShape, StepsThatLeadNowhereTakeLittleWorkAndTheFirstCalmOneAllThatItNeeds) {
-    constexpr int MOST = 400, MEAN = 400;  // after the first three steps, and of all [evaluations of the forces]
+    constexpr int MOST = 400, MEAN = 400;  // after the first three steps, and mean of all [force evaluations]
     const auto plant = stem(GetParam());
     Surroundings surroundings;
     surroundings.gravity = {0, -1e5 * GRAVITY, 1e5 * GRAVITY};
@@ -205,7 +205,7 @@ TEST_P(EveryShape, StepsThatLeadNowhereTakeLittleWorkAndTheFirstCalmOneAllThatIt
     EXPECT_LT(away(*plant), 0.02);
 }
 
-// Upside down beside its foot, with its cells mirrored: no step leads out of that.
+// Mirrored beside its foot, with inverted cells: no step recovers from that.
 TEST(Guard, WhatIsCaughtInsideOutStartsFromTheModelledShape) {
     const auto plant = stem(FROND_MECHANICS_TET_COROTATIONAL);
     VecX& x = plant->motion.x;
@@ -215,7 +215,7 @@ TEST(Guard, WhatIsCaughtInsideOutStartsFromTheModelledShape) {
     plant->report.inverted = 1;
     ASSERT_TRUE(start_from_modelled(*plant));
     EXPECT_LT(away(*plant), 1e-12);
-    EXPECT_FALSE(start_from_modelled(*plant));  // nothing is to be had by it any more
+    EXPECT_FALSE(start_from_modelled(*plant));  // a second start gains nothing
 }
 
 TEST(Guard, WhatIsHeldBentDoesNotStartFromTheModelledShape) {

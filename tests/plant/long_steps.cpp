@@ -1,4 +1,4 @@
-// Steps longer than the periods of what hangs: fruits on thin peduncles come to rest where they hung.
+// Steps longer than the periods of hanging parts: fruits on thin peduncles come to rest where they hung.
 #include <gtest/gtest.h>
 
 #include "plant/plant.hpp"
@@ -8,8 +8,8 @@
 namespace frond::test {
 namespace long_steps_tests {
 
-// A stiff post with an arm, from which a fruit hangs on a thread that swings back by its weight 15 times as hard as by
-// its own stiffness.
+// Returns a stiff post with an arm from which a fruit hangs on a thread, whose weight restores it 15 times as strongly
+// as its stiffness.
 std::shared_ptr<const Model> gallows() {
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.6, 0}, 0.02, 0.02},
                                 {0, {0, 0.6, 0}, {0.3, 0.6, 0}, 0.02, 0.02},
@@ -30,11 +30,11 @@ std::unique_ptr<Plant> plant_of(const std::shared_ptr<const Model>& model) {
     return create_plant(model, def);
 }
 
-// Pushed aside by a wind of gravity for two steps, then let go.
+// Tilts gravity for two steps, then lets the plant swing.
 void swing(Plant& plant, double h) {
     Surroundings surroundings;
     surroundings.gravity = {0.1 * GRAVITY, -GRAVITY, 0.05 * GRAVITY};
-    // Of the places.
+    // Returns the largest displacement.
     const auto farthest = [&] {
         double way = 0;
         for (int i = 0; i < plant.motion.x.size() / 3; i += 2)
@@ -63,10 +63,10 @@ TEST(LongSteps, LetACucumberComeToRest) {
     for (double h : {0.1, 0.5}) swing(*plant_of(model), h);
 }
 
-// Of a stem as a cage, bent far by a wind of gravity and let go.
+// A stem in a cage, bent far by sideways gravity and let go.
 struct Swung {
-    double kept = 0;  // of its energy after half a second [-]
-    int retried = 0;  // steps
+    double kept = 0;  // share of its energy after half a second [-]
+    int retried = 0;  // steps that were retried
 };
 Swung let_go(frond_integrator integrator, double h) {
     const frond_stem stem = {-1, {0, 0, 0}, {0, 1, 0}, 0.01, 0.01};
@@ -97,7 +97,7 @@ Swung let_go(frond_integrator integrator, double h) {
     return swung;
 }
 
-// Where one solve does not balance forces, more do; a step by implicit Euler would end the swing.
+// If one solve does not balance forces, more do; a step by implicit Euler would end the vibration.
 TEST(LongSteps, KeepASwingThatOneSolveCannotFollow) {
     for (const frond_integrator integrator : {FROND_INTEGRATOR_BDF2, FROND_INTEGRATOR_SDIRK2}) {
         const Swung far = let_go(integrator, 1.0 / 30);

@@ -69,7 +69,7 @@ TEST(Surface, OfQuadraticTetsFollowsACurvedMoveExactly) {
     for (size_t i = 0; i < plant->model->chain.nodes.size(); i++)
         EXPECT_LT((plant->chain_positions[i] - bend(plant->model->chain.nodes[i].position)).norm(), 1e-12);
 
-    // A normal is that of the bent surface, as far as tets tell it.
+    // A normal is that of the bent surface, within the accuracy of the tets.
     double worst = 1;
     for (size_t v = 0; v < surface.positions.size(); v++) {
         const Vec3& p = surface.positions[v];
@@ -103,7 +103,7 @@ TEST(Nodes, OfQuadraticTetsAreTheCagesAndThenTheMiddlesOfItsEdges) {
     EXPECT_GT(held, 4);
 }
 
-// Tets to rods and back: the host sees the same nodes all along, where they were.
+// From tets to rods and back: the host sees the same nodes throughout, in the same positions.
 TEST(Nodes, OfQuadraticTetsStayWhateverMoves) {
     const auto plant = create_plant(small_model(), plant_def(2));
     const VecX start = cage_places(*plant);
@@ -117,7 +117,7 @@ TEST(Nodes, OfQuadraticTetsStayWhateverMoves) {
 TEST(Surface, StandsInTheWorldWhereThePlantIsPlaced) {
     frond_plant_def def = plant_def();
     def.position = {5, 6, 7};
-    def.rotation = {0, 0, 2, 2};  // a quarter turn about z, not of length one
+    def.rotation = {0, 0, 2, 2};  // a quarter turn about z, not normalised
     const auto plant = create_plant(small_model(), def);
     update_surface(*plant, FROND_EFFECT_ALL);
     const Surface& surface = plant->model->surface;

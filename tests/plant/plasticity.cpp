@@ -1,5 +1,4 @@
-// Plastic strain of a plant that was bent: nothing below its yield, a set beyond it in rods as in tets, no energy out
-// of nothing.
+// Plastic strain of a bent plant: none below yield, a permanent bend beyond it in rods as in tets, and no energy gain.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +12,7 @@ namespace plasticity_tests {
 
 constexpr double H = 1.0 / 120;
 
-// A stem of 0.6 m that bends to its yield under some 4.7 N at its tip.
+// Returns a stem of 0.6 m that bends to its yield under some 4.7 N at its tip.
 std::shared_ptr<const Model> stem_model(double yield_strain, double creep = 0,
                                         frond_rest rest = FROND_REST_STANDS_AS_MODELLED) {
     const frond_stem stem = {-1, {0, 0, 0}, {0, 0.6, 0}, 0.012, 0.012};
@@ -33,7 +32,7 @@ std::shared_ptr<const Model> stem_model(double yield_strain, double creep = 0,
 struct Bending {
     std::unique_ptr<Plant> plant;
     Surroundings surroundings;
-    int vertex;  // at the tip
+    int vertex;  // vertex at the tip
 
     Bending(const std::shared_ptr<const Model>& model, frond_mechanics which) {
         frond_plant_def def = {};
@@ -51,18 +50,18 @@ struct Bending {
         vertex = nearest_vertex(*plant, Vec3(0, 0.6, 0));
     }
     Vec3 tip() const { return plant->chain_positions.back(); }
-    // Strongly damped, so that it rests in the end.
+    // Applies a force with strong damping, so that the plant comes to rest.
     void rest(double force) {
         plant->settings.mass_damping = 20;
         pull(force);
         for (int n = 0; n < 240; ++n) step_plant(*plant, surroundings, H);
     }
-    // A soft spring from far away is a force.
+    // Pulls by a soft spring from far away, which acts as a constant force.
     void pull(double force) {
         plant->grabs.clear();
         if (force != 0) plant->grabs.push_back({vertex, Vec3(force / 0.01, 0, 0), 0.01, 0});
     }
-    // How far the tip stays aside after a force that came and went [m].
+    // Returns the permanent displacement of the tip after a force was applied and removed [m].
     double set_after(double force) {
         rest(0);
         const double before = tip().x();
@@ -118,7 +117,7 @@ TEST_P(EveryPlasticity, HeldAsideItCreeps) {
     EXPECT_GT(bending.tip().x(), crept);
 }
 
-// Let go from far beyond its yield without any damping, what it has of energy never grows.
+// After release from far beyond yield without any damping, the energy never grows.
 TEST_P(EveryPlasticity, EnergyNeverGrowsWhileItSways) {
     Bending bending(stem_model(0.02, 0.1, FROND_REST_WITHOUT_GRAVITY), which);
     bending.surroundings.gravity.setZero();
@@ -161,7 +160,7 @@ TEST_P(EveryPlasticity, WhatIsLastingIsSavedAndRestoredToTheBit) {
     EXPECT_NE(energy_of(*other.plant, Vec3::Zero()).elastic, energy_of(*bending.plant, Vec3::Zero()).elastic);
 }
 
-// Where the solve fails the plant goes back, and nothing of the failed step lasts.
+// If the solve fails, the plant is rewound, and the failed step leaves no plastic strain.
 TEST_P(EveryPlasticity, AStepThatIsRewoundLeavesNothing) {
     Bending bending(stem_model(0.02), which);
     bending.rest(7);
@@ -186,7 +185,7 @@ TEST(PlasticityOfTets, IsHandedToOtherTets) {
     EXPECT_TRUE(plastic_of(*bending.plant).empty());
 }
 
-// What a mechanics' own tets are stiffer by, they yield the sooner.
+// Tets stiffer by a factor yield at a strain smaller by its square root, so at the same energy.
 TEST(PlasticityOfTets, BeginsAtOneEnergyWhateverTheirModuli) {
     const auto model = stem_model(0.02, 0, FROND_REST_WITHOUT_GRAVITY);
     const auto soft = mechanics(FROND_MECHANICS_TET_LINEAR).make(*model, FROND_MECHANICS_TET_LINEAR);

@@ -1,4 +1,4 @@
-// Steps that are divided where their error asks for it.
+// Steps that are divided where their error requires it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ std::unique_ptr<Plant> stem(const std::shared_ptr<const Model>& model, frond_mec
     return create_plant(model, def);
 }
 
-// Swings freely after a push on all its nodes; where its end is after a third of a second.
+// Lets the plant swing freely after a push on all its nodes; returns the position of its end after a third of a second.
 Vec3 swing(Plant& plant, double h, int* solves = nullptr) {
     const VecX& modelled = cage_places(plant);
     std::vector<double> velocities(size_t(modelled.size()), 0);
@@ -105,7 +105,7 @@ TEST_P(Substeps, MoveWhatIsHeldEvenly) {
     const std::shared_ptr<const Model> model = stem_model();
     const auto plant = stem(model, which, 8, 1e-6);
     const Surroundings surroundings;
-    // The whole foot, so that the plant is carried.
+    // Move the whole foot, so that the plant is carried along.
     const VecX from = cage_places(*plant);
     for (int n = 1; n <= 6; ++n) {
         for (int i = 0; i < node_count_of(*plant); ++i)

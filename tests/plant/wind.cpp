@@ -1,4 +1,4 @@
-// Wind: spectrum, coherence and profile are those that are stated; the same seed gives the same bits.
+// Wind: spectrum, coherence and profile agree with the stated ones; the same seed gives the same bits.
 #include "plant/wind_lanes.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,8 @@ Vec3 wind_at(const Wind& wind, const Vec3& p) {
     return Vec3(out[0].x, out[0].y, out[0].z);
 }
 
-// Gusts that pass a place, h apart in time: what will come is upwind. Each is the mean of some within its h.
+// Returns gusts that pass a point at intervals of h: later ones are upwind. Each is the mean of `parts` samples within
+// h.
 std::vector<Vec3> passing(const frond_wind_def& def, int count, double h, int parts = 1) {
     std::vector<frond_vec3> points, velocities;
     for (int i = 0; i < parts * count; i++) points.push_back({1 - def.velocity.x * h * i / parts, 10, 2});
@@ -61,7 +62,7 @@ TEST(Wind, HasTheMeanAndTheStandardDeviationsThatAreGiven) {
     EXPECT_NEAR(std::sqrt(square.y()), 0.5 * 0.25 * 8, 0.03 * 2);
 }
 
-// Power of a stretch of frequencies, by a discrete Fourier transform of the signal under a Hann window.
+// Returns the power in a band of frequencies, by a discrete Fourier transform of the signal with a Hann window.
 double power_between(const std::vector<double>& signal, double h, double low, double high) {
     const int count = int(signal.size());
     double power = 0;
@@ -86,11 +87,11 @@ TEST(Wind, HasKaimalsSpectrum) {
         int axis;
         double share, length;
     } components[] = {{0, 1, 30}, {2, 0.8, 30 * 2.7 / 8.1}, {1, 0.5, 30 * 0.66 / 8.1}};
-    // Means over parts of h, lest what is faster shows up as something slower.
+    // Means over parts of h prevent aliasing of higher frequencies.
     constexpr int SEEDS = 12, COUNT = 1024, PARTS = 16;
     for (const auto& c : components)
         for (double n = 0.04; n < 2; n *= 4) {
-            const double f = n * U / c.length, h = 1 / (40 * f);  // so that the stretch is well within the series
+            const double f = n * U / c.length, h = 1 / (40 * f);  // so that the band is well within the series
             double power = 0;
             for (int seed = 1; seed <= SEEDS; seed++) {
                 def.seed = uint64_t(seed);
@@ -104,8 +105,8 @@ TEST(Wind, HasKaimalsSpectrum) {
         }
 }
 
-// exp(-12 r sqrt((f/U)^2 + (0.12/L)^2)) a wave: the mean product of gusts some way apart across the wind is the
-// spectrum's mean of that.
+// Coherence exp(-12 r sqrt((f/U)^2 + (0.12/L)^2)) per wave: the mean product of gusts a distance r apart across the
+// wind equals its mean over the spectrum.
 TEST(Wind, GustsAreCoherentAcrossTheWindAsStated) {
     frond_wind_def def = plain_def();
     const double U = 8, L = 30, sigma = 0.25 * U;
@@ -165,7 +166,7 @@ TEST(Wind, IsTheSameToTheBitForOneSeedAndAnotherForAnother) {
     EXPECT_NE(series(), first);
 }
 
-// A wind that grows slowly takes its gusts along: no jump.
+// A wind that grows slowly keeps its gusts: there is no jump.
 TEST(Wind, ChangesWithoutAJump) {
     frond_wind_def def = plain_def();
     auto wind = make_wind(def);

@@ -1,4 +1,4 @@
-// A host with a Bullet world, into which the README's lines put plants.
+// A host with a Bullet world, to which the README's lines add plants.
 #include <btBulletDynamicsCommon.h>
 
 #include <frond/frond_bullet.hpp>

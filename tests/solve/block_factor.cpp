@@ -1,4 +1,4 @@
-// Frond's own factors, of trees of pairs and of any pattern, against dense algebra.
+// Frond's own factors, of trees of node pairs and of any pattern, compared with dense algebra.
 #include "solve/block_factor.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace frond::test {
 namespace block_factor_tests {
 
-// Pairs under earlier ones, chosen at random, some of them roots; a pair of nodes may be without a block.
+// Returns a random tree of pairs, each under an earlier one, some of them roots; a pair of nodes may lack its block.
 BlockPattern random_tree(int pairs, Dice& dice) {
     std::vector<Tet> elements;
     for (int i = 0; i < pairs; ++i) {
@@ -29,7 +29,7 @@ BlockPattern random_tree(int pairs, Dice& dice) {
     return make_block_pattern(2 * pairs, elements);
 }
 
-// Chains, trees, clouds and what hangs together in no way at all.
+// Returns chains, trees, clouds or unconnected nodes.
 BlockPattern random_graph(int nodes, Dice& dice) {
     std::vector<Tet> elements;
     const double reach = dice.uniform(0, 1) < 0.5 ? 6 : nodes;
@@ -65,7 +65,7 @@ struct Factored {
     explicit Factored(const BlockPattern& pattern) : plan(make_block_plan(pattern)) { factor.plan = &plan; }
 };
 
-// Numbers of several side by side.
+// Returns the numbers of several matrices or vectors interleaved, one lane for each.
 template <class Numbers>
 NumbersInLines side_by_side(const std::vector<Numbers>& from) {
     NumbersInLines out(from.size() * size_t(from[0].size()));
@@ -77,7 +77,7 @@ NumbersInLines side_by_side(const std::vector<Numbers>& from) {
     return out;
 }
 
-// One of the matrices is not positive definite.
+// Compares lanes with single factors; one of the matrices is not positive definite.
 void expect_lanes_as_alone(const BlockPattern& pattern, size_t lanes, Dice& dice) {
     const Factored shared(pattern);
     const size_t wrong = size_t(dice.uniform(0, double(lanes) - 1e-9));
@@ -133,7 +133,7 @@ TEST(BlockFactor, SolvesAsDenseAlgebraDoes) {
         const BlockPattern pattern = random_pattern(seed, dice);
         Factored own(pattern);
         EXPECT_EQ(own.plan.tree.has_value(), seed % 2 == 1);
-        // One factor for several matrices.
+        // One factor is reused for several matrices.
         for (int round = 0; round < 3; ++round) {
             const BlockMatrix A = random_matrix(pattern, dice, 60);
             ASSERT_TRUE(factorize(own.factor, A));
@@ -193,7 +193,7 @@ TEST(BlockFactor, SaysSoWhenTheMatrixIsNotPositive) {
     }
 }
 
-// A chain of a hundred thousand nodes is deeper than any stack of calls, and one front of all nodes is as wide as the
+// A chain of a hundred thousand nodes is deeper than any call stack, and a single front of all nodes is as wide as the
 // matrix.
 TEST(BlockFactor, TakesTheLongestAndTheWidest) {
     std::vector<Tet> chain;

@@ -1,5 +1,5 @@
-// Beams with known answers: static deflection under refinement and under their weight, the first frequency, and from
-// wherever they start.
+// Beams with known solutions: static deflection under refinement and under their weight, the first natural frequency,
+// and recovery from any start.
 #include <gtest/gtest.h>
 
 #include "support/dense.hpp"
@@ -8,7 +8,7 @@
 namespace frond::test {
 namespace cantilever_tests {
 
-// Deflection of the end of a square beam along z, clamped at z = 0, under a force P on its end; one step of ages is
+// Returns the end's deflection of a square beam along z, clamped at z = 0, under a force P; one very long step is
 // static.
 double tip_deflection(int across, double width, double length, double E, double P, frond_mechanics which) {
     const int along = int(std::lround(across * length / width));
@@ -35,14 +35,14 @@ TEST(Cantilever, ConvergesToTheBeamFormulaWithTheSquareOfTheCellSize) {
         EXPECT_GT(error[0], error[1]);
         EXPECT_GT(error[1] / error[2], 2.5) << error[0] << " " << error[1] << " " << error[2];
         EXPECT_LT(error[2], 0.12);
-        // Extrapolated with the observed order it meets the formula.
+        // Extrapolated with the observed order, the deflection agrees with the formula.
         const double ratio = (error[0] - error[1]) / (error[1] - error[2]);
         EXPECT_NEAR(error[2] - (error[1] - error[2]) / (ratio - 1), 0, 0.03)
             << error[0] << " " << error[1] << " " << error[2];
     }
 }
 
-// A square beam of quadratic tets, one cell across and each cell so many times as long as thick, clamped at z = 0.
+// A square beam of quadratic tets, one cell across, its cells `aspect` times as long as thick, clamped at z = 0.
 struct SlenderBeam {
     static constexpr double A = 0.02, L = 0.8, E = 2e8, NU = 0.3, DENSITY = 900;  // [m], [Pa], [kg/m^3]
     static constexpr double INERTIA = A * A * A * A / 12, SHEAR = E / (2 * (1 + NU)) * 0.85 * A * A;
@@ -57,7 +57,7 @@ struct SlenderBeam {
         s.order = order;
         return s;
     }
-    // Deflection under a small force on the end, as a share of the formula's with shear (Cowper's factor).
+    // Returns the deflection under a small force on the end, as a share of the formula's with shear (Cowper's factor).
     double deflection() {
         constexpr double P = 1e-3;
         std::vector<int> end;
@@ -70,7 +70,7 @@ struct SlenderBeam {
         for (int i : end) sum += (point(rig.motion.x, i) - point(start, i)).y() / double(end.size());
         return sum / (P * L * L * L / (3 * E * INERTIA) + P * L / SHEAR);
     }
-    // First frequency, as a share of Euler's and Bernoulli's.
+    // Returns the first natural frequency, as a share of Euler's and Bernoulli's.
     double frequency() const {
         const Elements& elements = elements_of(*rig.system);
         BlockMatrix matrix;
@@ -91,8 +91,8 @@ struct SlenderBeam {
     }
 };
 
-// What the elements promise one cell across: bending within 5 % where cells are five times as long as thick. What is
-// missing falls with the number of cells along, most of it the clamp's, which the first cell stands for.
+// One cell across suffices: bending is within 5 % if cells are five times as long as thick. The error decreases with
+// the number of cells along; most of it comes from the clamp in the first cell.
 TEST(Quadratic, BendsInSlenderCells) {
     for (int which = 0; which < TET_MECHANICS; ++which) {
         const auto share = [&](int aspect, int order) {
@@ -116,7 +116,7 @@ TEST(Quadratic, HasTheFirstFrequencyOfABeam) {
     }
 }
 
-// 1 m x 0.1 m x 0.1 m, clamped at z = 0, under its own weight.
+// Returns a beam of 1 m x 0.1 m x 0.1 m, clamped at z = 0, under its own weight.
 Rig drooping_beam(int across, int along, frond_mechanics which = FROND_MECHANICS_TET_COROTATIONAL, int order = 1) {
     RigSettings settings = plain_settings(which);
     settings.order = order;
@@ -146,16 +146,16 @@ void scramble(Rig& rig, uint64_t seed) {
             point(rig.motion.x, i) = Vec3(dice.uniform(0, 0.1), dice.uniform(0, 0.1), dice.uniform(0, length));
 }
 
-// In 1170 tets it is known to droop 0.0931 m; in truth, without the tets' stiffness, 0.1164 m.
+// With 1170 tets the known droop is 0.0931 m; the exact one, without locking of the tets, is 0.1164 m.
 TEST(Cantilever, DroopsUnderItsWeightAsOtherPrograms) {
     EXPECT_NEAR(static_droop(3, 26), 0.0931, 0.01 * 0.0931);
 }
-// The truth with one cell across: 50 tets.
+// The exact droop with one cell across: 50 tets.
 TEST(Quadratic, DroopsUnderItsWeightAsABeam) {
     EXPECT_NEAR(static_droop(1, 10, 2), 0.1164, 0.02 * 0.1164);
 }
 
-// With what plants use by default and with the paper's own integrator.
+// Uses the default integrator of plants and the paper's own.
 TEST(Cantilever, UnfoldsFromBeingScrambled) {
     for (frond_mechanics which : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN})
         for (frond_integrator integrator : {FROND_INTEGRATOR_IMPLICIT_EULER, FROND_INTEGRATOR_BDF2}) {
@@ -183,8 +183,8 @@ TEST(Quadratic, UnfoldsFromBeingScrambled) {
         }
 }
 
-// A stout one, since a slender beam may keep a full turn of twist, which is a true balance. Even in this one a knot may
-// hold now and then.
+// A stout beam, since a slender one may keep a full turn of twist, which is a true equilibrium. Even this one keeps a
+// knot now and then.
 TEST(Cantilever, ComesToRestAsIfItHadNotBeenScrambled) {
     for (frond_mechanics which : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_TET_NEOHOOKEAN})
         for (frond_integrator integrator : {FROND_INTEGRATOR_IMPLICIT_EULER, FROND_INTEGRATOR_BDF2}) {
@@ -208,7 +208,7 @@ TEST(Cantilever, ComesToRestAsIfItHadNotBeenScrambled) {
 }
 
 TEST(Corotational, SwingsFarWithoutSwelling) {
-    // A soft beam laid over by its weight keeps its volume within the strain that it has.
+    // A soft beam that its weight bends over keeps its volume within the accuracy of its strain.
     Rig rig(box_model(2, 16, 2, {0.05, 0.8, 0.05}, {900, 4e5, 0.3}), plain_settings());
     rig.settings.stiffness_damping = 0.02;
     rig.pin_below(1, 0);

@@ -1,4 +1,4 @@
-// Drags: a body comes to the speed of what drags it along, at any strength and with every integrator; they take energy.
+// Drags: a body approaches the velocity of the drag at any strength and with every integrator; drags remove energy.
 #include <gtest/gtest.h>
 
 #include "solve/drags.hpp"
@@ -19,7 +19,7 @@ INSTANTIATE_TEST_SUITE_P(Drags, EveryDrag, testing::ValuesIn(every_combination()
 
 const Vec3 WIND(3, -1, 2);
 
-// On every corner of a tet, so that the body is carried along as a whole.
+// Adds a drag to every corner of each tet, so that the body is carried along as a whole.
 void drag_corners(Rig& rig, double damping) {
     rig.loads.drags.clear();
     const TetElements& elements = tets_of(*rig.system);
@@ -34,7 +34,7 @@ void drag_corners(Rig& rig, double damping) {
 
 TEST_P(EveryDrag, FreeBodyNearsTheSpeedOfTheAirAsTheFormulaSays) {
     Rig rig(single_tet_model(0.1, {900, 1e6, 0.3}), undamped(), mass());
-    // A quadratic tet's corners and edges are unlike in mass.
+    // Corners and edge nodes of a quadratic tet have different masses.
     const double few_per_cent = GetParam().order == 1 ? 0.05 : 0.15;
     const double times = is_explicit() ? 500 : 30, time = times * H, rate = 1 / time;
     drag_corners(rig, rate * rig.mass() / 4);
@@ -48,10 +48,10 @@ TEST_P(EveryDrag, ManyTimesStifferThanTheStepOverthrowsNothing) {
     drag_corners(rig, 1e6 * rig.mass() / H);
     for (int n = 0; n < 20; ++n) {
         ASSERT_TRUE(rig.step(H).ok);
-        // TR-BDF2 takes half of the force at the start.
+        // TR-BDF2 includes half of the force at the start.
         EXPECT_LT(rig.motion.v.cwiseAbs().maxCoeff(), 3 * WIND.norm()) << "step " << n;
     }
-    // The middles of a quadratic tet's edges are not dragged and ring on.
+    // The edge nodes of a quadratic tet have no drag and continue to vibrate.
     if (GetParam().order == 2) return;
     const Vec3 mean = rig.momentum() / rig.mass();
     EXPECT_NEAR((mean - WIND).norm(), 0, 0.01 * WIND.norm());
@@ -94,7 +94,7 @@ TEST(Drags, ForceIsMinusTheGradientOfThePotential) {
         (2 * STEP);
     EXPECT_NEAR(slope, -force.dot(dv), 1e-6 * force.norm() * dv.norm());
 
-    // Its damping is the derivative of the force, and nowhere above the lumped one.
+    // The damping is the derivative of the force, and nowhere exceeds the lumped one.
     BlockMatrix A;
     A.set_pattern(elements.pattern);
     A.set_zero();

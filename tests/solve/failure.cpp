@@ -1,4 +1,4 @@
-// A step that cannot be taken leaves the motion as it was, to the bit, and the next one goes on.
+// A step that fails leaves the motion unchanged, to the bit, and the next one continues.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -73,7 +73,7 @@ TEST(Failure, LeavesTheMotionUnchanged) {
                 ASSERT_EQ(std::memcmp(rig.motion.x.data(), x.data(), sizeof(double) * size_t(x.size())), 0);
                 ASSERT_EQ(std::memcmp(rig.motion.v.data(), v.data(), sizeof(double) * size_t(v.size())), 0);
 
-                // Put right, the same workspace goes on as if nothing had been.
+                // After the fault is removed, the same workspace continues as if nothing had happened.
                 rig.motion = good;
                 rig.loads = loads;
                 rig.settings = settings;
@@ -108,7 +108,7 @@ TEST(Failure, CollapsedToAPointComesBack) {
     rig.settings.stiffness_damping = 0.01;
     rig.motion.x.setZero();
     rig.steps(600, H);
-    // All of a tet in one point is a balance that nothing leads out of; anything next to it is not.
+    // A tet with all nodes in one point is in equilibrium, though an unstable one.
     Dice dice(1);
     rig.motion.x += dice.vector(rig.motion.x.size(), 1e-4);
     rig.steps(1200, H);

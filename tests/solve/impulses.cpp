@@ -1,4 +1,4 @@
-// Impulses between bodies that touch: known answers, and the conditions that every answer has to meet.
+// Impulses between bodies in contact: known solutions, and the conditions that every solution has to satisfy.
 #include "solve/impulses.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(Impulses, HoldByFrictionUpToItsLimitAndAgainstTheSliding) {
 }
 
 TEST(Impulses, ShareTheLoadOfAPlateOnFourPoints) {
-    // Mass 2, a square of corners at 1 m, inertia 1 about both axes.
+    // Mass 2, a square with corners at 1 m, inertia 1 about both axes.
     std::vector<Touch> touches;
     std::vector<std::vector<Coupling>> coupling(4);
     const Vec3 corners[] = {{1, 0, 1}, {1, 0, -1}, {-1, 0, 1}, {-1, 0, -1}};
@@ -61,8 +61,8 @@ TEST(Impulses, ShareTheLoadOfAPlateOnFourPoints) {
     EXPECT_NEAR(sum, 2, 1e-5);
 }
 
-// Random coupled touches: bodies part, or push and part no faster than they must; friction is within its cone and,
-// where they slide, against it.
+// Random coupled contacts: bodies separate, or push and separate no faster than they must; friction is within its cone
+// and, if they slide, opposes it.
 TEST(Impulses, MeetTheConditionsOfContactAndFriction) {
     Dice dice(3);
     for (int repeat = 0; repeat < 50; repeat++) {

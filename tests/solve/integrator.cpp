@@ -1,4 +1,4 @@
-// Integrators: how fast they converge, what they keep of a sway, and when they must forget the past.
+// Integrators: their order of convergence, the damping of a mode, and when they must discard their history.
 #include "solve/integrator.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator, testing::Range(0, int(FRO
 
 // ---- order ----------------------------------------------------------------------------------------------------
 
-// A soft beam that swings through a wide arc under gravity; where its end is after 0.2 s.
+// Returns the positions after 0.2 s of a soft beam that swings through a wide arc under gravity.
 VecX swing(frond_mechanics mechanics, frond_integrator which, int steps, int newton, double damping, bool uneven) {
     Rig rig(box_model(1, 4, 1, {0.1, 0.4, 0.1}, {900, 1e5, 0.3}), plain_settings(mechanics));
     rig.settings.integrator = which;
@@ -59,9 +59,9 @@ TEST(Bdf2, ConvergesWithItsOrderInUnevenSteps) {
     EXPECT_GT(std::log2(first / second), 1.7) << first << " " << second;
 }
 
-// ---- what is kept of a sway -------------------------------------------------------------------------------------
+// ---- kept amplitude of a mode ---------------------------------------------------------------------------------
 
-// A mode of a small linear beam, alone; time is scaled so that it turns by z each step.
+// A single mode of a small linear beam; time is scaled so that its phase advances by z in each step.
 struct Mode {
     Rig rig;
     VecX shape;
@@ -72,7 +72,7 @@ struct Mode {
         rig.settings.integrator = which;
         rig.pin_below(2, 0);
 
-        // Dense mass and stiffness of the free nodes, which are the last ones.
+        // Dense mass and stiffness of the free nodes, which come last.
         const Eigen::Index n = rig.motion.x.size(), free = n - 12;
         BlockMatrix K;
         K.set_pattern(elements_of(*rig.system).pattern);
@@ -93,7 +93,7 @@ struct Mode {
     double place() const { return shape.dot(M * (rig.motion.x - positions_of(*rig.model))); }
     double speed() const { return shape.dot(M * rig.motion.v) / omega; }
     double amplitude() const { return std::hypot(place(), speed()); }
-    // The share of the amplitude that is left after `steps`.
+    // Returns the share of the amplitude that is left after `steps`.
     double kept(double z, int steps) {
         rig.motion.x += 1e-3 * shape;
         rig.steps(steps, z / omega);
@@ -103,7 +103,7 @@ struct Mode {
 
 constexpr double ONE_HERTZ = 2 * M_PI / 60;  // at 1/60 s [radian]
 
-// Implicit Euler's amplitude goes down by 1 / sqrt(1 + z^2) a step and turns by atan z.
+// Implicit Euler's amplitude decreases by 1 / sqrt(1 + z^2) per step, and its phase advances by atan z.
 TEST(ImplicitEuler, DampsAOneHertzModeAsItsClosedFormSays) {
     for (int mass = 0; mass < FROND_MASS_COUNT; ++mass) {
         Mode mode(0, FROND_INTEGRATOR_IMPLICIT_EULER, frond_mass(mass));
@@ -116,7 +116,7 @@ TEST(ImplicitEuler, DampsAOneHertzModeAsItsClosedFormSays) {
             ASSERT_NEAR(mode.place(), amplitude * std::cos(angle), 1e-9);
             ASSERT_NEAR(mode.speed(), -amplitude * std::sin(angle), 1e-9);
         }
-        // The damping ratio that this is, read off the last state: 5 % at 1 Hz.
+        // The corresponding damping ratio, from the last state: 5 % at 1 Hz.
         const double zeta = -std::log(mode.amplitude() / 1e-3) / (steps * std::atan(z));
         EXPECT_NEAR(zeta, std::log(1 + z * z) / (2 * std::atan(z)), 1e-6);
         EXPECT_NEAR(zeta, 0.05, 0.005);
@@ -141,7 +141,7 @@ TEST(GeneralizedAlpha, DampsTheHighestFrequenciesAsItsSpectralRadiusSays) {
         Mode mode(-1, FROND_INTEGRATOR_GENERALIZED_ALPHA);
         mode.rig.settings.spectral_radius = radius;
         mode.rig.motion.x += 1e-3 * mode.shape;
-        // Its own first step damps this mode away, so the mode starts again at rest with the rates of its method.
+        // The method's own first step damps this mode away, so the mode restarts at rest with the rates of the method.
         mode.rig.steps(1, 1e4 / mode.omega);
         History& history = mode.rig.motion.history;
         ASSERT_TRUE(history.valid);
@@ -172,7 +172,7 @@ TEST_P(EveryIntegrator, StaysStableWhenLetGoFromALargeBend) {
         const int end = rig.node_count() - 1;
         const double rest = point(rig.motion.x, end).x();
 
-        // Pulled over until it rests, then let go without any damping.
+        // Pulled aside until it rests, then let go without any damping.
         rig.settings.newton_iterations = 20;
         point(rig.loads.force, end).x() = 6;
         rig.steps(100, 1.0);
@@ -216,7 +216,7 @@ TEST(SymplecticEuler, KeepsEnergyInTinyStepsAndBlowsUpInLargeOnes) {
     }
 }
 
-// ---- the past -----------------------------------------------------------------------------------------------------
+// ---- history ------------------------------------------------------------------------------------------------------
 
 Rig swinging(frond_integrator which) {
     Rig rig(box_model(1, 4, 1, {0.1, 0.4, 0.1}, {900, 1e5, 0.3}), plain_settings());
@@ -275,7 +275,7 @@ TEST(Bdf2, StartsAnewAfterAJumpOfTheTimeStepAndAfterAnotherIntegrator) {
     EXPECT_EQ(rig.motion.x, fresh.motion.x);
 }
 
-// One first step keeps the sway; where something pushes in every step, the others damp and cost one solve.
+// A single first step keeps the amplitude; if something disturbs every step, the next ones damp and cost one solve.
 TEST(Bdf2, StartsWithoutDampingButOnce) {
     Rig bdf2 = swinging(FROND_INTEGRATOR_BDF2), euler = swinging(FROND_INTEGRATOR_BDF2);
     for (int step = 0; step < 3; ++step) {
@@ -287,13 +287,13 @@ TEST(Bdf2, StartsWithoutDampingButOnce) {
         euler.step(1.0 / 60);
         EXPECT_EQ(bdf2.motion.x == euler.motion.x, step > 0);
     }
-    EXPECT_EQ(bdf2.step(1.0 / 60).iterations, 1);  // goes on with its past
+    EXPECT_EQ(bdf2.step(1.0 / 60).iterations, 1);  // continues with its history
     bdf2.motion.v *= 0.99;
     EXPECT_EQ(bdf2.step(1.0 / 60).iterations, 2);
 }
 
 TEST(Bdf2, StartsAsFreelyAsSdirk2FromABentShapeAtRest) {
-    // The energy that the first step takes from a 1 Hz sway, of which implicit Euler takes a z^2-th part.
+    // The amplitude that the first step removes from a 1 Hz mode; implicit Euler removes z^2 / 2 of it.
     Mode mode(0, FROND_INTEGRATOR_BDF2), euler(0, FROND_INTEGRATOR_IMPLICIT_EULER);
     EXPECT_LT(1 - mode.kept(ONE_HERTZ, 1), 1e-4);
     EXPECT_NEAR(1 - euler.kept(ONE_HERTZ, 1), ONE_HERTZ * ONE_HERTZ / 2, 1e-4);

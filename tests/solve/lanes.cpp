@@ -1,4 +1,4 @@
-// On a processor with narrower lanes every number is the same, to the last bit.
+// On a processor with narrower lanes all results are the same, to the last bit.
 #include "core/lanes.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ TEST_P(EveryBody, MovesAlikeInLanesOfAnyWidth) {
         const Narrow width(narrow);
         RigSettings settings = plain_settings(frond_mechanics(which));
         settings.order = order;
-        settings.newton_iterations = 2;  // the exact stiffness too
+        settings.newton_iterations = 2;  // tests the exact stiffness too
         Rig rig(tree_model(8, 6, 4, {900, 1e7, 0.3}), settings);
         rig.pin_below(1, 0);
         rig.loads.gravity = {2, -9.81, 1};

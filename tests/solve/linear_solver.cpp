@@ -1,4 +1,4 @@
-// Linear solvers: every row against dense algebra, and honest about what it did not reach.
+// Linear solvers: every row compared with dense algebra, and reports of what it did not reach.
 #include "solve/linear_solver.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ std::string solver_name(const testing::TestParamInfo<int>& info) {
 INSTANTIATE_TEST_SUITE_P(LinearSolvers, EveryLinearSolver, testing::Range(0, int(FROND_LINEAR_SOLVER_COUNT)),
                          solver_name);
 
-// Stiffness of a shape with `shift` on the diagonal.
+// Stiffness of a model with `shift` added on the diagonal.
 struct Problem {
     TetElements elements;
     BlockPlan plan;
@@ -97,7 +97,7 @@ TEST(Pcg, KeepsItsLimitsAndReportsTheTrueResidual) {
     }
 }
 
-// On a slender tree each better preconditioner takes fewer iterations to the same residual.
+// On a slender tree, each better preconditioner needs fewer iterations for the same residual.
 TEST(Pcg, NeedsFewerIterationsTheMoreItsPreconditionerKnows) {
     Problem p(tree_model(20, 10, 5), 1, 1);
     const LinearLimits limits = {100000, 1e-8};

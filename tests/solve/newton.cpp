@@ -1,4 +1,4 @@
-// Newton's method: quadratic with the exact stiffness, and to the end from wherever it starts.
+// Newton's method: quadratic convergence with the exact stiffness, and convergence from any start.
 #include <gtest/gtest.h>
 
 #include "support/rig.hpp"
@@ -6,7 +6,7 @@
 namespace frond::test {
 namespace newton_tests {
 
-// A soft beam thrown sideways hard, with all kinds of damping and a spring.
+// Returns a soft beam thrown sideways hard, with all kinds of damping and a spring.
 Rig thrown(int iterations, double tolerance, double young = 2e5, double speed = 6,
            frond_mechanics which = FROND_MECHANICS_TET_COROTATIONAL, int order = 1) {
     RigSettings settings = plain_settings(which);
@@ -38,7 +38,7 @@ TEST(Newton, ConvergesQuadratically) {
             errors.push_back((rig.motion.x - reference.motion.x).norm());
             if (errors.back() < 1e-10) break;
         }
-        // The last steps before the end of double's digits about double the number of right digits.
+        // Each of the last steps before the limit of double precision about doubles the number of correct digits.
         ASSERT_GE(errors.size(), 3u);
         EXPECT_LT(errors.back(), 1e-10);
         const size_t n = errors.size();
@@ -69,7 +69,7 @@ TEST(Newton, NeedsOneSolveForALinearBody) {
 }
 
 TEST(Newton, GetsToTheEndWhereTheExactStiffnessIsNotPositive) {
-    // Nodes thrown together: strong compression, for which the exact stiffness has no factor.
+    // Nodes pressed together at random: strong compression, for which the exact stiffness has no Cholesky factor.
     for (int solver = 0; solver < FROND_LINEAR_SOLVER_COUNT; ++solver) {
         Rig rig = thrown(100, 1e-8, 1e5, 0);
         rig.settings.linear_solver = frond_linear_solver(solver);
@@ -94,7 +94,7 @@ TEST(Newton, IteratedStepsSolveTheEquationAtTheEndOfTheStep) {
         const Motion before = rig.motion;
         const double h = 1.0 / 30;
         ASSERT_TRUE(rig.step(h).converged);
-        // w . (M dv - h (f(x') - a M v')) = 0 for any w.
+        // w . (M dv - h (f(x') - a M v')) = 0 for all w.
         VecX f = VecX::Zero(before.x.size());
         rig.row().add_force(elements_of(*rig.system), rig.motion.x, f);
         const VecX momentum = rig.motion.v - before.v + h * 0.5 * rig.motion.v;

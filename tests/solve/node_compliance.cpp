@@ -1,4 +1,4 @@
-// Answers to impulses at a few nodes: the same as whole solves give, with and without a factor, held nodes left out.
+// Compliance to impulses at a few nodes: as by whole solves, with and without a factor, and zero for held nodes.
 #include "solve/node_compliance.hpp"
 
 #include "support/rig.hpp"
@@ -6,7 +6,7 @@
 namespace frond::test {
 namespace node_compliance_tests {
 
-// C' A^-1 B by whole solves.
+// Computes C' A^-1 B by whole solves.
 Mat3 by_whole_solves(Rig& rig, const std::vector<NodeBlock>& at, const std::vector<NodeBlock>& by) {
     Mat3 block = Mat3::Zero();
     for (int axis = 0; axis < 3; ++axis) {
@@ -30,7 +30,7 @@ TEST(NodeCompliance, IsThatOfWholeSolvesForEverySolverAndIntegrator) {
             rig.pin_below(1, 0.05);
             rig.steps(2, integrator == FROND_INTEGRATOR_SYMPLECTIC_EULER ? 1e-6 : 1.0 / 60);
 
-            // Pushes of one node, of four, of one given twice, of a held one alone.
+            // Impulses on one node, on four, on one given twice, and on a held one only.
             std::vector<std::vector<NodeBlock>> pushes(4);
             const auto any_node = [&] {
                 int node = 0;

@@ -1,5 +1,5 @@
-// One-sided rows: what is found pulls or has nothing to do, for random matrices that are nearly singular too; what is
-// not positive definite is said to be so.
+// One-sided rows: each row found pulls or is inactive, for random matrices including nearly singular ones; a matrix
+// that is not positive definite is reported.
 #include "solve/one_sided.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ TEST_P(RandomRows, PullOrHaveNothingToDo) {
     std::mt19937 random(unsigned(count) * 7);
     std::normal_distribution<double> normal;
     for (int round = 0; round < 50; round++) {
-        // Fewer ways to move than rows, but for a little of their own.
+        // Fewer degrees of freedom than rows, apart from a small diagonal term.
         const Eigen::MatrixXd J = Eigen::MatrixXd::NullaryExpr(count, 1 + count / 2, [&] { return normal(random); });
         const Eigen::MatrixXd W = J * J.transpose() + 1e-6 * Eigen::MatrixXd::Identity(count, count);
         const VecX b = VecX::NullaryExpr(count, [&] { return normal(random); });

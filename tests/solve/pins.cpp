@@ -1,4 +1,4 @@
-// Pinned nodes: exactly where they were told to be at the end of every step, and pulling the rest along.
+// Pinned nodes: exactly at their targets at the end of every step, and pulling the rest along.
 #include <gtest/gtest.h>
 
 #include "support/rig.hpp"
@@ -45,7 +45,7 @@ TEST_P(EveryPin, MovesPinsToTheirTargetWithTheVelocityThatTakes) {
                 EXPECT_NEAR((point(rig.motion.v, i) - velocity).norm(), 0, 1e-12);
             }
         }
-        // The free end came along, where there was time for it.
+        // The free end follows, given enough time.
         if (!is_explicit()) {
             EXPECT_GT(point(rig.motion.x, rig.corner_count() - 1).x(), 0.1 + 0.01);
         }
@@ -54,7 +54,7 @@ TEST_P(EveryPin, MovesPinsToTheirTargetWithTheVelocityThatTakes) {
 
 TEST_P(EveryPin, PushesFreeNodesInTheVeryStepInWhichAPinMoves) {
     if (is_explicit()) GTEST_SKIP() << "forces follow a step later";
-    // All but one node pinned and moved alike: the free one, tied by stiff tets, comes along at once.
+    // All nodes but one are pinned and moved alike: the free one, held by stiff tets, follows at once.
     Rig rig(box_model(1, 1, 1, {0.1, 0.1, 0.1}, {1, 1e7, 0.3}), settings(), mass());
     rig.motion.pinned.assign(rig.motion.pinned.size(), 1);
     rig.motion.pinned[7] = 0;

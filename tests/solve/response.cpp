@@ -1,4 +1,4 @@
-// The table of responses: bodies that overlap part, and nothing that touches gets energy out of it.
+// The table of responses: overlapping bodies separate, and bodies that only touch gain no energy.
 #include <gtest/gtest.h>
 
 #include "solve/impulses.hpp"
@@ -12,7 +12,7 @@ struct Bodies {
     std::vector<Touch> touches;
     std::vector<std::vector<Coupling>> coupling;
     explicit Bodies(Dice& dice, int count, double depth) {
-        // Fewer ways to move than touches ask for, as where several touch one stem.
+        // Fewer degrees of freedom than contacts would need, as if several touch one stem.
         Eigen::MatrixXd root(3 * count, count);
         for (int i = 0; i < root.size(); i++) root.data()[i] = dice.uniform(-1, 1);
         W = root * root.transpose();
@@ -24,12 +24,12 @@ struct Bodies {
             coupling.emplace_back();
             for (int j = 0; j < count; j++) coupling.back().push_back({j, W.block<3, 3>(3 * i, 3 * j)});
         }
-        // Velocities that the bodies can have.
+        // Velocities that the bodies' degrees of freedom permit.
         const Eigen::VectorXd motion = Eigen::VectorXd::NullaryExpr(count, [&] { return dice.uniform(-1, 1); });
         const Eigen::VectorXd velocities = root * motion;
         for (int i = 0; i < count; i++) touches[size_t(i)].velocity = velocities.segment<3>(3 * i);
     }
-    // By which the energy of motion grows: p.(v + W p / 2).
+    // Returns the increase of kinetic energy: p.(v + W p / 2).
     double gain(const std::vector<Vec3>& impulses) const {
         Eigen::VectorXd p(W.rows()), v(W.rows());
         for (size_t i = 0; i < touches.size(); i++) {
@@ -73,7 +73,7 @@ TEST(Response, PartsTwoBodiesThatOverlapAtRest) {
     ResponseSettings settings;
     settings.h = 1.0 / 60;
     Pushes pushes;
-    // By shifts, that give no velocity.
+    // Position corrections separate them without giving velocity.
     response_row(FROND_RESPONSE_IMPULSE).find({touch}, coupling_table(own), settings, pushes);
     EXPECT_NEAR(pushes.impulses[0].norm(), 0, 1e-12);
     EXPECT_NEAR(2 * pushes.corrections[0].y(), 0.12, 1e-9);
@@ -81,7 +81,7 @@ TEST(Response, PartsTwoBodiesThatOverlapAtRest) {
     penalty.find({touch}, coupling_table(own), settings, pushes);
     EXPECT_NEAR(pushes.impulses[0].norm(), 0, 1e-12);
     EXPECT_NEAR(2 * pushes.corrections[0].y(), 0.12, 1e-9);
-    // Where velocities see to it, by a spring, no faster than 0.3 m/s however stiff it is.
+    // Without corrections a spring separates them, no faster than 0.3 m/s however stiff it is.
     touch.least_correction = Touch::NO_CORRECTION;
     settings.stiffness = 1e12;
     penalty.find({touch}, coupling_table(own), settings, pushes);

@@ -1,4 +1,4 @@
-// Springs: implicit, in balance with gravity, and only in the nodes of their tet.
+// Springs: implicit, in equilibrium with gravity, and acting only on the nodes of their tet.
 #include <gtest/gtest.h>
 
 #include "support/rig.hpp"
@@ -30,7 +30,7 @@ TEST_P(EverySpring, PullsAPinnedBodyUntilElasticForceBalancesTheSpring) {
     if (is_explicit()) GTEST_SKIP() << "a million steps";
     Rig rig(box_model(1, 4, 1, {0.1, 0.4, 0.1}, {900, 1e5, 0.3}), settings(), mass());
     rig.settings.newton_iterations = 10;
-    rig.settings.spectral_radius = 0;  // comes to rest soonest
+    rig.settings.spectral_radius = 0;  // comes to rest fastest
     rig.pin_below(1, 0);
     const int tet = int(rig.model->cage.tets.size()) - 1;
     const Spring spring = tet_spring(*rig.system, tet, {0.1, 0.2, 0.3, 0.4}, {0.3, 0.3, 0.1}, 50);
@@ -38,7 +38,7 @@ TEST_P(EverySpring, PullsAPinnedBodyUntilElasticForceBalancesTheSpring) {
     rig.steps(60, 1.0);
     EXPECT_LT(rig.motion.v.cwiseAbs().maxCoeff(), 1e-9);
 
-    // At rest the elastic force of each free node is the share of the spring that acts on it.
+    // At rest the elastic force of each free node balances its share of the spring's force.
     VecX f = VecX::Zero(rig.motion.x.size());
     rig.row().add_force(elements_of(*rig.system), rig.motion.x, f);
     Vec3 held = Vec3::Zero();
@@ -60,7 +60,7 @@ TEST_P(EverySpring, StaysStableHoweverStiff) {
     rig.pin_below(1, 0);
     const Tet& corners = rig.model->cage.tets[60];
     const Vec3 start = point(rig.motion.x, corners[0]);
-    // Alone, a quadratic tet's corner turns it inside out sooner.
+    // A single corner inverts a quadratic tet sooner.
     const double pull = GetParam().order == 1 ? 0.01 : 0.003;
     rig.loads.springs.push_back(tet_spring(*rig.system, 60, {1, 0, 0, 0}, start + Vec3(pull, 0, 0), 1e9));
     rig.steps(60, H);

@@ -1,4 +1,4 @@
-// These hold for a step with every mechanics, integrator, linear solver and mass.
+// Properties of a step with every mechanics, integrator, linear solver and mass.
 #include <gtest/gtest.h>
 
 #include "support/rig.hpp"
@@ -8,7 +8,7 @@ namespace step_tests {
 
 struct EveryStep : EveryCombination {
     const double H = time_step();
-    // Velocity and way of a point that starts at v and is pulled by g - a v, by the integrator's own recurrence.
+    // Returns velocity and displacement of a point from v on, accelerated by g - a v, by the integrator's recurrence.
     std::array<double, 2> recurrence(double v, double g, double a, int steps) const;
 };
 INSTANTIATE_TEST_SUITE_P(Step, EveryStep, testing::ValuesIn(every_combination()), combination_name);
@@ -104,7 +104,7 @@ TEST_P(EveryStep, TakesEnergyAwayAndNeverGives) {
     Rig rig(box_model(1, 4, 1, {0.1, 0.4, 0.1}, {900, 1e5, 0.3}), settings(), mass());
     rig.settings.newton_iterations = 5;
     rig.pin_below(1, 0);
-    // Only implicit Euler takes some in every single step; the others must not give any back in the end.
+    // Only implicit Euler removes energy in every single step; the others must not return any in the end.
     const bool euler = GetParam().integrator == FROND_INTEGRATOR_IMPLICIT_EULER;
     const double slack = euler ? 1e-6 : 0.01;
     for (int i = 0; i < rig.node_count(); ++i) point(rig.motion.v, i).x() = 3 * point(rig.motion.x, i).y();
@@ -189,7 +189,7 @@ TEST_P(EveryEulerStep, TakesNoForceForForcesOfZero) {
     EXPECT_EQ(with.motion.v, without.motion.v);
 }
 
-// The equation itself, put together from dense parts: (M + h D + h^2 K) dv = h (f - D v - h K v).
+// The equation itself, assembled from dense parts: (M + h D + h^2 K) dv = h (f - D v - h K v).
 TEST_P(EveryEulerStep, SolvesTheEquationOfThePaperWithItsSignsRight) {
     Rig rig(box_model(1, 2, 1, {0.1, 0.2, 0.1}, {900, 1e4, 0.3}), settings(), mass());
     rig.settings.mass_damping = 0.7;
@@ -242,7 +242,7 @@ TEST_P(EveryOrder, MassIsTheSameLumpedAndConsistentInSum) {
     for (int i = 0; i < lumped.node_count(); ++i) point(v, i) = Vec3(1, 2, 3);
     EXPECT_NEAR(kinetic_energy(*lumped.system, v), 7 * lumped.mass(), 1e-12 * lumped.mass());
     EXPECT_NEAR(kinetic_energy(*consistent.system, v), 7 * lumped.mass(), 1e-12 * lumped.mass());
-    // A field that varies carries less energy with the shape functions' own products.
+    // A varying field has less kinetic energy with the consistent mass matrix.
     Dice dice(3);
     const VecX wild = dice.vector(v.size(), 1);
     EXPECT_LT(kinetic_energy(*consistent.system, wild), kinetic_energy(*lumped.system, wild));

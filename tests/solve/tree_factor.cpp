@@ -1,4 +1,4 @@
-// Which patterns are trees of pairs of nodes.
+// Checks which patterns are trees of node pairs.
 #include "solve/tree_factor.hpp"
 
 #include <gtest/gtest.h>

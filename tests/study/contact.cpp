@@ -1,4 +1,4 @@
-// The figure "contact": what is left of an overlap, and that settings of the hash change nothing but time.
+// The figure "contact": what remains of an overlap, and that settings of the hash change nothing but time.
 #include <gtest/gtest.h>
 
 #include "study/figures.hpp"
@@ -22,7 +22,7 @@ TEST(ContactFigure, TellsWhatIsLeftOverTime) {
     EXPECT_GT(none.row[1], 50);
     EXPECT_LT(none.row[4], 0.1 * impulses.row[4]);
     EXPECT_EQ(impulses.curve.x.size(), 120u);
-    // The hash finds the same contacts, however it is laid out.
+    // The hash finds the same contacts in every layout.
     EXPECT_EQ(hash.row[0], impulses.row[0]);
     EXPECT_EQ(hash.row[1], impulses.row[1]);
     EXPECT_TRUE(hash.curve.x.empty());

@@ -1,4 +1,4 @@
-// The known answers a second time: by quadrature, series and finite differences, and against published digits.
+// The known solutions, recomputed by quadrature, series and finite differences, and compared with published digits.
 #include "study/known.hpp"
 
 #include <gtest/gtest.h>
@@ -25,8 +25,8 @@ TEST(Known, ElasticaUnderAnEndLoadHasThePublishedDigits) {
     }
 }
 
-// With the end's angle f given: curvature^2 = 2 a (sin f - sin t), so the length is an integral over t, which must
-// be 1.
+// For a given angle f of the end: curvature^2 = 2 a (sin f - sin t), so the length is an integral over t, which must be
+// 1.
 TEST(Known, ElasticaUnderAnEndLoadMeetsItsIntegral) {
     for (double a : {0.25, 1.0, 2.0, 5.0, 10.0}) {
         const Droop droop = droop_of(a, 0);
@@ -35,7 +35,7 @@ TEST(Known, ElasticaUnderAnEndLoadMeetsItsIntegral) {
         double length = 0, down = 0;
         const int slices = 20000;
         for (int i = 0; i < slices; i++) {
-            // t = f - u^2 takes the root out of the denominator's zero.
+            // t = f - u^2 removes the singularity of the integrand.
             const double u = std::sqrt(f) * (i + 0.5) / slices, t = f - u * u;
             const double part = 2 * u * std::sqrt(f) / slices / std::sqrt(2 * a * (std::sin(f) - std::sin(t)));
             length += part;
@@ -79,7 +79,7 @@ TEST(Known, FrequenciesHaveThePublishedDigits) {
     EXPECT_NEAR(frequency(0, 2, 8, 3), std::pow(1.87510, 2) / (2 * M_PI * 9) * 0.5, 1e-6);
 }
 
-// Rayleigh's quotient of the mode shapes, by finite differences, gives the wave numbers back.
+// The Rayleigh quotient of the mode shapes, by finite differences, reproduces the wave numbers.
 TEST(Known, ModeShapesBelongToTheirFrequencies) {
     for (int mode = 0; mode < 3; mode++) {
         EXPECT_NEAR(mode_shape(mode, 0), 0, 1e-9);
@@ -102,7 +102,7 @@ TEST(Known, SwayStartsWhereItWasLetGoAndReturns) {
     for (double end_mass : {0.0, 0.01, 1.0}) {
         const Sway sway(end_mass);
         EXPECT_NEAR(sway.at(0), 1, 2e-4) << end_mass;
-        // Rest at the start: the same a little before and after, by symmetry; nearly back after one period.
+        // At rest at the start: symmetric in time; nearly back after one period.
         EXPECT_DOUBLE_EQ(sway.at(0.01), sway.at(-0.01));
         const double period = 2 * M_PI / std::pow(wave_number(0, end_mass), 2);
         EXPECT_NEAR(sway.at(period), 1, 0.07) << end_mass;
@@ -131,7 +131,7 @@ TEST(Known, GreenhillsNumberIsTheZeroOfItsSeries) {
     EXPECT_LT(greenhill_number(0.1), w);
 }
 
-// Prandtl's stress function of the unit square by successive over-relaxation.
+// Solves Prandtl's stress function of the unit square by successive over-relaxation.
 TEST(Known, TorsionOfTheSquareMeetsAFiniteDifferenceSolution) {
     const int n = 64;
     const double h = 1.0 / n;
@@ -149,7 +149,7 @@ TEST(Known, TorsionOfTheSquareMeetsAFiniteDifferenceSolution) {
     EXPECT_NEAR(torsion_of_square(), 0.1406, 5e-5);
 }
 
-// One step of the method on x'' = -x, whose amplification factor is 1 / (1 - i z).
+// Implicit Euler on x'' = -x, whose amplification factor is 1 / (1 - i z).
 TEST(Known, ImplicitEulerDampsAsItsFormulaSays) {
     const double z = 2 * M_PI / 60;
     double x = 1, v = 0;
@@ -163,7 +163,7 @@ TEST(Known, ImplicitEulerDampsAsItsFormulaSays) {
     EXPECT_NEAR(zeta, 0.0521, 5e-4);
 }
 
-// The curve of Gosselin, de Langre, Machado-Almeida 2010; far bent, drag grows with the speed to 4/3.
+// The curve of Gosselin, de Langre, Machado-Almeida 2010; if bent far, drag grows as speed^(4/3).
 TEST(Known, ReconfigurationHasThePublishedDigits) {
     const struct {
         double C, R;

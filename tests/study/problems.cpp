@@ -1,5 +1,5 @@
-// Every problem runs in a tiny version, over every row of the public tables, and its best settings keep what they
-// reached.
+// Every problem runs in a tiny version, over every row of the public tables, and its best settings stay as accurate as
+// they were.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,11 +14,11 @@ using namespace frond::study;
 
 namespace problems_tests {
 
-using Choice = frond::study::Setup;  // in a test's body Setup is another one
+using Choice = frond::study::Setup;  // inside a test, Setup names something else
 
 class EveryProblem : public ::testing::TestWithParam<const char*> {};
 
-// The error that the best of the tiny version's points may have.
+// Returns the largest error allowed for the best point of the tiny version.
 double bound_of(const std::string& name) {
     static const std::map<std::string, double> bounds = {
         {"cantilever_tip", 1e-3}, {"cantilever_weight", 0.02},
@@ -44,7 +44,7 @@ std::vector<const char*> names() {
     return list;
 }
 
-// Whole plants that droop or are pulled, whose references have not settled.
+// Returns whole plants that droop or are pulled, whose references have not converged.
 std::vector<const char*> open_names() {
     std::vector<const char*> list;
     for (const Problem& problem : problems())
@@ -60,9 +60,8 @@ TEST_P(EveryProblem, RunsAndKeepsItsError) {
     ASSERT_FALSE(result.points.empty());
     double best = INFINITY;
     for (const Point& point : result.points) {
-        // Explicit steps are too long, and linear tets do not feel the weight that makes a column buckle. What tets of
-        // our own, one cell across, were rolled up to was 0.3 to 0.4 of the length off, where a step's energy was not
-        // looked at.
+        // Explicit steps are too long, and linear tets do not feel the weight that makes a column buckle. Our own tets,
+        // one cell across, were rolled up with errors of 0.3 to 0.4 of the length before a step's energy was checked.
         const bool may_fail = point.setup.plant.integrator != frond_default_plant_def().integrator ||
                               (problem == "greenhill" && point.setup.plant.mechanics == FROND_MECHANICS_TET_LINEAR) ||
                               (problem == "roll_up" && (point.failure == "lost" || point.setup.body == Body::MESH)) ||
@@ -76,7 +75,7 @@ TEST_P(EveryProblem, RunsAndKeepsItsError) {
         best = std::min(best, point.outcome.error);
     }
     EXPECT_LE(best, bound_of(problem)) << "best error " << best;
-    // A problem with a refined reference states how well that converged.
+    // A problem with a refined reference states how well it converged.
     const bool is_refined = std::string(find_problem(problem).answer).find("refined") != std::string::npos;
     EXPECT_TRUE(!is_refined || !result.notes.empty());
 }
@@ -129,7 +128,7 @@ TEST(Setups, AreToldByWhatTheyChange) {
     EXPECT_EQ(time_step_text(0.75), "0.75 s");
 }
 
-// What is done when: rods at 1/240 s.
+// The required accuracy, for rods at 1/240 s.
 TEST(Rods, SwayInTheirFirstThreeModesAsTheFormulaSays) {
     Session session;
     const Problem& problem = find_problem("frequencies");
@@ -172,7 +171,7 @@ double deflection_at(const Outcome& outcome, const std::string& aspect) {
     return NAN;
 }
 
-// Quadratic tets of the caller's, one cell across; four-node tets in fitted cages.
+// Quadratic tets of the caller's, one cell across, and four-node tets in calibrated cages.
 TEST(Cells, BendAsTheFormulaSaysHoweverLong) {
     Session session;
     const Problem& problem = find_problem("aspect");
@@ -191,7 +190,7 @@ TEST(Cells, BendAsTheFormulaSaysHoweverLong) {
     }
 }
 
-// A 1 Hz beam at 1/60 s, let go from a far bend.
+// A 1 Hz beam at 1/60 s, let go from a large bend.
 TEST(Amplitude, IsKeptFromAFarBendInEveryMechanics) {
     Session session;
     session.effort = Effort::TINY;
@@ -212,7 +211,7 @@ TEST(Amplitude, IsKeptAsTheIntegratorsSay) {
     session.effort = Effort::TINY;
     const Problem& problem = find_problem("amplitude");
     Choice setup = problem.baseline();
-    setup.plant.mechanics = FROND_MECHANICS_ROD;  // whose mode is the beam's own
+    setup.plant.mechanics = FROND_MECHANICS_ROD;  // its mode is the beam's own
     EXPECT_LT(problem.run(setup, session).error, 0.05);
     setup.plant.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     const double z = 2 * M_PI * setup.dt, zeta = implicit_euler_damping(z);

@@ -1,4 +1,4 @@
-// frond_recommend keeps what it promises, within a factor of two, on stems other than the one it was measured on.
+// frond_recommend keeps its promises within a factor of two, on stems other than the one that was measured.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ using namespace frond::study;
 
 namespace recommend_tests {
 
-// Slow and soft, about as measured, quick and stiff.
+// Beams: slow and soft, about as measured, fast and stiff.
 const Beam BEAMS[] = {{0.03, 2e7, 900, 0.4, {}}, {0.02, 1.28e8, 1000, 0.3, {}}, {0.015, 2e9, 600, 0.3, {}}};
 
 frond_advice advice_for(const Model& model, double error, double cpu) {
@@ -46,8 +46,8 @@ TEST(Recommend, KeepsItsErrorWithinAFactorOfTwo) {
         }
 }
 
-// The processor may be another than the table's, and others may use it: each time is compared with that of the cheapest
-// settings of the beam that was measured, taken just before, and of three such pairs the middle one counts.
+// The processor may differ from the table's, and may be busy: each time is compared with that of the cheapest settings
+// of the measured beam, taken just before, and the median of three such pairs counts.
 TEST(Recommend, KeepsItsCostWithinAFactorOfTwo) {
     Session session;
     session.effort = Effort::QUICK;
@@ -82,7 +82,7 @@ TEST(Recommend, SpendsABudgetOnAccuracy) {
     }
 }
 
-// A stem of a tenth of the stiffness sways sqrt(10) times as slowly and may take longer steps.
+// A stem with a tenth of the stiffness has a period sqrt(10) times as long and may take longer steps.
 TEST(Recommend, TakesStepsInProportionToThePeriod) {
     Beam soft = BEAMS[1];
     soft.young /= 10;

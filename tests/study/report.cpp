@@ -12,7 +12,7 @@ using namespace frond::study;
 
 namespace report_tests {
 
-// Two points, one of which failed with a text that needs quoting.
+// Returns two points, one of which failed with a text that needs quoting.
 Result little_result() {
     Result result = {&find_problem("swing"), {}, {}, {"The reference, as \"refined\"."}};
     Point good = {"bdf2", result.problem->baseline(), {}, "", false, false};
@@ -27,7 +27,7 @@ Result little_result() {
     return result;
 }
 
-// Fields of a line, quotes taken off.
+// Returns the fields of a line without quotes.
 std::vector<std::string> fields_of(const std::string& line) {
     std::vector<std::string> fields(1);
     bool quoted = false;

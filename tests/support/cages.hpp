@@ -1,4 +1,4 @@
-// Cages that collide: boxes and trees of tets in places of their own.
+// Cages that collide: boxes and trees of tets at given positions.
 #pragma once
 
 #include "collide/cage_contact.hpp"
@@ -28,7 +28,7 @@ struct TestCage {
     TriangleMesh boundary() const { return {places, collider.faces}; }
 };
 
-// A piece for every `length` along the axis.
+// Makes a cage with a region for every `length` along the axis.
 inline TestCage cage_of(const Model& model, int axis, double length) {
     const Cage& cage = model.cage;
     std::vector<int> piece;
@@ -42,12 +42,12 @@ inline TestCage cage_of(const Model& model, int axis, double length) {
     return {make_collider(cage.nodes, cage.tets, piece, cage.tet_organ, count), cage.nodes};
 }
 
-// From the origin to `size`, in one piece unless told otherwise.
+// Makes a box from the origin to `size`, in one region unless specified.
 inline TestCage box_cage(int nx, int ny, int nz, const Vec3& size, double piece_length = 1e9) {
     return cage_of(box_model(nx, ny, nz, size), 0, piece_length);
 }
 
-// Stem and limbs, in pieces by height; a limb is in the pieces of its height.
+// Makes a stem with limbs, in regions by height; a limb belongs to the regions of its height.
 inline TestCage tree_cage(int stem_cells, int limbs, int limb_cells) {
     return cage_of(tree_model(stem_cells, limbs, limb_cells), 1, 0.2);
 }

@@ -1,4 +1,4 @@
-// Dense twins of sparse things, for small tests; compiled once, since Eigen's decompositions take long.
+// Dense copies of sparse matrices, for small tests; compiled once, since Eigen's decompositions take long to compile.
 #pragma once
 
 #include "mechanics/block_matrix.hpp"
@@ -6,9 +6,9 @@
 namespace frond::test {
 
 Eigen::MatrixXd dense(const BlockMatrix& A);
-// Of a symmetric matrix, in ascending order.
+// Returns the eigenvalues of a symmetric matrix, in ascending order.
 VecX eigenvalues_of(const Eigen::MatrixXd& A);
-// K v = value M v; shapes are columns, of unit mass.
+// Solutions of K v = value M v; shapes are columns, normalised to unit mass.
 struct Modes {
     VecX values;
     Eigen::MatrixXd shapes;

@@ -1,4 +1,4 @@
-// Materials that have only what every one must have: solid, isotropic, elastic.
+// Materials with the required properties only: solid, isotropic, elastic.
 #pragma once
 
 #include "frond/frond.h"

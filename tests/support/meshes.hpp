@@ -1,4 +1,4 @@
-// Small models of tets for tests: boxes, one tet, trees; only what mechanics and solve look at is filled.
+// Small models of tets for tests: boxes, one tet, trees; only what mechanics and solve need is filled in.
 #pragma once
 
 #include <cmath>
@@ -35,7 +35,7 @@ inline void add_tet(Cage& cage, Tet tet) {
     cage.tets.push_back(tet);
 }
 
-// Cuts a hexahedron (corner bits: 1 = +x, 2 = +y, 4 = +z) into five tets; odd ones mirrored so that neighbours fit.
+// Cuts a hexahedron (corner bits: 1 = +x, 2 = +y, 4 = +z) into five tets; odd ones are mirrored so that faces match.
 inline void add_hexahedron(Cage& cage, const std::array<int, 8>& c, bool odd) {
     if (odd) {
         add_tet(cage, {c[0], c[3], c[5], c[6]});
@@ -52,7 +52,7 @@ inline void add_hexahedron(Cage& cage, const std::array<int, 8>& c, bool odd) {
     }
 }
 
-// A box from the origin to `size` [m] in nx*ny*nz hexahedra of five tets; node (i, j, k) is (k*(ny+1)+j)*(nx+1)+i.
+// Makes a box of `size` [m] at the origin, nx*ny*nz hexahedra of five tets; node (i, j, k): (k*(ny+1)+j)*(nx+1)+i.
 inline Model box_model(int nx, int ny, int nz, const Vec3& size, const Stuff& stuff = {}) {
     Model model;
     const auto node = [&](int i, int j, int k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
@@ -75,7 +75,7 @@ inline std::shared_ptr<const Model> shared_box(int nx, int ny, int nz, const Vec
     return std::make_shared<const Model>(box_model(nx, ny, nz, size, stuff));
 }
 
-// One tet with unit edges along the axes times `size` [m].
+// Makes one tet with edges of `size` [m] along the axes.
 inline Model single_tet_model(double size = 1, const Stuff& stuff = {}) {
     Model model;
     model.cage.nodes = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}};
@@ -84,7 +84,7 @@ inline Model single_tet_model(double size = 1, const Stuff& stuff = {}) {
     return model;
 }
 
-// A chain of hexahedra in world units: continues the square of nodes `base` by `count` cells along `step` each.
+// Adds a chain of hexahedra: continues the square of nodes `base` by `count` cells along `step` each.
 inline std::array<int, 4> grow_limb(Cage& cage, std::array<int, 4> base, const Vec3& step, int count, double taper) {
     for (int n = 0; n < count; ++n) {
         Vec3 middle = Vec3::Zero();
@@ -100,8 +100,8 @@ inline std::array<int, 4> grow_limb(Cage& cage, std::array<int, 4> base, const V
     return base;
 }
 
-// A plant-like tree along +y: a stem of `stem_cells` cells with `limbs` limbs of `limb_cells` cells each, five tets a
-// cell. Limbs stand on a stem's side face and alternate around it. (30, 20, 10) gives 1150 tets.
+// Makes a plant-like tree along +y: a stem of `stem_cells` cells with `limbs` limbs of `limb_cells` cells each, five
+// tets per cell. Limbs grow from a side face of the stem and alternate around it. (30, 20, 10) gives 1150 tets.
 inline Model tree_model(int stem_cells, int limbs, int limb_cells, const Stuff& stuff = {}) {
     Model model;
     Cage& cage = model.cage;
@@ -130,7 +130,7 @@ inline VecX positions_of(const Model& model) {
     return x;
 }
 
-// The same numbers with every compiler and library.
+// Random numbers that are the same with every compiler and library.
 struct Dice {
     std::mt19937_64 engine;
     explicit Dice(uint64_t seed) : engine(seed) {}

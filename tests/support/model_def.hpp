@@ -1,5 +1,5 @@
-// The defs that the build and plants get where no C API checks it first: metres, y up, cages as they are by default;
-// one solve a step, no damping but the materials', which must be asked for.
+// Defs for builds and plants that bypass the checks of the C API: metres, y up, default cages; one solve per step, no
+// damping but the materials', which must be requested.
 #pragma once
 
 #include "build/build.hpp"

@@ -12,7 +12,7 @@
 
 namespace frond::test {
 
-// FCL's capsules lie along z.
+// Returns the transform of a capsule; FCL's capsules lie along z.
 static fcl::Transform3d frame_of(const Capsule& capsule) {
     fcl::Transform3d frame = fcl::Transform3d::Identity();
     const Vec3 axis = capsule.end - capsule.begin;
@@ -69,8 +69,8 @@ static Corners corners_of(const TriangleMesh& mesh, int triangle) {
     return {mesh.points[size_t(t[0])], mesh.points[size_t(t[1])], mesh.points[size_t(t[2])]};
 }
 
-// The shortest way by which one triangle leaves the other (separating axes): along a normal, across an edge of each, or
-// in the plane of one across one of its edges.
+// Returns the shortest translation that separates two triangles (separating axes): along a normal, across an edge of
+// each, or in the plane of one across one of its edges.
 static double way_apart(const Corners& a, const Corners& b) {
     std::vector<Vec3> axes;
     std::array<Vec3, 3> a_edges, b_edges;

@@ -1,4 +1,4 @@
-// Rig: a model with all that it takes to step it, for tests of solve.
+// Rig: a model with everything needed to step it, for tests of solve.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,17 +7,17 @@
 #include "solve/solve.hpp"
 #include "support/meshes.hpp"
 
-// For lists of names out of the lists of the public header.
+// Makes lists of names from the lists of the public header.
 #define FROND_TEST_TEXT(code, text) text,
 
 namespace frond::test {
 
-// The mechanics that move the cage come first in the list.
+// The mechanics that move the cage come first in the enum.
 constexpr int TET_MECHANICS = FROND_MECHANICS_TET_NEOHOOKEAN + 1;
 
 struct RigSettings : SolveSettings {
     frond_mechanics mechanics;
-    int order = 1;  // of its elements
+    int order = 1;  // order of its elements
 };
 
 inline RigSettings plain_settings(frond_mechanics mechanics = FROND_MECHANICS_TET_COROTATIONAL,
@@ -37,11 +37,11 @@ inline RigSettings plain_settings(frond_mechanics mechanics = FROND_MECHANICS_TE
 inline const TetElements& tets_of(const System& system) {
     return static_cast<const TetElements&>(elements_of(system));
 }
-// Of tets, whose mass is the same wherever they are.
+// Returns the kinetic energy of tets, whose masses do not depend on their positions.
 inline double kinetic_energy(const System& system, const VecX& v) {
     return kinetic_energy(system, elements_of(system).modelled, v);
 }
-// A spring to a point of a tet.
+// Returns a spring to a point of a tet.
 inline Spring tet_spring(const System& system, int tet, const std::array<double, 4>& weights, const Vec3& target,
                          double stiffness) {
     const TetElements& elements = tets_of(system);
@@ -68,7 +68,7 @@ struct Rig {
         motion.pinned.assign(size_t(node_count()), 0);
     }
     int node_count() const { return elements_of(*system).node_count; }
-    // Of the cage, which come first.
+    // Returns the number of cage nodes, which come first.
     int corner_count() const { return int(model->cage.nodes.size()); }
     // Holds the nodes whose coordinate along the axis is at most `limit`.
     void pin_below(int axis, double limit) {
@@ -90,7 +90,7 @@ struct Rig {
 };
 
 // Every mechanics of tets with every integrator and mass, solved directly, and with every linear solver by implicit
-// Euler; with elements of order 2 each integrator once, so that it stays quick.
+// Euler; with elements of order 2 each integrator only once, to save time.
 struct Combination {
     int mechanics, order, integrator, linear_solver, mass;
 };
@@ -116,7 +116,7 @@ struct EveryCombination : testing::TestWithParam<Combination> {
         return s;
     }
     bool is_explicit() const { return integrator(frond_integrator(GetParam().integrator)).is_explicit; }
-    // A time step that the integrator stands with the materials of these tests [s].
+    // Returns a time step at which the integrator is stable with the materials of these tests [s].
     double time_step() const { return is_explicit() ? 2e-5 : 1.0 / 60; }
     frond_mass mass() const { return frond_mass(GetParam().mass); }
 };

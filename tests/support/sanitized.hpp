@@ -1,5 +1,5 @@
-// Sanitizers look for faults of memory and language, not of mechanics: sweeps over figures, which the optimised tests
-// make in full, may be shorter for them.
+// Sanitizers look for errors of memory and language, not of mechanics: tests that sweep over many values, which run in
+// full when optimised, may be shorter with them.
 #pragma once
 
 #ifdef __SANITIZE_ADDRESS__

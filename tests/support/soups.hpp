@@ -8,7 +8,7 @@
 
 namespace frond::test {
 
-// Adds triangles with vertices of their own as a part.
+// Adds triangles with vertices of their own, as a part.
 inline void add_part(Surface& surface, const std::vector<Vec3>& points, const std::vector<Triangle>& triangles,
                      int organ = -1) {
     const int offset = int(surface.positions.size());
@@ -24,7 +24,7 @@ inline void add_part(Surface& surface, const std::vector<Vec3>& points, const st
         surface.triangles.push_back({triangle[0] + offset, triangle[1] + offset, triangle[2] + offset});
 }
 
-// A rectangle in `columns` x `rows` squares; the place of (s, t) in 0..1 is shape(s, t).
+// Adds a rectangle of `columns` x `rows` squares; the position at (s, t) in 0..1 is shape(s, t).
 template <class Shape>
 void add_sheet(Surface& surface, int columns, int rows, const Shape& shape, int organ = -1) {
     std::vector<Vec3> points;
@@ -40,7 +40,7 @@ void add_sheet(Surface& surface, int columns, int rows, const Shape& shape, int 
     add_part(surface, points, triangles, organ);
 }
 
-// An upright tube; with lids it is closed.
+// Adds an upright tube; with lids it is closed.
 inline void add_tube(Surface& surface, const Vec3& foot, double radius, double height, int sides, int rows, bool lids,
                      int organ = -1) {
     std::vector<Vec3> points;
@@ -89,7 +89,7 @@ inline void add_sphere(Surface& surface, const Vec3& centre, double radius, int 
     add_part(surface, points, triangles);
 }
 
-// Loose triangles anywhere in the unit cube, some of them flat, repeated or sharing corners.
+// Returns loose triangles in the unit cube, some of them flat, repeated or sharing corners.
 inline Surface random_soup(uint64_t seed, int count) {
     std::mt19937_64 engine(seed);
     const auto uniform = [&engine](double low, double high) {

@@ -1,5 +1,5 @@
-// Plants of one model in a world, through the C API, with their outlines for the referee: the corn pair of the paper's
-// figure 5 among them.
+// Plants of one model in a world, through the C API, with their boundaries for the referee, among them the corn pair of
+// the paper's figure 5.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace frond::test {
 
 constexpr double H = 1.0 / 60;
 
-// Ends a test, or a program, with what the library says.
+// Throws the library's error text, which ends a test or a program.
 inline void must(frond_result result) {
     if (result != FROND_OK) throw std::runtime_error(frond_last_error());
 }
@@ -85,7 +85,7 @@ struct Stand {
         for (int i = 0; i < count; i++) v.insert(v.end(), {velocity.x, velocity.y, velocity.z});
         must(frond_plant_set_state(plant, nullptr, v.data(), count));
     }
-    // The boundary of the cage as it is now.
+    // Returns the boundary of the cage as it is now.
     TriangleMesh cage(frond_plant plant) const {
         frond_cage_view view = {};
         must(frond_model_get_cage(model, &view));
@@ -119,7 +119,7 @@ struct Stand {
     }
 };
 
-// Where the second of two plants stands, seen from the first [m], and how both are turned about their own heights
+// Position of the second of two plants relative to the first [m], and rotations of both about their vertical axes
 // [rad].
 struct Placement {
     frond_vec3 place;
@@ -144,12 +144,12 @@ struct CornPair : Stand {
         frond_world_def def = frond_default_world_def();
         def.max_substep = std::max(def.max_substep, step);
         def.response = response;
-        def.sleep_distance = 0;  // what nothing pushes stands still
+        def.sleep_distance = 0;  // no sleep, in which plants would stand still
         return def;
     }
     double cage_depth() const { return deepest_overlap(cage(plants[0]), cage(plants[1])).depth; }
     double surface_depth() const { return deepest_overlap(surface(plants[0]), surface(plants[1])).depth; }
-    // As the plants tell it.
+    // Returns the depth that the plants report.
     double contact_depth() const {
         std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plants[0])));
         must(frond_plant_get_contacts(plants[0], contacts.data(), int(contacts.size())));

@@ -1,5 +1,5 @@
-// A small plant through the C API: a stem of 0.6 m with a side branch. Its shape is the one without gravity, so that it
-// is at rest in free fall, unless it shall stand as modelled.
+// A small plant through the C API: a stem of 0.6 m with a side branch. It is modelled without gravity, so that it is at
+// rest in free fall, unless it is to stand as modelled.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// URDF texts and files for tests, and what is loaded from them.
+// URDF texts and files for tests, and the models loaded from them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 #include "frond/frond.h"
 
-// A folder of its own for files, gone with it.
+// A temporary folder for files, deleted with this object.
 struct UrdfFolder {
     std::string path;
     UrdfFolder() {
@@ -43,7 +43,7 @@ inline std::string urdf_joint(const std::string& parent, const std::string& chil
     return "<joint name=\"" + parent + "_" + child + "\" type=\"" + type + "\"><parent link=\"" + parent +
            "\"/><child link=\"" + child + "\"/><origin xyz=\"" + xyz + "\"/>" + more + "</joint>\n";
 }
-// A stem of one piece, half a metre high.
+// Returns a stem of one link, half a metre high.
 inline std::string urdf_stem(const std::string& name = "stem") {
     return urdf_link(name, urdf_visual("<cylinder radius=\"0.01\" length=\"0.5\"/>", "0 0 0.25"));
 }
@@ -69,7 +69,7 @@ struct Loaded {
     ~Loaded() { frond_model_destroy(model); }
 };
 
-// How far the tip is from where it began after a second [m].
+// Returns the distance of the tip from its start after a second [m].
 inline double wandering(frond_model model, frond_mechanics mechanics) {
     const frond_world_def world_def = frond_default_world_def();
     frond_plant_def def = frond_default_plant_def();

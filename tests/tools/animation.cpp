@@ -1,4 +1,4 @@
-// Animations that frond export writes, read again by another program's importer.
+// Animations written by frond export, read back by another importer.
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 
 namespace animation_tests {
 
-constexpr int SAMPLES = 7;  // 60 steps, every tenth, and the start
+constexpr int SAMPLES = 7;  // 60 steps, every tenth of them, and the start
 
-// Heights of the tip by the table that is written of the same run.
+// Returns heights of the tip from the table written in the same run.
 std::vector<double> tips_of(const std::string& csv) {
     std::ifstream file(csv);
     std::string line, field;
@@ -56,7 +56,7 @@ TEST_P(Animation, HasATargetASampleWhereTheTableSaysAndOneWeightAtATime) {
                 const aiVector3D &p = mesh.mAnimMeshes[s]->mVertices[v], &base = mesh.mVertices[v];
                 highest = std::max(highest, double(p.y));
                 if (s + 1 == unsigned(SAMPLES)) {
-                    ASSERT_LT((p - base).Length(), 1e-6f);  // the mesh itself is the end
+                    ASSERT_LT((p - base).Length(), 1e-6f);  // the mesh itself is the final shape
                 }
                 const aiVector3D& normal = mesh.mAnimMeshes[s]->mNormals[v];
                 ASSERT_NEAR(double(normal.Length()), 1, 1e-4);

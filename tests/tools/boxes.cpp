@@ -1,4 +1,4 @@
-// Boxes of any size, set down anyhow on a rosette's leaves, come to rest and stay.
+// Boxes of any size, released over a rosette's leaves at random, come to rest and stay.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,8 +29,8 @@ frond_rigid_def draw_box(unsigned seed) {
     return box;
 }
 
-// Some that rocked: an edge that sloped over a leaf's rim was not found in some steps, and what Bullet put to sleep was
-// taken for immovable by its first contacts, and for free by those after them.
+// Boxes that used to rock: an edge sloping over a leaf's rim was missed in some steps, and a body that Bullet had put
+// to sleep counted as immovable in its first contacts, and as free in later ones.
 struct Dropped {
     frond_mechanics mechanics;
     unsigned seed;
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Leaves, Boxes,
 TEST_P(Boxes, ComeToRestOnLeavesAndStay) {
     Settings settings;
     settings.plant.mechanics = GetParam().mechanics;
-    settings.world.sleep_distance = 0;  // or nothing could move
+    settings.world.sleep_distance = 0;  // asleep, nothing could move
     Stage stage(settings);
     stage.plant(make_rosette(stage), {0, 0, 0});
     frond_rigid_def ground = frond_default_rigid_def();

@@ -1,5 +1,5 @@
-// The scenes as the frond command plays them: counts of the paper, standing, swaying, and pictures against references.
-// FROND_UPDATE_PICTURES=1 in the environment rewrites the references.
+// The scenes as the frond command runs them: the paper's counts, standing, swaying, and pictures compared with
+// references. FROND_UPDATE_PICTURES=1 in the environment rewrites the references.
 #include "scenes/scene.hpp"
 
 #include <gtest/gtest.h>
@@ -111,7 +111,7 @@ TEST(WindScene, BendsItsPlantsDownTheWindAndEndsWithoutIt) {
     EXPECT_THROW(play_of("wind", {"turbulence=7"}), SceneError);
 }
 
-// The plant half a second after it was let go, or at rest: a picture that shows both shape and motion.
+// Pictures the plant half a second after its release, or at rest, to show both shape and motion.
 TEST_P(EveryScene, LooksAsItDid) {
     Play play = play_of(GetParam());
     for (int i = 0; i < 110; i++) play.step();
@@ -161,7 +161,7 @@ TEST(Flag, FoldsOntoItselfAndPassesThroughOnlyWithoutSelfContact) {
             must(frond_world_get_report(play.stage.world, &report));
             EXPECT_EQ(report.trouble & FROND_TROUBLE_REWOUND, 0u) << i;
         }
-        // Its tip is down beside its lower half, on the side from which it came, and pressed on that; else beyond.
+        // The tip is beside the lower half, on the side it came from, and pressed on it; without contact it is beyond.
         frond_vec3 tip, tip_through;
         must(frond_grab_get(play.stage.grabs[0], &tip, nullptr, nullptr));
         must(frond_grab_get(through.stage.grabs[0], &tip_through, nullptr, nullptr));
@@ -188,11 +188,11 @@ TEST(Trellis, HoldsAPlantThatLeansOnIt) {
     EXPECT_LT(held.x, fallen.x - 0.001);
 }
 
-// ---- what breaks -------------------------------------------------------------------------------------------------
+// ---- breaking ----------------------------------------------------------------------------------------------------
 
 struct Break {
-    frond_vec3 pull = {}, hold = {};  // of the hand, and
-    frond_vec3 begin = {}, end = {};  // of the capsule that gave way, just before
+    frond_vec3 pull = {}, hold = {};  // force of the hand [N], and the point that it holds [m]
+    frond_vec3 begin = {}, end = {};  // ends of the capsule that broke, just before [m]
     double radius = 0;
     frond_fragment broken = {};
 };
@@ -250,20 +250,20 @@ TEST(Snap, ACornStalkBreaksNearTheMomentThatItsStrengthBears) {
     must(frond_material_preset("grass_stem", &stalk));
     for (const char* mechanics : {"rod", "tet_corotational", "tet_neohookean"}) {
         SCOPED_TRACE(mechanics);
-        // A leaf that falls over as the stalk is bent would strike the ground, and shake it.
+        // A leaf that falls over as the stalk is bent would hit the ground and shake the stalk.
         Play play = play_of("snap", {std::string("mechanics=") + mechanics, "rigid_contact=off"});
         const std::vector<frond_capsule> standing = capsules_of(play);
         const Break b = play_until_it_breaks(play);
         frond_rigid_state before = {}, after = {};
         must(frond_rigid_get_state(b.broken.rigid, &before));
-        // By the hand and by the weight of what came off, about the middle of the piece.
+        // Moments of the hand and of the fragment's weight, about the middle of the broken segment.
         const frond_vec3 middle = {0.5 * (b.begin.x + b.end.x), 0.5 * (b.begin.y + b.end.y),
                                    0.5 * (b.begin.z + b.end.z)};
         const frond_vec3 by_hand = cross(difference(b.hold, middle), b.pull);
         const frond_vec3 by_weight = cross(difference(before.position, middle), {0, -9.81 * b.broken.mass, 0});
         const double moment = length_of({by_hand.x + by_weight.x, by_hand.y + by_weight.y, by_hand.z + by_weight.z});
         const double known = stalk.strength * M_PI * std::pow(b.radius, 3) / 4;
-        EXPECT_NEAR(moment / known, 1, 0.25);  // leaves that fall over pull as well
+        EXPECT_NEAR(moment / known, 1, 0.25);  // leaves that fall over add to the moment
         // The fragment falls over, the stump stands up again.
         for (int i = 0; i < 240; i++) play.step();
         must(frond_rigid_get_state(b.broken.rigid, &after));
@@ -274,7 +274,7 @@ TEST(Snap, ACornStalkBreaksNearTheMomentThatItsStrengthBears) {
     }
 }
 
-// Its section is flat, so that it bears between what it bears to its thin and to its wide side.
+// The section is flat, so that its strength is between those of its thin and its wide side.
 TEST(Pick, ACucumberComesOffItsPeduncleAndFallsToTheGround) {
     Play play = play_of("pick");
     frond_vec3 tip_before = {}, tip = {};
@@ -297,14 +297,14 @@ TEST(Pick, ACucumberComesOffItsPeduncleAndFallsToTheGround) {
 
     for (int i = 0; i < 240; i++) play.step();
     must(frond_rigid_get_state(b.broken.rigid, &state));
-    EXPECT_LT(state.position.y, 0.05);  // lies there
+    EXPECT_LT(state.position.y, 0.05);  // lies on the ground
     EXPECT_LT(length_of(state.velocity), 0.05);
     must(frond_plant_get_tip(play.stage.plants[0], &tip));
-    EXPECT_LT(distance(tip, tip_before), 0.02);  // with less to carry
+    EXPECT_LT(distance(tip, tip_before), 0.02);  // carries less now
     EXPECT_EQ(frond_plant_get_fragment_count(play.stage.plants[0]), 1);
 }
 
-// The least of many, so that a processor that others use too may tell it.
+// The minimum of many steps counts, so that a busy processor does not matter.
 TEST(Twig, OfSixtyRodsIsQuick) {
     Play play = play_of("twig");
     EXPECT_NEAR(info_of(play).capsule_count, 60, 2);

@@ -1,4 +1,4 @@
-// --set key=value: numbers that a scene cannot take are told, with what it can.
+// --set key=value: numbers that a scene cannot accept are reported, with the allowed range.
 #include <gtest/gtest.h>
 
 #include "scenes/scene.hpp"

@@ -1,4 +1,4 @@
-// The explained red cells of the table of hard cases: a criterion that a method is known to miss, nothing else.
+// The explained red cells of the table of hard cases: criteria that a method is known to miss, nothing else.
 #include "stability/stability.hpp"
 
 #include <gtest/gtest.h>

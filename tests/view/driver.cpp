@@ -22,7 +22,7 @@ void keep_driver() {
     for (const std::string& name : names) dlopen(name.c_str(), RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
 }
 
-// Asked for by the sanitizer.
+// The sanitizer calls this function.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:_dri.so\n";

@@ -1,6 +1,6 @@
-// Mesa's driver, as the leak sanitizer sees it.
+// Mesa's driver, with regard to the leak sanitizer.
 #pragma once
 
-// For each window the driver keeps some bytes for ever, and it is unloaded with the window, so that nobody could tell
-// whose they are. Keeps it loaded from here on, and its leaks are not told.
+// Keeps the driver loaded, so that its leaks can be suppressed: for each window it keeps some bytes forever, and it is
+// unloaded with the window, after which leaks could not be attributed to it.
 void keep_driver();

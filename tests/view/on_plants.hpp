@@ -1,4 +1,4 @@
-// Where things of a viewer's first plant are, in the world and in the picture.
+// Positions on a viewer's first plant, in the world and in the picture.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ inline int lowest(const std::vector<float>& surface) {
     return best;
 }
 
-// The pixel of a point, by looking for the ray that goes to it: the inverse of ray_through, found by Newton's method.
+// Finds the pixel of a point, as the inverse of ray_through, by Newton's method.
 inline void pixel_of(const frond::tools::Camera& camera, const frond_vec3& p, int width, int height, double& x,
                      double& y) {
     using frond::tools::Ray;
@@ -64,10 +64,10 @@ inline void pixel_of(const frond::tools::Camera& camera, const frond_vec3& p, in
     }
 }
 
-// What a user can take hold of: the middle of a triangle of the first plant, where the mouse meets it first, as far to
-// the right in the picture as there is one: near a leaf's tip.
+// A point to take hold of: the middle of a triangle of the first plant that is visible under the mouse, as far to the
+// right in the picture as possible, near a leaf's tip.
 struct LeafTip {
-    int vertex;   // a corner of it
+    int vertex;   // one of its corners
     double x, y;  // [pixel]
 };
 inline LeafTip leaf_tip(const frond::tools::Viewer& viewer) {

@@ -1,4 +1,4 @@
-// The panel without a window: Dear ImGui's frames are made by hand, and its mouse by the test.
+// The panel without a window: the test makes Dear ImGui's frames and moves its mouse.
 #include <gtest/gtest.h>
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -25,7 +25,7 @@ struct ViewPanel : ::testing::Test {
         unsigned char* pixels;
         int width, height;
         io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-        // A window has its size after its first frame.
+        // A window has its size only after its first frame.
         frame(), frame();
     }
     ~ViewPanel() override { ImGui::DestroyContext(); }
@@ -40,7 +40,7 @@ struct ViewPanel : ::testing::Test {
         ImGui::GetIO().MouseDown[0] = is_down;
         frame();
     }
-    // Where a widget is, found by moving over the panel until it is hovered.
+    // Extent of a widget, found by moving over the panel until it is hovered.
     struct Place {
         float left, right, y;
     };
@@ -66,7 +66,7 @@ struct ViewPanel : ::testing::Test {
         mouse(place.left, place.y, true);
         mouse(place.left, place.y, false);
     }
-    // A slider's knob, to a share of its length; it stays held.
+    // Moves a slider's knob to a share of its length and keeps holding it.
     Place slide(const char* label, float share) {
         const Place place = place_of(label);
         mouse(0.5f * (place.left + place.right), place.y, true);
@@ -129,13 +129,13 @@ TEST_F(ViewPanel, TheWindBlowsAsTheSliderSays) {
     for (int i = 0; i < 30; i++) advance(viewer, viewer.settings.dt);
     EXPECT_TRUE(viewer.report.effects_run & FROND_EFFECT_WIND);
     EXPECT_EQ(viewer.trouble & FROND_TROUBLE_BAD_WIND, 0u);
-    // From there it goes back to calm, and on in the direction it had.
+    // From calm, the wind returns in its previous direction.
     set_wind_speed(viewer, 0);
     set_wind_speed(viewer, speed);
     EXPECT_NEAR(viewer.settings.wind.velocity.x, speed, 1e-12);
 }
 
-// A stiffer plant of finer cells is a new model: made once the mouse lets go, not on the way.
+// A stiffer plant with finer cells needs a new model: it is built when the mouse lets go, not while dragging.
 TEST_F(ViewPanel, SlidersOfTheModelMakeItAnewWhenLetGo) {
     const int before = tets();
     slide("cell size", 0.9f);

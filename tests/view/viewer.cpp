@@ -1,4 +1,4 @@
-// The viewer without a window: what the mouse and the keys do.
+// The viewer without a window: the effects of mouse and keys.
 #include "view/viewer.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST(ViewMouse, DragsTheLeafThatItTakes) {
     EXPECT_EQ(viewer.trouble, 0u);
 }
 
-// As where frames are slow.
+// Moves the mouse far between two frames, as happens if frames are slow.
 TEST(ViewMouse, DragsGentlyHoweverFarItGoesInAFrame) {
     Viewer viewer = view_of("corn");
     const std::vector<float> start = surface_of(viewer);
@@ -85,7 +85,7 @@ TEST(ViewMouse, OrbitsPansAndZoomsBesideThePlant) {
     move_mouse(viewer, WIDTH - 3, HEIGHT / 2);
     press_button(viewer, Button::LEFT);
     EXPECT_EQ(viewer.drag, Viewer::Drag::ORBIT);
-    press_button(viewer, Button::MIDDLE);  // one at a time
+    press_button(viewer, Button::MIDDLE);  // only one drag at a time
     move_mouse(viewer, WIDTH - 103, HEIGHT / 2 + 50);
     release_button(viewer, Button::MIDDLE);
     EXPECT_EQ(viewer.drag, Viewer::Drag::ORBIT);
@@ -93,7 +93,7 @@ TEST(ViewMouse, OrbitsPansAndZoomsBesideThePlant) {
     EXPECT_NE(viewer.camera.azimuth, start.azimuth);
     EXPECT_GT(viewer.camera.elevation, start.elevation);
     EXPECT_EQ(viewer.camera.distance, start.distance);
-    // What is panned goes along with the mouse.
+    // Panning moves the scene with the mouse.
     const Camera turned = viewer.camera;
     double x = 0, y = 0;
     press_button(viewer, Button::MIDDLE);
@@ -118,12 +118,12 @@ TEST(ViewTime, PausesStepsAndBeginsAnew) {
     press(viewer, 'n');
     EXPECT_NEAR(viewer.play->stage.time, 3 * dt, 1e-12);
     press(viewer, ' ');
-    advance(viewer, 100 * dt);  // slow machines lose time
+    advance(viewer, 100 * dt);  // a slow machine drops time
     EXPECT_NEAR(viewer.play->stage.time, 7 * dt, 1e-12);
     EXPECT_EQ(viewer.left_over, 0);
     press(viewer, 'r');
     EXPECT_EQ(viewer.play->stage.time, 0);
-    press(viewer, '?');  // nobody's key
+    press(viewer, '?');  // a key without a command
 }
 
 TEST(ViewSwitches, ChangeMechanicsIntegratorsAndEffectsWhileItRuns) {
@@ -131,8 +131,7 @@ TEST(ViewSwitches, ChangeMechanicsIntegratorsAndEffectsWhileItRuns) {
     frond_report report;
     for (int i = 0; i < FROND_MECHANICS_COUNT + FROND_INTEGRATOR_COUNT; i++) {
         press(viewer, i < FROND_MECHANICS_COUNT ? 'm' : 'i');
-        if (viewer.settings.plant.integrator == FROND_INTEGRATOR_SYMPLECTIC_EULER)
-            continue;  // is unstable at this step
+        if (viewer.settings.plant.integrator == FROND_INTEGRATOR_SYMPLECTIC_EULER) continue;  // unstable at this step
         for (int k = 0; k < 3; k++) advance(viewer, viewer.settings.dt);
         EXPECT_EQ(viewer.trouble & FROND_TROUBLE_REWOUND, 0u) << i;
     }
@@ -142,7 +141,7 @@ TEST(ViewSwitches, ChangeMechanicsIntegratorsAndEffectsWhileItRuns) {
     advance(viewer, viewer.settings.dt);
     ASSERT_EQ(frond_world_get_report(viewer.play->stage.world, &report), FROND_OK);
     EXPECT_EQ(report.effects_run & FROND_EFFECT_GRAVITY, 0u);
-    // They stay over a start from the beginning.
+    // The settings survive a restart.
     press(viewer, 'm');
     reset(viewer);
     advance(viewer, viewer.settings.dt);
@@ -157,7 +156,7 @@ TEST(ViewBall, FliesAtWhatIsUnderTheMouse) {
     pixel_of(viewer.camera, {0, 1, 0}, WIDTH, HEIGHT, x, y);
     move_mouse(viewer, x, y);
     press(viewer, 'b');
-    ASSERT_EQ(viewer.play->stage.rigids.size(), 2u);  // and the ground
+    ASSERT_EQ(viewer.play->stage.rigids.size(), 2u);  // the ball and the ground
     int touches = 0;
     for (int i = 0; i < 60; i++) {
         advance(viewer, viewer.settings.dt);
@@ -176,7 +175,7 @@ TEST(ViewStrain, GoesFromBlueOverGreenToRed) {
     EXPECT_GT(red[0], red[1] + 60);
 }
 
-// Each overlay changes the picture, strain most where it is bent.
+// Each overlay changes the picture, strain most at the bend.
 TEST(ViewPicture, ShowsEachOverlay) {
     Viewer viewer = view_of("snap", {"mechanics=rod", "breaking=off"});
     for (int i = 0; i < 120; i++) advance(viewer, viewer.settings.dt);

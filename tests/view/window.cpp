@@ -1,4 +1,4 @@
-// A real window on a screen of its own (Xvfb), with a mouse and keys that XTest moves.
+// A real window on an invisible screen (Xvfb), with a mouse and keys that XTest controls.
 #include "view/window.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace window_tests {
 
 constexpr int WIDTH = 480, HEIGHT = 360;
 
-// What a user's hands do, and frames until the window has seen it.
+// Acts as a user, and runs frames until the window has handled the events.
 struct User {
     Window& window;
     UnseenScreen& screen;
@@ -71,7 +71,7 @@ TEST_F(ViewWindow, ADragMovesTheLeafThatWasGrabbedAndNothingElse) {
     for (int i = 1; i <= 10; i++) user.move(x, y - 4 * i);
     while (viewer.play->stage.time < 1.5) window.frame();
     const std::vector<float> now = surface_of(viewer);
-    // The leaf follows the mouse; the foot and the camera stay, and the plant's other side hardly moves.
+    // The leaf follows the mouse; foot and camera do not move, and the other side of the plant hardly does.
     double reached_x = 0, reached_y = 0;
     pixel_of(viewer.camera, vertex(now, leaf), viewer.width, viewer.height, reached_x, reached_y);
     EXPECT_LT(reached_y, y - 15);
@@ -84,7 +84,7 @@ TEST_F(ViewWindow, ADragMovesTheLeafThatWasGrabbedAndNothingElse) {
     int moved = 0;
     for (int i = 0; i < int(start.size() / 3); i++) moved += distance(vertex(start, i), vertex(now, i)) > 0.05;
     EXPECT_LT(moved, int(start.size() / 3) / 4);  // it is one of several leaves
-    // A step in which a leaf turns over may be solved again; none is put back.
+    // A step in which a leaf turns over may be solved again; none is rewound.
     EXPECT_EQ(viewer.trouble & (FROND_TROUBLE_REWOUND | FROND_TROUBLE_INVERTED), 0u);
 
     user.button(1, false);
@@ -126,7 +126,7 @@ TEST_F(ViewWindow, ThePanelTakesTheMouseWhereItIs) {
     Viewer viewer = viewer_of("corn");
     Window window(viewer, "test");
     User user(window, screen);
-    user.move(40, 16);  // its title
+    user.move(40, 16);  // title bar of the panel
     user.button(1, true);
     EXPECT_EQ(viewer.drag, Viewer::Drag::NONE);
     user.button(1, false);
@@ -137,7 +137,7 @@ TEST_F(ViewWindow, ThePanelTakesTheMouseWhereItIs) {
     user.button(1, false);
 }
 
-// What the screen shows is the picture.
+// The screen shows the rendered picture.
 TEST_F(ViewWindow, ShowsThePicture) {
     Viewer viewer = viewer_of("corn");
     viewer.is_paused = true;

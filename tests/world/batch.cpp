@@ -1,5 +1,5 @@
-// Plants of a world, which are stepped side by side where they can be, go as each does in a world of its own, to the
-// last bit, on any number of threads; while they are woken one by one, and one is hit.
+// Plants of a world, batched where possible, move as each does in a world of its own, to the last bit, with any number
+// of threads, while they are woken one by one and one of them is hit.
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btConvexShape.h>
@@ -31,7 +31,7 @@ void parallel_for(int count, frond_job_fn* job, void* data, void* user) {
     for (std::thread& other : others) other.join();
 }
 
-// Some of the plants, always the same at the same place, and the ball that hits one of them if that is there.
+// Some of the plants, each always in the same place, and the ball that hits one of them if that is included.
 struct Garden {
     frond_world world = {};
     std::vector<frond_plant> plants;
@@ -71,7 +71,7 @@ struct Garden {
             if (number == 5 * which[i]) {
                 EXPECT_EQ(frond_plant_wake(plants[i]), FROND_OK);
             }
-        // Sleepers would feel it in turns that depend on how many there are.
+        // Sleeping plants would feel the wind in turns that depend on their number.
         if (number == 5 * COUNT) {
             frond_wind_def wind = frond_default_wind_def();
             wind.velocity = {4, 0, 1};
@@ -116,7 +116,7 @@ TEST_P(BatchBy, PlantsOfAWorldGoAsEachAlone) {
     frond_model_destroy(model);
 }
 
-// Corn in wind. Only plants of the same settings go abreast; a direct solver does not ask for the tolerance.
+// Corn in wind. Only plants with the same settings are batched; a direct solver ignores the tolerance.
 struct Row {
     frond_world world = {};
     frond_model model = {};
@@ -154,7 +154,7 @@ struct Row {
         EXPECT_EQ(frond_world_get_state_hash(world, &hash), FROND_OK);
         return hash;
     }
-    // Frames of all pieces, and the box around them.
+    // Returns the frames of all collision shapes, and the box around them.
     std::vector<btScalar> pieces(size_t i) const {
         std::vector<btScalar> numbers;
         const auto add = [&](const btVector3& v) { numbers.insert(numbers.end(), {v.x(), v.y(), v.z()}); };
@@ -168,7 +168,7 @@ struct Row {
         add(lower), add(upper);
         return numbers;
     }
-    // What Bullet looks for pieces in: each of them as far as it reaches, not its box, which is wider.
+    // Checks that Bullet's tree contains each collision shape by its extent; its box would be wider.
     void check_tree(size_t i) const {
         constexpr btScalar NEAR = btScalar(1e-4);  // [m]
         for (int child = 0; child < shape(i).getNumChildShapes(); child++) {
@@ -199,7 +199,7 @@ TEST_P(BatchBy, PiecesAreWhereThoseOfEachAloneAre) {
     }
 }
 
-// Where their last step ended is kept once of those that go abreast, and twice of others: snapshots tell it alike.
+// Batched plants store the end of their last step once, others twice; snapshots do not differ.
 TEST_P(BatchBy, PlantsThatGoBackToASnapshotGoTheSameWayAgain) {
     Row batched(true, GetParam()), alone(false, GetParam());
     const auto step = [](const Row& row, int count) {
@@ -215,7 +215,7 @@ TEST_P(BatchBy, PlantsThatGoBackToASnapshotGoTheSameWayAgain) {
     EXPECT_EQ(batched.hash(), alone.hash());
 }
 
-// Cages near the viewer and rods farther away, each kind side by side, while the viewer comes and goes.
+// Cages near the viewer and rods farther away are batched separately while the viewer comes and goes.
 TEST(BatchedPlants, PlantsGoAsAloneWhileTheirDetailChanges) {
     Row batched(true, FROND_MECHANICS_TET_COROTATIONAL), alone(false, FROND_MECHANICS_TET_COROTATIONAL);
     const double far = frond_default_detail_def().rod_from;

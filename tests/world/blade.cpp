@@ -1,4 +1,4 @@
-// Blades are felt as wide and as thin as they are, though their capsules are narrower and thicker.
+// Blades collide with their true width and thickness, though their capsules are narrower and thicker.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ void must(frond_result result) {
     ASSERT_EQ(result, FROND_OK) << frond_last_error();
 }
 
-// A blade of 12 by 30 cm, held at one end, that reaches out level along x.
+// A blade of 12 by 30 cm, held at one end, that extends level along x.
 struct Shelf {
     frond_world world = {};
     frond_model model = {};
@@ -76,7 +76,7 @@ struct Shelf {
         must(frond_rigid_get_state(rigid, &state));
         return state;
     }
-    // Of the surface's vertex nearest to there as modelled: along the blade and across it.
+    // Returns the position of the surface vertex nearest to a point as modelled: along the blade and across it.
     frond_vec3 place_of(double along, double across) const {
         frond_surface_view view = {};
         must(frond_plant_get_surface(plant, &view));
@@ -90,13 +90,13 @@ struct Blade : testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(Contact, Blade, testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
-// Beside the midrib: on capsules along that it would tip off.
+// Beside the midrib, a box on the capsules along it would tip off.
 TEST_P(Blade, BearsABoxBesideItsMidribAtRest) {
     Shelf shelf(GetParam());
     shelf.add(FROND_SHAPE_BOX, {0.03, 0.015, 0.025}, 0.01, {0.15, HEIGHT + 0.02, 0.028});
     shelf.steps(180);
     const frond_rigid_state before = shelf.state();
-    // On the blade itself, not on its capsules, which are as thick as a third of its width.
+    // The box lies on the blade itself, not on its capsules, which are as thick as a third of its width.
     const frond_vec3 below = shelf.place_of(0.15, 0.03);
     EXPECT_NEAR(before.position.y - below.y, 0.015, 0.005);
     for (int i = 0; i < 60; i++) {
@@ -108,7 +108,7 @@ TEST_P(Blade, BearsABoxBesideItsMidribAtRest) {
     }
 }
 
-// A finger that goes down beside the rim takes it along, and turns the blade.
+// A finger that moves down beside the rim takes it along and twists the blade.
 TEST_P(Blade, IsFeltAtItsRim) {
     Shelf shelf(GetParam());
     const double finger = 0.01, beside = 0.85 * HALF_WIDTH;  // [m]

@@ -1,4 +1,4 @@
-// Points of plants held to bodies: they are carried, weigh on each other and keep their momentum.
+// Points of plants bonded to bodies: they are carried, weigh on each other and conserve momentum.
 #include <cmath>
 #include <vector>
 
@@ -46,7 +46,7 @@ struct EveryBond : testing::TestWithParam<frond_mechanics> {
 INSTANTIATE_TEST_SUITE_P(Bond, EveryBond, testing::Values(FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
-// A weight that hangs on a tip: the bond bears it, and does not give.
+// A weight hangs on a tip: the bond carries it and does not stretch.
 TEST_P(EveryBond, BearsAWeight) {
     constexpr double MASS = 0.05;
     SmallWorld small(def(), 1e9);
@@ -58,7 +58,7 @@ TEST_P(EveryBond, BearsAWeight) {
     const frond_vec3 before = held_by(bond);
     const double apart = distance(before, place_of(weight));
     step(small.world, 300);
-    // It swings on: on average it weighs what it weighs.
+    // It keeps swinging: on average the force is its weight.
     constexpr int STEPS = 600;
     double mean = 0, height = 0;
     for (int i = 0; i < STEPS; i++) {
@@ -76,7 +76,7 @@ TEST_P(EveryBond, BearsAWeight) {
     EXPECT_LT(place_of(weight).y, before.y - 0.3);
 }
 
-// A pot that is carried takes the plant along, which stands on it as before.
+// A pot that is carried takes the plant along, which stands in it as before.
 TEST_P(EveryBond, CarriesAPlant) {
     SmallWorld small(def(-1), 1e9);
     const frond_rigid pot = add_body(small.world, 0, {0, -0.03, 0});
@@ -104,7 +104,7 @@ TEST_P(EveryBond, CarriesAPlant) {
     EXPECT_NEAR(after.y, before.y, 0.02);
 }
 
-// A free plant and a body that is hung on it while it flies.
+// A body is bonded to a free plant while it flies.
 TEST_P(EveryBond, KeepsMomentum) {
     constexpr double MASS = 0.2;
     SmallWorld small(def(-1), 1e8);
@@ -159,7 +159,7 @@ TEST(Bond, RefusesWhatCannotBe) {
     EXPECT_EQ(frond_bond_create(small.plant, {0, 0, 0}, {}, &bond), FROND_RESULT_BAD_HANDLE);
     EXPECT_EQ(bond.id, 0u);
     EXPECT_EQ(frond_bond_get(bond, nullptr, nullptr), FROND_RESULT_BAD_HANDLE);
-    // In a host's world likewise.
+    // The same holds in a host's world.
     EXPECT_EQ(frond::bond(small.plant, btVector3(0, 0, 0), nullptr, &bond), FROND_RESULT_BAD_ARGUMENT);
     EXPECT_EQ(frond::bond(small.plant, btVector3(0, 0, 0), frond::bullet_object(small.plant), &bond),
               FROND_RESULT_BAD_ARGUMENT);

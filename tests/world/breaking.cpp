@@ -1,4 +1,4 @@
-// An organ that is strained beyond its strength breaks, and the fragment is a rigid body.
+// An organ that is strained beyond its strength breaks, and the fragment becomes a rigid body.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace breaking_tests {
 
 constexpr double H = 1.0 / 120, LENGTH = 0.6, RADIUS = 0.006, YOUNG = 2e8;
 
-// A stem that breaks where its outermost fibre bears `strength`.
+// A stem that breaks when the stress in its outermost fibre reaches `strength`.
 struct Stem {
     frond_world world = {};
     frond_plant plant = {};
@@ -54,7 +54,7 @@ struct Stem {
         EXPECT_EQ(frond_world_get_report(world, &report), FROND_OK);
         return report;
     }
-    // A soft spring from far away draws with ever more force, slowly, until something breaks; the force then [N].
+    // Pulls by a soft spring from far away, ever harder, until something breaks; returns that force [N].
     double pull_until_it_breaks(const frond_vec3& direction, double most) {
         constexpr double AWAY = 1000;
         constexpr int STEPS = 600;
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Breaking, EveryBreak,
                                          FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
-// Bending moment at the foot over the section's modulus: F L / (pi r^3 / 4). The foot's capsule tells the strain at its
+// Bending moment at the foot over the section modulus: F L / (pi r^3 / 4). The foot's capsule reports the strain at its
 // middle.
 TEST_P(EveryBreak, AStemBreaksAtItsFootWhereTheFormulaSays) {
     constexpr double STRENGTH = 3e5;
@@ -122,7 +122,7 @@ TEST(Breaking, ARodThatIsPulledBreaksWhereTheFormulaSays) {
     Stem stem(FROND_MECHANICS_ROD, STRENGTH);
     frond_model_info info = {};
     ASSERT_EQ(frond_model_get_info(stem.model, &info), FROND_OK);
-    // Ever more of a pull upwards, which its foot bears but for what rests on the foot itself.
+    // Upward gravity increases; the foot carries all of it except on its own lower half.
     const double known = STRENGTH * M_PI * RADIUS * RADIUS / (info.mass * (1 - 0.03 / LENGTH));
     double pull = 0;
     for (; pull < 2 * known && frond_plant_get_fragment_count(stem.plant) == 0; pull += 0.005 * known) {
@@ -159,12 +159,12 @@ TEST_P(EveryBreak, WhatComesOffTakesItsMomentumAlongAndNoEnergyIsMade) {
     EXPECT_NEAR(rest.x + broken.mass * part.velocity.x, whole.x, 1e-6 * whole.x);
     const double speed = part.velocity.x, kinetic = 0.5 * broken.mass * speed * speed;
     EXPECT_LE(stem.energy() + kinetic, before * (1 + 1e-6));
-    // A thin rod about its middle turns as it did.
+    // A thin rod keeps its angular velocity about its middle.
     EXPECT_NEAR(part.angular_velocity.z, -0.8, 0.03);
     frond_model_info info = {};
     ASSERT_EQ(frond_model_get_info(stem.model, &info), FROND_OK);
     EXPECT_NEAR(broken.mass / info.mass, 0.6, 0.08);
-    // The stump goes on and calms down.
+    // The stump continues to move and calms down.
     const double left = stem.energy();
     for (int i = 0; i < 240; i++) {
         stem.step();
@@ -190,7 +190,7 @@ TEST_P(EveryBreak, WhatComesOffFallsAndIsDrawnWhereItIs) {
     EXPECT_EQ(3 * size_t(moved + stayed), before.size());
     EXPECT_GT(moved, 0);
     EXPECT_GT(stayed, 0);
-    // Triangles between the two have no area.
+    // Triangles between stump and fragment have no area.
     frond_surface_view view = {};
     ASSERT_EQ(frond_plant_get_surface(stem.plant, &view), FROND_OK);
     int flat = 0;
@@ -201,7 +201,7 @@ TEST_P(EveryBreak, WhatComesOffFallsAndIsDrawnWhereItIs) {
             EXPECT_LT(std::abs(view.positions[3 * c[0] + 1] - view.positions[3 * c[k] + 1]), 0.15);
     }
     EXPECT_GT(flat, 0);
-    // Capsules and nodes are reported there too.
+    // Capsules and nodes are reported at the fragment's position too.
     std::vector<frond_capsule> capsules(size_t(stem.capsule_count()));
     ASSERT_EQ(frond_plant_get_capsules(stem.plant, capsules.data(), stem.capsule_count()), FROND_OK);
     EXPECT_NEAR(capsules.back().end.y, LENGTH - fallen, 2e-3);
@@ -219,7 +219,7 @@ TEST_P(EveryBreak, APlantIsRestoredWithItsParts) {
     stem.step(10);
     ASSERT_EQ(frond_plant_break(stem.plant, 3), FROND_OK);
     stem.step(10);
-    // As the header says.
+    // Restored as described in the header.
     ASSERT_EQ(frond_plant_reset(twin.plant), FROND_OK);
     for (int part : {0, 1}) ASSERT_EQ(frond_plant_break(twin.plant, stem.broken(part).capsule), FROND_OK);
     const size_t nodes = size_t(frond_plant_get_node_count(stem.plant));
@@ -283,7 +283,7 @@ TEST_P(EveryBreak, TheHandTakesWhatItHoldsAlong) {
     EXPECT_NEAR(at.y, 1.0, 0.05);
 }
 
-// All of it, from its foot.
+// The whole plant breaks off at its foot.
 TEST_P(EveryBreak, AWholePlantMayComeOff) {
     Stem stem(GetParam(), 0, -9.81);
     ASSERT_EQ(frond_plant_break(stem.plant, 0), FROND_OK) << frond_last_error();

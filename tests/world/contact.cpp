@@ -1,4 +1,4 @@
-// Bodies of the host's and plants: they push each other, rub, and pass nothing through.
+// The host's bodies and plants: they push each other, rub, and do not pass through each other.
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -114,7 +114,7 @@ TEST_P(EveryBody, ABallPushesAStemAsideAndIsSlowed) {
     EXPECT_LT(slowest, 0.5);
 }
 
-// 5 cm, 20 m/s, a stem of 1 cm: a light ball bounces off, a heavy one loses speed to a stem that it carries along.
+// A ball of 5 cm at 20 m/s against a stem of 1 cm: a light one bounces off, a heavy one loses speed to the stem.
 TEST_P(EveryBody, AFastBallDoesNotTunnel) {
     for (const double mass : {0.003, 0.05})
         for (const double offset : {0.05, 0.0, 0.01, 0.13, 0.27}) {
@@ -148,9 +148,9 @@ TEST_P(EveryBody, AFreeStemAndABallKeepTheirMomentum) {
     EXPECT_NEAR(momentum.y + 0.3 * double(v.y()), 0, 6e-7);
 }
 
-// A block on a stiff plank that slopes a little less, or more, than friction holds.
+// A block on a stiff plank, with a slope a little below or above the limit of friction.
 TEST_P(EveryBody, ABlockSlidesWhereFrictionEnds) {
-    const double friction = 0.5;  // times the block's 1
+    const double friction = 0.5;  // factor; the block's is 1
     const double limit = std::atan(friction);
     for (const double angle : {0.98 * limit, 1.02 * limit}) {
         Scene scene;
@@ -160,7 +160,7 @@ TEST_P(EveryBody, ABlockSlidesWhereFrictionEnds) {
         block.setFriction(1);
         block.setSleepingThresholds(0, 0);
         block.setAngularFactor(btVector3(0, 0, 1));
-        // Gravity slopes, not the plank. What it gave the block before friction set in takes its time to stop.
+        // Gravity is tilted, not the plank. The block needs time to lose the velocity gained before friction acted.
         const btVector3 sloping(btScalar(9.81 * std::sin(angle)), btScalar(-9.81 * std::cos(angle)), 0);
         scene.world.setGravity(sloping);
         block.setGravity(sloping);
@@ -176,7 +176,7 @@ TEST_P(EveryBody, ABlockSlidesWhereFrictionEnds) {
     }
 }
 
-// Four arms on a post, and a box dropped onto them.
+// A box is dropped onto four arms of a post.
 TEST_P(EveryBody, ABoxComesToRestOnBranchesAndStays) {
     Scene scene;
     scene.add_stems({{-1, {0, 0, 0}, {0, 0.5, 0}, 0.03, 0.03},
@@ -202,7 +202,7 @@ TEST_P(EveryBody, ABoxComesToRestOnBranchesAndStays) {
     EXPECT_LT(double((last - before).length()), 0.002);
 }
 
-// A kinematic box that is moved through a stem takes it along and does not feel it.
+// A kinematic box that moves through a stem takes it along and is not affected.
 TEST_P(EveryBody, AKinematicBoxTakesAStemAlong) {
     Scene scene(0);
     scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, GetParam());
@@ -220,7 +220,7 @@ TEST_P(EveryBody, AKinematicBoxTakesAStemAlong) {
     EXPECT_NEAR(double(box.getWorldTransform().getOrigin().x()), 0.2, 1e-5);
 }
 
-// A floor that rises, or a slab, through the foot of what is held there: it cannot be lifted, and is not drawn out.
+// A rising floor, a plane or a slab, passes through the held foot: it cannot lift the plant, and does not stretch it.
 TEST_P(EveryBody, AFloorDrivenThroughAHeldFootDoesNotStretchThePlant) {
     for (const bool is_plane : {true, false}) {
         Scene scene;
@@ -243,7 +243,7 @@ TEST_P(EveryBody, AFloorDrivenThroughAHeldFootDoesNotStretchThePlant) {
             highest = std::max(highest, scene.tip().y);
             EXPECT_EQ(scene.report().trouble & FROND_TROUBLE_REWOUND, 0u) << i;
         }
-        EXPECT_LT(highest, 0.85) << is_plane;  // it stood 0.8 m high
+        EXPECT_LT(highest, 0.85) << is_plane;  // it was 0.8 m high
     }
 }
 
@@ -253,7 +253,7 @@ TEST_P(EveryBody, WhatHangsDownLiesOnAPlane) {
         Scene scene;
         scene.add_stems({{-1, {0, 0, 0}, {0, 0.3, 0}, 0.02, 0.02}, {0, {0, 0.3, 0}, {0.6, 0.3, 0}, 0.01, 0.01}}, 1e7,
                         GetParam());
-        // Its tip is drawn down and sideways, the other way later.
+        // Its tip is pulled down and sideways, later to the other side.
         const int count = frond_plant_get_node_count(scene.plant);
         std::vector<double> x(3 * size_t(count));
         ASSERT_EQ(frond_plant_get_state(scene.plant, x.data(), nullptr, count), FROND_OK);
@@ -272,13 +272,13 @@ TEST_P(EveryBody, WhatHangsDownLiesOnAPlane) {
             EXPECT_EQ(scene.report().trouble & FROND_TROUBLE_REWOUND, 0u) << i;
         }
         if (has_plane)
-            EXPECT_GT(lowest, -0.01);  // nowhere up to its axis
+            EXPECT_GT(lowest, -0.01);  // does not sink in up to its axis
         else
             EXPECT_LT(lowest, -0.02) << "the plane would have nothing to hold";
     }
 }
 
-// Bullet's narrow phase does not look at a plane's pairs with plants in a step; its contact tests, which hosts ask, do.
+// Bullet's narrow phase skips pairs of planes and plants in a step; its contact tests, which hosts call, do not.
 TEST(ContactWithPlanes, IsFoundByContactTestsButMakesNoManifolds) {
     Scene scene;
     scene.add_stem({0, 0, 0}, {0, 1, 0}, 0.01, 1e8, FROND_MECHANICS_ROD);
@@ -302,7 +302,7 @@ TEST(ContactWithPlanes, IsFoundByContactTestsButMakesNoManifolds) {
     EXPECT_GT(all.points, 0);
 }
 
-// A host may let plants through its ground.
+// A host may let plants pass through its ground.
 TEST(ContactWithPlanes, IsNotWhereTheHostLetsThePlantThrough) {
     for (const bool let_through : {false, true}) {
         Scene scene;
@@ -343,7 +343,7 @@ TEST(ContactEffects, OneWayPushesThePlantOnly) {
     EXPECT_GT(scene.tip().x, 0.05);
 }
 
-// A link of a robot that swings into a stem is held back, and tells with what impulse.
+// A robot's link that swings into a stem is held back, and the impulse is reported.
 TEST_P(EveryBody, IsFeltByALinkOfAMultiBody) {
     const auto swing = [](bool with_plant, double& impulse) {
         Scene scene(0);

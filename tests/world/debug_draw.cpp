@@ -1,4 +1,4 @@
-// A host's btIDebugDraw sees plants, and the host's own marks on their objects stay.
+// A host's btIDebugDraw draws plants, and the host's own flags on its objects are kept.
 #include <LinearMath/btIDebugDraw.h>
 #include <btBulletDynamicsCommon.h>
 
@@ -46,7 +46,7 @@ TEST(DebugDraw, ShowsCageAndContactsWhereTheyAre) {
     EXPECT_GT(still, cage.node_count);
     EXPECT_TRUE(drawer.contacts.empty());
 
-    // A ball leans on it from the left, and the lines follow.
+    // A ball presses on it from the left, and the lines follow.
     frond_rigid_def def = frond_default_rigid_def();
     def.mass = 0;
     def.state.position = {-0.1, 0.5, 0};

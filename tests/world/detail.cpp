@@ -1,4 +1,4 @@
-// Detail: far plants are simulated for less, go over from one to the other without a jump, and keep to a time budget.
+// Detail: distant plants are simulated at lower detail, change it without a jump, and keep to a time budget.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ frond_report report_of(frond_world world) {
     return report;
 }
 
-// Places and velocities of all nodes.
+// Positions and velocities of all nodes.
 struct State {
     std::vector<double> x, v;
     explicit State(frond_plant plant) : x(3 * size_t(frond_plant_get_node_count(plant))), v(x.size()) {
@@ -45,7 +45,7 @@ struct State {
     }
 };
 
-// How far a node ends from where the velocities at both ends of a step take it, at most.
+// Returns the largest distance of a node from where the velocities at both ends of a step take it.
 double largest_jump(const State& before, const State& after) {
     double most = 0;
     for (size_t i = 0; i < before.x.size(); i += 3) {
@@ -65,7 +65,7 @@ double largest_speed_change(const State& before, const State& after) {
     return most;
 }
 
-// Damping of any strength: a modal plant comes back slowly, and stays a number.
+// With damping of any strength, a modal plant returns slowly and stays finite.
 TEST(Detail, OfAPlantInTreacleIsFinite) {
     for (const double damping : {50.0, 1e4, 1e6}) {
         frond_world world = {};
@@ -87,7 +87,7 @@ TEST(Detail, OfAPlantInTreacleIsFinite) {
     }
 }
 
-// Corn in wind, while the viewer goes away beyond everything and comes back.
+// Corn in wind, while the viewer moves away beyond all limits and comes back.
 TEST(Detail, IsHandedOverWithoutAJumpBothWays) {
     frond_world world = {};
     frond_model model = {};
@@ -110,7 +110,7 @@ TEST(Detail, IsHandedOverWithoutAJumpBothWays) {
                                    FROND_DETAIL_MODAL, FROND_DETAIL_STILL, FROND_DETAIL_MODAL,
                                    FROND_DETAIL_ROD,   FROND_DETAIL_ROD,   FROND_DETAIL_FULL};
     constexpr double MOST_FASTER =
-        0.5;  // of any node, as three steps of free fall make it, or what it is used to [m/s]
+        0.5;  // speed change of any node in three steps of free fall; the usual one may be larger [m/s]
     State before(plant);
     frond_vec3 tip;
     must(frond_plant_get_tip(plant, &tip));
@@ -122,7 +122,7 @@ TEST(Detail, IsHandedOverWithoutAJumpBothWays) {
             const State after(plant);
             frond_vec3 tip_now;
             must(frond_plant_get_tip(plant, &tip_now));
-            // The tip goes on as fast as before but for half a per cent of the height.
+            // The tip keeps its speed to within half a per cent of the height per step.
             const double moved = distance(tip, tip_now);
             if (i > 0) faster = std::max(faster, largest_speed_change(before, after));
             if (i == 0 && k > 0) {
@@ -170,8 +170,8 @@ struct Stand {
     }
 };
 
-// Contacts are found before detail is chosen: what holds their points is of the mechanics that the plants had then.
-// What fades over after a change is nothing that the next one may take for the plant's shape.
+// Contacts are found before detail is chosen, so their attachments belong to the plants' previous mechanics. A shape
+// that is still being blended out after a change must not be taken for the plant's shape by the next one.
 void expect_plants_to_part_while_their_detail_changes(int every_steps) {
     frond_world world = {};
     frond_model model = {};
@@ -185,7 +185,7 @@ void expect_plants_to_part_while_their_detail_changes(int every_steps) {
         must(frond_plant_create(world, model, &plant_def, &plant));
         plant_def.position = {0.3, 0, 0.02};
     }
-    constexpr double FAR = 1;  // [m]; in full all the time they part by 0.56
+    constexpr double FAR = 1;  // [m]; at full detail they part by 0.56
     const State rest(plants[0]);
     const frond_detail_def detail = frond_default_detail_def();
     int touches = 0;
@@ -232,7 +232,7 @@ TEST(Detail, HasHysteresis) {
     EXPECT_EQ(at(0), FROND_DETAIL_FULL);
 }
 
-// In a steady wind the sway leans as its rods do, and it swings as fast.
+// In a steady wind, a modal plant leans as far as its rods do, and swings as fast.
 TEST(Detail, SwaysAsTheRodsDo) {
     double lean[2], first_peak[2];
     for (const bool sways : {false, true}) {
@@ -297,7 +297,7 @@ TEST(Detail, OfStillPlantsIsSleepWhateverBlows) {
     for (int i = 0; i < 600 && report_of(stand.world).awake_count > 0; i++) must(frond_world_step(stand.world, H));
     for (int i = 0; i < 120; i++) must(frond_world_step(stand.world, H));
     EXPECT_EQ(report_of(stand.world).awake_count, 0);
-    // Who comes near sees them move again.
+    // A viewer who comes near sees them move again.
     must(frond_world_set_viewer(stand.world, {0, 0, 0}));
     for (int i = 0; i < 30; i++) must(frond_world_step(stand.world, H));
     EXPECT_EQ(report_of(stand.world).awake_count, 3);
@@ -332,7 +332,7 @@ TEST(Detail, GoesByTheHostsOwnDistanceAndBySize) {
     EXPECT_EQ(detail_of(stand.plants[0]), FROND_DETAIL_FULL);
 }
 
-// With a budget that is a part of what all plants need, the median step keeps it and near plants go first.
+// If the budget is a part of what all plants need, the median step keeps it and near plants have priority.
 TEST(Detail, KeepsABudget) {
     if (SANITIZED) GTEST_SKIP() << "a time";
     constexpr int COUNT = 200;
@@ -340,7 +340,7 @@ TEST(Detail, KeepsABudget) {
     frond_wind_def wind = frond_default_wind_def();
     wind.velocity = {5, 0, 0};
     must(frond_world_set_wind(stand.world, &wind));
-    // Medians of 60 steps: time [ms], plants that sway and those that do not, detail of the first and the last plant.
+    // Medians of 60 steps: time [ms], modal plants and those of higher detail, detail of the first and the last plant.
     struct Medians {
         double ms, sway, more, first, last;
     };
@@ -365,8 +365,8 @@ TEST(Detail, KeepsABudget) {
     def.budget = 0.4 * medians().ms;
     must(frond_world_set_detail(stand.world, &def));
     must(frond_world_set_viewer(stand.world, {0, 0, 0}));
-    // What another program on the same cores takes goes from the budget too, and a spike keeps detail down for a while:
-    // a try counts when the cores were this one's own.
+    // Time that other programs take on the same cores counts against the budget too, and a spike lowers detail for a
+    // while: an attempt counts if the cores were not shared.
     const auto keeps = [&](const Medians& m) {
         return m.ms < def.budget && m.sway > COUNT / 10 && m.more > 0 && m.first <= FROND_DETAIL_ROD &&
                m.last == FROND_DETAIL_MODAL;

@@ -1,5 +1,5 @@
-// Every shape that Bullet has, raised from below against a stem that reaches out sideways, lifts it; so does a
-// character.
+// Every shape of Bullet, raised from below against a stem that extends sideways, lifts it; a character pushes one
+// aside.
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
@@ -18,7 +18,7 @@
 
 namespace every_shape_tests {
 
-constexpr double STEM_AT = 0.5, REACH = 0.6, RADIUS = 0.01;  // its height, length and thickness [m]
+constexpr double STEM_AT = 0.5, REACH = 0.6, RADIUS = 0.01;  // the stem's height, length and radius [m]
 
 // A stem that grows out of a wall along x, in a host's world without gravity.
 struct Scene {
@@ -50,7 +50,7 @@ struct Scene {
         plant_def.mechanics = mechanics;
         plant_def.root_height = -1;
         EXPECT_EQ(frond_plant_create(plants, model, &plant_def, &plant), FROND_OK) << frond_last_error();
-        // It is held where it leaves the wall.
+        // The stem is held where it leaves the wall.
         frond_cage_view cage;
         EXPECT_EQ(frond_model_get_cage(model, &cage), FROND_OK);
         for (int i = 0; i < cage.node_count; i++)
@@ -85,18 +85,18 @@ struct Scene {
     }
 };
 
-// A shape whose top is at the origin of its frame, with what it borrows.
+// A shape with its top at the origin of its frame, and the objects that it refers to.
 struct Shape {
-    std::vector<std::unique_ptr<btCollisionShape>> parts;  // the last is the shape itself, which uses the others
+    std::vector<std::unique_ptr<btCollisionShape>> parts;  // the last is the shape itself, which refers to the others
     std::unique_ptr<btTriangleMesh> mesh;
     std::vector<float> heights;
     double top = 0;      // above the frame's origin [m]
-    double sloping = 0;  // turn about z, so that what has no end stays clear of where the stem is held [rad]
+    double sloping = 0;  // rotation about z, so that infinite shapes stay clear of where the stem is held [rad]
     ~Shape() {
         while (!parts.empty()) parts.pop_back();
     }
 };
-constexpr double HALF = 0.15;  // of every shape but planes and terrain [m]
+constexpr double HALF = 0.15;  // half extent of every shape but planes and terrain [m]
 
 btVector3 vec(double x, double y, double z) {
     return btVector3(btScalar(x), btScalar(y), btScalar(z));
@@ -106,7 +106,7 @@ T& add(Shape& shape, Args&&... args) {
     shape.parts.push_back(std::make_unique<T>(std::forward<Args>(args)...));
     return static_cast<T&>(*shape.parts.back());
 }
-// The eight corners of a box make twelve triangles.
+// Makes a mesh of twelve triangles from the eight corners of a box.
 void make_box_mesh(Shape& shape) {
     shape.mesh = std::make_unique<btTriangleMesh>();
     const auto corner = [](int i) { return HALF * vec(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1); };
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(Contact, EveryBulletShape,
                          });
 
 TEST_P(EveryBulletShape, LiftsAStem) {
-    constexpr double BELOW = 0.03, UP = 0.15;  // how far it begins below the stem, and goes [m]
+    constexpr double BELOW = 0.03, UP = 0.15;  // initial distance below the stem, and displacement upwards [m]
     constexpr int STEPS = 90;
     Shape shape;
     KINDS[std::get<1>(GetParam())].make(shape);
@@ -204,13 +204,13 @@ TEST_P(EveryBulletShape, LiftsAStem) {
     }
     push += scene.steps(30, body);
     EXPECT_GT(push, 0);
-    // The stem is lifted where it is touched, from the middle of its length on, and its tip farther than that.
+    // The stem is lifted where it is touched, beyond the middle of its length, and its tip more than that.
     EXPECT_GT(scene.lifted(), 0.8 * (UP - BELOW));
     EXPECT_LT(scene.lifted(), 3 * (UP - BELOW));
     scene.world.removeRigidBody(&body);
 }
 
-// Bullet's character controller moves a ghost, which has no velocity and lets all bodies through but stops at them.
+// Bullet's character controller moves a ghost, which has no velocity and lets all bodies pass but stops at them.
 struct EveryCharacter : testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(Contact, EveryCharacter, testing::ValuesIn(MECHANICS),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
@@ -227,7 +227,7 @@ TEST_P(EveryCharacter, PushesAStemAside) {
     ghost.setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
     scene.world.addCollisionObject(&ghost, btBroadphaseProxy::CharacterFilter,
                                    btBroadphaseProxy::AllFilter & ~btBroadphaseProxy::CharacterFilter);
-    // It walks as controllers do that push plants aside: moved by the game, with plants not in its own way.
+    // It walks as controllers that push plants aside do: moved by the game, and not blocked by plants itself.
     double aside = 0;
     for (int i = 0; i < 60; i++) {
         frame.setOrigin(frame.getOrigin() + vec(0, 0, 0.005));

@@ -1,4 +1,4 @@
-// Plants in a Bullet world that the host owns: every kind of it.
+// Plants in a Bullet world owned by the host, of every kind.
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
@@ -83,7 +83,7 @@ static std::string host_name(const ::testing::TestParamInfo<int>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, HostWorld, ::testing::Range(0, 6), host_name);
 
-// The host moves its own bodies: a ball that flies at the plant meets it as it would have.
+// The host shifts its own bodies: a ball that flies at the plant hits it as it would have.
 TEST_P(HostWorld, GoesOnAsItWasAfterItsOriginMoved) {
     std::vector<double> places[2];
     for (const bool moves : {false, true}) {
@@ -148,7 +148,7 @@ TEST_P(HostWorld, StepsItsPlantsInEachSubstep) {
     frond_model_destroy(model);
 }
 
-// Two stems that nothing holds over a ground plane: one has it in its mask, the other has not.
+// Two free stems over a ground plane: one has the plane in its mask, the other does not.
 TEST_P(HostWorld, ItsFilterTellsWhatAPlantMeets) {
     Host host(GetParam());
     frond_world plants;
@@ -199,7 +199,7 @@ TEST_P(HostWorld, ItsRayTestsFindTheCapsulesAndItsBodiesAreUndisturbed) {
     EXPECT_EQ(frond::bullet_object(plant), hit.m_collisionObject);
     EXPECT_EQ(frond::plant_of(&host.ball).id, 0u);
 
-    // Removed cleanly: the ray goes through, the host's objects are as before.
+    // Removed cleanly: the ray passes, and the host's objects are as before.
     frond_world_destroy(plants);
     btCollisionWorld::ClosestRayResultCallback miss(from, to);
     host.world->rayTest(from, to, miss);
@@ -282,7 +282,7 @@ TEST(Attach, IsRefusedTwiceAndAllowedAgainAfterDestroy) {
     frond_world_destroy(second);
 }
 
-// The value of a clock that failed.
+// Such values come from a clock that failed.
 TEST(Attach, StepsThatAreNoTimeMoveNoPlant) {
     Host host(0);
     frond_world world = {};
@@ -369,7 +369,7 @@ TEST_P(HostWorld, BodiesPushItsPlantsAndBothComeAndGoWhileTheyTouch) {
         frond_report report;
         ASSERT_EQ(frond_world_get_report(plants, &report), FROND_OK);
         EXPECT_EQ(report.trouble & FROND_TROUBLE_REWOUND, 0u);
-        // One of the two goes while they touch, and time goes on.
+        // One of the two is removed while they touch, and time continues.
         if (round == 1) {
             host.world->removeRigidBody(&host.ball);
             host.world->stepSimulation(btScalar(1.0 / 60), 0);
@@ -383,7 +383,7 @@ TEST_P(HostWorld, BodiesPushItsPlantsAndBothComeAndGoWhileTheyTouch) {
     frond_model_destroy(model);
 }
 
-// A ball in a cup of four arms lies still, and says so.
+// A ball in a cup of four arms lies still, and reports no velocity.
 TEST_P(HostWorld, ABodyAtRestOnAPlantHasNoVelocity) {
     Host host(GetParam());
     frond_world plants;
@@ -412,7 +412,7 @@ TEST_P(HostWorld, ABodyAtRestOnAPlantHasNoVelocity) {
     place.setOrigin(btVector3(0, btScalar(0.62), 0));
     host.ball.setWorldTransform(place);
     host.ball.setInterpolationWorldTransform(place);
-    // In substeps of a longer step too, over which Bullet adds forces up.
+    // Also in substeps of a longer step, over which Bullet accumulates forces.
     for (int i = 0; i < 150; i++) host.world->stepSimulation(btScalar(1.0 / 30), 2, btScalar(1.0 / 60));
     const btVector3 before = host.ball.getWorldTransform().getOrigin();
     for (int i = 0; i < 10; i++) {

@@ -1,4 +1,4 @@
-// Instances: what plants of one model keep in memory, counted by the allocator.
+// Instances: memory that plants of one model take, counted by the allocator.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -62,8 +62,8 @@ struct Rows {
     }
 };
 
-constexpr double FEW_PIECES = 0.4;  // capsules as long as that make 41 of the corn [m]
-// That one keeps, beyond its model [kB]. Bullet's own part of it, soft body and proxy, is larger in double precision.
+constexpr double FEW_PIECES = 0.4;  // capsule height with which the corn has 41 capsules [m]
+// Memory of one plant beyond its model [kB]. Bullet's share, soft body and proxy, is larger in double precision.
 #ifdef BT_USE_DOUBLE_PRECISION
 constexpr double ROD_ASLEEP = 5, CAGE_AWAKE = 1024;
 #else
@@ -74,7 +74,7 @@ TEST(Instances, OfRodsThatSleepKeepLittleWhetherTheyEverMovedOrNot) {
     if (SANITIZED) GTEST_SKIP() << "another allocator";
     constexpr int COUNT = 100;
     Rows rows(FEW_PIECES);
-    rows.add(8, FROND_MECHANICS_ROD, false);  // abreast, so that what a thread needs once is there
+    rows.add(8, FROND_MECHANICS_ROD, false);  // batched, so that memory needed once per thread is already allocated
     rows.settle();
     ASSERT_NEAR(frond_plant_get_capsule_count(rows.plants[0]), 41, 5);
     const double before = kilobytes();
@@ -108,7 +108,7 @@ TEST(Instances, OfCagesThatMoveKeepLessThanAMegabyte) {
     std::printf("a caged plant that moves: %.0f kB\n", each);
 }
 
-// Reading a plant that sleeps unfolds it, and the next substep folds it again.
+// Reading a sleeping plant decompresses it, and the next substep compresses it again.
 TEST(Instances, ThatAreLookedAtAreFoldedAgain) {
     if (SANITIZED) GTEST_SKIP() << "another allocator";
     Rows rows(FEW_PIECES);

@@ -1,4 +1,4 @@
-// Surfaces are shown between the last two substeps, as the motion states of Bullet's bodies are.
+// Surfaces are interpolated between the last two substeps, like the motion states of Bullet's bodies.
 #include <btBulletDynamicsCommon.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ double farthest(const std::vector<float>& a, const std::vector<float>& b) {
     return most;
 }
 
-// A Bullet world in which a ball falls beside a plant that nothing holds.
+// A Bullet world in which a ball falls beside a free plant.
 struct Falling {
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
@@ -78,7 +78,7 @@ TEST_P(Interpolation, ShowsSurfacesWhereMotionStatesAre) {
             const double now = double(falling.ball.getWorldTransform().getOrigin().y());
             if (std::abs(fallen - now) > 1e-3) between++;
         }
-        EXPECT_GT(between, 20);  // it was shown elsewhere than where it is
+        EXPECT_GT(between, 20);  // it was shown elsewhere than at its current position
     }
 }
 
@@ -91,7 +91,7 @@ TEST_P(Interpolation, OfStepsOfAnyLengthIsNone) {
     EXPECT_NEAR(double(surface_of(falling.plant)[1] - start), now, 2e-5);
 }
 
-// A plant that is pulled and let go: at the end of one step it is where it is at the beginning of the next.
+// A plant that is pulled and let go: the end of one step is shown where the next one begins.
 TEST_P(Interpolation, GoesOnWithoutAJumpFromStepToStep) {
     frond_plant_def def = frond_default_plant_def();
     def.mechanics = GetParam();
@@ -120,7 +120,7 @@ TEST_P(Interpolation, GoesOnWithoutAJumpFromStepToStep) {
         widest = std::max(widest, farthest(now, end));
     }
     EXPECT_GT(widest, 0.005);
-    // A body that was put somewhere stands there.
+    // A plant whose state was set is shown there at once.
     std::vector<double> xyz(size_t(3 * frond_plant_get_node_count(small.plant)));
     ASSERT_EQ(frond_plant_get_state(small.plant, xyz.data(), nullptr, int(xyz.size() / 3)), FROND_OK);
     ASSERT_EQ(frond_plant_set_state(small.plant, xyz.data(), nullptr, int(xyz.size() / 3)), FROND_OK);

@@ -1,5 +1,5 @@
-// A host expects of a guest in its Bullet world: zones in its profiler, memory from its allocators, all of it
-// back.
+// Checks what a host expects of a guest in its Bullet world: zones in its profiler, memory from its allocators, and all
+// of it returned.
 #include <LinearMath/btAlignedAllocator.h>
 #include <LinearMath/btQuickprof.h>
 #include <btBulletDynamicsCommon.h>
@@ -24,7 +24,7 @@ void leave_zone() {
     open_zones.pop_back();
 }
 
-// A plant that a ball rests against.
+// Simulates a plant with a ball that rests against it.
 void play(int steps) {
     SmallWorld small;
     frond_rigid_def def = frond_default_rigid_def();
@@ -68,7 +68,7 @@ void give_back_aligned(void* memory) {
     std::free(memory);
 }
 
-// Bullet's own objects say with their operator new where they want to live.
+// Bullet's own objects choose their allocator by their operator new.
 TEST(Manners, BulletsObjectsLiveInBulletsMemoryAndAllOfItIsGivenBack) {
     btAlignedAllocSetCustomAligned(take_aligned, give_back_aligned);
     taken = given_back = crooked = 0;
@@ -81,7 +81,7 @@ TEST(Manners, BulletsObjectsLiveInBulletsMemoryAndAllOfItIsGivenBack) {
         frond_plant plant;
         const int64_t before = taken;
         ASSERT_EQ(frond_plant_create(world, model, &plant_def, &plant), FROND_OK);
-        // A body, a compound, and a shape a capsule at least.
+        // At least a body, a compound shape, and one shape per capsule.
         EXPECT_GT(taken - before, 2 + frond_plant_get_capsule_count(plant));
         frond_world_destroy(world);
         frond_model_destroy(model);

@@ -1,4 +1,4 @@
-// Plants made where another stands already: they part, but for their feet.
+// Plants created where another one stands: they part, except for their feet.
 #include <algorithm>
 #include <vector>
 
@@ -11,7 +11,7 @@ INSTANTIATE_TEST_SUITE_P(Plants, OnePlace, testing::Range(0, int(FROND_MECHANICS
     return std::string(frond_mechanics_name(frond_mechanics(info.param)));
 });
 
-// Of what is higher than that [m].
+// Returns the largest contact depth above a height [m].
 double depth_above(frond_plant plant, double height) {
     std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
     EXPECT_EQ(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())), FROND_OK);
@@ -21,7 +21,7 @@ double depth_above(frond_plant plant, double height) {
     return depth;
 }
 
-// 1 cm beside the first, or where there is no side on which one could leave the other.
+// The second plant is 1 cm beside the first, or in the same place, where no direction of separation is preferred.
 TEST_P(OnePlace, LetsPlantsPartAboveTheirFeet) {
     constexpr double DEPTH = 0.005;  // [m]
     frond_plant_def def = frond_default_plant_def();

@@ -34,7 +34,7 @@ TEST(OwnWorld, AnUnpinnedPlantFallsFreely) {
     const double fall = -9.81 / 3600 * 30 * 31 / 2;
     for (size_t i = 0; i < before.size(); i += 3) {
         EXPECT_NEAR(after[i], before[i], 1e-9);
-        EXPECT_NEAR(after[i + 1] - before[i + 1], fall, 1e-6);  // Bullet's step is single precision
+        EXPECT_NEAR(after[i + 1] - before[i + 1], fall, 1e-6);  // Bullet's step has single precision
         EXPECT_NEAR(after[i + 2], before[i + 2], 1e-9);
     }
 }
@@ -50,8 +50,7 @@ TEST(OwnWorld, GravityOffMeansNoMotion) {
 }
 
 TEST(OwnWorld, APlantStandsAsItWasModelledUnderGravity) {
-    for (int mechanics = 0; mechanics < FROND_MECHANICS_SPRING_CHAIN;
-         mechanics++) {  // the last one has no rest shape to find
+    for (int mechanics = 0; mechanics < FROND_MECHANICS_SPRING_CHAIN; mechanics++) {  // the last one has no rest shape
         frond_plant_def def = frond_default_plant_def();
         def.mechanics = frond_mechanics(mechanics);
         SmallWorld stands(def, 1e7, FROND_REST_STANDS_AS_MODELLED), droops(def, 1e7, FROND_REST_WITHOUT_GRAVITY);
@@ -77,10 +76,10 @@ TEST(OwnWorld, AMaskOnTheWorldSwitchesAnEffectOffForAllPlants) {
     for (size_t i = 0; i < before.size(); i++) EXPECT_NEAR(after[i], before[i], 1e-12);
 }
 
-// Two plants in each other's way, in wind, pulled and struck, so that there is something to do for most effects: each
-// is switched off and on again while they move, on the world and on a plant.
+// Two plants in contact, in wind, pulled and struck, so that most effects have something to do: each is switched off
+// and on again while they move, on the world and on a plant.
 TEST(OwnWorld, EveryEffectIsSwitchedWhileItRuns) {
-    // Those of the others are told together with what they are part of, or have nothing to do here.
+    // The other effects are reported with those that they belong to, or have nothing to do here.
     constexpr frond_effects TOLD = FROND_EFFECT_GRAVITY | FROND_EFFECT_DAMPING | FROND_EFFECT_USER_FORCE |
                                    FROND_EFFECT_SURFACE | FROND_EFFECT_NORMALS | FROND_EFFECT_RIGID_CONTACT |
                                    FROND_EFFECT_FRICTION | FROND_EFFECT_TWO_WAY | FROND_EFFECT_PLASTICITY |
@@ -125,14 +124,14 @@ TEST(OwnWorld, EveryEffectIsSwitchedWhileItRuns) {
         EXPECT_EQ(run() & effect & TOLD, effect & TOLD) << frond_effect_name(effect) << ", on again";
         for (frond_plant plant : {small.plant, other})
             ASSERT_EQ(frond_plant_set_effects(plant, FROND_EFFECT_ALL & ~effect), FROND_OK);
-        const frond_effects world_tells = FROND_EFFECT_FRICTION | FROND_EFFECT_TWO_WAY;  // as soon as anything touches
+        const frond_effects world_tells = FROND_EFFECT_FRICTION | FROND_EFFECT_TWO_WAY;  // reported if anything touches
         EXPECT_EQ(run() & effect & ~world_tells, 0u) << frond_effect_name(effect) << ", off on the plants";
     }
 }
 
 TEST(OwnWorld, AGrabbedPlantFollowsAndSwingsBackWhenLetGo) {
     frond_plant_def def = frond_default_plant_def();
-    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;        // its own damping brings the plant to rest in time
+    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;        // its numerical damping brings the plant to rest in time
     def.effects &= ~(frond_effects)FROND_EFFECT_PLASTICITY;  // so soft a stem would keep a third of that bend
     SmallWorld small(def, 1e7);
     step(small.world, 120);
@@ -171,7 +170,7 @@ TEST(OwnWorld, APinnedNodeStaysAndCanBeMoved) {
 
 TEST(OwnWorld, AForceActsForOneStepOnly) {
     frond_plant_def def = frond_default_plant_def();
-    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;  // all of a step's momentum is there at its end
+    def.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;  // the step's whole momentum is present at its end
     def.root_height = -1;
     def.effects = FROND_EFFECT_USER_FORCE;
     SmallWorld small(def);
@@ -183,7 +182,7 @@ TEST(OwnWorld, AForceActsForOneStepOnly) {
     frond_energy energy;
     frond_plant_get_energy(small.plant, &energy);
     EXPECT_GT(energy.kinetic, 0);
-    // One newton for 1/60 s gives the whole plant that momentum; it keeps it afterwards.
+    // One newton for 1/60 s gives the whole plant that momentum, which it keeps afterwards.
     const std::vector<double> first = positions_of(small.plant);
     step(small.world, 60);
     const std::vector<double> later = positions_of(small.plant);
@@ -281,7 +280,7 @@ TEST(OwnWorld, PlantsComeAndGoWhileItRuns) {
     std::vector<frond_plant> plants;
     for (int round = 0; round < (SANITIZED ? 9 : 30); round++) {
         frond_plant plant;
-        def.position.x = 0.1 * (round % 5);  // some stand in each other
+        def.position.x = 0.1 * (round % 5);  // some overlap
         ASSERT_EQ(frond_plant_create(small.world, small.model, &def, &plant), FROND_OK);
         plants.push_back(plant);
         if (round % 3 == 2) {

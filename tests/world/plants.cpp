@@ -1,5 +1,5 @@
-// Plants and plants: they push each other and themselves, come apart where they were made in each other, keep their
-// momentum, and do so alike whatever finds their contacts. FCL judges how deep they are in each other.
+// Plants among plants: they push each other and themselves, come apart if they were made overlapping, conserve
+// momentum, and do all of this whichever method finds their contacts. FCL measures how deep they overlap.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST(CornPair, ComesApartWithinTwoSecondsAndStaysInEachOtherWithoutResponse) {
     }
 }
 
-// From 2 s to 4 s in every step, by FCL on cages and surfaces.
+// Checks every step from 2 s to 4 s, by FCL on cages and surfaces.
 void expect_stays_apart(frond_mechanics mechanics, double step, const frond::test::Placement& placement) {
     CornPair pair(FROND_RESPONSE_IMPULSE, mechanics, step, placement);
     const int count = int(std::lround(2 / step));
@@ -122,7 +122,7 @@ struct ThrownStems : Stand {
         plant.root_height = -1;
         plant.effects &= ~uint32_t(FROND_EFFECT_DAMPING);
         add(plant, {0, 0, 0});
-        // Lies across.
+        // The second one lies across the first.
         plant.rotation = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};
         plant.position = {0.05, 0.04, 0.2};
         frond_plant other = {};
@@ -169,7 +169,7 @@ TEST_P(Free, StemsThatCollideKeepTheirMomentumAndGainNoEnergy) {
         }
         EXPECT_GT(touched, 0);
         EXPECT_LT((stems.momentum() - before).norm(), 1e-6 * before.norm());
-        // It was felt: the one that was hit moves, and the other did not pass through it.
+        // The impact had an effect: the stem that was hit moves, and the other did not pass through it.
         frond_vec3 hit = {};
         must(frond_plant_get_momentum(stems.plants[0], &hit));
         EXPECT_LT(hit.z, 0.2 * before.z());
@@ -191,7 +191,7 @@ TEST_P(Free, ContactsAreToldByBothPlantsAndPointAtEachOther) {
             EXPECT_EQ(b[k].other.id, stems.plants[0].id);
             EXPECT_EQ(a[k].impulse.z, -b[k].impulse.z);
             EXPECT_EQ(a[k].normal.x, -b[k].normal.x);
-            // Those that will meet within the step, or have only just parted, are told too.
+            // Contacts that will close within the step, or have just opened, are reported too.
             EXPECT_LT(a[k].gap, 0.01 + 1.5 * H);
             EXPECT_EQ(a[k].gap, b[k].gap);
             seen++;
@@ -229,7 +229,7 @@ TEST(Plants, OffMeansThatTheyPassThroughEachOther) {
         ThrownStems stems(FROND_MECHANICS_ROD);
         if (by_world)
             must(frond_world_set_effects(stems.world, FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_PLANT_CONTACT)));
-        else  // one of the two is enough
+        else  // one of the two plants is enough
             must(
                 frond_plant_set_effects(stems.plants[0], FROND_EFFECT_DEFAULT & ~uint32_t(FROND_EFFECT_PLANT_CONTACT)));
         for (int i = 0; i < 30; i++) {
@@ -282,13 +282,12 @@ TEST(Plants, MayComeAndGoWhileTheyTouch) {
     }
 }
 
-// A rod bent by the user until its ends would cross.
+// Two prongs of a fork are pressed together until they would cross.
 TEST(Plants, DoNotPassThroughThemselves) {
     const auto closest = [](bool with_contact) {
         frond_world_def world_def = frond_default_world_def();
         world_def.gravity = {0, 0, 0};
         Stand stand(world_def);
-        // Two prongs of a fork, pressed together and past each other.
         stand.make_stems({{-1, {0, 0, 0}, {0, 0.2, 0}, 0.02, 0.02},
                           {0, {0, 0.2, 0}, {0.15, 0.6, 0}, 0.012, 0.012},
                           {0, {0, 0.2, 0}, {-0.15, 0.6, 0}, 0.012, 0.012}},

@@ -1,4 +1,4 @@
-// Elements of order 2 through the C API: cantilevers bend as the beam formula says, in tets of the caller's and in
+// Elements of order 2 through the C API: cantilevers bend as the beam formula says, with the caller's tets and in
 // Frond's own cages, with every mechanics of tets, and plants stand.
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ frond_model_def model_def(const frond_organ_material& organ) {
     return def;
 }
 
-// An upright square beam of one cell across, of which each is `aspect` times as long as thick.
+// Returns an upright square beam of one cell across, each cell `aspect` times as long as thick.
 frond_model square_beam(double width, double aspect, int cells) {
     std::vector<double> xyz;
     std::vector<int32_t> tets;
@@ -54,7 +54,7 @@ frond_model square_beam(double width, double aspect, int cells) {
     return model;
 }
 
-// How far the top of an upright cantilever moves under a force on it, shared by the highest cage nodes [m].
+// Returns the displacement of an upright cantilever's top by a force, shared by the highest cage nodes [m].
 double push_aside(frond_model model, frond_mechanics mechanics, double root_height, double force) {
     frond_world_def world_def = frond_default_world_def();
     world_def.gravity = {0, 0, 0};
@@ -103,7 +103,7 @@ TEST_P(EveryTets, BendInSlenderCellsOfTheCallersAsTheBeamFormulaSays) {
     for (double aspect : {1.0, 2.0, 5.0}) {
         const frond_model model = square_beam(WIDTH, aspect, CELLS);
         const double length = aspect * WIDTH * CELLS, EI = YOUNG * std::pow(WIDTH, 4) / 12;
-        const double shear = 1 + 0.6 * (1 + POISSON) * std::pow(WIDTH / length, 2);  // Timoshenko's, of a square: 5/6 A
+        const double shear = 1 + 0.6 * (1 + POISSON) * std::pow(WIDTH / length, 2);  // Timoshenko, of a square: 5/6 A
         const double force = 0.01 * 3 * EI / (length * length);
         const double wanted = shear * force * std::pow(length, 3) / (3 * EI);
         EXPECT_NEAR(push_aside(model, GetParam(), 1e-6, force), wanted, 0.05 * wanted) << "aspect " << aspect;
@@ -124,7 +124,7 @@ TEST_P(EveryTets, BendInFrondsOwnCageAsTheBeamFormulaSays) {
         ASSERT_EQ(frond_model_from_stems(&stem, 1, &def, &model), FROND_OK) << frond_last_error();
         const double EI = YOUNG * M_PI * std::pow(radius, 4) / 4;
         const double force = 0.01 * 3 * EI / (LENGTH * LENGTH);
-        // The cage reaches beyond the stem's end, where the force acts with a longer arm.
+        // The cage extends beyond the stem's end, where the force acts with a longer lever arm.
         frond_cage_view cage;
         ASSERT_EQ(frond_model_get_cage(model, &cage), FROND_OK);
         double top = 0;

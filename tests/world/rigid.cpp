@@ -1,4 +1,4 @@
-// Bodies that Frond makes: they fall, rest and carry plants along, in a world of Frond's own.
+// Bodies made by Frond: they fall, rest and carry plants along, in Frond's own world.
 #include <cmath>
 #include <vector>
 

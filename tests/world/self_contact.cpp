@@ -1,4 +1,4 @@
-// Self contact of what is as it was modelled: nothing touches, nothing moves.
+// Self-contact of plants in their modelled shape: nothing touches, nothing moves.
 #include <vector>
 
 #include "support/stems.hpp"
@@ -43,7 +43,7 @@ TEST_P(SelfContact, LetsTheCornStand) {
     ASSERT_EQ(frond_model_load(FROND_SOURCE_DIR "/models/corn/corn.obj", &model_def, &model), FROND_OK)
         << frond_last_error();
     ASSERT_EQ(frond_plant_create(world, model, &def, &plant), FROND_OK) << frond_last_error();
-    // Springs that do not know the shape without gravity droop.
+    // Springs have no shape without gravity, so they droop.
     step(world, plant, frond_plant_get_node_count(plant), GetParam() == FROND_MECHANICS_SPRING_CHAIN ? 0.2 : 0.002);
     frond_world_destroy(world);
     frond_model_destroy(model);

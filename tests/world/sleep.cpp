@@ -1,5 +1,5 @@
-// Sleep: what rests falls asleep where it stands, costs nothing, and is woken by all that could move it and by nothing
-// else.
+// Sleep: a plant at rest falls asleep in place, costs nothing, and is woken by everything that could move it and by
+// nothing else.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -71,7 +71,7 @@ struct Stand {
             steps(1);
         }
     }
-    // Steps until all sleep, at most so long [s].
+    // Steps until all plants sleep, for at most `time` [s]; returns whether they do.
     bool rests_within(double time) {
         for (int i = 0; i < int(time / H); i++) {
             steps(1);
@@ -103,7 +103,7 @@ TEST_P(Sleep, ChangesNothingByMoreThanATenthOfAMillimetre) {
                               awake = stays_awake.places(stays_awake.plants[0]);
     for (size_t i = 0; i < asleep.size(); i++) ASSERT_NEAR(asleep[i], awake[i], 1e-4) << i;
 
-    // And not a bit from then on.
+    // From then on not a bit changes.
     sleeps.steps(60);
     EXPECT_EQ(sleeps.places(sleeps.plants[0]), asleep);
     EXPECT_EQ(sleeps.report().solver_iterations, 0);
@@ -112,7 +112,7 @@ TEST_P(Sleep, ChangesNothingByMoreThanATenthOfAMillimetre) {
     EXPECT_EQ(profile.ms_solve, 0);
 }
 
-// One whose foot is in the ground from the start is not pushed out of it when it wakes.
+// A plant whose foot is in the ground from the start is not pushed out of it when it wakes.
 TEST(Sleep, FromTheStartLeavesAPlantWhereItStands) {
     Stand stand;
     frond_rigid_def ground = frond_default_rigid_def();
@@ -144,12 +144,12 @@ TEST_P(Sleep, ComesNotWhileAPlantSways) {
         before = stand.places(plant);
         stand.steps(1);
     }
-    // Its motion in its last step awake is next to nothing.
+    // Its motion in the last step awake is negligible.
     const std::vector<double> after = stand.places(plant);
     for (size_t i = 0; i < after.size(); i++) ASSERT_NEAR(before[i], after[i], 5e-5);
 }
 
-// Each wakes a plant that sleeps, and that one alone.
+// Each cause wakes a sleeping plant, and that one only.
 TEST(Wake, ComesFromAllThatMovesAPlant) {
     Stand stand;
     const frond_plant plant = stand.add(0), other = stand.add(2);
@@ -217,7 +217,7 @@ TEST(Wake, ComesFromAllThatMovesAPlant) {
     }
 }
 
-// A kinematic body, which is filtered as what is static is, wakes one that never moved; so does the next one.
+// A kinematic body, which is filtered like static ones, wakes a plant that never moved; so does the next one.
 TEST(Wake, ComesFromWhatTheHostCarriesIntoAPlant) {
     Stand stand;
     frond_plant_def def = frond_default_plant_def();
@@ -286,7 +286,7 @@ TEST(Wake, ComesToAllFromWhatIsOfTheWorld) {
     }
 }
 
-// A row of plants leaning on each other sleeps as one, and the one that is pulled wakes those that it reaches.
+// A row of plants leaning on each other sleeps as one; a plant that is pulled wakes those that it reaches.
 TEST(Wake, GoesOnFromPlantToPlant) {
     std::vector<frond_mechanics> all = {FROND_MECHANICS_ROD};
     if (!SANITIZED) all.push_back(FROND_MECHANICS_TET_COROTATIONAL);
@@ -309,7 +309,7 @@ TEST(Wake, GoesOnFromPlantToPlant) {
     }
 }
 
-// A board on the tips of two plants keeps them awake until it rests too; when it is taken away, they come back.
+// A board on the tips of two plants keeps them awake until it rests too; after it is removed, they spring back.
 TEST(Wake, ComesWhenWhatLayOnAPlantIsTakenAway) {
     Stand stand;
     for (const double z : {-0.1, 0.1}) stand.add(0, FROND_MECHANICS_ROD, z);
@@ -372,7 +372,7 @@ TEST(Wake, DoesNotComeFromWhatIsRefused) {
         EXPECT_NE(refused(), FROND_OK) << name;
         EXPECT_FALSE(frond_plant_is_awake(plant)) << name;
     }
-    // Pins are reported while it sleeps too.
+    // Pins are reported during sleep too.
     const auto holds = [&](int i) {
         const frond_vec3 here = {places[size_t(3 * i)], places[size_t(3 * i + 1)], places[size_t(3 * i + 2)]};
         return frond_plant_move_pin(plant, i, here) == FROND_OK;

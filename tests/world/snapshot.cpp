@@ -1,5 +1,4 @@
-// Snapshots: a world goes back to where it was and from there the same way again, to the bit; bytes that are not of
-// such a world change nothing.
+// Snapshots: a restored world repeats its motion, to the bit; bytes that are not from such a world change nothing.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -13,8 +12,8 @@ namespace snapshot_tests {
 
 constexpr double H = 1.0 / 60;
 
-// Plants of all mechanics, some in each other, in gusts; a ball flies among them onto the ground, a box lies on a
-// plate.
+// Plants of all mechanics, some overlapping, in gusts; a ball flies among them onto the ground, a box falls beside
+// them, and a plant is bonded to a fixed box.
 struct Garden {
     frond_world world = {};
     frond_model model = {};
@@ -73,7 +72,7 @@ struct Garden {
         }
         return value;
     }
-    // Steps on; what the hashes were after each.
+    // Steps, and returns the hash after each step.
     std::vector<uint64_t> run(int steps, bool pull = true) {
         std::vector<uint64_t> hashes;
         for (int i = 0; i < steps; i++) {
@@ -141,7 +140,7 @@ TEST(Snapshot, HoldsAPinThatWasLetGoSince) {
     EXPECT_EQ(garden.run(30), pinned);
 }
 
-// Changes of velocity over such a time are beyond all rates that can be.
+// Velocity changes over so short a time exceed all possible rates.
 TEST(Snapshot, IsTakenBackAfterAStepOfNextToNoTime) {
     Garden garden(2);
     garden.run(30);
@@ -157,7 +156,7 @@ TEST(Snapshot, SavingTwiceGivesTheSameBytes) {
 }
 
 TEST(Snapshot, WhatSleptSleepsAgain) {
-    Garden garden(3, 0.4);  // apart: those that lean on each other creep for long
+    Garden garden(3, 0.4);  // apart: plants that lean on each other creep for long
     ASSERT_EQ(frond_world_set_wind(garden.world, nullptr), FROND_OK);
     frond_grab_destroy(garden.grab);
     int sleeping = 0;
@@ -217,7 +216,7 @@ TEST(Snapshot, GoesBackWithWhatBrokeOff) {
     EXPECT_EQ(garden.restore(bytes), FROND_RESULT_BAD_ARGUMENT);
 }
 
-// Every way in which bytes can be wrong: a code, a text, and the world as it was.
+// For every kind of wrong bytes: a code, a text, and an unchanged world.
 struct Refused : testing::Test {
     Garden garden{2};
     std::vector<char> bytes;

@@ -1,4 +1,4 @@
-// How much capsules are strained, by the beam's formula.
+// Strains of capsules, compared with the beam formula.
 #include <cmath>
 #include <vector>
 
@@ -8,7 +8,7 @@ namespace strains_tests {
 
 constexpr double LENGTH = 0.6, RADIUS = 0.006, YOUNG = 2e8;
 
-// A straight stem, weightless.
+// A straight stem without gravity.
 struct Stem {
     frond_world world = {};
     frond_model model = {};
@@ -56,7 +56,7 @@ class Strains : public ::testing::TestWithParam<frond_mechanics> {};
 INSTANTIATE_TEST_SUITE_P(World, Strains, ::testing::Values(FROND_MECHANICS_ROD, FROND_MECHANICS_TET_COROTATIONAL),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
-// The outermost fibre at s from the tip, on which P pulls across: P s r / (E I).
+// Strain of the outermost fibre at s from the tip, with a transverse force P: P s r / (E I).
 TEST_P(Strains, AreThoseOfABeam) {
     Stem stem(GetParam());
     for (const double strain : stem.strains()) EXPECT_LT(strain, 1e-6);
@@ -82,7 +82,7 @@ TEST_P(Strains, AreThoseOfABeam) {
         mean += strains[i] / known;
         count++;
     }
-    // Cells of a cage, which are as long as capsules, share what these are strained.
+    // Cells of a cage, which are as long as capsules, average the strain over these.
     EXPECT_NEAR(mean / count, 1, GetParam() == FROND_MECHANICS_ROD ? 0.06 : 0.2);
 }
 
@@ -96,7 +96,7 @@ TEST(StrainsOfNothing, AreRefused) {
     EXPECT_EQ(out[0], 7);
 }
 
-// Both integrators go on from where the plant is; one that damps calms it.
+// Both integrators continue from the plant's current state; one that damps calms it.
 TEST(SetIntegrator, GoesOnFromTheSameMotion) {
     Stem stem(FROND_MECHANICS_ROD);
     EXPECT_EQ(frond_plant_set_integrator(stem.plant, frond_integrator(99)), FROND_RESULT_BAD_ARGUMENT);

@@ -1,4 +1,4 @@
-// A ball that strikes a plant: what the plant gets the ball had.
+// A ball strikes a plant: the plant gains no more energy than the ball had.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using frond::test::Stand;
 constexpr double RADIUS = 0.11, MASS = 1.4, SPEED = 6;  // [m], [kg], [m/s]
 constexpr double START = 0.5 * MASS * SPEED * SPEED;    // [J]
 
-// Without weight, so that nothing but the ball brings energy.
+// Without gravity, so that only the ball brings energy.
 struct StruckCorn : Stand {
     frond_rigid ball = {};
     StruckCorn(frond_mechanics mechanics, double step, const frond_vec3& from, const frond_vec3& way)
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Plants, Struck,
                                          FROND_MECHANICS_SPRING_CHAIN),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
-// Dropped on it, and thrown at it from the side, anywhere.
+// The ball is dropped on the plant, or thrown at it from the side, at random.
 TEST_P(Struck, GetsNoMoreEnergyThanTheBallHad) {
     const bool is_chain = GetParam() == FROND_MECHANICS_ROD || GetParam() == FROND_MECHANICS_SPRING_CHAIN;
     const int count = SANITIZED ? 1 : is_chain ? 6 : 2;

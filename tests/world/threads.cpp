@@ -1,4 +1,4 @@
-// Threads: the host's own, for the steps of plants; the same bits come out for any number of them.
+// Threads: the host's own, for the steps of plants; results are the same bits for any number of them.
 #include <LinearMath/btThreads.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ void must(frond_result result) {
     ASSERT_EQ(result, FROND_OK) << frond_last_error();
 }
 
-// A game's job system, as simple as one can be.
+// A game's job system, reduced to a minimum.
 struct Team {
     int size;
     int calls = 0;
@@ -48,7 +48,7 @@ void field_of_wind(const frond_vec3* points, int count, double time, frond_vec3*
     for (int i = 0; i < count; i++) velocities[i] = {3 + points[i].x + time, 0, points[i].y};
 }
 
-// With the threads of a team, if there is one.
+// Makes a world with the threads of a team, if there is one.
 frond_world make_world(frond_world_def def, Team* team) {
     if (team) {
         def.parallel_for = parallel_for;
@@ -59,8 +59,8 @@ frond_world make_world(frond_world_def def, Team* team) {
     return world;
 }
 
-// Twelve plants, rods and cages, some in each other, in wind; a ball is thrown among them. Those that are alike and
-// that nothing touches share jobs.
+// Twelve plants, rods and cages, some overlapping, in wind; a ball is thrown among them. Plants of one kind without
+// contacts share jobs.
 uint64_t hash_with(Team* team) {
     const frond_world world = make_world(frond_default_world_def(), team);
     const frond_model model = make_small_model(0, FROND_REST_STANDS_AS_MODELLED);
@@ -106,7 +106,7 @@ TEST(Threads, OfAnyNumberGiveTheSameBits) {
     }
 }
 
-// Has memory for half of the jobs, in one call.
+// Runs out of memory after half of the jobs, in one call.
 struct PoorTeam {
     int fails_in, calls = 0;
 };
@@ -155,7 +155,7 @@ struct Leaning {
     }
 };
 
-// Both of the plants' halves of a step. Whoever missed one sways on behind by a sixtieth of a second.
+// Tests both halves of a plant step. A plant that missed one continues a sixtieth of a second behind.
 TEST(Threads, ThatFailBreakOffOneStepAndNoMore) {
     constexpr int STEPS = 240;
     PoorTeam rich = {0};
@@ -181,7 +181,7 @@ TEST(Threads, ThatFailBreakOffOneStepAndNoMore) {
     }
 }
 
-// A task scheduler of the host's, as it gives one to Bullet.
+// A task scheduler of the host's, as it would set for Bullet.
 struct Scheduler : btITaskScheduler {
     Team team;
     int grain = 0;
@@ -206,7 +206,7 @@ struct Scheduler : btITaskScheduler {
     }
 };
 
-// Sets it for as long as this lives.
+// Sets the scheduler during its lifetime.
 struct WithScheduler {
     explicit WithScheduler(btITaskScheduler* scheduler) { btSetTaskScheduler(scheduler); }
     ~WithScheduler() { btSetTaskScheduler(nullptr); }
@@ -225,7 +225,7 @@ TEST(Threads, OfBulletsTaskSchedulerGiveTheSameBits) {
     EXPECT_EQ(hash_with(nullptr), alone) << "Bullet's own, of one thread";
 }
 
-// A host that lends threads to Frond itself has said which it wants.
+// A host that gives threads to Frond itself has made its choice.
 TEST(Threads, OfTheHostGoBeforeBulletsTaskScheduler) {
     Scheduler scheduler(2);
     const WithScheduler set(&scheduler);
@@ -235,8 +235,8 @@ TEST(Threads, OfTheHostGoBeforeBulletsTaskScheduler) {
     EXPECT_EQ(scheduler.team.calls, 0);
 }
 
-// Pairs of plants that lean on each other with a ball beside each, far apart: as many islands of contacts. Returns the
-// bits of plants and balls.
+// Simulates pairs of plants that lean on each other with a ball beside each pair, far apart: as many contact islands.
+// Returns the bits of plants and balls.
 std::vector<uint64_t> hash_of_islands(Team* team, frond_response response) {
     constexpr int ISLANDS = 5;
     frond_world_def def = frond_default_world_def();
@@ -287,7 +287,7 @@ std::vector<uint64_t> hash_of_islands(Team* team, frond_response response) {
     return bits;
 }
 
-// Contacts too are found and answered by several, and bodies get the same impulses.
+// Contacts too are found and resolved by several threads, and bodies receive the same impulses.
 TEST(Threads, GiveTheSameBitsToIslandsOfContacts) {
     for (const frond_response response : {FROND_RESPONSE_IMPULSE, FROND_RESPONSE_PENALTY}) {
         const std::vector<uint64_t> alone = hash_of_islands(nullptr, response);
@@ -295,7 +295,7 @@ TEST(Threads, GiveTheSameBitsToIslandsOfContacts) {
         for (const int size : {2, 3, 4}) {
             Team team = {size};
             EXPECT_EQ(hash_of_islands(&team, response), alone) << size << " threads";
-            // Search, steps, response and what remains of the steps.
+            // Search, steps, response and the rest of the steps.
             EXPECT_GT(team.calls, 100);
             if (size == 2) calls_of_two = team.calls;
             EXPECT_EQ(team.calls, calls_of_two);

@@ -8,7 +8,8 @@
 namespace frond::tools {
 
 // Returns what callgrind wrote at each CALLGRIND_DUMP_STATS_AT, line by line, under the name given there. Runs the
-// program with `arguments` and Valgrind with `options`. Empty if Valgrind is missing or the program failed in it.
+// program with `arguments` and Valgrind with `options`. Empty if Valgrind is missing, was missing when
+// the program was built, or if the program failed in it.
 std::map<std::string, std::vector<std::string>> count_self(const std::string& arguments, const std::string& options);
 
 // Returns whether a line begins with that word.

@@ -2,8 +2,6 @@
 //
 // Valgrind's callgrind counts them, so they are exact: the command runs itself in it, steps each case there, and reads
 // the count of that one step.
-#include <valgrind/callgrind.h>
-
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +10,7 @@
 
 #include "bench.hpp"
 #include "callgrind/count_self.hpp"
+#include "callgrind/requests.hpp"
 #include "study/report.hpp"
 
 namespace frond::tools {
@@ -126,7 +125,7 @@ std::map<std::string, EffectCount> count_in_valgrind() {
     std::map<std::string, EffectCount> all;
     for (const auto& [name, lines] : count_self("bench effects --inside", "--collect-atstart=no"))
         all[name] = read_effect_part(lines);
-    if (all.empty()) throw SceneError("valgrind did not count; install it with tools/install-packages");
+    if (all.empty()) throw SceneError("valgrind did not count; install it with tools/install-packages and build again");
     return all;
 }
 

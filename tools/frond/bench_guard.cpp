@@ -2,8 +2,6 @@
 //
 // Valgrind's callgrind counts the instructions of steps of a plant that was just let go and of one that sways, and
 // those of the checking functions within them.
-#include <valgrind/callgrind.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -11,6 +9,7 @@
 
 #include "bench.hpp"
 #include "callgrind/count_self.hpp"
+#include "callgrind/requests.hpp"
 
 namespace frond::tools {
 
@@ -99,7 +98,8 @@ void step_for_guard() {
 
 void bench_guard() {
     const auto parts = count_self("bench guard --inside", "--collect-atstart=no");
-    if (parts.empty()) throw SceneError("valgrind did not count; install it with tools/install-packages");
+    if (parts.empty())
+        throw SceneError("valgrind did not count; install it with tools/install-packages and build again");
     std::printf("instructions of a step of a corn plant, by callgrind\n%-26s %12s %12s %8s\n", "mechanics", "all",
                 "guard", "share");
     for (const auto& [name, lines] : parts) {

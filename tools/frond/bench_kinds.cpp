@@ -65,7 +65,7 @@ KindFigures measure_kind(const Kind& kind, bool in_lanes) {
     return figures;
 }
 
-// A stem with two branches.
+// Returns the model of a stem with two branches.
 frond_model small_cage() {
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.4, 0}, 0.008, 0.006},
                                 {0, {0, 0.4, 0}, {0.02, 0.8, 0}, 0.006, 0.003},

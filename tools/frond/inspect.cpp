@@ -151,7 +151,7 @@ void print_model(const nlohmann::ordered_json& out) {
                 upper[0].get<double>() - lower[0].get<double>(), upper[1].get<double>() - lower[1].get<double>(),
                 upper[2].get<double>() - lower[2].get<double>(), number("surface", "scale"), up[0].get<double>(),
                 up[1].get<double>(), up[2].get<double>());
-    std::printf("  repairs  %d triangles dropped, %d vertices mended; %d loose pieces, joined at %d places\n",
+    std::printf("  repairs  %d triangles dropped, %d vertices repaired; %d loose parts, joined at %d places\n",
                 count("surface", "dropped_triangles"), count("surface", "repaired_vertices"),
                 count("surface", "components"), count("surface", "joints"));
     std::printf("  cage     %d nodes, %d tets, dihedral angles %.1f .. %.1f degrees, smallest tet %.3g m^3\n",

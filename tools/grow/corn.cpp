@@ -1,5 +1,5 @@
-// Corn (Zea mays): settings and a seed in, a plant of 925 vertices and 1184 triangles out. Culm with nodes and sheaths,
-// two-ranked arching blades, an ear with husk and silk, a tassel and prop roots; habit after Kiesselbach, "The
+// Corn (Zea mays). In: settings and a seed. Out: a plant of 925 vertices and 1184 triangles: culm with nodes and
+// sheaths, two-ranked arching blades, an ear with husk and silk, a tassel and prop roots; habit after Kiesselbach, "The
 // structure and reproduction of corn" (1949).
 #include "corn.hpp"
 
@@ -13,7 +13,7 @@ const Phytomer PHYTOMERS[CORN_LEAVES] = {
     {1.135, 1.330, 0.74, 0.085, 18, 126, 13, 0.0}, {1.310, 1.500, 0.61, 0.073, 17, 108, 11, 0.0},
     {1.490, 1.665, 0.46, 0.058, 16, 84, 9, 0.0}};
 
-// The culm leans a little away from each blade: a slight zigzag.
+// Returns the centre of the culm, which leans a little away from each blade: a slight zigzag.
 Vec Corn::axis(double y) const {
     double push = 0;
     for (int i = 0; i < CORN_LEAVES; i++) {
@@ -47,7 +47,7 @@ void grow_culm(Corn& corn) {
         const Phytomer& p = PHYTOMERS[i];
         const double next = i + 1 < CORN_LEAVES ? PHYTOMERS[i + 1].node : p.collar + 0.10;
         const Rgb sheath = mix(SHEATH_GREEN, STRAW, 0.8 * p.dry);
-        // A swollen node, the sheath around the culm, and bare culm between its collar and the next node.
+        // A swollen node, the sheath around the culm, and bare culm between the sheath's collar and the next node.
         ring(p.node, 1.30, NODE_PALE);
         ring(p.node + 0.20 * (p.collar - p.node), 1.12, sheath);
         if (p.collar < next) {
@@ -74,7 +74,7 @@ void grow_roots(Corn& corn) {
                       {corn.axis(y) + (0.6 * reach) * out + Vec{0, -0.016, 0}, 0.0036, ROOT_EARTH}};
         tube.end_reach = 0.0;
         add_tube(corn.plant, tube);
-        // The point goes steeply into the ground.
+        // The point enters the ground steeply.
         const Vec tip = corn.axis(0) + reach * out + Vec{0, -0.03, 0};
         corn.plant.positions.back() = {tip.x, tip.y, tip.z};
     }
@@ -96,7 +96,7 @@ GrownPlant grow_corn(const GrownSettings& value, uint64_t seed) {
     corn.tassel = add_material(corn.plant, "tassel", TASSEL_GOLD);
     corn.root = add_material(corn.plant, "root", ROOT_EARTH);
 
-    // Two ranks, each blade a little out of line, the whole turning slowly upwards.
+    // The blades stand in two ranks, each a little out of line, and the ranks turn slowly with height.
     for (int i = 0; i < CORN_LEAVES; i++)
         corn.azimuths[i] = corn.plane + (i % 2 ? PI : 0) + 0.035 * (i - 5) + corn.random.spread(0.16);
     grow_culm(corn);

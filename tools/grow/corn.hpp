@@ -1,4 +1,4 @@
-// Corn: what its parts share.
+// Corn: declarations shared by its parts.
 #pragma once
 
 #include "organs.hpp"
@@ -7,15 +7,15 @@ namespace frond::grow {
 
 constexpr int CORN_LEAVES = 11;
 
-// One row a phytomer, from the ground up. Lengths in metres, angles in degrees.
+// One row per phytomer, from the ground up. Lengths in metres, angles in degrees.
 struct Phytomer {
     double node;    // height of the node
     double collar;  // height at which the blade leaves the stem
-    double length;  // of the blade
-    double width;   // of the blade, at its widest
-    double lean;    // of the blade's base from the vertical
-    double bend;    // how much further it has turned down at the tip
-    int rows;       // of the blade's mesh
+    double length;  // length of the blade
+    double width;   // width of the blade at its widest
+    double lean;    // angle of the blade's base from the vertical
+    double bend;    // further angle by which the blade has turned down at its tip
+    int rows;       // rows of the blade's mesh
     double dry;     // 0 green .. 1 straw
 };
 extern const Phytomer PHYTOMERS[CORN_LEAVES];
@@ -30,25 +30,25 @@ struct Corn {
     Random random{0};
     double leaf_length, leaf_width, arch, height, plane;  // factors; plane: azimuth of the ranks [radian]
     double azimuths[CORN_LEAVES];
-    int stem, blade, dry_blade, ear, silk, tassel, root;  // materials
+    int stem, blade, dry_blade, ear, silk, tassel, root;  // material indices
 
     Vec axis(double y) const;            // centre of the culm at a height
-    double culm_radius(double y) const;  // [m]
+    double culm_radius(double y) const;  // radius of the culm at a height [m]
 };
 
-// Blade of a phytomer, from its collar.
+// Grows the blade of a phytomer from its collar.
 void grow_blade(Corn& corn, int phytomer);
 GrownImage corn_blade_image();
 
 struct Ear {
-    int number, phytomer;  // in whose axil it stands
-    double size;           // factor
-    double turn;           // out of the plane of the blades [radian]
+    int number, phytomer;  // ear's number, and the phytomer in whose axil it stands
+    double size;           // factor on the ear's size
+    double turn;           // angle from the plane of the blades [radian]
     int husk_tips, strands;
 };
 void grow_ear(Corn& corn, const Ear& ear);
 
-// `spikelets` on all branches together.
+// Grows the tassel with `spikelets` on all its branches together.
 void grow_tassel(Corn& corn, int spikelets);
 
 }  // namespace frond::grow

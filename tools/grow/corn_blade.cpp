@@ -1,4 +1,4 @@
-// Corn, the blade: a phytomer in; a long sheet that arches over, folded along its midrib and waved at its margins, out.
+// Corn, the blade. In: a phytomer. Out: a long sheet that arches over, folded along its midrib and wavy at its margins.
 #include "corn.hpp"
 
 namespace frond::grow {
@@ -7,12 +7,12 @@ namespace {
 const Rgb BLADE_TIRED{0.72, 0.66, 0.30};
 constexpr int STEPS = 120;
 
-// Along the midrib, in even steps.
+// Points and directions along the midrib, in even steps.
 struct Midrib {
     std::vector<Vec> place, forward, sideways;
 };
 
-// March from the collar; the midrib turns downwards ever faster, as a strip that bends under its own weight.
+// Marches from the collar; the midrib turns downwards ever faster, as a strip that bends under its own weight does.
 Midrib march(Vec start, Vec outward, double length, double lean, double bend, double kink, double drift) {
     Midrib midrib;
     midrib.place.push_back(start);
@@ -29,12 +29,12 @@ Midrib march(Vec start, Vec outward, double length, double lean, double bend, do
     return midrib;
 }
 
-// Share of the length at which a row lies: closer at the collar.
+// Returns the share of the length at which a row lies; rows are closer at the collar.
 double share_of(const Phytomer& p, int row) {
     return std::pow(static_cast<double>(row) / p.rows, 1.12);
 }
 
-// Vertex colour of the lowest blade, which dries from the tip and the margins and has no texture.
+// Returns a vertex colour of the lowest blade, which dries from the tip and the margins and has no texture.
 Rgb dry_tint(const Phytomer& p, double s, bool middle) {
     const Rgb color = middle ? mix(MIDRIB_PALE, CORN_GREEN, 0.15 + 0.7 * s) : CORN_GREEN;
     const double margin = middle ? 0.0 : 0.25;
@@ -65,10 +65,10 @@ void grow_blade(Corn& corn, int index) {
         // The collar embraces the stem.
         if (row == 0)
             return corn.axis(p.collar) + Vec{0, 0.006, 0} + (1.32 * start) * unit((0.35 * outward) + side * across);
-        // Narrow at the collar, widest at a third, drawn out to the tip.
+        // Narrow at the collar, widest at a third of the length, tapering to the tip.
         const double half =
             0.5 * width * std::min(1.0, 0.62 + 1.5 * s) * std::pow(std::max(0.0, 1 - std::pow(s, 2.6)), 0.75);
-        // Gutter at the base, flat further out; margins are longer than the midrib and so they wave.
+        // A gutter at the base, flat further out; margins are longer than the midrib, so they wave.
         const double fold = mix(0.95, 0.20, smooth_step(0, 0.35, s));
         const double ruffle = 0.26 * width * smooth_step(0.05, 0.3, s) * (1 - 0.5 * s) *
                               std::sin(TURN * wave * s + phase + (side > 0 ? 0 : 2.1));
@@ -90,7 +90,7 @@ void grow_blade(Corn& corn, int index) {
     add_sheet(corn.plant, sheet);
 }
 
-// Half a blade from midrib (left) to margin, base at the bottom: a pale midrib that thins out, and parallel veins.
+// Draws half a blade from midrib (left) to margin, base at the bottom: a pale midrib that thins out and parallel veins.
 GrownImage corn_blade_image() {
     GrownImage image{"corn_blade.png", 96, 128, {}, {}};
     fill_palette(image, CORN_GREEN, MIDRIB_PALE);

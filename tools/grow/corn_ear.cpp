@@ -1,4 +1,4 @@
-// Corn, the ear: the axil in which it stands in; a spindle in its husk, loose husk tips and silk out.
+// Corn, the ear. In: the axil in which it stands. Out: a spindle in its husk, loose husk tips and silk.
 #include "corn.hpp"
 
 namespace frond::grow {
@@ -6,7 +6,7 @@ namespace {
 
 const Rgb HUSK_TIP{0.64, 0.70, 0.36}, SILK_FRESH{0.80, 0.66, 0.36};
 
-// The line of the ear, which leans away from the culm.
+// The axis of the ear, which leans away from the culm.
 struct Line {
     Vec start, out;
     double length;
@@ -32,7 +32,7 @@ void add_spindle(Corn& corn, const Line& line, double size, double roll) {
     add_tube(corn.plant, tube);
 }
 
-// The loose end of a husk leaf starts under the skin of the ear.
+// Adds the loose end of a husk leaf, which begins under the skin of the ear.
 void add_husk_tip(Corn& corn, const Line& line, double size, double angle) {
     const Vec away = heading(angle), beside = cross({0, 1, 0}, away);
     Sheet sheet;
@@ -48,7 +48,7 @@ void add_husk_tip(Corn& corn, const Line& line, double size, double angle) {
     add_sheet(corn.plant, sheet);
 }
 
-// A flat strand of silk hangs over from the tip.
+// Adds a flat strand of silk that hangs over from the tip.
 void add_silk(Corn& corn, Vec tip, double size, double angle) {
     const Vec away = heading(angle), beside = cross({0, 1, 0}, away);
     const double reach = size * corn.random.range(0.030, 0.050), fall = size * corn.random.range(0.03, 0.085);

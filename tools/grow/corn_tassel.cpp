@@ -1,4 +1,4 @@
-// Corn, the tassel: branches about the top of the culm and a central spike, set with spikelets.
+// Corn, the tassel. Out: branches about the top of the culm and a central spike, set with spikelets.
 #include "corn.hpp"
 
 namespace frond::grow {
@@ -6,7 +6,7 @@ namespace {
 
 const Rgb TASSEL_RED{0.66, 0.42, 0.30};
 
-// A branch of the tassel, set with spikelets; the central spike is one too.
+// Grows a branch of the tassel, set with spikelets; the central spike is one too.
 void grow_branch(Corn& corn, Vec foot, Vec direction, double length, double sag, int rings, int spikelets) {
     const Vec side = unit(cross(direction, {0.3, 0.1, 0.9}));
     auto at = [&](double s) { return foot + (length * s) * direction + Vec{0, -sag * length * s * s, 0}; };

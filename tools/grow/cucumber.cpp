@@ -1,6 +1,6 @@
-// Cucumber (Cucumis sativus): settings and a seed in, a climbing plant of 22004 vertices and 30244 triangles out. One
+// Cucumber (Cucumis sativus). In: settings and a seed. Out: a climbing plant of 22004 vertices and 30244 triangles: one
 // stem with alternate leaves (two turns in five), fruits on peduncles, flowers, coiled tendrils, stiff hairs on stem
-// and fruit; and the stake that it is tied to, as no cucumber of this height stands by itself.
+// and fruit, and the stake that it is tied to, as no cucumber of this height stands by itself.
 #include <stdexcept>
 
 #include "cucumber.hpp"
@@ -13,10 +13,10 @@ constexpr int NODES = 20;
 
 // The organs at each node, from the ground up. Lengths in metres, angles in degrees.
 struct Node {
-    double petiole;  // its length
-    double blade;    // from petiole to tip
-    double tilt;     // of the blade below the horizontal
-    double fruit;    // its length, 0 for none
+    double petiole;  // length of the petiole
+    double blade;    // length of the blade from petiole to tip
+    double tilt;     // angle of the blade below the horizontal
+    double fruit;    // length of the fruit, 0 for none
     bool tendril;
     int flowers;
 };
@@ -30,7 +30,7 @@ const Node NODE_TABLE[NODES] = {
     {0.058, 0.058, -16, 0, false, 0},    {0.034, 0.038, -42, 0, false, 0}};
 
 const Rgb STEM_GREEN{0.46, 0.62, 0.26}, STEM_WOOD{0.56, 0.56, 0.33}, PETIOLE_GREEN{0.50, 0.66, 0.29};
-// Of blades, times their texture.
+// Blade colours, multiplied with the texture.
 const Rgb BLADE_OLD = scaled(CUCUMBER_VEIN, 0.90), BLADE_YOUNG = scaled(CUCUMBER_VEIN, 1.15);
 const Rgb TENDRIL_GREEN{0.58, 0.74, 0.33}, HAIR{0.84, 0.88, 0.72};
 
@@ -38,8 +38,8 @@ struct Cucumber {
     GrownPlant plant;
     uint64_t seed;
     double leaf_size, petiole_length, droop;
-    int stem, petiole, blade, fruit, peduncle, flower, tendril, stake, tie;  // materials
-    // Hairs: how many places there are, how many hairs to spread over them, and how many of those are curved.
+    int stem, petiole, blade, fruit, peduncle, flower, tendril, stake, tie;  // material indices
+    // Hairs: number of possible feet, number of hairs to spread over them, and how many of those are curved.
     int places = 0, hairs = 0, curved = 0;
     int place = 0, hair = 0;
 
@@ -59,19 +59,19 @@ double stem_radius(double y) {
     return mix(0.0078, 0.0022, std::pow(clamp01(y / 2.0), 1.3));
 }
 
-// The stake stands here; the stem is tied to it between every other pair of nodes.
-const double STEM_SIDE = 3.4;  // of the stake, on the whole [rad]
+// Position of the stake; the stem is tied to it between every other pair of nodes.
+const double STEM_SIDE = 3.4;  // mean azimuth of the stem seen from the stake [rad]
 const Vec STAKE_FOOT = -0.023 * heading(STEM_SIDE);
 double tie_height(int tie) {
     return 0.5 * (node_height(2 * tie + 1) + node_height(2 * tie + 2));
 }
 constexpr int TIES = (NODES - 2) / 2;
 
-// Direction in which the stem lies as seen from the stake: it winds a little.
+// Returns the azimuth of the stem seen from the stake: it winds a little.
 double stem_azimuth(double y) {
     return STEM_SIDE + 0.55 * std::sin(2.6 * y);
 }
-// The stem touches the stake where it is tied and keeps off it at its nodes, where leaves need room.
+// The stem touches the stake where it is tied and keeps clear of it at its nodes, where leaves need space.
 Vec axis(double y) {
     double loose = 1;
     for (int tie = 0; tie < TIES; tie++)
@@ -80,18 +80,18 @@ Vec axis(double y) {
     const double away = 1.15 * cucumber_stake_radius(y) + 1.1 * stem_radius(y) + 0.013 * std::max(loose, below);
     return STAKE_FOOT + Vec{0, y, 0} + away * heading(stem_azimuth(y));
 }
-// An organ turns aside if it would grow into the stake.
+// Returns the azimuth of an organ, turned aside if the organ would grow into the stake.
 double past_stake(double azimuth, double y, double clearance) {
     const double toward = std::remainder(azimuth - stem_azimuth(y) - PI, TURN);
     return std::fabs(toward) >= clearance ? azimuth : azimuth - toward + std::copysign(clearance, toward);
 }
 
-// Where an organ leaves the stem: under the skin of the swollen node.
+// Returns the point where an organ leaves the stem: under the skin of the swollen node.
 Vec socket(double y, Vec out) {
     return axis(y) + (0.80 * stem_radius(y)) * out;
 }
 
-// Offers each vertex of a tube as the foot of a hair.
+// Offers each vertex of a tube as the foot of a hair; grows those that are chosen.
 void grow_hairs(Cucumber& c, const TubeMesh& mesh, int from_ring, int to_ring, double height, Random random) {
     for (int r = from_ring; r < to_ring; r++) {
         const Vec along = unit(mesh.centers[std::min(r + 1, mesh.rings - 1)] - mesh.centers[std::max(r - 1, 0)]);
@@ -110,7 +110,7 @@ void grow_hairs(Cucumber& c, const TubeMesh& mesh, int from_ring, int to_ring, d
     }
 }
 
-// The stem, and the stake with its ties.
+// Grows the stem, and the stake with its ties.
 void grow_stem(Cucumber& c) {
     begin_organ(c.plant, "stem", c.stem);
     Tube tube;
@@ -125,7 +125,7 @@ void grow_stem(Cucumber& c) {
         const Rgb color = mix(mix(STEM_WOOD, STEM_GREEN, smooth_step(0.0, 0.35, y)), PETIOLE_GREEN, 0.6 * node);
         tube.rings.push_back({axis(y), stem_radius(y) * (1 + 0.28 * node), color});
     }
-    // Five ridges.
+    // The stem has five ridges.
     tube.bulge = [](int, int s) { return s % 2 ? 0.93 : 1.07; };
     tube.tint = [&](int r, int s) { return scaled(tube.rings[r].color, s % 2 ? 0.92 : 1.05); };
     tube.end_reach = 0.004;
@@ -180,7 +180,7 @@ void grow_leaf(Cucumber& c, int i) {
     add_cucumber_blade(c.plant, blade, random);
 }
 
-// A stalk from the stem to a place; returns where it ends.
+// Grows a stalk from the stem to a point; returns its end.
 Vec grow_stalk(Cucumber& c, const std::vector<Vec>& control, int rings, double radius) {
     Tube tube;
     tube.sides = 6;
@@ -230,7 +230,7 @@ void grow_flower(Cucumber& c, int i, int number) {
     add_cucumber_flower(c.plant, end - 0.001 * up, out + random.range(0.2, 0.7) * up, 0.030, random);
 }
 
-// A tendril reaches out and ends in a coil.
+// Grows a tendril that reaches out and ends in a coil.
 void grow_tendril(Cucumber& c, int i, int number) {
     Random random = c.random_for(i, 5);
     const double y = node_height(i);
@@ -286,7 +286,8 @@ GrownPlant grow_cucumber(const GrownSettings& value, uint64_t seed) {
     c.seed = seed;
     c.leaf_size = value.at("leaf_size"), c.petiole_length = value.at("petiole_length"), c.droop = value.at("droop");
 
-    // Grow bald to count, then choose straight hairs (2 vertices, 1 triangle) and curved ones (3 and 2) that fill up.
+    // Grow without hairs to count vertices, then choose straight hairs (2 vertices, 1 triangle) and curved ones (3 and
+    // 2) to make up the totals.
     grow_all(c);
     const int vertices = VERTICES - static_cast<int>(c.plant.positions.size());
     const int triangles = TRIANGLES - static_cast<int>(c.plant.triangles.size());
@@ -301,7 +302,7 @@ GrownPlant grow_cucumber(const GrownSettings& value, uint64_t seed) {
 
     c.plant.images.push_back(cucumber_blade_image());
 
-    // The highest point of the plant, not of the stake, is the height.
+    // The height is that of the plant's highest point, not the stake's.
     double top = 0;
     for (const GrownOrgan& organ : c.plant.organs)
         for (int v = organ.first_vertex; v < organ.first_vertex + organ.vertex_count; v++)

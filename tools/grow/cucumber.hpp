@@ -1,4 +1,4 @@
-// Cucumber: what its parts share.
+// Cucumber: declarations shared by its parts.
 #pragma once
 
 #include "organs.hpp"
@@ -8,35 +8,36 @@ namespace frond::grow {
 const Rgb CUCUMBER_VEIN{0.58, 0.72, 0.36};
 
 struct CucumberBlade {
-    Vec center;   // where the petiole ends
-    Vec forward;  // towards the tip
-    Vec normal;   // of the upper side
-    double size;  // from the petiole to the tip [m]
+    Vec center;   // end of the petiole
+    Vec forward;  // direction towards the tip
+    Vec normal;   // normal of the upper side
+    double size;  // length from the petiole to the tip [m]
     double droop;
-    Rgb color, margin;  // times the texture
+    Rgb color, margin;  // multiplied with the texture
 };
 GrownImage cucumber_blade_image();
-// 1 on a side vein, 0 away from it; `sharp` (below 0.5) tells how thin it is. Lengths as shares of the leaf's.
+// Returns 1 on a side vein, 0 away from it; the larger `sharp` (below 0.5), the thinner the vein. Lengths are shares of
+// the leaf's.
 double cucumber_side_vein(double along, double off, double sharp);
 void add_cucumber_blade(GrownPlant& plant, const CucumberBlade& blade, Random random);
 
 struct CucumberFruit {
-    Vec top;        // where it hangs on its stalk
+    Vec top;        // point at which the fruit hangs on its stalk
     Vec down;       // direction at the top
     double length;  // [m]
     double radius;  // [m]
-    double ripe;    // 0 just set .. 1 ready for picking
+    double ripe;    // 0: just set .. 1: ready for picking
     int rings, sides;
 };
 TubeMesh add_cucumber_fruit(GrownPlant& plant, const CucumberFruit& fruit, Random random);
 
-// Five petals and a throat about an axis.
+// Adds five petals and a throat about an axis.
 void add_cucumber_flower(GrownPlant& plant, Vec center, Vec axis, double size, Random random);
 
 // The stake that the stem climbs. Lengths in metres.
 struct CucumberStake {
-    Vec foot;                  // where it comes out of the ground
-    double top;                // its height
+    Vec foot;                  // point where the stake leaves the ground
+    double top;                // height of its top
     std::vector<double> ties;  // heights at which stem and stake touch
     int material, tie_material;
 };

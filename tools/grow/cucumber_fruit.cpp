@@ -1,4 +1,4 @@
-// Cucumber, fruit and flower: where it hangs and how big it is in; a ribbed and warty body, or five yellow petals, out.
+// Cucumber, fruit and flower. In: position and size. Out: a ribbed and warty body, or five yellow petals.
 #include "cucumber.hpp"
 
 namespace frond::grow {
@@ -26,7 +26,7 @@ TubeMesh add_cucumber_fruit(GrownPlant& plant, const CucumberFruit& fruit, Rando
     tube.start_reach = 0.0;
     tube.end_reach = 0.0;
 
-    // Ten shallow ribs; warts at every few places of the skin, scattered.
+    // Ten shallow ribs, and warts scattered over the skin.
     std::vector<double> warts(fruit.rings * fruit.sides);
     for (double& wart : warts) wart = random.unit();
     auto wart = [&](int r, int s) {

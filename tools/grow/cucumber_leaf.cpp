@@ -1,11 +1,11 @@
-// Cucumber, the leaf: a blade with five lobes, toothed margin and palmate veins, as fans of ever finer rings about the
-// place where the petiole ends.
+// Cucumber, the leaf. Out: a blade with five lobes, toothed margin and palmate veins, as fans of ever finer rings about
+// the end of the petiole.
 #include "cucumber.hpp"
 
 namespace frond::grow {
 namespace {
 
-// Outline by angle from the tip: lobes and the bays between them, as a share of the distance from petiole to tip.
+// Outline by angle from the tip: lobes and the bays between them, as shares of the distance from petiole to tip.
 struct Corner {
     double angle;  // [degree]
     double radius;
@@ -15,7 +15,7 @@ const Corner CORNERS[] = {{-166, 0.50, false}, {-118, 0.74, true}, {-88, 0.66, f
                           {-27, 0.75, false},  {0, 1.00, true},    {27, 0.75, false},  {57, 0.92, true},
                           {88, 0.66, false},   {118, 0.74, true},  {166, 0.50, false}};
 constexpr int SECTORS = 10;
-// Samples of a sector on each ring, and how far out the ring lies.
+// Samples per sector on each ring, and the ring's share of the radius.
 struct Ring {
     int samples;
     double reach;
@@ -23,7 +23,7 @@ struct Ring {
 const Ring RINGS[] = {{1, 0.09}, {2, 0.25}, {4, 0.50}, {8, 0.77}, {16, 1.0}};
 constexpr int RING_COUNT = sizeof(RINGS) / sizeof(RINGS[0]);
 
-// A straight edge between two corners, in polar form, bulging a little.
+// Returns the radius on the edge between two corners, in polar form: straight but bulging a little.
 double outline(int sector, double u) {
     const Corner &a = CORNERS[sector], &b = CORNERS[sector + 1];
     const double whole = (b.angle - a.angle) * PI / 180, part = whole * u;
@@ -32,7 +32,7 @@ double outline(int sector, double u) {
     return straight * (1 + 0.055 * std::sin(PI * u));
 }
 
-// Samples stand closer beside the veins, which run to the lobes.
+// Returns a sample's share of its sector; samples stand closer beside the veins, which run to the lobes.
 double eased(int sector, double u) {
     const bool vein_first = CORNERS[sector].lobe;
     const double t = vein_first ? u : 1 - u;
@@ -40,7 +40,7 @@ double eased(int sector, double u) {
     return vein_first ? e : 1 - e;
 }
 
-// A fan about the centre, then between rings always the corner that lags behind in angle.
+// Joins a fan about the centre, then ring to ring, always advancing the side that lags behind in angle.
 void join_rings(GrownPlant& plant, int center, const std::vector<std::vector<int>>& rings) {
     for (size_t k = 0; k + 1 < rings[0].size(); k++) add_triangle(plant, center, rings[0][k + 1], rings[0][k]);
     for (int r = 0; r + 1 < RING_COUNT; r++) {
@@ -58,7 +58,7 @@ void join_rings(GrownPlant& plant, int center, const std::vector<std::vector<int
     }
 }
 
-// A tooth on every edge of the margin, leaning towards the tip of the leaf.
+// Adds a tooth on every edge of the margin, leaning towards the tip of the leaf.
 void add_teeth(GrownPlant& plant, const CucumberBlade& blade, const std::vector<int>& margin, Random& random) {
     const Vec normal = unit(blade.normal);
     const size_t half = margin.size() / 2;

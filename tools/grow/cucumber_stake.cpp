@@ -1,17 +1,17 @@
-// Cucumber, what it climbs: the stem's line in; a bamboo stake beside it and twine that ties the two together out.
-// Twine holds on to one corner of the skin of each, so that all three are one piece to whoever reads the mesh.
+// Cucumber, the stake. In: the axis of the stem. Out: a bamboo stake beside it and twine that ties the two together.
+// Twine shares one corner of the skin of each, so that all three are one connected component of the mesh.
 #include "cucumber.hpp"
 
 namespace frond::grow {
 namespace {
 
 const Rgb BAMBOO{0.79, 0.68, 0.42}, BAMBOO_NODE{0.58, 0.47, 0.27}, TWINE{0.80, 0.72, 0.55};
-constexpr double DEPTH = 0.02;           // in the ground [m]
-constexpr double INTERNODE = 0.24;       // of the bamboo [m]
+constexpr double DEPTH = 0.02;           // depth in the ground [m]
+constexpr double INTERNODE = 0.24;       // length of a bamboo internode [m]
 constexpr double TWINE_RADIUS = 0.0013;  // [m]
 constexpr int STAKE_SIDES = 10, TWINE_SIDES = 4, TWINE_RINGS = 14;
 
-// The vertex of a ring of a tube that lies farthest in a direction.
+// Returns the vertex of a tube's ring that lies farthest in a direction.
 int outermost(const GrownPlant& plant, const TubeMesh& mesh, int ring, Vec direction) {
     int best = mesh.at(ring, 0);
     for (int s = 1; s < mesh.sides; s++)
@@ -20,7 +20,7 @@ int outermost(const GrownPlant& plant, const TubeMesh& mesh, int ring, Vec direc
     return best;
 }
 
-// Moves the nearest of the twine's vertices to a corner of something else.
+// Moves the nearest of the twine's vertices to a corner of another mesh.
 void hold(GrownPlant& plant, const TubeMesh& twine, int corner) {
     const Vec place = position_of(plant, corner);
     int nearest = twine.first;
@@ -29,7 +29,7 @@ void hold(GrownPlant& plant, const TubeMesh& twine, int corner) {
     plant.positions[size_t(nearest)] = {place.x, place.y, place.z};
 }
 
-// A ring of twine around both, as tight as a belt around two wheels.
+// Adds a ring of twine around both, as tight as a belt around two wheels.
 void add_tie(GrownPlant& plant, const TubeMesh& stem, int stem_ring, double stem_radius, const TubeMesh& stake,
              int stake_ring, double stake_radius) {
     const Vec a = stem.centers[size_t(stem_ring)], b = stake.centers[size_t(stake_ring)];
@@ -58,7 +58,7 @@ double cucumber_stake_radius(double y) {
 
 void add_cucumber_stake(GrownPlant& plant, const CucumberStake& stake, const TubeMesh& stem,
                         const std::function<double(double)>& stem_radius) {
-    // Rings where twine holds, and three about each node of the bamboo.
+    // Rings where the twine is attached, and three about each node of the bamboo.
     std::vector<double> heights = {-DEPTH, stake.top};
     std::vector<int> stem_rings;
     for (double y : stake.ties) {

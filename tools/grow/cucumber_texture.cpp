@@ -1,11 +1,11 @@
-// Cucumber, the picture on its leaf: palmate veins, their side veins and the net between them, by distance.
+// Cucumber, the texture of its leaf: palmate veins, their side veins and the net between them, by distance.
 #include "cucumber.hpp"
 
 namespace frond::grow {
 
-// 1 on a secondary vein, 0 away from it. Veins leave the main one of their lobe at about 45 degrees.
+// Returns 1 on a secondary vein, 0 away from it. Veins leave the main vein of their lobe at about 45 degrees.
 double cucumber_side_vein(double along, double off, double sharp) {
-    const double offset = along - 0.80 * off - 0.5 * off * off;  // where the vein through this place left the main one
+    const double offset = along - 0.80 * off - 0.5 * off * off;  // where the vein through this point left the main one
     const double cell = offset / 0.145;
     const double d = std::fabs(cell - std::floor(cell) - 0.5);
     return offset > 0.06 ? smooth_step(sharp, 0.5, d) : 0;
@@ -15,7 +15,7 @@ namespace {
 
 const Rgb BLADE_DARK{0.22, 0.44, 0.14};
 
-// How light the texture is at a place of the half leaf, 0 blade .. 1 vein.
+// Returns the lightness of the texture at a point of the half leaf: 0 blade .. 1 vein.
 double vein_light(double fore, double aside) {
     const double radius = std::hypot(fore, aside), angle = std::atan2(aside, fore);
     double light = 0, edge = 1e9;
@@ -32,7 +32,7 @@ double vein_light(double fore, double aside) {
             light = std::max(light, 0.62 * cucumber_side_vein(along, off, thin) * smooth_step(0.0, 0.03, radius));
         }
     }
-    // The finest veins part scattered cells: on the border two cell centres are equally near.
+    // The finest veins separate scattered cells: on their border two cell centres are equally near.
     const double pitch = 0.042;
     const int row = static_cast<int>(std::floor(fore / pitch)), column = static_cast<int>(std::floor(aside / pitch));
     double first = 1e9, second = 1e9;
@@ -46,7 +46,7 @@ double vein_light(double fore, double aside) {
     }
     first = std::sqrt(first), second = std::sqrt(second);
     light = std::max(light, 0.15 * smooth_step(0.010, 0.0, second - first));
-    // The blade bulges between veins and shades itself a little beside them.
+    // The blade bulges between veins and is a little darker beside them.
     return clamp01(light + 0.08 * smooth_step(0.0, 0.04, first));
 }
 

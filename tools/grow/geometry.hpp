@@ -36,12 +36,12 @@ inline Vec unit(Vec a) {
     const double n = length(a);
     return n > 0 ? (1 / n) * a : Vec{0, 1, 0};
 }
-// Turns `a` about the unit axis (Rodrigues).
+// Returns `a` turned about the unit axis (Rodrigues).
 inline Vec turned(Vec a, Vec axis, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     return c * a + s * cross(axis, a) + ((1 - c) * dot(axis, a)) * axis;
 }
-// Horizontal direction at an azimuth.
+// Returns the horizontal direction at an azimuth.
 inline Vec heading(double azimuth) {
     return {std::cos(azimuth), 0, std::sin(azimuth)};
 }
@@ -64,7 +64,7 @@ inline Rgb scaled(Rgb a, double s) {
 inline double clamp01(double t) {
     return std::min(1.0, std::max(0.0, t));
 }
-// 0 below a, 1 above b, smooth between.
+// Returns 0 below a, 1 above b, and a smooth value in between.
 inline double smooth_step(double a, double b, double t) {
     const double s = clamp01((t - a) / (b - a));
     return s * s * (3 - 2 * s);
@@ -82,7 +82,7 @@ struct Random {
     }
     double unit() { return static_cast<double>(bits() >> 11) * (1.0 / 9007199254740992.0); }
     double range(double low, double high) { return low + (high - low) * unit(); }
-    // Between -s and s.
+    // Returns a number between -s and s.
     double spread(double s) { return range(-s, s); }
 };
 

@@ -1,5 +1,5 @@
-// Grow: plants made by rule. A kind, its parameters and a seed come in; a surface in metres, +y up, foot at the origin,
-// with named and coloured organs goes out, and from there a Wavefront OBJ file. The same input gives the same bytes.
+// Grow: plants made by rule. In: a kind, its parameters and a seed. Out: a surface in metres, +y up, foot at the
+// origin, with named and coloured organs, and a Wavefront OBJ file of it. The same input gives the same bytes.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace frond::grow {
 
 struct GrownMaterial {
     std::string name;
-    std::array<double, 3> color;  // sRGB 0..1, of the organ as a whole
-    std::string texture;          // name of an image, empty if there is none
+    std::array<double, 3> color;  // colour of the organ as a whole, sRGB 0..1
+    std::string texture;          // name of an image; empty: none
 };
 
 // A run of vertices and triangles; organs do not share vertices.
@@ -43,7 +43,7 @@ struct GrownPlant {
     std::vector<GrownImage> images;
 };
 
-// The settings of a kind. Changing a value moves vertices; only that of `leaves` changes how many there are.
+// The settings of a kind. Changing a value moves vertices; only `leaves` changes their number.
 struct GrownParameter {
     const char* name;
     double value;  // default
@@ -61,18 +61,18 @@ using GrownSettings = std::map<std::string, double>;
 
 const std::vector<GrownKind>& grown_kinds();
 
-// Throws std::invalid_argument for a kind or parameter that does not exist or is out of range; the text names those
-// that do.
+// Throws std::invalid_argument for a kind or parameter that does not exist or is out of range; its text names those
+// that exist.
 GrownPlant grow_plant(const std::string& kind, const GrownSettings& settings = {}, uint64_t seed = 1);
 
-// Text of the OBJ file and of its material library; `library` is the name that the OBJ file calls it by.
+// Return the texts of the OBJ file and of its material library; `library` is the library's name in the OBJ file.
 std::string obj_text(const GrownPlant& plant, const std::string& library);
 std::string mtl_text(const GrownPlant& plant);
-// Bytes of a PNG file.
+// Returns the bytes of a PNG file.
 std::string png_bytes(const GrownImage& image);
 
-// Writes <folder>/<kind>.obj, .mtl and images, the folder being made if need be. Throws std::runtime_error that names
-// the file. Returns the path of the OBJ file.
+// Writes <folder>/<kind>.obj, .mtl and images; makes the folder if need be. Throws a std::runtime_error that names the
+// file. Returns the path of the OBJ file.
 std::string write_obj(const GrownPlant& plant, const std::string& folder);
 
 }  // namespace frond::grow

@@ -1,4 +1,4 @@
-// Grow, the table of kinds: a kind's name, settings and a seed in, the plant out.
+// Grow, the table of kinds. In: a kind's name, settings and a seed. Out: the plant.
 #include <stdexcept>
 
 #include "organs.hpp"
@@ -72,7 +72,7 @@ const std::vector<GrownKind>& grown_kinds() {
 GrownPlant grow_plant(const std::string& kind, const GrownSettings& settings, uint64_t seed) {
     for (const Row& row : rows()) {
         if (row.kind.name != kind) continue;
-        // Start from the defaults; every setting must name one of them and keep within its range.
+        // Start from the defaults; every setting must name one of them and stay within its range.
         GrownSettings values;
         std::vector<std::string> names;
         for (const GrownParameter& parameter : row.kind.parameters) {

@@ -1,4 +1,4 @@
-// Organs, the parts: a shape in (rings, sheet, hair), vertices and triangles of the organ begun last out.
+// Organs, their parts. In: a shape (rings, sheet, hair). Out: vertices and triangles of the organ begun last.
 #include "organs.hpp"
 
 namespace frond::grow {
@@ -58,7 +58,7 @@ TubeMesh add_tube(GrownPlant& plant, const Tube& tube) {
         }
     }
 
-    // Skin between the rings, then fans over closed ends; normals point outwards.
+    // Skin between the rings, then fans over the closed ends; normals point outwards.
     for (int s = 0; start >= 0 && s < sides; s++) add_triangle(plant, start, mesh.at(0, s + 1), mesh.at(0, s));
     for (int r = 0; r + 1 < rings; r++) {
         for (int s = 0; s < sides; s++) {

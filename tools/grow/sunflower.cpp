@@ -1,4 +1,5 @@
-// Sunflower (Helianthus annuus): settings and a seed in, a tall stem with heart-shaped leaves and one nodding head out.
+// Sunflower (Helianthus annuus). In: settings and a seed. Out: a tall stem with heart-shaped leaves and one nodding
+// head.
 #include "organs.hpp"
 
 namespace frond::grow {
@@ -14,9 +15,9 @@ struct Sunflower {
     GrownPlant plant;
     Random random{0};
     double height, leaf_size, head, nod, facing;
-    int stem, petiole, blade, bract, ray, disk;  // materials
+    int stem, petiole, blade, bract, ray, disk;  // material indices
 
-    // The stem stands, and bows under the head over its last eighth.
+    // The stem is upright, and bends under the head over its last eighth.
     Vec axis(double s) const {
         const double bow = std::max(0.0, s - 0.86) / 0.14;
         return Vec{0, height * (s - 0.022 * nod * bow * bow * bow), 0} +
@@ -54,7 +55,7 @@ void grow_leaf(Sunflower& f, int i) {
     begin_organ(f.plant, "petiole_" + std::to_string(i + 1), f.petiole);
     add_tube(f.plant, stalk);
 
-    // Heart-shaped: the side columns start behind the end of the petiole.
+    // Heart-shaped: the side columns begin behind the end of the petiole.
     const int rows = 8;
     const double hang = f.random.range(0.5, 0.9), fold = f.random.range(0.15, 0.4);
     Sheet sheet;
@@ -96,7 +97,7 @@ void grow_head(Sunflower& f) {
     dish.tint = [&](int r, int s) { return scaled(dish.rings[r].color, (r + s) % 2 ? 0.85 : 1.1); };
     add_tube(f.plant, dish);
 
-    // Rays in front, bracts behind; both start under the rim.
+    // Rays in front, bracts behind; both begin under the rim.
     for (const bool rays : {true, false}) {
         begin_organ(f.plant, rays ? "flower_rays" : "flower_bracts", rays ? f.ray : f.bract);
         for (int k = 0; k < RAYS; k++) {

@@ -1,19 +1,19 @@
-// A broad-leaved tree: settings and a seed in, a trunk with branches, boughs and twigs of ten leaves each out. The kind
-// for plants of many organs: a leaf and a piece of wood are organs of their own.
+// A broad-leaved tree. In: settings and a seed. Out: a trunk with branches, boughs and twigs of ten leaves each. The
+// kind with many organs: each leaf and each length of wood is an organ of its own.
 #include "organs.hpp"
 
 namespace frond::grow {
 namespace {
 
 constexpr int LEAVES_A_TWIG = 10, TWIGS_A_BOUGH = 10;
-constexpr double GOLDEN = 2.399963;  // angle from one to the next around what they grow on [radian]
+constexpr double GOLDEN = 2.399963;  // angle between successive ones around what they grow on [radian]
 
 const Rgb BARK{0.36, 0.29, 0.22}, TWIG{0.44, 0.38, 0.25}, YOUNG{0.45, 0.60, 0.22}, OLD{0.20, 0.40, 0.14};
 
 struct Wood {
     Vec foot, along;
-    double length, thick, thin;  // radii at both ends
-    double sag;                  // of the tip, share of the length
+    double length, thick, thin;  // length, and radii at both ends [m]
+    double sag;                  // sag of the tip, as a share of the length
     Vec at(double s) const { return foot + (length * s) * along + Vec{0, -length * sag * s * s, 0}; }
     Vec heading_at(double s) const { return unit(at(s + 0.01) - at(s - 0.01)); }
     double radius(double s) const { return mix(thick, thin, s); }
@@ -23,10 +23,10 @@ struct Tree {
     GrownPlant plant;
     Random random{0};
     double leaf_size;
-    int wood, leaf;  // materials
+    int wood, leaf;  // material indices
     int leaves = 0;
 
-    // Leans off what it grows on by `angle`, around it by `azimuth`.
+    // Returns the direction at `angle` to the axis `along`, at `azimuth` around it.
     static Vec off(Vec along, double angle, double azimuth) {
         const Vec side = unit(cross(along, std::fabs(along.y) < 0.9 ? Vec{0, 1, 0} : Vec{1, 0, 0}));
         return unit(turned(turned(along, side, angle), along, azimuth));
@@ -100,7 +100,7 @@ GrownPlant grow_tree(const GrownSettings& value, uint64_t seed) {
                              0.008,
                              tree.random.range(0, 0.12)};
         tree.add_wood("branch_" + std::to_string(b + 1), branch, 12, 8, BARK);
-        // As many as bring all branches so far to their share.
+        // As many boughs as bring all branches so far to their share.
         const int most = boughs * (b + 1) / branches - boughs * b / branches;
         for (int k = 0; k < most; k++) {
             const double t = 0.25 + 0.75 * (k + 0.6) / most;

@@ -1,4 +1,4 @@
-// Wheat (Triticum aestivum): settings and a seed in, a tuft of a few culms with blades and bearded ears out; light
+// Wheat (Triticum aestivum). In: settings and a seed. Out: a tuft of a few culms with blades and bearded ears, light
 // enough for a field of them.
 #include "organs.hpp"
 
@@ -14,10 +14,10 @@ struct Wheat {
     GrownPlant plant;
     Random random{0};
     double height, ripe, spread;
-    int stem, blade, ear;  // materials
+    int stem, blade, ear;  // material indices
 };
 
-// A culm leans out of the tuft and nods under its ear.
+// A culm, which leans out of the tuft and nods under its ear.
 struct Culm {
     Vec foot, out;
     double height, lean, nod;

@@ -1,4 +1,4 @@
-// Grow, the writing: a plant in, the text of its OBJ and MTL files (Wavefront) out. Numbers are printed digit by digit,
+// Grow, OBJ files. In: a plant. Out: the text of its OBJ and MTL files (Wavefront). Numbers are printed digit by digit,
 // so that no locale can change a byte.
 #include <cerrno>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 const char* const VERSION_LINE = "# Frond grow, format 1\n";
 
-// A number rounded to so many decimals; minus zero prints as zero.
+// Prints a number rounded to a number of decimals; minus zero prints as zero.
 void print_fixed(std::string& text, double value, int decimals) {
     long long scale = 1;
     for (int i = 0; i < decimals; i++) scale *= 10;
@@ -44,7 +44,7 @@ std::string obj_text(const GrownPlant& plant, const std::string& library) {
     std::string text = VERSION_LINE;
     text += "# " + plant.kind + ": " + std::to_string(plant.positions.size()) + " vertices, " +
             std::to_string(plant.triangles.size()) + " triangles; metres, +y up\nmtllib " + library + "\n";
-    int map_count = 0;  // texture coordinates are numbered over the textured organs alone
+    int map_count = 0;  // texture coordinates are numbered over the textured organs only
     for (const GrownOrgan& organ : plant.organs) {
         const GrownMaterial& material = plant.materials[organ.material];
         const bool textured = !material.texture.empty();

@@ -1,5 +1,5 @@
-// Grow, images: an image with its palette in, the bytes of a PNG file out, through libpng. Stored without compression,
-// so that no version of zlib can change a byte.
+// Grow, images. In: an image with its palette. Out: the bytes of a PNG file, by libpng. Stored without compression, so
+// that no version of zlib can change a byte.
 #include <png.h>
 
 #include <stdexcept>
@@ -21,7 +21,7 @@ std::string png_bytes(const GrownImage& image) {
         throw std::runtime_error("cannot write " + image.name + ": out of memory");
     }
 
-    // libpng leaves by longjmp, so nothing below may own memory.
+    // libpng reports errors by longjmp, so nothing below may own memory.
     if (setjmp(png_jmpbuf(png))) {
         png_destroy_write_struct(&png, &info);
         throw std::runtime_error("cannot write " + image.name + ": libpng refused the image");

@@ -2,8 +2,6 @@
 //
 // Callgrind counts how often the instruction at each address ran; objdump gives the instruction: how many numbers it
 // works on, and how many bytes of memory it names.
-#include <valgrind/callgrind.h>
-
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +10,7 @@
 #include <unordered_map>
 
 #include "callgrind/count_self.hpp"
+#include "callgrind/requests.hpp"
 #include "kernels/kernels.hpp"
 
 namespace frond::kernels {

@@ -52,7 +52,8 @@ int main(int argc, char** argv) {
         "cache allows\n",
         1e-9 * ceilings.products_and_sums, 1e-9 * ceilings.fused, 1e-9 * ceilings.triad_near,
         1e-9 * ceilings.triad_far);
-    if (counted.empty()) std::printf("valgrind or objdump did not count; install them with tools/install-packages\n");
+    if (counted.empty())
+        std::printf("valgrind or objdump did not count; install them with tools/install-packages and build again\n");
     for (const Kernel& kernel : kernels)
         benchmark::RegisterBenchmark(kernel.name.c_str(), [&kernel, &counted](benchmark::State& state) {
             for (auto _ : state) kernel.run();

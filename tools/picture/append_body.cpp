@@ -1,4 +1,4 @@
-// In: spheres, boxes, capsules. Out: their triangles in a frame, as solid bodies or as glass.
+// In: spheres, boxes, capsules. Out: their triangles in a frame, as solid or glass bodies.
 #include "frame.hpp"
 
 namespace picture {
@@ -8,7 +8,7 @@ namespace {
 constexpr int SLICES = 32, RINGS = 8;  // around, and from a pole to the equator
 constexpr double PI = 3.14159265358979323846;
 
-// Collects one body and then files its run.
+// Collects the triangles of one body and then adds them to the frame as a run.
 struct Body {
     Frame& frame;
     frond_color color;
@@ -45,7 +45,7 @@ Vec rotate(frond_quat q, Vec v) {
 void append_capsule(Frame& frame, Vec begin, Vec end, double radius, frond_color color) {
     const Vec axis = direction(end - begin, {0, 1, 0}), side = perpendicular(axis), other = cross(axis, side);
     Body body{frame, color};
-    // Rings from the pole at the end to the pole at the beginning; the equator is there twice, once for each half.
+    // Rings from the pole at the end to the pole at the beginning; the equator occurs twice, once for each half.
     const int ring_count = 2 * (RINGS + 1);
     uint32_t first = 0;
     for (int ring = 0; ring < ring_count; ring++) {
@@ -79,7 +79,7 @@ void append_box(Frame& frame, Vec center, frond_quat rotation, Vec half_extents,
     Body body{frame, color};
     for (int axis = 0; axis < 3; axis++)
         for (int sign = -1; sign <= 1; sign += 2) {
-            // u x v = axis, so that corners run counter-clockwise seen from outside.
+            // u x v = axis, so that corners run counter-clockwise when seen from outside.
             const Vec u = double(sign) * half[(axis + 1) % 3], v = half[(axis + 2) % 3];
             const Vec middle = center + double(sign) * half[axis], normal = double(sign) * normals[axis];
             const uint32_t a = body.add(middle - u - v, normal), b = body.add(middle + u - v, normal);

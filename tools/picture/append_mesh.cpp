@@ -1,5 +1,5 @@
-// In: somebody's triangles, whatever is in them. Out: vertices and runs of a frame; triangles that cannot be drawn are
-// left out.
+// In: the caller's triangles, whatever they contain. Out: vertices and runs of a frame, without the triangles that
+// cannot be drawn.
 #include <algorithm>
 
 #include "error.hpp"
@@ -13,7 +13,7 @@ float clamped(float value, float low, float high) {
     return value >= low ? std::min(value, high) : low;
 }
 
-// Relative to the frame's origin; false if it cannot be drawn.
+// Makes a vertex relative to the frame's origin; returns false if it cannot be drawn.
 bool make_vertex(const Frame& frame, const frond_picture_mesh& mesh, int i, MeshVertex& vertex) {
     const float* p = mesh.positions + 3 * size_t(i);
     const Vec position{p[0], p[1], p[2]};
@@ -37,7 +37,7 @@ void append_mesh(Frame& frame, const frond_picture_mesh& mesh, int texture_count
     if (frame.vertices.size() + size_t(mesh.vertex_count) > 400000000u)
         fail("the frame holds too many vertices; draw fewer");
 
-    // Vertices keep their places, so that indices need an offset only; bad ones are remembered.
+    // Vertices keep their order, so that indices need an offset only; bad ones are marked.
     const uint32_t offset = uint32_t(frame.vertices.size());
     std::vector<char> good(size_t(mesh.vertex_count), 0);
     frame.vertices.resize(offset + size_t(mesh.vertex_count));

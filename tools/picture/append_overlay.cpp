@@ -23,7 +23,7 @@ void add_piece(Frame& frame, Vec begin, Vec end, double begin_width, double end_
     frame.box.add(begin - frame.origin), frame.box.add(end - frame.origin);
 }
 
-// Faces that belong to one tet only, as three corners in the tet's own order.
+// Returns the faces that belong to one tet only, as three corners in the tet's own order.
 std::vector<std::array<int32_t, 3>> outer_faces(const int32_t* tets, const std::vector<int>& good) {
     constexpr int FACES[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     struct Face {
@@ -76,7 +76,7 @@ void append_tets(Frame& frame, const double* nodes, int node_count, const int32_
     const auto node = [&](int32_t i) {
         return Vec{nodes[3 * size_t(i)], nodes[3 * size_t(i) + 1], nodes[3 * size_t(i) + 2]};
     };
-    // Tets that can be drawn.
+    // Find the tets that can be drawn.
     std::vector<int> good;
     for (int t = 0; t < tet_count; t++) {
         bool whole = true;
@@ -87,7 +87,7 @@ void append_tets(Frame& frame, const double* nodes, int node_count, const int32_
         if (whole) good.push_back(t);
     }
 
-    // Each edge once.
+    // Draw each edge once.
     if (width > 0 && line.a > 0) {
         std::vector<std::pair<int32_t, int32_t>> edges;
         for (int t : good)
@@ -99,7 +99,7 @@ void append_tets(Frame& frame, const double* nodes, int node_count, const int32_
         for (const auto& edge : edges) append_line(frame, node(edge.first), node(edge.second), width, line);
     }
 
-    // The outside as flat glass.
+    // Draw the outer faces as flat glass.
     if (fill.a > 0) {
         MeshRun run;
         run.first_index = frame.indices.size();

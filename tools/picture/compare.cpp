@@ -1,6 +1,6 @@
-// In: two pictures of one size. Out: how different they look, and where. Differences are CIE 1976 Delta E in L*a*b*
-// (D65), after a soft blur, each pixel against the best match among its neighbours; a mean over windows finds what is
-// large enough to be seen. Edges that fall a little differently pass, a leaf that is gone does not.
+// In: two pictures of one size. Out: how much they differ visibly, and where. Differences are CIE 1976 Delta E in
+// L*a*b* (D65), after a soft blur, each pixel against the best match among its neighbours; a mean over windows finds
+// those that are large enough to be seen. Edges that are rasterised a little differently pass, a missing leaf does not.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,7 @@ struct LabImage {
 };
 
 Lab to_lab(float r, float g, float b) {
-    // sRGB's primaries, over the white of D65.
+    // From the primaries of sRGB, relative to the white of D65.
     const float x = (0.4124f * r + 0.3576f * g + 0.1805f * b) / 0.9505f;
     const float y = 0.2126f * r + 0.7152f * g + 0.0722f * b;
     const float z = (0.0193f * r + 0.1192f * g + 0.9505f * b) / 1.089f;
@@ -37,7 +37,7 @@ Lab to_lab(float r, float g, float b) {
     return {116 * f(y) - 16, 500 * (f(x) - f(y)), 200 * (f(y) - f(z))};
 }
 
-// Linear light, blurred by 1 2 1 in both directions, in L*a*b*.
+// Returns the image in linear light, blurred by 1 2 1 in both directions, in L*a*b*.
 LabImage soften(const uint8_t* rgb, int width, int height) {
     std::array<float, 256> linear;
     for (int i = 0; i < 256; i++) {
@@ -63,7 +63,7 @@ float squared_distance(const Lab& a, const Lab& b) {
     return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
 }
 
-// From a pixel of `a` to the most similar one within a pixel's reach in `b`.
+// Returns the squared distance from a pixel of `a` to the most similar one in `b` within one pixel of it.
 float best_match(const LabImage& a, const LabImage& b, int x, int y) {
     float best = squared_distance(a.at(x, y), b.at(x, y));
     for (int j = -1; j <= 1 && best > 0; j++)
@@ -71,7 +71,7 @@ float best_match(const LabImage& a, const LabImage& b, int x, int y) {
     return best;
 }
 
-// Largest mean over a window, by a table of sums.
+// Finds the window with the largest mean, by a summed-area table.
 void find_worst(const std::vector<float>& difference, int width, int height, frond_picture_difference& out) {
     std::vector<double> sums(size_t(width + 1) * size_t(height + 1), 0.0);
     const auto sum = [&](int x, int y) -> double& { return sums[size_t(y) * size_t(width + 1) + size_t(x)]; };
@@ -88,7 +88,7 @@ void find_worst(const std::vector<float>& difference, int width, int height, fro
     out.worst = std::max(out.worst, 0.0);
 }
 
-// Black, red, yellow, white: 0, 13, 27 and 40 Delta E.
+// Colours a difference: black, red, yellow, white at 0, 13, 27 and 40 Delta E.
 void paint(float difference, uint8_t* rgb) {
     const float heat = std::min(difference / 40 * 3, 3.0f);
     for (int c = 0; c < 3; c++) rgb[c] = uint8_t(255 * std::clamp(heat - float(c), 0.0f, 1.0f) + 0.5f);
@@ -101,7 +101,7 @@ void check_sizes(const uint8_t* pixels, int width, int height, double tolerance)
     if (!(tolerance >= 0)) fail("the tolerance is %g; use FROND_PICTURE_TOLERANCE", tolerance);
 }
 
-// Reference, picture and difference side by side; a size that does not fit is left white.
+// Writes reference, picture and difference side by side; uncovered areas are white.
 void write_difference(const char* path, const uint8_t* reference, int reference_width, int reference_height,
                       const uint8_t* rgb, int width, int height, const uint8_t* difference) {
     const int gap = 4, total_width = reference_width + 2 * (width + gap),
@@ -135,7 +135,7 @@ bool frond_picture_compare(const uint8_t* a, const uint8_t* b, int width, int he
         size_t noticed = 0;
         for (int y = 0; y < height; y++)
             for (int x = 0; x < width; x++) {
-                // Both ways: what is new and what is gone.
+                // In both directions: additions and omissions.
                 const float value =
                     std::sqrt(std::max(best_match(first, second, x, y), best_match(second, first, x, y)));
                 difference[size_t(y) * width + x] = value;

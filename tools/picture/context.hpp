@@ -1,4 +1,4 @@
-// Context: an OpenGL context without a window, or the caller's own. Knows nothing of drawing.
+// Context: an OpenGL context without a window, or the caller's own. It is independent of drawing.
 #pragma once
 
 #include <memory>
@@ -14,12 +14,12 @@ struct ContextDeleter {
 };
 using ContextPointer = std::unique_ptr<Context, ContextDeleter>;
 
-// Tries the platforms that the choice allows; fails with what each of them said.
+// Tries the platforms that the choice allows; fails with the error of each of them.
 ContextPointer create_context(frond_picture_platform platform);
-// "surfaceless", "device" or "current".
+// Returns "surfaceless", "device" or "current".
 const char* platform_name(const Context& context);
 
-// Makes a context current for a scope and then puts back what was current before.
+// Makes a context current for a scope and then restores the previous one.
 class Current {
 public:
     explicit Current(const Context& context);

@@ -1,4 +1,4 @@
-// In: which EGL platform. Out: an OpenGL 3.3 core context without a window.
+// In: an EGL platform. Out: an OpenGL 3.3 core context without a window.
 // EGL_MESA_platform_surfaceless needs Mesa; EGL_EXT_platform_device works with vendors' drivers too.
 #include <dlfcn.h>
 #include <epoxy/egl.h>
@@ -13,7 +13,7 @@ namespace picture {
 
 struct Context {
     EGLDisplay display = EGL_NO_DISPLAY;
-    EGLContext context = EGL_NO_CONTEXT;  // none: the caller's own
+    EGLContext context = EGL_NO_CONTEXT;  // EGL_NO_CONTEXT: the caller's own
     const char* platform = "";
 };
 
@@ -25,7 +25,7 @@ std::string egl_error(const char* what) {
     return text;
 }
 
-// libepoxy ends the program when a library is missing; looking first keeps the host alive.
+// libepoxy ends the program when a library is missing; this check keeps the host alive.
 void require_libraries() {
     if (!dlopen("libEGL.so.1", RTLD_LAZY | RTLD_GLOBAL))
         fail("there is no libEGL.so.1 on this machine; install libegl1 and libgl1-mesa-dri");
@@ -33,7 +33,7 @@ void require_libraries() {
         fail("there is neither libOpenGL.so.0 nor libGL.so.1 on this machine; install libopengl0 or libgl1");
 }
 
-// A display is shared by all contexts of the process, the host's too, so it is never terminated.
+// A display is shared by all contexts of the process, including the host's, so it is never terminated.
 bool open_display(Context& context, EGLDisplay display, std::string& why) {
     if (display == EGL_NO_DISPLAY) return why = egl_error("eglGetPlatformDisplay"), false;
     if (!eglInitialize(display, nullptr, nullptr)) return why = egl_error("eglInitialize"), false;
@@ -41,7 +41,7 @@ bool open_display(Context& context, EGLDisplay display, std::string& why) {
         return why = "the driver wants a surface", false;
     if (!eglBindAPI(EGL_OPENGL_API)) return why = egl_error("eglBindAPI"), false;
 
-    // No config is needed where nothing is drawn to a surface; older drivers want one all the same.
+    // No config is needed when nothing is drawn to a surface, but older drivers require one.
     EGLConfig config = EGL_NO_CONFIG_KHR;
     if (!epoxy_has_egl_extension(display, "EGL_KHR_no_config_context")) {
         const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
@@ -120,7 +120,7 @@ void ContextDeleter::operator()(Context* context) const noexcept {
 }
 
 Current::Current(const Context& context) {
-    // The caller's own context is current already, or must not be guessed.
+    // The caller's own context must be current already; it must not be guessed.
     if (context.context == EGL_NO_CONTEXT) {
         if (eglGetCurrentContext() == EGL_NO_CONTEXT)
             fail("the picture draws with the caller's context, but none is current; make it current first");

@@ -1,4 +1,4 @@
-// In: size and quality. Out: programs, targets and buffers in the current context.
+// In: size and quality. Out: programs, render targets and buffers in the current context.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -60,7 +60,7 @@ void make_arrays(Renderer& renderer) {
     glBindBuffer(GL_ARRAY_BUFFER, renderer.ground_vertices.make());
     attribute(0, 3, GL_FLOAT, false, 3 * sizeof(float), 0);
 
-    // One instance a line and a point; the four corners are made in the shader.
+    // One instance per line and per point; the shader makes the four corners.
     glBindVertexArray(renderer.line_array.make());
     glBindBuffer(GL_ARRAY_BUFFER, renderer.line_vertices.make());
     attribute(0, 4, GL_FLOAT, false, sizeof(LineVertex), offsetof(LineVertex, begin));
@@ -82,7 +82,7 @@ void make_arrays(Renderer& renderer) {
 
 void make_targets(Renderer& renderer) {
     const frond_picture_def& def = renderer.def;
-    // A multisampled target, and the one that it is averaged into.
+    // A multisampled target, and the target into which it is averaged.
     glBindRenderbuffer(GL_RENDERBUFFER, renderer.color.make());
     const GLsizei samples = renderer.samples > 1 ? renderer.samples : 0;
     glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_SRGB8_ALPHA8, def.width, def.height);
@@ -100,7 +100,7 @@ void make_targets(Renderer& renderer) {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, renderer.resolved);
     check_target("picture");
 
-    // Maps of depth, seen from sun and sky.
+    // Depth maps, seen from the sun and from directions of the sky.
     make_map(GL_TEXTURE_2D, renderer.sun_map.make(), def.shadow_size, 1);
     make_map(GL_TEXTURE_2D_ARRAY, renderer.sky_map.make(), renderer.sky_size, std::max(def.sky_samples, 1));
     glBindFramebuffer(GL_FRAMEBUFFER, renderer.shadow_target.make());
@@ -162,7 +162,7 @@ void Program::build(const char* vertex, const char* fragment, const char* librar
     const GLuint block = glGetUniformBlockIndex(name_, "Scene");
     if (block != GL_INVALID_INDEX) glUniformBlockBinding(name_, block, 0);
 
-    // Texture units are the same everywhere.
+    // Texture units are the same in all programs.
     glUseProgram(name_);
     const char* const units[] = {"base_texture", "sun_map", "sky_map", "sun_depth", "ground_map", "sun_cover"};
     for (int unit = 0; unit < 6; unit++)
@@ -199,7 +199,7 @@ RendererPointer create_renderer(const frond_picture_def& def) {
     make_samplers(*renderer);
     glBindBuffer(GL_UNIFORM_BUFFER, renderer->uniforms.make());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(SceneUniforms), nullptr, GL_DYNAMIC_DRAW);
-    // Bound where a run has no texture.
+    // Bound while a run without a texture is drawn.
     const uint8_t white[4] = {255, 255, 255, 255};
     glBindTexture(GL_TEXTURE_2D, renderer->white.make());
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, white);

@@ -1,4 +1,4 @@
-// In: the bytes of an image file, from anywhere. Out: RGBA. Decoders: stb_image (PNG, JPEG, BMP, TGA), libwebp.
+// In: the bytes of an image file, from any source. Out: RGBA. Decoders: stb_image (PNG, JPEG, BMP, TGA), libwebp.
 #include <webp/decode.h>
 
 #include <climits>
@@ -49,7 +49,7 @@ Image decode_image(const uint8_t* bytes, size_t byte_count) {
             fail("the WebP image is damaged; export it anew");
         return image;
     }
-    // The size stands in front: an absurd one is turned down before anything is allocated.
+    // The size comes first in the file: an absurd one is rejected before anything is allocated.
     int channels = 0;
     if (!stbi_info_from_memory(bytes, int(byte_count), &image.width, &image.height, &channels))
         fail("the image cannot be read (%s); use PNG, JPEG, BMP, TGA or WebP", stbi_failure_reason());
@@ -62,7 +62,7 @@ Image decode_image(const uint8_t* bytes, size_t byte_count) {
 }
 
 void fill_transparent(Image& image) {
-    // The mean colour of what shows.
+    // The mean colour of the opaque pixels.
     uint64_t sum[3] = {0, 0, 0}, count = 0;
     for (size_t i = 0; i < image.rgba.size(); i += 4) {
         if (image.rgba[i + 3] < 128) continue;

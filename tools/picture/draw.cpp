@@ -57,7 +57,7 @@ void draw_solid(Renderer& renderer, const Frame& frame) {
         glUniform1i(program.place("textured"), textured);
         glUniform1f(program.place("translucency"), run.translucency);
         glUniform1f(program.place("gloss"), run.gloss);
-        // Cut edges are smoothed by letting alpha decide how many samples of a pixel are covered.
+        // Cut edges are smoothed: alpha decides how many samples of a pixel are covered.
         (cut && renderer.samples > 1 ? glEnable : glDisable)(GL_SAMPLE_ALPHA_TO_COVERAGE);
         draw_run(run);
     }
@@ -65,7 +65,7 @@ void draw_solid(Renderer& renderer, const Frame& frame) {
 }
 
 void draw_ground(Renderer& renderer, const Frame& frame, const SceneUniforms& scene) {
-    // Seen from above only, so that a camera below it sees the plant.
+    // The ground is drawn only if seen from above, so that a camera below it sees the plant.
     const Vec up = direction(frame.scene.up, {0, 1, 0});
     const double height = frame.scene.ground_height - dot(up, frame.origin);
     const Vec eye{scene.eye[0], scene.eye[1], scene.eye[2]};
@@ -91,7 +91,7 @@ void draw_background(Renderer& renderer, const Mat4& inverse_view_projection) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-// Twice: first what is hidden, faintly, then what is in front.
+// Draws overlays twice: first hidden parts, faintly, then those in front.
 void draw_overlays(Renderer& renderer, const Frame& frame) {
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
@@ -132,7 +132,7 @@ void read_pixels(const Renderer& renderer, std::vector<uint8_t>& rgb) {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glPixelStorei(GL_PACK_ROW_LENGTH, 0);
     glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-    // OpenGL's rows run upwards.
+    // OpenGL's rows run upwards; the picture's run downwards.
     rgb.resize(size_t(width) * height * 3);
     for (int y = 0; y < height; y++) {
         const uint8_t* from = rgba.data() + size_t(height - 1 - y) * width * 4;
@@ -141,7 +141,7 @@ void read_pixels(const Renderer& renderer, std::vector<uint8_t>& rgb) {
     }
 }
 
-// Whatever the host had set must not matter.
+// Sets all state that matters, so that the host's settings have no effect.
 void set_defaults(const Renderer& renderer) {
     for (GLenum what :
          {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_BLEND, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE,
@@ -209,7 +209,7 @@ void present(Renderer& renderer, unsigned framebuffer, int width, int height) {
     glEnable(GL_FRAMEBUFFER_SRGB);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer.resolve_target);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    // A window without sRGB takes the bytes as they are.
+    // A framebuffer without sRGB encoding takes the bytes as they are.
     GLint encoding = GL_LINEAR;
     glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, framebuffer ? GL_COLOR_ATTACHMENT0 : GL_BACK,
                                           GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING, &encoding);

@@ -1,4 +1,4 @@
-// In: a plant and its model. Out: draw calls on a picture, from what the public C API shows of them.
+// In: a plant and its model. Out: draw calls on a picture, made with the public C API only.
 #include <vector>
 
 #include "error.hpp"
@@ -17,7 +17,7 @@ bool is_thin(const char* kind) {
 void draw_surface(frond_picture* picture, frond_plant plant, frond_model model, const frond_model_info& info) {
     frond_surface_view view;
     require(frond_plant_get_surface(plant, &view), "the plant's surface");
-    // A texture that cannot be decoded is left out; the base colour stays.
+    // A texture that cannot be decoded is omitted; the base colour remains.
     std::vector<int> textures(size_t(info.texture_count), -1);
     for (int i = 0; i < info.texture_count; i++) {
         frond_texture_view texture;

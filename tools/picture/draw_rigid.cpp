@@ -1,4 +1,4 @@
-// In: a body that Frond made. Out: its shape in the picture.
+// In: a rigid body made by Frond. Out: its shape in the picture.
 #include <cmath>
 #include <vector>
 
@@ -22,7 +22,7 @@ frond_vec3 placed(const frond_rigid_state& state, const frond_vec3& p) {
     return {state.position.x + t.x, state.position.y + t.y, state.position.z + t.z};
 }
 
-// A prism or a pyramid with many sides, flat faces.
+// Draws a prism or a pyramid with many sides and flat faces.
 bool draw_round(frond_picture* picture, const frond_rigid_state& state, double radius_low, double radius_high,
                 double half, frond_color color) {
     constexpr int SIDES = 48;

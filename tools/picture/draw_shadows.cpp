@@ -1,20 +1,20 @@
-// In: the solid triangles of a frame, uploaded. Out: depth as seen from the sun and from each direction of the sky, and
-// how much of the sky each place of the ground sees.
+// In: the solid triangles of a frame, uploaded. Out: depth seen from the sun and from each direction of the sky, and
+// how much of the sky each point of the ground sees.
 #include "gl_objects.hpp"
 
 namespace picture {
 
 namespace {
 
-// From 0..1 to OpenGL's -1..1.
+// Maps 0..1 to OpenGL's -1..1.
 Mat4 to_clip(const Mat4& matrix) {
     const Mat4 twice = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, -1, -1, -1, 1};
     return multiply(twice, matrix);
 }
 
-// The runs that are cut out by their texture's alpha, or those that are not.
+// Draws the runs that are cut out by their texture's alpha, or those that are not.
 void draw_runs(Renderer& renderer, const Frame& frame, bool cut) {
-    // Neighbouring runs that are not cut are one draw.
+    // Adjacent runs that are not cut out are drawn by one call.
     size_t first = 0, count = 0;
     const auto flush = [&] {
         if (count > 0)
@@ -46,7 +46,7 @@ void draw_depth(Renderer& renderer, const Frame& frame, const Mat4& matrix, bool
     }
 }
 
-// What is above the ground as the sun sees it, with means over ever larger squares.
+// Draws what is above the ground, as seen from the sun, with means over ever larger squares.
 void draw_cover(Renderer& renderer) {
     glBindFramebuffer(GL_FRAMEBUFFER, renderer.cover_target);
     glViewport(0, 0, renderer.def.shadow_size / 2, renderer.def.shadow_size / 2);
@@ -63,7 +63,7 @@ void draw_cover(Renderer& renderer) {
     glEnable(GL_DEPTH_TEST);
 }
 
-// The sky's shade on the ground, from the sky's maps.
+// Draws the sky's shade on the ground, from the sky's maps.
 void draw_shade(Renderer& renderer, const Frame& frame) {
     glBindFramebuffer(GL_FRAMEBUFFER, renderer.shade_target);
     glViewport(0, 0, renderer.shade_size, renderer.shade_size);

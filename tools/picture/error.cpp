@@ -1,4 +1,4 @@
-// In: what went wrong. Out: the text that frond_picture_last_error() gives to this thread.
+// In: a failure. Out: the text that frond_picture_last_error() returns to this thread.
 #include "error.hpp"
 
 #include <cstdarg>
@@ -10,7 +10,7 @@
 namespace picture {
 
 namespace {
-// A plain array: remembering must work when memory has run out.
+// A plain array: storing a text must work when memory has run out.
 thread_local char last_text[1024] = "";
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Errors of the picture library: thrown inside, turned into a text at the C functions, nowhere else.
+// Errors of the picture library: thrown inside it, converted to a text only in the C functions.
 #pragma once
 
 #include <stdexcept>
@@ -10,12 +10,12 @@ struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Throws an Error whose text is made as by printf: what was wrong, then what to do.
+// Throws an Error whose text is formatted as by printf: first the cause, then the remedy.
 [[noreturn]] void fail(const char* format, ...) __attribute__((format(printf, 1, 2)));
-// Remembers the text for frond_picture_last_error().
+// Stores the text for frond_picture_last_error().
 void remember(const char* text) noexcept;
 
-// Runs the body of a C function: true, or false with a remembered text. No exception gets out.
+// Runs the body of a C function; returns true, or false with a stored text. No exception escapes.
 template <class Body>
 bool guarded(Body&& body) noexcept {
     try {

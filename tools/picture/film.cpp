@@ -1,4 +1,5 @@
-// In: frames of a run. Out: an animated WebP, made as frames come (libwebp's animation encoder), and a contact sheet.
+// In: frames of a run. Out: an animated WebP, encoded frame by frame (libwebp's animation encoder), and a contact
+// sheet.
 #include <webp/encode.h>
 #include <webp/mux.h>
 
@@ -22,7 +23,7 @@ struct frond_film {
     WebPConfig config;
     int frame_count = 0;
     bool written = false;
-    std::vector<uint8_t> webp;  // once assembled
+    std::vector<uint8_t> webp;  // the file, once assembled
     int small_width = 0, small_height = 0;
     std::vector<std::vector<uint8_t>> small;  // frames at the sheet's size
 };
@@ -51,7 +52,7 @@ void check_def(const frond_film_def* def) {
         fail("the frames on the sheet are %d pixels wide; use 0..%d", def->sheet_width, FROND_PICTURE_LARGEST);
 }
 
-// Mean over the area that each small pixel covers. Bytes are averaged as they are: the sheet is for looking.
+// Returns means over the area of each small pixel. sRGB bytes are averaged as they are: the sheet is an overview.
 std::vector<uint8_t> shrink(const uint8_t* rgb, int width, int height, int small_width, int small_height) {
     std::vector<uint8_t> small(size_t(small_width) * small_height * 3);
     for (int y = 0; y < small_height; y++)
@@ -182,7 +183,7 @@ bool frond_film_write_sheet(frond_film* film, const char* png_path, int columns,
         if (columns < 1 || rows < 1 || columns > 1000 || rows > 1000)
             fail("a sheet of %d x %d frames cannot be made; use 1..1000", columns, rows);
 
-        // As many frames as fit, evenly spread, first and last included.
+        // Show as many frames as fit, evenly spaced, including first and last.
         const int64_t total = int64_t(source.small.size()), count = std::min<int64_t>(total, int64_t(columns) * rows);
         const int gap = 4, across = int(std::min<int64_t>(columns, count)), down = int((count + across - 1) / across);
         const int64_t width = int64_t(across) * (source.small_width + gap) + gap;

@@ -1,4 +1,4 @@
-// OpenGL names that delete themselves, and the objects that a renderer is made of.
+// OpenGL names that delete themselves, and the objects of a renderer.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -11,7 +11,7 @@ namespace picture {
 
 enum class Kind { BUFFER, VERTEX_ARRAY, TEXTURE, RENDERBUFFER, FRAMEBUFFER, SAMPLER };
 
-// The name of one object; 0 while there is none.
+// The name of one object; 0 if there is none.
 template <Kind kind>
 class Name {
 public:
@@ -80,7 +80,7 @@ public:
     ~Program() {
         if (name_) glDeleteProgram(name_);
     }
-    // library: functions that the fragment shader uses. Fails with the compiler's text.
+    // library: functions that the fragment shader uses. Fails with the compiler's message.
     void build(const char* vertex, const char* fragment, const char* library = "");
     void use() const { glUseProgram(name_); }
     GLint place(const char* uniform) const { return glGetUniformLocation(name_, uniform); }
@@ -89,7 +89,7 @@ private:
     GLuint name_ = 0;
 };
 
-// Uniforms of all shaders, laid out as std140: vectors and matrices of four only.
+// Uniforms of all shaders, laid out as std140: 4-component vectors and matrices only.
 struct SceneUniforms {
     Mat4 view_projection, sun_matrix, ground_matrix, sky_matrices[32];
     float sky_directions[32][4];
@@ -101,9 +101,9 @@ struct SceneUniforms {
 
 struct Renderer {
     frond_picture_def def;
-    int samples = 1;  // that OpenGL really has
+    int samples = 1;  // samples per pixel, as limited by OpenGL
     int sky_size = 512;
-    int shade_size = 96;  // of the map of what the sky gives to the ground
+    int shade_size = 96;  // size of the map of the sky's light on the ground [pixel]
     Program depth, depth_cut, cover, shade, surface, ground, background, glass, line, point;
     Name<Kind::BUFFER> uniforms, mesh_vertices, mesh_indices, ground_vertices, line_vertices, point_vertices;
     Name<Kind::VERTEX_ARRAY> mesh_array, ground_array, empty_array, line_array, point_array;
@@ -118,12 +118,12 @@ struct Renderer {
     std::vector<Texture> textures;
 };
 
-// Fills the uniforms for a frame: camera, light, and one matrix for each direction from which light comes.
-// near and far are chosen so that all of the frame is between them.
+// Fills in the uniforms of a frame: camera, light, and one matrix for each direction from which light comes. The near
+// and far planes enclose the whole frame.
 void set_scene(const Renderer& renderer, const Frame& frame, SceneUniforms& scene, Mat4& inverse_view_projection);
-// From the ground's map to the ground: the inverse of scene.ground_matrix.
+// Returns the matrix from the ground's map to the ground, the inverse of to_map.
 Mat4 map_to_ground(const Frame& frame, Mat4& to_map);
-// Depth maps of sun and sky, and with them the sky's shade on the ground. Leaves a framebuffer of its own bound.
+// Draws depth maps of sun and sky, and from them the sky's shade on the ground. Leaves a framebuffer of its own bound.
 void draw_shadows(Renderer& renderer, const Frame& frame, const SceneUniforms& scene);
 
 }  // namespace picture

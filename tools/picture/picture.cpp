@@ -1,4 +1,4 @@
-// The C functions of a picture: check, look up, call, translate errors. No drawing here.
+// The C functions of a picture: they check input, look up objects, call the renderer and translate errors.
 #include "frond_picture.h"
 
 #include <cstdlib>
@@ -19,9 +19,9 @@ struct frond_picture {
     RendererPointer renderer;
     std::string description;
     Frame frame;
-    bool drawing = false;  // between begin and end
+    bool drawing = false;  // true between begin and end
     std::vector<uint8_t> pixels;
-    std::map<std::pair<uint64_t, size_t>, int> textures;  // by hash and length of the bytes
+    std::map<std::pair<uint64_t, size_t>, int> textures;  // texture indices by hash and length of their bytes
 };
 
 namespace {
@@ -35,7 +35,7 @@ frond_picture& living(const frond_picture* picture) {
     return *const_cast<frond_picture*>(picture);
 }
 
-// The frame that is being drawn.
+// Returns the frame that is being drawn.
 Frame& open_frame(frond_picture* picture) {
     frond_picture& target = living(picture);
     if (!target.drawing) fail("no frame is begun; call frond_picture_begin first");
@@ -71,7 +71,7 @@ const frond_picture_def& checked_def(const frond_picture_def* def) {
     checked_size(def->samples, 1, 16, "the number of samples");
     checked_size(def->shadow_size, 16, 8192, "the shadow map's size");
     checked_size(def->sky_samples, 0, 32, "the number of sky samples");
-    // A C caller may have put any number there.
+    // A C caller may have stored any number in the enum.
     int platform = 0;
     static_assert(sizeof platform == sizeof def->platform, "the enum is an int");
     std::memcpy(&platform, &def->platform, sizeof platform);
@@ -80,7 +80,7 @@ const frond_picture_def& checked_def(const frond_picture_def* def) {
     return *def;
 }
 
-// FNV-1a over words of eight bytes.
+// Computes a variant of FNV-1a over words of eight bytes.
 uint64_t hash_of(const uint8_t* bytes, size_t count) {
     uint64_t hash = 14695981039346656037u;
     for (; count >= 8; bytes += 8, count -= 8) {
@@ -94,7 +94,7 @@ uint64_t hash_of(const uint8_t* bytes, size_t count) {
 }
 
 void destroy(frond_picture* picture) {
-    // OpenGL's objects go with their context; if the host's is gone already, so are they.
+    // OpenGL objects die with their context; if the host's context is gone, there is nothing to delete.
     try {
         Current current(*picture->context);
         picture->renderer.reset();

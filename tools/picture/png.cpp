@@ -1,4 +1,4 @@
-// PNG files in and out, through libpng's simplified interface, which returns errors and never jumps.
+// Reads and writes PNG files by libpng's simplified interface, which returns errors and never uses longjmp.
 #include <png.h>
 
 #include <cstdlib>
@@ -38,7 +38,7 @@ bool frond_picture_read_png(const char* path, uint8_t** out, int* width, int* he
         if (!out || !width || !height) fail("where the pixels and their size go is null");
         if (!path || !*path) fail("the path of the PNG is empty; name a file");
         if (!png_image_begin_read_from_file(&image, path)) fail("cannot read %s: %s", path, image.message);
-        // The size stands in front: an absurd one is turned down before anything is allocated.
+        // The size comes first in the file: an absurd one is rejected before anything is allocated.
         if (image.width > FROND_PICTURE_LARGEST || image.height > FROND_PICTURE_LARGEST)
             fail("%s has %u x %u pixels; at most %d are read", path, unsigned(image.width), unsigned(image.height),
                  FROND_PICTURE_LARGEST);

@@ -1,4 +1,4 @@
-// Registry: which objects are alive, so that null and destroyed pointers from outside are recognised, never followed.
+// Registry: the set of living objects, by which null and destroyed pointers are recognised, never dereferenced.
 #pragma once
 
 #include <mutex>
@@ -13,7 +13,7 @@ public:
         std::lock_guard<std::mutex> lock(mutex_);
         objects_.insert(object);
     }
-    // True if it was there.
+    // Returns whether it was in the set.
     bool remove(const Object* object) {
         std::lock_guard<std::mutex> lock(mutex_);
         return objects_.erase(object) > 0;
@@ -23,7 +23,7 @@ public:
         return objects_.count(object) > 0;
     }
 
-    // That of a kind of object; never destroyed, since a host may destroy objects while it exits.
+    // Returns the registry of a kind of object; never destroyed, since a host may destroy objects while it exits.
     static Registry& instance() {
         static Registry& registry = *new Registry;
         return registry;

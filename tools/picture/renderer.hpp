@@ -1,4 +1,4 @@
-// Renderer: draws frames with whatever OpenGL 3.3 core context is current, whoever made it.
+// Renderer: draws frames with the current OpenGL 3.3 core context, whoever made it.
 #pragma once
 
 #include <cstdint>
@@ -10,29 +10,29 @@
 
 namespace picture {
 
-// Decoded, RGBA, sRGB; rows from the top.
+// A decoded image, RGBA, sRGB; rows from the top.
 struct Image {
     int width = 0, height = 0;
     std::vector<uint8_t> rgba;
 };
-// Of an image file's bytes; fails with a text if they cannot be decoded.
+// Decodes the bytes of an image file; fails with a text if they cannot be decoded.
 Image decode_image(const uint8_t* bytes, size_t byte_count);
-// Fills what is cut out with the colour of what is not, so that no fringe shows at the cut.
+// Gives transparent pixels the colour of opaque ones, so that no fringe appears along cut edges.
 void fill_transparent(Image& image);
 
 struct Renderer;
-// Deleting it needs the same context to be current.
+// Deletion requires the same context to be current.
 struct RendererDeleter {
     void operator()(Renderer* renderer) const noexcept;
 };
 using RendererPointer = std::unique_ptr<Renderer, RendererDeleter>;
 
 RendererPointer create_renderer(const frond_picture_def& def);
-// "OpenGL 4.5 ..., llvmpipe ..."
+// Returns "OpenGL 4.5 ..., llvmpipe ...".
 std::string describe(const Renderer& renderer);
 int add_texture(Renderer& renderer, const Image& image);
 int texture_count(const Renderer& renderer);
-// rgb: width*height*3 of the def, rows from the top.
+// Draws a frame. rgb: width*height*3 of the def, rows from the top.
 void draw(Renderer& renderer, const Frame& frame, std::vector<uint8_t>& rgb);
 void present(Renderer& renderer, unsigned framebuffer, int width, int height);
 

@@ -1,4 +1,4 @@
-// Failures of the two libraries' calls become errors of the picture's, with the text that came.
+// Turns failures of calls of frond and frond_picture into errors of the picture library, with their text.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// In: a scene from outside. Out: the same, checked. Also the default scene and the camera that frames a box.
+// In: a scene from the caller. Out: the same, checked. Also the default scene and the camera that frames a box.
 #include <algorithm>
 
 #include "error.hpp"
@@ -61,7 +61,7 @@ frond_picture_scene frond_default_picture_scene(void) {
 
 frond_picture_camera frond_picture_frame(frond_vec3 lower, frond_vec3 upper, frond_vec3 up, double azimuth,
                                          double elevation, double aspect) {
-    // Bounds that make no sense become the unit box seen in the default way.
+    // Invalid bounds are replaced by the unit box seen from the default direction.
     const bool sound = drawable(lower) && drawable(upper) && lower.x <= upper.x && lower.y <= upper.y &&
                        lower.z <= upper.z && aspect >= 1e-3 && aspect <= 1e3 && std::isfinite(azimuth) &&
                        std::isfinite(elevation);
@@ -69,14 +69,14 @@ frond_picture_camera frond_picture_frame(frond_vec3 lower, frond_vec3 upper, fro
     elevation = std::clamp(elevation, -1.57, 1.57);
     up = finite(up) ? direction(up, {0, 1, 0}) : Vec{0, 1, 0};
 
-    // Level directions: `front` is where azimuth 0 looks from.
+    // Horizontal directions; azimuth 0 looks from `front`.
     const Vec away = std::fabs(up.z) > 0.9 ? Vec{0, -1, 0} : Vec{0, 0, 1};
     const Vec front = direction(away - dot(away, up) * up, perpendicular(up)), side = cross(up, front);
     const Vec level = std::cos(azimuth) * front + std::sin(azimuth) * side;
     const Vec back = std::cos(elevation) * level + std::sin(elevation) * up;
     const Vec right = direction(cross(up, back), side), over = cross(back, right);
 
-    // Back off until every corner of the box is inside the picture with a margin.
+    // Move back until every corner of the box is inside the picture with a margin.
     frond_picture_camera camera{};
     camera.field_of_view = 0.6;
     camera.up = up;

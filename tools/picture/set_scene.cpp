@@ -1,4 +1,4 @@
-// In: camera, light and the boxes of a frame. Out: the numbers that all shaders share.
+// In: camera, light and the boxes of a frame. Out: the uniforms that all shaders share.
 #include <algorithm>
 #include <cstring>
 
@@ -15,7 +15,7 @@ void store(float (&out)[4], frond_color color, double w) {
     out[0] = color.r, out[1] = color.g, out[2] = color.b, out[3] = float(w);
 }
 
-// Rows are the axes of a frame of reference at `at`.
+// Returns the transform into a frame of reference at `at` with the given axes as rows.
 Mat4 look(Vec right, Vec up, Vec back, Vec at) {
     return {float(right.x),         float(up.x),         float(back.x),         0,
             float(right.y),         float(up.y),         float(back.y),         0,
@@ -23,7 +23,7 @@ Mat4 look(Vec right, Vec up, Vec back, Vec at) {
             float(-dot(right, at)), float(-dot(up, at)), float(-dot(back, at)), 1};
 }
 
-// Parallel light from a direction onto a box, to 0..1 in a square map. Gives the map's width and depth range [m].
+// Maps a box, seen along parallel light, to 0..1 in a square map. Outputs the map's width and depth range [m].
 Mat4 light_matrix(const Box& box, Vec from, double& width, double& depth) {
     const Vec side = perpendicular(from), other = cross(from, side);
     Box turned;
@@ -42,7 +42,7 @@ Mat4 light_matrix(const Box& box, Vec from, double& width, double& depth) {
             float(0.5 - s * middle.x), float(0.5 - s * middle.y), float(0.5 - d * middle.z), 1};
 }
 
-// Evenly spread over the upper half sphere by the golden angle.
+// Returns a direction of a set spread evenly over the upper half sphere by the golden angle.
 Vec sky_direction(Vec up, int i, int count) {
     const Vec side = perpendicular(up), other = cross(up, side);
     const double height = 0.04 + 0.96 * (i + 0.5) / count, around = i * 2.39996322972865332;
@@ -53,7 +53,7 @@ Vec sky_direction(Vec up, int i, int count) {
 }  // namespace
 
 Mat4 map_to_ground(const Frame& frame, Mat4& to_map) {
-    // A square under what throws shadows, wide enough for shade that leans outwards.
+    // A square under the shadow casters, wide enough for shade that falls obliquely.
     const Vec up = direction(frame.scene.up, {0, 1, 0}), side = perpendicular(up), other = cross(up, side);
     Box casters = frame.solid_box;
     if (casters.empty()) casters.add({0, 0, 0});
@@ -85,7 +85,7 @@ Mat4 map_to_ground(const Frame& frame, Mat4& to_map) {
 
 namespace {
 
-// The ground's depth in the sun's map is linear in the place there: from three points of the ground.
+// Returns the coefficients of the ground's depth in the sun's map, which is linear there, from three ground points.
 Vec ground_plane(const Frame& frame, const Mat4& sun_matrix, double reach) {
     const Vec up = direction(frame.scene.up, {0, 1, 0}), side = perpendicular(up), other = cross(up, side);
     const Vec middle = (frame.scene.ground_height - dot(up, frame.origin)) * up;
@@ -97,7 +97,7 @@ Vec ground_plane(const Frame& frame, const Mat4& sun_matrix, double reach) {
         return Vec{row(0), row(1), row(2)};
     };
     const Vec a = place(middle), u = place(middle + reach * side) - a, v = place(middle + reach * other) - a;
-    // Light along the ground never reaches it.
+    // Light parallel to the ground never reaches it.
     const double area = u.x * v.y - u.y * v.x;
     if (!(std::fabs(area) > 1e-9)) return {0, 0, 1};
     const double x = (u.z * v.y - v.z * u.y) / area, y = (u.x * v.z - v.x * u.z) / area;
@@ -111,7 +111,7 @@ void set_scene(const Renderer& renderer, const Frame& frame, SceneUniforms& scen
     const frond_picture_def& def = renderer.def;
     std::memset(&scene, 0, sizeof scene);
 
-    // Camera. The frame's origin is the target.
+    // Camera. The frame's origin is its target.
     const Vec eye = wanted.camera.eye - frame.origin;
     const double focus = length(eye);
     const Vec back = direction(eye, {0, 0, 1});
@@ -119,7 +119,7 @@ void set_scene(const Renderer& renderer, const Frame& frame, SceneUniforms& scen
     const Vec ground_up = direction(wanted.up, {0, 1, 0});
     const double fade_begin = 1.6 * focus, fade_end = 7 * focus;
 
-    // Near and far enclose what is drawn and the ground until it has faded.
+    // Near and far planes enclose everything drawn and the ground until it has faded out.
     double nearest = 1e-2 * focus, farthest = 1.1 * (focus + fade_end);
     if (!frame.box.empty()) {
         const double distance = length(frame.box.middle() - eye), radius = frame.box.radius();
@@ -133,12 +133,12 @@ void set_scene(const Renderer& renderer, const Frame& frame, SceneUniforms& scen
         float(1 / (slope * aspect)), 0, 0, 0, 0, float(1 / slope), 0, 0, 0, 0, float(a), -1, 0, 0, float(b), 0};
     scene.view_projection = multiply(projection, look(right, up, back, eye));
 
-    // From a pixel to a far point: the camera's axes scaled by the field of view.
+    // Maps a pixel to a far point: the camera's axes scaled by the field of view.
     const Vec x = slope * aspect * right, y = slope * up, z = eye - back;
     inverse_view_projection = {float(x.x), float(x.y), float(x.z), 0, float(y.x), float(y.y), float(y.z), 0,
                                0,          0,          0,          0, float(z.x), float(z.y), float(z.z), 1};
 
-    // Sun: given, or over the camera's left shoulder and rather high.
+    // Sun: as given, or over the camera's left shoulder and rather high.
     Vec sun = wanted.sun_direction;
     if (length(sun) < 1e-12) {
         const Vec level = direction(back - dot(back, ground_up) * ground_up, back);

@@ -1,6 +1,6 @@
-// Light: a sun with a soft shadow map, and a sky sampled in some directions, each with a small shadow map of its own,
-// so that what is enclosed is darker. Leaves let some light through. Tone curve: Reinhard, Stark, Shirley, Ferwerda,
-// "Photographic tone reproduction for digital images" (2002), equation 4.
+// Light: a sun with a soft shadow map, and a sky sampled in several directions, each with a small shadow map of its
+// own, so that enclosed places are darker. Leaves let some light through. Tone curve: Reinhard, Stark, Shirley,
+// Ferwerda, "Photographic tone reproduction for digital images" (2002), equation 4.
 #include "shaders.hpp"
 
 namespace picture {
@@ -188,7 +188,7 @@ void main() {
 }
 )";
 
-// Which places of the sun's map have something above the ground, and how far along the light it is from the ground.
+// Writes where in the sun's map something is above the ground, and its distance from it along the light.
 const char* const COVER_FRAGMENT = R"(
 uniform sampler2D sun_depth;
 out vec4 pixel;
@@ -220,7 +220,7 @@ void main() {
 }
 )";
 
-// What the sky gives to the ground, coarse, since it changes slowly: each direction is smeared over some places.
+// Writes the sky's light on the ground, coarsely, as it changes slowly: each direction is smeared over some points.
 const char* const SHADE_FRAGMENT = R"(
 in vec3 at;
 in vec3 step_u;

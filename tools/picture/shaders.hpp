@@ -1,10 +1,10 @@
-// Texts of the shaders, GLSL 3.30.
+// Sources of the shaders, GLSL 3.30.
 #pragma once
 
 namespace picture {
 
-extern const char* const COMMON_GLSL;  // put before each of the others
-extern const char* const LIGHT_GLSL;   // put before SURFACE_FRAGMENT and GROUND_FRAGMENT
+extern const char* const COMMON_GLSL;  // prepended to each of the others
+extern const char* const LIGHT_GLSL;   // prepended to SURFACE_FRAGMENT and GROUND_FRAGMENT
 extern const char* const DEPTH_VERTEX;
 extern const char* const DEPTH_FRAGMENT;
 extern const char* const DEPTH_CUT_FRAGMENT;

@@ -1,4 +1,4 @@
-// Vectors and matrices, as little as drawing needs.
+// Vectors and matrices, limited to what drawing needs.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace picture {
 
 using Vec = frond_vec3;
-using Mat4 = std::array<float, 16>;  // by columns, as OpenGL takes it
+using Mat4 = std::array<float, 16>;  // column-major, as in OpenGL
 
 inline Vec operator+(Vec a, Vec b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -32,17 +32,17 @@ inline double length(Vec a) {
 inline bool finite(Vec a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
-// Finite and not absurdly far away.
+// Returns whether a point is finite and not absurdly far away.
 inline bool drawable(Vec a) {
     return std::fabs(a.x) <= FROND_PICTURE_FARTHEST && std::fabs(a.y) <= FROND_PICTURE_FARTHEST &&
            std::fabs(a.z) <= FROND_PICTURE_FARTHEST;
 }
-// Of length one, or `fallback` if there is no direction.
+// Returns the unit vector along a, or `fallback` if a has no direction.
 inline Vec direction(Vec a, Vec fallback) {
     const double size = length(a);
     return size > 1e-12 && std::isfinite(size) ? (1 / size) * a : fallback;
 }
-// Some direction of length one at a right angle to the unit vector a.
+// Returns a unit vector at a right angle to the unit vector a.
 inline Vec perpendicular(Vec a) {
     return direction(cross(a, std::fabs(a.x) < 0.7 ? Vec{1, 0, 0} : Vec{0, 1, 0}), {1, 0, 0});
 }
@@ -55,7 +55,7 @@ inline Mat4 multiply(const Mat4& a, const Mat4& b) {
     return product;
 }
 
-// A box that grows; empty while lower > upper.
+// A bounding box that grows; empty while lower > upper.
 struct Box {
     Vec lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};
 

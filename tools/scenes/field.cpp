@@ -1,4 +1,4 @@
-// The field: thousands of plants of four kinds in strips across a path, on which somebody walks behind a ball.
+// The field: thousands of plants of four kinds in strips across a path on which a walker follows a ball.
 #include <algorithm>
 #include <cmath>
 
@@ -9,12 +9,12 @@ namespace frond::tools {
 namespace {
 
 constexpr int ALL = 10000;
-constexpr double APART = 0.7, STRIP = 8, PATH = 0.35, RAGGED = 0.12;  // [m]
+constexpr double APART = 0.7, STRIP = 8, PATH = 0.35, RAGGED = 0.12;  // distances and widths [m]
 constexpr double WALKER_SPEED = 1.3, BALL_SPEED = 1.8, BALL = 0.2;    // [m/s], [m]
-constexpr double GARDEN = 6;                                          // how far from the path cucumbers grow [m]
-constexpr double EYES = 1.65;                                         // [m]
+constexpr double GARDEN = 6;                                          // cucumbers grow this close to the path [m]
+constexpr double EYES = 1.65;                                         // height of the walker's eyes [m]
 
-// Capsules as long as that make some 40 to 70 of each kind.
+// Capsule heights that give some 40 to 70 capsules for each kind.
 struct Kind {
     const char* file;
     double capsule_height;  // [m]
@@ -22,7 +22,7 @@ struct Kind {
 constexpr Kind KINDS[] = {
     {"wheat/wheat.obj", 0.3}, {"corn/corn.obj", 0.4}, {"sunflower/sunflower.obj", 0.3}, {"cucumber/cucumber.obj", 0.4}};
 
-// A number in 0..1 that looks like chance.
+// Returns a pseudo-random number in 0..1.
 double chance(int i, int k) {
     const double x = std::sin(12.9898 * i + 78.233 * k + 0.5) * 43758.5453;
     return x - std::floor(x);
@@ -42,7 +42,7 @@ void load_kinds(Stage& stage) {
     stage.settings.model.capsule_height = given;
 }
 
-// A gust that goes round over the patch and dies away at its rim.
+// Adds a gust that oscillates over the patch and decreases to zero at its rim.
 void blow(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user) {
     const Stage& stage = *static_cast<const Stage*>(user);
     for (int i = 0; i < count; i++) {
@@ -62,7 +62,7 @@ void add_body(Stage& stage, frond_shape shape, frond_vec3 size, double mass, fro
     stage.rigid(def);
 }
 
-// One on the path, or a crowd that comes in from the side in rows of five.
+// Adds one walker on the path, or a crowd that comes in from the side in rows of five.
 void add_walkers(Stage& stage, double start) {
     for (int i = 0; i < stage.settings.walkers; i++) {
         frond_rigid_state state = frond_default_rigid_def().state;
@@ -77,7 +77,7 @@ void add_walkers(Stage& stage, double start) {
 void field_defaults(Settings& settings) {
     settings.plant.mechanics = FROND_MECHANICS_ROD;
     settings.plant.starts_asleep = true;
-    // That leaves of neighbours brush is not seen in a field, and costs several times as much as all the rest.
+    // Contacts between neighbours' leaves are invisible in a field, and cost several times as much as everything else.
     settings.plant.effects &= ~uint32_t(FROND_EFFECT_PLANT_CONTACT);
 }
 

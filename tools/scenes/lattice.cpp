@@ -9,7 +9,7 @@ std::vector<double> even_heights(double length, int count) {
     return heights;
 }
 
-// Every other brick is mirrored so that neighbours fit.
+// Every other brick is mirrored so that faces of neighbours match.
 Lattice make_lattice(double width, int across, const std::vector<double>& heights) {
     const auto node = [&](int i, int j, int k) { return (j * (across + 1) + k) * (across + 1) + i; };
     const int along = int(heights.size()) - 1;

@@ -1,4 +1,4 @@
-// Grows a rosette: nothing comes in but settings, a model of nine leaves around a short stem goes out.
+// Grows a rosette. In: settings only. Out: a model of nine leaves around a short stem.
 #include "scenes/rosette.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double PI = 3.14159265358979;
 constexpr int LEAVES = 9;
-constexpr double REACH = 0.42, RISE = 0.26, WIDTH = 0.09;  // of a leaf [m]
+constexpr double REACH = 0.42, RISE = 0.26, WIDTH = 0.09;  // dimensions of a leaf [m]
 
 struct Triangles {
     std::vector<float> xyz;
@@ -21,7 +21,7 @@ struct Triangles {
     void quad(int32_t a, int32_t b, int32_t c, int32_t d) { indices.insert(indices.end(), {a, b, c, b, d, c}); }
 };
 
-// A cone with a round top.
+// Adds a cone with a round top.
 void add_heart(Triangles& out) {
     constexpr int SIDES = 10;
     constexpr double RADII[] = {0.03, 0.03, 0.022}, STEP = 0.03;  // [m]
@@ -40,7 +40,7 @@ void add_heart(Triangles& out) {
         out.indices.insert(out.indices.end(), {2 * SIDES + s, tip, 2 * SIDES + (s + 1) % SIDES});
 }
 
-// It rises, arches over and hangs a little; both halves slope down from the midrib.
+// Adds a leaf, which rises, arches over and hangs a little; both halves slope down from the midrib.
 void add_leaf(Triangles& out, double turn, double rise) {
     constexpr int LONG = 16;
     constexpr int32_t WIDE = 4;
@@ -66,11 +66,11 @@ void add_leaf(Triangles& out, double turn, double rise) {
 }  // namespace
 
 frond_model make_rosette(Stage& stage) {
-    constexpr double GOLDEN = 2.399963;  // the angle from leaf to leaf [rad]
+    constexpr double GOLDEN = 2.399963;  // angle between successive leaves [rad]
     Triangles triangles;
     add_heart(triangles);
     for (int i = 0; i < LEAVES; i++) add_leaf(triangles, GOLDEN * i, 1 - 0.08 * (i % 3));
-    // Leaves that store water: thick, and their fibres bear them.
+    // Leaves that store water: thick, and carried by their fibres.
     frond_organ_material leaf = {"blade", {}};
     must(frond_material_preset("blade", &leaf.material));
     leaf.material.thickness = 3e-3;

@@ -1,5 +1,5 @@
-// Scene: a small play with plants, written once; the frond command, tests and benchmarks run it. Sees public headers
-// only.
+// Scene: a short simulation with plants, written once and run by the frond command, tests and benchmarks. Uses public
+// headers only.
 #pragma once
 
 #include <memory>
@@ -11,28 +11,28 @@
 
 namespace frond::tools {
 
-// A failed call of the library, or a wrong word of the user's; the text says what to do.
+// A failed call of the library, or an invalid word from the user; the text gives the remedy.
 struct SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
-// Throws a SceneError with frond_last_error() when a call failed.
+// Throws a SceneError with frond_last_error() if a call failed.
 void must(frond_result result);
 
-// Everything that a user may set with --set key=value.
+// All settings that a user may change with --set key=value.
 struct Settings {
     frond_world_def world = frond_default_world_def();
     frond_model_def model = frond_default_model_def();
     frond_plant_def plant = frond_default_plant_def();
-    frond_wind_def wind = frond_default_wind_def();  // the world has air only if its velocity is not zero
+    frond_wind_def wind = frond_default_wind_def();  // the world has air only if the velocity is not zero
     double dt = 1.0 / 60;                            // [s]
-    double pull = 0.2;                               // how far the user drags, as a share of the plant's height [-]
-    int plants = 0;                                  // of a field; 0: as many as it has
-    int walkers = 1;                                 // in a field
-    double patch_wind = 5;                           // over a patch of a field [m/s]
-    double budget = 0;                               // of a step of all plants [ms]; 0: any
-    bool detail = true;                              // a field's far plants are simulated for less
+    double pull = 0.2;                               // displacement by the user's drag, share of the plant's height [-]
+    int plants = 0;                                  // number of plants in a field; 0: as many as it has
+    int walkers = 1;                                 // number of walkers in a field
+    double patch_wind = 5;                           // wind speed over a patch of a field [m/s]
+    double budget = 0;                               // time for a step of all plants [ms]; 0: unlimited
+    bool detail = true;                              // a field's distant plants are simulated at lower detail
     int threads = 1;
-    double grab_stiffness = 60;  // [N/m]; 0: as stiff as it takes to move the plant
+    double grab_stiffness = 60;  // [N/m]; 0: as stiff as needed to move the plant
     struct OrganOverride {
         std::string organ;
         double frond_material::*field;
@@ -41,15 +41,15 @@ struct Settings {
     std::vector<OrganOverride> organs;  // material.<organ or kind>.<field>=value
     double stiffness = 1;               // factor on Young's modulus of all organs of plant files [-]
 };
-// One "key=value"; throws a SceneError that names the keys or values there are.
+// Applies one "key=value"; throws a SceneError that names the existing keys or values.
 void apply_setting(Settings& settings, const std::string& assignment);
-// "key  what it is" lines, for --help.
+// Returns lines of "key  description", for --help.
 std::string settings_help();
 
-// Cage cells with which the two models come to the paper's counts of nodes and tets [m].
+// Sizes of cage cells with which the two models reach the paper's counts of nodes and tets [m].
 constexpr double PAPER_CORN_CELL = 0.24, PAPER_CUCUMBER_CELL = 0.205;
 
-// Threads that a world is lent. As many are made as asked for, less the caller's own; they wait in between.
+// Threads for a world. Makes as many as requested, less the caller's own; they wait between jobs.
 class Team {
 public:
     explicit Team(int threads);
@@ -64,39 +64,39 @@ private:
     std::unique_ptr<Work> work;
 };
 
-// The objects on the stage while a scene runs.
+// The objects of a running scene.
 struct Stage {
     Settings settings;
-    std::unique_ptr<Team> team;  // null with one thread
+    std::unique_ptr<Team> team;  // null if there is one thread
     frond_world world = {};
     std::vector<frond_model> models;
     std::vector<frond_plant> plants;
-    std::vector<frond_model> plant_models;  // one a plant
+    std::vector<frond_model> plant_models;  // one per plant
     std::vector<frond_grab> grabs;
-    std::vector<frond_rigid_def> rigid_defs;  // as they were made
+    std::vector<frond_rigid_def> rigid_defs;  // as they were created
     std::vector<frond_rigid> rigids;
     std::vector<frond_robot> robots;
     frond_vec3 lower = {}, upper = {};  // box of all plants at the start [m]
-    bool has_view = false;              // pictures show the box below, and what stands in it, instead of all plants
+    bool has_view = false;              // pictures show the box below and the plants in it instead of all plants
     frond_vec3 view_lower = {}, view_upper = {};
-    std::vector<frond_vec3> places;  // one a plant [m]
+    std::vector<frond_vec3> places;  // position of each plant [m]
     frond_vec3 patch = {};           // middle of the patch over which the wind blows [m]
     double patch_radius = 0;         // [m]
     double time = 0;                 // [s]
-    frond_vec3 drag_start = {};      // where the user took hold [m]
-    double drag_stiffness = 0;       // of the user's spring as it is now [N/m]
+    frond_vec3 drag_start = {};      // position at which the user took hold [m]
+    double drag_stiffness = 0;       // current stiffness of the user's spring [N/m]
 
     explicit Stage(const Settings& settings);
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
     ~Stage();
     frond_model load(const std::string& path);
-    // Takes the model over.
+    // Takes ownership of the model.
     frond_model keep(frond_model model);
-    // Turned about its own height by `turn` [rad].
+    // Adds a plant, turned about its vertical axis by `turn` [rad].
     frond_plant plant(frond_model model, frond_vec3 position, double turn = 0);
     frond_rigid rigid(const frond_rigid_def& def);
-    // Tells whether a plant stands in view, or somewhat beside it.
+    // Returns whether a plant stands in view or somewhat beside it.
     bool sees(size_t plant) const;
 };
 
@@ -106,35 +106,35 @@ struct Scene {
     double duration;  // [s]
     void (*set_defaults)(Settings& settings);
     void (*build)(Stage& stage);
-    void (*drive)(Stage& stage);    // before each step
-    const char* without = nullptr;  // a setting with which it is played, and pictured, for comparison
+    void (*drive)(Stage& stage);    // called before each step
+    const char* without = nullptr;  // a setting with which the scene is also run and pictured, for comparison
 };
 const std::vector<Scene>& scenes();
-// The settings of the scene `field`.
+// Sets defaults for the scene `field`.
 void field_defaults(Settings& settings);
 void build_field(Stage& stage);
 void drive_field(Stage& stage);
-// The scene of that name, or the scene "tug" around a plant file. Throws a SceneError that names the scenes there are.
+// The scene of that name, or the scene "tug" with a plant file. Throws a SceneError that names the existing scenes.
 struct Casting {
     const Scene* scene;
-    std::string file;  // empty: the scene's own
+    std::string file;  // empty: the scene's own plants
 };
 Casting cast(const std::string& name_or_file);
-// Sets the stage; the settings' assignments come on top of the scene's defaults.
+// Sets up the stage; the user's assignments override the scene's defaults.
 struct Play {
     Casting casting;
     Stage stage;
     Play(const Casting& casting, const Settings& settings);
-    void step();  // drives and advances by settings.dt
+    void step();  // drives the scene and advances by settings.dt
 };
 Settings settings_of(const Casting& casting, const std::vector<std::string>& assignments);
 
-// Of the plant's deepest contact of the last step, of those above a height [m]; 0: none is.
+// Returns the depth of the plant's deepest contact above a height in the last step [m]; 0 if there is none.
 double contact_depth(frond_plant plant, double above = -1e30);
-// A point of the main axis at a share of the plant's height [m].
+// Returns a point of the main axis at a share of the plant's height [m].
 frond_vec3 point_on_axis(frond_model model, double share);
 
-// A file of the models that come with Frond, "corn/corn.obj": from FROND_MODELS, the source tree or the installation.
+// Returns the path of a model, "corn/corn.obj", in FROND_MODELS, the source tree or the installation.
 std::string model_path(const std::string& name);
 
 }  // namespace frond::tools

@@ -31,13 +31,13 @@ void rest(Stage&) {}
 
 // ---- the user's drag ---------------------------------------------------------------------------------------------
 
-// The plant's height; for one that creeps half its width [m].
+// Returns the plant's height, or half its width if it creeps [m].
 double reach_of(const Stage& stage) {
     const frond_vec3 &a = stage.lower, &b = stage.upper;
     return std::max({b.y - a.y, (b.x - a.x) / 2, (b.z - a.z) / 2});
 }
 
-// A spring that bears a few times the plant's weight when it is drawn out by the plant's height [N/m].
+// Returns a stiffness that carries a few times the plant's weight when stretched by the plant's height [N/m].
 double gentle_stiffness(const Stage& stage) {
     constexpr double WEIGHTS = 3;
     frond_model_info info;
@@ -51,7 +51,7 @@ void take_hold(Stage& stage, frond_vec3 point) {
     must(frond_grab_create(stage.plants[0], point, stage.drag_stiffness, &stage.grabs[0]));
 }
 
-// Takes a stiffer spring as long as the plant follows less than half of the way.
+// Takes a stiffer spring if the plant has followed by less than half of the displacement.
 void pull_harder(Stage& stage, double way) {
     constexpr double FOLLOWS = 0.5, HARDER = 1.3;
     frond_vec3 at;
@@ -63,7 +63,7 @@ void pull_harder(Stage& stage, double way) {
 
 constexpr double GRAB_AT = 0.5, PULLED_AT = 1.5, LET_GO_AT = 2.0;  // [s]
 
-// Takes the axis at three quarters of the height, draws it aside, holds it and lets it go.
+// Takes hold of the axis at three quarters of the height, pulls it aside, holds it and lets it go.
 void drag(Stage& stage) {
     const double t = stage.time, half_step = 0.5 * stage.settings.dt;
     if (stage.settings.pull == 0) return;
@@ -109,7 +109,7 @@ void build_ball(Stage& stage) {
     stage.rigid(ball);
 }
 
-// A walker's capsule in a row of ten.
+// A walker's capsule moves along a row of ten plants.
 constexpr int ROW = 10;
 constexpr double ROW_STEP = 0.35, WALK_SPEED = 1.2;  // [m], [m/s]
 void build_walk(Stage& stage) {
@@ -125,21 +125,21 @@ void walk(Stage& stage) {
     must(frond_rigid_set_state(stage.rigids.back(), &state));
 }
 
-// Two of the paper's plants, so near that their leaves are in each other (its figure 5).
+// Two of the paper's plants, so close that their leaves overlap (its figure 5).
 void build_corn_pair(Stage& stage) {
     const frond_model model = stage.load(model_path("corn/corn.obj"));
     stage.plant(model, {-0.45, 0, 0}, 0.1);
     stage.plant(model, {0.45, 0, 0.03}, -0.05);
 }
 
-// Two plants that stand in each other's leaves, and the user takes one away.
+// Two plants that stand in each other's leaves, of which the user pulls one away.
 void build_tangle(Stage& stage) {
     const frond_model model = stage.load(model_path("corn/corn.obj"));
     stage.plant(model, {0, 0, 0});
     stage.plant(model, {-0.35, 0, 0.06}, 0.5);
 }
 
-// A field of touching plants, in rows that stand in the gaps of each other.
+// A field of touching plants, in rows that are staggered against each other.
 constexpr int FIELD = 17;
 void build_corn_field(Stage& stage) {
     constexpr double STEP = 0.8;  // [m]
@@ -152,15 +152,14 @@ void build_corn_field(Stage& stage) {
     }
 }
 
-// A leaf like a flag: a ribbon whose lower half is held upright, and whose tip the user lays down onto that, and
-// further.
+// A ribbon-shaped leaf whose lower half is held upright, and whose tip the user lays down onto that, and further.
 constexpr double FLAG_LENGTH = 0.6, FLAG_WIDTH = 0.08, FLAG_HELD = 0.3;  // [m]
 void flag_defaults(Settings& settings) {
     settings.model.rest = FROND_REST_WITHOUT_GRAVITY;
     settings.model.capsule_height = 0.03;
     settings.plant.mechanics = FROND_MECHANICS_ROD;
     settings.plant.effects |= FROND_EFFECT_SELF_CONTACT;
-    settings.plant.effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);  // or it would stay crumpled
+    settings.plant.effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);  // plastic, it would stay crumpled
     settings.world.gravity = {0, 0, 0};
     settings.plant.root_height = FLAG_HELD;
     settings.grab_stiffness = 5;
@@ -193,10 +192,10 @@ void build_flag(Stage& stage) {
     stage.plant(stage.keep(model), {0, 0, 0});
 }
 
-// Over and down in a half circle, and then through where the lower half stands.
+// Moves the tip over and down in a half circle, and then through the lower half.
 void fold(Stage& stage) {
     constexpr double PI = 3.14159265358979, BEGIN = 0.2, DOWN = 2.0, PAST = 3.0;  // [s]
-    constexpr double FAR = 0.06;                                                  // past the lower half [m]
+    constexpr double FAR = 0.06;                                                  // beyond the lower half [m]
     const double t = stage.time;
     if (t < BEGIN) return;
     if (stage.grabs.empty()) {
@@ -209,14 +208,14 @@ void fold(Stage& stage) {
     must(frond_grab_move(stage.grabs[0], {x, y, 0}));
 }
 
-// A crate that is let go a little above the cucumber's leaves.
+// A crate that is released a little above the cucumber's leaves.
 void build_crate(Stage& stage) {
     build_cucumber(stage);
     add_ground(stage);
     stage.rigid(rigid_def(FROND_SHAPE_BOX, {0.1, 0.06, 0.1}, 0.1, {0.14, 1.35, 0.06}));
 }
 
-// A small box of cardboard that is set down on a rosette's leaves.
+// A small cardboard box that is released a little above a rosette's leaves.
 void build_box(Stage& stage) {
     stage.plant(make_rosette(stage), {0, 0, 0});
     add_ground(stage);
@@ -225,7 +224,7 @@ void build_box(Stage& stage) {
     stage.rigid(box);
 }
 
-// A cucumber with its stake, set so far aslant that it comes to lean on a trellis of four slats on two posts.
+// A cucumber with its stake, tilted so far that it comes to lean on a trellis of four slats on two posts.
 constexpr double LEAN = 0.16;  // [rad]
 void build_trellis(Stage& stage) {
     stage.settings.plant.rotation = {0, 0, -std::sin(0.5 * LEAN), std::cos(0.5 * LEAN)};
@@ -248,7 +247,7 @@ void twig_defaults(Settings& settings) {
     settings.plant.mechanics = FROND_MECHANICS_ROD;
     settings.grab_stiffness = 10;
 }
-// A stem with five branches, each as long as ten pieces.
+// A stem with five branches, each ten segments long.
 void build_twig(Stage& stage) {
     constexpr int BRANCHES = 5;
     const double length = TWIG_PIECES / (BRANCHES + 1) * TWIG_PIECE;
@@ -263,7 +262,7 @@ void build_twig(Stage& stage) {
     stage.plant(model, {0, 0, 0});
 }
 
-// ---- what breaks ------------------------------------------------------------------------------------------------
+// ---- breaking ---------------------------------------------------------------------------------------------------
 
 void snap_defaults(Settings& settings) {
     corn_defaults(settings);
@@ -274,7 +273,7 @@ void build_snap(Stage& stage) {
     build_corn(stage);
     add_ground(stage);
 }
-// As rods: in a cage a fruit, its peduncle and the stem beside it share cells.
+// Rods, since in a cage a fruit, its peduncle and the stem beside it share cells.
 void pick_defaults(Settings& settings) {
     settings.model.cage_size = 0.1;
     settings.plant.mechanics = FROND_MECHANICS_ROD;
@@ -286,7 +285,7 @@ void build_pick(Stage& stage) {
     add_ground(stage);
 }
 
-// Draws what it takes hold of along a way, ever farther, until something comes off; then lets go.
+// Takes hold of a point and moves it steadily until something breaks off; then lets go.
 void pull_off(Stage& stage, frond_vec3 (*place)(const Stage&), const frond_vec3& speed) {
     const double t = stage.time - GRAB_AT;
     if (t < -0.5 * stage.settings.dt) return;
@@ -304,12 +303,12 @@ void pull_off(Stage& stage, frond_vec3 (*place)(const Stage&), const frond_vec3&
     must(frond_grab_move(stage.grabs[0], {from.x + speed.x * t, from.y + speed.y * t, from.z + speed.z * t}));
 }
 
-// A corn stalk is bent over until it snaps.
+// Bends a corn stalk over until it snaps.
 void snap(Stage& stage) {
     pull_off(stage, [](const Stage& s) { return point_on_axis(s.plant_models[0], 0.75); }, {0.35, -0.1, 0});
 }
 
-// Where an organ ends below [m]; at an infinite height if no triangle is of it.
+// Returns the lower end of an organ [m]; its height is infinite if the organ has no triangle.
 frond_vec3 lower_end(const Stage& stage, const frond_organ& organ, int part_count) {
     frond_surface_view view;
     must(frond_plant_get_surface(stage.plants[0], &view));
@@ -326,7 +325,7 @@ frond_vec3 lower_end(const Stage& stage, const frond_organ& organ, int part_coun
     return end;
 }
 
-// The lower end of the heaviest fruit that hangs above the lowest leaves.
+// Returns the lower end of the heaviest fruit that hangs above the lowest leaves.
 frond_vec3 end_of_fruit(const Stage& stage) {
     const frond_model model = stage.plant_models[0];
     frond_model_info info;
@@ -345,7 +344,7 @@ frond_vec3 end_of_fruit(const Stage& stage) {
     if (heaviest == 0) throw SceneError("the plant bears no fruit");
     return best;
 }
-// A cucumber is pulled off its peduncle.
+// Pulls a cucumber off its peduncle.
 void pick(Stage& stage) {
     pull_off(stage, end_of_fruit, {-0.06, 0.02, 0});
 }
@@ -369,7 +368,7 @@ void build_arm(Stage& stage) {
     stage.view_lower = {-0.4, 0, -0.8};
     stage.view_upper = {2.0, 2.2, 0.9};
 }
-// It turns into the row within three seconds and stays there.
+// Turns the arm into the row within three seconds and holds it there.
 void reach_in(Stage& stage) {
     const frond_robot arm = stage.robots.front();
     must(frond_robot_drive_to(arm, frond_robot_find_link(arm, "turn"), 0.12, 0.6, 0));
@@ -377,13 +376,13 @@ void reach_in(Stage& stage) {
 
 // ---- wind -----------------------------------------------------------------------------------------------------
 
-// A fresh breeze: 12 m/s where weather stations measure, some 8 among the leaves.
+// A fresh breeze: 12 m/s at the height of weather stations, some 8 m/s among the leaves.
 void wind_defaults(Settings& settings) {
     corn_defaults(settings);
     settings.wind.velocity = {12, 0, 0};
     settings.wind.turbulence = 0.3;
 }
-// A stand of six in two rows.
+// A stand of six plants in two rows.
 void build_wind(Stage& stage) {
     constexpr double ALONG = 0.9, APART = 0.7;  // [m]
     const frond_model model = stage.load(model_path("corn/corn.obj"));
@@ -392,7 +391,6 @@ void build_wind(Stage& stage) {
 
 }  // namespace
 
-// Finds among the chain's nodes near that height the one that carries most others.
 double contact_depth(frond_plant plant, double above) {
     std::vector<frond_contact> contacts(size_t(frond_plant_get_contact_count(plant)));
     must(frond_plant_get_contacts(plant, contacts.data(), int(contacts.size())));
@@ -402,6 +400,7 @@ double contact_depth(frond_plant plant, double above) {
     return depth;
 }
 
+// Finds, among the chain's nodes near that height, the one that carries most others.
 frond_vec3 point_on_axis(frond_model model, double share) {
     frond_chain_view chain;
     frond_model_info info;

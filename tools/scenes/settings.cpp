@@ -1,4 +1,4 @@
-// key=value assignments for every public choice.
+// Assignments of key=value for every public option.
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -52,7 +52,7 @@ frond_vec3 vector(const std::string& text) {
             number(text.substr(second + 1))};
 }
 
-// The row of a table whose name was given.
+// Returns the row of a table with the given name.
 template <class Row>
 Row row(const std::string& text, int count, const char* (*name)(Row)) {
     std::string names;
@@ -63,7 +63,7 @@ Row row(const std::string& text, int count, const char* (*name)(Row)) {
     throw SceneError("\"" + text + "\" is none of " + names);
 }
 
-// A key for a number, a count, a vector or a row of a table. The path leads to the field, member by member.
+// Keys for a number, a count, a vector or a row of a table. The path leads to the field, member by member.
 template <class... Path>
 Key real(const char* name, const char* text, Path... path) {
     return {name, text, [=](Settings& s, const std::string& value) { (s.*....*path) = number(value); }};
@@ -83,7 +83,7 @@ Key choice(const char* name, const char* text, int rows, const char* (*row_name)
     return {name, text,
             [=](Settings& s, const std::string& value) { (s.*....*path) = row<Row>(value, rows, row_name); }};
 }
-// An effect of all plants, on or off.
+// Key for an effect of all plants, on or off.
 Key effect(const char* name, const char* text, frond_effects bit) {
     return {name, text, [=](Settings& s, const std::string& value) {
                 if (value != "on" && value != "off") throw SceneError("\"" + value + "\" is neither on nor off");

@@ -1,4 +1,4 @@
-// The stage: worlds, models and plants of a running scene, and where their files are.
+// The stage: world, models and plants of a running scene, and where their files are.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -28,8 +28,8 @@ Stage::~Stage() {
     for (frond_model model : models) frond_model_destroy(model);
 }
 
-// Materials by organ name: as the model has them, with the fields that were set for the organ or its kind, the last of
-// which wins, and as stiff as was asked for.
+// Returns materials by organ name: the model's, with the fields that were set for the organ or its kind, of which the
+// last one wins, and Young's modulus times the requested factor.
 static std::map<std::string, frond_material> changed_materials(frond_model model, const Settings& settings) {
     const std::vector<Settings::OrganOverride>& overrides = settings.organs;
     frond_model_info info;
@@ -58,7 +58,7 @@ frond_model Stage::load(const std::string& path) {
     frond_model model = {};
     must(frond_model_load(path.c_str(), &settings.model, &model));
     if (!settings.organs.empty() || settings.stiffness != 1) {
-        // The organs' kinds are known now; load again with their materials.
+        // The organs' kinds are known now; load the model again with their materials.
         std::map<std::string, frond_material> materials;
         try {
             materials = changed_materials(model, settings);
@@ -94,7 +94,7 @@ frond_plant Stage::plant(frond_model model, frond_vec3 position, double turn) {
         low = plants.empty() ? a : std::min(low, a);
         high = plants.empty() ? b : std::max(high, b);
     };
-    // The box of the turned box.
+    // Box around the turned box.
     const double c = std::cos(turn), s = std::sin(turn);
     const double middle_x = (info.lower.x + info.upper.x) / 2, half_x = (info.upper.x - info.lower.x) / 2;
     const double middle_z = (info.lower.z + info.upper.z) / 2, half_z = (info.upper.z - info.lower.z) / 2;

@@ -1,4 +1,4 @@
-// A job system as small as one can be: threads that wait for a number of jobs, and take the next one that is left.
+// A minimal job system: threads that wait for a batch of jobs and take the next remaining one.
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>

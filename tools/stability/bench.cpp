@@ -1,4 +1,4 @@
-// The world of a cell: made when it is first asked for, checked after each step.
+// The world of a cell: made when first requested, checked after each step.
 #include "stability/bench.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ Bench::Bench(const Cell& cell)
     world_def.max_substep = cell.dt;
     plant_def.mechanics = cell.mechanics;
     plant_def.integrator = cell.integrator;
-    // A plant that is bent far is to come back.
+    // Plants that are bent far must return, so nothing yields.
     plant_def.effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
 }
 
@@ -210,7 +210,7 @@ void Bench::expect_shape(frond_plant plant, const Places& rest, double share) co
             a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
         inside_out += !(volume > 0);
     }
-    // Where the chain moves, tets are only drawn.
+    // If the chain moves, tets are only drawn.
     const bool moves_cage = cell.mechanics != FROND_MECHANICS_ROD && cell.mechanics != FROND_MECHANICS_SPRING_CHAIN;
     expect(inside_out == 0 || !moves_cage, "tets inside out", inside_out, 0);
     double sum = 0;

@@ -1,4 +1,4 @@
-// In: tets. Out: a soft body of Bullet's, and what has become of it.
+// In: tets. Out: a Bullet soft body and its motion.
 #include "stability/bullet_beam.hpp"
 
 #include <BulletSoftBody/btDeformableBodySolver.h>
@@ -63,7 +63,7 @@ BulletBeam::BulletBeam(BulletMethod method, double step, const Lattice& lattice,
     masses.assign(rest.size(), 0);
     for (size_t t = 0; t < lattice.tets.size(); t += 4) {
         const int32_t* n = &lattice.tets[t];
-        // Bullet takes right-handed ones.
+        // Bullet requires right-handed tets.
         body->appendTetra(n[0], n[1], n[2], n[3]);
         const double volume = volume_of(rest[size_t(n[0])], rest[size_t(n[1])], rest[size_t(n[2])], rest[size_t(n[3])]);
         for (int c = 0; c < 4; c++) masses[size_t(n[c])] += btScalar(material.density * volume / 4);
@@ -113,7 +113,7 @@ void BulletBeam::make_classic_world() {
     world = made.get();
 }
 
-// Implicit, with a line search, as its examples set it for stiff bodies.
+// Makes an implicit solver with a line search, as Bullet's examples set it up for stiff bodies.
 void BulletBeam::make_deformable_world(BulletMethod method, const frond_material& material) {
     const auto body_solver = std::make_shared<btDeformableBodySolver>();
     const auto solver = std::make_shared<btDeformableMultiBodyConstraintSolver>();

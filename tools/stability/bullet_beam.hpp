@@ -1,5 +1,4 @@
-// Bullet's own soft bodies, put through the hard cases that they can be put through: a beam of tets in a world of
-// theirs.
+// Bullet's own soft bodies in the hard cases that apply to them: a beam of tets in a Bullet world.
 #pragma once
 
 #include <BulletSoftBody/btDeformableLagrangianForce.h>
@@ -13,28 +12,28 @@
 
 namespace frond::stability {
 
-// The first are springs along the edges of tets, solved by position, which know no Young's modulus.
+// CLASSIC: springs along the edges of tets, solved by positions, without a Young's modulus.
 enum class BulletMethod { CLASSIC, LINEAR, NEOHOOKEAN, COUNT };
 const char* name_of(BulletMethod method);
 
 class BulletBeam {
 public:
-    // Nodes lower than FOOT above the ground are held.
+    // Holds the nodes lower than FOOT above the ground.
     BulletBeam(BulletMethod method, double dt, const Lattice& lattice, const frond_material& material);
     BulletBeam(const BulletBeam&) = delete;
     BulletBeam& operator=(const BulletBeam&) = delete;
     ~BulletBeam();
 
-    double box = 20;  // how far from where it began a node may be [m]
+    double box = 20;  // largest distance of a node from its start [m]
     const double dt;  // [s]
     const Places rest;
     std::vector<size_t> foot;
-    size_t top = 0;  // a node
+    size_t top = 0;  // index of the top node
     std::mt19937 random{1};
     double between(double low, double high);
 
-    void put(const std::function<frond_vec3(const frond_vec3&)>& to);  // all free nodes, from rest, standing still
-    void push(const std::function<frond_vec3()>& velocity);            // each free node
+    void put(const std::function<frond_vec3(const frond_vec3&)>& to);  // moves all free nodes from rest and stops them
+    void push(const std::function<frond_vec3()>& velocity);            // sets the velocity of each free node
     void move_foot(const std::function<frond_vec3(const frond_vec3&)>& to);
     void hold(size_t node);
     void let_go(size_t node);
@@ -45,18 +44,18 @@ public:
 
     frond_vec3 place(size_t node) const;
 
-    // Steps; after each all nodes are finite and in the box.
+    // Takes steps; after each, all nodes must be finite and in the box.
     void run(
         double seconds, const std::function<void(double time)>& before_each = [](double) {});
     void step(double length);
-    // No tet inside out, nodes within a share of its size of where they were modelled and `shift`, in the mean.
+    // Checks that no tet is inverted and the mean distance of nodes from rest plus `shift`, as a share of the size.
     void expect_shape(double share, const frond_vec3& shift = {}) const;
 
 private:
     btSoftBodyRigidBodyCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
     btDbvtBroadphase broadphase;
-    // In the order in which they need each other; the world goes first.
+    // In order of dependence; destroyed from the back, the world first.
     std::vector<std::shared_ptr<void>> parts;
     std::vector<std::unique_ptr<btCollisionShape>> shapes;
     std::vector<std::unique_ptr<btRigidBody>> bodies;
@@ -72,7 +71,7 @@ private:
     void check(double time) const;
 };
 
-// A case of the same name as Frond's, with the same criterion but for energy, which is not asked for.
+// A case with the name and the criterion of one of Frond's, except for energy, which is not checked.
 struct BulletCase {
     const char* name;
     void (*run)(BulletMethod method, double dt);  // throws Broken

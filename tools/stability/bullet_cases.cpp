@@ -1,4 +1,4 @@
-// Cases that Bullet's own soft bodies can be put through, named as Frond's and done to a beam of the same tets.
+// The cases that apply to Bullet's own soft bodies, named as Frond's and applied to a beam of the same tets.
 #include <cmath>
 #include <cstdio>
 
@@ -86,7 +86,7 @@ void stretch(BulletMethod method, double dt) {
     beam.expect_shape(NEAR_LET_GO);
 }
 
-// Pushed aside at its top and let go: there is nothing to be compared with but that it does not fly apart.
+// Pushes the free nodes aside: with no reference to compare with, the beam must only stay within its box.
 template <double frond_material::*field>
 void bend_of(BulletMethod method, double dt, double value) {
     frond_material material = plain_material();
@@ -115,7 +115,7 @@ void incompressible(BulletMethod method, double dt) {
     bend_of<&frond_material::poisson>(method, dt, 0.499);
 }
 
-// The foot goes where `where` says, then back, or stays at `shift`.
+// Moves the foot to `where` over time, then back.
 template <class Where>
 void drive(BulletMethod method, double dt, double duration, const Where& where) {
     BulletBeam beam(method, dt, make_lattice(0.1, 2, even_heights(1, 10)), plain_material());
@@ -173,9 +173,9 @@ void gravity_tumbling(BulletMethod method, double dt) {
     });
 }
 
-// A ball of so many times the beam's mass flies against it and is taken away after a second.
+// Hits the beam with a ball of `mass_ratio` times its mass, which is removed after a second.
 void hit_by(BulletMethod method, double dt, double mass_ratio, double speed) {
-    constexpr double MASS = 8;  // of the beam [kg]
+    constexpr double MASS = 8;  // mass of the beam [kg]
     BulletBeam beam(method, dt, make_lattice(0.1, 2, even_heights(1, 10)), plain_material());
     btRigidBody& ball = beam.add(new btSphereShape(btScalar(0.05)), mass_ratio * MASS, {-0.4, 0.6, 0}, {speed, 0, 0});
     beam.run(1);

@@ -1,4 +1,4 @@
-// Runs the cases that both have, and tells what Bullet's soft bodies made of them beside Frond.
+// Runs the cases that exist for both and compares Bullet's soft bodies with Frond.
 #include <cstdio>
 
 #include "stability/bullet_beam.hpp"
@@ -14,7 +14,7 @@ struct Column {
     std::string name;
     std::function<Verdict(const BulletCase&)> run;
     int green = 0;
-    std::vector<std::string> why = {};  // red
+    std::vector<std::string> why = {};  // reasons of red cells
 };
 
 std::vector<Column> columns(bool quick) {

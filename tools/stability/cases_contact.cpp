@@ -1,4 +1,4 @@
-// Cases: bodies that hit a plant, stand in it or press it.
+// Cases: bodies that hit a plant, overlap it or press it.
 #include <cmath>
 
 #include "stability/bench.hpp"
@@ -21,8 +21,8 @@ frond_rigid_def ball_of(double mass, const frond_vec3& from, const frond_vec3& v
     return ball;
 }
 
-// A ball flies against the stem, is taken away after a second, and the plant comes back. It was never faster than the
-// ball.
+// A ball flies against the stem and is removed after a second; the plant returns. It is never faster than 5 times the
+// sum of the ball's speed and 5 m/s.
 void hit(Bench& bench, const frond_rigid_def& ball, const frond_vec3& at) {
     const frond_plant plant = bench.add(herb(), at);
     const Places rest = bench.places(plant);
@@ -41,7 +41,7 @@ void hit_by(Bench& bench, double mass_ratio, double speed) {
     hit(bench, ball_of(mass_ratio * mass_of(herb()), {-0.4, 0.35, 0}, {speed, 0, 0}), {});
 }
 void light_ball(Bench& bench) {
-    const double least = 1e-6;  // that a body may have [kg]
+    const double least = 1e-6;  // mass that a body must have [kg]
     hit_by(bench, std::max(1e-4, least / mass_of(herb())), 5);
 }
 void equal_ball(Bench& bench) {
@@ -54,13 +54,13 @@ void bullet(Bench& bench) {
     hit_by(bench, 0.5, 100);
 }
 
-// Everything 10 km away, where Bullet's numbers are a millimetre apart.
+// Everything is 10 km away, where Bullet's floats are a millimetre apart.
 void far_away(Bench& bench) {
     const frond_vec3 at = {1e4, 0, 1e4};
     hit(bench, ball_of(0.5, at + frond_vec3{-0.4, 0.35, 0}, {5, 0, 0}), at);
 }
 
-// A plant that stands in something stays calm and where it is.
+// A plant that stands inside a body stays calm and in place.
 void stand_in(Bench& bench, const frond_rigid_def& body) {
     constexpr double CALM = 3;  // [m/s]
     bench.add(body);
@@ -92,7 +92,7 @@ void under_ground(Bench& bench) {
     stand_in(bench, ground);
 }
 
-// Between two plates that come together until a tenth of the way is left, then go.
+// The plant is squeezed between two plates that close to a tenth of their distance and are then removed.
 void squeeze(Bench& bench) {
     const frond_plant plant = bench.add(herb());
     const Places rest = bench.places(plant);
@@ -113,7 +113,7 @@ void squeeze(Bench& bench) {
     bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
-// Pressed down on by a plate, to half of its height.
+// The plant is pressed down by a plate to about half of its height.
 void press(Bench& bench) {
     const frond_plant plant = bench.add(herb());
     const Places rest = bench.places(plant);
@@ -142,7 +142,7 @@ void drop(Bench& bench) {
     bench.expect(bench.fastest() < 2, "speed where it lies [m/s]", bench.fastest(), 2);
 }
 
-// Torn about by a heavy body that it is bound to.
+// The plant is jerked about by a body to which it is bonded.
 void tear(Bench& bench) {
     const frond_plant plant = bench.add(herb());
     const Places rest = bench.places(plant);
@@ -162,7 +162,7 @@ void tear(Bench& bench) {
     bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
-// Stems that snap under a ball of ten times their mass, which lies on what is left.
+// Stems snap under balls of ten times the plant's mass, of which one lies on the rest.
 void break_in_contact(Bench& bench) {
     bench.plant_def.effects |= FROND_EFFECT_BREAKING;
     bench.add(herb());
@@ -171,7 +171,7 @@ void break_in_contact(Bench& bench) {
     bench.add(ground);
     bench.add(ball_of(10 * mass_of(herb()), {-0.4, 0.35, 0}, {15, 0, 0}));
     bench.add(ball_of(10 * mass_of(herb()), {0.02, 1.2, 0}, {0, -5, 0}));
-    bench.box = 100;  // what is knocked off flies
+    bench.box = 100;  // fragments fly off
     bench.run(3);
     bench.expect(bench.fastest() < 50, "speed [m/s]", bench.fastest(), 50);
 }

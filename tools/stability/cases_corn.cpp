@@ -1,4 +1,4 @@
-// Cases: a real plant on the ground, of light leaves on a stem, driven to where no plant can be.
+// Cases: a real plant on the ground, with light leaves on a stem, driven far out of any natural shape.
 #include <cmath>
 
 #include "stability/bench.hpp"
@@ -6,9 +6,9 @@
 namespace frond::stability {
 namespace {
 
-constexpr double CORN_BACK = 5;  // given to come back [s]
-constexpr double SIZE = 2.2;     // of the corn [m]
-constexpr double BLOWS = 0.4;    // how long it is struck [s]
+constexpr double CORN_BACK = 5;  // time to return [s]
+constexpr double SIZE = 2.2;     // size of the corn plant [m]
+constexpr double BLOWS = 0.4;    // duration of the loads [s]
 
 frond_model model_of_corn() {
     static const frond_model made = [] {
@@ -33,7 +33,7 @@ Stand stand_on_ground(Bench& bench) {
     bench.add(ground);
     Stand corn = {bench.add(model_of_corn()), {}, {}};
     corn.rest = bench.places(corn.plant);
-    // Only a node that is held can be moved.
+    // Only pinned nodes can be moved.
     for (size_t i = 0; i < corn.rest.size(); i++)
         if (frond_plant_move_pin(corn.plant, int(i), corn.rest[i]) == FROND_OK) corn.foot.push_back(int(i));
     return corn;
@@ -54,7 +54,7 @@ void scatter_corn(Bench& bench) {
     come_back(bench, corn);
 }
 
-// Forces up to ten million times a leaf's weight.
+// The plant is struck by forces of up to ten million times a leaf's weight.
 void strike(Bench& bench) {
     constexpr int NODES = 5;
     const Stand corn = stand_on_ground(bench);
@@ -70,7 +70,7 @@ void strike(Bench& bench) {
     come_back(bench, corn);
 }
 
-// By points of it, on springs from a finger's to a machine's, farther than it is long and to and fro.
+// The plant is dragged at single points, by springs soft to hard, to and fro by more than its length.
 void drag(Bench& bench) {
     constexpr int TIMES = 3;
     const Stand corn = stand_on_ground(bench);
@@ -87,7 +87,7 @@ void drag(Bench& bench) {
     come_back(bench, corn);
 }
 
-// Less than what it is long, so that it is not taken for put elsewhere.
+// The foot is moved by less than the plant's size, so that this does not count as a teleport.
 void jerk(Bench& bench) {
     const Stand corn = stand_on_ground(bench);
     for (const frond_vec3& way : {frond_vec3{0.6 * SIZE, 0.6 * SIZE, 0}, frond_vec3{}}) {
@@ -97,9 +97,9 @@ void jerk(Bench& bench) {
     come_back(bench, corn);
 }
 
-// A hundred times its weight, sideways, with sets that it keeps.
+// The plant is flung sideways by a hundred times gravity, with plasticity.
 void fling(Bench& bench) {
-    constexpr double LIES = 1, SLOW = 1;  // mean way over its size, which may lie on the ground [-]; [m/s]
+    constexpr double LIES = 1, SLOW = 1;  // mean displacement over size, as it may lie on the ground [-]; [m/s]
     bench.plant_def.effects |= FROND_EFFECT_PLASTICITY;
     const Stand corn = stand_on_ground(bench);
     must(frond_world_set_gravity(bench.world(), {650, 50, 850}));

@@ -1,4 +1,4 @@
-// Cases: plants in each other.
+// Cases: plants that overlap.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 namespace frond::stability {
 namespace {
 
-// Two at the same place, or nearly: they come apart without flying. Their feet cannot.
+// Two plants at the same place, or nearly, come apart without flying off, except for their feet.
 void together(Bench& bench, const frond_vec3& second) {
     constexpr double CALM = 5, DEPTH = 0.005, FEET = 0.2;  // [m/s], [m], [m]
     const frond_plant first = bench.add(herb());
@@ -39,7 +39,7 @@ void pile(Bench& bench) {
     bench.run(1.5, [&](double) { bench.expect(bench.fastest() <= CALM, "speed [m/s]", bench.fastest(), CALM); });
 }
 
-// One is thrown through the other.
+// One plant is thrown through the other.
 void thrown_through(Bench& bench) {
     const frond_plant stands = bench.add(herb());
     const Places rest = bench.places(stands);

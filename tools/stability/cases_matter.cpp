@@ -1,4 +1,4 @@
-// Cases: materials and tets at the ends of what is allowed, bent and let go.
+// Cases: materials and tets at the limits of what is allowed, bent and let go.
 #include <cmath>
 
 #include "stability/bench.hpp"
@@ -6,7 +6,7 @@
 namespace frond::stability {
 namespace {
 
-// Pushed at the top for half a second, then let go: no energy comes out of nothing.
+// The plant is pushed at its top for half a second, then let go: energy must not grow.
 void bend(Bench& bench, frond_model model, double force) {
     bench.plant_def.root_height = FOOT;
     const frond_plant plant = bench.add(model);
@@ -44,7 +44,7 @@ void incompressible(Bench& bench) {
     bend_beam(bench, &frond_material::poisson, 0.499, 50);
 }
 
-// A stem a million times as stiff as what grows on it.
+// The stem is a million times as stiff as its branch.
 void stiffness_ratio(Bench& bench) {
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.5, 0}, 0.02, 0.015},
                                 {0, {0, 0.5, 0}, {0.3, 0.6, 0}, 0.008, 0.004}};
@@ -76,7 +76,7 @@ void slivers(Bench& bench) {
     bend(bench, bench.keep(model_of(make_lattice(0.1, 1, heights), plain_material())), 50);
 }
 
-// Each tet has a fourth corner just above one of its faces and is split there.
+// Each tet is split at a new node just above one of its faces.
 void caps(Bench& bench) {
     constexpr double HIGH = 0.002;  // share of the tet's own height
     const Lattice whole = make_lattice(0.1, 1, even_heights(1, 6));

@@ -1,4 +1,4 @@
-// Cases: what holds the plant, gravity and the air move without mercy.
+// Cases: violent motion of the plant's foot, of gravity and of the air.
 #include <cmath>
 
 #include "stability/bench.hpp"
@@ -6,7 +6,7 @@
 namespace frond::stability {
 namespace {
 
-constexpr double HELD = 0.05;  // of the herb [m]
+constexpr double HELD = 0.05;  // height up to which the herb is held [m]
 
 struct Held {
     frond_plant plant;
@@ -14,7 +14,7 @@ struct Held {
     Places rest;
 };
 
-// The herb by pins around its foot, which can be moved.
+// Holds the herb by pins around its foot, which can be moved.
 Held hold_herb(Bench& bench) {
     bench.plant_def.root_height = -1;
     const frond_plant plant = bench.add(herb());
@@ -33,7 +33,7 @@ void teleport(Bench& bench) {
     bench.expect_shape(herb.plant, rest, NEAR_DRIVEN);
 }
 
-// Places of the foot as functions of time, then back where it was.
+// Moves the foot to positions that depend on time, then back.
 void drive(Bench& bench, const std::function<frond_vec3(const frond_vec3&, double)>& where, double duration) {
     const Held herb = hold_herb(bench);
     bench.run(duration, [&](double time) {
@@ -64,7 +64,7 @@ void shake(Bench& bench) {
         1);
 }
 
-// Thrown over once and set down again.
+// The foot is turned over once and set down again.
 void somersault(Bench& bench) {
     drive(
         bench,
@@ -120,7 +120,7 @@ void gust(Bench& bench) {
     bench.expect_shape(plant, rest, NEAR_DRIVEN);
 }
 
-// The wind turns round at full strength in each step.
+// The wind reverses at full strength in each step.
 void squall(Bench& bench) {
     const frond_plant plant = bench.add(herb());
     const Places rest = bench.places(plant);

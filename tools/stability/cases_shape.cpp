@@ -1,4 +1,4 @@
-// Cases: a plant in a shape that it cannot have come to by itself, let go.
+// Cases: a plant is let go from a shape that it cannot have reached by itself.
 #include <cmath>
 
 #include "stability/bench.hpp"
@@ -6,7 +6,7 @@
 namespace frond::stability {
 namespace {
 
-// The beam, put where `to` takes its nodes; its foot stays.
+// Lets the beam go from the node positions that `to` gives; its foot stays in place.
 void come_back_from(Bench& bench, const std::function<frond_vec3(const frond_vec3&)>& to) {
     bench.plant_def.root_height = FOOT;
     const frond_plant plant = bench.add(beam());
@@ -42,7 +42,7 @@ void scatter(Bench& bench) {
     });
 }
 
-// The beam on which other programs were tried: level, drooping by its weight, every free node at a random place.
+// The beam that other programs were tested with: level, drooping by its weight, every free node at a random position.
 void scramble(Bench& bench) {
     constexpr int FRAMES = 120;
     const Lattice lattice = make_lattice(0.1, 3, even_heights(1, 26));
@@ -53,7 +53,7 @@ void scramble(Bench& bench) {
     bench.plant_def.rotation = {0, 0, -std::sqrt(0.5), std::sqrt(0.5)};  // +y becomes +x
     const frond_plant plant = bench.add(model);
     Places x = bench.places(plant);
-    // Where it hangs: long steps of a method that damps.
+    // Find the hanging shape by long steps of an integrator that damps.
     Cell calm = bench.cell;
     calm.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     calm.dt = 0.1;
@@ -103,7 +103,7 @@ void kick(Bench& bench) {
     bench.expect_shape(plant, rest, NEAR_LET_GO);
 }
 
-// By a spring that is stiffer than the beam is.
+// The beam is stretched by a spring that is stiffer than itself.
 void stretch(Bench& bench) {
     constexpr double TIMES = 100;
     bench.plant_def.root_height = FOOT;
@@ -118,7 +118,7 @@ void stretch(Bench& bench) {
     bench.expect_shape(plant, rest, NEAR_LET_GO);
 }
 
-// A pinned node of the tip goes once around the stem and through the loop, then all let go.
+// A pinned node of the tip goes once around the stem and through the loop; then it is let go.
 void tie_knot(Bench& bench) {
     const frond_plant plant = bench.add(herb());
     const Places rest = bench.places(plant);
@@ -136,7 +136,7 @@ void tie_knot(Bench& bench) {
     bench.expect_shape(plant, rest, 0.3);
 }
 
-// The ends of two branches, by pins that go ten sizes of the plant apart.
+// The ends of two branches are pulled apart by pins, by ten sizes of the plant.
 void tear_apart(Bench& bench) {
     constexpr double WAY = 8;  // [m]
     bench.box = 3 * WAY;

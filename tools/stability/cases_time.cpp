@@ -1,4 +1,4 @@
-// Cases: long times, odd time steps, settings that change while a plant moves.
+// Cases: long times, irregular time steps, settings that change while a plant moves.
 #include <cmath>
 
 #include "stability/bench.hpp"
@@ -6,7 +6,7 @@
 namespace frond::stability {
 namespace {
 
-// Greenhill's height times the cube root of a share: a column that bears so much of the load under which it topples.
+// Returns a column that carries a share of its buckling load; its height is Greenhill's times the share's cube root.
 frond_model column(double share) {
     constexpr double RADIUS = 0.01;
     const frond_material material = plain_material();
@@ -24,7 +24,7 @@ frond_model column(double share) {
     return model;
 }
 
-// A minute, from a light push on.
+// Returns the tip's position a minute after a light push.
 frond_vec3 tip_of_column(Bench& bench, double share, double& height) {
     const frond_plant plant = bench.add(bench.keep(column(share)));
     frond_vec3 tip = {};
@@ -53,7 +53,7 @@ void above_buckling(Bench& bench) {
     bench.expect(bench.fastest() <= 1, "speed [m/s]", bench.fastest(), 1);
 }
 
-// Bent to and fro by the tip, farther than it yields.
+// The beam is bent to and fro by its tip, beyond its yield strain.
 void cycle_plasticity(Bench& bench) {
     constexpr int CYCLES = 1000;
     frond_material material = plain_material();
@@ -92,7 +92,7 @@ void switch_effects(Bench& bench) {
     bench.expect_shape(plant, rest, 0.25);
 }
 
-// Of a plant that is pulled aside meanwhile; in the end with those of the cell.
+// The mechanics changes in each step while the plant is pulled aside, and is the cell's at the end.
 void switch_mechanics(Bench& bench) {
     const frond_plant plant = bench.add(herb());
     const Places rest = bench.places(plant);
@@ -147,7 +147,7 @@ void swing_with(Bench& bench, const std::function<double()>& step) {
     bench.expect_shape(plant, rest, 0.25);
 }
 
-// Every third one is zero, others from a thousandth of the cell's step to all of it.
+// Every third step is zero; others are from a thousandth of the cell's step to all of it.
 void odd_steps(Bench& bench) {
     int count = 0;
     swing_with(bench, [&] { return count++ % 3 == 0 ? 0.0 : bench.cell.dt * std::pow(10, bench.between(-3, 0)); });

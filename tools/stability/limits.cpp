@@ -1,4 +1,4 @@
-// The cases that a method cannot pass, with the reason in a line.
+// The cases that a method cannot pass, each with a reason in one line.
 #include "stability/stability.hpp"
 
 namespace frond::stability {
@@ -8,7 +8,7 @@ namespace {
 constexpr int ANY = -1;
 
 struct Limit {
-    const char* name;  // of a case
+    const char* name;  // name of a case
     int mechanics, integrator;
     const char* why;
 };

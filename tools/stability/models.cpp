@@ -1,4 +1,4 @@
-// Models of the cases.
+// The models of the cases.
 #include "stability/bench.hpp"
 
 namespace frond::stability {

@@ -1,4 +1,4 @@
-// In: verdicts. Out: the table as text, as JSON, and as one HTML page that needs nothing else.
+// In: verdicts. Out: the table as text, as JSON, and as one self-contained HTML page.
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -10,10 +10,10 @@ namespace frond::stability {
 
 namespace {
 
-// A summary cell: all that a case gave with some mechanics.
+// A summary cell: all results of a case with one mechanics.
 struct Tally {
     int green = 0, red = 0, grey = 0;
-    const Result* worst = nullptr;  // the first red one; unexplained ones, then the default integrator's, come before
+    const Result* worst = nullptr;  // first red one, preferring unexplained ones, then the default integrator
     void add(const Result& result) {
         const Color color = result.verdict.color;
         green += color == Color::GREEN;
@@ -34,7 +34,7 @@ std::map<Key, Tally> tally(const std::vector<Result>& results) {
     return tallies;
 }
 
-// The cases that were run, in the order of the table.
+// Returns the cases that were run, in the order of the table.
 std::vector<const Case*> cases_in(const std::vector<Result>& results) {
     std::vector<const Case*> list;
     for (const Result& result : results)
@@ -57,7 +57,7 @@ std::string escaped(const std::string& text) {
     return out;
 }
 
-// Red cells by mechanics, of the default integrator and of all.
+// Numbers of red cells with one mechanics, for the default integrator and for all.
 struct Counts {
     int cells = 0, red = 0, red_default = 0;
 };

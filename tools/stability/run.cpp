@@ -1,4 +1,4 @@
-// In: cells. Out: their verdicts, each found by a process of its own, so that a crash or a hang is a red cell.
+// In: cells. Out: their verdicts, each determined in a separate process, so that a crash or a hang is a red cell.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ double cpu_seconds() {
     return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-// The head of a child's report; the text follows.
+// Head of a child's report; the text follows.
 struct Head {
     Color color;
     uint32_t trouble;
@@ -34,7 +34,7 @@ struct Head {
     const rlim_t limit = rlim_t(seconds);
     const rlimit cpu = {limit, limit};
     setrlimit(RLIMIT_CPU, &cpu);
-    alarm(unsigned(20 * seconds));  // one that sleeps for ever
+    alarm(unsigned(20 * seconds));  // ends a child that sleeps forever
     frond_set_log(nullptr, nullptr);
     const Verdict verdict = job();
     const Head head = {verdict.color, verdict.trouble, verdict.seconds, verdict.is_missed};
@@ -63,7 +63,7 @@ Verdict read_verdict(int in, int status, int seconds) {
     return verdict;
 }
 
-// Models, and what mechanics fit to them, belong to all children.
+// Makes the models and calibrates them before forking, so that all children share them.
 void warm_up() {
     for (int mechanics = 0; mechanics < FROND_MECHANICS_COUNT; mechanics++) {
         Bench bench({frond_mechanics(mechanics), FROND_INTEGRATOR_BDF2, 1.0 / 60});

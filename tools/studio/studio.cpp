@@ -30,7 +30,7 @@ Studio::~Studio() {
 
 frond_picture_scene frame_stage(const Stage& stage, double azimuth, double elevation, double aspect) {
     frond_picture_scene scene = frond_default_picture_scene();
-    // A margin on all sides, since plants move.
+    // Leave a margin on all sides, since plants move.
     const double margin = 0.08 * (stage.upper.y - stage.lower.y);
     frond_vec3 lower = {stage.lower.x - margin, stage.lower.y, stage.lower.z - margin};
     frond_vec3 upper = {stage.upper.x + margin, stage.upper.y + margin, stage.upper.z + margin};
@@ -39,7 +39,7 @@ frond_picture_scene frame_stage(const Stage& stage, double azimuth, double eleva
         upper = stage.view_upper;
     }
     scene.camera = frond_picture_frame(lower, upper, {0, 1, 0}, azimuth, elevation, aspect);
-    // The ground is at zero for what reaches a little below it with its roots, else where the lowest point is.
+    // The ground is at zero if only roots reach a little below it, else at the lowest point.
     constexpr double DEEPEST_ROOT = 0.15;
     const double depth = -stage.lower.y, height = stage.upper.y - stage.lower.y;
     scene.ground_height = depth > 0 && depth < DEEPEST_ROOT * height ? 0.0 : stage.lower.y;

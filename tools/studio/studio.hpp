@@ -22,7 +22,7 @@ public:
     Studio(const Studio&) = delete;
     Studio& operator=(const Studio&) = delete;
     ~Studio();
-    // Draws the stage; the pixels stand until the next one.
+    // Draws the stage; the pixels are valid until the next call.
     const uint8_t* shoot(const Stage& stage);
     void write(const std::string& png_path);
 
@@ -30,14 +30,14 @@ private:
     View view;
     frond_picture* picture = nullptr;
 };
-// Light, ground and a camera that sees the stage. azimuth, elevation [rad]; aspect: width over height of the picture.
+// Returns light, ground and a camera that sees the stage. azimuth, elevation [rad]; aspect: width over height.
 frond_picture_scene frame_stage(const Stage& stage, double azimuth, double elevation, double aspect);
-// All that is on it, into a frame that was begun; of plants what the bits FROND_PICTURE_* say.
+// Draws everything on the stage into a frame that was begun; what: bits FROND_PICTURE_* for plants.
 void draw_stage(frond_picture* picture, const Stage& stage, uint32_t what);
-// Throws a SceneError with frond_picture_last_error() when a call failed.
+// Throws a SceneError with frond_picture_last_error() if a call failed.
 void must(bool ok);
 
-// "step 120 of 300" on a terminal, once something has taken a second; nothing into files and pipes.
+// Prints "step 120 of 300" on a terminal, once something has taken a second; nothing into files and pipes.
 class Progress {
 public:
     Progress(const char* what, int total);

@@ -1,4 +1,4 @@
-// Beams: of structured tets, or of a stem whose cage and chain Frond makes.
+// Beams: of structured tets, or of a stem with Frond's own cage and chain.
 #include <array>
 #include <cmath>
 
@@ -28,7 +28,7 @@ frond_model_info Model::info() const {
     return info;
 }
 
-// Bricks are cubes where nothing else is said.
+// Makes structured tets; bricks are cubes unless specified.
 static tools::Lattice make_box(const Beam& beam, int across) {
     int along = int(std::lround(Beam::LENGTH / beam.width * across));
     for (const Beam::Cells& cells : beam.cells)
@@ -37,7 +37,7 @@ static tools::Lattice make_box(const Beam& beam, int across) {
 }
 
 ModelPtr make_beam(const Beam& beam, const Setup& setup) {
-    // Solid, of the same stiffness in all directions, undamped; nothing of it is a sheet that the thickness is for.
+    // Solid, isotropic, undamped; no part of it is a sheet, to which the thickness would apply.
     frond_organ_material organ = {"stem", {}};
     organ.material.density = beam.density;
     organ.material.young = beam.young;

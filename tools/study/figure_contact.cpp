@@ -1,5 +1,5 @@
-// The figure "contact": settings of contact come in, how deep two corn plants that were made in each other still are
-// over time and what a step costs go out. Depth is the deepest contact that the plants tell of; it agrees with what FCL
+// The figure "contact". In: settings of contact. Out: the depth over time of two corn plants that were made
+// overlapping, and the cost of a step. Depth is the deepest contact that the plants report; it agrees with what FCL
 // finds between their cages (tests/collide/cage_contact.cpp, tests/world/plants.cpp).
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 struct Case {
     const char* caption;
     std::vector<std::string> assignments;
-    Effort from;            // how much has to be done for it to be run
-    bool is_motion = true;  // it changes how they move; else only what that costs
+    Effort from;            // least effort with which it is run
+    bool is_motion = true;  // it changes their motion; false: only its cost
 };
 
 const std::vector<Case>& cases() {
@@ -51,7 +51,7 @@ const std::vector<Case>& cases() {
 }
 
 FigurePanel come_apart(const Case& one) {
-    constexpr double DURATION = 2, CLEAR = 0.001, LEAST = 1e-5;  // [s], [m]: apart; what is drawn as nothing
+    constexpr double DURATION = 2, CLEAR = 0.001, LEAST = 1e-5;  // [s]; apart, drawn as zero [m]
     const tools::Casting casting = tools::cast("corn_pair");
     std::vector<std::string> assignments = one.assignments;
     assignments.push_back("sleep_distance=0");

@@ -12,7 +12,7 @@
 namespace frond::study {
 namespace {
 
-// The paper's mechanics, if the library has them.
+// Returns the paper's mechanics, if the library has it, else the default.
 frond_mechanics paper_mechanics() {
     for (int m = 0; m < FROND_MECHANICS_COUNT; m++)
         if (std::strcmp(frond_mechanics_name(frond_mechanics(m)), "spring_chain") == 0) return frond_mechanics(m);
@@ -25,7 +25,7 @@ std::string centimetres(double metres) {
     return out.str();
 }
 
-// The chain's nodes from the root to the highest one.
+// Returns the chain's nodes from the root to the highest one.
 std::vector<int> main_axis(const frond_chain_view& chain) {
     int at = 0;
     for (int i = 1; i < chain.node_count; i++)
@@ -36,8 +36,8 @@ std::vector<int> main_axis(const frond_chain_view& chain) {
     return axis;
 }
 
-// How far the axis moved from where it was drawn, over its height there. Each node but a root ends a capsule, and
-// capsules come in the order of the nodes.
+// Returns how far the axis moved from where it was drawn, over its height there. Each node but a root ends a capsule,
+// and capsules are in the order of the nodes.
 Curve droop_curve(frond_plant plant, frond_model model) {
     frond_chain_view chain;
     must(frond_model_get_chain(model, &chain));
@@ -120,8 +120,8 @@ Figure make_fig6(const std::string& folder, Effort) {
 // ---- Fig 7 -------------------------------------------------------------------------------------------------------
 
 FigurePanel drag_panel(const std::string& folder, double r) {
-    constexpr double PULLED_FROM = 0.6, SHOT_AT = 1.9;  // [s]: the hand lets go at 2 s
-    constexpr double HAND = 2000;                       // spring of the hand [N/m]
+    constexpr double PULLED_FROM = 0.6, SHOT_AT = 1.9;  // [s]; the hand lets go at 2 s
+    constexpr double HAND = 2000;                       // stiffness of the hand's spring [N/m]
     const tools::Casting casting = tools::cast("cucumber_drag");
     tools::Settings settings = tools::settings_of(casting, {});
     settings.grab_stiffness = HAND;
@@ -210,7 +210,7 @@ std::string markdown_of(const Figure& figure) {
 }
 
 std::string gnuplot_of(const Figure& figure, const std::string& picture_base) {
-    constexpr size_t MARKED = 100;  // points that are told apart
+    constexpr size_t MARKED = 100;  // largest number of points with marks
     std::ostringstream out, plot;
     out << "set encoding utf8\nset xlabel " << gnuplot_text(figure.x_label) << "\nset ylabel "
         << gnuplot_text(figure.y_label) << "\nset tics nomirror\nset border 3\nset grid lc rgb '#dddddd' lw 0.5\n"

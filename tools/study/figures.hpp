@@ -1,7 +1,7 @@
-// Figures: the paper's own studies, as pictures and as curves, and what is seen over time instead of cost.
+// Figures: the paper's own studies, as pictures and curves, and quantities over time instead of cost.
 //   fig6     the cucumber's natural stand under gravity for four heights h of the capsules
 //   fig7     the cucumber dragged by its user, for three radii r of the capsules at h = 20 cm
-//   contact  how two corn plants that stand in each other come apart, over everything that contact can be set to
+//   contact  how two overlapping corn plants come apart, for every setting of contact
 #pragma once
 
 #include "study/study.hpp"
@@ -18,7 +18,7 @@ struct FigurePanel {
     std::string picture;  // file name in the folder; empty: none
     std::string caption;
     Curve curve;
-    std::vector<double> row;  // of the figure's table
+    std::vector<double> row;  // row of the figure's table
 };
 
 struct Figure {
@@ -27,14 +27,14 @@ struct Figure {
     const char* x_label;
     const char* y_label;
     const char* logarithmic;           // axes: "", "y" or "xy"
-    std::vector<std::string> columns;  // of the table; one more than a row has numbers: the first one is the caption
+    std::vector<std::string> columns;  // table headings; one more than a row's numbers: the first is the caption's
     std::vector<FigurePanel> panels;
 };
 
 struct FigureRow {
     const char* name;
     const char* shows;
-    // Draws its pictures into the folder.
+    // Makes the figure and draws its pictures into the folder.
     Figure (*make)(const std::string& folder, Effort effort);
 };
 const std::vector<FigureRow>& figures();

@@ -34,13 +34,13 @@ void prepare_folder(const std::string& folder) {
     if (error)
         throw SceneError("the folder " + folder + " cannot be made (" + error.message() +
                          "); give another one with --out");
-    // Known before anything is measured, rather than after.
+    // Fail before anything is measured rather than after.
     const std::string probe = folder + "/.frond_study";
     write_file(probe, "");
     std::filesystem::remove(probe, error);
 }
 
-// A path as one word of the shell.
+// Returns a path quoted as one word for the shell.
 static std::string shell_word(const std::string& path) {
     std::string word = "'";
     for (char c : path) word += c == '\'' ? std::string("'\\''") : std::string(1, c);

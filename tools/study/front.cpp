@@ -12,7 +12,7 @@ void mark_front(std::vector<Point>& points) {
         const Outcome& o = point.outcome;
         if (point.failure.empty() && std::isfinite(o.error) && std::isfinite(o.cpu_per_second)) order.push_back(&point);
     }
-    // From the cheapest on, each that is better than all before it.
+    // Take, from the cheapest on, each point that is better than all before it.
     std::stable_sort(order.begin(), order.end(), [](const Point* a, const Point* b) {
         const Outcome &x = a->outcome, &y = b->outcome;
         return x.cpu_per_second != y.cpu_per_second ? x.cpu_per_second < y.cpu_per_second : x.error < y.error;

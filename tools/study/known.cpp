@@ -8,9 +8,9 @@
 namespace frond::study {
 namespace {
 
-constexpr int STEPS = 2000;  // of the Runge-Kutta method over the beam's length
+constexpr int STEPS = 2000;  // steps of the Runge-Kutta method over the beam's length
 
-// The zero of f between low and high, where its sign changes.
+// Returns the zero of f between low and high, where its sign changes.
 double bisect(double low, double high, const std::function<double(double)>& f) {
     const bool rises = f(low) < 0;
     for (int i = 0; i < 200 && high - low > 1e-15 * (std::abs(low) + std::abs(high)); i++) {
@@ -20,7 +20,7 @@ double bisect(double low, double high, const std::function<double(double)>& f) {
     return 0.5 * (low + high);
 }
 
-// Angle of the tangent, its rate, and the place that it has led to.
+// Angle of the tangent, its derivative, and the position reached.
 struct Tangent {
     double angle, rate, along, down;
 };
@@ -31,7 +31,7 @@ Tangent operator*(double s, const Tangent& a) {
     return {s * a.angle, s * a.rate, s * a.along, s * a.down};
 }
 
-// From the clamp to the end, angle'' = bend(s, angle).
+// Integrates angle'' = bend(s, angle) from the clamp to the end.
 Tangent march(double rate, const std::function<double(double, double)>& bend) {
     const auto slope = [&](double s, const Tangent& t) {
         return Tangent{t.rate, bend(s, t.angle), std::cos(t.angle), std::sin(t.angle)};
@@ -51,8 +51,8 @@ Tangent march(double rate, const std::function<double(double, double)>& bend) {
 
 Droop droop_of(double a, double k) {
     const auto bend = [=](double s, double angle) { return -(a + k * (1 - s)) * std::cos(angle); };
-    // The moment vanishes at the end. Of the rates at the clamp that do this, all below that of the straight beam, the
-    // largest belongs to a beam that hangs; the others stand up in coils.
+    // The moment vanishes at the end. Of the curvatures at the clamp that satisfy this, all below that of the straight
+    // beam, the largest belongs to a hanging beam; the others stand up in coils.
     const auto end_rate = [&](double rate) { return march(rate, bend).rate; };
     const double most = std::min(a + k / 2, std::sqrt(2 * (a + k))) + 1e-9;
     constexpr int SLICES = 64;
@@ -117,14 +117,15 @@ double Sway::at(double time) const {
 }
 
 double greenhill_number(double end_weight) {
-    // The first weight for which a column that was tilted a little has no moment at its end.
+    // The smallest weight for which a slightly tilted column has no moment at its end.
     return bisect(0.1, 8, [=](double w) {
         return march(1, [=](double s, double angle) { return -w * (1 - s + end_weight) * angle; }).rate;
     });
 }
 
 double reconfiguration_of(double C) {
-    // From the free end down: angle from upright, its rate, and the force of all above, along the wind and upwards.
+    // From the free end down: angle from upright, its derivative, and the force of all above, along the wind and
+    // upwards.
     using State = std::array<double, 4>;
     const auto slope = [=](const State& y) -> State {
         const double across = std::cos(y[0]), along = std::sin(y[0]), load = C * across * std::abs(across);
@@ -145,7 +146,7 @@ double reconfiguration_of(double C) {
         }
         return y;
     };
-    // Strong flow bends in other, curled ways too; the one that is seen ends nearest to the flow's own direction.
+    // Strong flow has other, curled solutions too; the observed one ends nearest to the direction of the flow.
     const auto at_foot = [&](double end) { return to_foot(end)[0]; };
     double off = 1e-9, before = 0;
     while (off < M_PI / 2 && at_foot(M_PI / 2 - off) > 0) {

@@ -5,7 +5,7 @@
 namespace frond::study {
 namespace {
 
-// Positions at common times, three numbers each, the start first.
+// Positions at common times, three numbers each, beginning with the start.
 using Path = std::vector<double>;
 constexpr double SAMPLE = 1.0 / 15;  // [s]
 
@@ -39,7 +39,7 @@ double path_error(const Path& path, const Path& reference) {
     return std::sqrt(square / (double(reference.size()) / 3) / peak);
 }
 
-// Two solves a step that damp next to nothing, iterated to convergence.
+// Returns a setup with two solves per step, nearly undamped, iterated to convergence.
 Setup reference_setup(Setup setup) {
     setup.plant.integrator = FROND_INTEGRATOR_SDIRK2;
     setup.plant.tuning.linear_solver = FROND_LINEAR_SOLVER_BLOCK;

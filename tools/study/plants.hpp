@@ -1,4 +1,4 @@
-// The plants of the study, from the files that come with Frond.
+// The plants of the study, from files that come with Frond.
 #pragma once
 
 #include "study/trial.hpp"
@@ -8,7 +8,7 @@ namespace frond::study {
 struct PlantCase {
     const char* name;
     const char* file;
-    std::vector<std::string> materials;  // assignments of frond run --set
+    std::vector<std::string> materials;  // assignments as for frond run --set
 };
 extern const PlantCase CORN, CUCUMBER;
 

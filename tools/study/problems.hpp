@@ -5,13 +5,13 @@
 
 namespace frond::study {
 
-Setup static_baseline();  // a stem of 10 pieces, material damping off
+Setup static_baseline();  // a stem of 10 segments, material damping off
 Setup motion_baseline();  // the same at 1/240 s
-Setup free_baseline();    // held nowhere
-Setup peers_baseline();   // the beam of 1170 tets that other programs were tried on
+Setup free_baseline();    // not held anywhere
+Setup peers_baseline();   // the beam of 1170 tets that other programs were tested with
 Setup twig_baseline();
-Setup wind_baseline();      // with the damping that lets it come to rest
-Setup standing_baseline();  // a plant from a file, as it is by default
+Setup wind_baseline();      // with damping, so that it comes to rest
+Setup standing_baseline();  // a plant from a file, with default settings
 Setup agree_baseline();     // the same at 1/120 s
 
 Outcome run_cantilever_tip(const Setup& setup, Session& session);
@@ -29,7 +29,7 @@ Outcome run_frequencies(const Setup& setup, Session& session);
 Outcome run_damping(const Setup& setup, Session& session);
 Outcome run_amplitude(const Setup& setup, Session& session);
 Outcome run_far_amplitude(const Setup& setup, Session& session);
-// Two periods after a light push on the end of a beam, against the sum of its modes.
+// Follows two periods after a light push on the end of a beam, compared with the sum of its modes.
 Outcome sway_of(const Beam& beam, const Setup& setup, Session& session);
 Outcome run_sway(const Setup& setup, Session& session);
 Outcome run_swing(const Setup& setup, Session& session);

@@ -1,5 +1,5 @@
-// Do the mechanics agree on whole plants? Where corn and cucumber stand under their weight, and how fast they sway
-// first, each against rods of the same model.
+// Do the mechanics agree on whole plants? Compares the shape of corn and cucumber under their weight and their first
+// natural frequency with those of rods of the same model.
 #include <algorithm>
 #include <cmath>
 
@@ -9,16 +9,16 @@
 namespace frond::study {
 namespace {
 
-constexpr double ASIDE = 0.01;  // share of the weight that draws the plant aside before it is let go [-]
+constexpr double ASIDE = 0.01;  // share of the weight that pulls the plant aside before it is let go [-]
 
-// With cells and capsules as they are by default.
+// Returns the model with default sizes of cells and capsules.
 ModelPtr default_model(const PlantCase& plant, Session& session) {
     ModelPtr& model = session.models[plant.name];
     if (!model) model = load_plant({plant.name, plant.file, {}}, frond_default_model_def());
     return model;
 }
 
-// The frequency of the highest peak of a signal's spectrum, seen through Hann's window [Hz].
+// Returns the frequency of the highest peak of a signal's spectrum, with Hann's window [Hz].
 double main_frequency(const std::vector<double>& signal, double dt) {
     constexpr double LOWEST = 0.1, HIGHEST = 10, STEP = 0.002;  // [Hz]
     const double count = double(signal.size());
@@ -47,13 +47,13 @@ frond_vec3 tip_of(Trial& trial) {
 }
 
 struct Standing {
-    frond_vec3 tip;    // under its weight [m]
-    double frequency;  // of the first sway [Hz]
-    double cpu;        // for a simulated second
+    frond_vec3 tip;    // position under its weight [m]
+    double frequency;  // first natural frequency [Hz]
+    double cpu;        // CPU time per simulated second [s]
     uint32_t trouble;
 };
 
-// Let go from where a hundredth of its weight, taken sideways, bends it, a plant sways mostly in its first mode.
+// Lets a plant go from its shape under a hundredth of its weight taken sideways; it vibrates mostly in its first mode.
 Standing watch(const ModelPtr& model, const Setup& setup, Effort effort) {
     const double duration = effort == Effort::FULL ? 20 : effort == Effort::QUICK ? 8 : 4;  // [s]
     const std::unique_ptr<Trial> rests = settle(model, setup, 1, [](Trial& trial, double) {
@@ -67,7 +67,7 @@ Standing watch(const ModelPtr& model, const Setup& setup, Effort effort) {
     Trial trial(model, free);
     trial.start_from(*aside);
     trial.set_gravity({0, -G, 0});
-    std::vector<double> sway;  // the moment of the plant's mass [kg m]
+    std::vector<double> sway;  // first moment of the plant's mass [kg m]
     for (double t = 0; t < duration; t += setup.dt) {
         trial.step(setup.dt);
         frond_vec3 momentum;

@@ -1,5 +1,5 @@
-// Beams that move: sway in known modes, fall, swing and are let go from a large bend; a twig does too. Where no formula
-// is known, the path of the end is compared with one that was refined in time until it no longer changed.
+// Beams that move: they vibrate in known modes, fall, swing and are let go from a large bend; a twig does too. If no
+// formula is known, the path of the end is compared with one that is refined in time until it no longer changes.
 #include <array>
 #include <cmath>
 
@@ -21,7 +21,7 @@ double frequency_of(const Beam& beam, const Setup& setup, const Model& model, in
                      Beam::LENGTH, cap_mass(beam, setup.body, model));
 }
 
-// Shares of the first three modes in the beam's present shape, by least squares over its sections.
+// Shares of the first three modes in the beam's current shape, by least squares over its sections.
 class Modes {
 public:
     explicit Modes(Trial& trial) : heights(trial.section_heights(Beam::LENGTH)) {
@@ -38,7 +38,7 @@ public:
         }
         for (size_t i = 0; i < 3; i++)
             for (size_t j = 0; j < 3; j++) rows[i][j] = normal[i][j];
-        // Gauss and Jordan; the shapes are nearly orthogonal, so no pivots are needed.
+        // Gauss-Jordan elimination; the shapes are nearly orthogonal, so no pivoting is needed.
         for (size_t i = 0; i < 3; i++)
             for (size_t r = 0; r < 3; r++) {
                 if (r == i) continue;
@@ -54,11 +54,11 @@ private:
     std::array<std::array<double, 3>, 3> normal = {};
 };
 
-// The motion of a mode after its release: its share in x and all energy at every step, the first at time zero.
+// Motion in a mode after release: its share in x and the total energy at every step, beginning at time zero.
 struct Record {
     std::vector<double> share, energy;
     double dt;
-    // Times at which it passes through zero.
+    // Returns the times of zero crossings.
     std::vector<double> crossings() const {
         std::vector<double> times;
         for (size_t i = 1; i < share.size(); i++)
@@ -70,7 +70,7 @@ struct Record {
         if (times.size() < 3) throw SceneError("it does not sway");
         return double(times.size() - 1) / (2 * (times.back() - times.front()));
     }
-    // Rate at which the amplitude shrinks [1/s]: half of that of the energy, by least squares over its logarithm.
+    // Returns the decay rate of the amplitude [1/s]: half that of the energy, by least squares over its logarithm.
     double decay() const {
         double n = 0, t = 0, y = 0, tt = 0, ty = 0;
         for (size_t i = 0; i < energy.size(); i++) {
@@ -83,11 +83,11 @@ struct Record {
         }
         return -0.5 * (n * ty - t * y) / (n * tt - t * t);
     }
-    // An unsymmetric cage lets a sway wander into the plane across, so amplitude is told by the energy of both.
+    // An unsymmetric cage spreads vibration to the perpendicular plane, so amplitude follows from the energy of both.
     double kept() const { return std::sqrt(energy.back() / energy.front()); }
 };
 
-// Bends the beam into a mode by the load that does so, lets it go and follows it.
+// Bends the beam into a mode's shape by the corresponding load, lets it go and follows it.
 Record sway(Trial& trial, const Beam& beam, int mode, double duration) {
     const double b = wave_number(mode), EI = beam.young * inertia_of(beam, trial.setup.body);
     const double height = 0.03 / (b * b) * Beam::LENGTH;
@@ -175,9 +175,9 @@ Outcome run_damping(const Setup& given, Session& session) {
     return outcome_of(trial, error, values, time_steps(trial, session.effort, NO_LOAD));
 }
 
-static constexpr double KEPT_FOR = 5;  // [s]
+static constexpr double KEPT_FOR = 5;  // time after which the kept amplitude is measured [s]
 
-// As stiff as it takes to sway once a second.
+// Returns a beam whose stiffness gives a natural frequency of 1 Hz.
 static Beam one_hertz_beam(const Setup& setup) {
     Beam beam = LIMBER;
     beam.young /= std::pow(frequency_of(beam, setup, *make_beam(beam, setup), 0), 2);
@@ -195,7 +195,7 @@ Outcome run_amplitude(const Setup& setup, Session& session) {
     return amplitude_outcome(trial, sway(trial, beam, 0, KEPT_FOR).kept(), session);
 }
 
-// The shape that an end load of P L^2 / (E I) = 5 holds the beam in.
+// Returns the beam in the shape in which an end load of P L^2 / (E I) = 5 holds it.
 static std::unique_ptr<Trial> bend_far(const ModelPtr& model, const Beam& beam, const Setup& setup) {
     Setup exact = setup;
     exact.plant.tuning.linear_solver = FROND_LINEAR_SOLVER_BLOCK;
@@ -273,7 +273,7 @@ Outcome run_twig(const Setup& setup, Session& session) {
         const tools::Casting casting = tools::cast("twig");
         tools::Play play(casting, tools::settings_of(casting, {}));
         model = std::make_shared<const Model>(play.stage.models.back());
-        play.stage.models.clear();  // the model is ours from here on
+        play.stage.models.clear();  // ownership of the model passes from the stage to us
     }
     const Start tilt = [](Trial& trial) { trial.set_gravity({0.98, -9.81, 0}); };
     const Where tip = [](Trial& trial) {

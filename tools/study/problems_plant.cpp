@@ -1,5 +1,5 @@
-// Whole plants, for which no answer is known: how they stand, drift, resist a pull and sway, each against a reference
-// that is refined until it no longer changes, in space for what rests and in time for what moves.
+// Whole plants, for which no solution is known: how they stand, drift, resist a pull and vibrate, each compared with a
+// reference that is refined until it no longer changes, in space for statics and in time for motion.
 #include <cmath>
 #include <cstring>
 
@@ -10,7 +10,7 @@
 namespace frond::study {
 
 const PlantCase CORN = {"corn", "corn/corn.obj", {}};
-// Its thin stem carries it only with the string that growers give it, which is put into its modulus.
+// Its thin stem carries it only with the growers' string, whose stiffness is included in its modulus.
 const PlantCase CUCUMBER = {"cucumber", "cucumber/cucumber.obj", {"material.stem.young=1e10"}};
 
 ModelPtr load_plant(const PlantCase& plant, frond_model_def def) {
@@ -19,7 +19,7 @@ ModelPtr load_plant(const PlantCase& plant, frond_model_def def) {
     for (const std::string& assignment : plant.materials) tools::apply_setting(settings, assignment);
     auto stage = std::make_shared<tools::Stage>(settings);
     const frond_model handle = stage->load(tools::model_path(plant.file));
-    stage->models.clear();  // the model is ours from here on
+    stage->models.clear();  // ownership of the model passes from the stage to us
     return std::make_shared<const Model>(handle);
 }
 
@@ -27,7 +27,7 @@ namespace {
 
 const LoadFunction WEIGHT = [](Trial& trial, double share) { trial.set_gravity({0, -G * share, 0}); };
 
-// Plants of linear tets, which grow as they turn, may never rest.
+// Plants of linear tets, which grow as they rotate, may never come to rest.
 int steps_to_rest(const Session& session) {
     return session.effort == Effort::FULL ? 300 : 40;
 }
@@ -39,7 +39,7 @@ ModelPtr plant_model(const PlantCase& plant, const Setup& setup, frond_rest rest
                             (rest == FROND_REST_WITHOUT_GRAVITY ? " droops" : " stands");
     ModelPtr& model = session.models[key];
     if (!model) {
-        constexpr double HEIGHT = 2.1;  // of both plants, near enough [m]
+        constexpr double HEIGHT = 2.1;  // approximate height of both plants [m]
         frond_model_def def = frond_default_model_def();
         def.rest = rest;
         (chain ? def.capsule_height : def.cage_size) = HEIGHT / setup.resolution;
@@ -52,7 +52,7 @@ double height_of(const Model& model) {
     return model.info().upper.y - model.info().lower.y;
 }
 
-using Shape = std::vector<double>;  // the render mesh
+using Shape = std::vector<double>;  // vertices of the render mesh
 Shape shape_of(Trial& trial) {
     frond_surface_view view;
     must(frond_plant_get_surface(trial.plant, &view));
@@ -64,7 +64,7 @@ Shape drawn_shape(const ModelPtr& model, const Setup& setup) {
     return shape_of(trial);
 }
 
-// Root mean square distance of all vertices [m].
+// Returns the RMS distance of all vertices [m].
 double shape_distance(const Shape& a, const Shape& b) {
     double square = 0;
     for (size_t i = 0; i < a.size(); i++) square += (a[i] - b[i]) * (a[i] - b[i]);
@@ -77,10 +77,10 @@ double farthest_vertex(const Shape& a, const Shape& b) {
     return most;
 }
 
-// The shape in which a plant comes to rest, as numbers to compare.
+// Returns the shape in which a plant comes to rest, as numbers to compare.
 using AtRest = std::function<std::vector<double>(const Setup& setup)>;
 
-// Rods have no cage to lock, so they are the reference where there are any; else the default mechanics.
+// Rods have no cage that could lock, so they are the reference if the library has them, else the default mechanics.
 Setup finest_setup(const Setup& setup) {
     Setup fine = setup;
     fine.plant = elastic_plant_def();
@@ -90,7 +90,7 @@ Setup finest_setup(const Setup& setup) {
     return fine;
 }
 
-// Refines in space until two in turn agree or the levels are used up, and notes how they differed.
+// Refines in space until all levels are used, and notes the differences between successive ones.
 const std::vector<double>& converged_rest(
     const Setup& setup, const AtRest& at_rest,
     const std::function<double(const std::vector<double>&, const std::vector<double>&)>& distance, Session& session) {
@@ -163,16 +163,16 @@ Outcome drift(const PlantCase& plant, const Setup& setup, Session& session) {
 
 // ---- pulled ------------------------------------------------------------------------------------------------------
 
-constexpr double PULL = 0.2, PULLED_AT = 0.75;  // how far, where, over height [-]
-constexpr double HAND = 500;                    // spring of the hand [N/m]
+constexpr double PULL = 0.2, PULLED_AT = 0.75;  // displacement and height of the pull, over the plant's height [-]
+constexpr double HAND = 500;                    // stiffness of the hand's spring [N/m]
 
-// Weight, and a hand that draws the axis aside.
+// Applies weight, and a hand that pulls the axis aside.
 class Pulled {
 public:
     Pulled(frond_vec3 point, double way) : point(point), way(way) {}
     void operator()(Trial& trial, double share) {
         WEIGHT(trial, 1);
-        if (!frond_grab_is_valid(grab)) {  // at first, or of an attempt that failed
+        if (!frond_grab_is_valid(grab)) {  // at first, or left from a failed attempt
             must(frond_grab_create(trial.plant, point, HAND, &grab));
             must(frond_grab_get(grab, nullptr, &from, nullptr));
         }
@@ -190,7 +190,7 @@ private:
     frond_grab grab = {};
 };
 
-// The same place for all setups.
+// Returns a point that is the same for all setups.
 frond_vec3 place_to_pull(const PlantCase& plant, Session& session) {
     return tools::point_on_axis(plant_model(plant, standing_baseline(), FROND_REST_STANDS_AS_MODELLED, session)->handle,
                                 PULLED_AT);
@@ -198,7 +198,7 @@ frond_vec3 place_to_pull(const PlantCase& plant, Session& session) {
 
 Outcome drag(const PlantCase& plant, const Setup& setup, Session& session) {
     const frond_vec3 place = place_to_pull(plant, session);
-    // The last force of the hand while the plant settles.
+    // `force` receives the last force of the hand while the plant settles.
     const auto settled = [&](const Setup& given, double& force) {
         const ModelPtr model = plant_model(plant, given, FROND_REST_STANDS_AS_MODELLED, session);
         Pulled pulled(place, PULL * height_of(*model));
@@ -243,7 +243,7 @@ Outcome release(const PlantCase& plant, const Setup& setup, Session& session) {
         trial.set_state({start, std::vector<double>(start.size(), 0.0)});
         WEIGHT(trial, 1);
     };
-    // The vertex that is highest as drawn.
+    // Find the highest vertex of the drawn shape.
     const Shape drawn = drawn_shape(model, setup);
     size_t highest = 0;
     for (size_t i = 0; i < drawn.size(); i += 3)

@@ -1,4 +1,4 @@
-// Beams at rest: each is bent by known loads until it rests, and compared with the known answer; its cost is that of
+// Beams at rest: each is bent by known loads until it rests, and compared with the known solution; its cost is that of
 // the setup's own steps from there.
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace frond::study {
 namespace {
 
 constexpr Beam SLENDER = {0.025, 1e8, 1000, 0.3, {}};
-constexpr double SMALL = 0.01;  // deflection over length, or angle [rad], of what is called small
+constexpr double SMALL = 0.01;  // deflection over length, or angle [rad], that counts as small
 
 double stiffness_of(const Beam& beam, const Setup& setup) {
     return beam.young * inertia_of(beam, setup.body);
@@ -18,7 +18,7 @@ double weight_of(const Beam& beam, const Setup& setup, double g) {
     return beam.density * area_of(beam, setup.body) * g;
 }
 
-// A beam that rests under its loads, and what the setup's own steps cost from there.
+// A beam that rests under its loads, and the cost of the setup's own steps from there.
 struct Bent {
     std::unique_ptr<Trial> rests;
     double cpu_per_second;
@@ -27,12 +27,12 @@ struct Bent {
     Trial& trial() const { return *rests; }
 };
 
-// Distance of the end from where it should be, over length.
+// Returns the distance of the end from its known position, over length.
 double place_error(const frond_vec3& end, const Droop& known) {
     return std::hypot(end.x - known.down, end.y - known.along) / Beam::LENGTH;
 }
 
-// The worst of several loads; the cost of the last.
+// Returns the largest error of several loads, and the cost of the last.
 Outcome worst_of(const ModelPtr& model, const Setup& setup, const Session& session, const std::vector<double>& loads,
                  int ramp, const char* name, const std::function<LoadFunction(double)>& load_of,
                  const std::function<Droop(double)>& known_of) {
@@ -135,7 +135,7 @@ Outcome run_torsion(const Setup& setup, Session& session) {
                       bent.cpu_per_second);
 }
 
-// Cells of ever more slender beams, ten along each: tets lock the more the longer they are, unless they are fitted.
+// Bends ever more slender beams of ten cells: the longer the cells, the more tets lock, unless they are calibrated.
 Outcome run_aspect(const Setup& setup, Session& session) {
     constexpr int CELLS = 10;
     const bool mesh = setup.body == Body::MESH;
@@ -157,8 +157,8 @@ Outcome run_aspect(const Setup& setup, Session& session) {
     return outcome;
 }
 
-// Under a light push aside an upright column leans by d; weight takes 1/d down to zero where it buckles. The weight at
-// which it vanishes is found by the secant method.
+// A light push makes an upright column lean by d; 1/d decreases with its weight and vanishes where it buckles. That
+// weight is found by the secant method.
 Outcome run_greenhill(const Setup& setup, Session& session) {
     const ModelPtr model = make_beam(SLENDER, setup);
     const double EI = stiffness_of(SLENDER, setup), per_g = weight_of(SLENDER, setup, 1) / EI;
@@ -177,7 +177,7 @@ Outcome run_greenhill(const Setup& setup, Session& session) {
     for (int i = 0; i < rounds; i++) {
         if (!(f0 - f1 > 1e-3 * f0)) throw SceneError("it does not buckle: weight does not soften it");
         critical = w1 + (w1 - w0) * f1 / (f0 - f1);
-        // From below, ever nearer, so that the lean stays small.
+        // Approach from below, so that the lean stays small.
         const double next = critical - 0.3 * (critical - w1);
         w0 = w1;
         f0 = f1;

@@ -1,4 +1,4 @@
-// A stem in a steady wind: it is blown until it rests, and its drag is compared with that of one that does not bend.
+// A stem in a steady wind: it bends until it rests, and its drag is compared with that of a rigid one.
 #include <cmath>
 
 #include "study/known.hpp"
@@ -19,7 +19,7 @@ void blow(Trial& trial, double speed) {
     must(frond_world_set_wind(trial.world, &wind));
 }
 
-// A wind that grows for a second and then stays.
+// Applies a wind that grows for a second and then stays constant.
 double drag_at_rest(Trial& trial, double speed) {
     constexpr double GROWS = 1, LASTS = 4;  // [s]
     const int steps = int(std::lround(LASTS / trial.setup.dt));
@@ -44,7 +44,7 @@ Setup wind_baseline() {
 Outcome run_reconfiguration(const Setup& setup, Session& session) {
     if (setup.body == Body::MESH) throw SceneError("the wind blows on stems");
     const ModelPtr model = make_beam(STEM, setup);
-    const double stiff_drag = 0.5 * AIR_DENSITY * Beam::DRAG * STEM.width * Beam::LENGTH;  // at 1 m/s [N]
+    const double stiff_drag = 0.5 * AIR_DENSITY * Beam::DRAG * STEM.width * Beam::LENGTH;  // [N] at 1 m/s
     const double C_of_square = stiff_drag * Beam::LENGTH * Beam::LENGTH / (STEM.young * inertia_of(STEM, setup.body));
     std::vector<double> numbers = {1, 10, 100};
     if (session.effort == Effort::FULL) numbers = {1, 3.162, 10, 31.62, 100, 316.2, 1000};

@@ -14,8 +14,8 @@ static std::string enum_name(const char* prefix, const std::string& name) {
     return text;
 }
 
-// Linear tets are right for small bends alone, and a chain of springs for round organs alone: they are in the diagram,
-// but nobody should be sent to them for the error that they have in it.
+// Linear tets are right for small bends only, and a chain of springs for round organs only: they appear in the diagram,
+// but their error there is no reason to recommend them.
 static bool is_right_everywhere(frond_mechanics mechanics) {
     return mechanics != FROND_MECHANICS_TET_LINEAR && mechanics != FROND_MECHANICS_SPRING_CHAIN;
 }
@@ -36,7 +36,7 @@ std::string advice_of(const Result& result, const Provenance& provenance) {
         << "; do not edit.\n// mechanics, integrator, pieces, steps a period, error [-], CPU a "
         << "step [s], capsules or tets\n";
     out.precision(4);
-    constexpr double WORTHWHILE = 0.95;  // a row must be better than the one before it by so much
+    constexpr double WORTHWHILE = 0.95;  // largest error of a row relative to the one before it [-]
     double before = INFINITY;
     for (const Point* point : front) {
         if (point->outcome.error > WORTHWHILE * before) continue;

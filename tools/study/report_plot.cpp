@@ -1,5 +1,5 @@
-// Work-precision diagrams, drawn by gnuplot: error over CPU time, log-log, a line a series, the Pareto front below
-// them.
+// Work-precision diagrams, drawn by gnuplot: error over CPU time, log-log, one line per series, and the Pareto front
+// below them.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -29,9 +29,9 @@ std::string drawn_twice(const std::string& plot, const std::string& picture_base
 
 namespace {
 
-// Errors below this are drawn there: nobody can tell them from zero in single precision.
+// Errors below this are drawn at this value: single precision cannot tell them from zero.
 constexpr double LEAST_ERROR = 1e-7;
-constexpr double MARGIN = 1.5;  // around all points [-]
+constexpr double MARGIN = 1.5;  // factor around all points [-]
 
 bool is_drawn(const Point& point) {
     return point.failure.empty() && std::isfinite(point.outcome.error) && point.outcome.cpu_per_second > 0;
@@ -43,7 +43,7 @@ double shown_error(const Point& point) {
     return std::max(point.outcome.error, LEAST_ERROR);
 }
 
-// Series in their order, without those that have nothing to draw.
+// Returns the series in their order, without those that have nothing to draw.
 std::vector<std::vector<const Point*>> series_of(const Result& result) {
     std::vector<std::vector<const Point*>> list;
     for (const Point& point : result.points) {
@@ -54,9 +54,9 @@ std::vector<std::vector<const Point*>> series_of(const Result& result) {
     return list;
 }
 
-// Powers of ten, and where there are few of them 2 and 5 as well, all with their numbers.
+// Returns ticks at powers of ten, and if these are few at 2 and 5 as well, all with their numbers.
 std::string ticks(const char* axis, double low, double high) {
-    constexpr double FEW = 1.7;  // decades
+    constexpr double FEW = 1.7;  // [decades]
     std::string out = std::string("set format ") + axis;
     if (std::log10(high / low) > FEW) return out + " '10^{%T}'\n";
     out += std::string(" '%g'\nset ") + axis + "tics (";
@@ -71,7 +71,7 @@ std::string ticks(const char* axis, double low, double high) {
     return out + ")\n";
 }
 
-// Okabe and Ito's colours, which the colour-blind can tell apart; the next round of them gets other marks and dashes.
+// Okabe and Ito's colours, which colour-blind readers can distinguish; when they repeat, marks and dashes differ.
 const char* const COLOURS[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
 const int MARKS[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10};
 
@@ -88,7 +88,7 @@ std::string gnuplot_of(const Result& result, const std::string& picture_base) {
         << "set mxtics 10\nset mytics 10\n"
         << "set key outside right top vertical Left reverse noenhanced spacing 1.15 samplen 2.5\n"
         << "set pointsize 0.8\n";
-    // The points, a block a series, then the front.
+    // The points, one block per series, then the front.
     std::vector<const Point*> front;
     for (size_t i = 0; i < series.size(); i++) {
         out << "$s" << i << " << EOD\n";

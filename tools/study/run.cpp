@@ -1,4 +1,4 @@
-// Runs problems over their sweeps and their changes, each problem on a thread; equal setups are run once.
+// Runs problems over their sweeps and their changes, each problem in a thread; equal setups are run once.
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -11,7 +11,7 @@
 namespace frond::study {
 namespace {
 
-// Runs setups and remembers what they gave.
+// Runs setups and caches their results.
 class Runner {
 public:
     Runner(const Problem& problem, Session& session) : problem(problem), session(session) {}
@@ -26,7 +26,7 @@ public:
 
 private:
     Point measure(const Setup& setup) {
-        constexpr double LOST = 2;  // times what is measured: such an error says nothing more
+        constexpr double LOST = 2;  // in units of the measured quantity: a larger error is meaningless
         Point point = {"", setup, {}, "", false, false};
         try {
             point.outcome = problem.run(setup, session);
@@ -45,7 +45,7 @@ private:
     std::map<std::string, Point> done;
 };
 
-// Takes this thread's warnings of the library for the report while it lives.
+// Collects this thread's warnings of the library for the report during its lifetime.
 struct Warnings {
     int count = 0;
     std::string first;
@@ -62,7 +62,7 @@ struct Warnings {
 };
 thread_local Warnings* Warnings::current = nullptr;
 
-// The runs of a problem that are to be done.
+// The planned runs of a problem.
 struct Plan {
     const Problem* problem;
     std::vector<Sweep> sweeps;
@@ -112,8 +112,7 @@ std::vector<Result> run_problems(const std::vector<const Problem*>& problems, Ef
     std::mutex watching;
     int count = 0;
     std::atomic<int> left = int(plans.size());
-    std::exception_ptr
-        failure;  // a file that cannot be written; what a problem itself fails at is a point of its diagram
+    std::exception_ptr failure;  // a file that cannot be written; a problem's own failure is a point of its diagram
     const auto run = [&](size_t k) {
         results[k] = run_plan(plans[k], effort, [&] {
             const std::lock_guard<std::mutex> lock(watching);
@@ -123,7 +122,7 @@ std::vector<Result> run_problems(const std::vector<const Problem*>& problems, Ef
         if (watcher) watcher->ended(results[k]);
     };
     const auto work = [&] {
-        // The last of the table take longest, so they are begun first.
+        // The last problems of the table take longest, so they begin first.
         for (int i = --left; i >= 0; i = --left) try {
                 run(size_t(i));
             } catch (...) {

@@ -1,4 +1,4 @@
-// Setups: their names, and in what they differ.
+// Setups: their names and differences.
 #include <cmath>
 #include <cstring>
 #include <sstream>

@@ -1,4 +1,4 @@
-// Sweeps: which setups a problem is run over. Loops over the rows of the public tables, so that none is forgotten.
+// Sweeps: the setups over which a problem is run. Loops over the rows of the public tables, so that none is forgotten.
 #include <algorithm>
 
 #include "study/study.hpp"
@@ -24,20 +24,20 @@ std::vector<double> time_steps(Effort effort) {
                       {1.0 / 15, 1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480});
 }
 
-// A direct solver has none.
+// Returns the tolerances to try; a direct solver has none.
 std::vector<double> tolerances(int linear_solver, Effort effort) {
     if (linear_solver == FROND_LINEAR_SOLVER_DIRECT) return {1e-4};
     return by<double>(effort, {1e-4}, {1e-4}, {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8});
 }
 
-// A mesh of one's own cannot be of capsules.
+// Returns the bodies that suit a mechanics; structured tets have no capsules.
 std::vector<Body> bodies(frond_mechanics mechanics, Body base) {
     if (base == Body::PLANT) return {Body::PLANT};
     if (moves_chain(mechanics)) return {Body::STEM};
     return {Body::MESH, Body::STEM};
 }
 
-// Structured tets are clamped at their foot's layer, organs where Frond holds them.
+// Sets the body: structured tets are clamped at the layer of their foot, organs where Frond holds them.
 Setup with_body(Setup setup, Body body) {
     constexpr double FOOT = 1e-4;  // [m]
     if (setup.plant.root_height >= 0) setup.plant.root_height = body == Body::MESH ? FOOT : 0;
@@ -55,7 +55,7 @@ void sweep_resolution(const Problem& problem, Effort effort, std::vector<Sweep>&
                 Setup setup = with_body(base, body);
                 setup.plant.mechanics = mechanics;
                 setup.plant.element_order = order;
-                // Cages are fitted to order 2 as well, but in minutes; rods have no order.
+                // Cages are calibrated for order 2 as well, but that takes minutes; rods have no order.
                 if (order == 2 && body != Body::MESH) continue;
                 if (order == 2 && effort == Effort::QUICK && mechanics != base.plant.mechanics) continue;
                 Sweep sweep;
@@ -71,7 +71,7 @@ void sweep_resolution(const Problem& problem, Effort effort, std::vector<Sweep>&
     }
 }
 
-// As they are, each a series of its own.
+// Adds the baseline with each mechanics, each as a series of its own.
 void sweep_mechanics(const Problem& problem, std::vector<Sweep>& sweeps) {
     for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
         Setup setup = problem.baseline();
@@ -80,7 +80,7 @@ void sweep_mechanics(const Problem& problem, std::vector<Sweep>& sweeps) {
     }
 }
 
-// Where space and time both count: rods with the mass and the integrator that err least.
+// Adds rods with the most accurate mass matrix and integrator, for problems in which both space and time count.
 void sweep_exact_rods(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
     Setup setup = problem.baseline();
     if (setup.body != Body::STEM) return;
@@ -95,7 +95,7 @@ void sweep_exact_rods(const Problem& problem, Effort effort, std::vector<Sweep>&
     sweeps.push_back(sweep);
 }
 
-// Long steps that are divided where their error asks for it.
+// Adds long steps that are divided where their error requires it.
 void sweep_substeps(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
     Setup setup = problem.baseline();
     setup.dt = 1.0 / 30;
@@ -121,7 +121,7 @@ void sweep_time_step(const Problem& problem, Effort effort, std::vector<Sweep>& 
     for (int i = 0; i < FROND_INTEGRATOR_COUNT; i++) {
         Setup setup = base;
         setup.plant.integrator = frond_integrator(i);
-        // Its many short steps take longer than all else; the table of changes has one of them.
+        // Symplectic Euler's many short steps take longest of all; the table of changes includes one such run.
         if (effort == Effort::QUICK && i == FROND_INTEGRATOR_SYMPLECTIC_EULER && base.body != Body::STEM) continue;
         over_steps(frond_integrator_name(setup.plant.integrator), setup);
     }
@@ -136,7 +136,7 @@ void sweep_time_step(const Problem& problem, Effort effort, std::vector<Sweep>& 
     }
 }
 
-// One a mechanics.
+// Adds a series for each mechanics.
 void sweep_everything(const Problem& problem, Effort effort, std::vector<Sweep>& sweeps) {
     const Setup base = problem.baseline();
     for (int m = 0; m < FROND_MECHANICS_COUNT; m++) {
@@ -167,7 +167,7 @@ void sweep_newton(const Problem& problem, Effort effort, std::vector<Sweep>& swe
     sweeps.push_back(sweep);
 }
 
-// Iterations of whole plants take longer than all else.
+// Iterative solves of whole plants take longest of all.
 bool has_time_to_iterate(const Setup& base, Effort effort) {
     return effort == Effort::FULL || base.body != Body::PLANT;
 }
@@ -188,7 +188,7 @@ void sweep_linear(const Problem& problem, Effort effort, std::vector<Sweep>& swe
     }
 }
 
-// Calls `change` on copies of the baseline and keeps them.
+// Applies `change` to copies of the baseline and keeps them.
 class Changes {
 public:
     explicit Changes(const Setup& base) : base(base), list({base}) {}

@@ -80,7 +80,7 @@ double Trial::twist(double height) {
     double sine = 0, cosine = 0;
     for (int i : section(height)) {
         const float *p = view.positions + 3 * i, *r = rest_surface.data() + 3 * i;
-        // About +y, from the section at rest, whose middle is on the axis.
+        // Angle about +y from the section at rest, whose middle is on the axis.
         const double x = p[0] - now.x, z = p[2] - now.z, rx = r[0], rz = r[2];
         sine += rz * x - rx * z;
         cosine += rx * x + rz * z;
@@ -104,7 +104,7 @@ void Trial::set_gravity(frond_vec3 gravity) {
     must(frond_world_set_gravity(world, gravity));
 }
 
-// The highest layer of cage nodes, at least four of them.
+// Returns the highest layer of cage nodes, at least four of them.
 const std::vector<int>& Trial::end_nodes() {
     if (!ends.empty()) return ends;
     const size_t count = rest_nodes.size() / 3;
@@ -121,7 +121,7 @@ const std::vector<int>& Trial::end_nodes() {
     return ends;
 }
 
-// Equal parts of the force, and of the moment those forces at right angles to the arms that carry it.
+// Splits the force equally, and the moment into forces perpendicular to their lever arms.
 void Trial::push_end(frond_vec3 force, frond_vec3 moment) {
     const std::vector<int>& nodes = end_nodes();
     const std::vector<double> x = state().x;
@@ -146,7 +146,7 @@ void Trial::push_end(frond_vec3 force, frond_vec3 moment) {
     }
 }
 
-// Each cage node takes the load over its own share of the length: half of the way to the layers around it.
+// Distributes the load over the layers of cage nodes.
 void Trial::push_along(double length, const std::function<double(double)>& density) {
     const size_t count = rest_nodes.size() / 3;
     constexpr int SLICES = 400;
@@ -155,7 +155,7 @@ void Trial::push_along(double length, const std::function<double(double)>& densi
     std::sort(order.begin(), order.end());
     std::vector<double> force(count, 0);
     for (int k = 0; k < SLICES; k++) {
-        // A slice hangs on the layers of nodes below and above it, by the rule of the lever.
+        // The load of a slice is split between the layers of nodes below and above it by the lever rule.
         const double y = (k + 0.5) * length / SLICES, load = density(y) * length / SLICES;
         const auto above = std::lower_bound(order.begin(), order.end(), std::make_pair(y, -1));
         const double high = above == order.end() ? order.back().first : above->first;
@@ -206,10 +206,10 @@ static double farthest(const std::vector<double>& a, const std::vector<double>& 
     return most;
 }
 
-// Null if the library had to put the plant back on the way.
+// Returns null if the library had to rewind the plant on the way.
 static std::unique_ptr<Trial> try_to_settle(const ModelPtr& model, const Setup& setup, int ramp, double step,
                                             int most_steps, const LoadFunction& load) {
-    constexpr double AT_REST = 1e-7;  // [m] a step
+    constexpr double AT_REST = 1e-7;  // largest motion per step [m]
     auto trial = std::make_unique<Trial>(model, setup);
     std::vector<double> before = trial->state().x;
     for (int i = 1; i <= most_steps; i++) {
@@ -229,8 +229,8 @@ std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ram
     patient.plant.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     patient.plant.tuning.newton_tolerance = 1e-9;
     patient.plant.mass_damping = patient.plant.stiffness_damping = patient.plant.material_damping = 0;
-    // Converged steps find most shapes; single solves, which take loads that follow anew each time, find the others.
-    // Where both overshoot, shorter steps lead there, in which implicit Euler damps a sway within seconds.
+    // Converged steps find most shapes; single solves, which re-evaluate follower loads in each step, find the others.
+    // If both overshoot, shorter steps succeed, in which implicit Euler damps vibration within seconds.
     for (double step : {1.0, 0.1})
         for (int solves : {10, 1}) {
             patient.plant.tuning.newton_iterations = solves;
@@ -245,7 +245,7 @@ double time_steps(Trial& trial, Effort effort, const LoadFunction& load) {
     const int steps = effort == Effort::TINY ? 2 : 8, repeats = effort == Effort::FULL ? 7 : 3;
     const Trial::State start = trial.state();
     double least = INFINITY;
-    // The first round warms up.
+    // The first repeat warms up.
     for (int repeat = 0; repeat <= repeats; repeat++) {
         trial.set_state(start);
         trial.cpu = 0;

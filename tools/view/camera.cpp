@@ -49,7 +49,7 @@ Ray ray_through(const Camera& camera, double x, double y, int width, int height)
 }
 
 void orbit(Camera& camera, double dx, double dy) {
-    constexpr double TURN = 0.008, LOWEST = -0.3, HIGHEST = 1.55;  // [rad a pixel], [rad]
+    constexpr double TURN = 0.008, LOWEST = -0.3, HIGHEST = 1.55;  // [rad/pixel], [rad]
     camera.azimuth -= TURN * dx;
     camera.elevation = std::clamp(camera.elevation + TURN * dy, LOWEST, HIGHEST);
 }

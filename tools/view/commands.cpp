@@ -1,4 +1,4 @@
-// The keys' commands.
+// The commands behind the keys.
 #include "view/viewer.hpp"
 
 namespace frond::tools {

@@ -1,4 +1,4 @@
-// In: a viewer. Out: a frame: the stage, overlays, the hand's force.
+// In: a viewer. Out: a frame of the stage, overlays and the hand's force.
 #include <algorithm>
 
 #include "studio/studio.hpp"

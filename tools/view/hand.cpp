@@ -1,5 +1,5 @@
-// In: a ray through the mouse. Out: a spring that holds the plant where the ray first meets it, and follows the mouse
-// in the plane that faces the camera there.
+// In: a ray through the mouse. Out: a spring that holds the plant at the first hit of the ray and follows the mouse in
+// the plane that faces the camera there.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace frond::tools {
 
 namespace {
 
-// Moeller and Trumbore 1997, from both sides. The distance along the ray; infinite where it passes.
+// Returns the distance along the ray to a two-sided triangle; infinite if it misses (Moeller and Trumbore 1997).
 double meet_triangle(const Ray& ray, const frond_vec3& a, const frond_vec3& b, const frond_vec3& c) {
     const frond_vec3 ab = b - a, ac = c - a, p = cross(ray.direction, ac);
     const double det = dot(ab, p);
@@ -24,7 +24,7 @@ Ray mouse_ray(const Viewer& viewer) {
     return ray_through(viewer.camera, viewer.mouse_x, viewer.mouse_y, viewer.width, viewer.height);
 }
 
-// What the scene's user has, or one that bears thrice the plant's weight when it is drawn out by the plant's height.
+// Returns the scene's stiffness, or one that carries thrice the plant's weight when stretched by its height.
 double stiffness_of(const Viewer& viewer, frond_plant plant) {
     constexpr double WEIGHTS = 3;
     const Stage& stage = viewer.play->stage;
@@ -77,7 +77,7 @@ void move_hand(Viewer& viewer) {
 }
 
 void follow_mouse(Viewer& viewer) {
-    constexpr double SPEED = 0.7;  // of the picture's height in a second [1/s]
+    constexpr double SPEED = 0.7;  // speed in picture heights [1/s]
     Hand& hand = viewer.hand;
     if (!frond_grab_is_valid(hand.grab)) return;
     const double high = 2 * viewer.camera.distance * std::tan(0.5 * viewer.camera.field_of_view);

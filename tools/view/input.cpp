@@ -1,4 +1,4 @@
-// In: keys, buttons and the mouse. Out: commands, drags, a turned camera.
+// In: keys, buttons and the mouse. Out: commands, drags and camera movements.
 #include "view/viewer.hpp"
 
 namespace frond::tools {

@@ -1,4 +1,4 @@
-// The panel: commands, sliders, effects and what the last steps cost, as widgets of Dear ImGui.
+// The panel: commands, sliders, effects and the cost of the last steps, as widgets of Dear ImGui.
 #include <imgui.h>
 
 #include <algorithm>
@@ -27,9 +27,9 @@ void show_commands(Viewer& viewer) {
     bool is_left = true;
     for (const Command& command : commands()) {
         const std::string key = command.key == ' ' ? "space" : std::string(1, command.key);
-        // What follows ### is the button's identity, so that its name may change.
+        // The text after ### identifies the button, so that its name may change.
         const std::string label = "[" + key + "] " + command.name(viewer) + "###" + key;
-        // A name with a value takes a line of its own.
+        // A name with a value gets a line of its own.
         const bool is_wide = command.key == 'm' || command.key == 'i';
         if (!is_left && !is_wide) ImGui::SameLine();
         const float half = 0.5f * (ImGui::GetWindowContentRegionWidth() - ImGui::GetStyle().ItemSpacing.x);
@@ -38,7 +38,7 @@ void show_commands(Viewer& viewer) {
     }
 }
 
-// A slider between two lengths on a scale of ratios, where 0 lets the library choose. True once it is let go.
+// Shows a logarithmic slider between two lengths; 0 lets the library choose. Returns true once it is released.
 bool slide_length(const char* name, double& metres, double least, double most) {
     float value = float(metres);
     const bool is_chosen = metres == 0;
@@ -65,7 +65,7 @@ void show_sliders(Viewer& viewer) {
     ImGui::SetNextItemWidth(-130);
     if (ImGui::SliderFloat("wind", &wind, 0, 20, "%.1f m/s", ImGuiSliderFlags_AlwaysClamp))
         set_wind_speed(viewer, double(wind));
-    // These make models anew, which takes a moment: once the mouse lets go.
+    // These rebuild models, which takes a moment: they apply once the mouse lets go.
     float stiffness = float(viewer.wanted.stiffness);
     ImGui::SetNextItemWidth(-130);
     if (ImGui::SliderFloat("stiffness", &stiffness, 0.1f, 10, "x %.2f",
@@ -112,7 +112,7 @@ void show_times(const Viewer& viewer) {
     ImGui::Text("a step: %.2f ms; %.0f frames a second", viewer.cost.ms_step,
                 viewer.frame_time > 0 ? 1 / viewer.frame_time : 0.0);
     if (!ImGui::CollapsingHeader("time by stage", ImGuiTreeNodeFlags_DefaultOpen)) return;
-    // One scale for all, so that the heights compare.
+    // One scale for all, so that the heights can be compared.
     float most = 1e-3f;
     for (const History& history : viewer.stage_times)
         most = std::max(most, *std::max_element(history.values.begin(), history.values.end()));
@@ -124,7 +124,7 @@ void show_times(const Viewer& viewer) {
 }
 
 void show_energies(Viewer& viewer) {
-    // Closed, it costs nothing.
+    // Energies are computed only while this section is open.
     viewer.measures_energy = ImGui::CollapsingHeader("energy");
     if (!viewer.measures_energy) return;
     for (size_t i = 0; i < viewer.energies.size(); i++) {

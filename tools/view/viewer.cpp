@@ -1,4 +1,4 @@
-// The play, its time and what can be switched while it runs.
+// The running scene, its time and the settings that can be changed while it runs.
 #include "view/viewer.hpp"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ Viewer make_viewer(const Casting& casting, const Settings& settings, int width, 
     viewer.height = height;
     const double wind = wind_speed(settings);
     if (wind > 0) viewer.wind_direction = (1 / wind) * settings.wind.velocity;
-    // One substep a step, so that pictures between two of them are known.
+    // One substep per step, so that pictures between two steps are known.
     viewer.settings.dt = std::min(settings.dt, settings.world.max_substep);
     reset(viewer);
     const double aspect = double(width) / height;
@@ -114,7 +114,7 @@ void step_once(Viewer& viewer) {
 }
 
 void advance(Viewer& viewer, double seconds) {
-    constexpr int MOST = 4;  // steps in a frame: what takes longer goes slower
+    constexpr int MOST = 4;  // steps per frame: beyond this the simulation slows down
     constexpr double LATELY = 0.1;
     viewer.frame_time += (viewer.frame_time > 0 ? LATELY : 1) * (seconds - viewer.frame_time);
     const double dt = viewer.settings.dt;
@@ -172,9 +172,9 @@ void take_wanted(Viewer& viewer) {
     }
 }
 
-// As heavy for its size as a football, and fast enough to fly as far as the plants are high.
+// Throws a ball with a football's mass for its size, fast enough to fly as far as the plants are high.
 void throw_ball(Viewer& viewer) {
-    constexpr double SIZE = 0.05, BALL = 0.11, MASS = 0.43;  // radius of the plants' height [-]; a football's [m], [kg]
+    constexpr double SIZE = 0.05, BALL = 0.11, MASS = 0.43;  // radius in plant heights [-]; a football's [m], [kg]
     constexpr size_t MOST = 20;
     Stage& stage = viewer.play->stage;
     const auto is_plane = [](const frond_rigid_def& def) { return def.shape == FROND_SHAPE_PLANE; };
@@ -196,7 +196,7 @@ void throw_ball(Viewer& viewer) {
     def.mass = MASS * std::pow(def.size.x / BALL, 3);
     def.state.position = aim - way * ray.direction;
     def.state.velocity = speed * ray.direction;
-    def.state.velocity.y += 0.5 * 9.81 * way / speed;  // gravity draws it back to where it is aimed
+    def.state.velocity.y += 0.5 * 9.81 * way / speed;  // compensates the fall due to gravity on the way to the target
     stage.rigid(def);
     if (stage.rigids.size() <= viewer.own_rigids + MOST) return;
     frond_rigid_destroy(stage.rigids[viewer.own_rigids]);

@@ -1,5 +1,5 @@
-// Viewer: a scene to play in. A window's events come in as calls; a frame of a picture and a panel of Dear ImGui go
-// out. It knows nothing of windows.
+// Viewer: a scene to play in. In: a window's events, as calls. Out: a frame of a picture and a panel of Dear ImGui. It
+// is independent of windows.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ enum class Button { LEFT, MIDDLE, RIGHT };
 // A spring from the plant to the mouse, as in the paper's figure 7.
 struct Hand {
     frond_grab grab = {};
-    frond_vec3 hold = {}, start = {};     // where the ray of the first click met the plant; where the spring began [m]
-    frond_vec3 target = {}, wanted = {};  // where the spring pulls to, and where the mouse is [m]
+    frond_vec3 hold = {}, start = {};     // hit of the first click's ray on the plant; where the spring began [m]
+    frond_vec3 target = {}, wanted = {};  // target of the spring, and the mouse's position [m]
 };
 
-// Which capsule each vertex of a model's surface is nearest to; one model's plants share it.
+// Nearest capsule of each vertex of a model's surface, shared by all plants of the model.
 using Shades = std::vector<int>;
 
-// The last values of something, one a step; the oldest is at `next`.
+// Recent values of a quantity, one per step; the oldest is at `next`.
 struct History {
     std::array<float, 240> values = {};
     int next = 0;
@@ -49,8 +49,8 @@ struct PlantEnergy {
 constexpr PlantEnergy ENERGIES[] = {
     {"kinetic", &frond_energy::kinetic}, {"elastic", &frond_energy::elastic}, {"gravity", &frond_energy::gravity}};
 
-// Settings of models, which take a new start: as the panel's sliders show them, ahead of the viewer's own settings
-// while the mouse holds one.
+// Settings of models, which need a restart: as the panel's sliders show them, ahead of the viewer's own settings while
+// the mouse holds a slider.
 struct Wanted {
     double stiffness = 1;                      // [-]
     double capsule_height = 0, cage_size = 0;  // [m], 0: chosen by the library
@@ -63,40 +63,40 @@ struct Wanted {
 
 struct Viewer {
     Casting casting;
-    Settings settings;  // with what was switched since
+    Settings settings;  // including changes made since the start
     Wanted wanted;
-    std::string refusal;  // why what was wanted could not be had; empty: it could
+    std::string refusal;  // why the wanted settings were refused; empty: they were not
     std::unique_ptr<Play> play;
     Camera camera;
-    int width, height;  // of the picture [pixel]
+    int width, height;  // size of the picture [pixel]
     std::array<bool, size_t(Overlay::COUNT)> overlays = {};
     bool is_paused = false, shows_panel = true;
-    double left_over = 0;  // of the time that passed, not stepped yet [s]
+    double left_over = 0;  // elapsed time that has not been stepped yet [s]
     frond_report report = {};
     frond_profile cost = {};                                  // smoothed
     std::array<History, std::size(STAGE_TIMES)> stage_times;  // [ms]
-    std::array<History, std::size(ENERGIES)> energies;        // of all plants [J]
+    std::array<History, std::size(ENERGIES)> energies;        // of all plants together [J]
     bool measures_energy = false;
     frond_vec3 wind_direction = {1, 0, 0};
-    uint32_t trouble = 0;   // of all steps so far
+    uint32_t trouble = 0;   // bits of all steps so far
     double frame_time = 0;  // smoothed [s]
     double mouse_x = 0, mouse_y = 0;
     enum class Drag { NONE, HAND, ORBIT, PAN } drag = Drag::NONE;
     Button drag_button = Button::LEFT;
     Hand hand;
-    size_t own_rigids = 0;              // of the scene; the others were thrown
-    std::map<uint64_t, Shades> shades;  // by model
+    size_t own_rigids = 0;              // number of bodies of the scene; the others were thrown
+    std::map<uint64_t, Shades> shades;  // by model id
 };
 
-// The stage as the scene begins. Throws a SceneError.
+// Makes a viewer with the stage as the scene begins. Throws a SceneError.
 Viewer make_viewer(const Casting& casting, const Settings& settings, int width, int height);
-// From the start again, with the settings as they are now. Throws a SceneError, and then changes nothing.
+// Restarts with the current settings. Throws a SceneError, and then changes nothing.
 void reset(Viewer& viewer);
-// Time passes, as long as it is not paused; several steps, one or none.
+// Advances time unless paused: several steps, one or none.
 void advance(Viewer& viewer, double seconds);
 void step_once(Viewer& viewer);
 
-// What a key or its button in the panel does.
+// A command of a key or of its button in the panel.
 struct Command {
     char key;
     std::string (*name)(const Viewer& viewer);
@@ -104,49 +104,48 @@ struct Command {
 };
 const std::vector<Command>& commands();
 
-// What the user does. Keys without a command are ignored.
+// Actions of the user. Keys without a command are ignored.
 void press(Viewer& viewer, char key);
 void move_mouse(Viewer& viewer, double x, double y);
 void press_button(Viewer& viewer, Button button);
 void release_button(Viewer& viewer, Button button);
 void turn_wheel(Viewer& viewer, double clicks);
 
-// What is switched.
+// Settings that can be changed while the scene runs.
 void set_mechanics(Viewer& viewer, frond_mechanics mechanics);
 void set_integrator(Viewer& viewer, frond_integrator integrator);
 void toggle_effect(Viewer& viewer, frond_effects effect);
-// The mean wind at the reference height [m/s]; plants feel it from now on.
+// Sets the mean wind at the reference height [m/s]; plants feel it from now on.
 void set_wind_speed(Viewer& viewer, double speed);
 double wind_speed(const Settings& settings);
-// Takes over what is wanted and starts again; if the library refuses, keeps what there is and says why in `refusal`.
+// Applies the wanted settings and restarts; if the library refuses, keeps the current ones and sets `refusal`.
 void take_wanted(Viewer& viewer);
-// From beside the camera, at what is under the mouse.
+// Throws a ball from beside the camera at the point under the mouse.
 void throw_ball(Viewer& viewer);
 
-// Where the surfaces of plants are first met by a ray.
+// First hit of a ray on the surfaces of plants.
 struct Pick {
-    frond_plant plant;  // null: nowhere
+    frond_plant plant;  // null: no hit
     frond_vec3 point;   // [m]
     double distance;    // [m]
 };
 Pick pick(const Stage& stage, const Ray& ray);
-// Takes hold of a plant where the mouse is; false where none is.
+// Takes hold of the plant under the mouse; returns false if there is none.
 bool take_hold(Viewer& viewer);
 void move_hand(Viewer& viewer);
-// Before each step: the spring goes where the mouse is, no faster than a hand does, however far the mouse went in a
-// frame.
+// Moves the spring to the mouse before each step, no faster than a hand moves, however far the mouse went in a frame.
 void follow_mouse(Viewer& viewer);
 void let_go(Viewer& viewer);
 
-// The panel at the left, as widgets of Dear ImGui in its current frame.
+// Shows the panel at the left, as widgets of Dear ImGui in its current frame.
 void show_panel(Viewer& viewer);
 
-// The strain at which a colour is red [-].
+// Strain that is shown in red [-].
 constexpr double RED_STRAIN = 0.01;
-// From blue over green and yellow to red.
+// Returns a colour from blue over green and yellow to red.
 std::array<uint8_t, 4> strain_color(double strain);
 
-// One frame of the picture, whose size is the viewer's.
+// Draws one frame of the picture, which has the viewer's size.
 void draw(Viewer& viewer, frond_picture* picture);
 
 }  // namespace frond::tools

@@ -1,4 +1,4 @@
-// GLFW gives the window, its EGL context and what the user does; tools/picture and, over it, Dear ImGui draw into that
+// GLFW provides the window, its EGL context and the user's input; tools/picture and, over it, Dear ImGui draw into that
 // context.
 #include "view/window.hpp"
 
@@ -27,7 +27,7 @@ Viewer& viewer_of(GLFWwindow* window) {
     return *static_cast<Viewer*>(glfwGetWindowUserPointer(window));
 }
 
-// What a listener throws may not go through GLFW; the next frame would only fail likewise.
+// A listener's exceptions must not pass through GLFW; the window closes, as the next frame would fail too.
 template <class Action>
 void tell(GLFWwindow* window, const Action& action) {
     try {
@@ -39,7 +39,7 @@ void tell(GLFWwindow* window, const Action& action) {
 }
 
 void on_button(GLFWwindow* window, int button, int action, int) {
-    const Button known[] = {Button::LEFT, Button::RIGHT, Button::MIDDLE};  // as GLFW counts them
+    const Button known[] = {Button::LEFT, Button::RIGHT, Button::MIDDLE};  // in GLFW's order
     if (button > 2) return;
     tell(window, [&](Viewer& viewer) {
         if (action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse) press_button(viewer, known[button]);
@@ -47,7 +47,7 @@ void on_button(GLFWwindow* window, int button, int action, int) {
     });
 }
 
-// The cursor is told in the screen's coordinates, of which a pixel may be a part.
+// The cursor's position is in screen coordinates, which may differ from pixels.
 void on_move(GLFWwindow* window, double x, double y) {
     int wide = 1, high = 1;
     glfwGetWindowSize(window, &wide, &high);
@@ -83,7 +83,7 @@ Window::Window(Viewer& viewer, const char* title) : viewer(viewer) {
         glfwSwapInterval(1);
         listen();
         make_picture();
-        // After the viewer's own listeners, which it calls too.
+        // Dear ImGui comes after the viewer's own listeners, which it calls too.
         ImGui::CreateContext();
         ImGui::GetIO().IniFilename = nullptr;
         if (!ImGui_ImplGlfw_InitForOpenGL(window, true) || !ImGui_ImplOpenGL3_Init("#version 330 core"))
@@ -157,12 +157,12 @@ void Window::draw_all() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
-    // A command may put another stage in the place of this one: before it is drawn.
+    // The panel comes before drawing, as a command may replace the stage.
     show_panel(viewer);
     ImGui::Render();
     draw(viewer, picture);
     must(frond_picture_present(picture, 0, viewer.width, viewer.height));
-    glDisable(GL_FRAMEBUFFER_SRGB);  // its colours are those of the screen
+    glDisable(GL_FRAMEBUFFER_SRGB);  // its colours are already sRGB
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 

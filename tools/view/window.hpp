@@ -1,4 +1,4 @@
-// Window: shows a viewer on the screen and tells it what the user does.
+// Window: shows a viewer on the screen and passes it the user's input.
 #pragma once
 
 #include <chrono>
@@ -9,22 +9,22 @@ struct GLFWwindow;
 
 namespace frond::tools {
 
-// One at a time in a process.
+// Only one at a time in a process.
 class Window {
 public:
-    // Opens it in the viewer's size. Throws a SceneError where there is no display.
+    // Opens the window in the viewer's size. Throws a SceneError if there is no display.
     Window(Viewer& viewer, const char* title);
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
     ~Window();
-    // False after it was closed.
+    // Returns false after the window was closed.
     bool is_open() const;
-    // Takes in what happened, lets time pass, draws, shows.
+    // Handles events, advances time, draws and shows a frame.
     void frame();
-    // Draws again what the last frame showed: width*height*3 of the viewer's, rows from the top.
+    // Draws the last frame again and returns it: width*height*3 of the viewer's, rows from the top.
     std::vector<uint8_t> pixels();
     void write(const std::string& png_path);
-    // Where its upper left corner is on the screen.
+    // Returns the position of the upper left corner on the screen.
     void get_place(int& x, int& y) const;
 
 private:
@@ -34,7 +34,7 @@ private:
     Viewer& viewer;
     GLFWwindow* window = nullptr;
     frond_picture* picture = nullptr;
-    bool is_quick = false;  // drawn without the sky's shade, since this machine is slow at it
+    bool is_quick = false;  // drawn without the sky's shade, as this machine is slow at it
     std::chrono::steady_clock::time_point last;
 };
 

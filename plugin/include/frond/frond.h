@@ -10,7 +10,7 @@
  * Robots are in frond_robot.h, snapshots in frond_snapshot.h. Terms are explained in GLOSSARY.md.
  *
  * Units      SI everywhere: metre, kilogram, second, radian, newton, pascal.
- * Numbers    double in the simulation, float in what goes to a GPU. Right-handed. A model's own up axis is +y after
+ * Numbers    double in the simulation, float in data for a GPU. Right-handed. A model's own up axis is +y after
  *            import; in the world gravity alone decides what is down.
  * Defaults   Make every def with its frond_default_*_def(), then change fields.
  * Ownership  Each *_create, *_load or *_from_* has one *_destroy. Defs, arrays and strings passed in are copied.
@@ -19,7 +19,7 @@
  * Errors     Zero (FROND_OK) is success. On failure the call changed nothing, out parameters are zeroed, and
  *            frond_last_error() says what was wrong and what to do. Wrong input never aborts the program.
  * Threads    One world, one thread at a time. Different worlds may be used from different threads. Models are
- *            read-only and may be shared by all of them. Within a step a world may use threads that the host lends it:
+ *            read-only and may be shared by all of them. Within a step a world may use threads that the host provides:
  *            frond_world_def.parallel_for.
  */
 #ifndef FROND_H

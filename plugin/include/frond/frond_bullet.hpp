@@ -40,7 +40,7 @@ FROND_API btDynamicsWorld* bullet_world(frond_world world);
 // Borrowed.
 FROND_API btCollisionObject* bullet_object(frond_plant plant);
 
-// Makes a bond as frond_bond_create does, to a body of yours in the plant's world: rigid, of a link, carried or static.
+// Makes a bond as frond_bond_create does, to a body of yours in the plant's world: rigid, a link, kinematic or static.
 FROND_API frond_result bond(frond_plant plant, const btVector3& point, btCollisionObject* body, frond_bond* out);
 
 // Returns the plant behind a collision object of Bullet's, e.g. from a ray test; null if it is not a plant's.

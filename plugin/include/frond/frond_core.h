@@ -13,7 +13,7 @@ extern "C" {
 /* ---- world --------------------------------------------------------------------------------------------- */
 
 /* Runs job(data, i) for each i in 0 .. count-1, in any order, on any threads, the caller's among them, and returns when
- * all have ended: a host's own threads. */
+ * all have ended, by the host's own threads. */
 typedef void frond_job_fn(void* data, int index);
 typedef void frond_parallel_for_fn(int count, frond_job_fn* job, void* data, void* user);
 
@@ -22,12 +22,12 @@ typedef struct frond_world_def {
     frond_vec3 gravity;      /* [m/s^2], default (0, -9.81, 0) */
     frond_effects effects;   /* a mask over every plant's, default FROND_EFFECT_ALL */
     double max_substep;      /* longest step that the solver takes [s], 1e-6 .. 1, default 1/60 */
-    frond_response response; /* of all contacts, default FROND_RESPONSE_IMPULSE */
-    /* A plant falls asleep when no point of it has moved farther than this for half a period of its slowest sway, 0.5
+    frond_response response; /* response of all contacts, default FROND_RESPONSE_IMPULSE */
+    /* A plant falls asleep when no point of it has moved farther than this for half a period of its first mode, 0.5
      * to 3 s, and nothing that moves touches it [m], 0 .. 0.01, default 5e-5; 0: none sleeps. It then stands still and
      * costs nothing, until it is touched, pulled, bent or blown at, a pin or bond moves, or its neighbour leaves. */
     double sleep_distance;
-    /* Threads for the steps of plants, each a job; results are the same bits for any number of them. Null (default):
+    /* Threads for the steps of plants, each a job; results are equal to the bit for any number of them. Null (default):
      * Bullet's task scheduler, if the host has set one (btSetTaskScheduler), else the caller's thread alone. */
     frond_parallel_for_fn* parallel_for;
     void* parallel_user;
@@ -58,14 +58,14 @@ enum {
 typedef struct frond_report {
     uint32_t trouble;                       /* FROND_TROUBLE_* */
     int plant_count, node_count, tet_count; /* in the world */
-    int solver_iterations;                  /* of all plants; a direct solve counts as one */
+    int solver_iterations;                  /* iterations of all plants; a direct solve counts as one */
     double residual;                        /* largest relative residual of a linear solve [-] */
     double time;                            /* simulated [s] */
     int awake_count;                        /* plants that moved; the others slept */
     int broken_count;                       /* fragments that came off */
     int contact_count;                      /* points at which bodies touched plants */
-    int plant_contact_count;                /* and plants touched plants, or themselves */
-    frond_effects effects_run;              /* effects that something was done for */
+    int plant_contact_count;                /* points at which plants touched plants, or themselves */
+    frond_effects effects_run;              /* effects that ran */
     int detail_count[FROND_DETAIL_COUNT];   /* awake plants in each detail; a plant that sleeps is in none */
 } frond_report;
 
@@ -74,7 +74,7 @@ typedef struct frond_ray_hit {
     int capsule;       /* the plant's capsule that was hit */
     int node;          /* the cage node nearest to the point */
     frond_vec3 point;  /* [m] */
-    double distance;   /* from the origin [m] */
+    double distance;   /* distance from the origin [m] */
 } frond_ray_hit;
 
 /* Returns the default settings of a world. */
@@ -87,23 +87,23 @@ static inline frond_world_def frond_default_world_def(void) {
 FROND_API frond_result frond_world_create(const frond_world_def* def, frond_world* out);
 /* Destroys a world with its plants and grabs. Null and stale handles are ignored. */
 FROND_API void frond_world_destroy(frond_world world);
-/* Tells whether a handle is of a world that exists. */
+/* Returns whether a handle is of a world that exists. */
 FROND_API bool frond_world_is_valid(frond_world world);
 /* Advances a world by exactly dt [s], 0..1, in equal substeps no longer than max_substep. The same calls give the same
  * bits. UNSUPPORTED for a world that was attached: its owner steps it. A step in which memory runs out, or a function
- * of the host throws, is broken off: plants that were not done with it stand where it began, and the next one goes on.
- */
+ * of the host throws, is aborted: plants that had not completed it are put back to its start, and the next step goes on
+ * from there. */
 FROND_API frond_result frond_world_step(frond_world world, double dt);
-/* Sets gravity [m/s^2]. Of an attached world this sets the host's own gravity, of its bodies too. Plants that sleep
+/* Sets gravity [m/s^2]. In an attached world this sets the host's own gravity, for its bodies too. Plants that sleep
  * wake. */
 FROND_API frond_result frond_world_set_gravity(frond_world world, frond_vec3 gravity);
 /* Sets a mask over every plant's effects. Plants that sleep wake. */
 FROND_API frond_result frond_world_set_effects(frond_world world, frond_effects effects);
-/* Sets which moment surfaces show, for pictures that are drawn between steps of a fixed length, so that what moves
- * evenly looks so. frond_plant_get_surface then shows plants where they were between the last two substeps: fraction 1
- * (default) at the end of the last one, 0 at its beginning, straight between and as far beyond, up to 2.
- * FROND_INTERPOLATION_AS_MOTION_STATES: whenever it is asked, where the motion states of a Bullet world have its
- * bodies. Everything else, frond_rigid_get_state too, is of the last substep's end. */
+/* Sets which moment surfaces show, for pictures that are drawn between steps of a fixed length, so that steady motion
+ * looks steady. frond_plant_get_surface then shows plants where they were between the last two substeps: fraction 1
+ * (default) at the end of the last one, 0 at its beginning, linear between them and beyond, up to 2.
+ * FROND_INTERPOLATION_AS_MOTION_STATES: where the motion states of a Bullet world have its bodies at the time of the
+ * call. Everything else, frond_rigid_get_state too, is of the last substep's end. */
 #define FROND_INTERPOLATION_AS_MOTION_STATES (-1.0)
 FROND_API frond_result frond_world_set_interpolation(frond_world world, double fraction);
 /* Reports what the last substep did. */
@@ -129,9 +129,9 @@ FROND_API frond_result frond_world_cast_ray(frond_world world, frond_vec3 origin
 typedef struct frond_event_info {
     frond_event event;
     double time;       /* at the substep's end [s] */
-    frond_plant plant; /* null if it was destroyed since */
-    int capsule;       /* that broke, or was touched; -1 of others */
-    const void* body;  /* that touched it, as frond_contact.body names it; null of others */
+    frond_plant plant; /* events of a destroyed plant are dropped */
+    int capsule;       /* the one that broke or was touched; -1 for other events */
+    const void* body;  /* the one that touched it, as in frond_contact.body; null for other events */
     frond_plant other; /* the plant that touched it; null: a body */
 } frond_event_info;
 
@@ -158,18 +158,18 @@ typedef struct frond_wind_def {
     uint32_t cookie;     /* do not set */
     frond_vec3 velocity; /* mean, at reference_height [m/s], up to 200; default 0: still air */
     double turbulence;   /* standard deviation of gusts along the wind over the mean speed [-], 0..1, default 0.2 */
-    double length_scale; /* of gusts along the wind, L above [m], 0.1 .. 1e4, default 20 */
-    uint64_t seed;       /* of the gusts; default 1 */
+    double length_scale; /* L above, of gusts along the wind [m], 0.1 .. 1e4, default 20 */
+    uint64_t seed;       /* seed of the gusts; default 1 */
     frond_wind_profile profile; /* default FROND_WIND_PROFILE_LOG */
     double reference_height;    /* [m], 0.01 .. 1e4, default 10 as weather stations have it */
-    double roughness;           /* of the ground [m], 1e-6 .. half the reference height, default 0.03: open grassland */
-    double exponent;            /* of FROND_WIND_PROFILE_POWER [-], 0..1, default 1/7 */
-    double ground_height;       /* of the ground against gravity [m], default 0 */
-    double density;             /* of the air [kg/m^3], 0.01 .. 10, default 1.2 */
+    double roughness;           /* the ground's [m], 1e-6 .. half the reference height, default 0.03: open grassland */
+    double exponent;            /* exponent of FROND_WIND_PROFILE_POWER [-], 0..1, default 1/7 */
+    double ground_height;       /* height of the ground against gravity [m], default 0 */
+    double density;             /* density of the air [kg/m^3], 0.01 .. 10, default 1.2 */
 } frond_wind_def;
 
-/* Gives the game's own wind: asked once a plant and substep, from one thread at a time but from any that the world was
- * lent; it is to depend on place and time alone. points: count of them, world frame [m]; time: of the substep's
+/* Gives the game's own wind: called once per plant and substep, by one thread at a time but by any that the world may
+ * use; it has to depend on place and time alone. points: count of them, world frame [m]; time: of the substep's
  * end [s]. velocities [m/s]: what the world's frond_wind_def gives there, to be added to or replaced. */
 typedef void frond_wind_field_fn(const frond_vec3* points, int count, double time, frond_vec3* velocities, void* user);
 
@@ -196,10 +196,10 @@ FROND_API frond_result frond_world_get_wind_at(frond_world world, frond_vec3 poi
  * undamped and smooth one that never yields or breaks. A field out of its range is BAD_ARGUMENT with a text that names
  * it. */
 typedef struct frond_material {
-    double density;   /* of the fresh tissue [kg/m^3], 1 .. 2e4 */
+    double density;   /* density of the fresh tissue [kg/m^3], 1 .. 2e4 */
     double young;     /* along the organ [Pa], 1e3 .. 1e12 */
     double poisson;   /* [-], 0 .. 0.499 */
-    double thickness; /* of a blade, or the wall of what is drawn as an open sheet [m], 1e-6 .. 1 */
+    double thickness; /* thickness of a blade, or of the wall of an organ drawn as an open sheet [m], 1e-6 .. 1 */
     /* Inner over outer radius of an organ that is a tube [-], 0 (solid) .. 0.98. `young` and `density` are then the
      * wall's. Blades and flowers, which are sheets, are never hollow. */
     double hollow;
@@ -207,16 +207,16 @@ typedef struct frond_material {
      * principal bending stiffnesses. 0: as an isotropic section of its shape, which for a round one is 1 + poisson;
      * else 0.01 .. 100. */
     double twist_to_bend;
-    /* Share of critical damping that the plant's first sway would have if all organs were of this material [-], 0 .. 1.
-     * Each organ damps its own bending, in proportion to stiffness: what sways n times as fast as the plant, a leaf on
-     * its own, has n times the ratio. frond_plant_def.material_damping scales it. */
+    /* Share of critical damping that the plant's first mode would have if all organs were of this material [-], 0 .. 1.
+     * Each organ damps its own bending, in proportion to stiffness: a mode n times as fast as the plant's, such as a
+     * leaf's own, has n times the ratio. frond_plant_def.material_damping scales it. */
     double damping_ratio;
     double friction; /* Coulomb's coefficient against what it touches [-], 0 .. 100 */
     /* Strain of the outermost fibre, in bending or in pulling, beyond which a part of the deformation stays [-], 0
-     * (never), else 1e-6 .. 10. Sections then yield from the rim inwards, elastic and perfectly plastic. Where a plant
-     * stands with more than two thirds of it under its own weight, one and a half times that counts instead. */
+     * (never), else 1e-6 .. 10. Sections then yield from the rim inwards, elastic and perfectly plastic. Where its
+     * own weight strains a plant by more than two thirds of this, one and a half times that strain counts instead. */
     double yield_strain;
-    /* Share of the elastic strain beyond yield_strain that becomes plastic, a second [1/s], 0 (none) .. 1e6. */
+    /* Share of the elastic strain beyond yield_strain that becomes plastic per second [1/s], 0 (none) .. 1e6. */
     double creep_rate;
     /* Tension in the outermost fibre at which the organ breaks, in bending or in pulling [Pa], 0 (never),
      * else 1 .. 1e12. */
@@ -235,7 +235,7 @@ typedef struct frond_organ_material {
 FROND_API frond_material frond_default_material(void);
 /* Looks up published values for the kinds "stem", "petiole", "blade", "midrib", "peduncle", "flower", "fruit",
  * "branch", "root", "tendril", "crown" (foliage drawn as a solid) and "support" (stakes, pots), and for "grass_stem"
- * and "grass_blade", which stems and blades get whose name or material names a grass. Sources stand in
+ * and "grass_blade", given to stems and blades whose name or material names a grass. Sources stand in
  * plugin/src/model/materials.cpp. BAD_ARGUMENT names the kinds there are. */
 FROND_API frond_result frond_material_preset(const char* kind, frond_material* out);
 
@@ -243,7 +243,7 @@ typedef struct frond_model_def {
     uint32_t cookie;        /* do not set */
     double scale;           /* metres per file unit; 0 (default) trusts the file unless the plant would be shorter than
                              * 2 cm or taller than 50 m, then takes the unit that makes sense and warns */
-    frond_vec3 up;          /* of the file; (0,0,0) (default) takes what the file declares, else guesses +y or +z */
+    frond_vec3 up;          /* the file's; (0,0,0) (default) takes what the file declares, else guesses +y or +z */
     double capsule_height;  /* h of the paper [m]; 0 chooses from the shape */
     double capsule_radius;  /* r of the paper [m]; 0 fits the shape */
     double cage_size;       /* wanted edge length of the cage's cells [m]; 0 chooses from the shape */
@@ -264,12 +264,12 @@ typedef struct frond_stem {
 
 typedef struct frond_model_info {
     /* surface */
-    int vertex_count, triangle_count; /* of the render mesh */
+    int vertex_count, triangle_count; /* counts of the render mesh */
     int part_count, texture_count, organ_count;
     int component_count;     /* parts of the surface that do not touch by sharing vertices */
     int joint_count;         /* places where the cage joins such components */
-    int dropped_triangles;   /* with bad indices, without area, or given twice */
-    int repaired_vertices;   /* not finite, or normals that had to be made */
+    int dropped_triangles;   /* triangles with bad indices, without area, or given twice */
+    int repaired_vertices;   /* vertices that were not finite, or whose normals had to be made */
     double scale;            /* metres per file unit that was used */
     frond_vec3 up;           /* file axis that became +y */
     frond_vec3 lower, upper; /* bounding box [m] */
@@ -279,45 +279,45 @@ typedef struct frond_model_info {
     double min_volume;                 /* smallest tet [m^3] */
     double contained;         /* share of vertices that lie inside the cage [-]; the rest are attached from outside */
     double attachment_error;  /* largest distance of an attached vertex from its place at rest [m] */
-    double volume;            /* of the cage [m^3] */
-    double mass;              /* of the plant [kg] */
+    double volume;            /* volume of the cage [m^3] */
+    double mass;              /* mass of the plant [kg] */
     double stiffening_factor; /* how much stiffer than its materials the plant was made so that it stands [-] */
     /* chain */
     int chain_node_count, capsule_count, root_count, fork_count;
-    double chain_length; /* of all capsules [m] */
+    double chain_length; /* length of all capsules [m] */
     /* cost of building [ms] */
     double ms_import, ms_cage, ms_chain, ms_total;
 } frond_model_info;
 
-/* A run of triangles of one look and one organ. */
+/* A run of triangles of one appearance and one organ. */
 typedef struct frond_part {
     const char* name;     /* node or group in the file */
-    const char* material; /* in the file */
+    const char* material; /* material in the file */
     const char* organ;    /* organ name that Frond gave it */
     const char* kind;     /* kind of organ: "stem", "blade" ... */
     int first_triangle, triangle_count;
     float color[4]; /* base colour, linear RGBA */
     int texture;    /* index of the base-colour texture, -1: none */
 } frond_part;
-/* A texture as it came: the bytes of an image file (PNG, JPEG ...), to be decoded by the renderer. */
+/* A texture as in the file: the bytes of an image file (PNG, JPEG ...), to be decoded by the renderer. */
 typedef struct frond_texture_view {
     const char* name; /* path or name in the file */
     const uint8_t* bytes;
     size_t byte_count;
 } frond_texture_view;
-/* An organ, and the ranges of its sections, one a capsule of the chain. They are those of the organ as it grew, a
- * rod or a strip, not of the cage around it. A small organ can lie within another one's capsules; all from
- * capsule_count on is then 0. */
+/* An organ, and the ranges of its sections, one per capsule of the chain. Sections are the organ's own, of a rod or a
+ * strip, not those of the cage around it. A small organ can lie within another one's capsules; all fields from
+ * capsule_count on are then 0. */
 typedef struct frond_organ {
     const char* name;        /* "leaf_3"; no two organs of a model share one */
     const char* kind;        /* "stem", "blade" ... */
     frond_material material; /* the preset of its kind, or what frond_model_def.organs put in its place */
     int capsule_count;
-    double length;            /* of its capsules [m] */
-    double mass;              /* of its sections times their lengths [kg] */
+    double length;            /* length of its capsules [m] */
+    double mass;              /* mass of its sections times their lengths [kg] */
     frond_range thickness;    /* outer size where the section is thinnest [m] */
-    frond_range width;        /* and across that; of a blade as if it were laid flat [m] */
-    frond_range area;         /* of tissue: a tube's is its wall's [m^2] */
+    frond_range width;        /* outer size across that; of a blade as if it were laid flat [m] */
+    frond_range area;         /* area of tissue: a tube's is its wall's [m^2] */
     frond_range bending_thin; /* EI against bending towards the thin side [N m^2] */
     frond_range bending_wide; /* EI against bending towards the wide side [N m^2] */
     frond_range torsion;      /* GJ [N m^2] */
@@ -330,9 +330,9 @@ static inline frond_model_def frond_default_model_def(void) {
     return def;
 }
 /* Loads a model from a file: mesh files that assimp reads (.obj .ply .glb .gltf .fbx .dae .stl), tet meshes (.msh .vtk)
- * and plants as links and joints (.urdf). What assimp and urdfdom read is read in a process of its own with limits on
- * time and memory, so that a damaged file cannot bring down the program; tet meshes are lists of numbers, read here and
- * checked one by one. */
+ * and plants as links and joints (.urdf). Files for assimp and urdfdom are read in a process of their own with limits
+ * on time and memory, so that a damaged file cannot bring down the program; tet meshes are lists of numbers, read here
+ * and checked one by one. */
 FROND_API frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out);
 /* Makes a model from triangles, which may be a soup. xyz: vertex_count*3. indices: triangle_count*3, each in
  * 0..vertex_count-1. */
@@ -348,7 +348,7 @@ FROND_API frond_result frond_model_from_tets(const double* xyz, int node_count, 
                                              const frond_model_def* def, frond_model* out);
 /* Destroys a model; plants made from it keep what they need. Null and stale handles are ignored. */
 FROND_API void frond_model_destroy(frond_model model);
-/* Tells whether a handle is of a model that exists. */
+/* Returns whether a handle is of a model that exists. */
 FROND_API bool frond_model_is_valid(frond_model model);
 /* Reports sizes, counts and quality of a model. */
 FROND_API frond_result frond_model_get_info(frond_model model, frond_model_info* out);
@@ -363,14 +363,14 @@ FROND_API frond_result frond_model_get_texture(frond_model model, int texture, f
 
 typedef struct frond_plant_def {
     uint32_t cookie;           /* do not set */
-    frond_vec3 position;       /* of the model's origin [m] */
+    frond_vec3 position;       /* position of the model's origin [m] */
     frond_quat rotation;       /* need not have length one; default identity */
     frond_mechanics mechanics; /* default FROND_MECHANICS_TET_COROTATIONAL */
-    /* Order of the displacements within a tet, 1 (default) or 2. Linear tets are quick and lock: one cell across and
-     * five times as long as thick bends 3 % of what it should, which a cage made by Frond is calibrated for and the
-     * caller's own tets are not. Quadratic tets have a node in the middle of each edge too and bend such cells within 5
-     * %, with some twenty times the work a step. Cages that Frond makes are fitted to their rods anew when a plant
-     * first asks for order 2, which takes some seconds. Chain mechanics move alike with both. */
+    /* Order of the displacements within a tet, 1 (default) or 2. Linear tets are quick but lock: a beam one cell
+     * across, of cells five times as long as thick, bends by 3 % of what it should, for which a cage made by Frond is
+     * calibrated and the caller's own tets are not. Quadratic tets have a node in the middle of each edge too and bend
+     * such cells within 5 %, with some twenty times the work a step. Cages that Frond makes are fitted to their rods
+     * anew when a plant first uses order 2, which takes some seconds. Chain mechanics move alike with both. */
     int element_order;
     frond_integrator integrator; /* default FROND_INTEGRATOR_BDF2 */
     double mass_damping;         /* Rayleigh: D = mass_damping M + stiffness_damping K [1/s], default 0.1 */
@@ -378,9 +378,9 @@ typedef struct frond_plant_def {
     double material_damping; /* how much of their materials' damping_ratio the organs have, on top of the two above [-],
                               * 0 (none) .. 100, default 1 */
     double root_height;      /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
-                              * from the shape; negative pins none. A node on an edge is where both its ends are. */
+                              * from the shape; negative pins none. A node on an edge is pinned if both its ends are. */
     frond_effects effects;   /* default FROND_EFFECT_DEFAULT */
-    /* Begins asleep, as modelled, as if it had come to rest so: a field of thousands then costs no steps until
+    /* Starts asleep, as modelled, as if it had come to rest so: a field of thousands then costs no steps until
      * something moves them. Default false. */
     bool starts_asleep;
     /* Bullet's collision filter: the plant collides with what has a group in its mask and has its group in the own
@@ -410,13 +410,13 @@ typedef struct frond_capsule {
  * or was about to. Each of two plants reports it; where a plant touches itself it is reported once. Plants that sleep
  * report the contacts with which they fell asleep. */
 typedef struct frond_contact {
-    frond_vec3 point;   /* on the plant [m] */
-    frond_vec3 normal;  /* from the body to the plant, length one */
-    frond_vec3 impulse; /* on the plant in that substep [N s]; the body got the opposite */
+    frond_vec3 point;   /* point on the plant [m] */
+    frond_vec3 normal;  /* direction from the body to the plant, length one */
+    frond_vec3 impulse; /* impulse on the plant in that substep [N s]; the body got the opposite */
     double gap;         /* before the substep, below zero they overlapped [m] */
-    int capsule;        /* of the plant; where plants touch, the one that the touching part of the cage belongs to */
+    int capsule;        /* the plant's; where plants touch, the one that the touching region of the cage belongs to */
     const void* body;   /* the btCollisionObject; borrowed from the host */
-    frond_plant other;  /* the plant that it is; null: a body */
+    frond_plant other;  /* the plant that touches it; null: a body */
 } frond_contact;
 
 /* Returns the default settings of a plant. */
@@ -431,9 +431,9 @@ FROND_API frond_result frond_plant_create(frond_world world, frond_model model, 
                                           frond_plant* out);
 /* Destroys a plant with its grabs. Null and stale handles are ignored. */
 FROND_API void frond_plant_destroy(frond_plant plant);
-/* Tells whether a handle is of a plant that exists. */
+/* Returns whether a handle is of a plant that exists. */
 FROND_API bool frond_plant_is_valid(frond_plant plant);
-/* Tells whether a plant is awake. False for stale handles, and for plants that sleep: see
+/* Returns whether a plant is awake. False for stale handles, and for plants that sleep: see
  * frond_world_def.sleep_distance. */
 FROND_API bool frond_plant_is_awake(frond_plant plant);
 /* Wakes a plant for a reason that Frond cannot see, such as a static body that was put elsewhere. */
@@ -444,12 +444,12 @@ FROND_API void* frond_plant_get_user(frond_plant plant);
  * and effects of the last calls that set them. */
 FROND_API frond_result frond_plant_get_def(frond_plant plant, frond_plant_def* out);
 /* Puts a plant elsewhere [m] and turns it, with its shape, velocities, pins and fragments; rotation need not have
- * length one. A plant at rest stays at rest, unless gravity now comes from another side. Grabs and bonds hold it to
- * where they did. It wakes, and what leaned on it does. */
+ * length one. A plant at rest stays at rest, unless gravity now acts from another side. Grabs and bonds hold it to
+ * where they did. It wakes, and so does what leaned on it. */
 FROND_API frond_result frond_plant_set_transform(frond_plant plant, frond_vec3 position, frond_quat rotation);
 /* Puts a plant back to how frond_plant_create makes it with the def of frond_plant_get_def: as modelled, whole, at
- * rest, without plastic strain, pinned at its root, without forces, asleep if the def says so; from there it goes on to
- * the same bits. Grabs and bonds stay, except that bonds on fragments have let go. */
+ * rest, without plastic strain, pinned at its root, without forces, asleep if the def says so; from there its steps
+ * give the same bits. Grabs and bonds stay, except that bonds on fragments have let go. */
 FROND_API frond_result frond_plant_reset(frond_plant plant);
 /* Switches what acts on this plant, which wakes; what is off costs nothing from the next step on. */
 FROND_API frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects);
@@ -466,7 +466,7 @@ FROND_API frond_result frond_plant_unpin(frond_plant plant, int node);
 FROND_API frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 position);
 /* Adds a force [N] on a node for the next frond_world_step (all its substeps) only. Forces on one node add up. */
 FROND_API frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force);
-/* Gives the render mesh as it is now, made when somebody asks for it, once a step; the arrays are the plant's own until
+/* Gives the render mesh as it is now, made when it is requested, once a step; the arrays are the plant's own until
  * its next step. With FROND_EFFECT_SURFACE off, in the plant or its world, it stays as it was, and normals do with
  * FROND_EFFECT_NORMALS off. */
 FROND_API frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out);
@@ -487,13 +487,13 @@ FROND_API frond_result frond_plant_get_tip(frond_plant plant, frond_vec3* out);
 
 /* ---- detail: near plants in full, far ones for less ---------------------------------------------------------------
  * Call frond_world_set_viewer with the camera's place each frame: that is all. From the first call on plants are
- * simulated in the detail that their distance asks for, as frond_default_detail_def says. Places and velocities go on
+ * simulated in the detail that their distance calls for, as frond_default_detail_def says. Places and velocities go on
  * without a jump: the difference to a shape that the other detail can have is blended out within a second. A body that
  * touches a plant in FROND_DETAIL_MODAL makes it rods at once. Which detail a plant has depends on the calls and on
  * nothing else, unless there is a budget. */
 
-/* Says how far off a plant is to count, given the distance to the viewer that counts otherwise [m] (with by_size [-]):
- * a game's own order of importance. Not finite or below zero counts as zero. */
+/* Returns the distance at which a plant is to count, given the distance to the viewer that counts otherwise [m] (with
+ * by_size [-]): a game's own order of importance. Not finite or below zero counts as zero. */
 typedef double frond_detail_fn(frond_plant plant, double distance, void* user);
 
 typedef struct frond_detail_def {
@@ -502,7 +502,7 @@ typedef struct frond_detail_def {
      * than the one before. */
     double rod_from;   /* default 5 */
     double half_from;  /* rods are stepped every second substep, by twice its length; default 12 */
-    double modal_from; /* default 25; the air is asked every fourth substep, the plant drawn at each */
+    double modal_from; /* default 25; the air is queried every fourth substep, the plant drawn at each */
     double still_from; /* default 150 */
     bool by_size;      /* distances count in sizes of the plant, as it looks on the screen, not metres; default false */
     double hysteresis; /* share by which a plant has to come nearer to get detail back [-], 0 .. 0.9, default 0.15 */
@@ -510,7 +510,7 @@ typedef struct frond_detail_def {
      * count as farthest first, as soon as more is measured, and get it back when there is time again. Results then
      * depend on the machine's speed. */
     double budget;
-    frond_detail_fn* distance; /* null (default): as it is */
+    frond_detail_fn* distance; /* null (default): the distance as it is */
     void* user;
 } frond_detail_def;
 
@@ -524,20 +524,20 @@ static inline frond_detail_def frond_default_detail_def(void) {
 FROND_API frond_result frond_world_set_detail(frond_world world, const frond_detail_def* def);
 /* Sets the viewer's place [m]. Begins with the default def where none was set. */
 FROND_API frond_result frond_world_set_viewer(frond_world world, frond_vec3 position);
-/* Gives the detail that the plant has now; one that sleeps gets what it should have when it wakes. */
+/* Gives the detail that the plant has now; for one that sleeps, the detail that it should have when it wakes. */
 FROND_API frond_result frond_plant_get_detail(frond_plant plant, frond_detail* out);
 
 /* ---- fragments: what broke off -----------------------------------------------------------------------------------
  * With FROND_EFFECT_BREAKING a plant breaks at the capsule whose outermost fibre is strained most, one a substep, if
- * that is more than its organ's strength / young and more than 1.5 times what it stands with. Rods tell bending and
- * pulling apart; in a cage a capsule that is pulled breaks at half its strength or more. The capsule and all that grows
- * beyond it become a rigid body with their mass and momentum. It is drawn in the plant's surface, its nodes, capsules
- * and vertices are reported where it is, grabs on it pull it, forces and pins on its nodes end; other bodies and plants
- * feel it, its own plant does not, which takes no part in FROND_EFFECT_PLANT_CONTACT and FROND_EFFECT_SELF_CONTACT any
- * more. Bonds on it let go. Triangles across the break keep their place in the list, without area. */
+ * that is more than its organ's strength / young and more than 1.5 times its strain as it stands. Rods distinguish
+ * bending from pulling; in a cage a capsule that is pulled breaks at half its strength or more. The capsule and all
+ * that grows beyond it become a rigid body with their mass and momentum. It is drawn in the plant's surface, its nodes,
+ * capsules and vertices are reported where it is, grabs on it pull it, forces and pins on its nodes end. It collides
+ * with other bodies and plants but not with its own plant, which no longer takes part in FROND_EFFECT_PLANT_CONTACT and
+ * FROND_EFFECT_SELF_CONTACT. Bonds on it let go. Triangles across the break stay in the list, without area. */
 typedef struct frond_fragment {
-    frond_rigid rigid; /* the plant's: it ends with it, and frond_rigid_destroy leaves it alone */
-    int capsule;       /* at which it came off */
+    frond_rigid rigid; /* owned by the plant and destroyed with it; frond_rigid_destroy ignores it */
+    int capsule;       /* the one at which it came off */
     double mass;       /* [kg] */
 } frond_fragment;
 /* Returns the number of fragments; 0 for an invalid handle. */
@@ -560,13 +560,13 @@ FROND_API frond_result frond_grab_move(frond_grab grab, frond_vec3 target);
 FROND_API frond_result frond_grab_get(frond_grab grab, frond_vec3* point, frond_vec3* target, frond_vec3* force);
 /* Lets go. Null and stale handles are ignored. */
 FROND_API void frond_grab_destroy(frond_grab grab);
-/* Tells whether a handle is of a grab that exists. */
+/* Returns whether a handle is of a grab that exists. */
 FROND_API bool frond_grab_is_valid(frond_grab grab);
 
 /* ---- rigid: bodies that plants touch, for those who have no Bullet world of their own ------------------------- */
 
 typedef struct frond_rigid_state {
-    frond_vec3 position;         /* of the centre of mass [m] */
+    frond_vec3 position;         /* position of the centre of mass [m] */
     frond_quat rotation;         /* need not have length one when it is set */
     frond_vec3 velocity;         /* [m/s] */
     frond_vec3 angular_velocity; /* [rad/s] */
@@ -589,13 +589,13 @@ static inline frond_rigid_def frond_default_rigid_def(void) {
 }
 /* Makes a rigid body in a world. */
 FROND_API frond_result frond_rigid_create(frond_world world, const frond_rigid_def* def, frond_rigid* out);
-/* Destroys a rigid body. Null and stale handles are ignored. Its world's end is its end. */
+/* Destroys a rigid body. Null and stale handles are ignored. It is destroyed with its world, too. */
 FROND_API void frond_rigid_destroy(frond_rigid rigid);
-/* Tells whether a handle is of a rigid body that exists. */
+/* Returns whether a handle is of a rigid body that exists. */
 FROND_API bool frond_rigid_is_valid(frond_rigid rigid);
 /* Gives position, rotation and velocities of a rigid body. */
 FROND_API frond_result frond_rigid_get_state(frond_rigid rigid, frond_rigid_state* out);
-/* Moves a rigid body: one without mass is carried there within the next step and takes plants along; one with mass is
+/* Moves a rigid body: one without mass goes there within the next step and takes plants along; one with mass is
  * put there, with these velocities. BAD_ARGUMENT for a plane. */
 FROND_API frond_result frond_rigid_set_state(frond_rigid rigid, const frond_rigid_state* state);
 /* Returns the body as frond_contact.body names it; null for an invalid handle. */
@@ -605,16 +605,16 @@ FROND_API const void* frond_rigid_get_body(frond_rigid rigid);
 
 /* Holds the surface vertex nearest to `point` [m] to the place of the body where it is now, turning with the body.
  * Plant and body feel equal and opposite impulses, as contacts do (FROND_EFFECT_TWO_WAY; FROND_RESPONSE_NONE lets go).
- * One bond lets the plant turn about the point; three hold it in every way: a plant in a pot has root_height -1 and
- * some bonds around its foot. A body that leaves the world holds nothing any more. Both of one world, or BAD_ARGUMENT.
- * In a Bullet world of your own, see bond() in frond_bullet.hpp. */
+ * One bond lets the plant turn about the point; three hold it completely: a plant in a pot has root_height -1 and
+ * some bonds around its foot. A body that leaves the world no longer holds it. BAD_ARGUMENT unless both are of one
+ * world. In a Bullet world of your own, see bond() in frond_bullet.hpp. */
 FROND_API frond_result frond_bond_create(frond_plant plant, frond_vec3 point, frond_rigid rigid, frond_bond* out);
 /* Gives the point of the plant that is held [m], and the force on the plant in the last substep [N]. Either may be
  * null. */
 FROND_API frond_result frond_bond_get(frond_bond bond, frond_vec3* point, frond_vec3* force);
-/* Destroys a bond. Null and stale handles are ignored. Its plant's end is its end. */
+/* Destroys a bond. Null and stale handles are ignored. It is destroyed with its plant, too. */
 FROND_API void frond_bond_destroy(frond_bond bond);
-/* Tells whether a handle is of a bond that exists. */
+/* Returns whether a handle is of a bond that exists. */
 FROND_API bool frond_bond_is_valid(frond_bond bond);
 
 #ifdef __cplusplus

@@ -18,9 +18,9 @@ typedef struct frond_profile {
     double ms_step, ms_collide, ms_effects, ms_assembly, ms_solve, ms_response, ms_capsules, ms_surface;
     /* The parts of ms_collide for plants with plants: broad phase, spatial hash, tests and depths. */
     double ms_broad, ms_hash, ms_narrow;
-    /* Each effect's, by bit. Gravity, damping, friction and two-way impulses are part of what others solve: they have
-     * no time of their own and are 0. Where plants are stepped by several threads the times of these add up, as those
-     * of assembly and solve do. */
+    /* Time of each effect, by bit. Gravity, damping, friction and two-way impulses are part of what others solve: they
+     * have no time of their own and are 0. Where plants are stepped by several threads the times of these add up, as do
+     * those of assembly and solve. */
     double ms_of_effect[FROND_EFFECT_COUNT];
 } frond_profile;
 
@@ -55,10 +55,10 @@ typedef struct frond_energy {
     double kinetic, elastic, gravity; /* [J]; gravity is zero at the height of the world's origin */
 } frond_energy;
 
-/* Goes on with other mechanics, from the same shape and velocities: exactly between tets; between cage and chain as
- * near as the one can take the other's shape. Pins, and the ground under its foot, stay. */
+/* Switches to other mechanics, from the same shape and velocities: exactly between tets; between cage and chain as near
+ * as the one can take the other's shape. Pins, and the ground under its foot, stay. */
 FROND_API frond_result frond_plant_set_mechanics(frond_plant plant, frond_mechanics mechanics);
-/* Goes on with another integrator, from the same shape and velocities. */
+/* Switches to another integrator, from the same shape and velocities. */
 FROND_API frond_result frond_plant_set_integrator(frond_plant plant, frond_integrator integrator);
 /* Copies positions [m] and velocities [m/s] of the cage's nodes in the world's frame, node_count*3 each. node_count
  * must be the plant's. Either array may be null. */
@@ -81,7 +81,7 @@ FROND_API frond_result frond_plant_set_plastic(frond_plant plant, const double* 
 /* Computes the energies of the plant as it is now. */
 FROND_API frond_result frond_plant_get_energy(frond_plant plant, frond_energy* out);
 /* Computes the strain of the outermost fibre of each capsule's organ by bending and pulling [-], against the shape
- * without any load: what FROND_EFFECT_BREAKING compares with strength / young. 0 of fragments. capsule_count must be
+ * without any load: what FROND_EFFECT_BREAKING compares with strength / young. 0 for fragments. capsule_count must be
  * the plant's; out: capsule_count. */
 FROND_API frond_result frond_plant_get_strains(frond_plant plant, double* out, int capsule_count);
 /* Computes the force of the air on the whole plant, pinned nodes included, at the end of the last substep, in the
@@ -97,15 +97,15 @@ typedef struct frond_advice {
     double cage_size;      /* for a frond_model_def [m]; 0: the cage does not matter */
     double capsule_height; /* for a frond_model_def [m]; 0: the chain does not matter */
     double time_step;      /* at most; for frond_world_step or frond_world_def.max_substep [s] */
-    double error;          /* to expect of the tip, rms over two periods of a sway, over its peak [-] */
-    double cpu;            /* to expect: CPU seconds a simulated second, on the processor of the table */
+    double error;          /* expected, of the tip: rms over two periods of the first mode, over its peak [-] */
+    double cpu;            /* expected CPU seconds per simulated second, on the processor of the table */
 } frond_advice;
 
 /* Recommends settings for a model from a table of measured ones (plugin/src/api/recommend_front.inc, made by
- * `frond study sway --advice`), brought to its length, its first sway and its number of capsules or tets. Either error
- * or cpu is above zero: with `error`, 0..1, the cheapest settings that are as accurate; with `cpu` the most accurate
- * that cost no more. Build the model anew with the sizes that come back. UNSUPPORTED, with a text that names what there
- * is, if no settings do. */
+ * `frond study sway --advice`), scaled to its length, its first natural frequency and its number of capsules or tets.
+ * Either error or cpu is above zero: with `error`, 0..1, the cheapest settings that are as accurate; with `cpu` the
+ * most accurate that cost no more. Build the model anew with the sizes that come back. UNSUPPORTED, with a text that
+ * names what there is, if no settings do. */
 FROND_API frond_result frond_recommend(frond_model model, double error, double cpu, frond_advice* out);
 
 #ifdef __cplusplus

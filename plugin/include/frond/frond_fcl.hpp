@@ -1,5 +1,5 @@
-// frond_fcl.hpp - plants for motion planners that ask FCL (the Flexible Collision Library, 0.6 and 0.7) what collides.
-// Header only: needs FCL's headers and libraries beside Frond's.
+// frond_fcl.hpp - plants for motion planners that query FCL (the Flexible Collision Library, 0.6 and 0.7) for
+// collisions. Header only: needs FCL's headers and libraries beside Frond's.
 //
 //     frond::FclPlant<double> bean(plant, model);
 //     bean.add_to(manager);                       // an fcl::BroadPhaseCollisionManager of the planner's
@@ -28,7 +28,7 @@
 
 namespace frond {
 
-// What of a plant FCL is shown: its capsules, as Bullet has them, or the outside of its cage, which is somewhat fatter.
+// The part of a plant that FCL sees: its capsules, as Bullet has them, or the outside of its cage, somewhat fatter.
 enum class FclParts { CAPSULES, CAGE };
 
 template <class S>
@@ -45,7 +45,7 @@ public:
     FclPlant(const FclPlant&) = delete;
     FclPlant& operator=(const FclPlant&) = delete;
 
-    // One a capsule in their order, or a single one. Their user data is the caller's.
+    // Returns one object per capsule in their order, or a single one of the cage. Their user data is the caller's.
     const std::vector<std::unique_ptr<fcl::CollisionObject<S>>>& collision_objects() const { return objects; }
     void add_to(fcl::BroadPhaseCollisionManager<S>& manager) const {
         for (const auto& object : objects) manager.registerObject(object.get());
@@ -53,7 +53,7 @@ public:
     void remove_from(fcl::BroadPhaseCollisionManager<S>& manager) const {
         for (const auto& object : objects) manager.unregisterObject(object.get());
     }
-    // Puts them where the plant is now. Call manager.update() afterwards.
+    // Moves the objects to where the plant is now. Call manager.update() afterwards.
     void update() {
         if (cage)
             update_cage();
@@ -67,7 +67,7 @@ private:
     frond_plant plant;
     std::vector<std::shared_ptr<fcl::Capsule<S>>> capsules;
     std::shared_ptr<Bvh> cage;    // null: capsules
-    std::vector<int> cage_nodes;  // of the plant, one a vertex of the cage's outside
+    std::vector<int> cage_nodes;  // the plant's node at each vertex of the cage's outside
     std::vector<std::unique_ptr<fcl::CollisionObject<S>>> objects;
 
     static void must(frond_result result) {
@@ -106,7 +106,7 @@ private:
         }
     }
 
-    // Faces that only one tet has, turned outwards.
+    // Returns the faces that only one tet has, oriented outwards.
     static std::vector<std::array<int, 3>> faces_of(const frond_cage_view& view) {
         std::map<std::array<int, 3>, std::pair<int, std::array<int, 3>>> seen;
         for (int t = 0; t < view.tet_count; t++) {

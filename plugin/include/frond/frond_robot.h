@@ -3,17 +3,17 @@
  * too.
  *
  * A robot is a tree of links; link 0 is its base, and every other link hangs on its parent by one joint, which has the
- * link's number. Joints are fixed, revolute, continuous, prismatic or, between the base and the rest, floating. Of the
- * file count <inertial>, <collision> and <joint> with its <limit>; not <visual>, <mimic>, <dynamics> and <safety>.
- * Meshes collide as their convex hulls. A mesh that the file calls "package://NAME/PATH" is looked for in the folders
+ * link's number. Joints are fixed, revolute, continuous, prismatic or, between the base and the rest, floating. The
+ * file's <inertial>, <collision> and <joint> with its <limit> count; <visual>, <mimic>, <dynamics> and <safety> do not.
+ * Meshes collide as their convex hulls. A mesh that the file calls "package://NAME/PATH" is searched for in the folders
  * of the environment variables FROND_PACKAGE_PATH and ROS_PACKAGE_PATH (separated by colons), then in those above the
  * file.
  *
- * Motors and limits are held as well as Bullet's solver converges: in a world of frond_world_create it makes 100 rounds
- * once there is a robot; in your own, set getSolverInfo().m_numIterations (with Bullet's default of 10 an arm sags by a
- * degree).
+ * Motors and limits are held as well as Bullet's solver converges: in a world of frond_world_create it makes 100
+ * iterations once there is a robot; in your own, set getSolverInfo().m_numIterations (with Bullet's default of 10 an
+ * arm sags by a degree).
  *
- * Plants push links as they push any body; what they do to a link in a substep is the sum of its contacts. Robots do
+ * Plants push links as they push any body; their force on a link in a substep is the sum over its contacts. Robots do
  * not collide with themselves. */
 #ifndef FROND_ROBOT_H
 #define FROND_ROBOT_H
@@ -41,34 +41,34 @@ FROND_API const char* frond_joint_name(frond_joint joint);
 
 typedef struct frond_robot_def {
     uint32_t cookie;     /* do not set */
-    frond_vec3 position; /* of the base [m], default the origin */
-    frond_quat rotation; /* of the base; default: what the file has upwards, +z, is +y */
+    frond_vec3 position; /* position of the base [m], default the origin */
+    frond_quat rotation; /* rotation of the base; default: the file's up axis, +z, is +y */
     bool is_fixed;       /* the base does not move, default true; false for a base that hangs on a floating joint */
-    double friction;     /* of all links, default 0.5; Bullet multiplies it by the other body's or organ's */
-    int group, mask;     /* of Bullet's collision filter, default 1 and -1 */
+    double friction;     /* friction of all links, default 0.5; Bullet multiplies it by the other body's or organ's */
+    int group, mask;     /* Bullet's collision filter, default 1 and -1 */
 } frond_robot_def;
 
 /* The properties of a link that do not change. Strings are borrowed; they live as long as the robot. */
 typedef struct frond_robot_link {
     const char* name;
-    const char* joint_name; /* "" of link 0 */
-    int parent;             /* -1 of link 0 */
+    const char* joint_name; /* "" for link 0 */
+    int parent;             /* -1 for link 0 */
     frond_joint joint;
     double lower, upper; /* limits of the joint [rad], [m]; 0 where it has none */
-    double max_force;    /* that the file gives its motor [N], [N m]; 0: none said */
+    double max_force;    /* limit of its motor in the file [N], [N m]; 0: none given */
     double mass;         /* [kg] */
-    const void* body;    /* as frond_contact.body names it; null: it touches nothing */
+    const void* body;    /* the body as in frond_contact.body; null: it touches nothing */
 } frond_robot_link;
 
-/* How a link is now, in the world's frame. */
+/* The present state of a link, in the world's frame. */
 typedef struct frond_link_state {
-    frond_vec3 position; /* of the link's frame, where its joint is [m] */
+    frond_vec3 position; /* origin of the link's frame, where its joint is [m] */
     frond_quat rotation;
-    frond_vec3 force;                      /* of all plants on the link in the last substep [N] */
-    frond_vec3 torque;                     /* the same about the link's centre of mass [N m] */
-    int contact_count;                     /* at how many points */
+    frond_vec3 force;                      /* force of all plants on the link in the last substep [N] */
+    frond_vec3 torque;                     /* their torque about the link's centre of mass [N m] */
+    int contact_count;                     /* number of points at which they touch it */
     double joint_position, joint_velocity; /* [rad], [m]; [rad/s], [m/s] */
-    double motor_force;                    /* of the joint's motor in the last substep [N m], [N] */
+    double motor_force;                    /* force of the joint's motor in the last substep [N m], [N] */
 } frond_link_state;
 
 /* Returns the default settings of a robot. */
@@ -83,16 +83,16 @@ static inline frond_robot_def frond_default_robot_def(void) {
  * frond_world_create are such. All joints begin at zero or at the limit nearest to it, held there by their motors. */
 FROND_API frond_result frond_robot_load(frond_world world, const char* path, const frond_robot_def* def,
                                         frond_robot* out);
-/* Destroys a robot. Null and stale handles are ignored. Its world's end is its end. */
+/* Destroys a robot. Null and stale handles are ignored. It is destroyed with its world, too. */
 FROND_API void frond_robot_destroy(frond_robot robot);
-/* Tells whether a handle is of a robot that exists. */
+/* Returns whether a handle is of a robot that exists. */
 FROND_API bool frond_robot_is_valid(frond_robot robot);
 /* Returns the number of links; 0 for an invalid handle. */
 FROND_API int frond_robot_get_link_count(frond_robot robot);
 /* Returns the number of the link that has this name or whose joint has it; -1 if there is none or the handle is
  * invalid. */
 FROND_API int frond_robot_find_link(frond_robot robot, const char* name);
-/* Describes what does not change about a link. */
+/* Describes the properties of a link that do not change. */
 FROND_API frond_result frond_robot_get_link(frond_robot robot, int link, frond_robot_link* out);
 /* Gives the state of a link after the last substep, with the force of plants on it. */
 FROND_API frond_result frond_robot_get_link_state(frond_robot robot, int link, frond_link_state* out);
@@ -116,14 +116,14 @@ FROND_API frond_result frond_robot_bond(frond_plant plant, frond_vec3 point, fro
 /* Writes a model's chain as a URDF file that other programs read: a link with a <visual>, a <collision> and an
  * <inertial> for each capsule, hung on each other by fixed joints, +z up, and in <frond> what Frond needs to make the
  * same plant of it again: organ, material, and the stiffness and mass of the section. Materials are written by kind, so
- * that those of the caller's own count only by the stiffness that they gave the sections. FILE_NOT_FOUND if the file
- * cannot be written. */
+ * that the caller's own count only by the stiffness that they gave the sections. FILE_NOT_FOUND if the file cannot be
+ * written. */
 FROND_API frond_result frond_model_write_urdf(frond_model model, const char* path);
 
 /* Computes the force that holds a plant, of the ground on its pinned nodes, in the world's frame [N], and its moment
- * about `about` [N m]. Either may be null. Elastic forces and weight as they are after the last substep count; what
- * damps does not, so that it is exact for a plant at rest, which is held with the opposite of its weight and of all
- * that pushes it beyond its foot. */
+ * about `about` [N m]. Either may be null. Elastic forces and weight after the last substep count; damping forces
+ * do not, so that it is exact for a plant at rest, where it is the opposite of the plant's weight and of all loads
+ * beyond its foot. */
 FROND_API frond_result frond_plant_get_root_force(frond_plant plant, frond_vec3 about, frond_vec3* force,
                                                   frond_vec3* moment);
 

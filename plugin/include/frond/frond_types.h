@@ -21,7 +21,7 @@ extern "C" {
 
 /* ---- version ------------------------------------------------------------------------------------------- */
 
-/* The one place in which the version stands; CMake reads it here. While the major version is 0, a new minor version may
+/* The only place that states the version; CMake reads it here. While the major version is 0, a new minor version may
  * change API and ABI, and the library's SOVERSION is 0.MINOR; from version 1 on a new major version may, and it is
  * MAJOR. A new patch version changes neither. */
 #define FROND_VERSION_MAJOR 0
@@ -104,9 +104,9 @@ typedef struct frond_bond {
     uint64_t id;
 } frond_bond;
 
-/* Fills a def with its defaults; what the frond_default_*_def functions below do, which know the def's kind and the
- * version of the header that the program was compiled with. A def of another version gets a cookie by which every
- * function refuses it, and nothing else is written: its layout may be another one. Null is ignored. */
+/* Fills a def with its defaults. The frond_default_*_def functions call it with the def's kind and the version of the
+ * header that the program was compiled with. A def of another version gets a cookie by which every function refuses it,
+ * and nothing else is written: its layout may be another one. Null is ignored. */
 FROND_API void frond_fill_def(void* def, uint32_t cookie);
 #define FROND_DEF_COOKIE(kind) ((uint32_t)(kind) << 24 | (uint32_t)FROND_VERSION)
 
@@ -123,8 +123,8 @@ FROND_API void frond_fill_def(void* def, uint32_t cookie);
     X(FRICTION, 6, "friction")           /* and rub on it; likewise plants on plants */                             \
     X(TWO_WAY, 7, "two_way")             /* and feel the same impulses; needs FROND_EFFECT_RIGID_CONTACT */         \
     X(PLASTICITY, 8, "plasticity")       /* deformation beyond an organ's yield_strain stays, and creeps */         \
-    X(PLANT_CONTACT, 9, "plant_contact") /* plants push each other by their cages, where both have this bit. Those  \
-                                          * that stand in each other when they are made come apart, slowly. */      \
+    X(PLANT_CONTACT, 9, "plant_contact") /* plants push each other by their cages, where both have this bit. Plants \
+                                          * that overlap when they are made come apart, slowly. */                  \
     X(SELF_CONTACT, 10, "self_contact")  /* parts of a plant push each other, except those that meet as modelled */ \
     X(BREAKING, 11, "breaking")          /* an organ that is bent or pulled beyond its strength breaks there: all   \
                                           * beyond comes off as a rigid body, and is still drawn with the plant */  \
@@ -141,7 +141,7 @@ typedef uint32_t frond_effects;
 enum {
     FROND_EFFECTS(FROND_EFFECT_ENUM) FROND_EFFECT_COUNT = 0 FROND_EFFECTS(FROND_EFFECT_ONE),
     FROND_EFFECT_ALL = (1 << FROND_EFFECT_COUNT) - 1,
-    /* of a plant; a world allows all */
+    /* a plant's default; a world allows all */
     FROND_EFFECT_DEFAULT = FROND_EFFECT_ALL & ~(FROND_EFFECT_SELF_CONTACT | FROND_EFFECT_BREAKING)
 };
 #undef FROND_EFFECT_ENUM
@@ -161,12 +161,12 @@ typedef enum frond_mechanics { FROND_MECHANICS(FROND_MECHANICS_ENUM) FROND_MECHA
 #undef FROND_MECHANICS_ENUM
 
 /* The formula that takes a step in time. */
-#define FROND_INTEGRATORS(X)                                                                                  \
-    X(IMPLICIT_EULER, "implicit_euler")       /* the paper's: one solve, damps sway away within seconds */    \
-    X(BDF2, "bdf2")                           /* one solve, looks one step back: keeps sway, best per cost */ \
-    X(SDIRK2, "sdirk2")                       /* two solves */                                                \
-    X(TR_BDF2, "tr_bdf2")                     /* two solves */                                                \
-    X(GENERALIZED_ALPHA, "generalized_alpha") /* iterated to convergence; spectral_radius sets damping */     \
+#define FROND_INTEGRATORS(X)                                                                                        \
+    X(IMPLICIT_EULER, "implicit_euler")       /* the paper's: one solve, damps vibration away within seconds */     \
+    X(BDF2, "bdf2")                           /* one solve, uses one step before: keeps vibration, best per cost */ \
+    X(SDIRK2, "sdirk2")                       /* two solves */                                                      \
+    X(TR_BDF2, "tr_bdf2")                     /* two solves */                                                      \
+    X(GENERALIZED_ALPHA, "generalized_alpha") /* iterated to convergence; spectral_radius sets damping */           \
     X(SYMPLECTIC_EULER, "symplectic_euler")   /* explicit: no solve, unstable but for tiny steps */
 #define FROND_INTEGRATOR_ENUM(code, text) FROND_INTEGRATOR_##code,
 typedef enum frond_integrator { FROND_INTEGRATORS(FROND_INTEGRATOR_ENUM) FROND_INTEGRATOR_COUNT } frond_integrator;
@@ -260,14 +260,14 @@ typedef enum frond_linear_solver {
     FROND_LINEAR_SOLVERS(FROND_LINEAR_SOLVER_ENUM) FROND_LINEAR_SOLVER_COUNT
 } frond_linear_solver;
 #undef FROND_LINEAR_SOLVER_ENUM
-/* How mass is given to nodes: each its own, or shared with its neighbours as the elements' shape functions say. Of
+/* How mass is given to nodes: each its own, or shared with its neighbours as the elements' shape functions say. For
  * rods, "consistent" is the mean of both, whose frequencies are right to 0.5 % with ten segments (lumped: 2.5 % in the
  * third). */
 #define FROND_MASSES(X) X(LUMPED, "lumped") X(CONSISTENT, "consistent")
 #define FROND_MASS_ENUM(code, text) FROND_MASS_##code,
 typedef enum frond_mass { FROND_MASSES(FROND_MASS_ENUM) FROND_MASS_COUNT } frond_mass;
 #undef FROND_MASS_ENUM
-/* How the places are found where cages overlap. All layouts find the same. */
+/* How overlaps of cages are found. All layouts find the same ones. */
 #define FROND_HASH_LAYOUTS(X)                                                                         \
     X(GRID, "grid")               /* a grid, only of those cells in which two plants are: quickest */ \
     X(PAPER, "paper")             /* the paper's table of n buckets over cells of size l */           \
@@ -279,18 +279,18 @@ typedef enum frond_hash_layout { FROND_HASH_LAYOUTS(FROND_HASH_LAYOUT_ENUM) FRON
 /* A plant's solver; part of frond_plant_def. */
 typedef struct frond_tuning {
     frond_linear_solver linear_solver; /* default FROND_LINEAR_SOLVER_BLOCK */
-    int linear_iterations;             /* of an iterative linear solver at most, default 10000 */
-    double linear_tolerance;           /* of an iterative linear solver, relative residual [-], default 1e-6 */
+    int linear_iterations;             /* largest number, of an iterative linear solver, default 10000 */
+    double linear_tolerance;           /* relative residual of an iterative linear solver [-], default 1e-6 */
     frond_mass mass;                   /* default FROND_MASS_LUMPED */
     int newton_iterations;             /* solves per step at most, 1 .. 100, default 1 */
     double newton_tolerance; /* stop when the residual force is below this share of the first one [-], default 1e-6 */
-    double spectral_radius;  /* of FROND_INTEGRATOR_GENERALIZED_ALPHA at infinite frequency, 0 .. 1 [-], default 0.8: 1
+    double spectral_radius;  /* FROND_INTEGRATOR_GENERALIZED_ALPHA's at infinite frequency, 0 .. 1 [-], default 0.8: 1
                               * damps nothing, 0 most */
     /* A step is taken in 1, 2, 4 .. max_substeps (1 .. 64, default 1: always one, at no cost) equal parts, as few as
      * keep the error that the step adds to the position of any node below substep_tolerance (1e-9 .. 1, default 1e-4)
      * times the plant's size [-]. The error is estimated from how far nodes end from where their velocities and the
-     * last change of these said; a step in which it is too large is taken again. While bodies touch it, a plant takes
-     * whole steps. */
+     * last change of these predicted; a step in which it is too large is taken again. While bodies touch it, a plant
+     * takes whole steps. */
     int max_substeps;
     double substep_tolerance;
 } frond_tuning;
@@ -300,11 +300,11 @@ typedef struct frond_contact_tuning {
     frond_hash_layout hash_layout; /* default FROND_HASH_LAYOUT_GRID */
     int hash_table_size;       /* n of FROND_HASH_LAYOUT_PAPER, 0 .. 1e8; 0 (default): twice the number of entries */
     double hash_cell_size;     /* l [m], 0 .. 1e3; 0 (default) takes one and a half mean edges of the cages that touch,
-                                * and less than an eighth of one is not taken */
+                                * and never less than an eighth of one */
     int response_iterations;   /* rounds over all contacts at most, 1 .. 100000, default 200 */
     double response_tolerance; /* stop when no impulse changes by more than this share of the largest [-], 0 .. 1,
                                 * default 1e-6 */
-    double penalty_stiffness;  /* of FROND_RESPONSE_PENALTY, a contact [N/m], 1e-6 .. 1e12, default 1000 */
+    double penalty_stiffness;  /* stiffness of FROND_RESPONSE_PENALTY per contact [N/m], 1e-6 .. 1e12, default 1000 */
 } frond_contact_tuning;
 
 /* Returns the short lower-case name of a linear solver, "block"; "?" when it is out of range. */

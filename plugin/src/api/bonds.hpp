@@ -1,4 +1,4 @@
-// Bonds: what calls that make one have in common.
+// Bonds: shared by the calls that make one.
 #pragma once
 
 #include "api/handles.hpp"

@@ -1,4 +1,4 @@
-// Call: the frame of every public function. Checks arguments; turns whatever is thrown into a result and a text.
+// Call: the frame of every public function. Checks arguments; turns exceptions into a result and a text.
 #pragma once
 
 #include <cmath>
@@ -45,14 +45,14 @@ inline void check_range(double value, double low, double high, const char* name)
 inline void check_vec(const frond_vec3& p, const char* name) {
     for (double value : {p.x, p.y, p.z}) check_range(value, -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
 }
-// Names and paths that no file system and no mesh has.
+// Checks a name or a path: none in a file system or a mesh is longer than the limit.
 inline void check_text(const char* text, const char* name) {
     constexpr size_t LONGEST = 4096;
     check_pointer(text, name);
     if (strnlen(text, LONGEST + 1) > LONGEST)
         fail(FROND_RESULT_BAD_ARGUMENT, "%s has more than %zu characters; pass a shorter one", name, LONGEST);
 }
-// The number in an enum that a caller wrote: it may be none of the enum's own, so it is not read as one.
+// Returns the number in an enum that a caller wrote: it may be out of the enum's range, so it is not read as the enum.
 template <class Enum>
 int number_of(const Enum& value) {
     int number;
@@ -64,7 +64,7 @@ inline void check_row(int row, int count, const char* name) {
     if (row < 0 || row >= count) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; use one of its enum's names", name, row);
 }
 // A def's cookie is its kind, a letter, and the version of the header that it was made by: see FROND_DEF_COOKIE. Patch
-// versions go together.
+// versions are compatible.
 inline bool is_of_this_version(uint32_t cookie) {
     return (cookie & 0xffff00) == (uint32_t(FROND_VERSION) & 0xffff00);
 }

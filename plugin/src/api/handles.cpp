@@ -30,7 +30,7 @@ BondSlots& bond_slots() {
     return slots<BondSlots>();
 }
 
-// One text for what is wrong with a handle.
+// Throws for an invalid handle, with one text for all kinds.
 static void require(bool found, uint64_t id, const char* noun) {
     if (found) return;
     if (id == 0)

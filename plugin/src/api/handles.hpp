@@ -1,4 +1,4 @@
-// Handles: what the C API's handles stand for.
+// Handles: the objects that the C API's handles stand for.
 #pragma once
 
 #include "core/slots.hpp"
@@ -36,7 +36,7 @@ Bond& get(frond_bond bond);
 // Wakes a plant that is about to be changed, after all arguments were checked: it is stepped in full again.
 Plant& awaken(PlantBody& body);
 
-// Takes the handles of a plant, its grabs and its bonds back; the plant itself is the world's.
+// Releases the handles of a plant, its grabs, bonds and fragments; the plant itself belongs to the world.
 void forget(PlantBody& body);
 
 }  // namespace FROND_BULLET_PRECISION

@@ -8,7 +8,7 @@
 
 using namespace frond;
 
-constexpr int LARGEST_COUNT = 20'000'000;  // of vertices or triangles that a caller may pass
+constexpr int LARGEST_COUNT = 20'000'000;  // largest number of vertices or triangles that a caller may pass
 
 static void check_model_def(const frond_model_def* def) {
     check_def(def, 'M', "model");

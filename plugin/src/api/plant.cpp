@@ -57,13 +57,13 @@ static void check_numbers(const double* numbers, int count, const char* name) {
     for (int i = 0; i < count; i++) check_range(numbers[i], -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
 }
 
-// After its nodes were put elsewhere.
+// Updates capsules and box after the nodes were moved.
 static void show(PlantBody& body) {
     move_capsules(body);
     body.world->bullet->updateSingleAabb(&body);
 }
 
-// The one that ends at a chain node.
+// Returns the capsule that ends at a chain node.
 static int capsule_of(const Plant& plant, int node) {
     const auto& capsules = plant.model->capsules;
     const auto ends = [&](const std::array<int, 2>& capsule) { return capsule[1] == node; };
@@ -74,7 +74,7 @@ static frond_effects effects_of(const PlantBody& body) {
     return body.plant->effects & body.world->effects;
 }
 
-// The contacts of one plant, with the signs that it feels.
+// Returns the contacts of one plant, with normals and impulses as they act on it.
 static std::vector<frond_contact> contacts_of(const PlantBody& body) {
     std::vector<frond_contact> out;
     const LastContacts* kept = body.rest.contacts.get();
@@ -94,7 +94,7 @@ static std::vector<frond_contact> contacts_of(const PlantBody& body) {
     return out;
 }
 
-// Makes it as it is now. What it was before goes to the previous frame, if somebody asks for that.
+// Makes the surface as it is now. The last one goes to the previous frame, if that is requested.
 static void make_surface(PlantBody& body) {
     Plant& p = *body.plant;
     const World& world = *body.world;

@@ -1,5 +1,5 @@
-// frond_recommend: a model and a wish come in, the settings that fulfil it go out, from the front of error over cost
-// that `frond study` measured (recommend_front.inc says how it is made anew).
+// frond_recommend: a model and a bound come in, the best settings within it go out, from the Pareto front of error and
+// cost that `frond study` measured (recommend_front.inc names the command that makes it).
 #include <algorithm>
 #include <cmath>
 
@@ -12,12 +12,12 @@ using namespace frond;
 
 namespace {
 
-// The result of one setting on a stem that sways once a second.
+// The measured result of one setting on a stem with a natural frequency of 1 Hz.
 struct Measured {
     frond_mechanics mechanics;
     frond_integrator integrator;
     int pieces;           // capsules or cage cells from root to tip
-    double steps;         // a period of the sway
+    double steps;         // steps per period of the first mode
     double error;         // rms of the tip over two periods / peak [-]
     double cpu_per_step;  // [s]
     double count;         // capsules of the chain or tets of the cage
@@ -26,15 +26,15 @@ constexpr Measured FRONT[] = {
 #include "api/recommend_front.inc"
 };
 
-// From a root along the chain to the farthest node [m].
+// Returns the length along the chain from a root to the farthest node [m].
 double reach_of(const Model& model) {
     double reach = 0;
     for (const ChainNode& node : model.chain.nodes) reach = std::max(reach, node.distance);
     return reach;
 }
 
-// How many capsules or tets the model will have with pieces of this length. A cage's tets grow with a power of its
-// fineness between that of a line and that of a sheet.
+// Estimates how many capsules or tets of this length the model will have. The number of a cage's tets grows with a
+// power of its fineness between that of a line and that of a sheet.
 double count_of(const Model& model, bool chain, double length) {
     if (chain) return std::max(1.0, model.chain.length() / length);
     constexpr double TETS_A_CELL = 6, POWER = 1.5;

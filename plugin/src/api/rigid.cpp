@@ -18,7 +18,7 @@ static void check_state(const frond_rigid_state& state) {
         check_range(v, -FASTEST, FASTEST, "state.angular_velocity [rad/s]");
 }
 
-// How many of the three numbers of the size a shape has.
+// Returns how many of the size's three numbers a shape has.
 static int size_count(int shape) {
     static const int COUNTS[] = {1, 3, 2, 2, 2, 0};
     static_assert(sizeof COUNTS / sizeof COUNTS[0] == FROND_SHAPE_COUNT, "every shape needs its size");

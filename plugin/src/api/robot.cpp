@@ -51,7 +51,7 @@ size_t check_link(const Robot& robot, int link) {
     return size_t(link);
 }
 
-// A link whose joint can be moved.
+// Checks that a link exists and its joint can move.
 size_t check_joint(const Robot& robot, int link) {
     const size_t index = check_link(robot, link);
     if (!moves(robot, index))
@@ -80,7 +80,7 @@ frond_joint kind_of(UrdfJoint joint) {
     }
 }
 
-// Sums the forces of plants on a link: plants that sleep count with those when they fell asleep.
+// Sums the forces of plants on a link; plants that sleep count with the forces with which they fell asleep.
 void add_contacts(const Robot& robot, size_t link, frond_link_state& state) {
     const World& world = *robot.world;
     const btCollisionObject* collider = robot.links[link].collider.get();

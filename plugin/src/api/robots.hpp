@@ -10,7 +10,7 @@ inline namespace FROND_BULLET_PRECISION {
 using RobotSlots = Slots<Robot*, 7>;
 RobotSlots& robot_slots();
 Robot& get(frond_robot robot);
-// Takes the handles of a world's robots back.
+// Releases the handles of a world's robots.
 void forget_robots(const World& world);
 
 }  // namespace FROND_BULLET_PRECISION

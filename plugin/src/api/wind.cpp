@@ -30,7 +30,7 @@ frond_result frond_world_set_wind(frond_world world, const frond_wind_def* def) 
         World& w = get(world);
         if (!def) {
             w.wind = nullptr;
-            for (const auto& body : w.bodies) wake(*body);  // what it bent comes back
+            for (const auto& body : w.bodies) wake(*body);  // plants that it bent come back
             return;
         }
         check_wind_def(def);

@@ -1,4 +1,4 @@
-// frond_world_*, and the C++ side that attaches to a host's world.
+// frond_world_*, and the C++ functions that attach to a host's world.
 #include "api/call.hpp"
 #include "api/robots.hpp"
 
@@ -40,7 +40,7 @@ static bool has_made_surface(const Plant& plant) {
     return !plant.surface_stale && plant.ms_surface > 0;
 }
 
-// Sums over the plants; times and trouble are those of the last substep.
+// Completes the last substep's report by sums over the plants.
 static frond_report full_report(const World& world) {
     frond_report report = world.report;
     report.time = world.time;

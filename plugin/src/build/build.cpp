@@ -34,7 +34,7 @@ static void finish(Model& model) {
     model.cage_report = measure_cage(model.surface, model.cage, model.embedding);
 }
 
-// One warning for a plant that its materials do not carry, or else for one that its cage does not.
+// Warns once: about a plant that its materials do not carry, or else one that its cage does not.
 static void tell_stiffened(Model& model, const WeakOrgan& weak, const WeakOrgan& in_cage) {
     constexpr double MUCH = 3;          // more than the margin that chosen materials get anyway
     constexpr double MUCH_IN_CAGE = 4;  // cells as coarse as the paper's are not more exact than that

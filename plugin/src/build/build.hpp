@@ -13,23 +13,24 @@ std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_mod
 std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def);
 std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def& def);
 
-// Makes organs stiffer that could not carry the plant in the shape in which it was modelled: sets organ_stiffer.
-// Returns the one that needed most.
+// Makes organs stiffer that could not carry the plant in its modelled shape: sets organ_stiffer. Returns the one that
+// needed most.
 struct WeakOrgan {
-    std::string name;   // empty: there is none
-    double factor = 1;  // how much stiffer it was made [-]
+    std::string name;   // empty: none
+    double factor = 1;  // factor by which it was made stiffer [-]
 };
 WeakOrgan strengthen(Model& model);
 
-// Set tet_young and tet_poisson of a model whose organs, cage and root stand: as the materials are, for tets that the
-// caller brought; or so that a cage of Frond's own, in elements of an order, bends as its organs do.
+// Set tet_young and tet_poisson of a model that has organs, cage and root: from the materials, for tets that the caller
+// brought; or so that a cage of Frond's own, in elements of an order, bends as its organs do.
 void take_materials(Model& model);
 void calibrate(Model& model, int order);
 
-// Finds the shape without gravity from which weight bends the cage to the shape that was modelled, for the default
-// mechanics; where the cage would topple, after making organs stiffer in it, which returns the weakest.
+// Finds the shape without gravity from which weight bends the cage to the modelled shape, for the default mechanics. If
+// the cage would topple, makes organs stiffer in it first. Returns the weakest.
 WeakOrgan find_rest_shape(Model& model, int order);
-// For other mechanics, and with order 2 the moduli too, when a plant first asks for it; safe from any thread.
+// Does the same for other mechanics, and with order 2 for the moduli too, when a plant first needs it; safe from any
+// thread.
 void ensure_rest_shape(const Model& model, frond_mechanics which, int order);
 
 }  // namespace frond

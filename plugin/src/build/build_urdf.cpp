@@ -15,7 +15,7 @@ static void find_organs_of_links(const UrdfTree& tree, const std::vector<int>& l
     override_materials(model.organs, def.organs, def.organ_count);
 }
 
-// Sections as the file gives them: of a link each organ is of.
+// Sets sections as the file gives them, from the link of each organ.
 static void take_sections(const UrdfTree& tree, const std::vector<int>& link_of_part, const Quat& turn, Model& model) {
     const std::vector<UrdfFrame> frames = link_frames(tree);
     std::vector<int> link_of_organ(model.organs.size(), -1);
@@ -36,7 +36,7 @@ static void take_sections(const UrdfTree& tree, const std::vector<int>& link_of_
     }
 }
 
-// Parts keep the number of their stem until the chain is made of them, and are then called as their links are.
+// Parts are named by the number of their stem until the chain is made of them, and then after their links.
 static void build_stems(const UrdfTree& tree, const std::vector<UrdfPiece>& pieces, const Quat& turn,
                         const frond_model_def& def, Model& model) {
     const std::vector<frond_stem> stems = stems_of(tree, pieces);
@@ -70,7 +70,7 @@ static int part_of_link(const Surface& surface, const std::string& link) {
     return -1;
 }
 
-// Where links hang on each other; `placed` took the surface to where it is.
+// Finds where links join; `placed` is the surface's placement.
 static std::vector<Seam> seams_of(const UrdfTree& tree, const std::vector<UrdfPiece>& pieces, const Quat& turn,
                                   const Surface& surface, const StemPlacement& placed) {
     const std::vector<UrdfFrame> frames = link_frames(tree);

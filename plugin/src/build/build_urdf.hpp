@@ -1,4 +1,4 @@
-// Build of a plant from a URDF file, and the stages that it shares with other builds.
+// Builds a plant from a URDF file; declares stages shared with other builds.
 #pragma once
 
 #include <memory>
@@ -9,16 +9,16 @@
 
 namespace frond {
 
-// Links of cylinders and capsules alone become stems of just that radius; with other shapes a surface is made of all,
-// and what holds it is measured on that, pieces of links being joined at the links' joints.
+// Links of cylinders and capsules alone become stems of exactly their radius. With other shapes a surface is made of
+// all links, and chain and sections are measured on it, with the links' parts joined at their joints.
 std::shared_ptr<const Model> build_from_urdf(const std::string& path, const frond_model_def& def);
 
 ImportOptions import_options(const frond_model_def& def);
-// How place_surface() moved a surface that was made as it stands.
+// Returns how place_surface() moved a surface.
 StemPlacement placement_of(const Surface& before, const Surface& after);
-// The model has its surface and organs already.
+// Finds chain and sections of a model that has its surface and organs.
 void find_chain(Model& model, const frond_model_def& def);
-// Cage, weight and moduli, of one whose chain stands too.
+// Makes cage, masses and moduli of a model that has its chain too.
 void build_body(Model& model, const frond_model_def& def);
 
 }  // namespace frond

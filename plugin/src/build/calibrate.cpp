@@ -23,7 +23,7 @@ void take_materials(Model& model) {
     }
 }
 
-// Tets that hang loose are as stiff as the organ is in the mean.
+// Takes the fitted moduli; loose tets get the organ's mean factor.
 static void take_moduli(Model& model, const LoneOrgan& lone) {
     double sum = 0;
     for (size_t e = 0; e < lone.tets.size(); e++)

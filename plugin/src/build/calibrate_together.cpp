@@ -1,6 +1,6 @@
-// Organs that cannot be taken alone, because their tets lie scattered among those of others, get one factor together:
-// under equal loads elastic energy is inversely proportional to modulus, so under the plant's weight, along each of the
-// three axes, the ratio of energies, cage over rods, is the factor.
+// Organs that cannot be calibrated alone, because their tets are scattered among those of others, get one factor
+// together: under equal loads elastic energy is inversely proportional to modulus, so the factor is the ratio of
+// energies, cage over rods, under the plant's weight along each of the three axes.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@
 namespace frond {
 namespace {
 
-// Elastic energy of organs' rods under weight along an axis [J].
+// Returns the elastic energy of organs' rods under weight along an axis [J].
 double rod_energy(const Model& model, int axis, const std::vector<char>& left_out) {
     const ChainLoads loads = weigh_chain(model, axis);
     double sum = 0;
@@ -30,7 +30,7 @@ double rod_energy(const Model& model, int axis, const std::vector<char>& left_ou
     return sum;
 }
 
-// Elastic energy of organs' tets whose nodes moved [J].
+// Returns the elastic energy of organs' tets for displaced nodes [J].
 double cage_energy(const Model& model, const TetElements& elements, const VecX& moved,
                    const std::vector<char>& left_out) {
     double sum = 0;
@@ -49,7 +49,7 @@ double cage_energy(const Model& model, const TetElements& elements, const VecX& 
 
 void calibrate_together(Model& model, const std::vector<char>& alone, int order) {
     constexpr int ROUNDS = 4;
-    constexpr double LARGEST_FACTOR = 1e6;  // of a modulus in a round [-]
+    constexpr double LARGEST_FACTOR = 1e6;  // on a modulus in a round [-]
     if (std::all_of(alone.begin(), alone.end(), [](char is) { return is; })) return;
     double rods = 0;
     for (int axis = 0; axis < 3; axis++) rods += rod_energy(model, axis, alone);

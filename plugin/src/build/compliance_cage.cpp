@@ -8,7 +8,7 @@
 namespace frond {
 namespace {
 
-// Volume around each of an organ's nodes of those tets that hang on the chain within `reach` of a place.
+// Returns, for nodes of an organ, the volume around them of tets that hang on the chain within `reach` of a point.
 std::map<int, double> nodes_near(const LoneOrgan& lone, const Model& plant, const std::vector<int>& hangs,
                                  const Vec3& place, double reach) {
     const std::vector<ChainNode>& chain = plant.chain.nodes;
@@ -23,8 +23,8 @@ std::map<int, double> nodes_near(const LoneOrgan& lone, const Model& plant, cons
     return nodes;
 }
 
-// Forces of nodes with the given weights that together are a force and a moment at a place: those which do on any move
-// of the nodes the work that the force and the moment do on the rigid body closest to it. False if they lie in a line.
+// Distributes a force and a moment at a point over weighted nodes, so that for any displacement of the nodes their work
+// is that of the force and the moment on the closest rigid body. False if the nodes lie on a line.
 bool share_out(const LoneOrgan& lone, const std::map<int, double>& nodes, const Vec3& place, const Mat3& frame,
                int first_force, int first_moment, CageLoads& loads) {
     double whole = 0;

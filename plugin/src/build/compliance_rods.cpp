@@ -1,6 +1,6 @@
 // In: an organ's chain and sections. Out: the compliance of its rods. A tree of rods is statically determinate, so
-// forces and moments follow from the loads, summed from the tip down; what they have in common with those of another
-// load, over the stiffness, is the compliance (the theorem of virtual forces). Moments vary linearly along a piece.
+// forces and moments follow from the loads, summed from the tip down; their products for two loads, over the stiffness,
+// are the compliance (the theorem of virtual forces). Moments vary linearly along a segment.
 #include "build/compliance.hpp"
 
 #include <cmath>
@@ -8,13 +8,13 @@
 namespace frond {
 namespace {
 
-// Of each load, about the origin.
+// Force and moment about the origin, one column per load.
 using LoadColumns = Eigen::Matrix<double, 3, LOAD_COUNT>;
 struct NodeLoads {
     LoadColumns force = LoadColumns::Zero(), moment = LoadColumns::Zero();
 };
 
-// Mass of each chain node with all that grows out of it.
+// Returns the mass of each chain node with all that grows out of it.
 std::vector<double> masses_above(const Model& plant) {
     std::vector<double> masses = plant.chain_mass;
     for (size_t i = masses.size(); i-- > 0;)
@@ -22,7 +22,7 @@ std::vector<double> masses_above(const Model& plant) {
     return masses;
 }
 
-// Of an organ's nodes; the weight of what grows out of it hangs on where it grows.
+// Returns the masses of an organ's nodes; the weight of what grows out of it acts where it grows.
 std::vector<double> masses_of(const Model& plant, int organ) {
     const std::vector<ChainNode>& nodes = plant.chain.nodes;
     const std::vector<double> above = masses_above(plant);
@@ -102,7 +102,7 @@ std::vector<Compliance> rod_compliances(const Model& plant, int organ, const Loa
             moment.col(l) = loads[i].moment.col(l) - middle.cross(Vec3(force.col(l)));
             change.col(l) = chord.cross(Vec3(force.col(l)));
         }
-        // Bending towards thin is by moments about wide.
+        // Moments about wide bend towards thin.
         const double over = section.length / plant.organ_stiffer[size_t(organ)];
         const Vec3 soft = over * Vec3(1 / section.bending_wide(), 1 / section.bending_thin(), 1 / section.twisting());
         moment = (frame.transpose() * moment).eval();

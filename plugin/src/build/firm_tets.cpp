@@ -1,5 +1,5 @@
-// In: tets and which nodes are held. Out: which tets cannot move without straining. Tets that meet in a node or an edge
-// only are hinged there, and a hinge carries no bending: its stiffness matrix is singular, or so by rounding alone.
+// In: tets and which nodes are held. Out: which tets cannot move without straining. Tets that share only a node or an
+// edge are hinged there, and a hinge carries no bending: its stiffness matrix is singular, up to rounding.
 #include "build/firm_tets.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace frond {
 namespace {
 
-// The piece of each tet: pieces are joined by whole faces.
+// Returns the component of each tet: components are joined by whole faces.
 std::vector<int> find_pieces(const Cage& cage) {
     UnionFind pieces(cage.tets.size());
     std::map<std::array<int, 3>, int> faces;
@@ -27,7 +27,7 @@ std::vector<int> find_pieces(const Cage& cage) {
     return piece;
 }
 
-// Tells whether points span a triangle that fixes a body of that size.
+// Returns whether points span a triangle that fixes a body of that size.
 bool span_triangle(const std::vector<Vec3>& points, double size) {
     if (points.size() < 3) return false;
     Vec3 far = points[0];
@@ -51,7 +51,7 @@ std::vector<char> find_firm_tets(const Cage& cage, const std::vector<uint8_t>& h
         std::sort(nodes.begin(), nodes.end());
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     }
-    // Pieces that are fixed fix their neighbours, until nothing changes.
+    // Fixed components fix their neighbours, until nothing changes.
     std::vector<uint8_t> fixed = held;
     std::vector<char> firm(piece_nodes.size(), 0);
     for (bool changed = true; changed;) {

@@ -1,8 +1,8 @@
 // In: an organ's cage, alone, and its rods. Out: moduli of the tets with which the cage has the rods' compliance.
 //
-// First as a whole and place by place: under equal loads elastic energy is inversely proportional to modulus, so the
-// ratio of energies, cage over rods, is the factor. Then tet by tet, because a lattice of one cell across is not
-// equally stiff in all directions and hard to twist: Gauss-Newton rounds, each the least change of the moduli's
+// First the organ as a whole and slab by slab: under equal loads elastic energy is inversely proportional to modulus,
+// so the factor is the ratio of energies, cage over rods. Then tet by tet, because a lattice of one cell across is not
+// equally stiff in all directions and hard to twist: Gauss-Newton rounds, each with the least change of the moduli's
 // logarithms after which all compliances match, within bounds, since tets that are much softer than those around them
 // turn inside out.
 #include "build/fit_moduli.hpp"
@@ -40,17 +40,16 @@ struct Bench {
     std::vector<Compliance> measure() { return cage_compliances(lone, elements, stiffness, loads); }
 };
 
-// A modulus with which a cage that reaches one edge beyond the organ has about its bending stiffness, less where the
-// organ fills little of the tet.
+// Returns a modulus with which a cage that reaches one edge beyond the organ has about its bending stiffness, less
+// where the organ fills little of the tet.
 double first_modulus(const Section& section, double stiffer, double edge, double fill) {
     const double thickness = section.thickness + edge, width = section.width + edge;
     return stiffer * 12 * section.bending_thin() / (std::pow(thickness, 3) * width) * std::pow(fill, 0.25);
 }
 
-// ---- place by place ----------------------------------------------------------------------------------------------
+// ---- slab by slab ---------------------------------------------------------------------------------------------------
 
-// Places along an organ are not told apart more finely than its tets do: each chain node's first node of such a
-// stretch.
+// Returns the first chain node of each chain node's slab. Slabs are about `length` long, since tets resolve no finer.
 std::vector<int> stretches(const Chain& chain, int organ, double length) {
     std::vector<int> first(chain.nodes.size());
     for (size_t i = 0; i < first.size(); i++) {
@@ -63,23 +62,23 @@ std::vector<int> stretches(const Chain& chain, int organ, double length) {
     return first;
 }
 
-// Energy of a share under a force at the tip and under weight, along the three axes together, each over what the rods
-// have in all.
+// Returns the energy of a share under a force at the tip and under weight, summed over the three axes, each relative to
+// the rods' total.
 double energy_of(const Compliance& share, const Compliance& rods) {
     const auto trace = [](const Compliance& C, int first) { return C.diagonal().segment<3>(first).sum(); };
     return trace(share, TIP_FORCE) / trace(rods, TIP_FORCE) + trace(share, WEIGHT) / trace(rods, WEIGHT);
 }
 constexpr double WHOLE_ENERGY = 2;
 
-// The place of each tet, and the energy that the rods have there.
+// The slab of each tet, and the energy that the rods have there.
 struct Places {
     std::vector<int> of_tet;
-    std::vector<double> wanted;  // one a chain node [-]
+    std::vector<double> wanted;  // one per chain node [-]
 };
 
 Places find_places(const LoneOrgan& lone, const Model& plant, const std::vector<int>& hangs,
                    const std::vector<Compliance>& rod_shares, const Compliance& rods) {
-    constexpr double STRETCH = 1.5;  // of the mean edge [-]
+    constexpr double STRETCH = 1.5;  // length of a slab over the mean edge [-]
     const std::vector<int> first = stretches(plant.chain, lone.organ, STRETCH * mean_edge(lone.model.cage));
     Places places;
     std::vector<char> has_tets(first.size(), 0);
@@ -87,7 +86,7 @@ Places find_places(const LoneOrgan& lone, const Model& plant, const std::vector<
         places.of_tet.push_back(first[size_t(hangs[e])]);
         has_tets[size_t(places.of_tet.back())] = 1;
     }
-    // A rod's energy counts at the nearest place towards the base on which tets hang.
+    // A rod's energy counts in the nearest slab towards the base that has tets.
     const int home = int(std::find(has_tets.begin(), has_tets.end(), 1) - has_tets.begin());
     places.wanted.assign(first.size(), 0.0);
     for (size_t i = 0; i < first.size(); i++) {
@@ -100,9 +99,9 @@ Places find_places(const LoneOrgan& lone, const Model& plant, const std::vector<
 
 bool fit_places(Bench& bench, const Places& places) {
     constexpr int ROUNDS = 3;
-    constexpr double LARGEST_FACTOR = 1e6;         // of a modulus in a round [-]
-    constexpr double SOFTEST = 0.5, STIFFEST = 8;  // of a place, over how it began [-]
-    constexpr double BLUR = 0.3;                   // of the organ's energy that counts at each of its places [-]
+    constexpr double LARGEST_FACTOR = 1e6;         // on a modulus in a round [-]
+    constexpr double SOFTEST = 0.5, STIFFEST = 8;  // modulus of a slab over its first one [-]
+    constexpr double BLUR = 0.3;                   // share of the organ's energy that is added to each of its slabs [-]
     const size_t tet_count = places.of_tet.size();
     std::vector<double> local(tet_count, 1.0);
     for (int round = 0; round < ROUNDS; round++) {
@@ -130,8 +129,8 @@ bool fit_places(Bench& bench, const Places& places) {
 
 // ---- tet by tet --------------------------------------------------------------------------------------------------
 
-// What the fit is for: at first all loads pull along, then twist and moments hardly do; where that leaves bending far
-// off, as in cells as long as a stem is thick, neither does stretch, which fibres bear.
+// Aims of the fit: at first all loads count; then twist and moments hardly do; if that leaves bending far off, as in
+// cells as long as a stem is thick, stretch hardly counts either, which fibres bear.
 enum class Aim { EVERYTHING, BENDING, BENDING_ONLY };
 
 bool is_moment(int load) {
@@ -142,15 +141,15 @@ bool is_along(int load) {
     return load % 3 == 2;
 }
 
-// How much a load counts.
+// Returns how much a load counts.
 double weight_of(int load, Aim aim) {
     if (load == TIP_MOMENT + 2) return aim == Aim::EVERYTHING ? 0.5 : 1e-3;
     if (is_moment(load)) return aim == Aim::EVERYTHING ? 0.5 : 0.1;
     return is_along(load) && aim == Aim::BENDING_ONLY ? 0.1 : 1;
 }
 
-// A compliance much smaller than the largest of its kind is not told from nothing.
-constexpr double FLOOR = 0.03;  // of that [-]
+// A compliance much smaller than the largest of its kind counts as zero.
+constexpr double FLOOR = 0.03;  // over the largest [-]
 
 // Errors of a cage's compliance and their derivatives by the logarithms of the tets' moduli.
 struct Errors {
@@ -158,10 +157,10 @@ struct Errors {
     MatX slope;
 };
 
-// Of a load with itself the error is the logarithm of the ratio, cage over rods; of two loads the difference of their
-// correlations.
+// Finds the errors: of a load with itself the logarithm of the ratio, cage over rods; of two loads the difference of
+// their correlations.
 Errors errors_of(const std::vector<Compliance>& shares, const Compliance& rods, Aim aim) {
-    constexpr double LARGE = 0.5;  // an error beyond which it counts less, because it may be beyond mending [-]
+    constexpr double LARGE = 0.5;  // error beyond which it counts less, because it may be impossible to remove [-]
     using Sizes = Eigen::Matrix<double, LOAD_COUNT, 1>;
     const Compliance cage = sum_of(shares);
     Sizes floors;
@@ -190,8 +189,8 @@ Errors errors_of(const std::vector<Compliance>& shares, const Compliance& rods, 
     return errors;
 }
 
-// The largest logarithm of the cage's compliance to forces and weight over the rods', small ones left out: of all, and
-// of those across.
+// Largest errors of the cage's compliance to forces and weight, as logarithms of the ratio to the rods', small ones
+// left out: of all, and of those across.
 struct WorstErrors {
     double all = INFINITY, across = INFINITY;
 };
@@ -211,11 +210,11 @@ WorstErrors worst_errors(const std::vector<Compliance>& shares, const Compliance
     return worst;
 }
 
-// How far a fit has come, and the best place that it passed: rounds may overshoot where tets are at their bounds.
+// Progress of a fit, and the best state on its way: rounds may overshoot where tets are at their bounds.
 struct Progress {
-    VecX change;  // of the logarithms of the moduli
+    VecX change;  // change of the moduli's logarithms
     VecX best_change;
-    double best_error = INFINITY;  // the worst of all
+    double best_error = INFINITY;  // its worst error of all
 };
 
 void move_to(Bench& bench, Progress& progress, const VecX& change) {
@@ -225,10 +224,10 @@ void move_to(Bench& bench, Progress& progress, const VecX& change) {
 }
 
 bool fit_rounds(Bench& bench, Aim aim, int rounds, Progress& progress) {
-    constexpr double SOFTEST = 0.25, STIFFEST = 6;  // of a tet, over how it began [-]
+    constexpr double SOFTEST = 0.25, STIFFEST = 6;  // modulus of a tet over its first one [-]
     constexpr double LARGEST_STEP = 1;              // of a logarithm [-]
-    constexpr double RIGID = 0.01;                  // what a change counts beside an error [-]
-    constexpr double CLOSE = 2e-3;                  // an error that is none [-]
+    constexpr double RIGID = 0.01;                  // weight of a change relative to an error [-]
+    constexpr double CLOSE = 2e-3;                  // error that counts as none [-]
     const double softest = std::log(SOFTEST), stiffest = std::log(STIFFEST);
     for (int round = 0; round < rounds; round++) {
         const std::vector<Compliance> shares = bench.measure();
@@ -249,7 +248,7 @@ bool fit_rounds(Bench& bench, Aim aim, int rounds, Progress& progress) {
 }
 
 bool fit_tets(Bench& bench) {
-    constexpr double BENDS = 0.05, MENDED = 0.2;  // of a logarithm [-]
+    constexpr double BENDS = 0.05, MENDED = 0.2;  // errors of a logarithm [-]
     const VecX before = VecX::Zero(Eigen::Index(bench.lone.tets.size()));
     Progress progress = {before, before};
     if (!fit_rounds(bench, Aim::EVERYTHING, 5, progress) || !fit_rounds(bench, Aim::BENDING, 3, progress)) return false;
@@ -258,8 +257,8 @@ bool fit_tets(Bench& bench) {
         move_to(bench, progress, progress.best_change);
         worst = worst_errors(bench.measure(), bench.rods);
     }
-    // Where that is not to be had, as in blades one cell thick and many times as wide, tets are drawn apart in vain,
-    // and the softest turn inside out when the plant is pulled.
+    // If no fit is possible, as in blades one cell thick and many times as wide, the tets' moduli spread in vain, and
+    // the softest tets turn inside out when the plant is pulled.
     if (worst.all > MENDED)
         move_to(bench, progress, before);
     else if (worst.across > BENDS && !bench.is_blade())

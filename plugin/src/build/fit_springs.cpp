@@ -1,10 +1,10 @@
 // In: a plant's chain and sections. Out: how much stiffer each organ's springs are than its tissue.
 //
-// The paper's capsules (3.4) are round and of one radius each, and what is drawn by r and h bends as a full cylinder of
-// that radius would. First each organ's chain of springs holds, under the plant's weight along each of the three axes,
-// the energy of bending that its rods hold; where that topples, since a blade's rods are stiffer edgewise and a
-// cylinder is not, it is made stiffer until it stands. Then those organs that carry the plant are fitted to its first
-// sways. A plant that droops from its mesh keeps what the energy of bending says.
+// The paper's capsules (3.4) are round and of one radius each, and a shape driven by r and h bends as a full cylinder
+// of that radius would. First each organ's chain of springs gets the bending energy that its rods have under the
+// plant's weight along each of the three axes. If that topples, since a blade's rods are stiffer edgewise and a
+// cylinder is not, it is made stiffer until it stands. Then the organs that carry the plant are fitted to its first
+// modes. A plant that droops from its mesh keeps the fit of bending energy.
 #include "build/fit_springs.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ static size_t organ_of(const Model& model, size_t node) {
     return size_t(std::max(model.chain.nodes[node].organ, 0));
 }
 
-// By the energy of bending, organ by organ.
+// Finds factors from the bending energy, organ by organ.
 static std::vector<double> organ_factors(const Model& model) {
     std::vector<double> rods(model.organs.size(), 0), springs(model.organs.size(), 0);
     for (int axis = 0; axis < 3; axis++) {
@@ -43,10 +43,10 @@ static std::vector<double> organ_factors(const Model& model) {
     return factors;
 }
 
-// The gap in both first sways together, as a factor of the moduli of organs that carry the plant.
+// Error of both first modes together, and the factor on the moduli of organs that carry the plant to remove it.
 struct Gap {
-    double error = INFINITY;  // mean of the logarithms of the frequencies' squares, rods over springs [-]
-    double step = 0;          // of the logarithm of the factor [-]
+    double error = INFINITY;  // mean logarithm of the ratio of the frequencies' squares, rods over springs [-]
+    double step = 0;          // change of the factor's logarithm [-]
 };
 static Gap find_gap(const RodSways& rods, const RodSways& springs) {
     constexpr double LARGEST_STEP = 0.7;
@@ -63,13 +63,13 @@ static Gap find_gap(const RodSways& rods, const RodSways& springs) {
 
 std::vector<double> fit_springs(const Model& model) {
     constexpr int ROUNDS = 8;
-    constexpr double CLOSE = 0.02;        // an error that is none [-]
-    constexpr double LEAST_SHARE = 0.05;  // of a step [-]
-    constexpr double MARGIN = 2;          // of the weight, beyond which it may topple: a touch does not [-]
+    constexpr double CLOSE = 0.02;        // error that counts as none [-]
+    constexpr double LEAST_SHARE = 0.05;  // least share of a step [-]
+    constexpr double MARGIN = 2;  // load over weight beyond which it may topple, so that a touch does not topple it [-]
     std::vector<double> factors = organ_factors(model), radii;
     for (const ChainNode& node : model.chain.nodes) radii.push_back(node.fitted_radius);
     const auto make = [&] { return make_spring_elements(model, radii, factors); };
-    if (!model.stands_as_modelled) return factors;  // its sways are those of a shape that is not known yet
+    if (!model.stands_as_modelled) return factors;  // its modes are those of a shape that is not known yet
     strengthen_rods(model, FROND_MECHANICS_SPRING_CHAIN, make, std::vector<double>(factors.size(), MARGIN), factors);
     const RodSways rods = find_sways(model, make_rod_elements(model, FROND_MECHANICS_ROD), FROND_MECHANICS_ROD);
     const auto find = [&] { return find_gap(rods, find_sways(model, make(), FROND_MECHANICS_SPRING_CHAIN)); };

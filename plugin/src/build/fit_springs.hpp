@@ -5,8 +5,8 @@
 
 namespace frond {
 
-// How much stiffer than its tissue each organ's capsules are, so that full cylinders of the radii that the shape has
-// bend as its rods do [-]. Other radii change that as r^4.
+// Returns how much stiffer than its tissue each organ's capsules are, so that full cylinders of the radii fitted to the
+// shape bend as its rods do [-]. Other radii change that as r^4.
 std::vector<double> fit_springs(const Model& model);
 
 }  // namespace frond

@@ -1,10 +1,10 @@
 // In: a plant whose organs were calibrated one by one, as it stands under its weight. Out: the change of its moduli
-// with which it sways as fast as its rods.
+// with which its first modes are as fast as its rods'.
 //
-// What is right for each organ alone is not for the plant: where organs meet, cells are shared and copies of them
-// overlap, and what weight takes from a coarse cage's stiffness is more than it takes from a rod's. By Rayleigh's
-// principle the derivative of the square of a mode's frequency by the logarithm of a tet's modulus is the tet's elastic
-// energy in the mode, and the force that weight exerts is the same whatever the moduli are.
+// Moduli that are right for each organ alone are not for the plant: where organs meet, cells are shared and copies of
+// them overlap, and weight takes more from a coarse cage's stiffness than from a rod's. By Rayleigh's principle the
+// derivative of the square of a mode's frequency by the logarithm of a tet's modulus is the tet's elastic energy in the
+// mode, and the force that weight exerts is the same whatever the moduli are.
 #include "build/fit_sway.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace frond {
 
-// Tells of each organ whether another one grows out of it.
+// Returns for each organ whether another one grows out of it.
 static std::vector<char> bearing_organs(const Model& model) {
     std::vector<char> bears(model.organs.size(), 0);
     for (const ChainNode& node : model.chain.nodes) {
@@ -29,9 +29,9 @@ static std::vector<char> bearing_organs(const Model& model) {
     return bears;
 }
 
-// Twice the elastic energy of each organ's pieces in a motion from the modelled shape.
+// Returns twice the elastic energy of each organ's segments in a motion from the modelled shape.
 static VecX energies_of(const Model& model, const RodElements& elements, const VecX& shape) {
-    constexpr double SMALL = 1e-4;  // largest move or turn by which strains are told [m], [-]
+    constexpr double SMALL = 1e-4;  // largest displacement or rotation by which strains are measured [m], [-]
     const double scale = SMALL / shape.lpNorm<Eigen::Infinity>();
     const std::vector<RodStrain> before = rod_strains(elements, elements.modelled);
     const std::vector<RodStrain> after = rod_strains(elements, elements.modelled + scale * shape);
@@ -47,7 +47,7 @@ static VecX energies_of(const Model& model, const RodElements& elements, const V
 }
 
 RodSways find_sways(const Model& model, const RodElements& elements, frond_mechanics which) {
-    constexpr double MUCH = 0.1;  // of a sway's elastic energy [-]
+    constexpr double MUCH = 0.1;  // share of a mode's elastic energy [-]
     RodSways sways;
     sways.carries.assign(model.organs.size(), 0);
     const std::vector<char> bears = bearing_organs(model);
@@ -67,11 +67,11 @@ RodSways find_sways(const Model& model, const RodElements& elements, frond_mecha
     return sways;
 }
 
-// Twice the elastic energy of each tet in a motion from x, one a tet.
+// Returns twice the elastic energy of each tet in a motion from x.
 static VecX energies_of(const TetElements& elements, frond_mechanics which, const VecX& x, const VecX& shape) {
     VecX energies = VecX::Zero(Eigen::Index(elements.tets.size()));
     for (size_t e = 0; e < elements.tets.size(); e++) {
-        std::vector<Mat3> turned;  // one a point
+        std::vector<Mat3> turned;  // one per point
         take_gradients(elements, e, x, [&](const TetShare&, const Mat3& F) {
             turned.push_back(which == FROND_MECHANICS_TET_LINEAR ? Mat3(Mat3::Identity())
                                                                  : polar_decomposition(F).rotation);
@@ -89,9 +89,9 @@ static VecX energies_of(const TetElements& elements, frond_mechanics which, cons
 
 SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanics which, const VecX& x,
                  BlockFactor& stiffness, const std::vector<uint8_t>& still, const RodSways& rods, const VecX& done) {
-    constexpr double FARTHEST = 1.8;      // in all, of a logarithm [-]
-    constexpr double LARGEST_STEP = 0.7;  // of a logarithm [-]
-    constexpr double RIGID = 0.01;        // what a change counts beside an error [-]
+    constexpr double FARTHEST = 1.8;      // total change of a logarithm [-]
+    constexpr double LARGEST_STEP = 0.7;  // change of a logarithm [-]
+    constexpr double RIGID = 0.01;        // weight of a change relative to an error [-]
     const VecX mass = mechanics(which, elements.nodes.order).masses(elements, FROND_MASS_LUMPED).node;
     const std::array<Sway, 2> sways = first_sways(stiffness, mass, still);
     VecX errors = VecX::Zero(Eigen::Index(sways.size()));

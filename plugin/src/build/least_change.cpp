@@ -1,5 +1,5 @@
-// The dual of ridge regression: with few rows, x = S' (S S' + r I)^-1 b costs one small factor. Bounds: those of x that
-// would leave them are put on them, and the rest is solved again, until none does.
+// Dual of ridge regression: with few rows, x = S' (S S' + r I)^-1 b costs one small factor. Components of x that would
+// leave their bounds are put on them, and the rest is solved again, until none does.
 #include "build/least_change.hpp"
 
 #include <Eigen/Cholesky>

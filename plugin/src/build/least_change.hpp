@@ -1,4 +1,4 @@
-// A few equations for many unknowns.
+// Solves a few equations for many unknowns.
 #pragma once
 
 #include "core/types.hpp"
@@ -7,8 +7,8 @@ namespace frond {
 
 using MatX = Eigen::MatrixXd;
 
-// The x, least in squares, that makes slope * x come nearest to `wanted`, with least <= x <= most: Tikhonov's
-// regularization, `rigid` telling how much a unit of all x together counts beside a unit of error.
+// Returns the x, least in squares, that makes slope * x come nearest to `wanted`, with least <= x <= most: Tikhonov's
+// regularization, `rigid` being the weight of a unit of all x together relative to a unit of error.
 VecX least_change(const MatX& slope, const VecX& wanted, const VecX& least, const VecX& most, double rigid);
 
 }  // namespace frond

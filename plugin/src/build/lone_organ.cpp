@@ -1,5 +1,5 @@
-// In: a plant's cage, the organs of its tets, the chain that tells which organ grows out of which. Out: each organ
-// alone.
+// In: a plant's cage, the organs of its tets, and the chain, which shows which organ grows out of which. Out: each
+// organ alone.
 #include "build/lone_organ.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace frond {
 namespace {
 
-// The organ that most of an organ's pieces grow out of; -1 for one that stands on the ground.
+// Returns the organ that most of an organ's segments grow out of; -1 for one that stands on the ground.
 std::vector<int> organ_parents(const Model& model) {
     std::vector<std::map<int, int>> votes(model.organs.size());
     for (const ChainNode& node : model.chain.nodes) {
@@ -29,7 +29,7 @@ std::vector<int> organ_parents(const Model& model) {
     return parents;
 }
 
-// Mass of each organ with all that it bears; a loop of organs bears itself only.
+// Returns the mass of each organ with all that it bears; a loop of organs bears only itself.
 std::vector<double> borne_masses(const Model& model, const std::vector<int>& parents) {
     std::vector<double> own(model.organs.size(), 0.0);
     for (size_t e = 0; e < model.cage.tets.size(); e++)
@@ -54,7 +54,7 @@ std::vector<std::vector<int>> node_organs(const Cage& cage) {
     return organs;
 }
 
-// Keeps those tets of a body for which `keep` holds.
+// Keeps the tets of a body for which `keep` holds.
 void keep_tets(LoneOrgan& lone, const std::vector<char>& keep) {
     Model& model = lone.model;
     size_t kept = 0;
@@ -74,7 +74,7 @@ void keep_tets(LoneOrgan& lone, const std::vector<char>& keep) {
         constants->resize(kept);
 }
 
-// Takes away what nothing holds or what swings on a hinge; its mass hangs on where it is attached.
+// Takes away tets that nothing holds or that swing on a hinge; their mass goes to the nodes to which they are attached.
 void drop_loose_tets(LoneOrgan& lone) {
     Model& model = lone.model;
     const std::vector<char> firm = find_firm_tets(model.cage, model.root);
@@ -148,7 +148,7 @@ LoneOrgan take_organ(const Model& plant, int organ, const Tree& tree) {
 }  // namespace
 
 bool LoneOrgan::is_sound() const {
-    constexpr double MOST = 0.6;  // share of an organ from which it can be taken alone [-]
+    constexpr double MOST = 0.6;  // least share of an organ with which it can be calibrated alone [-]
     return !tets.empty() && firm_share >= MOST &&
            std::any_of(model.root.begin(), model.root.end(), [](uint8_t held) { return !held; });
 }

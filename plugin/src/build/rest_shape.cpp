@@ -1,6 +1,6 @@
 // Rest shape: an artist's mesh shows a plant as it stands, bent by its own weight. Inverse statics finds the shape X
 // without gravity from which weight bends it to the shape x that was modelled: elastic forces f(x; X) + weight = 0, by
-// Newton's method with the exact derivative by X, which takes some six rounds. The exact tangent at x then tells
+// Newton's method with the exact derivative by X, which takes some six rounds. The exact tangent at x then shows
 // whether the plant stands there stably or would topple (Greenhill 1881).
 #include <algorithm>
 #include <cmath>
@@ -18,11 +18,11 @@
 namespace frond {
 namespace {
 
-// Tells whether a tet that is moved at rest keeps, at each of its points, more than a third of its volume as modelled,
-// and is not drawn out.
+// Returns whether a tet whose rest positions are moved keeps, at each of its points, more than a third of its volume as
+// modelled, and is not overstretched.
 template <class Element>
 bool is_sound(const TetElements& elements, size_t e, const VecX& moved) {
-    constexpr double LONGEST = 10;  // of an edge, over its length in the modelled shape [-]
+    constexpr double LONGEST = 10;  // length of an edge over that in the modelled shape [-]
     const auto now = Element::places(elements, e, moved), before = Element::places(elements, e, elements.modelled);
     for (int q = 0; q < Element::POINTS; q++) {
         const Mat3 a = Element::edges(now, q), b = Element::edges(before, q);
@@ -33,8 +33,8 @@ bool is_sound(const TetElements& elements, size_t e, const VecX& moved) {
     return true;
 }
 
-// The longest part of a move of the rest shape that leaves every tet sound, since a flat one or a needle has no
-// inverse; 0 if none does, and then the organ that weight tears.
+// Returns the largest share of a displacement of the rest shape that leaves every tet sound, since a flat tet or a
+// needle has no inverse. Returns 0 if none does; `torn` is then the organ that weight tears.
 double longest_move(const Model& model, const TetElements& elements, const VecX& move, int& torn) {
     for (double share = 1; share > 0.01; share /= 2) {
         const VecX moved = elements.rest_positions + share * move;
@@ -49,7 +49,7 @@ double longest_move(const Model& model, const TetElements& elements, const VecX&
     return 0;
 }
 
-// A rest shape with its elements, and the stiffness that moves it.
+// A rest shape with its elements, and the systems that move it.
 struct Search {
     const Model& model;
     frond_mechanics which;
@@ -59,7 +59,7 @@ struct Search {
     VecX x, rest;
     StaticStiffness stiffness;
     RestSystem system;
-    int torn = -1;  // the organ at which a balance failed
+    int torn = -1;  // organ at which a balance failed
 
     Search(const Model& model, frond_mechanics which, int order)
         : model(model),
@@ -77,7 +77,7 @@ struct Search {
         rest = moved;
         set_rest_positions(elements, rest);
     }
-    // Logarithms, one a tet.
+    // Scales each tet's moduli by the exponential of `change`.
     void stiffen(const VecX& change) {
         for (size_t e = 0; e < elements.tets.size(); e++) {
             const double factor = std::exp(change[Eigen::Index(e)]);
@@ -87,7 +87,7 @@ struct Search {
     }
 };
 
-// Returns the node that moves farthest; -1 if none moves.
+// Returns the organ of the node that moves farthest; -1 if none moves.
 int organ_of_largest(const Model& model, const TetElements& elements, const VecX& move) {
     int node = 0;
     for (int i = 1; i < move.size() / 3; i++)
@@ -101,12 +101,12 @@ int organ_of_largest(const Model& model, const TetElements& elements, const VecX
     return -1;
 }
 
-// Balances a share of gravity from where the search stands; false, with the search where it was, if that fails.
+// Balances a share of gravity from the present rest shape; false, with that shape unchanged, if that fails.
 bool balance(Search& search, double gravity) {
     constexpr int ROUNDS = 25;
-    constexpr double TOLERANCE = 3e-9;   // how far a node is from its balance, over the plant's size [-]
-    constexpr double LEAST_SHARE = 0.1;  // of a move; less gets nowhere [-]
-    constexpr int PATIENCE = 5;          // rounds in which moves must become half as large
+    constexpr double TOLERANCE = 3e-9;   // distance of a node from its balance, over the plant's size [-]
+    constexpr double LEAST_SHARE = 0.1;  // least share of a displacement that makes progress [-]
+    constexpr int PATIENCE = 5;          // rounds in which displacements must become half as large
     const VecX start = search.rest;
     std::vector<double> sizes;
     VecX move = VecX::Zero(search.x.size());
@@ -131,12 +131,12 @@ bool balance(Search& search, double gravity) {
 // The result of a search for a rest shape.
 struct Outcome {
     VecX rest;                   // empty unless the plant stands
-    std::vector<double> shares;  // of organs in the energy of the motion in which it topples; empty unless it does
+    std::vector<double> shares;  // organs' shares in the energy of the mode in which it topples; empty unless it does
     double overload = 1;         // how many times too heavy it then is [-]
     int torn = -1;               // else the organ at which no balance was found
 };
 
-// One organ's tets of an elements' pattern.
+// Copies one organ's tets, with their slots in the pattern of all elements.
 TetElements take_organ(const TetElements& all, const std::vector<int>& tet_organ, int organ) {
     TetElements one;
     one.node_count = all.node_count;
@@ -161,7 +161,7 @@ TetElements take_organ(const TetElements& all, const std::vector<int>& tet_organ
     return one;
 }
 
-// Adds move' K move of each organ's own stiffness K.
+// Adds move' K move with each organ's own stiffness K.
 void add_work_of_tets(Search& search, const VecX& move, std::vector<double>& work) {
     const std::vector<int>& tet_organ = search.model.cage.tet_organ;
     std::vector<uint8_t> has_tets(work.size(), 0);
@@ -179,7 +179,7 @@ void add_work_of_tets(Search& search, const VecX& move, std::vector<double>& wor
     }
 }
 
-// How an unstable plant topples, and which organs give way.
+// Finds how an unstable plant topples, and which organs give way.
 Outcome find_outcome(Search& search) {
     BlockMatrix taken;
     taken.set_pattern(search.elements.pattern);
@@ -196,8 +196,8 @@ Outcome find_outcome(Search& search) {
     return outcome;
 }
 
-// The rest shape of one mechanics, of a plant that could bear `margin` times its weight. Gravity is let in little by
-// little, the steps as large as the search bears.
+// Finds the rest shape of one mechanics, of a plant that could bear `margin` times its weight. Gravity is increased
+// gradually, in steps as large as the search bears.
 Outcome search_rest_shape(Search& search, double margin = 1) {
     constexpr double SMALLEST_STEP = 1.0 / 8;
     double step = 1;
@@ -219,12 +219,12 @@ Outcome search_rest_shape(Search& search, double margin = 1) {
     return outcome;
 }
 
-// Makes a search that found its rest shape sway as the rods do, in changes that are halved where weight cannot be borne
-// so or the sways come no nearer. Returns by how much stiffer than the model's its tets then are, in logarithms.
+// Fits the first modes of a search that found its rest shape to the rods', in changes that are halved if weight cannot
+// be balanced or the modes come no nearer. Returns the logarithms of the factors on its tets' moduli.
 VecX fit_sway(Search& search, const RodSways& rods) {
     constexpr int ROUNDS = 8;
-    constexpr double CLOSE = 0.02;       // of a frequency's square, which is no error [-]
-    constexpr double LEAST_SHARE = 0.1;  // of a change [-]
+    constexpr double CLOSE = 0.02;       // error of a frequency's square that counts as none [-]
+    constexpr double LEAST_SHARE = 0.1;  // least share of a change [-]
     VecX done = VecX::Zero(Eigen::Index(search.elements.tets.size()));
     const auto find = [&] {
         if (!search.stiffness.set(search.elements, search.held, search.row, Tangent::exact, search.x))
@@ -252,7 +252,8 @@ VecX fit_sway(Search& search, const RodSways& rods) {
     return done;
 }
 
-// The largest strain in each organ's tets under the plant's weight, linearly [-]; empty if the root does not hold it.
+// Returns the largest strain in each organ's tets under the plant's weight, by linear theory [-]; empty if the root
+// does not hold it.
 std::vector<double> organ_strains(const Model& model, int order) {
     Search search(model, FROND_MECHANICS_TET_LINEAR, order);
     const TetElements& elements = search.elements;
@@ -270,8 +271,8 @@ std::vector<double> organ_strains(const Model& model, int order) {
     return strains;
 }
 
-// Organs that weight would tear apart in the cage, loose bits that hang on a corner, are made stiffer by themselves, so
-// that the rest of the plant need not be.
+// Makes organs stiffer that weight would tear apart in the cage, loose parts that hang on a corner, so that the rest of
+// the plant need not be.
 void stiffen_torn_organs(Model& model, int order) {
     constexpr double LARGEST_STRAIN = 0.35;
     constexpr int ROUNDS = 3;
@@ -290,14 +291,14 @@ void stiffen_torn_organs(Model& model, int order) {
 
 }  // namespace
 
-// Makes one organ stiffer; notes by how much.
+// Makes one organ stiffer and records by how much.
 static void stiffen(Model& model, size_t organ, double stiffer, std::vector<double>& factor) {
     factor[organ] *= stiffer;
     for (size_t e = 0; e < model.tet_young.size(); e++)
         if (size_t(model.cage.tet_organ[e]) == organ) model.tet_young[e] *= stiffer;
 }
 
-// Makes those organs stiffer that give way most when the plant topples.
+// Makes the organs stiffer that give way most when the plant topples.
 static void stiffen_toppling_organs(Model& model, const Outcome& outcome, std::vector<double>& factor) {
     const std::vector<double> stiffer = stiffer_by(outcome.shares, outcome.overload);
     for (size_t o = 0; o < stiffer.size(); o++)
@@ -305,11 +306,11 @@ static void stiffen_toppling_organs(Model& model, const Outcome& outcome, std::v
 }
 
 WeakOrgan find_rest_shape(Model& model, int order) {
-    // The default mechanics decides how stiff the cage has to be.
+    // The default mechanics decide how stiff the cage has to be.
     constexpr double STIFFER = 2, MARGIN = 1.3;
     constexpr int MOST_TRIES = 40;
     std::vector<double> factor(model.organs.size(), 1.0);
-    // Where all materials are Frond's choice, a touch must not topple the plant either; rods have more margin.
+    // If all materials are Frond's choice, a touch must not topple the plant either; rods have more margin.
     const bool given =
         std::any_of(model.organs.begin(), model.organs.end(), [](const Organ& organ) { return organ.material_given; });
     const double margin = given ? 1 : MARGIN;
@@ -337,7 +338,7 @@ WeakOrgan find_rest_shape(Model& model, int order) {
     return {model.organs[weakest].name, factor[weakest]};
 }
 
-// A cage of Frond's own is fitted to each order of its elements.
+// Fits a cage of Frond's own to an order of its elements.
 static void fit_to_order(const Model& model, int order) {
     Model fitted = model;
     fitted.rest_shapes = std::make_shared<RestShapes>();

@@ -1,4 +1,4 @@
-// In: elements at rest in X, places x. Out: the derivative of elastic force and weight at x by X, factorized.
+// In: elements at rest in X, positions x. Out: the derivative of elastic force and weight at x by X, factorized.
 #include "build/rest_system.hpp"
 
 #include <Eigen/SparseLU>
@@ -25,11 +25,11 @@ VecX unbalanced_force(const TetElements& elements, const std::vector<uint8_t>& h
 struct RestSystem::Inside {
     std::vector<uint8_t> held;
     Eigen::SparseMatrix<double> J;
-    // Where an element's block (a, b) of n nodes stands in its column, at [n a + b].
+    // Position of an element's block (a, b) of n nodes in its column, at [n a + b].
     std::vector<std::vector<int>> places;
     Eigen::SparseLU<Eigen::SparseMatrix<double>> lu;
 
-    // Adds a block of a free node's force by a free node's move.
+    // Adds the derivative of a free node's force by a free node's displacement.
     void add(int row_node, int column_node, int place, const Mat3& block) {
         if (held[size_t(row_node)] || held[size_t(column_node)]) return;
         for (int c = 0; c < 3; c++)

@@ -1,5 +1,5 @@
-// How the balance of a cage at given places changes with its places at rest: an unsymmetric sparse system, for Newton's
-// method of inverse statics.
+// Derivative of a cage's balance at given positions by its positions at rest: an unsymmetric sparse system, for
+// Newton's method of inverse statics.
 #pragma once
 
 #include <memory>
@@ -8,16 +8,17 @@
 
 namespace frond {
 
-// Elastic force and weight at x, zero for held nodes [N].
+// Returns elastic force and weight at x, zero for held nodes [N].
 VecX unbalanced_force(const TetElements& elements, const std::vector<uint8_t>& held, frond_mechanics which,
                       const VecX& x, double gravity);
 
 class RestSystem {
 public:
-    // The elements' pattern is taken; held nodes stay where they are at rest.
+    // Takes the elements' pattern; held nodes stay where they are at rest.
     RestSystem(const TetElements& elements, std::vector<uint8_t> held);
     ~RestSystem();
-    // The move of the rest positions after which, to first order, nothing is unbalanced; false if there is none.
+    // Finds the displacement of the rest positions after which, to first order, nothing is unbalanced; false if there
+    // is none.
     bool find_move(const TetElements& elements, frond_mechanics which, const VecX& x, double gravity,
                    const VecX& unbalanced, VecX& move);
 

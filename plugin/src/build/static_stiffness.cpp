@@ -2,7 +2,7 @@
 
 namespace frond {
 
-// Rows of held nodes become multiples of the identity, of the matrix's own size.
+// Replaces rows of held nodes by multiples of the identity, of the matrix's own size.
 static void hold(const std::vector<uint8_t>& held, BlockMatrix& K) {
     const BlockPattern& pattern = *K.pattern;
     for (int j = 0; j < pattern.node_count; j++) {

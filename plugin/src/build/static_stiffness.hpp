@@ -1,4 +1,4 @@
-// The stiffness of a cage whose root is held, and its factor: what calibration and the rest shape solve with.
+// The stiffness of a cage whose root is held, and its factor, for calibration and the rest shape.
 #pragma once
 
 #include "mechanics/mechanics.hpp"

@@ -1,6 +1,6 @@
-// A plant that its materials would not carry is made stiffer, organ by organ, until it stands. Judged on the rods,
-// whose balance under weight is known without a search: where they would topple, the organs that give way most get what
-// is wanting.
+// A plant that its materials would not carry is made stiffer, organ by organ, until it stands. This is judged on the
+// rods, whose balance under weight is known without a search: if they would topple, the organs that give way most are
+// made as stiff as needed.
 #include <algorithm>
 #include <cmath>
 
@@ -15,14 +15,15 @@ namespace frond {
 namespace {
 
 // Materials that Frond chose bear this many times their load before they give way, as petioles do (1.7 to 2.9: Langer
-// and others 2021, doi 10.3389/fpls.2021.765605), so that a touch does not topple the plant. Those that the caller gave
-// are taken at their word.
+// and others 2021, doi 10.3389/fpls.2021.765605), so that a touch does not topple the plant. Materials that the caller
+// gave are used as they are.
 constexpr double SAFETY = 1.7, SAFETY_OF_GIVEN = 1.02;
 
-// An organ may turn this far under its own weight taken sideways, by linear theory; an upright column topples at 1.306.
+// An organ may turn this far under its own weight applied sideways, by linear theory; an upright column topples at
+// 1.306.
 constexpr double LARGEST_TURN = 1.2;  // [rad]
 
-// How far each organ turns from its base to its tip when all its weight pulls sideways, linearly [rad].
+// Returns how far each organ turns from its base to its tip when all its weight pulls sideways, by linear theory [rad].
 std::vector<double> organ_turns(const Model& model) {
     const std::vector<ChainNode>& nodes = model.chain.nodes;
     const Weights weights = weigh(model, hang_tets(model));
@@ -57,8 +58,8 @@ std::vector<double> organ_turns(const Model& model) {
     return turns;
 }
 
-// Rods of a plant that stands, with the stiffness that resists, where each organ is weaker by its safety factor, and
-// what weight takes from it.
+// Rods of a plant that stands, with the stiffness that resists, in which each organ is weaker by its safety factor, and
+// the stiffness that weight takes.
 struct Standing {
     RodElements elements, weaker;
     std::vector<uint8_t> held;
@@ -80,7 +81,7 @@ struct Standing {
     }
 };
 
-// Adds move' K move of each rod's own stiffness K to its organ's.
+// Adds move' K move with each rod's own stiffness K to its organ's work.
 void add_work_of_rods(const Model& model, const RodElements& all, frond_mechanics which, const VecX& move,
                       std::vector<double>& work) {
     RodElements one;
@@ -149,7 +150,7 @@ WeakOrgan strengthen(Model& model) {
     strengthen_rods(
         model, FROND_MECHANICS_ROD, [&] { return make_rod_elements(model, FROND_MECHANICS_ROD); }, safety, stiffer);
 
-    // Organs of no weight to speak of, silk and hairs, are not worth a word.
+    // Organs of negligible weight, silk and hairs, are not reported.
     constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]
     const std::vector<double> masses = organ_masses(model);
     double whole = 0;

@@ -1,4 +1,4 @@
-// How a body that is held at its root sways.
+// First modes of a body that is held at its root.
 #pragma once
 
 #include "mechanics/mechanics.hpp"
@@ -6,17 +6,18 @@
 
 namespace frond {
 
-// Nodes that do not sway: those of the chain's roots, which are pairs of a place and a rotation; or of a cage those
-// that the ground holds or that swing on a hinge.
+// Returns the nodes that do not move: of a chain those of its roots, which are pairs of a position and a rotation; of a
+// cage those that the ground holds or that swing on a hinge.
 std::vector<uint8_t> still_nodes(const Model& model, const Elements& elements, bool moves_chain);
 
 struct Sway {
-    VecX shape;         // of which the kinetic energy at a velocity of one is a half [1/sqrt kg]; empty: nothing moves
-    double square = 0;  // of the angular frequency [1/s^2]
+    VecX shape;         // mode with a kinetic energy of a half at a velocity of one [1/sqrt kg]; empty: nothing moves
+    double square = 0;  // square of the angular frequency [1/s^2]
 };
-// The sways that are seen when the body is drawn aside by its own weight, in the horizontal direction in which that
-// moves it farthest and across, and let go: of its modes the ones with the largest part in that, those of nearly one
-// frequency together; the slower sway first. By a body's stiffness, factorized, and the masses of its nodes [kg].
+// Returns the modes that are seen when the body is pulled aside by its own weight, in the horizontal direction in which
+// that moves it farthest and across, and released: the modes with the largest part in that, with those of nearly the
+// same frequency combined; the slower one first. Takes a body's stiffness, factorized, and the masses of its nodes
+// [kg].
 std::array<Sway, 2> first_sways(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still);
 
 }  // namespace frond

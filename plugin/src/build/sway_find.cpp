@@ -1,9 +1,9 @@
-// In: a body's stiffness and masses. Out: its first sways.
+// In: a body's stiffness and masses. Out: its first modes.
 //
-// Lanczos's method on K^-1 M from the move of all nodes alike in a direction (Nour-Omid, Clough 1984, "Dynamic analysis
-// of structures using Lanczos co-ordinates"): few solves find the modes that a push along it excites, each with its
-// part in the push; the many that leaves have by themselves do not come up. Of modes that lie close together their
-// common sway.
+// Lanczos's method on K^-1 M from an equal displacement of all nodes in a direction (Nour-Omid, Clough 1984, "Dynamic
+// analysis of structures using Lanczos co-ordinates"): few solves find the modes that a push along it excites, each
+// with its part in the push; the many modes of single leaves do not come up. Modes that lie close together are
+// combined.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -21,12 +21,12 @@ std::vector<uint8_t> still_nodes(const Model& model, const Elements& elements, b
         return still;
     }
     std::vector<uint8_t> held = find_held_nodes(model.cage, model.root);
-    // A foot so slender that it counts as a hinge holds nothing: then it is taken at its word.
+    // A foot so slender that it counts as a hinge holds nothing: then the root is held as given.
     if (std::all_of(held.begin(), held.end(), [](uint8_t h) { return h; })) held = model.root;
     return with_middles(static_cast<const TetElements&>(elements).nodes, held);
 }
 
-// Every node's mass times its move; nothing of those that do not sway.
+// Returns every node's mass times its displacement, zero for those that do not move.
 static VecX times_mass(const VecX& node_mass, const std::vector<uint8_t>& still, VecX x) {
     for (int i = 0; i < int(still.size()); i++) point(x, i) *= still[size_t(i)] ? 0 : node_mass[i];
     return x;
@@ -42,11 +42,11 @@ static VecX move_along(const Vec3& direction, const std::vector<uint8_t>& still)
 static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still,
                        const Vec3& direction) {
     constexpr int MOST_STEPS = 12;
-    constexpr double CLOSE = 0.3;       // of logarithms of frequencies' squares: modes that sway together [-]
-    std::vector<VecX> basis, weighted;  // of unit mass, and times the masses
+    constexpr double CLOSE = 0.3;  // width in logarithms of frequencies' squares within which modes are combined [-]
+    std::vector<VecX> basis, weighted;  // normalised to unit mass; the same times the masses
     VecX next = move_along(direction, still);
     VecX diagonal = VecX::Zero(MOST_STEPS),
-         beside = VecX::Zero(MOST_STEPS);  // of the matrix that the basis makes of it
+         beside = VecX::Zero(MOST_STEPS);  // tridiagonal matrix in that basis
     int steps = 0;
     for (double size = 0; steps < MOST_STEPS; steps++) {
         const VecX product = times_mass(node_mass, still, next);
@@ -56,7 +56,7 @@ static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std:
         weighted.push_back(product / own);
         solve(stiffness, weighted.back(), next);
         size = std::sqrt(next.dot(times_mass(node_mass, still, next)));
-        // Against all before, twice, since what is left of them grows.
+        // Orthogonalize against all before, twice, since remainders grow.
         for (int pass = 0; pass < 2; pass++)
             for (int j = 0; j <= steps; j++) {
                 const double common = weighted[size_t(j)].dot(next);
@@ -68,7 +68,7 @@ static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std:
     if (steps == 0) return {};
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes;
     modes.computeFromTridiagonal(diagonal.head(steps), beside.head(steps - 1));
-    // The part of a mode in the static move is its part in the push over the square of its frequency.
+    // A mode's part in the static displacement is its part in the push over the square of its frequency.
     const Eigen::ArrayXd push = modes.eigenvectors().row(0).transpose().array(), inverse = modes.eigenvalues().array();
     const auto near = [&](Eigen::Index j) -> Eigen::ArrayXd {
         return (-((inverse / inverse[j]).max(1e-9).log() / CLOSE).square()).exp();

@@ -11,14 +11,14 @@ namespace frond {
 
 namespace {
 
-// Sums over a shape: phi.K phi, phi.M phi.
+// Rayleigh's quotient of a shape: phi.K phi over phi.M phi.
 struct Bent {
     VecX shape;  // empty: nothing moves
     double stiffness = 0, mass = 0;
-    double square() const { return stiffness / mass; }  // of the angular frequency [1/s^2]
+    double square() const { return stiffness / mass; }  // square of the angular frequency [1/s^2]
 };
 
-// The slower of the two into which the weight bends the body when it is taken sideways.
+// Returns the slower of the two shapes into which the weight bends the body when applied sideways.
 Bent find_sway(const System& system, StaticStiffness& stiffness, const std::vector<uint8_t>& still) {
     const Elements& elements = elements_of(system);
     const VecX& mass = node_mass_of(system);
@@ -56,7 +56,7 @@ double full_damping(const System& system, frond_mechanics which, int order) {
     const Mechanics& row = mechanics(which, order);
     const std::vector<uint8_t> still = still_nodes(model_of(system), elements, row.moves_chain);
     StaticStiffness stiffness(elements.pattern);
-    // Under weight where the body is stable there.
+    // Take the stiffness under weight if the body is stable there.
     if (!stiffness.set(elements, still, row, Tangent::exact, elements.modelled) &&
         !stiffness.set(elements, still, row, Tangent::positive, elements.modelled))
         return 0;

@@ -1,13 +1,13 @@
-// Products of the strains of moved nodes, tet by tet.
+// Products of the strains of displaced nodes, tet by tet.
 #pragma once
 
 #include "mechanics/tet_element.hpp"
 
 namespace frond {
 
-// Of the moves u_i, columns with three numbers a node of the elements, in tet e: the matrix of u_i' K_e u_j, by linear
-// theory. Summed over the tets that is u_i' K u_j; where u_i = K^-1 f_i, minus it is the derivative of f_i' K^-1 f_j by
-// the logarithm of the tet's modulus.
+// Matrix of u_i' K_e u_j for displacements u_i, with three numbers per node of the elements, in tet e, by linear
+// theory. Summed over the tets it is u_i' K u_j; for u_i = K^-1 f_i, minus it is the derivative of f_i' K^-1 f_j by the
+// logarithm of the tet's modulus.
 template <int COUNT>
 using Products = Eigen::Matrix<double, COUNT, COUNT>;
 
@@ -18,7 +18,7 @@ Products<COUNT> products_in_tet(const TetElements& elements, size_t e, const std
     Products<COUNT> sum = Products<COUNT>::Zero();
     for (int q = 0; q < Element::POINTS; q++) {
         const TetShare share = Element::share(elements, e, q);
-        // Strains as columns: three along the axes, three across times the root of two.
+        // Strains as columns: three along the axes, three shear strains times the root of two.
         Eigen::Matrix<double, 6, COUNT> strains;
         for (int i = 0; i < COUNT; i++) {
             const Mat3 F = Element::gradient(share, places[size_t(i)], q);
@@ -32,7 +32,7 @@ Products<COUNT> products_in_tet(const TetElements& elements, size_t e, const std
     return sum;
 }
 
-// One a tet.
+// Returns one per tet.
 template <int COUNT>
 std::vector<Products<COUNT>> products_of_tets(const TetElements& elements, const std::array<VecX, COUNT>& moves) {
     std::vector<Products<COUNT>> all;

@@ -16,15 +16,15 @@ void hold(const std::vector<uint8_t>& held, VecX& x) {
         if (held[i]) point(x, int(i)).setZero();
 }
 
-// Power iteration, the value by Rayleigh's quotient. What pulls straight has negative eigenvalues; if one of these is
-// largest, they are shifted away.
+// Uses power iteration, the value by Rayleigh's quotient. Parts under tension have negative eigenvalues; if one of
+// these is largest, they are shifted away.
 Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, const std::vector<uint8_t>& held) {
     constexpr int ROUNDS = 200;
     constexpr double CLOSE = 1e-4;  // change of the value in a round [-]
     const Eigen::Index size = 3 * Eigen::Index(held.size());
     VecX product(size), solution(size);
     for (double shift = 0;;) {
-        // Begin with the way in which forces in all directions bend the body.
+        // Begin with the shape into which forces in all directions bend the body.
         VecX mode(size);
         for (Eigen::Index i = 0; i < size; i++) product[i] = std::sin(double(i + 1));
         hold(held, product);
@@ -51,8 +51,7 @@ Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, con
 std::vector<double> find_shares(const Toppling& toppling, StaticStiffness& resisting, const BlockMatrix& taken,
                                 const std::vector<uint8_t>& held, size_t organ_count,
                                 const std::function<void(const VecX& move, std::vector<double>& work)>& add_work) {
-    // What weight takes in the motion bends the body in it once more, now without the noise that stiff organs feel
-    // most.
+    // One more solve, with the load that weight makes in the motion, removes the noise that stiff organs feel most.
     VecX product(toppling.mode.size()), smooth(toppling.mode.size());
     taken.multiply(toppling.mode, product);
     hold(held, product);
@@ -65,7 +64,7 @@ std::vector<double> find_shares(const Toppling& toppling, StaticStiffness& resis
 }
 
 std::vector<double> stiffer_by(const std::vector<double>& shares, double overload) {
-    constexpr double MUCH = 0.3;  // of the largest share [-]
+    constexpr double MUCH = 0.3;  // over the largest share [-]
     constexpr double MARGIN = 1.02, LARGEST = 8;
     const double least = MUCH * *std::max_element(shares.begin(), shares.end());
     double together = 0;

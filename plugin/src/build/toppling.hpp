@@ -1,6 +1,6 @@
-// Toppling: the way in which a body gives way first under its weight. Linear buckling: with P the stiffness that
-// resists and G what weight takes from it, the mode of the largest eigenvalue of P^-1 G; a body is stable while that is
-// below one (Greenhill 1881 for a single stem).
+// Toppling: how a body gives way first under its weight. Linear buckling: with P the stiffness that resists and G the
+// stiffness that weight takes from it, this is the mode of the largest eigenvalue of P^-1 G; a body is stable while
+// that is below one (Greenhill 1881 for a single stem).
 #pragma once
 
 #include <functional>
@@ -19,15 +19,15 @@ void take_by_weight(const Elements& elements, const Mechanics& row, const VecX& 
 
 // Sets the three numbers of each held node to zero.
 void hold(const std::vector<uint8_t>& held, VecX& x);
-// `resisting` has its factor.
+// Finds the mode in which the body topples; `resisting` has its factor.
 Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, const std::vector<uint8_t>& held);
 
-// Organs' shares in the elastic energy of the motion: to first order, by how much, relatively, the load that the body
-// bears grows with an organ's modulus [-]. `add_work` adds move' K move of each organ's own stiffness K.
+// Returns organs' shares in the elastic energy of the motion: to first order, by how much, relatively, the load that
+// the body bears grows with an organ's modulus [-]. `add_work` adds move' K move with each organ's own stiffness K.
 std::vector<double> find_shares(const Toppling& toppling, StaticStiffness& resisting, const BlockMatrix& taken,
                                 const std::vector<uint8_t>& held, size_t organ_count,
                                 const std::function<void(const VecX& move, std::vector<double>& work)>& add_work);
-// How many times stiffer each organ should be so that the body bears its load: those that have most share in it alike,
+// Returns how many times stiffer each organ should be so that the body bears its load: organs with a large share alike,
 // the others not at all. At most 8 at once, since shares change.
 std::vector<double> stiffer_by(const std::vector<double>& shares, double overload);
 

@@ -33,7 +33,7 @@ static int nearest_node(const Chain& chain, int organ, const Vec3& place) {
 std::vector<int> hang_tets(const Model& model) {
     const size_t tet_count = model.cage.tets.size();
     std::vector<std::vector<int>> votes(tet_count);
-    // Where organs meet, a tet of one may hold vertices of another, which bears none of it.
+    // Where organs meet, a tet of one may hold vertices of another, which does not bear it.
     for (size_t v = 0; v < model.embedding.tet.size(); v++) {
         const size_t tet = size_t(model.embedding.tet[v]);
         const int node = model.chain.vertex_node[v];
@@ -64,7 +64,7 @@ Weights weigh(const Model& model, const std::vector<int>& hangs) {
     return weights;
 }
 
-// Mass of each organ as its sections have it [kg], and of each chain node, half of a capsule to either end.
+// Returns the mass of each organ by its sections [kg]; sets that of each chain node, half of a capsule to either end.
 static std::vector<double> weigh_sections(Model& model) {
     std::vector<double> organs(model.organs.size(), 0.0);
     model.chain_mass.assign(model.chain.nodes.size(), 0.0);

@@ -5,11 +5,11 @@
 
 namespace frond {
 
-// The chain node that each tet's weight hangs on: of its organ's nodes that of most vertices in it, else the nearest;
-// of all nodes where its organ has none.
+// Returns the chain node on which each tet's weight hangs: of its organ's nodes the median one of the vertices in it,
+// else the nearest; of all nodes if its organ has none.
 std::vector<int> hang_tets(const Model& model);
 
-// One a chain node.
+// Sums of the tets on each chain node.
 struct Weights {
     std::vector<double> mass;  // [kg]
     std::vector<Vec3> moment;  // mass times position [kg m]

@@ -1,4 +1,4 @@
-// CageContact: a place where two cages, or two parts of one, are in each other, and the way by which they come apart.
+// CageContact: a place where two cages, or two regions of one, overlap, and the displacement by which they separate.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,14 @@ namespace frond {
 enum ContactKind : uint8_t {
     CONTACT_NODE_IN_TET,   // a is a node, b the tet around it
     CONTACT_EDGE_ON_EDGE,  // both are boundary edges, which have passed each other
-    CONTACT_EDGE_IN_FACE   // a is an edge, b a face through which it goes
+    CONTACT_EDGE_IN_FACE   // a is an edge, b a face that it passes through
 };
 
 // A point of a cage: the sum of weights[k] * place of nodes[k]. Entries from node_count on are zero.
 struct ContactSide {
-    int body;   // as in what find_cage_contacts was given
-    int organ;  // as in Cage::tet_organ
-    int piece;  // as in Collider::tet_piece
+    int body;   // index in the bodies given to find_cage_contacts
+    int organ;  // organ, as in Cage::tet_organ
+    int piece;  // region, as in Collider::tet_piece
     int node_count;
     std::array<int, 4> nodes;
     std::array<double, 4> weights;  // add up to one
@@ -27,9 +27,9 @@ struct ContactSide {
 struct CageContact {
     ContactKind kind;
     ContactSide a, b;
-    Vec3 point;    // of a [m]
-    Vec3 normal;   // along which a leaves b, length one
-    double depth;  // how far a has to move along it [m], > 0
+    Vec3 point;    // point of a [m]
+    Vec3 normal;   // exit direction of a from b, length one
+    double depth;  // distance that a has to move along it [m], > 0
 };
 
 // Memory that is kept between searches.
@@ -37,13 +37,14 @@ struct ContactSearch;
 using ContactSearchPtr = std::unique_ptr<ContactSearch, void (*)(ContactSearch*)>;
 ContactSearchPtr make_contact_search();
 
-// Contacts of all bodies with each other, and with themselves where they say so. The order is by bodies and then by
-// their nodes and edges; nothing of it depends on the settings. A node within a tet gets depth and normal from where
-// its neighbours' edges enter, and deeper nodes get theirs from these (Heidelberger, Teschner, Keiser, Mueller, Gross
-// 2004, "Consistent Penetration Depth Estimation for Deformable Collision Response"). An edge that passes through
-// without a node inside leaves across the boundary edge of the other cage that is beside it, deeper ones as those do.
+// Finds contacts of all bodies with each other, and with themselves where their with_itself is set. The order is by
+// bodies and then by their nodes and edges; results do not depend on the settings. A node within a tet gets depth and
+// normal from the points where its edges enter, and deeper nodes get theirs from their neighbours (Heidelberger,
+// Teschner, Keiser, Mueller, Gross 2004, "Consistent Penetration Depth Estimation for Deformable Collision Response").
+// An edge that passes through without a node inside leaves across the adjacent boundary edge of the other cage, deeper
+// ones as their neighbours do.
 struct SearchTimes {
-    double ms_hash = 0, ms_narrow = 0;  // which boxes overlap; exact tests, depths and ways out
+    double ms_hash = 0, ms_narrow = 0;  // overlaps of boxes; exact tests, depths and exits
 };
 SearchTimes find_cage_contacts(ContactSearch& search, const std::vector<CollisionBody>& bodies,
                                const HashSettings& settings, std::vector<CageContact>& out);

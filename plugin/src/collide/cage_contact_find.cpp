@@ -17,7 +17,7 @@ ContactSearchPtr make_contact_search() {
     return ContactSearchPtr(new ContactSearch, [](ContactSearch* search) { delete search; });
 }
 
-// Finds the tet around a node in which it is deepest; there may be several where copies of cells overlap.
+// Sorts overlaps into pairs of bodies. Where copies of cells overlap, a node counts in the tet in which it is deepest.
 static std::map<std::array<int, 2>, BodyPair> sort_into_pairs(const OverlapSearch& search) {
     std::map<std::array<int, 2>, BodyPair> pairs;
     const OverlapScene& scene = search.scene;
@@ -43,7 +43,7 @@ static std::map<std::array<int, 2>, BodyPair> sort_into_pairs(const OverlapSearc
     return pairs;
 }
 
-// Two edges that have passed each other are found from either side; the second finding goes.
+// Drops duplicates: two edges that have passed each other are found from both sides.
 static void drop_doubles(std::vector<CageContact>& contacts) {
     const auto key = [](const ContactSide& side) { return std::tuple(side.body, side.nodes[0], side.nodes[1]); };
     std::map<std::tuple<decltype(key(contacts[0].a)), decltype(key(contacts[0].a))>, bool> known;

@@ -1,5 +1,5 @@
-// Capsule: the bodies of a plant's chain, and what is asked about them (section 3.3.1 of Lu, Guo, Zhao, Li: "Physical
-// Model for Interactive Deformation of 3D Plant"): how far apart they are, and when they meet while they move.
+// Capsule: the bodies of a plant's chain, and queries about them (section 3.3.1 of Lu, Guo, Zhao, Li: "Physical Model
+// for Interactive Deformation of 3D Plant"): how far apart they are, and when they meet while they move.
 #pragma once
 
 #include <optional>
@@ -10,32 +10,32 @@ namespace frond {
 
 // All points within `radius` of the axis. Both ends may be the same: a sphere.
 struct Capsule {
-    Vec3 begin, end;  // of the axis [m]
+    Vec3 begin, end;  // ends of the axis [m]
     double radius;    // [m]
 };
 
-// Between two shapes a and b.
+// Distance between two shapes a and b.
 struct Gap {
     double distance;  // between the surfaces [m]; negative where they overlap
-    Vec3 normal;      // along which a moves away from b, length one
+    Vec3 normal;      // direction in which a moves away from b, length one
     Vec3 on_a, on_b;  // nearest points of the axes, or of the triangle's face [m]
 };
 
-// Where the axes touch, the normal stands on both, and any of them does where they lie in one line.
+// Computes the gap of two capsules. Where the axes touch, the normal is perpendicular to both.
 Gap gap_between(const Capsule& a, const Capsule& b);
-// A capsule whose axis passes through the face is as deep as the shorter way out on either side of it. Triangles
-// without area are segments or points.
+// Computes the gap of a capsule and a triangle. A capsule whose axis passes through the face is as deep as its exit on
+// the nearer side. Triangles without area are segments or points.
 Gap gap_between(const Capsule& a, const Corners& b);
 
-// Where moving shapes meet first.
+// First contact of moving shapes.
 struct Impact {
-    double time;  // of the step, 0..1 [-]; 0 where they overlap from the start
-    Gap gap;      // then
+    double time;  // share of the step, 0..1 [-]; 0 where they overlap from the start
+    Gap gap;      // gap at that time
 };
 
-// For ends, or corners, that each move along a straight line at constant speed from where they are `before` to where
-// they are `after`; radii are those before. Nothing where they do not meet. A meeting is never missed: time is found
-// from below, and is right once the surfaces are within a millionth of their sizes.
+// Finds the first contact of shapes whose ends, or corners, each move along a straight line at constant speed from
+// `before` to `after`; radii are those before. Returns nothing where they do not meet. No contact is missed: time is
+// approached from below until the surfaces are within a millionth of their sizes.
 std::optional<Impact> first_impact(const Capsule& a_before, const Capsule& a_after, const Capsule& b_before,
                                    const Capsule& b_after);
 std::optional<Impact> first_impact(const Capsule& a_before, const Capsule& a_after, const Corners& b_before,

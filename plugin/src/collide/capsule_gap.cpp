@@ -1,5 +1,5 @@
-// How far apart two capsules, or a capsule and a triangle, are: shapes come in; distance, normal and nearest points go
-// out. The nearest points of the axes tell sides from ends (Ericson 2005, Real-Time Collision Detection, chapter 5).
+// Gaps of two capsules, or of a capsule and a triangle: shapes come in; distance, normal and nearest points go out. The
+// nearest points of the axes distinguish sides from ends (Ericson 2005, Real-Time Collision Detection, chapter 5).
 #include <algorithm>
 
 #include "collide/capsule.hpp"
@@ -18,7 +18,7 @@ Gap gap_between(const Capsule& a, const Capsule& b) {
     const double distance = std::sqrt(pair.squared);
     Gap gap = {distance - a.radius - b.radius, (pair.a - pair.b) / distance, pair.a, pair.b};
     if (!(distance > 0)) {
-        // The axes touch: the way out is across both.
+        // The axes touch: the exit is perpendicular to both.
         const Vec3 along_a = a.end - a.begin, along_b = b.end - b.begin, across = along_a.cross(along_b);
         const bool parallel = across.squaredNorm() <= 1e-20 * along_a.squaredNorm() * along_b.squaredNorm();
         const Vec3& longer = along_a.squaredNorm() > along_b.squaredNorm() ? along_a : along_b;
@@ -32,7 +32,7 @@ Gap gap_between(const Capsule& a, const Corners& b) {
     const double distance = std::sqrt(pair.squared);
     Gap gap = {distance - a.radius, (pair.a - pair.b) / distance, pair.a, pair.b};
     if (!(distance > 0)) {
-        // The axis passes through the face: out to the side on which less of it has to be moved.
+        // The axis passes through the face: the exit is on the side on which less of it has to be moved.
         const Vec3 across = (b[1] - b[0]).cross(b[2] - b[0]);
         const double area = across.norm();
         gap.normal = area > 0 ? Vec3(across / area) : any_normal_to(a.end - a.begin);

@@ -1,7 +1,8 @@
-// When moving capsules and triangles meet: shapes before and after a step come in, the first time of contact goes out.
-// Conservative advancement (Mirtich 1996, "Impulse-based Dynamic Simulation of Rigid Body Systems") along the line
-// between the nearest points: shapes stay apart as long as all corners of the one stay beyond all corners of the other
-// along that line, and corners that move straight tell when that ends. So time never steps over a contact.
+// First contact of moving capsules and triangles: shapes before and after a step come in, the first time of contact
+// goes out. Conservative advancement (Mirtich 1996, "Impulse-based Dynamic Simulation of Rigid Body Systems") along the
+// line between the nearest points: shapes stay apart as long as all corners of the one stay beyond all corners of the
+// other along that line, and the corners' straight paths give the time at which that ends. So time never steps over a
+// contact.
 #include <array>
 
 #include "collide/capsule.hpp"
@@ -22,7 +23,8 @@ static Capsule capsule_of(const Points<2>& ends, double radius) {
     return {ends[0], ends[1], radius};
 }
 
-// Until when no corner of a comes nearer than `radius` to one of b along the normal; beyond 1 if none does.
+// Returns the time until which no corner of a is nearer than `radius` to one of b along the normal; beyond 1 if none
+// ever is.
 template <size_t A, size_t B>
 static double apart_until(double time, const Vec3& normal, double radius, const Points<A>& a_now,
                           const Points<A>& a_after, const Points<B>& b_now, const Points<B>& b_after) {
@@ -36,12 +38,12 @@ static double apart_until(double time, const Vec3& normal, double radius, const 
     return until;
 }
 
-// `radius` is that of both shapes; gap_now(a, b) the gap between them.
+// Advances to the first contact. `radius` is the sum of both shapes' radii; gap_now(a, b) returns their gap.
 template <size_t A, size_t B, class GapNow>
 static std::optional<Impact> advance(const Points<A>& a_before, const Points<A>& a_after, const Points<B>& b_before,
                                      const Points<B>& b_after, double radius, GapNow&& gap_now) {
-    // Times below this gap are the contact's. Where shapes slide past each other at hardly more, steps become short;
-    // after MOST_STEPS of them the shapes count as touching, which errs to the safe side.
+    // Shapes touch below this gap, over their sizes. Where they slide past each other at hardly more, steps become
+    // short; after MOST_STEPS of them the shapes count as touching, which errs on the safe side.
     constexpr double TOLERANCE = 1e-6;
     constexpr int MOST_STEPS = 1000;
     const double size = radius + (a_before[A - 1] - a_before[0]).norm() + (b_before[B - 1] - b_before[0]).norm();

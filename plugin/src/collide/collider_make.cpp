@@ -1,4 +1,4 @@
-// Makes a collider: tets and their pieces come in; boundary, neighbours and the pieces that do not collide with each
+// Makes a collider: tets and their regions come in; boundary, neighbours and the regions that do not collide with each
 // other go out.
 #include <algorithm>
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace frond {
 
-// Sorted and without doubles, list by list.
+// Packs lists, each sorted and without duplicates.
 static NumberLists lists_of(std::vector<std::vector<int>>& lists) {
     NumberLists packed;
     for (std::vector<int>& list : lists) {
@@ -24,7 +24,7 @@ static NumberLists lists_of(std::vector<std::vector<int>>& lists) {
 }
 
 static void find_boundary(Collider& collider) {
-    // Faces that no second tet has; each looks away from its tet's fourth node.
+    // Faces of one tet only; each faces away from its tet's fourth node.
     constexpr int OUTWARD[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
     struct Side {
         Triangle face;
@@ -48,7 +48,7 @@ static void find_boundary(Collider& collider) {
     }
     collider.tet_faces = lists_of(tet_faces);
 
-    // Their edges.
+    // The faces' edges.
     std::map<std::array<int, 2>, int> known;
     for (size_t f = 0; f < collider.faces.size(); ++f) {
         collider.face_edges.emplace_back();
@@ -93,7 +93,7 @@ static void find_near_pieces(Collider& collider, const std::vector<Vec3>& nodes)
         for (const int a : collider.node_pieces[n])
             for (const int b : collider.node_pieces[n]) are_near(a, b);
 
-    // Finds what overlaps at rest.
+    // Regions that overlap at rest.
     OverlapSearch search;
     const std::vector<uint8_t> all(size_t(collider.piece_count), 1);
     find_overlaps(search, {{&collider, nodes.data(), all, true}}, HashSettings());
@@ -147,7 +147,7 @@ Collider make_collider(const Model& model) {
     for (size_t t = 0; t < cage.tets.size(); ++t) {
         Vec3 middle = Vec3::Zero();
         for (const int n : cage.tets[t]) middle += cage.nodes[size_t(n)] / 4;
-        // A small organ may have no capsule of its own: then any.
+        // A small organ may have no capsule of its own: then the nearest of any organ.
         double least = INFINITY;
         bool of_organ = false;
         for (size_t c = 0; c < model.capsules.size(); ++c) {

@@ -1,4 +1,4 @@
-// Follows a contact: where it was comes in, and where the cages are; the nearest places of both now go out.
+// Follows a contact: its last place and the cages' present places come in; the nearest places of both now go out.
 #include <algorithm>
 
 #include "collide/contact_gap.hpp"
@@ -7,10 +7,10 @@
 
 namespace frond {
 
-// Of a's side: a node, or the stretch of an edge around the point that touched.
+// Part of a's side: a node, or the stretch of an edge around the point that touched.
 struct Stretch {
     std::array<Vec3, 2> ends;
-    std::array<double, 2> along;  // of the edge, 0..1
+    std::array<double, 2> along;  // positions along the edge, 0..1 [-]
 };
 
 static Stretch stretch_of(const CollisionBody& a, const ContactSide& side) {
@@ -23,7 +23,7 @@ static Stretch stretch_of(const CollisionBody& a, const ContactSide& side) {
     return {{begin + first * edge, begin + last * edge}, {first, last}};
 }
 
-// Barycentric weights of a point of a triangle; what has no area is at its first corner.
+// Returns the barycentric weights of a point of a triangle; the first corner's if it has no area.
 static std::array<double, 3> weights_in(const Corners& corners, const Vec3& p) {
     const Vec3 across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     const double squared = across.squaredNorm();

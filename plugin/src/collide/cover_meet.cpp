@@ -1,4 +1,4 @@
-// Which pieces meet: the covers of bodies come in, the pieces whose capsules are near another's go out. Boxes of the
+// Finds regions that meet: covers of bodies come in, regions whose capsules are near another's go out. Boxes of the
 // capsules are sorted along one axis and swept (Baraff 1992, "Dynamic Simulation of Non-penetrating Rigid Bodies"),
 // then the capsules are tested.
 #include <algorithm>
@@ -21,7 +21,7 @@ static bool boxes_meet(const CoverBox& a, const CoverBox& b) {
     return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
 }
 
-// Boxes of capsules within the box of another body; of bodies that collide with themselves all.
+// Gathers boxes of capsules that overlap the box of another body, and all boxes of bodies that collide with themselves.
 static std::vector<CoverBox> gather_boxes(const std::vector<CoveredBody>& bodies, double half_margin) {
     std::vector<CoverBox> wholes, boxes;
     for (size_t b = 0; b < bodies.size(); ++b) {

@@ -1,4 +1,4 @@
-// Covers pieces: places of nodes and axes come in, capsules around each piece's nodes go out.
+// Covers regions: places of nodes and axes come in, capsules around each region's nodes go out.
 #include <algorithm>
 
 #include "collide/cover.hpp"

@@ -1,5 +1,4 @@
-// The table of layouts: one row for each frond_hash_layout; the twin that tries every pair is short enough to stand
-// here.
+// The table of layouts: one row for each frond_hash_layout; the brute-force search is short and stands here.
 #include "collide/hash.hpp"
 
 #include <cmath>

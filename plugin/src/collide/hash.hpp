@@ -1,5 +1,5 @@
-// Hash: which boxes overlap, found through cells of space. The layouts are rows of a table; all of them, and the twin
-// that tries every pair, give the same pairs always.
+// Hash: finds overlapping boxes by cells of space. The layouts are rows of a table; all of them, brute force too,
+// always give the same pairs.
 #pragma once
 
 #include "core/types.hpp"
@@ -13,7 +13,7 @@ struct HashSettings {
     double cell_size = 0;  // l [m]; 0 chooses one and a half mean edges. Never below an eighth of the mean edge
 };
 
-// Boxes of one group do not meet each other.
+// Boxes of one group are not paired with each other.
 struct BoxSet {
     struct Bounds {
         double lower[3], upper[3];  // [m]
@@ -31,7 +31,7 @@ struct HashMemory {
 // Adds pairs (item, query) of boxes that overlap or touch and are of different groups, each once, in any order.
 struct HashRow {
     const char* name;
-    // Drops boxes (0 in `kept`) near which there is none of another owner, not all of them; null: drops none.
+    // Drops boxes (0 in `kept`) that have none of another owner near them, though not all such; null: drops none.
     void (*cull)(const BoxSet& boxes, const std::vector<int>& owner, double cell_size, HashMemory& memory,
                  std::vector<uint8_t>& kept);
     void (*find)(const BoxSet& items, const BoxSet& queries, int table_size, double cell_size, HashMemory& memory,
@@ -39,7 +39,8 @@ struct HashRow {
 };
 const HashRow& hash_row(frond_hash_layout layout);
 
-// Cells so large that boxes, on average, touch little more than a hundred of them; infinite for boxes without end.
+// Returns a cell size so large that boxes touch little more than a hundred cells on average; infinite for infinite
+// boxes.
 double bearable_cell_size(const BoxSet& items, const BoxSet& queries, double cell_size);
 
 // The rows.

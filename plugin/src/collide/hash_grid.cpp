@@ -1,6 +1,6 @@
-// Pairs of boxes by a dense grid: boxes come in, pairs that overlap go out. Cells in which only boxes of one group lie
-// are told first and enter nothing; the entries of the others are sorted by cell, by counting, so that those of a cell
-// lie side by side.
+// Pairs of boxes by a dense grid: boxes come in, pairs that overlap go out. Cells with boxes of one group only are
+// found first and get no entries; the entries of the others are sorted by cell, by counting, so that a cell's are
+// contiguous.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,13 +9,13 @@
 
 namespace frond {
 
-static constexpr int NOBODY = -1, SEVERAL = -2;  // who is in a cell, besides a group
+static constexpr int NOBODY = -1, SEVERAL = -2;  // owner of a cell, besides a group
 
 struct Grid {
     double lower[3], upper[3], cells_per_metre;
     int size[3];
-    // Rounding is monotone: a point within a box is in a cell within the box's cells. Ways too long for a number end in
-    // the last one.
+    // Rounding is monotone: a point within a box is in a cell within the box's cells. Distances too long for
+    // a number end in the last one.
     int cell_at(double place, int axis) const {
         const double cell = (std::clamp(place, lower[axis], upper[axis]) - lower[axis]) * cells_per_metre;
         return cell < size[axis] - 1 ? int(cell) : size[axis] - 1;
@@ -36,7 +36,7 @@ static void bounds_of(const BoxSet& set, double lower[3], double upper[3]) {
         }
 }
 
-// Where items and queries both are. False if nowhere.
+// Fits the grid to where items and queries overlap. False if nowhere.
 static bool fit_grid(const BoxSet& items, const BoxSet& queries, double cell_size, Grid& grid) {
     constexpr double MOST_CELLS = 1 << 20;  // beyond it cells are made larger
     double lower[3], upper[3];
@@ -80,14 +80,14 @@ static void visit_cells(const Grid& grid, const BoxSet::Bounds& box, Visit&& vis
             for (int x = low[0]; x <= high[0]; ++x) visit(grid.number(x, y, z));
 }
 
-// Two boxes share several cells; this is the one in which their pair is told.
+// Two boxes may share several cells. Returns the one in which their pair is reported.
 static int cell_of_pair(const Grid& grid, const BoxSet::Bounds& a, const BoxSet::Bounds& b) {
     return grid.number(grid.cell_at(std::max(a.lower[0], b.lower[0]), 0),
                        grid.cell_at(std::max(a.lower[1], b.lower[1]), 1),
                        grid.cell_at(std::max(a.lower[2], b.lower[2]), 2));
 }
 
-// Whose boxes are in each cell; owner_of(number of a box).
+// Finds whose boxes are in each cell; owner_of(number of a box).
 template <class OwnerOf>
 static void find_owners(const Grid& grid, const BoxSet& set, std::vector<int>& owner, OwnerOf&& owner_of) {
     owner.assign(size_t(grid.count()), NOBODY);
@@ -132,7 +132,7 @@ void find_pairs_by_grid(const BoxSet& items, const BoxSet& queries, int, double 
     memory.items.resize(memory.entries.size());
     for (const auto& [cell, item] : memory.entries) memory.items[size_t(--memory.start[size_t(cell)])] = item;
 
-    // Queries look into their cells.
+    // Queries are tested against the items in their cells.
     for (size_t q = 0; q < queries.boxes.size(); ++q)
         visit_cells(grid, queries.boxes[q], [&](int cell) {
             for (int k = memory.start[size_t(cell)]; k < memory.start[size_t(cell) + 1]; ++k) {

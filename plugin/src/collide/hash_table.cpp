@@ -14,7 +14,7 @@ static size_t bucket_of(int64_t x, int64_t y, int64_t z, size_t table_size) {
     return size_t(hash % table_size);
 }
 
-// Rounding is monotone: a point within a box is in a cell within the box's cells. Far places end in the last ones.
+// Rounding is monotone: a point within a box is in a cell within the box's cells. Distant places end in the last ones.
 static int64_t cell_at(double place, double cell_size) {
     constexpr double FARTHEST = 1e15;
     if (!std::isfinite(cell_size)) return 0;
@@ -44,7 +44,7 @@ void find_pairs_by_table(const BoxSet& items, const BoxSet& queries, int wanted_
     cell_size = bearable_cell_size(items, queries, cell_size);
     const size_t table_size = wanted_size > 0 ? size_t(wanted_size) : 2 * items.boxes.size() + 1;
 
-    // First pass: items, as chains from buckets, once in each.
+    // First pass: items, in linked lists from buckets, once in each.
     std::vector<int>& first = memory.start;
     first.assign(table_size, -1);
     memory.items.clear();
@@ -57,7 +57,7 @@ void find_pairs_by_table(const BoxSet& items, const BoxSet& queries, int wanted_
             memory.items.push_back(int(i));
         });
 
-    // Second pass: queries, each once in a bucket, tell pairs in that of the pair's own first cell.
+    // Second pass: queries, each once in a bucket, report pairs in the bucket of the pair's first cell.
     std::vector<int>& last = memory.owner;
     last.assign(table_size, -1);
     for (size_t q = 0; q < queries.boxes.size(); ++q)

@@ -1,5 +1,5 @@
-// Finds overlaps: bodies come in, nodes within tets and edges through faces go out. Boxes of tets and faces are met
-// with nodes and boxes of edges in a spatial hash (Teschner et al. 2003, for nodes and tets); what meets is tested
+// Finds overlaps: bodies come in, nodes within tets and edges through faces go out. Boxes of tets and faces are
+// paired with nodes and boxes of edges in a spatial hash (Teschner et al. 2003, for nodes and tets); pairs are tested
 // exactly.
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace frond {
 
 // ---- boxes ----
 
-// A body that does not meet itself is one group, else each of its pieces is one, as no piece meets itself.
+// A body that does not collide with itself is one group; else each of its regions is one, as none collides with itself.
 struct Groups {
     std::vector<int> first;
     explicit Groups(const OverlapScene& scene) {
@@ -43,7 +43,7 @@ static BoxSet::Bounds bounds_of(const OverlapScene& scene, int body, const Corne
     return box;
 }
 
-// corners_of(collider, number) and piece_of(collider, number) of each thing in the list.
+// Fills in boxes by corners_of(collider, number) and piece_of(collider, number) of each number in the list.
 template <class CornersOf, class PieceOf>
 static void fill_boxes(const OverlapScene& scene, const Groups& groups, const std::vector<int>& list,
                        const std::vector<int>& body, BoxSet& out, CornersOf&& corners_of, PieceOf&& piece_of) {
@@ -63,7 +63,7 @@ static double cell_size_of(const OverlapScene& scene, const HashSettings& settin
     return settings.cell_size > 0 ? std::max(settings.cell_size, LEAST * mean_edge) : CHOSEN * mean_edge;
 }
 
-// ---- what takes part ----
+// ---- the scene ----
 
 static bool takes_part(const CollisionBody& body, int tet) {
     return body.pieces[size_t(body.collider->tet_piece[size_t(tet)])] != 0;
@@ -86,8 +86,8 @@ static void fill_tets(OverlapScene& s, const std::vector<CollisionBody>& bodies)
     }
 }
 
-// Marks the tets of one body, those from first on, whose boxes meet one of a piece that is not near their own: as cells
-// are wider than pieces, nearly all of a plant would share one with such a piece.
+// Marks the tets of one body, those from first on, whose boxes overlap one of a region that is not near their own: as
+// cells are wider than regions, nearly all of a plant would share one with such a region.
 static void keep_parts_that_meet(OverlapSearch& search, size_t first, size_t last, std::vector<uint8_t>& kept) {
     const OverlapScene& s = search.scene;
     std::vector<BoxSet::Bounds>& boxes = search.queries.boxes;
@@ -125,7 +125,7 @@ static void keep_parts_that_meet(OverlapSearch& search, size_t first, size_t las
         }
 }
 
-// Leaves out tets that nothing is near, with their boxes.
+// Drops tets that are near nothing, with their boxes.
 static void cull_tets(OverlapSearch& search, const HashRow& row, double cell_size) {
     if (!row.cull) return;
     OverlapScene& s = search.scene;
@@ -147,7 +147,7 @@ static void cull_tets(OverlapSearch& search, const HashRow& row, double cell_siz
     search.queries.boxes.resize(count);
 }
 
-// Nodes of the tets that are left, their faces on the boundary and the edges of these.
+// Fills in nodes of the tets that are left, their faces on the boundary and the edges of these.
 static void fill_boundary(OverlapSearch& search) {
     OverlapScene& s = search.scene;
     std::vector<uint8_t>& marks = search.marks;
@@ -185,7 +185,7 @@ static void find_pairs(OverlapSearch& search, const HashSettings& settings) {
     search.ms_hash += timer.ms();
 }
 
-// Within one body: whether a node lies in or beside a piece.
+// Returns whether a node lies in or near a region of its body.
 static bool is_near(const Collider& collider, int node, int piece) {
     for (const int own : collider.node_pieces[node])
         if (collider.are_near(own, piece)) return true;
@@ -198,7 +198,7 @@ static double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
     return (b - a).cross(c - a).dot(d - a);
 }
 
-// A node on a face between two tets is in both, whatever the rounding.
+// Returns whether p is in a tet. A node on a face between two tets is in both, whatever the rounding.
 static bool is_in_tet(const OverlapScene& scene, int body, const Tet& tet, const Vec3& p,
                       std::array<double, 4>& weights) {
     constexpr double ROUNDING = 1e-12;
@@ -209,12 +209,12 @@ static bool is_in_tet(const OverlapScene& scene, int body, const Tet& tet, const
     weights[2] = six_volumes(a, b, p, d) / whole;
     weights[3] = six_volumes(a, b, c, p) / whole;
     weights[0] = 1 - weights[1] - weights[2] - weights[3];
-    // False for flat tets too, whose weights are not numbers.
+    // False for flat tets too, whose weights are not finite.
     return weights[0] >= -ROUNDING && weights[1] >= -ROUNDING && weights[2] >= -ROUNDING && weights[3] >= -ROUNDING;
 }
 
-// On which side of a line p q a directed edge from a to b passes: equal but for the sign for both faces at the edge, so
-// that no line slips through between them.
+// Returns on which side of a line p q a directed edge from a to b passes: equal but for the sign for both faces at the
+// edge, so that no line slips through between them.
 static double side_of(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, bool ascending) {
     return ascending ? six_volumes(p, q, a, b) : -six_volumes(p, q, b, a);
 }
@@ -232,7 +232,7 @@ static bool goes_through(const OverlapScene& scene, EdgeOverlap& overlap) {
     double sum = 0;
     std::array<double, 3> side;
     for (size_t k = 0; k < 3; ++k) {
-        // Opposite to corner k.
+        // The edge opposite to corner k.
         const size_t from = (k + 1) % 3, to = (k + 2) % 3;
         sum += side[k] = side_of(p, q, *corner[from], *corner[to], face[from] < face[to]);
     }

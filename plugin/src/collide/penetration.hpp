@@ -1,40 +1,41 @@
-// Penetration: how deep what is in another cage is, and the way out, consistent over neighbours.
+// Penetration: depth and exit direction of nodes and edges in another cage, consistent over neighbours.
 #pragma once
 
 #include "collide/cage_contact.hpp"
 
 namespace frond {
 
-// Overlaps of one body's nodes and edges with one body: ranges of the search's sorted arrays.
+// Overlaps of body a's nodes and edges with body b: indices into the search's sorted arrays.
 struct BodyPair {
     int a, b;
-    std::vector<int> nodes;  // overlaps, one a node: that in whose tet the node is deepest
-    std::vector<int> edges;  // by edge and then along it
+    std::vector<int> nodes;  // one overlap per node: that in whose tet the node is deepest
+    std::vector<int> edges;  // sorted by edge and then along it
 };
 
-// Per node of the scene, between calls all -1.
+// One number per node of the scene, all -1 between calls.
 using NodeMarks = std::vector<int>;
 
-// The way out of a point.
+// The exit of a point.
 struct WayOut {
     Vec3 point = Vec3::Zero();   // [m]
-    Vec3 normal = Vec3::Zero();  // of length one once it is known
+    Vec3 normal = Vec3::Zero();  // exit direction, length one once it is known
     double depth = 0;            // [m]
     bool known = false;
 };
 
-// Gives every point that does not know its way out that of its neighbours which do, from those outwards until none is
-// left that could: inversely weighted by the squared distance, deeper by what is between them along their normal.
+// Spreads known exits to neighbouring points without one, round by round until no more can get one. Neighbours are
+// weighted by the inverse of the squared distance; depth grows by the distance between the two along the neighbour's
+// normal.
 void spread_ways_out(std::vector<WayOut>& ways, const std::vector<std::vector<int>>& neighbours);
 
-// Add the contacts of a pair of bodies. `inside` marks the nodes of a that are within b, by their number among
-// pair.nodes; their ways out come back, for the edges at them.
+// Add the contacts of a pair of bodies. `inside` has for the nodes of a that are within b their index in pair.nodes;
+// the first returns their exits, for the edges at them.
 std::vector<WayOut> find_node_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
                                        std::vector<CageContact>& out);
 void find_edge_contacts(const OverlapSearch& search, const BodyPair& pair, const NodeMarks& inside,
                         const std::vector<WayOut>& node_ways, std::vector<CageContact>& out);
 
-// Both searches need these of the scene.
+// Helpers of both searches.
 Vec3 face_normal(const OverlapScene& scene, int body, int face);
 ContactSide side_of_nodes(const Collider& collider, int body, const int* nodes, const double* weights, int count,
                           int tet);

@@ -1,10 +1,10 @@
-// Contacts of edges: edges of one body that go through faces of another come in, contacts with depth and normal go out.
-// Where an edge passes through without an end inside and a boundary edge of the other body is beside the faces that are
-// gone through, and both edges are the outermost along the line across both (the Gauss-map test of edge pairs in
-// separating-axis tests: Gregorius 2013, "The Separating Axis Test between Convex Polyhedra"), that is the way out;
-// edges deeper inside take it over from their neighbours as nodes do. An edge that hangs on a node inside leaves as
-// that does. Along its way out an edge may have a ridge of the other body above it, farther than its end or its first
-// way tells: then it has to pass that too.
+// Contacts of edges: edges of one body that pass through faces of another come in, contacts with depth and normal go
+// out. An edge without an end inside leaves across a boundary edge of the other body near the faces it passes through,
+// if both edges are outermost along their common perpendicular (the Gauss-map test of edge pairs in separating-axis
+// tests: Gregorius 2013, "The Separating Axis Test between Convex Polyhedra"). Edges deeper inside take the exit over
+// from their neighbours, as nodes do. An edge that hangs on a node inside leaves as that does. A ridge of the other
+// body may be above an edge along its exit, beyond the depth of its end or of its first exit: then the edge has to pass
+// the ridge too.
 #include <algorithm>
 #include <map>
 
@@ -16,7 +16,7 @@ namespace frond {
 struct Chord {
     int edge;
     int first = -1, last = -1;  // overlaps where it goes in and comes out; -1: the edge's end is inside there
-    int other_edge = -1;        // of b, across which it leaves
+    int other_edge = -1;        // edge of b across which it leaves
     double along = 0, other_along = 0;
     bool hangs() const { return first < 0 || last < 0; }
 };
@@ -26,7 +26,7 @@ static Vec3 edge_place(const OverlapScene& scene, int body, int edge, double alo
     return scene.place(body, ends[0]) + along * (scene.place(body, ends[1]) - scene.place(body, ends[0]));
 }
 
-// Tells whether the edge goes into b at an overlap, seen from its first node.
+// Returns whether the edge goes into b at an overlap, seen from its first node.
 static bool goes_in(const OverlapSearch& search, const BodyPair& pair, int edge, int overlap) {
     const OverlapScene& scene = search.scene;
     const Vec3 along = edge_place(scene, pair.a, edge, 1) - edge_place(scene, pair.a, edge, 0);
@@ -71,7 +71,7 @@ static std::vector<Chord> find_chords(const OverlapSearch& search, const BodyPai
     return chords;
 }
 
-// The boundary edges of the faces that a chord goes through, and of the faces beside those.
+// Gathers the boundary edges of the faces that a chord passes through, and of the faces adjacent to those.
 static void gather_edges(const Collider& b, const OverlapScene& scene, const OverlapSearch& search, const Chord& chord,
                          std::vector<int>& out) {
     out.clear();
@@ -85,7 +85,7 @@ static void gather_edges(const Collider& b, const OverlapScene& scene, const Ove
     out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
-// The normals of the two faces at an edge; false unless they form a ridge.
+// Computes the normals of the two faces at an edge; false unless they form a ridge.
 static bool make_ridge(const OverlapScene& scene, int body, int edge, Vec3& n, Vec3& m) {
     constexpr double FLAT = 1e-4;
     const Collider& collider = *scene.bodies[size_t(body)].collider;
@@ -103,7 +103,7 @@ static bool make_ridge(const OverlapScene& scene, int body, int edge, Vec3& n, V
     return n.dot(scene.place(body, far_corner) - scene.place(body, ends[0])) < 0;
 }
 
-// Tells whether a direction across an edge points between the normals of its two faces, which form a ridge.
+// Returns whether a direction across an edge points between the normals of its two faces, which form a ridge.
 static bool is_outward(const OverlapScene& scene, int body, int edge, const Vec3& direction) {
     constexpr double ROUNDING = 0.01;
     Vec3 n, m;
@@ -114,7 +114,7 @@ static bool is_outward(const OverlapScene& scene, int body, int edge, const Vec3
            along_m - cosine * along_n >= -ROUNDING * sine_squared;
 }
 
-// Across which edge of b the chord leaves on the shortest way.
+// Finds the edge of b across which the chord leaves by the shortest distance.
 static WayOut leave_across(const OverlapScene& scene, const BodyPair& pair, const std::vector<int>& candidates,
                            Chord& chord) {
     WayOut best;
@@ -124,7 +124,7 @@ static WayOut leave_across(const OverlapScene& scene, const BodyPair& pair, cons
         const Vec3 across = d.cross(e);
         const double squared = across.squaredNorm();
         if (!(squared > 1e-6 * d.squaredNorm() * e.squaredNorm())) continue;
-        // Where the lines are nearest.
+        // Parameters of the lines' nearest points.
         const double along = (q - p).cross(e).dot(across) / squared;
         const double other_along = (q - p).cross(d).dot(across) / squared;
         if (along < 0 || along > 1 || other_along < 0 || other_along > 1) continue;
@@ -143,7 +143,7 @@ static WayOut leave_across(const OverlapScene& scene, const BodyPair& pair, cons
     return best;
 }
 
-// The ridge that is highest above the chord along a way out, if that is higher than `depth`.
+// Finds the ridge that is highest above the chord along its exit direction, if that is higher than `depth`.
 static bool find_ridge_above(const OverlapSearch& search, const BodyPair& pair, const std::vector<int>& candidates,
                              const WayOut& way, Chord& chord, double& depth) {
     constexpr double PARALLEL = 0.02, FACES = 0.2, BEYOND = 0.5;  // the last over the chord's length
@@ -159,7 +159,7 @@ static bool find_ridge_above(const OverlapSearch& search, const BodyPair& pair, 
         const Vec3 q = edge_place(scene, pair.b, edge, 0), e = edge_place(scene, pair.b, edge, 1) - q;
         const double squared = d.cross(e).dot(way.normal);
         if (!(std::abs(squared) > PARALLEL * d.norm() * e.norm())) continue;
-        // Where they cross, seen along the way out.
+        // Parameters of their crossing, seen along the exit direction.
         const double along = (q - p).cross(e).dot(way.normal) / squared;
         const double other_along = (q - p).cross(d).dot(way.normal) / squared;
         if (along < begin || along > end || other_along < 0 || other_along > 1) continue;
@@ -176,7 +176,7 @@ static bool find_ridge_above(const OverlapSearch& search, const BodyPair& pair, 
     return found;
 }
 
-// Where nothing beside tells the way: out on the side of the faces gone through, else back against a's own outside.
+// Chooses an exit where no neighbour has one: on the side of the faces passed through, else against a's own outside.
 static void leave_anyhow(const OverlapSearch& search, const BodyPair& pair, const Chord& chord, WayOut& way) {
     const OverlapScene& scene = search.scene;
     const auto normal_at = [&](int overlap) {
@@ -188,7 +188,7 @@ static void leave_anyhow(const OverlapSearch& search, const BodyPair& pair, cons
         normal = -face_normal(scene, pair.a, faces[0]) - face_normal(scene, pair.a, faces[1]);
     }
     if (!(normal.norm() > 1e-6)) return;
-    // Half of what is inside.
+    // Half of the length inside.
     way.normal = normal.normalized();
     way.depth = 0.5 * (edge_place(scene, pair.a, chord.edge, search.edges[size_t(chord.last)].along) -
                        edge_place(scene, pair.a, chord.edge, search.edges[size_t(chord.first)].along))
@@ -196,7 +196,7 @@ static void leave_anyhow(const OverlapSearch& search, const BodyPair& pair, cons
     way.known = true;
 }
 
-// Of the first `count` chords, those of different edges that share a node.
+// Finds, among the first `count` chords, those of different edges that share a node.
 static std::vector<std::vector<int>> find_neighbours(const Collider& a, const std::vector<Chord>& chords,
                                                      size_t count) {
     std::map<int, std::vector<int>> at_node;
@@ -237,7 +237,7 @@ static CageContact contact_of(const OverlapSearch& search, const BodyPair& pair,
     return contact;
 }
 
-// A hanging edge leaves as the deeper one of its ends that are inside.
+// Returns the exit of a hanging edge: that of the deeper one of its ends inside.
 static WayOut way_of_end(const Collider& a, const NodeMarks& inside, int base, const std::vector<WayOut>& node_ways,
                          const Chord& chord) {
     WayOut way;
@@ -274,7 +274,7 @@ void find_edge_contacts(const OverlapSearch& search, const BodyPair& pair, const
         if (ways[i].known && ways[i].depth > 0) out.push_back(contact_of(search, pair, chords[i], ways[i]));
     }
 
-    // Ridges that are farther above an edge than what it follows; unless there is a shorter way out for it alone.
+    // Ridges that are higher above an edge than its exit so far is deep, unless it has a shorter exit of its own.
     for (size_t i = 0; i < chords.size(); ++i) {
         Chord &chord = chords[i], alone = chord;
         WayOut way = i < through ? ways[i] : way_of_end(a, inside, scene.first_node[size_t(pair.a)], node_ways, chord);

@@ -1,6 +1,6 @@
 // Contacts of nodes: nodes of one body within tets of another come in, contacts with depth and normal go out
-// (Heidelberger et al. 2004). At the border, where an edge leads from a node inside to one outside, the places where
-// such edges enter and the faces' normals there tell both; deeper nodes take them over from their neighbours.
+// (Heidelberger et al. 2004). At the border, where an edge leads from a node inside to one outside, both come from the
+// places where such edges enter and the faces' normals there; deeper nodes take them over from their neighbours.
 #include <algorithm>
 
 #include "collide/penetration.hpp"
@@ -22,8 +22,7 @@ ContactSide side_of_nodes(const Collider& collider, int body, const int* nodes, 
     return side;
 }
 
-// Entering edges of a node at the border: sums over the places where they enter, weighted by the inverse of the squared
-// distance.
+// Sums over the places where the edges of a node at the border enter, weighted by the inverse of the squared distance.
 struct Entry {
     double weight = 0, depth = 0;
     Vec3 normal = Vec3::Zero();
@@ -34,7 +33,7 @@ static std::vector<Entry> find_entries(const OverlapSearch& search, const BodyPa
     const Collider& collider = *scene.bodies[size_t(pair.a)].collider;
     std::vector<Entry> entries(pair.nodes.size());
     for (size_t k = 0; k < pair.edges.size();) {
-        // All places where an edge goes through faces.
+        // All places where an edge passes through faces.
         size_t end = k;
         const int edge = search.edges[size_t(pair.edges[k])].edge;
         while (end < pair.edges.size() && search.edges[size_t(pair.edges[end])].edge == edge) ++end;
@@ -61,7 +60,8 @@ static std::vector<Entry> find_entries(const OverlapSearch& search, const BodyPa
     return entries;
 }
 
-// The nearest place on the boundary of the pieces that take part, for nodes that no edge connects with the outside.
+// Finds the nearest exit on the boundary of the regions that take part, for nodes that no edge connects with the
+// outside.
 static void leave_nearest(const OverlapScene& scene, int body, WayOut& way) {
     const Collider& collider = *scene.bodies[size_t(body)].collider;
     const std::vector<uint8_t>& pieces = scene.bodies[size_t(body)].pieces;
@@ -82,8 +82,8 @@ static void leave_nearest(const OverlapScene& scene, int body, WayOut& way) {
     }
 }
 
-// A node with few others inside, as a leaf's tip, needs not agree with many: edges that go along a blade would have it
-// leave lengthwise. No node does where that is very far.
+// Takes the nearest exit where it is much shorter. A node with few others inside, such as a leaf's tip, need not agree
+// with many, and edges along a blade would make it leave lengthwise; for other nodes the exit has to be shorter still.
 static void leave_shortly(const OverlapScene& scene, int body, size_t neighbours, WayOut& way) {
     constexpr double SHORTER = 0.25, FAR_SHORTER = 0.125;
     constexpr size_t FEW = 2;
@@ -100,7 +100,7 @@ std::vector<WayOut> find_node_contacts(const OverlapSearch& search, const BodyPa
     const Collider &a = *scene.bodies[size_t(pair.a)].collider, &b = *scene.bodies[size_t(pair.b)].collider;
     const int base = scene.first_node[size_t(pair.a)];
 
-    // The border.
+    // Exits at the border.
     const std::vector<Entry> entries = find_entries(search, pair, inside);
     std::vector<WayOut> ways(pair.nodes.size());
     std::vector<std::vector<int>> neighbours(pair.nodes.size());

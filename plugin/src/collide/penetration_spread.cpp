@@ -1,4 +1,4 @@
-// Spreads ways out: points that know theirs come in, all that hang together with them know theirs afterwards (the
+// Spreads exits: points of which some have one come in, all that are connected with those have one afterwards (the
 // propagation of Heidelberger et al. 2004).
 #include "collide/penetration.hpp"
 

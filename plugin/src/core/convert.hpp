@@ -1,4 +1,4 @@
-// Values of the C API and those of the library.
+// Conversions between values of the C API and those of the library.
 #pragma once
 
 #include "core/types.hpp"

@@ -1,30 +1,30 @@
-// Decompose: small matrices by their principal axes, and the turn between two directions. Eigen's decompositions take
-// seconds to compile, so they are compiled here, once.
+// Decompose: eigen- and singular value decompositions of small matrices, and the rotation between two directions.
+// Eigen's decompositions take seconds to compile, so they are compiled here, once.
 #pragma once
 
 #include "core/types.hpp"
 
 namespace frond {
 
-// A = vectors diag(values) vectors^T of a symmetric A; values ascend, vectors are columns.
+// Eigendecomposition of a symmetric A = vectors diag(values) vectors^T; values ascend, eigenvectors are columns.
 struct SymmetricParts {
     Vec3 values;
     Mat3 vectors;
 };
 SymmetricParts symmetric_parts(const Mat3& A);
-// The values alone.
+// Returns the eigenvalues alone.
 Vec3 symmetric_values(const Mat3& A);
-// By a closed form, quicker and with fewer digits (Eigen's computeDirect).
+// Returns the eigenvalues by a closed form, faster and with fewer digits (Eigen's computeDirect).
 Vec3 symmetric_values_direct(const Mat3& A);
 
-// The same in the plane.
+// The same for 2x2 matrices.
 struct SymmetricParts2 {
     Eigen::Vector2d values;
     Eigen::Matrix2d vectors;
 };
 SymmetricParts2 symmetric_parts_2(const Eigen::Matrix2d& A);
 
-// A = U diag(values) V^T, values descend; U and V may mirror.
+// Singular value decomposition A = U diag(values) V^T; values descend, U and V may be reflections.
 struct SingularParts {
     Mat3 U;
     Vec3 values;
@@ -32,7 +32,7 @@ struct SingularParts {
 };
 SingularParts singular_parts(const Mat3& A);
 
-// The shortest turn that takes one direction to another; opposite ones are half a turn apart, about any axis across.
+// Returns the shortest rotation that takes one direction to another, about any perpendicular axis if they are opposite.
 // Lengths do not matter.
 Quat turn_between(const Vec3& from, const Vec3& to);
 

@@ -1,4 +1,4 @@
-// Errors inside the library. They are thrown as Error and become a result code and a text at the C API, nowhere else.
+// Errors inside the library: thrown as Error, and turned into a result code and a text at the C API only.
 #pragma once
 
 #include <stdexcept>
@@ -13,9 +13,9 @@ struct Error : std::runtime_error {
     Error(frond_result code, const std::string& text) : std::runtime_error(text), code(code) {}
 };
 
-// Throws an Error whose text is made as by printf: what was wrong, then what to do.
+// Throws an Error with a printf-style text that says what was wrong, then what to do.
 [[noreturn]] void fail(frond_result code, const char* format, ...) __attribute__((format(printf, 2, 3)));
-// Text made as by printf.
+// Returns a printf-style text.
 std::string text_of(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
 }  // namespace frond

@@ -1,4 +1,4 @@
-// In: numbers. Out: whether all are finite.
+// In: numbers. Out: whether all of them are finite.
 #include "core/lanes.hpp"
 #include "core/types.hpp"
 
@@ -6,7 +6,7 @@ namespace frond {
 
 namespace {
 
-// Nothing times a number that is not finite is no number, and stays that in a sum.
+// Zero times a number that is not finite is NaN, and so is any sum with NaN.
 struct AddNothing {
     const VecX& x;
     double& sum;

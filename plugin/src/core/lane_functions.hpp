@@ -1,35 +1,35 @@
-// Functions of lanes that look at the bits of numbers; as all of lanes.hpp, the same in any width.
+// Functions of lanes that work on the bits of numbers; like all of lanes.hpp, they give the same bits in any width.
 #pragma once
 
 #include "core/lanes.hpp"
 
 namespace frond {
 
-// The bits of numbers in lanes, and back.
+// Vector of 64-bit integers, for the bits of the numbers in S.
 template <class S>
 using BitsOf = decltype(S{} < S{});
 
-// Without its sign.
+// Returns the absolute value.
 template <class S>
 FROND_INLINE S magnitude(const S& x) {
     constexpr long long REST = 0x7fffffffffffffff;
     return S(BitsOf<S>(x) & REST);
 }
 
-// Whole numbers from 0 to below 2^52 as they stand in the bits.
+// Converts integers from 0 to below 2^52 to floating point.
 template <class S>
 FROND_INLINE S number_of(const BitsOf<S>& bits) {
-    constexpr double BEGIN = 4503599627370496.0;  // 2^52, behind whose exponent they stand
+    constexpr double BEGIN = 4503599627370496.0;  // 2^52, whose mantissa takes the integer
     constexpr long long EXPONENT = 0x4330000000000000;
     return S(bits | EXPONENT) - BEGIN;
 }
 
-// Takes normal numbers above zero; the error is within 3e-16 of the larger of the result and 1.
+// Returns the natural logarithm of positive normal numbers, within 3e-16 of the larger of the result and 1.
 template <class S>
 FROND_INLINE S logarithm(const S& x) {
     constexpr long long FRACTION = 0x000fffffffffffff, OF_ONE = 0x3ff0000000000000;
     constexpr double LN2_ABOVE = 0.693147180369123816490,
-                     LN2_BELOW = 1.90821492927058770002e-10;  // the first ends in zeros
+                     LN2_BELOW = 1.90821492927058770002e-10;  // the first one's last bits are zero
     constexpr double SERIES[] = {1,        1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9, 1.0 / 11,
                                  1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21};
     const BitsOf<S> bits = BitsOf<S>(x);
@@ -40,11 +40,11 @@ FROND_INLINE S logarithm(const S& x) {
     return whole * LN2_ABOVE + (whole * LN2_BELOW + 2.0 * s * polynomial(SERIES, S(s * s)));
 }
 
-// One over the cube root of normal numbers above zero, within 1e-15 of itself: a guess by the exponent, and Newton's
-// way.
+// Returns one over the cube root of positive normal numbers, with a relative error within 1e-15: a guess from the
+// exponent, then Newton's method.
 template <class S>
 FROND_INLINE S over_cube_root(const S& x) {
-    constexpr int LOW = 12;  // bits of the guess that do not matter
+    constexpr int LOW = 12;  // low bits, which the guess does not need
     constexpr double GUESS = double(0x553ef0ff289dd796 >> LOW), BEGIN = 4503599627370496.0;
     constexpr long long FRACTION = 0x000fffffffffffff;
     const S guess = BEGIN + (GUESS - number_of<S>(BitsOf<S>(x) >> LOW) * (1.0 / 3));

@@ -1,5 +1,5 @@
-// Lanes: several numbers that the processor works on at once, and vectors and matrices of them. Each number comes out
-// as if it were alone, to the last bit, whatever the width: the processor's own square roots and no fused products.
+// Lanes: the numbers in a vector register, and vectors and matrices of them. Each lane gives the same result as a
+// single number, to the last bit and in any width: square roots are the processor's own and no products are fused.
 #pragma once
 
 #if defined(__SSE2__)
@@ -10,12 +10,12 @@
 #include <cstddef>
 #include <type_traits>
 
-// How lanes are handed to functions depends on the processor that is compiled for; none is handed to any, see below.
+// GCC warns that the ABI of vector arguments depends on the target; none are passed, since all functions are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace frond {
 
-// All that is written for lanes has to become part of the function that a width was chosen for.
+// Code for lanes must be inlined into the function that is compiled for a width.
 #define FROND_INLINE [[gnu::always_inline]] inline
 
 using TwoLanes = double __attribute__((vector_size(16)));
@@ -26,8 +26,8 @@ constexpr int LANES = int(sizeof(S) / sizeof(double));
 
 constexpr int MOST_LANES = 8;  // on any processor
 
-// Runs job.run<S>() in lanes of a width that this processor has; that function has to be FROND_INLINE. Eight lanes have
-// fused products at hand, so what is run in them has to be compiled with -ffp-contract=off.
+// Runs job.run<S>() in lanes of a width that this processor has; run() has to be FROND_INLINE. AVX-512 includes fused
+// products, so code that runs in eight lanes has to be compiled with -ffp-contract=off.
 #if defined(__x86_64__)
 template <class Job>
 [[gnu::target("avx512f")]] void run_in_eight_lanes(const Job& job) {
@@ -38,7 +38,7 @@ template <class Job>
     job.template run<FourLanes>();
 }
 #endif
-// Where they are what is left for processors of before 2013, the compiler does not spend its time on them.
+// On x86-64 two lanes serve only processors from before 2013, so the compiler spends little time on them.
 #if defined(__x86_64__) && !defined(__clang__)
 #define FROND_SPARE_THE_COMPILER [[gnu::optimize("O1")]]
 #else
@@ -48,7 +48,7 @@ template <class Job>
 FROND_SPARE_THE_COMPILER void run_in_two_lanes(const Job& job) {
     job.template run<TwoLanes>();
 }
-// How many are taken at most on this one: 2, 4 or 8; tests take fewer.
+// Returns the largest number of lanes on this processor: 2, 4 or 8; tests lower it.
 inline int& most_lanes() {
 #if defined(__x86_64__)
     static int most = __builtin_cpu_supports("avx512f") ? 8 : __builtin_cpu_supports("avx2") ? 4 : 2;
@@ -57,7 +57,8 @@ inline int& most_lanes() {
 #endif
     return most;
 }
-// Pieces of one plant: eight are seldom alike, and what has to be put lane by lane gains nothing.
+// Runs a job on elements of one plant, in four lanes at most: eight elements are seldom alike, and writing results lane
+// by lane gains nothing from the width.
 template <class Job>
 void run_in_lanes(const Job& job) {
 #if defined(__x86_64__)
@@ -65,7 +66,7 @@ void run_in_lanes(const Job& job) {
 #endif
     run_in_two_lanes(job);
 }
-// In so many, up to most_lanes().
+// Runs a job in that many lanes, at most most_lanes().
 template <class Job>
 void run_in_lanes(int lanes, const Job& job) {
 #if defined(__x86_64__)
@@ -75,7 +76,7 @@ void run_in_lanes(int lanes, const Job& job) {
     run_in_two_lanes(job);
 }
 
-// One lane; a plain number is all there is of itself.
+// Reads and writes one lane; a plain number is its own only lane.
 FROND_INLINE double lane_of(double a, int) {
     return a;
 }
@@ -95,13 +96,13 @@ FROND_INLINE bool lane_of(int mask, int) {
     return mask != 0;
 }
 
-// A constant in all lanes.
+// Returns a constant in all lanes.
 template <class S>
 FROND_INLINE S constant(double value) {
     return S{} + value;
 }
-// GCC makes one mask of those of selections within each other, and in eight lanes works that out lane by lane: it is
-// kept from looking through them.
+// Selects lane by lane. GCC merges nested selects into one mask and, in eight lanes, evaluates it lane by lane; the
+// empty asm prevents that.
 template <class Mask, class S>
 FROND_INLINE S select(const Mask& mask, const S& yes, const S& no) {
 #if defined(__x86_64__) && !defined(__clang__)
@@ -128,14 +129,14 @@ FROND_INLINE std::enable_if_t<!std::is_arithmetic_v<Mask>, bool> any(const Mask&
     for (size_t lane = 1; lane < sizeof mask / sizeof mask[0]; ++lane) all |= mask[lane];
     return all != 0;
 }
-// Which lanes it holds for, a bit each.
+// Returns a bit for each lane in which the mask is true.
 template <class Mask>
 FROND_INLINE unsigned bits_of(const Mask& mask) {
     unsigned bits = 0;
     for (size_t lane = 0; lane < sizeof mask / sizeof mask[0]; ++lane) bits |= unsigned(mask[lane] != 0) << lane;
     return bits;
 }
-// value(lane) of each lane.
+// Returns value(lane) in each lane.
 template <class S, class Value>
 FROND_INLINE S gather(const Value& value) {
     S out = {};
@@ -157,13 +158,13 @@ FROND_INLINE FourLanes sqrt(const FourLanes& a) {
     const TwoLanes low = sqrt(TwoLanes{a[0], a[1]}), high = sqrt(TwoLanes{a[2], a[3]});
     return FourLanes{low[0], low[1], high[0], high[1]};
 }
-// One instruction, in what is compiled with -fno-math-errno.
+// A single instruction if compiled with -fno-math-errno.
 FROND_INLINE EightLanes sqrt(const EightLanes& a) {
     return EightLanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3]),
                       std::sqrt(a[4]), std::sqrt(a[5]), std::sqrt(a[6]), std::sqrt(a[7])};
 }
 
-// From and to memory of any alignment.
+// Load and store, at any alignment.
 template <class S>
 FROND_INLINE S load(const double* from) {
     S out;
@@ -175,7 +176,7 @@ FROND_INLINE void store(const S& value, double* to) {
     __builtin_memcpy(to, &value, sizeof(S));
 }
 
-// Four numbers where they are read and written at once.
+// Four numbers, aligned for a single load or store.
 struct alignas(32) Quad {
     double at[4];
 };
@@ -186,7 +187,7 @@ FROND_INLINE void store(const FourLanes& value, Quad& to) {
     store(value, to.at);
 }
 
-// Lanes of two taken together: 0 to 3 are the first's, 4 to 7 the second's.
+// Shuffles two vectors: lanes 0 to 3 are the first one's, 4 to 7 the second one's.
 template <int A, int B, int C, int D>
 FROND_INLINE FourLanes choose(const FourLanes& v, const FourLanes& w) {
 #ifdef __clang__
@@ -197,7 +198,7 @@ FROND_INLINE FourLanes choose(const FourLanes& v, const FourLanes& w) {
 #endif
 }
 
-// Four by four turned over.
+// Transposes a 4x4 matrix.
 FROND_INLINE void turn_over(const FourLanes& v0, const FourLanes& v1, const FourLanes& v2, const FourLanes& v3,
                             FourLanes (&out)[4]) {
     const FourLanes a = choose<0, 4, 2, 6>(v0, v1), b = choose<1, 5, 3, 7>(v0, v1);
@@ -208,14 +209,14 @@ FROND_INLINE void turn_over(const FourLanes& v0, const FourLanes& v1, const Four
     out[3] = choose<2, 3, 6, 7>(b, d);
 }
 
-// To the nearest whole number, of numbers below 2^51: adding this leaves no digits behind the point.
+// Rounds numbers below 2^51 to integers: adding ROUND leaves no fractional bits.
 template <class S>
 FROND_INLINE S whole(const S& a) {
     constexpr double ROUND = 6755399441055744.0;  // 1.5 2^52
     return (a + ROUND) - ROUND;
 }
 
-// c[0] + c[1] x + c[2] x^2 + ...
+// Evaluates c[0] + c[1] x + c[2] x^2 + ...
 template <class S, int N>
 FROND_INLINE S polynomial(const double (&c)[N], const S& x) {
     S sum = constant<S>(c[N - 1]);
@@ -223,11 +224,11 @@ FROND_INLINE S polynomial(const double (&c)[N], const S& x) {
     return sum;
 }
 
-// Within 4e-16 for angles of a few turns, less so the larger they are: what is left of it beside whole half turns,
-// halved, by their series.
+// Computes sine and cosine, within 4e-16 for angles of a few turns and less accurately for larger ones: subtracts whole
+// half turns, halves the rest and sums its series.
 template <class S>
 FROND_INLINE void sine_cosine(const S& angle, S& sine, S& cosine) {
-    constexpr double PI_BELOW = 1.2246467991473532e-16;  // what M_PI leaves of pi
+    constexpr double PI_BELOW = 1.2246467991473532e-16;  // pi - M_PI
     constexpr double SINE[] = {
         1, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000};
     constexpr double COSINE[] = {1,
@@ -252,13 +253,13 @@ template <class S>
 struct Lanes3 {
     S x, y, z;
 };
-// By rows.
+// 3x3 matrix, by rows.
 template <class S>
 struct Lanes33 {
     Lanes3<S> r[3];
 };
 
-// Of numbers of plants side by side, those from the i-th on.
+// Load and store numbers i to i + 2 of batched plants, in which each number is stored once a lane.
 template <class S>
 FROND_INLINE Lanes3<S> load3(const double* from, int i) {
     const double* at = from + LANES<S> * size_t(i);
@@ -306,7 +307,7 @@ template <class S>
 FROND_INLINE Lanes3<S> cross(const Lanes3<S>& a, const Lanes3<S>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-// One by one.
+// Returns the component-wise product.
 template <class S>
 FROND_INLINE Lanes3<S> scaled(const Lanes3<S>& a, const Lanes3<S>& b) {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
@@ -329,7 +330,7 @@ FROND_INLINE Lanes33<S> operator*(const Lanes33<S>& a, const Lanes33<S>& b) {
     for (int i = 0; i < 3; ++i) out.r[i] = a.r[i].x * b.r[0] + a.r[i].y * b.r[1] + a.r[i].z * b.r[2];
     return out;
 }
-// a^T b.
+// Returns a^T b.
 template <class S>
 FROND_INLINE Lanes3<S> transposed_times(const Lanes33<S>& a, const Lanes3<S>& b) {
     return b.x * a.r[0] + b.y * a.r[1] + b.z * a.r[2];
@@ -342,7 +343,7 @@ template <class S>
 FROND_INLINE Lanes33<S> operator*(const S& a, const Lanes33<S>& b) {
     return {{a * b.r[0], a * b.r[1], a * b.r[2]}};
 }
-// The sum of all products, one by one.
+// Returns the sum of the component-wise products.
 template <class S>
 FROND_INLINE S dot(const Lanes33<S>& a, const Lanes33<S>& b) {
     return dot(a.r[0], b.r[0]) + dot(a.r[1], b.r[1]) + dot(a.r[2], b.r[2]);
@@ -355,12 +356,12 @@ template <class S>
 FROND_INLINE void add_to_diagonal(const S& a, Lanes33<S>& to) {
     to.r[0].x += a, to.r[1].y += a, to.r[2].z += a;
 }
-// a b^T.
+// Returns a b^T.
 template <class S>
 FROND_INLINE Lanes33<S> outer(const Lanes3<S>& a, const Lanes3<S>& b) {
     return {{a.x * b, a.y * b, a.z * b}};
 }
-// The determinant times the inverse, transposed.
+// Returns the determinant times the transposed inverse.
 template <class S>
 FROND_INLINE Lanes33<S> cofactor(const Lanes33<S>& a) {
     return {{cross(a.r[1], a.r[2]), cross(a.r[2], a.r[0]), cross(a.r[0], a.r[1])}};
@@ -373,7 +374,7 @@ template <class Mask, class S>
 FROND_INLINE Lanes33<S> select(const Mask& mask, const Lanes33<S>& yes, const Lanes33<S>& no) {
     return {{select(mask, yes.r[0], no.r[0]), select(mask, yes.r[1], no.r[1]), select(mask, yes.r[2], no.r[2])}};
 }
-// I + a [v] + b [v]^2.
+// Returns I + a [v] + b [v]^2, [v] being the cross product matrix.
 template <class S>
 FROND_INLINE Lanes33<S> turning(const Lanes3<S>& v, const S& a, const S& b) {
     const S bx = b * v.x, by = b * v.y, bz = b * v.z;

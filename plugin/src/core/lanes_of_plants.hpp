@@ -1,11 +1,11 @@
-// Numbers of several plants side by side: each once a lane, and back.
+// Interleaves the numbers of several plants for a batch, each number once a lane, and separates them again.
 #pragma once
 
 #include "core/lanes.hpp"
 
 namespace frond {
 
-// `from` and `to` have a place for each lane.
+// The pointer lists, `from` here and `to` in put_apart(), have one entry a lane.
 template <class S>
 FROND_INLINE void put_side_by_side(const double* const* from, size_t count, double* to) {
     constexpr int MANY = LANES<S>;

@@ -1,9 +1,9 @@
-// Limits of a plant's numbers, wherever they come from.
+// Limits of a plant's numbers, whatever their source.
 #pragma once
 
 namespace frond {
 
-// The limit of a place or a speed [m, m/s], or of any other vector that a caller gives, in its unit.
+// Largest coordinate or velocity component [m, m/s], or component of any other vector from a caller, in its unit.
 constexpr double LARGEST_COORDINATE = 1e9;
 
 }  // namespace frond

@@ -1,4 +1,4 @@
-// Lines of the processor's memory: where the widest lanes read and write over the end of one, they take twice as long.
+// Memory aligned to cache lines: loads and stores of the widest lanes take twice as long where they cross a line.
 #pragma once
 
 #include <new>
@@ -8,7 +8,7 @@ namespace frond {
 
 constexpr std::size_t LINE = 64;  // [bytes]
 
-// Memory that begins with a line.
+// Allocator of memory that begins at a cache line.
 template <class T>
 struct InLines {
     using value_type = T;
@@ -30,7 +30,8 @@ struct InLines {
 };
 using NumbersInLines = std::vector<double, InLines<double>>;
 
-// For so many numbers: as before, then zeros. To give memory back and ask for it again takes longer than a step.
+// Resizes to `count` numbers: old ones stay, new ones are zero. Memory is kept, since freeing and allocating it again
+// takes longer than a step.
 inline void make_room(NumbersInLines& numbers, std::size_t count) {
     numbers.resize(count);
 }

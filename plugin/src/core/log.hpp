@@ -1,4 +1,4 @@
-// Warnings to the host: things that were put right, and what to look at.
+// Warnings to the host: what was repaired, and what to check.
 #pragma once
 
 #include "frond/frond.h"

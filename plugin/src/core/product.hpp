@@ -1,4 +1,4 @@
-// Products that are worked out alike for one plant and for several side by side: sums in the order of lanes.hpp.
+// Products that are the same to the last bit for one plant and for a batch: sums in the order of lanes.hpp.
 #pragma once
 
 #include "core/lanes.hpp"

@@ -1,5 +1,5 @@
 // Slots: objects behind handles. A handle is kind (8 bits), generation (32) and index + 1 (24), so that a null, stale
-// or foreign handle is recognised without touching memory that is gone.
+// or foreign handle is recognised without touching freed memory.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace frond {
 template <class T, uint8_t KIND>
 class Slots {
 public:
-    // 0 when no more can be held.
+    // Returns 0 when all slots are taken.
     uint64_t insert(T value) {
         std::unique_lock<std::shared_mutex> lock(mutex);
         uint32_t index;
@@ -29,13 +29,13 @@ public:
         slots[index].used = true;
         return uint64_t(KIND) << 56 | uint64_t(slots[index].generation) << 24 | (index + 1);
     }
-    // A default T when the handle is not one of ours.
+    // Returns a default T if the handle is unknown.
     T find(uint64_t id) const {
         std::shared_lock<std::shared_mutex> lock(mutex);
         const Slot* slot = slot_of(id);
         return slot ? slot->value : T{};
     }
-    // Takes the object out; a default T when the handle is not one of ours.
+    // Removes and returns the object; a default T if the handle is unknown.
     T erase(uint64_t id) {
         std::unique_lock<std::shared_mutex> lock(mutex);
         Slot* slot = const_cast<Slot*>(slot_of(id));

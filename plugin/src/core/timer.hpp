@@ -10,7 +10,7 @@ struct Timer {
     double ms() const {
         return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
-    // Time since the last lap or the start [ms]; starts the next lap.
+    // Returns the time since the last lap or the start [ms] and starts the next lap.
     double lap() {
         const double passed = ms();
         start = std::chrono::steady_clock::now();

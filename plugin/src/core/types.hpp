@@ -1,4 +1,4 @@
-// Scalar and vector types. Everything inside is double; only what goes to a GPU is float.
+// Scalar and vector types. Everything is double, except data for a GPU, which is float.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ using Color = std::array<uint8_t, 4>;  // RGBA, sRGB
 
 constexpr double PI = 3.14159265358979323846;
 
-// The i-th point of a vector that holds x y z x y z ...
+// Returns the i-th point of a vector that holds x y z x y z ...
 inline auto point(VecX& x, int i) {
     return x.segment<3>(3 * Eigen::Index(i));
 }
@@ -30,9 +30,9 @@ inline auto point(const VecX& x, int i) {
     return x.segment<3>(3 * Eigen::Index(i));
 }
 
-// Eigen's own goes number by number.
+// Returns whether all numbers are finite, several at a time; Eigen's allFinite() checks one at a time.
 bool are_finite(const VecX& x);
-// To the last bit first.
+// Returns whether two vectors are equal; compares bytes first, which is quicker.
 inline bool are_same(const VecX& a, const VecX& b) {
     if (a.size() != b.size() || a.size() == 0) return a.size() == b.size();
     return std::memcmp(a.data(), b.data(), size_t(a.size()) * sizeof(double)) == 0 || a == b;

@@ -1,4 +1,4 @@
-// Checks COLLADA: the document must begin and end as one.
+// Checks COLLADA: the document must have its root element and its end tag.
 #include "importer/check.hpp"
 
 namespace frond {

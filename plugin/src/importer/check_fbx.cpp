@@ -1,4 +1,4 @@
-// Checks FBX: the list of top-level records of a binary file, or the braces of a text one, must be whole.
+// Checks FBX: the list of top-level records of a binary file, or the braces of a text one, must be complete.
 #include <cstring>
 
 #include "importer/check.hpp"
@@ -12,7 +12,7 @@ static Value value_at(const std::string& bytes, size_t at) {
     return value;
 }
 
-// Every record says where it ends; an empty one closes the list.
+// Every record stores where it ends; an empty record closes the list.
 static void check_binary(const std::string& bytes) {
     if (bytes.size() < 27) fail(FROND_RESULT_FILE_FORMAT, "the file ends in its header");
     const uint32_t version = value_at<uint32_t>(bytes, 23);

@@ -1,11 +1,12 @@
-// Checks glTF: extensions that must be understood, and that accessors lie in views and views in buffers.
+// Checks glTF: required extensions must be supported, accessors must lie in their views and views in their buffers.
 #include "core/log.hpp"
 #include "importer/gltf.hpp"
 #include "importer/importer.hpp"
 
 namespace frond {
 
-// Extensions that can be required of us: read, rewritten by rewrite_gltf(), or of no matter for shape and base colour.
+// Returns whether a file may require an extension: it is read, rewritten by rewrite_gltf(), or irrelevant to shape and
+// base colour.
 static bool is_supported(const std::string& extension) {
     static const char* const NAMES[] = {"KHR_draco_mesh_compression",
                                         "KHR_mesh_quantization",

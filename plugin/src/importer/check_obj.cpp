@@ -1,4 +1,4 @@
-// Checks OBJ text: every face's indices must refer to lines that are there. Errors name the line.
+// Checks OBJ text: every index of a face must refer to an existing line. Errors name the line.
 #include <cstdlib>
 #include <cstring>
 
@@ -10,7 +10,7 @@ struct ObjCounts {
     long vertices = 0, texture_coordinates = 0, normals = 0, faces = 0;
 };
 
-// The next line, continued ones joined; false at the end. `number` is that of its first part.
+// Cursor over the lines, with continued lines joined; `number` is the number of the first part.
 struct ObjLines {
     const std::string& bytes;
     size_t at = 0;

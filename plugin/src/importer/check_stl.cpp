@@ -1,4 +1,4 @@
-// Checks STL: a binary file's length must fit its count, a text file must be whole.
+// Checks STL: a binary file's length must match its triangle count, a text file must be complete.
 #include <cstring>
 
 #include "importer/check.hpp"
@@ -17,7 +17,7 @@ void check_stl(const MeshFile& file) {
         return;
     }
 
-    // Text is told by its first word and by having no zero byte.
+    // A text file begins with "solid" and has no zero byte.
     const size_t first = bytes.find_first_not_of(" \t\r\n");
     const bool is_text =
         first != std::string::npos && bytes.compare(first, 5, "solid") == 0 && bytes.find('\0') == std::string::npos;

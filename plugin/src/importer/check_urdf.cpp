@@ -1,6 +1,5 @@
-// Looks at URDF text before urdfdom does, which overflows its stack on deep files, takes cycles for trees and drops
-// what it cannot read: XML comes in; out go the same elements with capsules as cylinders, and notes on what is beside
-// them.
+// Checks URDF text before urdfdom, which overflows its stack on deeply nested files, takes cycles for trees and drops
+// what it cannot read. In: XML. Out: the same elements with capsules as cylinders, and notes on what urdfdom drops.
 #include <tinyxml2.h>
 
 #include <algorithm>
@@ -30,7 +29,7 @@ static void refuse_xacro(const XMLElement& root) {
                          e->GetLineNum(), e->Name());
 }
 
-// Capsules of a link's visuals or collisions become cylinders.
+// Turns the capsules of a link's visuals or collisions into cylinders. Returns for each shape whether it was a capsule.
 static std::vector<bool> take_capsules(XMLElement& link, const char* name, size_t& shapes) {
     std::vector<bool> capsules;
     for (XMLElement* e = link.FirstChildElement(name); e; e = e->NextSiblingElement(name)) {
@@ -43,7 +42,7 @@ static std::vector<bool> take_capsules(XMLElement& link, const char* name, size_
     return capsules;
 }
 
-// Numbers of an attribute; all zero if it is not there.
+// Reads the numbers of an attribute; they stay zero if it is missing.
 static void take_numbers(const XMLElement& element, const char* name, const std::vector<double*>& out) {
     const char* at = element.Attribute(name);
     if (!at) return;
@@ -104,7 +103,7 @@ static void check_type(const XMLElement& joint) {
              joint.GetLineNum(), attribute(joint, "name").c_str(), type.c_str());
 }
 
-// Every link but one has one parent, and all hang on that one.
+// Checks that every link but one has one parent, and that all links are connected to that one.
 static void check_tree(const XMLElement& root, const UrdfText& text) {
     std::map<std::string, std::vector<std::string>> children;
     std::set<std::string> has_parent;

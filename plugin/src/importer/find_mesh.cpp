@@ -7,7 +7,7 @@
 
 namespace frond {
 
-static constexpr int MOST_ABOVE = 8;  // folders above the file in which packages are looked for
+static constexpr int MOST_ABOVE = 8;  // folders searched for packages, from the file's own upwards
 
 static bool is_file(const std::string& path) {
     struct stat status;
@@ -18,7 +18,7 @@ static bool starts_with(const std::string& text, const std::string& start) {
     return text.compare(0, start.size(), start) == 0;
 }
 
-// Folders in which packages lie.
+// Returns the folders searched for packages, in order.
 static std::vector<std::string> package_folders(const std::string& folder) {
     std::vector<std::string> folders;
     for (const char* variable : {"FROND_PACKAGE_PATH", "ROS_PACKAGE_PATH"}) {
@@ -38,7 +38,7 @@ static std::vector<std::string> package_folders(const std::string& folder) {
 static std::string find_in_package(const std::string& folder, const std::string& package, const std::string& path) {
     for (const std::string& above : package_folders(folder)) {
         if (is_file(above + "/" + package + "/" + path)) return above + "/" + package + "/" + path;
-        // The package's own folder, whatever it was renamed to.
+        // The folder may itself be the package, under any name.
         if (is_file(above + "/package.xml") && is_file(above + "/" + path)) return above + "/" + path;
     }
     fail(

@@ -1,5 +1,6 @@
-// Finds and reads the files that a model refers to. Nothing outside the model's folder is opened: a path that leaves it
-// is looked up by its bare file name inside instead (artists' files are full of paths of other machines).
+// Finds and reads the files that a model refers to. Only files in the model's folder are opened, and pictures in the
+// texture folders beside it. For a path that leads elsewhere, the bare file name is searched for instead: artists'
+// files are full of paths from other machines.
 #include <dirent.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -29,7 +30,7 @@ static bool is_regular_file(const std::string& path) {
     return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
 }
 
-// Looks for a file name in a folder and those below it; links to folders are not followed.
+// Searches a folder and its subfolders for a file name; links to folders are not followed.
 static std::string search_folder(const std::string& folder, const std::string& name, int depth, int& entries) {
     DIR* directory = opendir(folder.c_str());
     if (!directory) return "";
@@ -71,12 +72,12 @@ static std::string find_exactly(const std::string& folder, std::string reference
     const std::string root = real_path(folder);
     if (root.empty() || reference.empty()) return "";
 
-    // As written, if that stays inside.
+    // The path as written, if it stays inside the folder.
     const std::string path = real_path(reference[0] == '/' ? reference : root + "/" + reference);
     const std::string inside = root == "/" ? root : root + "/";
     if (path.compare(0, inside.size(), inside) == 0 && is_regular_file(path)) return path;
 
-    // By its bare name.
+    // Else by the bare file name.
     const std::string name = reference.substr(reference.rfind('/') + 1);
     if (name.empty() || name == "." || name == "..") return "";
     int entries = 0;
@@ -95,7 +96,8 @@ static const char* const PICTURE_FOLDERS[] = {
     "/textures",    "/materials/textures",    "/texture",    "/images",    "/maps",
     "/../textures", "/../materials/textures", "/../texture", "/../images", "/../maps"};
 
-// Letters small, ending off: "Work/Leaf.PNG" -> "leaf"; its ending with the dot goes to `ending`.
+// Returns the file name in lower case without its ending: "Work/Leaf.PNG" -> "leaf". The ending, with the dot, goes to
+// `ending`.
 static std::string stem_of(const std::string& path, std::string& ending) {
     std::string name = path.substr(path.find_last_of("/\\") + 1);
     for (char& letter : name) letter = char(tolower(uint8_t(letter)));
@@ -104,7 +106,7 @@ static std::string stem_of(const std::string& path, std::string& ending) {
     return name.substr(0, dot);
 }
 
-// Tells whether a file with that ending can be drawn.
+// Returns whether a file with that ending can be drawn.
 static bool is_drawable(const std::string& ending) {
     for (const char* known : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
         if (ending == known) return true;
@@ -117,7 +119,7 @@ static bool is_picture(const std::string& ending) {
     return is_drawable(ending);
 }
 
-// The drawable pictures in the model's folder and in those near it that are there for pictures, nearest first.
+// Lists the drawable pictures in the model's folder and in the texture folders in and beside it, nearest first.
 static std::vector<std::string> list_pictures(const std::string& folder) {
     std::vector<std::string> pictures, folders = {""};
     folders.insert(folders.end(), std::begin(PICTURE_FOLDERS), std::end(PICTURE_FOLDERS));
@@ -141,9 +143,9 @@ static std::vector<std::string> list_pictures(const std::string& folder) {
     return pictures;
 }
 
-// Pictures may also lie in the folders beside the model's that are there for them: meshes/ and materials/textures/,
-// source/ and textures/ are common layouts. By the bare name only, and only what ends like a picture. One that is not
-// there, or that cannot be drawn, may be there in another format.
+// Finds a picture, also in the texture folders in and beside the model's (common layouts: meshes/ with
+// materials/textures/, source/ with textures/). There it is searched for by its bare name only, and only with a
+// picture's ending. One that is missing or cannot be drawn is replaced by one of the same name in another format.
 static std::string find_picture(const std::string& folder, const std::string& reference) {
     const std::string path = decode_uri(reference), name = path.substr(path.find_last_of("/\\") + 1);
     std::string ending, other;
@@ -159,7 +161,7 @@ static std::string find_picture(const std::string& folder, const std::string& re
     return found;
 }
 
-// Letters and digits only: "Branch 2_diffuse" -> "branch2diffuse".
+// Keeps letters and digits only, in lower case: "Branch 2_diffuse" -> "branch2diffuse".
 static std::string squeeze(const std::string& text) {
     std::string out;
     for (char letter : text)
@@ -167,7 +169,7 @@ static std::string squeeze(const std::string& text) {
     return out;
 }
 
-// Tells whether a picture's name is the other name, plain or marked as the one with the colours.
+// Returns whether a picture has the other name, alone or with a suffix that marks a colour texture.
 static bool is_named_after(const std::string& picture, const std::string& name) {
     if (name.empty() || picture.compare(0, name.size(), name) != 0) return false;
     const std::string rest = picture.substr(name.size());
@@ -181,7 +183,7 @@ int guess_texture(Surface& surface, const MeshFile& file, const std::string& mat
     const std::string root = real_path(file.folder);
     if (root.empty()) return -1;
     std::string ending, whole = squeeze(material), base = whole;
-    while (!base.empty() && isdigit(uint8_t(base.back()))) base.pop_back();  // "Bark_001" is another "Bark"
+    while (!base.empty() && isdigit(uint8_t(base.back()))) base.pop_back();  // "Bark_001" counts as "Bark"
     const std::vector<std::string> pictures = list_pictures(root);
     for (const std::string& name : {whole, base, squeeze(stem_of(file.name, ending))})
         for (const std::string& picture : pictures) {

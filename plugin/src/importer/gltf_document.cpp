@@ -1,4 +1,4 @@
-// Reads a glTF document: bytes come in, JSON and buffers go out, every length checked.
+// Reads a glTF document. In: bytes. Out: JSON and buffers. Every length is checked.
 #include <cstring>
 
 #include "importer/gltf.hpp"
@@ -112,7 +112,7 @@ void load_buffers(GltfDocument& document, const MeshFile& file) {
     for (const Json& buffer : document.json["buffers"]) {
         const size_t index = document.buffers.size();
         document.buffers.push_back(load_buffer(document, buffer, index, file));
-        // A fallback buffer of compressed geometry need not be there.
+        // A fallback buffer for compressed geometry may be missing.
         const bool is_fallback = buffer.is_object() && buffer.contains("extensions");
         const long long wanted = number_of(buffer, "byteLength", 0);
         if (!is_fallback && wanted > (long long)document.buffers.back().size())

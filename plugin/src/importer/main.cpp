@@ -1,7 +1,7 @@
-// frond-import: reads a mesh file or a URDF file and writes surface or tree to stdout as an import stream.
+// frond-import: reads a mesh file or a URDF file and writes its surface or tree of links to stdout as an import stream.
 //     frond-import FILE [CPU_SECONDS WALL_SECONDS MEMORY_MIB [collides]]
-// With "collides" the meshes of a URDF file that are read are those that collide, not those that are seen.
-// It limits itself before it looks at the file; whoever started it expects that it may crash.
+// With "collides" the collision meshes of a URDF file are read, not the visual ones.
+// The program sets its own limits before it opens the file; its caller must expect that it may crash.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -92,6 +92,6 @@ int main(int argument_count, char** arguments) {
     const bool collides = argument_count > 5 && strcmp(arguments[5], "collides") == 0;
     read_file(arguments[1], collides ? frond::UrdfUse::COLLIDES : frond::UrdfUse::SEEN, result);
     const bool written = write_all(frond::encode_import(result));
-    // Without destructors: a scene that is half damaged is not worth tearing down.
+    // Skips the destructors: a scene that may be half damaged need not be torn down.
     _exit(written ? 0 : 1);
 }

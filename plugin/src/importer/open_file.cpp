@@ -1,4 +1,4 @@
-// Opens a mesh file: a path comes in, bytes and format go out. The name's ending tells the format, the content must
+// Opens a mesh file. In: a path. Out: bytes and format. The format follows from the name's ending; the content must
 // agree.
 #include <strings.h>
 #include <sys/stat.h>
@@ -49,7 +49,7 @@ static bool starts_with(const std::string& bytes, const char* text) {
     return bytes.compare(0, strlen(text), text) == 0;
 }
 
-// Returns the format that the first bytes state, for those that have a mark; null if none.
+// Returns the format that the first bytes indicate, for formats with a magic number; null if there is none.
 static const char* format_by_content(const std::string& bytes) {
     if (starts_with(bytes, "glTF")) return "GLB";
     if (starts_with(bytes, "Kaydara FBX Binary")) return "FBX";
@@ -98,7 +98,7 @@ void check_file(const MeshFile& file) {
             return check_obj(file);
         case FileFormat::PLY:
         case FileFormat::URDF:
-            return;  // the reader checks as it goes
+            return;  // the reader itself checks
         case FileFormat::GLTF:
         case FileFormat::GLB:
             return check_gltf(file);

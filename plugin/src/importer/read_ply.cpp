@@ -1,6 +1,6 @@
-// Reads PLY, text and binary of either byte order: bytes come in, a surface of one part goes out. Not through assimp,
-// whose PLY reader crashes, aborts or hangs on cut files. Vertices with normals, colours and texture coordinates; faces
-// with any number of corners, texture coordinates by corner, triangle strips; other elements are skipped.
+// Reads PLY, text and binary of either byte order. In: bytes. Out: a surface of one part. Does not use assimp, whose
+// PLY reader crashes, aborts or hangs on truncated files. Reads vertices with normals, colours and texture coordinates;
+// faces with any number of corners, texture coordinates per corner, triangle strips; skips other elements.
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -30,8 +30,8 @@ struct PlyHeader {
     bool is_text = true, is_big_endian = false;
     std::vector<PlyElement> elements;
     std::string texture;  // "comment TextureFile leaf.png"
-    size_t data = 0;      // where it begins [byte]
-    long line = 1;        // on which line
+    size_t data = 0;      // start of the data [byte]
+    long line = 1;        // current line; after the header, the first line of the data
 };
 
 // ---- header ----
@@ -111,7 +111,7 @@ static PlyHeader read_header(const std::string& bytes) {
     return header;
 }
 
-// Counts that cannot fit into the file are found before any memory is taken for them.
+// Rejects counts that cannot fit into the file before memory is allocated for them.
 static void check_counts(const PlyHeader& header, const std::string& bytes) {
     const size_t left = bytes.size() - header.data;
     for (const PlyElement& element : header.elements) {
@@ -284,7 +284,7 @@ static void read_vertices(PlyCursor& cursor, const PlyElement& element, Corners&
 
 // ---- faces ----
 
-// Triangles, and texture coordinates by corner if the file has them (three a triangle).
+// Triangles and their texture coordinates, three per triangle; zero if the file has none.
 struct PlyFaces {
     std::vector<Triangle> triangles;
     std::vector<Vec2f> corner_uvs;
@@ -366,7 +366,7 @@ static void skip_element(PlyCursor& cursor, const PlyElement& element) {
                 read_value(cursor, property.type, element, i);
 }
 
-// A vertex for each corner, as texture coordinates by corner need it; equal ones become one again.
+// Makes a vertex for each corner, as texture coordinates by corner require, then merges equal ones.
 static void split_corners(Corners& corners, const PlyFaces& faces) {
     Corners split;
     for (const Triangle& triangle : corners.triangles) {

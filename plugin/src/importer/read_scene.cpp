@@ -1,5 +1,5 @@
-// Reads a mesh file through assimp: bytes come in, a surface goes out. assimp sees the bytes that were checked, and
-// only those other files that lie in the model's folder.
+// Reads a mesh file through assimp. In: bytes. Out: a surface. assimp gets the bytes that were checked, and can open
+// other files only in the model's folder.
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -14,7 +14,6 @@
 
 namespace frond {
 
-// A file in memory.
 class MemoryFile : public Assimp::IOStream {
 public:
     explicit MemoryFile(std::string content) : bytes(std::move(content)) {}
@@ -41,7 +40,7 @@ private:
     size_t at = 0;
 };
 
-// The model's own bytes, and what lies in its folder.
+// Gives assimp the model's own bytes and the files in its folder.
 class ModelFolder : public Assimp::IOSystem {
 public:
     ModelFolder(const MeshFile& file, const std::string& bytes) : file(file), bytes(bytes) {}
@@ -66,7 +65,7 @@ private:
     static constexpr size_t LARGEST = size_t(1) << 30;
     const MeshFile& file;
     const std::string& bytes;
-    // assimp puts the folder in front of a reference; it is taken off again.
+    // assimp puts the folder in front of a reference; here it is removed again.
     std::string find(const char* path) const {
         std::string reference = path;
         for (const std::string& prefix : {file.folder + "/", std::string("./")})

@@ -1,4 +1,4 @@
-// Reads URDF through urdfdom: text that was checked comes in, a tree of links goes out, with the meshes that it names.
+// Reads URDF through urdfdom. In: checked text. Out: a tree of links, with the meshes that it names.
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
@@ -12,7 +12,7 @@ namespace frond {
 
 namespace {
 
-// The first thing that urdfdom complains of.
+// Keeps the first error that urdfdom reports.
 struct Complaint : console_bridge::OutputHandler {
     std::string text;
     void log(const std::string& said, console_bridge::LogLevel level, const char*, int) override {
@@ -49,7 +49,7 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& xml) {
 
 // ---- shapes ----
 
-// Triangles of a mesh file, as they stand in it; one that is named twice is read once.
+// Reads the triangles of a mesh file as they are. A file that is named twice is read once. Returns the mesh's index.
 int take_mesh(Reader& reader, const std::string& reference) {
     const std::string path = find_mesh(reader.file.folder, reference);
     const auto [known, is_new] = reader.mesh_of_path.emplace(path, int(reader.tree.meshes.size()));
@@ -107,7 +107,7 @@ void take_material(const urdf::Visual& visual, UrdfShape& shape) {
     shape.color = {linear_channel(color.r), linear_channel(color.g), linear_channel(color.b), alpha};
 }
 
-// urdfdom leaves out what has a number that it cannot read.
+// Fails if urdfdom left out elements, as it does if it cannot read one of their numbers.
 void check_count(const std::string& link, const char* what, size_t got, size_t wanted, int line) {
     if (got != wanted)
         fail(FROND_RESULT_FILE_FORMAT,

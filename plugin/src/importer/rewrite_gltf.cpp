@@ -1,5 +1,5 @@
 // Rewrites glTF for assimp 5.2: quantized attributes and texture transforms become plain floats, compressed buffer
-// views plain ones, WebP textures plain textures. A document that needs none of it stays as it is.
+// views plain ones, WebP textures plain textures. A document without any of these is not changed.
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -14,15 +14,15 @@
 
 namespace frond {
 
-// A document in the making: what is new goes into one more buffer.
+// A document that is being rewritten; new data goes into one more buffer.
 struct Rewriting {
     GltfDocument document;
     std::string added;
-    std::map<std::string, size_t> converted;  // attribute accessors by what was done to them
+    std::map<std::string, size_t> converted;  // attribute accessor and texture transform -> converted accessor
     bool is_changed = false;
 };
 
-// Puts bytes into the new buffer; its index is known from the start.
+// Appends bytes to the new buffer, whose index is known from the start. Returns the index of their buffer view.
 static size_t add_view(Rewriting& work, const std::string& bytes) {
     Json& json = work.document.json;
     work.added.resize((work.added.size() + 3) / 4 * 4, '\0');
@@ -140,7 +140,7 @@ static double component_at(const char* bytes, long long type, bool is_normalized
     }
 }
 
-// The values of an accessor as floats, `wanted` an element (missing ones are 1, an alpha).
+// Returns the values of an accessor as floats, `wanted` per element; missing ones are 1, as for alpha.
 static std::vector<float> floats_of(const Rewriting& work, const Json& accessor, int wanted) {
     const Json& json = work.document.json;
     const Json& view = item_of(json, "bufferViews", number_of(accessor, "bufferView", -1));
@@ -190,8 +190,8 @@ static size_t convert_accessor(Rewriting& work, size_t index, int wanted, const 
     return work.converted[key] = work.document.json["accessors"].size() - 1;
 }
 
-// Position, normal, base-colour coordinates and colour of a primitive become floats if they are not; what else there is
-// of quantized attributes is dropped.
+// Converts position, normal, base-colour coordinates and colour of a primitive to floats; drops its other quantized
+// attributes, except joints and weights.
 static void rewrite_primitive(Rewriting& work, Json& primitive) {
     if (!primitive.is_object() || !primitive.contains("attributes") || !primitive["attributes"].is_object()) return;
     if (primitive.contains("extensions") && primitive["extensions"].contains("KHR_draco_mesh_compression")) return;
@@ -251,7 +251,7 @@ static void append_word(std::string& out, size_t word) {
 }
 
 static void drop_extensions(Json& json) {
-    // Extensions that are dealt with are no longer required; the parser would refuse the names.
+    // Extensions that were rewritten are no longer required, and the parser would reject their names.
     json.erase("extensionsRequired");
     if (json.contains("materials") && json["materials"].is_array())
         for (Json& material : json["materials"]) {
@@ -262,7 +262,7 @@ static void drop_extensions(Json& json) {
         }
 }
 
-// One GLB with one buffer: the old ones and the new one after another.
+// Writes one GLB with one buffer: the old buffers and the new one, one after another.
 static std::string write_glb(Rewriting& work) {
     Json& json = work.document.json;
     const bool keeps_draco = json.value("extensionsUsed", Json::array()).dump().find("draco") != std::string::npos;
@@ -306,7 +306,7 @@ std::string rewrite_gltf(const MeshFile& file) {
     unpack_views(work);
     rewrite_textures(work);
     if (work.document.json.contains("meshes") && work.document.json["meshes"].is_array()) {
-        // The list is copied, as primitives add accessors to the same document.
+        // Works on a copy, because primitives add accessors to the same document.
         Json meshes = work.document.json["meshes"];
         for (Json& mesh : meshes)
             if (mesh.is_object() && mesh.contains("primitives") && mesh["primitives"].is_array())

@@ -1,5 +1,5 @@
-// Rewrites OBJ and Collada text for assimp 5.2, which stumbles over some of what is common: the file comes in, the text
-// to read instead goes out; empty if the file is good as it is.
+// Rewrites OBJ and Collada text for assimp 5.2, which misreads some common variants. In: the file. Out: the text to
+// read instead; empty if the file needs no change.
 #include <cctype>
 #include <cstring>
 
@@ -13,7 +13,7 @@ static bool is_blank(char letter) {
     return letter == ' ' || letter == '\t' || letter == '\r';
 }
 
-// Where the words of a line begin, with the line's end behind the last.
+// Returns where the words of a line begin, followed by the line's end.
 static std::vector<size_t> find_words(const std::string& bytes, size_t begin, size_t end) {
     std::vector<size_t> words;
     for (size_t at = begin; at < end; ++at)
@@ -22,7 +22,8 @@ static std::vector<size_t> find_words(const std::string& bytes, size_t begin, si
     return words;
 }
 
-// "v x y z", with a weight, or with a colour; behind a colour others write an opacity, and more.
+// Returns how many numbers of a vertex to keep: "v x y z", with a weight, or with a colour; some programs write opacity
+// and more after the colour.
 static size_t numbers_of_vertex(size_t numbers) {
     return numbers > 6 ? 6 : numbers == 5 ? 3 : numbers;
 }

@@ -1,6 +1,8 @@
-// Takes the look of a material: base colour (linear) and base-colour texture, embedded or from the model's folder. What
-// a material says nothing about keeps the colour of a new part, which is chosen by the kind of organ later.
-// glTF's factors are linear already, and so is what Blender writes in any format; other programs write display colours.
+// Reads the appearance of a material: base colour (linear) and base-colour texture, embedded or from the model's
+// folder. A material without a colour keeps the default of a new part, which the colour of the organ's kind replaces
+// later.
+// glTF's factors are linear already, as are the colours that Blender writes in any format; other programs write display
+// colours.
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
@@ -26,7 +28,7 @@ static float in_range(float value) {
     return value >= 0 ? std::min(value, 1.0f) : 0.0f;
 }
 
-// Greys, black and white are what exporters write when nobody chose a colour.
+// Returns whether a colour is a tint. Grey, black and white are what exporters write when nobody chose a colour.
 static bool is_tint(const aiColor4D& color) {
     constexpr float LEAST = 0.05f;
     return std::max({color.r, color.g, color.b}) - std::min({color.r, color.g, color.b}) > LEAST;
@@ -40,7 +42,7 @@ static bool is_gltf(const MeshFile& file) {
     return file.format == FileFormat::GLTF || file.format == FileFormat::GLB;
 }
 
-// The program's name stands near the beginning of the file.
+// Returns whether colours are linear: in glTF, and in files by Blender, which states its name near the beginning.
 static bool has_linear_colors(const MeshFile& file) {
     constexpr size_t HEADER = 16384;
     return is_gltf(file) || file.bytes.substr(0, HEADER).find("Blender") != std::string::npos;
@@ -53,7 +55,7 @@ static std::array<float, 4> linear_color(const aiColor4D& color, const MeshFile&
     return out;
 }
 
-// An embedded texture's bytes, or those of a file beside the model; -1 if it cannot be had.
+// Takes an embedded texture, or a file near the model. Returns its index in the surface; -1 if it is not available.
 static int take_reference(const aiScene& scene, const aiString& path, const MeshFile& file, Surface& surface) {
     const aiTexture* embedded = scene.GetEmbeddedTexture(path.C_Str());
     if (!embedded) return take_texture_file(surface, file, path.C_Str());
@@ -66,10 +68,10 @@ static int take_reference(const aiScene& scene, const aiString& path, const Mesh
     return take_texture(surface, name + (path.C_Str()[0] == '*' ? path.C_Str() : ""), bytes);
 }
 
-// The material's values before they are judged.
+// A material's values as read, before defaults are recognized.
 struct Look {
     aiColor4D color{1, 1, 1, 1};
-    bool has_color = false, has_reference = false;  // to a texture, found or not
+    bool has_color = false, has_reference = false;  // has_reference: names a texture, found or not
 };
 
 static Look read_look(const aiScene& scene, const aiMaterial& material, const MeshFile& file, Surface& surface,
@@ -87,7 +89,7 @@ static Look read_look(const aiScene& scene, const aiMaterial& material, const Me
         return false;
     };
     look.has_reference = take_first({aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE, aiTextureType_AMBIENT});
-    // A material that shines by itself and reflects nothing is drawn flat: its look is what it emits.
+    // A material that emits light and reflects none is drawn unshaded: its base colour is what it emits.
     aiColor4D emitted(0, 0, 0, 1);
     material.Get(AI_MATKEY_COLOR_EMISSIVE, emitted);
     if (!look.has_reference && look.has_color && is_black(look.color) && !is_black(emitted)) {
@@ -107,14 +109,14 @@ void take_material(const aiScene& scene, const aiMaterial& material, const MeshF
     if (part.texture < 0 && has_uvs && is_plain && !is_gltf(file))
         part.texture = guess_texture(surface, file, part.material);
 
-    // Instead of the colour a texture stands in formats other than glTF, but in MTL files, where it is tinted.
+    // In formats other than glTF the texture replaces the colour, but in MTL files a colour tints the texture.
     if (part.texture >= 0 && !is_gltf(file)) {
         part.color = {1, 1, 1, 1};
         if (file.format == FileFormat::OBJ && look.has_color && !is_plain) part.color = linear_color(look.color, file);
         return;
     }
-    // The materials that assimp makes up say nothing: for meshes without one, for STL, and its grey for OBJ files whose
-    // material library is missing. Nor does the white under a texture that is not there.
+    // Materials that assimp makes up are ignored: for meshes without one, for STL, and its grey for OBJ files whose
+    // material library is missing. So is grey or white under a texture that was not found.
     const bool is_made_up = !look.has_color || file.format == FileFormat::STL ||
                             (!is_gltf(file) && part.material.empty()) ||
                             (file.format == FileFormat::OBJ && look.color == aiColor4D(0.6f, 0.6f, 0.6f, look.color.a));
@@ -124,7 +126,7 @@ void take_material(const aiScene& scene, const aiMaterial& material, const MeshF
     }
     part.color = linear_color(look.color, file);
 
-    // A plant that is not there at all is a mistake of the exporter.
+    // A fully transparent plant is a mistake of the exporter.
     float opacity = is_gltf(file) ? look.color.a : 1.0f;
     if (!is_gltf(file)) material.Get(AI_MATKEY_OPACITY, opacity);
     part.color[3] = opacity >= 0.05f ? in_range(opacity) : 1.0f;

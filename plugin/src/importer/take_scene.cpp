@@ -1,5 +1,5 @@
-// Takes assimp's scene: a tree of nodes with meshes comes in, a surface in world coordinates goes out, one part for
-// each mesh of each node (instances become parts of their own). Skinned meshes stand as their bones do.
+// Converts assimp's scene. In: a tree of nodes with meshes. Out: a surface in world coordinates, one part for each mesh
+// of each node (instances become parts of their own). Skinned meshes are posed by their bones.
 #include <assimp/scene.h>
 
 #include <cctype>
@@ -29,7 +29,7 @@ static Mat4 matrix_of(const aiMatrix4x4& m) {
     return out;
 }
 
-// All nodes with their transforms, parents first, without recursion.
+// Lists all nodes with their transforms, parents first, without recursion.
 static std::vector<SceneNode> list_nodes(const aiScene& scene) {
     std::vector<SceneNode> nodes;
     std::vector<std::pair<const aiNode*, int>> open;
@@ -49,7 +49,7 @@ static std::vector<SceneNode> list_nodes(const aiScene& scene) {
 
 // ---- names ----
 
-// "Object_12" and the like tell nothing about a plant.
+// Returns whether a name says nothing about a plant, such as "Object_12".
 static bool is_generic(const std::string& name) {
     static const std::set<std::string> WORDS = {"",
                                                 "object",
@@ -89,7 +89,7 @@ static bool is_generic(const std::string& name) {
     return WORDS.count(letters) > 0;
 }
 
-// The nearest name that tells something: the node's, the mesh's, an ancestor's; else the file's.
+// Returns the nearest meaningful name: the node's, the mesh's, an ancestor's; else the file's.
 static std::string name_part(const std::vector<SceneNode>& nodes, int node, const aiMesh& mesh, const MeshFile& file) {
     const std::string own = nodes[size_t(node)].node->mName.C_Str(), mesh_name = mesh.mName.C_Str();
     if (!is_generic(own) && nodes[size_t(node)].parent >= 0) return own;
@@ -102,7 +102,7 @@ static std::string name_part(const std::vector<SceneNode>& nodes, int node, cons
     return file.name.substr(0, file.name.rfind('.'));
 }
 
-// "Leaf_LOD2" -> 2; -1 if the name has no level of detail.
+// Returns a name's level of detail: "Leaf_LOD2" -> 2; -1 if it has none.
 static int level_of(const std::string& name) {
     std::string lower;
     for (char letter : name) lower += char(tolower(uint8_t(letter)));
@@ -114,7 +114,7 @@ static int level_of(const std::string& name) {
     return lower[digit] - '0';
 }
 
-// Nodes that hold a coarser copy of what another one holds.
+// Marks nodes that hold a coarser copy of another node's meshes.
 static std::vector<char> find_coarse_copies(const std::vector<SceneNode>& nodes) {
     std::vector<int> level(nodes.size(), -1);
     bool has_finest = false;
@@ -149,7 +149,8 @@ static bool is_black(const aiMesh& mesh) {
     return true;
 }
 
-// Vertex colours beside a texture are masks for wind and shading in FBX and DAE; all black is no colour either.
+// Returns whether vertex colours are used. Beside a texture they are masks for wind and shading in FBX and DAE; all
+// black is no colour either.
 static bool wants_colors(const aiMesh& mesh, const MeshFile& file, const Part& part) {
     const bool is_gltf = file.format == FileFormat::GLTF || file.format == FileFormat::GLB;
     if (!mesh.mColors[0] || is_black(mesh)) return false;
@@ -167,7 +168,7 @@ static Corners take_corners(const aiMesh& mesh, const MeshFile& file, bool with_
     for (size_t i = 0; i < count; ++i) {
         const aiVector3D& at = mesh.mVertices[i];
         corners.positions.push_back(Vec3f(at.x, at.y, at.z));
-        // STL has a normal a facet, which says nothing that the triangle does not.
+        // STL has one normal per facet, which adds nothing to the triangle.
         if (mesh.mNormals && file.format != FileFormat::STL)
             corners.normals.push_back(Vec3f(mesh.mNormals[i].x, mesh.mNormals[i].y, mesh.mNormals[i].z));
         // assimp's v = 0 is the bottom row.
@@ -191,7 +192,7 @@ static Corners take_corners(const aiMesh& mesh, const MeshFile& file, bool with_
     return corners;
 }
 
-// Vertex to world for each vertex: the weighted sum of its bones' matrices, the node's own where it has none.
+// Returns the vertex-to-world matrix of each vertex: the weighted mean of its bones' matrices, else the node's.
 static std::vector<Mat4> pose_of(const aiMesh& mesh, const Mat4& transform,
                                  const std::map<std::string, Mat4>& by_name) {
     std::vector<Mat4> pose(mesh.mNumVertices, Mat4::Zero());
@@ -221,8 +222,8 @@ static void move_vertex(Corners& corners, size_t i, const Mat4& matrix, const Ma
     corners.normals[i] = normal.cast<float>();
 }
 
-// Normals go with the inverse transpose. Its multiple without division, the cofactor matrix, has the sign of a mirror
-// in it, so the sign is taken out again.
+// Returns the matrix for normals, the inverse transpose up to a factor. The cofactor matrix needs no division, but a
+// mirror reverses its sign, which is undone here.
 static Mat3 cofactor_of(const Mat4& matrix) {
     const Mat3 m = matrix.topLeftCorner<3, 3>();
     Mat3 cofactor;
@@ -264,7 +265,7 @@ static int int_of(const aiMetadata* data, const char* key, int missing) {
     return data && data->Get(key, value) ? int(value) : missing;
 }
 
-// The number in <unit meter="0.01"/>.
+// Returns the number in <unit meter="0.01"/>.
 static double unit_of_dae(const std::string& bytes) {
     const size_t unit = bytes.find("<unit"), end = bytes.find('>', unit == std::string::npos ? 0 : unit);
     if (unit == std::string::npos || end == std::string::npos) return 1;
@@ -274,7 +275,8 @@ static double unit_of_dae(const std::string& bytes) {
     return value > 1e-20 && value < 1e20 ? value : 1;
 }
 
-// The file's declarations go to Surface::scale, up and up_declared. The matrix is what assimp has not yet applied.
+// Stores the file's declarations in Surface::scale, up and up_declared. Returns the transform that assimp has not
+// applied yet.
 static Mat4 frame_of(const aiScene& scene, const MeshFile& file, Surface& surface) {
     Mat4 frame = Mat4::Identity();
     surface.up_declared = true;

@@ -1,5 +1,5 @@
-// Welds render vertices: corners come in, the same triangles over fewer vertices go out. Some readers give a vertex per
-// face corner; equal ones are joined by a hash over their bits.
+// Welds render vertices. In: corners. Out: the same triangles over fewer vertices. Some readers give a vertex per face
+// corner; equal ones are merged by a hash over their bits.
 #include <cmath>
 #include <cstring>
 
@@ -69,7 +69,7 @@ void weld_corners(Corners& corners) {
     keep_first(corners.colors, kept);
 }
 
-// Brings an optional array up to the number of vertices that are there already, or adds the default for the new ones.
+// Appends the values of new vertices to an optional array; fills in `missing` for whichever side has none.
 template <typename Value>
 static void append_values(std::vector<Value>& to, size_t before, const std::vector<Value>& from, size_t count,
                           const Value& missing) {

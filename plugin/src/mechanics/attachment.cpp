@@ -1,4 +1,5 @@
-// In: a grip and where the nodes are. Out: where its point is, and forces and stiffness on it as the nodes feel them.
+// In: an attachment and the nodes' positions. Out: the position of its point, and forces and stiffness at the point,
+// distributed over the nodes.
 #include "mechanics/attachment.hpp"
 
 #include <algorithm>
@@ -10,12 +11,12 @@ namespace frond {
 
 namespace {
 
-// The arm of node k as it is turned now.
+// Returns the arm of node k, rotated with it.
 Vec3 turned_arm(const Attachment& attachment, int k, const VecX& x) {
     return rotation_of<double>(point(x, attachment.node[size_t(k)] + 1)) * attachment.arm[size_t(k)];
 }
 
-// How the point follows the rotation vector of node k.
+// Returns the derivative of the point by the rotation vector of node k.
 Mat3 turn_derivative(const Attachment& attachment, int k, const VecX& x) {
     return -cross_matrix<double>(turned_arm(attachment, k, x)) *
            rate_matrix<double>(point(x, attachment.node[size_t(k)] + 1));
@@ -85,7 +86,7 @@ void add_attachment_force(const Attachment& attachment, const VecX& x, const Vec
 }
 
 void add_attachment_block(const Attachment& attachment, const VecX& x, const Mat3& block, BlockMatrix& A) {
-    // The lower triangle is all there is.
+    // The matrix has only its lower triangle.
     if (!attachment.turns) {
         for (int r = 0; r < attachment.count; ++r)
             for (int c = 0; c < attachment.count; ++c) {

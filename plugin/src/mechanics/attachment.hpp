@@ -1,5 +1,5 @@
-// Grip: a point of a plant that follows the nodes of its mechanics, as sums of weight times place, and where nodes turn
-// (the chain's) of arms that turn with them.
+// Attachment: a point of a plant that follows nodes of its mechanics: the weighted sum of their positions, plus arms
+// that rotate with them where nodes rotate (the chain's).
 #pragma once
 
 #include "core/types.hpp"
@@ -10,16 +10,16 @@ namespace frond {
 
 struct Attachment {
     static constexpr int MOST = 10;                          // a quadratic tet's nodes
-    int count = 0;                                           // of nodes
+    int count = 0;                                           // number of nodes
     bool turns = false;                                      // the node after each is its rotation vector
-    std::array<int, MOST> node = {};                         // of the mechanics
+    std::array<int, MOST> node = {};                         // indices in the mechanics
     std::array<double, MOST> weight = {};                    // [-]
-    std::array<Vec3, 2> arm = {Vec3::Zero(), Vec3::Zero()};  // of the first two nodes, in the modelled shape [m]
+    std::array<Vec3, 2> arm = {Vec3::Zero(), Vec3::Zero()};  // arms of the first two nodes, in the modelled shape [m]
 };
 
 Attachment tet_attachment(const TetPlace& place);
 bool is_sound(const Attachment& attachment, int node_count);
-// The point's derivative by each node of the mechanics, of places or of rotation vectors.
+// Derivative of the point by each node that it follows, positions or rotation vectors.
 struct AttachmentDerivative {
     int count = 0;
     std::array<int, Attachment::MOST> node;
@@ -32,7 +32,7 @@ Vec3 attachment_velocity(const Attachment& attachment, const VecX& x, const VecX
 void add_attachment_force(const Attachment& attachment, const VecX& x, const Vec3& force, VecX& f);
 // Adds J^T B J, J the derivative of the point by the nodes at x, B symmetric [N/m] or [N s/m].
 void add_attachment_block(const Attachment& attachment, const VecX& x, const Mat3& block, BlockMatrix& A);
-// Adds stiffness [N/m] times J^T J: never negative.
+// Adds stiffness [N/m] times J^T J, which is positive semi-definite.
 void add_attachment_stiffness(const Attachment& attachment, const VecX& x, double stiffness, BlockMatrix& A);
 
 }  // namespace frond

@@ -1,4 +1,4 @@
-// Grips that do not turn, of several plants side by side.
+// Attachments without rotating arms, for a batch of plants.
 #pragma once
 
 #include "core/lanes.hpp"
@@ -6,7 +6,7 @@
 
 namespace frond {
 
-// What the point has of what its nodes have: as attachment_place() and attachment_velocity().
+// Returns the weighted sum of the nodes' values, as attachment_place() and attachment_velocity() do.
 template <class S>
 FROND_INLINE Lanes3<S> attachment_sum(const Attachment& attachment, const double* of_nodes) {
     Lanes3<S> sum = {};

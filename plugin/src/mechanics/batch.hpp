@@ -1,4 +1,4 @@
-// Parts that rows of BatchMechanics share.
+// Helpers of the rows of BatchMechanics.
 #pragma once
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 
 namespace frond {
 
-// Of numbers of nodes side by side.
+// Returns the number of lanes of batched node data.
 inline int lanes_of(const Elements& body, const NumbersInLines& x) {
     return int(x.size()) / (3 * body.node_count);
 }
 
-// Blocks of several matrices that nothing was added to are zero.
+// Zeroes the blocks of batched matrices that nothing was added to.
 inline void leave_no_gaps(int lanes, const std::vector<uint8_t>& filled, BlockMatrix& A) {
     for (size_t slot = 0; slot < filled.size(); ++slot)
         if (!filled[slot]) std::fill_n(A.values.begin() + std::ptrdiff_t(9 * slot) * lanes, 9 * lanes, 0.0);

@@ -16,7 +16,7 @@ int BlockPattern::slot(int i, int j) const {
 
 template <size_t N>
 BlockPattern make_block_pattern(int node_count, const std::vector<std::array<int, N>>& elements) {
-    // Each node's neighbours of higher number, itself first, each once and in order.
+    // Each node's neighbours of higher index, itself first, sorted and without duplicates.
     std::vector<std::vector<int>> neighbours(static_cast<size_t>(node_count));
     for (int j = 0; j < node_count; ++j) neighbours[size_t(j)].push_back(j);
     for (const auto& element : elements)
@@ -47,7 +47,7 @@ void BlockMatrix::set_zero() {
     std::fill(values.begin(), values.end(), 0.0);
 }
 
-// Two rows of a block at once, the third by itself.
+// Takes two rows of a block at once and the third by itself.
 void BlockMatrix::multiply(const VecX& x, VecX& y) const {
     y.setZero(x.size());
     const double* a = values.data();
@@ -57,7 +57,7 @@ void BlockMatrix::multiply(const VecX& x, VecX& y) const {
         TwoLanes own = x0 * load<TwoLanes>(a) + x1 * load<TwoLanes>(a + 3) + x2 * load<TwoLanes>(a + 6);
         double own2 = a[2] * x0 + a[5] * x1 + a[8] * x2;
         a += 9;
-        // A block below it serves twice: as it stands for its row, transposed for this column.
+        // Each block below it is used twice: as stored for its row, transposed for this column.
         TwoLanes sum0 = {}, sum1 = {}, sum2 = {};
         for (int k = pattern->start[size_t(j)] + 1; k < pattern->start[size_t(j) + 1]; ++k, a += 9) {
             const int i = 3 * pattern->row[size_t(k)];

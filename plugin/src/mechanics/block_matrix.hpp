@@ -12,12 +12,12 @@ namespace frond {
 struct BlockPattern {
     int node_count = 0;
     std::vector<int> start, row;
-    int slot(int i, int j) const;  // of the block of nodes i and j (either order); -1 if they share no element
+    int slot(int i, int j) const;  // index of the block of nodes i and j (either order); -1 if they share no element
     int block_count() const { return int(row.size()); }
 };
 
-// Every node has its diagonal block, and every two nodes that share an element have theirs. Elements are arrays of four
-// or of ten nodes.
+// Makes the pattern with a diagonal block for each node and a block for each two nodes that share an element. Elements
+// are arrays of four or of ten nodes.
 template <size_t N>
 BlockPattern make_block_pattern(int node_count, const std::vector<std::array<int, N>>& elements);
 extern template BlockPattern make_block_pattern(int, const std::vector<std::array<int, 4>>&);
@@ -26,12 +26,12 @@ extern template BlockPattern make_block_pattern(int, const std::vector<std::arra
 struct BlockMatrix {
     const BlockPattern* pattern = nullptr;
     NumbersInLines values;  // 9 a block, column-major; block (i, j) of the lower triangle, i >= j
-    // Takes the pattern and makes room for it; allocates only the first time.
+    // Sets the pattern and resizes the values; allocates only the first time.
     void set_pattern(const BlockPattern& new_pattern);
     void set_zero();
     Eigen::Map<Mat3> block(int slot) { return Eigen::Map<Mat3>(values.data() + 9 * size_t(slot)); }
     Eigen::Map<const Mat3> block(int slot) const { return Eigen::Map<const Mat3>(values.data() + 9 * size_t(slot)); }
-    // y = A x
+    // Computes y = A x.
     void multiply(const VecX& x, VecX& y) const;
 };
 

@@ -1,7 +1,6 @@
-// Dual: a number with its derivatives by the twelve coordinates of a piece of rod, carried along by the chain rule
-// (forward differentiation), so that a stiffness is exactly the derivative of the force as it is written. The
-// derivatives lie side by side in lanes. Eigen's own AutoDiff makes dynamic temporaries of such expressions, about
-// which GCC 12 warns.
+// Dual: a number with its derivatives by the twelve coordinates of a rod segment (forward differentiation), so that a
+// stiffness is exactly the derivative of the force as coded. The derivatives lie in lanes. Eigen's own AutoDiff makes
+// dynamic temporaries of such expressions, about which GCC 12 warns.
 #pragma once
 
 #include <cmath>
@@ -44,7 +43,7 @@ struct Dual {
         for (int i = 0; i < GROUPS; ++i) out.slope[i] = (a.slope[i] - out.value * b.slope[i]) / b.value;
         return out;
     }
-    // With constants.
+    // Operations with constants.
     FROND_INLINE Dual scaled(double by) const {
         Dual out(by * value);
         for (int i = 0; i < GROUPS; ++i) out.slope[i] = by * slope[i];
@@ -63,7 +62,7 @@ struct Dual {
     FROND_INLINE friend bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
 };
 
-// Where the value is f, and its derivative by a's is that.
+// Returns a function of a from its value f and its derivative by a.
 template <class S>
 FROND_INLINE Dual<S> function_of(const Dual<S>& a, double f, double derivative) {
     Dual<S> out = a.scaled(derivative);

@@ -1,9 +1,9 @@
-// The four points of integration of a quadratic tet at once.
+// The four integration points of a quadratic tet at once.
 //
-// At point q a node counts in a corner C, or E if it lies between it and another one, and M more if it is the one
-// beside q (see tet_element.hpp). So what points have with corners, k_q between corners i and j, comes to the nodes as
-// sums
-//   C, E: over all points T_ij = sum of k_q,   M: of the points beside them alone.
+// At point q a node's weight in a corner is C if it is that corner, E if it is the middle of one of its edges, and M
+// more if it is the node between that corner and corner q (see tet_element.hpp). So blocks k_q between corners i and j
+// at point q are summed to the nodes with these weights:
+//   C, E: the sum over all points T_ij = sum of k_q,   M: single points.
 #pragma once
 
 #include "mechanics/nine.hpp"
@@ -36,7 +36,7 @@ struct FourPoints {
                 of_tets(elements.lambda),
                 of_tets(elements.mu)};
     }
-    // Takes values at nodes; gives the differences from the first corner as points see it, as columns.
+    // Takes values at nodes; returns the differences from the first corner at each point, as columns.
     FROND_INLINE Lanes33<S> edges(const double* x) const {
         const QuadraticTet& nodes = elements.nodes.of_tet[tet];
         Lanes33<S> out;
@@ -55,10 +55,10 @@ struct FourPoints {
         }
         return out;
     }
-    // Corners' forces -V P b for the stress P, to the nodes.
+    // Adds the corners' forces -V P b by the stress P to the nodes.
     FROND_INLINE void add_force(const TetShareLanes<S>& share, const Lanes33<S>& P, VecX& f) const {
         const QuadraticTet& nodes = elements.nodes.of_tet[tet];
-        const Lanes33<S> forces = -((share.volume * share.rest_inverse) * transposed(P));  // a row a corner
+        const Lanes33<S> forces = -((share.volume * share.rest_inverse) * transposed(P));  // one row a corner
         const auto add = [&](int r, const S& f1, const S& f2, const S& f3) __attribute__((always_inline)) {
             const S corner[4] = {-(f1 + f2 + f3), f1, f2, f3};
             double total[4];
@@ -74,7 +74,7 @@ struct FourPoints {
         add(2, forces.r[0].z, forces.r[1].z, forces.r[2].z);
     }
 
-    // Of corners i and j: E^2 T / 2 + E M k_q at each point q, and C E T and M^2 k_q.
+    // Between corners i and j: k_q at each point q, their sum T, and E^2 T / 2 + E M k_q.
     struct Between {
         Nine k[4], all, half[4];
         FROND_INLINE explicit Between(const Lanes33<S>& lanes) {
@@ -122,7 +122,7 @@ struct FourPoints {
             }
         }
     }
-    // What the middle of edge ab has with corner c.
+    // Returns the block between the middle of edge ab and corner c.
     FROND_INLINE static Nine edge_and_corner(const Between (&of)[4][4], int a, int b, int c) {
         Nine block = (C * E) * (of[a][c].all + of[b][c].all) + (C * M) * (of[a][c].k[b] + of[b][c].k[a]) +
                      (M * E) * (of[a][c].k[c] + of[b][c].k[c]);
@@ -130,7 +130,7 @@ struct FourPoints {
         if (a == c) block = block + (M * M) * of[b][c].k[c];
         return block;
     }
-    // What the middles of edges ab and cd have by corners a and c.
+    // Returns the share of corners a and c in the block between the middles of edges ab and cd.
     FROND_INLINE static Nine ends(const Between (&of)[4][4], int a, int b, int c, int d) {
         const Between& k = of[a][c];
         const Nine block = k.half[b] + k.half[d];

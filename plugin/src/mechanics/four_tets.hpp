@@ -1,4 +1,4 @@
-// Four tets with straight edges at once.
+// Four T4 tets at once.
 #pragma once
 
 #include "mechanics/nine.hpp"
@@ -10,7 +10,7 @@ struct FourTets {
     static constexpr size_t TETS = 4;
     using S = FourLanes;
     const TetElements& elements;
-    size_t tet[TETS];  // past the last one it is taken again
+    size_t tet[TETS];  // the last one is repeated past the end
     int count;
 
     FROND_INLINE FourTets(const TetElements& elements, size_t first)
@@ -42,7 +42,7 @@ struct FourTets {
     FROND_INLINE TetShareLanes<S> share() const {
         return {at_rest(), of_tets(elements.volume), of_tets(elements.lambda), of_tets(elements.mu)};
     }
-    // Takes values at nodes; gives the differences from the first corner, as columns.
+    // Takes values at nodes; returns the differences from the first corner, as columns.
     FROND_INLINE Lanes33<S> edges(const double* x) const {
         Lanes33<S> out;
         for (int r = 0; r < 3; ++r) {
@@ -54,9 +54,9 @@ struct FourTets {
         }
         return out;
     }
-    // Nodes' forces -V P b for the stress P; they add up to nothing.
+    // Adds the nodes' forces -V P b by the stress P; they add up to zero.
     FROND_INLINE void add_force(const TetShareLanes<S>& share, const Lanes33<S>& P, VecX& f) const {
-        const Lanes33<S> forces = (share.volume * share.rest_inverse) * transposed(P);  // a row a corner
+        const Lanes33<S> forces = (share.volume * share.rest_inverse) * transposed(P);  // one row a corner
         const Lanes3<S> first = forces.r[0] + forces.r[1] + forces.r[2];
         for (int l = 0; l < count; ++l) {
             const Tet& nodes = elements.ordered[tet[l]];

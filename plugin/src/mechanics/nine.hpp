@@ -1,4 +1,4 @@
-// Nine: the numbers of a 3x3 block, by columns, of one lane.
+// Nine: a 3x3 block of one lane, by columns.
 #pragma once
 
 #include "core/lanes.hpp"
@@ -21,7 +21,7 @@ FROND_INLINE void add_to(double* block, const Nine& a) {
     block[8] += a.last;
 }
 
-// Blocks of four lanes, lane by lane.
+// Splits the block of four lanes into one block a lane.
 FROND_INLINE void lane_by_lane(const Lanes33<FourLanes>& k, Nine (&out)[4]) {
     FourLanes low[4], high[4];
     turn_over(k.r[0].x, k.r[1].x, k.r[2].x, k.r[0].y, low);

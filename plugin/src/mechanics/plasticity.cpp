@@ -7,7 +7,7 @@
 
 namespace frond {
 
-// The limit of a solid round section, with c = 1/k the radius of the elastic core over the section's.
+// Returns section_limit() of a solid round section; c = 1/k is the radius of the elastic core over the section's.
 static double round_limit(double k) {
     if (k <= 1) return k;
     const double c = 1 / k;
@@ -17,7 +17,7 @@ static double round_limit(double k) {
 double section_limit(const Yield& yield, double k) {
     if (k <= 1) return k;
     if (yield.flat) return 1.5 - 0.5 / (k * k);
-    // A tube is a rod less the rod in it, whose rim yields later.
+    // A tube is a solid rod minus an inner one, whose rim yields later.
     const double cube = yield.hollow * yield.hollow * yield.hollow;
     return (round_limit(k) - cube * round_limit(yield.hollow * k)) / (1 - cube * yield.hollow);
 }
@@ -26,7 +26,7 @@ double elastic_share(const Yield& yield, double strain, double bending, double h
     const double trial = strain / yield.strain;
     if (!(trial > 1)) return 1;
 
-    // Bent on and on from the start it would now be at k = elastic + lasting strain, both over the first yield's.
+    // Bent monotonically from the start, it would now be at k = elastic + plastic strain, both over the yield strain.
     const double limit = 1 + bending * (section_limit(yield, trial + hardening) - 1);
     double elastic = std::min(trial, limit);
     elastic = 1 + (elastic - 1) * std::exp(-yield.creep * h);

@@ -1,7 +1,7 @@
-// Plasticity: what of an element's deformation becomes lasting. The law is that of a section in bending whose material
-// is elastic and perfectly plastic: it yields from the rim inwards while its core stays elastic, so what it bears rises
-// beyond the first yield and tends to a limit (Nadai 1950, "Theory of flow and fracture of solids"). One number a point
-// remembers how far it has come, the strain that was lasting in sum; unloading is elastic.
+// Plasticity: how much of an element's deformation becomes plastic. The law is that of a section in bending with
+// elastic, perfectly plastic material: it yields from the rim inwards while its core stays elastic, so its moment rises
+// beyond the first yield and tends to a limit (Nadai 1950, "Theory of flow and fracture of solids"). The state is one
+// number a point, the accumulated plastic strain; unloading is elastic.
 #pragma once
 
 #include <memory>
@@ -11,27 +11,26 @@ namespace frond {
 
 struct Model;
 
-// When an element yields. Strains are those of the outermost fibre of a rod, or of a tet as in a pulled bar.
+// Yield limits of an element. Strains are those of a rod's outermost fibre, or of a tet as in a pulled bar.
 struct Yield {
-    double strain = 0;  // at which the rim begins to [-]; 0: never
-    double creep = 0;   // share of what is elastic beyond that which becomes lasting, a second [1/s]
+    double strain = 0;  // strain at which the rim yields [-]; 0: never
+    double creep = 0;   // rate at which elastic strain beyond that becomes plastic [1/s]
     double hollow = 0;  // inner over outer radius of a round section [-]
     bool flat = false;  // a sheet
 };
 
-// The moment of a section bent by k times the curvature of its first yield, over the moment then: from k below 1,
-// to 1.5 of a sheet and 1.70 of a solid round one.
+// Returns the moment of a section at k times the curvature of its first yield, over the moment at first yield: k up to
+// 1, then rising to 1.5 for a sheet and 1.70 for a solid round section.
 double section_limit(const Yield& yield, double k);
 
-// For an element with elastic strain `strain` [-] after a time h [s]: the share of it that stays elastic, 0 .. 1, and
-// `hardening` brought up to date, which is the lasting strain in sum over yield.strain. `bending` is the share of the
-// strain that is from bending; what is from pulling has no core that could stay elastic.
+// Returns the share, 0 .. 1, of an element's elastic strain `strain` [-] that stays elastic after a time h [s], and
+// updates `hardening`, the accumulated plastic strain over yield.strain. `bending` is the share of bending in the
+// strain; under tension no core stays elastic.
 double elastic_share(const Yield& yield, double strain, double bending, double h, double& hardening);
 
-// The limits follow from an organ's material and kind; strain is measured as the material's.
+// Returns the limits of an organ, by its material and kind; the strain is the material's.
 Yield yield_of(const Model& model, int organ);
-// A plant stands on its materials, whatever they are: no element yields with less than 1.5 times the strain that it
-// stands with.
+// Returns the yield strain, but at least 1.5 times the strain in which the plant stands, whatever its materials.
 double firm_strain(double yield_strain, double standing);
 
 }  // namespace frond

@@ -1,5 +1,5 @@
-// In: a deformation gradient F. Out: its rotation, without iteration on matrices and without a start value where that
-// is well, else by singular values.
+// In: a deformation gradient F. Out: its rotation, without matrix iterations or a start value where F is well
+// conditioned, else by singular values.
 #include "mechanics/polar.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ Polar polar_decomposition(const Mat3& F) {
     return {lane_of(polar.rotation, 0), polar.trace, polar.gaps, polar.determinant};
 }
 
-// The singular vectors, with the sign of the smallest value turned where F mirrors.
+// Combines the singular vectors, with the smallest value's sign flipped where F is a reflection.
 Polar polar_by_values(const Mat3& F) {
     const double size = F.squaredNorm(), det = F.determinant();
     if (!std::isfinite(size)) return {Mat3::Constant(size - size), size - size, 0, det};

@@ -5,16 +5,16 @@
 
 namespace frond {
 
-// The proper rotation R that maximises the trace of R^T F; where F is turned inside out, S = R^T F then has its
-// smallest value negative. Where several are nearest, one of them. Not a number in, not a number out.
+// The proper rotation R that maximises the trace of R^T F; if F is inverted, the smallest value of S = R^T F is
+// negative. If several rotations are nearest, it is any of them. NaN in, NaN out.
 struct Polar {
     Mat3 rotation;
-    double trace;        // of S = R^T F
-    double gaps;         // (s1+s2)(s1+s3)(s2+s3) of the values of S: how far from where the rotation is not unique
-    double determinant;  // of F; negative when turned inside out
+    double trace;        // trace of S = R^T F
+    double gaps;         // (s1+s2)(s1+s3)(s2+s3) of the values of S; 0 where the rotation is not unique
+    double determinant;  // determinant of F; negative when inverted
 };
 Polar polar_decomposition(const Mat3& F);
-// Slow, and right also where F is turned inside out so far that the rotation is about to jump, or flattened to a line.
+// Slow, but correct also where F is inverted so far that the rotation is about to jump, or flattened to a line.
 Polar polar_by_values(const Mat3& F);
 
 }  // namespace frond

@@ -1,4 +1,4 @@
-// The rotation nearest to a deformation gradient, of as many at once as there are lanes.
+// The rotation nearest to a deformation gradient, in lanes.
 //
 // The trace t of S = R^T F is the largest root of p(t) = t^4 - 2 |F|^2 t^2 - 8 det F t + 2 |F^T F|^2 - |F|^4, Horn's
 // quartic for absolute orientation (Horn 1987, "Closed-form solution of absolute orientation using unit quaternions").
@@ -10,7 +10,7 @@
 
 namespace frond {
 
-// As Polar.
+// Polar in lanes.
 template <class S>
 struct PolarLanes {
     Lanes33<S> rotation;
@@ -22,7 +22,7 @@ FROND_INLINE PolarLanes<S> polar_in_lanes(const Lanes33<S>& F) {
     const Lanes33<S> C = transposed_times(F, F), cof = cofactor(F);
     const S det = dot(F.r[0], cof.r[0]), size = trace(C);  // |F|^2
 
-    // Newton from above: sqrt(3) |F| bounds the trace and is exact for a rotation. A lane that has arrived stays.
+    // Newton's method from above: sqrt(3) |F| bounds the trace and is exact for a rotation. Converged lanes stay.
     const S c0 = 2.0 * dot(C, C) - size * size;
     S t = sqrt(S(3.0 * size)), last = constant<S>(1);
     for (int iteration = 0; iteration < 30; ++iteration) {
@@ -36,7 +36,7 @@ FROND_INLINE PolarLanes<S> polar_in_lanes(const Lanes33<S>& F) {
         if (!any(last != 0)) break;
     }
 
-    // This is twice the product of the gaps; where it is small the quotient would lose digits.
+    // Twice the product of the gaps; where it is small, the quotient loses digits.
     const S slope = (t * t - size) * t - 2.0 * det, inverse = 1.0 / slope;
     const S f = (t * t + size) * inverse, c = 2.0 * t * inverse;
     PolarLanes<S> out = {f * F + c * cof - (2.0 * inverse) * (F * C), t, 0.5 * slope, det};

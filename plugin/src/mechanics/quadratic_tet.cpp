@@ -1,19 +1,19 @@
-// In: what is found at, or between, the corners of the linear tet as which a quadratic one is seen at a point of
-// integration. Out: the same at, or between, its ten nodes, W^T k W with W the nodes' parts in the four corners.
+// In: values at, or blocks between, the corners of the linear tet that a quadratic one equals at an integration point.
+// Out: the same at, or between, its ten nodes, W^T k W with W the nodes' weights in the four corners.
 #include "mechanics/tet_element.hpp"
 
 namespace frond {
 
 namespace {
 
-// A node's parts in corners: in its own, or in the two that it lies between.
+// A node's weight in a corner: a corner node has one, an edge node one for each corner of its edge.
 struct Part {
     size_t corner;
     double part;
 };
 using Parts = std::array<Part, 2>;
 
-// For a corner the second part is not used.
+// Returns the weights at point q; a corner node's second one is unused.
 constexpr std::array<Parts, 10> parts_at(int q) {
     using Element = QuadraticTetElement;
     std::array<Parts, 10> out = {};

@@ -1,10 +1,10 @@
-// In: rods at rest and where their nodes are. Out: energy, force and stiffness.
+// In: rods at rest and their nodes' positions and rotations. Out: energy, force and stiffness.
 //
-// Geometrically exact rods (Simo 1985; Simo, Vu-Quoc 1986) with two nodes a piece and one point of integration:
+// Geometrically exact rods (Simo 1985; Simo, Vu-Quoc 1986) with two nodes and one integration point a segment:
 //   strain G = F^T R^T (x2 - x1) / L,  curvature k = F^T log(R1^T R2) / L,
 //   U = L/2 (G - G0) . C (G - G0) + L/2 (k - k0) . B (k - k0),
-// F the piece's frame in the modelled shape, R = R1 exp(log(R1^T R2) / 2) the rotation half way. The resistance to
-// shear is the residual bending flexibility, 12 EI / L^2 (MacNeal 1978): for small turns the piece then is the
+// F the segment's frame in the modelled shape, R = R1 exp(log(R1^T R2) / 2) the midway rotation. The shear stiffness is
+// the residual bending flexibility, 12 EI / L^2 (MacNeal 1978): for small rotations the segment then is the
 // Euler-Bernoulli beam with cubic shape functions, exact at its ends.
 #include <algorithm>
 
@@ -58,7 +58,7 @@ struct FindEnergy {
     }
 };
 
-// Of the nodes from the i-th on, as many as there are lanes.
+// Takes as many nodes at once as there are lanes, from the i-th on.
 struct FindInertia {
     const RodElements& elements;
     const VecX& x;
@@ -89,15 +89,15 @@ FROND_INLINE Lanes3<Dual<S>> constants(const Vec3& v) {
     return {v[0], v[1], v[2]};
 }
 
-// The derivative of the gradient, by forward differentiation of its own code.
+// Derivative of the energy's gradient, by forward differentiation of its own code.
 struct AddExactStiffness {
     const RodElements& elements;
     const VecX& x;
     double scale;
     BlockMatrix& K;
-    static constexpr int COUNT = 12;  // coordinates of a piece
+    static constexpr int COUNT = 12;  // coordinates of a segment
 
-    // Row by row.
+    // Fills `slopes` row by row.
     template <class S>
     FROND_INLINE void differentiate(const RodSegment& rod, double (&slopes)[COUNT][COUNT]) const {
         RodPiece<Dual<S>> piece;

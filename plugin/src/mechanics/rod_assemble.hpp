@@ -1,28 +1,28 @@
-// In: rods and where their nodes are. Out: force and positive stiffness, alone or with what these do to the way ahead.
+// In: rods and their nodes' positions and rotations. Out: force and positive stiffness, at x or extrapolated ahead.
 #pragma once
 
 #include "mechanics/rod_groups.hpp"
 
 namespace frond {
 
-// What is null is left out.
+// Outputs that are null are skipped.
 template <template <class> class Pieces>
 struct Assemble {
     const RodElements& elements;
     const double* x;
     double* f = nullptr;
     BlockMatrix* K = nullptr;
-    double scale = 1;                              // of K
-    const std::vector<double>* damping = nullptr;  // of each piece, times its stiffness into D
+    double scale = 1;                              // factor of K
+    const std::vector<double>* damping = nullptr;  // one a segment [s]; damping times stiffness is added to D
     BlockMatrix* D = nullptr;
     const Ahead* ahead = nullptr;
-    std::vector<uint8_t>* filled = nullptr;  // which blocks of K are, of several plants
+    std::vector<uint8_t>* filled = nullptr;  // in batches: blocks of K that are filled already
 
     template <class S>
     FROND_INLINE Lanes3<S> move(const Pieces<S>& pieces, int RodSegment::*end, int first, const S& c) const {
         return pieces.point(ahead->way, end, first) + c * pieces.point(ahead->v, end, first);
     }
-    // Forces of what the stiffness says of the way ahead, on the ends' six numbers each, are taken off.
+    // Adds the change of the gradient over the displacement ahead, by the stiffness, to the six numbers of each end.
     template <class S>
     FROND_INLINE void look_ahead(const Pieces<S>& pieces, const Placed<S>& at, const RodChange<S>& change, const S& c,
                                  RodGradient<S>& g) const {
@@ -69,7 +69,7 @@ struct Assemble {
     }
 };
 
-// To be run: Mechanics::add_ahead of one plant, or of several side by side.
+// Returns the job of Mechanics::add_ahead, for one plant or for a batch.
 template <template <class> class Pieces>
 Assemble<Pieces> to_add_ahead(const RodElements& elements, const double* x, const Ahead& ahead, double* f,
                               BlockMatrix& A) {

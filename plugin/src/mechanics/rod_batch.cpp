@@ -1,4 +1,4 @@
-// In: rods of several plants, one a lane, and where their nodes are. Out: what rod.cpp tells of one plant.
+// In: rods of several plants, one a lane, and their nodes' positions and rotations. Out: what rod.cpp computes for one.
 #include "mechanics/batch.hpp"
 #include "mechanics/rod_assemble.hpp"
 #include "mechanics/rows.hpp"
@@ -7,7 +7,7 @@ namespace frond {
 
 namespace {
 
-// Looks that are nearly as far as they may go are left to the plant alone, which knows to the last bit.
+// Share of a limit beyond which a lane is left to the plant's own check, which is exact to the last bit.
 constexpr double NEARLY = 1 - 1e-9;
 
 struct FindInertiaOfBatch {
@@ -30,7 +30,7 @@ struct FindInertiaOfBatch {
 struct FindWild {
     const RodElements& elements;
     const NumbersInLines &from, &to;
-    double part;  // of the way [-]
+    double part;  // share of the displacement [-]
     unsigned& wild;
     template <class S>
     FROND_INLINE Lanes3<S> way(int i) const {

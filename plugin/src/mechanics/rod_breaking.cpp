@@ -1,5 +1,5 @@
-// In: rods and where their nodes are. Out: the strain of each capsule's outermost fibre, and rods without those of a
-// part that came off. What a piece bears by being pulled and by being bent adds up at the fibre; twist does not count.
+// In: rods and their nodes' positions and rotations. Out: the strain of each capsule's outermost fibre, and rods
+// without those of a part that broke off. Strains by tension and by bending add up at the fibre; twist does not count.
 #include "mechanics/rod_elements.hpp"
 #include "mechanics/rows.hpp"
 #include "mechanics/sections.hpp"
@@ -14,7 +14,7 @@ void rod_section_strains(const Elements& body, const VecX& x, std::vector<double
         out[size_t(elements.section[s])] = fibre_strain(elements.segments[s], strains[s]).sum();
 }
 
-// What hangs on a piece's second node goes with it, so that its first node keeps its own mass.
+// The mass of a segment's second node goes with it, and its first node keeps its own.
 std::unique_ptr<Elements> without_rods(const Elements& body, const std::vector<uint8_t>& gone) {
     auto own = std::make_unique<RodElements>(as_rods(body));
     const auto is_gone = [&](size_t s) { return gone[size_t(as_rods(body).section[s])] != 0; };

@@ -1,8 +1,8 @@
-// In: a model's chain, sections and organs. Out: what the chain mechanics need at rest, and their masses.
+// In: a model's chain, sections and organs. Out: rest data and masses of the chain mechanics.
 //
 // A tree of rods is statically determinate: forces and moments in it follow from the weight alone, summed from the tips
-// to the root. So the shape without load, from which weight bends the rods to the modelled shape, needs no search: each
-// piece's own strain and curvature are those of the modelled shape less what its force and moment do.
+// to the root. So the shape without load, which weight bends to the modelled shape, needs no search: each segment's
+// rest strain and curvature are those of the modelled shape minus those by its force and moment.
 #include "mechanics/rod_elements.hpp"
 
 #include <algorithm>
@@ -19,9 +19,8 @@ size_t organ_of(const Model& model, size_t node) {
     return size_t(std::max(model.chain.nodes[node].organ, 0));
 }
 
-// Resistance of a piece's section, along, thin, wide, and how far its fibres reach: of its tissue, or of a full
-// cylinder, stiffer by a factor in bending alone: a blade's is far below one, and would let it be drawn out like
-// rubber.
+// Set a segment's stiffness (along, thin, wide) and how far its fibres reach: from the tissue of its section, or from a
+// full cylinder with a factor on bending alone: a blade's factor, far below one, would let it stretch like rubber.
 void take_section(const Model& model, size_t node, RodSegment& rod) {
     const Section& section = model.sections[node];
     const double stiffer = model.organ_stiffer[organ_of(model, node)], over = 12 / (rod.length * rod.length);
@@ -41,7 +40,7 @@ void take_cylinder(const Model& model, size_t node, double radius, double stiffe
     rod.bend = E * Vec3(inertia / (1 + material.poisson), inertia, inertia);
 }
 
-// Without its resistance.
+// Makes a segment without its stiffness.
 RodSegment make_segment(const Model& model, size_t node) {
     const Section& section = model.sections[node];
     RodSegment rod = {};
@@ -64,7 +63,7 @@ void check_segment(const RodSegment& rod) {
              rod.b);
 }
 
-// The weight of what hangs on each piece sets its strain and curvature at rest. Segments are in the order of their
+// Sets each segment's rest strain and curvature from the weight that it bears. Segments are in the order of their
 // second nodes, parents first.
 void let_stand(RodElements& elements) {
     const size_t count = elements.mass.size();
@@ -75,7 +74,7 @@ void let_stand(RodElements& elements) {
         const size_t a = size_t(rod.a), b = size_t(rod.b);
         const Vec3 chord = point(elements.modelled, 2 * rod.b) - point(elements.modelled, 2 * rod.a);
         const Vec3 half = 0.5 * force[b].cross(chord);
-        const Vec3 couple = -half - moment[b];  // of the piece on its second node
+        const Vec3 couple = -half - moment[b];  // moment by the segment on its second node
         rod.rest_strain -= (rod.frame.transpose() * force[b]).cwiseQuotient(rod.stretch);
         rod.rest_curvature -= (rod.frame.transpose() * couple).cwiseQuotient(rod.bend);
         force[a] += force[b];
@@ -83,8 +82,8 @@ void let_stand(RodElements& elements) {
     }
 }
 
-// Long pieces of thin blades bend by more than one piece can show, and what stands for that, shear, would draw them
-// out: at least so much resistance that the weight beyond a piece shears it by a third.
+// Bounds the shear stiffness from below: long segments of thin blades bend more than one segment can represent, and the
+// shear that stands for it would stretch them. The weight beyond a segment shears it by a third at most.
 void bound_shear(RodElements& elements) {
     constexpr double LARGEST_SHEAR = 1.0 / 3;
     std::vector<double> weight;
@@ -98,7 +97,7 @@ void bound_shear(RodElements& elements) {
     }
 }
 
-// Half of each piece's rotary inertia to either end, from its section; at least that of a small ball.
+// Adds half of each segment's rotary inertia, by its section, to either end; nodes have at least that of a small ball.
 void set_inertia(const Model& model, RodElements& elements) {
     const size_t count = elements.mass.size();
     for (size_t i = 0; i < count; ++i) {
@@ -113,7 +112,7 @@ void set_inertia(const Model& model, RodElements& elements) {
     }
 }
 
-// From a model with chain, sections and organs; `take` gives each piece its resistance.
+// Makes elements from a model with chain, sections and organs; `take` sets each segment's stiffness.
 template <class Take>
 RodElements make_elements(const Model& model, Take&& take) {
     const std::vector<ChainNode>& nodes = model.chain.nodes;
@@ -145,7 +144,7 @@ RodElements make_elements(const Model& model, Take&& take) {
             for (size_t c = 0; c < 4; ++c) rod.slots[4 * r + c] = out.pattern.slot(ends[r], ends[c]);
     }
 
-    // A node without mass would move at no cost.
+    // No node is massless: nothing would resist its acceleration.
     double total = 0;
     for (double m : model.chain_mass) total += m;
     for (double m : model.chain_mass) out.mass.push_back(std::max(m, 1e-6 * total / double(nodes.size())));
@@ -179,10 +178,10 @@ std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics wh
     return elements;
 }
 
-// Lumped: each node its own. Consistent: the mean of that and of linear shape functions (Goudreau, Taylor 1972), 5/12
-// of a piece's mass to its ends and 1/12 to the pair, since their errors are opposite: ten pieces sway in their third
-// mode 2.5 % too slowly with the one, 3.7 % too fast with the other and 0.4 % so with their mean. What nodes carry
-// beyond their pieces stays with them.
+// Lumped: each node's own mass. Consistent: the mean of that and of linear shape functions (Goudreau, Taylor 1972),
+// 5/12 of a segment's mass at each end and 1/12 between them, since their errors are opposite: the third mode of ten
+// segments is 2.5 % too slow with the one, 3.7 % too fast with the other and 0.4 % too fast with their mean. Mass that
+// nodes carry beyond their segments' stays with them.
 Masses rod_masses(const Elements& body, frond_mass mass) {
     const RodElements& elements = as_rods(body);
     Masses masses;

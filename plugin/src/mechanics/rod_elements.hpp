@@ -1,5 +1,5 @@
-// Rods: the capsules of the chain as beams between nodes that move and turn. Node i of the chain is two nodes of the
-// mechanics: 2i, where it is, and 2i+1, its rotation from the modelled shape as a rotation vector.
+// Rods: the capsules of the chain as beams between nodes that move and rotate. Node i of the chain is two nodes of the
+// mechanics: 2i, its position, and 2i+1, its rotation from the modelled shape as a rotation vector.
 #pragma once
 
 #include "mechanics/mechanics.hpp"
@@ -9,21 +9,21 @@ namespace frond {
 // A beam from chain node a to b. Its frame has the columns axis, thin, wide: it bends most easily towards `thin`.
 struct RodSegment {
     int a, b;             // chain nodes, a < b
-    double length;        // at rest [m]
-    Mat3 frame;           // in the modelled shape
-    Vec3 stretch;         // resistance to stretch and to shear towards thin and wide [N]
-    Vec3 bend;            // to twist and to turning about thin and wide [N m^2]
-    Vec3 rest_strain;     // stretch and shear without load; (1, 0, 0) for a straight piece at its own length [-]
-    Vec3 rest_curvature;  // twist and curvature without load, over the modelled one [1/m]
-    double reach_thin, reach_wide;  // of the outermost fibres from the axis, towards thin and wide [m]
-    std::array<int, 16> slots;      // of the nodes 2a, 2a+1, 2b, 2b+1 in a BlockMatrix of the pattern
+    double length;        // length at rest [m]
+    Mat3 frame;           // axis, thin and wide in the modelled shape
+    Vec3 stretch;         // stiffness against stretch and against shear towards thin and wide [N]
+    Vec3 bend;            // stiffness against twist and against bending about thin and wide [N m^2]
+    Vec3 rest_strain;     // stretch and shear without load; (1, 0, 0) for a straight segment at its own length [-]
+    Vec3 rest_curvature;  // twist and curvature without load, relative to the modelled shape [1/m]
+    double reach_thin, reach_wide;  // distances of the outermost fibres from the axis, towards thin and wide [m]
+    std::array<int, 16> slots;      // blocks of the nodes 2a, 2a+1, 2b, 2b+1 in a BlockMatrix of the pattern
 };
 
-// What of a piece's strain is lasting: added to what it would be at rest without.
+// Plastic strain of a segment, and its rest strain and curvature without it.
 struct RodPlastic {
     Vec3 rest_strain, rest_curvature;
     double stretch;               // [-]
-    double bend_wide, bend_thin;  // curvature towards wide and thin, about the other one [1/m]
+    double bend_wide, bend_thin;  // curvature towards wide and towards thin, each about the other axis [1/m]
     double hardening;             // see elastic_share()
 };
 
@@ -31,33 +31,32 @@ struct RodElements : Elements {
     std::vector<RodSegment> segments;
     std::vector<double> mass;         // one a chain node [kg]
     std::vector<Mat3> inertia;        // rotary, one a chain node, in the modelled shape [kg m^2]
-    std::vector<RodPlastic> plastic;  // one a segment of a plant that has yielded, else none
+    std::vector<RodPlastic> plastic;  // one a segment; empty unless the plant has yielded
 };
 
 inline const RodElements& as_rods(const Elements& elements) {
     return static_cast<const RodElements&>(elements);
 }
 
-// Elastic strain and curvature of a piece, along and about axis, thin and wide [-], [1/m].
+// Elastic strain and curvature of a segment, along and about axis, thin and wide [-], [1/m].
 struct RodStrain {
     Vec3 strain, curvature;
 };
 std::vector<RodStrain> rod_strains(const RodElements& elements, const VecX& x);
-// Of a piece's outermost fibre [-].
+// Strain of a segment's outermost fibre, by axial load and by bending [-].
 struct FibreStrain {
     double pull, bend;
     double sum() const { return pull + bend; }
 };
 FibreStrain fibre_strain(const RodSegment& rod, const RodStrain& strain);
-// Sets `yields` of elements that are complete otherwise.
+// Sets `yields` of elements that are otherwise complete.
 void let_rods_yield(const Model& model, RodElements& elements);
 
-// From a model with chain, sections and organs: `rod` takes the sections as they are, `spring_chain` full cylinders of
-// the capsules' own radius, each organ's stiffer in bending as the model says. Where plants stand as modelled, so do
-// both.
+// Makes elements from a model with chain, sections and organs: `rod` has the true sections, `spring_chain` full
+// cylinders of the capsules' radius, with the model's bending factor of each organ. Both stand as modelled if plants
+// do.
 RodElements make_rod_elements(const Model& model, frond_mechanics which);
-// Of `spring_chain`, with other radii, one a chain node [m], and each organ stiffer in bending by a factor; none: by
-// nothing.
+// Makes `spring_chain` with other radii, one a chain node [m], and a factor on each organ's bending; empty: none.
 RodElements make_spring_elements(const Model& model, const std::vector<double>& radii,
                                  const std::vector<double>& stiffer);
 

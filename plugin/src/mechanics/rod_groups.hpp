@@ -1,5 +1,5 @@
-// Pieces of rods that are worked on at once, a lane each: several of one plant, or the same one of several plants.
-// Where numbers of plants lie side by side, the i-th of them all begins at [i * LANES].
+// Rod segments that are computed at once, one a lane: several of one plant, or the same one of several plants. In
+// batched data, number i of all plants begins at [i * LANES].
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace frond {
 
-// As many pieces of one plant as there are lanes; past the last one it is taken again.
+// As many segments of one plant as there are lanes; the last one is repeated past the end.
 template <class S>
 struct PiecesOfOne {
     static constexpr int MANY = LANES<S>;
@@ -20,7 +20,7 @@ struct PiecesOfOne {
         : first(first), count(int(std::min(size_t(MANY), rods.size() - first))) {
         for (int lane = 0; lane < MANY; ++lane) rod[lane] = &rods[first + size_t(std::min(lane, count - 1))];
     }
-    // Tells whether all begin where those that ended at that node do.
+    // Returns whether all segments begin at that node.
     FROND_INLINE static bool begins_at(int) { return false; }
     FROND_INLINE static int last_node() { return -1; }
     FROND_INLINE Lanes3<S> vector(Vec3 RodSegment::*of) const {
@@ -33,17 +33,17 @@ struct PiecesOfOne {
     FROND_INLINE S length() const {
         return gather<S>([&](int l) { return rod[l]->length; });
     }
-    // Of what each piece has one.
+    // Gathers a number of each segment.
     FROND_INLINE S own(const std::vector<double>& of) const {
         return gather<S>([&](int lane) { return of[first + size_t(std::min(lane, count - 1))]; });
     }
-    // Three of the six numbers of one of its ends.
+    // Gathers three of the six numbers of one end.
     FROND_INLINE Lanes3<S> point(const double* x, int RodSegment::*end, int from) const {
         const auto at = [&](int l, int c) { return x[6 * (rod[l]->*end) + from + c]; };
         return {gather<S>([&](int l) { return at(l, 0); }), gather<S>([&](int l) { return at(l, 1); }),
                 gather<S>([&](int l) { return at(l, 2); })};
     }
-    // Lane by lane, since pieces share their ends.
+    // Subtracts lane by lane, since segments share their ends.
     FROND_INLINE void take_off(double* f, const RodGradient<S>& g) const {
         for (int lane = 0; lane < count; ++lane) {
             double *a = f + 6 * rod[lane]->a, *b = f + 6 * rod[lane]->b;
@@ -56,7 +56,7 @@ struct PiecesOfOne {
             }
         }
     }
-    // Blocks of a BlockMatrix lie by columns.
+    // Adds blocks to a BlockMatrix, which stores them by columns.
     FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, BlockMatrix& K,
                                  std::vector<uint8_t>*) const {
         NumbersInLines& A = K.values;
@@ -77,7 +77,7 @@ struct PiecesOfOne {
     }
 };
 
-// One piece of as many plants as there are lanes.
+// One segment of as many plants as there are lanes.
 template <class S>
 struct PieceOfSeveral {
     static constexpr int MANY = 1;
@@ -101,7 +101,7 @@ struct PieceOfSeveral {
         from(6 * rod.a, g.place_a), from(6 * rod.a + 3, g.turn_a);
         from(6 * rod.b, g.place_b), from(6 * rod.b + 3, g.turn_b);
     }
-    // What is not filled yet holds anything.
+    // Adds to blocks that are filled, and overwrites the others.
     FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, BlockMatrix& A,
                                  std::vector<uint8_t>* filled) const {
         for (int r = 0, k = 0; r < 4; ++r)
@@ -143,7 +143,7 @@ FROND_INLINE RodPiece<S> piece_of(const Pieces& pieces) {
     return out;
 }
 
-// Pieces where they are.
+// Segments with the state of their ends.
 template <class S>
 struct Placed {
     RodPiece<S> piece;
@@ -160,12 +160,12 @@ struct Placed {
     }
 };
 
-// Pieces of several plants mostly go on from the last ones, whose end is known.
+// The second end of the last segments: in a batch the next ones mostly begin there and need not compute it again.
 template <class S>
 struct LastEnd {
-    int node = -1;  // none
+    int node = -1;  // chain node, -1: none
     RodEnd<S> end = {};
-    Lanes33<S> rate = {};  // rate_of() it, where that is asked for
+    Lanes33<S> rate = {};  // rate_of(end), if used
 
     template <class Pieces>
     FROND_INLINE Placed<S> place(const Pieces& pieces, const double* x) const {

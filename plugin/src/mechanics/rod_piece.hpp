@@ -1,15 +1,15 @@
-// In: a piece of rod and where its two ends are. Out: its strain, the gradient of its energy, its stiffness. Written
-// for numbers of any kind: lanes, or numbers that carry their derivatives.
+// In: a rod segment and the positions and rotations of its two ends. Out: its strain, the gradient of its energy, its
+// stiffness. Written for any number type: lanes, or numbers that carry their derivatives.
 //
-// Rotations go as quaternions (w, p): the one half way and tan(angle/4) of the turn between the ends, which its share
-// needs, then take no trigonometric function, and the turn itself one arc tangent of a small number.
+// Rotations are quaternions (w, p): the midway rotation, and tan(angle/4) of the rotation between the ends, then take
+// no trigonometric function, and that rotation's vector one arc tangent of a small number.
 #pragma once
 
 #include "core/lanes.hpp"
 
 namespace frond {
 
-// Of a rod at rest; see RodSegment.
+// A segment at rest; see RodSegment.
 template <class S>
 struct RodPiece {
     S length;
@@ -20,9 +20,9 @@ struct RodPiece {
 template <class S>
 struct RodEnd {
     Lanes3<S> place, turn;
-    S square;     // of the turn's angle
-    S w, half;    // cosine of half the angle, and its sine over the angle
-    Lanes3<S> p;  // the quaternion's vector
+    S square;     // square of the rotation angle
+    S w, half;    // cosine of half the angle, and sine of half the angle over the angle
+    Lanes3<S> p;  // vector part of the quaternion
 };
 
 template <class S>
@@ -47,7 +47,7 @@ FROND_INLINE Lanes33<S> rotation_of(const S& w, const Lanes3<S>& p) {
     return turning<S>(p, 2.0 * w, constant<S>(2));
 }
 
-// From the rate of the rotation vector to the angular velocity: I + (1 - cos a)/a^2 [v] + (a - sin a)/a^3 [v]^2.
+// Returns the map from the vector's rate to the angular velocity: I + (1 - cos a)/a^2 [v] + (a - sin a)/a^3 [v]^2.
 template <class S>
 FROND_INLINE Lanes33<S> rate_of(const RodEnd<S>& end) {
     constexpr double SERIES[] = {1.0 / 6,        -1.0 / 120,        1.0 / 5040,          -1.0 / 362880,
@@ -58,27 +58,28 @@ FROND_INLINE Lanes33<S> rate_of(const RodEnd<S>& end) {
     return turning<S>(end.turn, 2.0 * end.half * end.half, second);
 }
 
-// Rotary inertia of a node by the rate of its rotation vector. To that in its own frame: R(v)^T T(v) = T(-v).
+// Returns a node's rotary inertia by the rate of its rotation vector. The map to the angular velocity in the node's
+// frame is R(v)^T T(v) = T(-v).
 template <class S>
 FROND_INLINE Lanes33<S> inertia_by_rate(const Lanes3<S>& turn, const Lanes33<S>& inertia) {
     const Lanes33<S> rate = rate_of(rod_end(Lanes3<S>{}, -turn));
     return transposed_times(rate, inertia * rate);
 }
 
-// What follows from the places of the two ends.
+// Deformation of a segment by its two ends.
 template <class S>
 struct RodBent {
     Lanes3<S> chord;              // [m]
-    Lanes3<S> turn;               // of the second end against the first, as a rotation vector
+    Lanes3<S> turn;               // rotation vector of the second end relative to the first
     Lanes3<S> quarter;            // its axis times tan(angle/4)
     S cotangent;                  // angle/2 cot(angle/2)
-    Lanes33<S> middle;            // the frame, turned half way
-    Lanes3<S> strain, curvature;  // over the rest's
+    Lanes33<S> middle;            // the frame at the midway rotation
+    Lanes3<S> strain, curvature;  // relative to rest
 };
 
 template <class S>
 FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a, const RodEnd<S>& b) {
-    // atan(x)/x by powers of x^2, for x up to tan(pi/8): Chebyshev's best polynomial, within 2e-18.
+    // atan(x)/x by powers of x^2, for x up to tan(pi/8): the best uniform (Chebyshev) approximation, within 2e-18.
     constexpr double ARC[] = {0.99999999999999999874,   -0.33333333333333121163,  0.19999999999940891408,
                               -0.14285714279250239667,  0.11111110744919395758,   -0.090908968090564377814,
                               0.076920453307659118451,  -0.066629518120618369597, 0.058468782857870010961,
@@ -92,7 +93,7 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
     const S over = 1.0 / (1.0 + w);
     out.quarter = (sign * over) * u;
     const S square = dot(out.quarter, out.quarter), secant = sqrt(1.0 + square), eighth = 1.0 / (1.0 + secant);
-    const S angle_over = 8.0 * eighth * polynomial(ARC, S(square * eighth * eighth));  // over tan of its quarter
+    const S angle_over = 8.0 * eighth * polynomial(ARC, S(square * eighth * eighth));  // angle over tan(angle/4)
     out.turn = angle_over * out.quarter;
     out.cotangent = 0.5 * angle_over * over * w;
     const S shrink = 1.0 / secant;
@@ -105,10 +106,10 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
     return out;
 }
 
-// From the angular velocity to the rate of the rotation vector, I - [v]/2 + (1 - a/2 cot(a/2))/a^2 [v]^2, transposed.
+// Returns the coefficient of [v]^2 in the inverse of rate_of(), I - [v]/2 + (1 - a/2 cot(a/2))/a^2 [v]^2.
 template <class S>
 FROND_INLINE S inverse_rate_second(const RodBent<S>& bent) {
-    // |B_2k| / (2k)!, Bernoulli's numbers
+    // |B_2k| / (2k)!, B_2k the Bernoulli numbers
     constexpr double SERIES[] = {0.083333333333333333333,   0.0013888888888888888889,  3.3068783068783068783e-5,
                                  8.2671957671957671958e-7,  2.0876756987868098979e-8,  5.2841901386874931848e-10,
                                  1.3382536530684678833e-11, 3.3896802963225828668e-13, 8.5860620562778445641e-15,
@@ -118,7 +119,7 @@ FROND_INLINE S inverse_rate_second(const RodBent<S>& bent) {
     return select(small, polynomial(SERIES, square), S((1.0 - bent.cotangent) / select(small, constant<S>(1), square)));
 }
 
-// Gradient of the energy by place and rotation vector of either end.
+// Gradient of the energy by position and rotation vector of either end.
 template <class S>
 struct RodGradient {
     Lanes3<S> place_a, turn_a, place_b, turn_b;
@@ -133,14 +134,14 @@ FROND_INLINE RodGradient<S> gradient_of(const RodPiece<S>& rod, const Lanes33<S>
     const Lanes3<S> turned = cross(bent.turn, couple);
     const Lanes3<S> end_moment =
         rotation_a * (couple + constant<S>(0.5) * turned + inverse_rate_second(bent) * cross(bent.turn, turned));
-    // The rotation half way follows that of the second end by (1 - [R1 quarter]) / 2.
+    // The midway rotation follows the second end's by (1 - [R1 quarter]) / 2.
     const Lanes3<S> second =
         constant<S>(0.5) * (middle_moment + cross(rotation_a * bent.quarter, middle_moment)) + end_moment;
     return {-force, transposed_times(rate_a, middle_moment - second), force, transposed_times(rate_b, second)};
 }
 
-// How strain and curvature change with the ends: strain by middle^T (place b - place a) + strain_a turn_a + strain_b
-// turn_b, curvature by bend_b turn_b - bend_a turn_a; all over the length.
+// Derivatives of strain and curvature by the ends: strain changes by middle^T (place b - place a) + strain_a turn_a +
+// strain_b turn_b, curvature by bend_b turn_b - bend_a turn_a; all over the length.
 template <class S>
 struct RodChange {
     Lanes33<S> strain_a, strain_b, bend_a, bend_b;
@@ -153,7 +154,7 @@ FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& ro
     const Lanes3<S> share = rotation_a * bent.quarter;
     Lanes33<S> seen, by_share;
     for (int i = 0; i < 3; ++i) {
-        // Rows of middle^T [chord], and of that times the second end's share.
+        // Rows of middle^T [chord], and of its product with the second end's share of the midway rotation.
         const Lanes3<S> axis = i == 0   ? Lanes3<S>{bent.middle.r[0].x, bent.middle.r[1].x, bent.middle.r[2].x}
                                : i == 1 ? Lanes3<S>{bent.middle.r[0].y, bent.middle.r[1].y, bent.middle.r[2].y}
                                         : Lanes3<S>{bent.middle.r[0].z, bent.middle.r[1].z, bent.middle.r[2].z};
@@ -165,7 +166,7 @@ FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& ro
     return {(seen - by_share) * rate_a, by_share * rate_b, turning_by * rate_a, turning_by * rate_b};
 }
 
-// Lower blocks (r, c), c <= r, of the part of the stiffness that is never negative, at [r (r + 1) / 2 + c].
+// Computes the lower blocks (r, c), c <= r, at [r (r + 1) / 2 + c], of the stiffness's positive semi-definite part.
 template <class S>
 FROND_INLINE void positive_stiffness(const RodPiece<S>& rod, const RodBent<S>& bent, const RodChange<S>& change,
                                      Lanes33<S> (&K)[10]) {

@@ -1,6 +1,7 @@
-// In: rods and where their nodes are. Out: what of their curvature and stretch is lasting. A piece has one strain, that
-// of the outermost fibre: what its axis is stretched by and what its two curvatures add to that; the return to what the
-// section bears scales all of them alike, so that elastic energy never grows by it. Twist and shear stay elastic.
+// In: rods and their nodes' positions and rotations. Out: the plastic part of their curvature and stretch. A segment
+// yields by one strain, its outermost fibre's: the stretch of its axis plus the strain by its two curvatures. The
+// return to what the section bears scales all of them alike, so that elastic energy never grows by it. Twist and shear
+// stay elastic.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +18,7 @@ void apply(const RodPlastic& plastic, RodSegment& rod) {
     rod.rest_curvature = plastic.rest_curvature + Vec3(0, plastic.bend_wide, plastic.bend_thin);
 }
 
-constexpr size_t NUMBERS_OF_PIECE = 4;  // of a piece: stretch, the two curvatures, hardening
+constexpr size_t NUMBERS_OF_PIECE = 4;  // stretch, the two curvatures, hardening
 
 }  // namespace
 
@@ -80,12 +81,12 @@ std::vector<double> plastic_of_rods(const Elements& body) {
 void set_plastic_of_rods(Elements& body, const std::vector<double>& values) {
     RodElements& elements = static_cast<RodElements&>(body);
     if (values.size() != NUMBERS_OF_PIECE * elements.segments.size())
-        fail(FROND_RESULT_BAD_ARGUMENT, "%zu numbers of what is lasting were given, but a plant of these rods has %zu",
+        fail(FROND_RESULT_BAD_ARGUMENT, "%zu numbers of a plastic state were given, but a plant of these rods has %zu",
              values.size(), NUMBERS_OF_PIECE * elements.segments.size());
     for (size_t s = 0; s < elements.segments.size(); ++s) {
         const double* v = values.data() + NUMBERS_OF_PIECE * s;
         if (!(v[3] >= 0))
-            fail(FROND_RESULT_BAD_ARGUMENT, "what is lasting has a hardening of %g; it is never below 0", v[3]);
+            fail(FROND_RESULT_BAD_ARGUMENT, "the plastic state has a hardening of %g; it is never below 0", v[3]);
     }
     for (size_t s = 0; s < elements.segments.size(); ++s) {
         const double* v = values.data() + NUMBERS_OF_PIECE * s;

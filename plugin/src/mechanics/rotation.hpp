@@ -11,7 +11,7 @@ using Vec3of = Eigen::Matrix<S, 3, 1>;
 template <class S>
 using Mat3of = Eigen::Matrix<S, 3, 3>;
 
-// v x, as a matrix.
+// Returns the matrix of the cross product with v.
 template <class S>
 Mat3of<S> cross_matrix(const Vec3of<S>& v) {
     Mat3of<S> m;
@@ -19,7 +19,7 @@ Mat3of<S> cross_matrix(const Vec3of<S>& v) {
     return m;
 }
 
-// Coefficients of I + a [v] + b [v]^2 for a function of the rotation vector v, and the angle's square.
+// Returns I + a [v] + b [v]^2, [v] being cross_matrix(v).
 template <class S>
 Mat3of<S> rotation_series(const Vec3of<S>& v, const S& a, const S& b) {
     const Mat3of<S> K = cross_matrix(v);
@@ -29,7 +29,7 @@ Mat3of<S> rotation_series(const Vec3of<S>& v, const S& a, const S& b) {
     return m;
 }
 
-// The rotation of a vector: Rodrigues' formula.
+// Returns the rotation matrix of a rotation vector: Rodrigues' formula.
 template <class S>
 Mat3of<S> rotation_of(const Vec3of<S>& v) {
     using std::cos;
@@ -41,7 +41,7 @@ Mat3of<S> rotation_of(const Vec3of<S>& v) {
     return rotation_series<S>(v, sin(angle) / angle, 2. * half * half / square);
 }
 
-// Angular velocity from the rate of the vector: w = T(v) dv/dt, in the frame of the room.
+// Returns T(v), which gives the angular velocity in the spatial frame by the rate of the vector: w = T(v) dv/dt.
 template <class S>
 Mat3of<S> rate_matrix(const Vec3of<S>& v) {
     using std::sin;
@@ -52,7 +52,7 @@ Mat3of<S> rate_matrix(const Vec3of<S>& v) {
     return rotation_series<S>(v, 2. * half * half / square, (angle - sin(angle)) / (square * angle));
 }
 
-// The rate of the vector from the angular velocity: the inverse of rate_matrix; no bound where the angle nears 2 pi.
+// Returns the inverse of rate_matrix(), from angular velocity to the vector's rate; unbounded as the angle nears 2 pi.
 template <class S>
 Mat3of<S> inverse_rate_matrix(const Vec3of<S>& v) {
     using std::sqrt;
@@ -63,7 +63,7 @@ Mat3of<S> inverse_rate_matrix(const Vec3of<S>& v) {
     return rotation_series<S>(v, S(-0.5), (S(1) - half / tan(half)) / square);
 }
 
-// The vector of a rotation, of an angle up to pi: through the quaternion, well conditioned everywhere.
+// Returns the vector of a rotation matrix, of an angle up to pi: through the quaternion, well conditioned everywhere.
 template <class S>
 Vec3of<S> rotation_vector(const Mat3of<S>& R) {
     using std::atan2;

@@ -1,22 +1,22 @@
-// Functions that make the rows in mechanics.cpp.
+// Functions that the rows in mechanics.cpp are made of.
 #pragma once
 
 #include "mechanics/mechanics.hpp"
 
 namespace frond {
 
-// The rows of tets, for elements of an order.
+// Make the rows of tets, for elements of an order.
 Mechanics tet_linear(int order);
 Mechanics tet_corotational(int order);
 Mechanics tet_neohookean(int order);
 
-// Parts that they share.
+// Functions that these rows share.
 template <int ORDER>
 std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics which);
 Masses tet_masses(const Elements&, frond_mass mass);
 void tet_section_strains(const Elements&, const VecX& x, std::vector<double>& out);
 std::unique_ptr<Elements> without_tets(const Elements&, const std::vector<uint8_t>& gone);
-// Beyond which tets are not calm: the change of the deformation gradient; as a turn, about 20 degrees [-].
+// Trust bound of tets in is_calm(): change of the deformation gradient [-]; as a rotation, about 20 degrees.
 constexpr double LARGEST_CHANGE = 0.5;
 template <class Element>
 bool tets_are_calm(const Elements&, const VecX& from, const VecX& to);
@@ -40,7 +40,7 @@ void set_plastic_of_rods(Elements& own, const std::vector<double>& values);
 void rod_section_strains(const Elements&, const VecX& x, std::vector<double>& out);
 std::unique_ptr<Elements> without_rods(const Elements&, const std::vector<uint8_t>& gone);
 bool rods_are_calm(const Elements&, const VecX& from, const VecX& to);
-// Beyond which rods are not calm: the turn of a node [rad], and the change of a piece's ends over its length [-].
+// Trust bounds of rods in is_calm(): rotation of a node [rad], and change of a segment's chord over its length [-].
 constexpr double LARGEST_TURN = 0.35, LARGEST_STRETCH = 0.5;
 const BatchMechanics& rod_batch();
 

@@ -1,4 +1,4 @@
-// In: elements and where their nodes are. Out: which of the chain's capsules breaks. A section breaks where its
+// In: elements and their nodes' positions. Out: the capsule of the chain that breaks. A section breaks when its
 // outermost fibre is strained by more than the strength of the organ's material over its modulus.
 #include "mechanics/sections.hpp"
 

@@ -1,4 +1,4 @@
-// In: tets of several plants, one a lane, and where their nodes are. Out: what TetPass finds for each of them.
+// In: tets of several plants, one plant a lane, and their nodes' positions. Out: what TetPass computes for each.
 #pragma once
 
 #include "mechanics/batch.hpp"
@@ -7,7 +7,7 @@
 
 namespace frond {
 
-// Blocks of some tets that wait to be added up.
+// Stiffness blocks of a few tets, before they are added to the matrix.
 template <class S>
 struct WaitingBlocks {
     static constexpr size_t MOST = 4, BLOCKS = 10;
@@ -36,10 +36,10 @@ struct TetBatch {
     const Ahead& ahead;
     double* f;
     BlockMatrix& A;
-    std::vector<uint8_t>& filled;  // which of its blocks are
-    int* inverted;                 // one a lane: how many tets are
+    std::vector<uint8_t>& filled;  // blocks of A that are filled already
+    int* inverted;                 // number of inverted tets, one a lane
 
-    // As four tets of one plant add up their blocks.
+    // Adds blocks in the order in which four tets of one plant add theirs.
     template <class S>
     FROND_INLINE void add_up(const WaitingBlocks<S>& waiting, size_t first, size_t count) const {
         for (size_t slot = 0; slot < WaitingBlocks<S>::BLOCKS; ++slot)

@@ -1,10 +1,10 @@
-// In: tets and where their nodes are. Out: the strain of the outermost fibre of the stem that runs through them, and
-// tets without those of a part that came off.
+// In: tets and their nodes' positions. Out: the strain of the outermost fibre of the stem that runs through them, and
+// tets without those of a part that broke off.
 //
-// Along a capsule cage and stem bend with one energy: where the stem's outermost fibre at the distance c of its axis is
-// strained by e, it holds E I (e / c)^2 L / 2, and the tets half the sum of their E V times the squares of their
-// strains. A capsule that is pulled holds up to four times that at the same strain of its fibre: it breaks at half its
-// strength or more. Green's strain needs no rotation and is the same to the first order.
+// Along a capsule cage and stem have the same bending energy: where the stem's outermost fibre, at the distance c from
+// its axis, is strained by e, the stem holds E I (e / c)^2 L / 2, and the tets half the sum of their E V times the
+// squares of their strains. A capsule under tension holds up to four times that at the same strain of its fibre: it
+// breaks at half its strength or more. Green's strain needs no rotation and is the same to first order.
 #include <cmath>
 
 #include "mechanics/rows.hpp"
@@ -15,7 +15,7 @@ namespace frond {
 
 namespace {
 
-// Square of a tet's strain times its modulus and volume, over all its points [J].
+// Returns the square of a tet's strain times its modulus and volume, summed over its integration points [J].
 template <class Element>
 double weighted_square(const TetElements& elements, size_t e, const VecX& x) {
     const auto places = Element::places(elements, e, x);

@@ -1,8 +1,9 @@
-// In: the gradient of deformation at a point. Out: energy, stress and stiffness of linear elasticity in that point's
-// own rotated frame, mu |F - R|^2 + lambda/2 tr(R^T F - I)^2.
+// In: the deformation gradient at a point. Out: energy, stress and stiffness of linear elasticity in that point's own
+// rotated frame, mu |F - R|^2 + lambda/2 tr(R^T F - I)^2.
 //
-// After Müller and Gross 2004 ("Interactive virtual materials") for the frame; the exact stiffness holds the derivative
-// of the rotation too, as in Chao, Pinkall, Sanan, Schröder 2010 ("A simple geometric model for elastic deformations").
+// The frame is after Müller and Gross 2004 ("Interactive virtual materials"); the exact stiffness includes the
+// derivative of the rotation, as in Chao, Pinkall, Sanan, Schröder 2010 ("A simple geometric model for elastic
+// deformations").
 #include "mechanics/polar_lanes.hpp"
 #include "mechanics/tet_lanes.hpp"
 #include "mechanics/warped_stiffness.hpp"
@@ -32,7 +33,7 @@ struct Corotational {
         return tet.mu * dot(change, change) + 0.5 * tet.lambda * stretch * stretch;
     }
 
-    // P = 2 mu (F - R) + lambda tr(S - I) R; the rotation's own derivative adds nothing, since S is symmetric.
+    // P = 2 mu (F - R) + lambda tr(S - I) R; the derivative of the rotation adds nothing, since S is symmetric.
     template <class S>
     FROND_INLINE static Lanes33<S> stress(const TetShareLanes<S>& tet, const Strain<S>& s) {
         const S twice = 2.0 * tet.mu;
@@ -45,9 +46,9 @@ struct Corotational {
         return warped_stress(tet, s.polar.rotation, dF);
     }
 
-    // With g = R b, a motion dx of the nodes turns R by w = T sum(g x dx), T = (tr(S) I - F R^T)^-1, which gives
-    //   K_ab = V (2 mu b_a.b_b I + lambda g_a g_b^T + (lambda tr(S - I) - 2 mu) [g_a]^T T [g_b]), [g] the cross
-    //   product.
+    // With g = R b and [g] its cross product, displacements dx of the nodes rotate R by w = T sum(g x dx),
+    // T = (tr(S) I - F R^T)^-1, which gives
+    //   K_ab = V (2 mu b_a.b_b I + lambda g_a g_b^T + (lambda tr(S - I) - 2 mu) [g_a]^T T [g_b]).
     template <class S>
     FROND_INLINE static TetStiffnessLanes<S> exact_stiffness(const TetShareLanes<S>& tet, const Strain<S>& s,
                                                              const S& scale) {
@@ -81,7 +82,7 @@ struct Corotational {
     FROND_INLINE static TetStiffnessLanes<S> stiffness(const TetShareLanes<S>& tet, const Strain<S>& s, Tangent tangent,
                                                        const S& scale) {
         const S size = s.polar.trace;
-        // Where the rotation is about to jump its derivative has no bound; the warped stiffness is finite everywhere.
+        // Where the rotation is about to jump, its derivative is unbounded; the warped stiffness is finite everywhere.
         const auto jumps = !(s.polar.gaps > 1e-4 * size * size * size);
         if (tangent == Tangent::positive) return warped_stiffness(tet, s.polar.rotation, scale);
         const TetStiffnessLanes<S> exact = exact_stiffness(tet, s, scale);

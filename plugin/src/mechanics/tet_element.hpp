@@ -1,21 +1,22 @@
-// The two elements: tets with straight edges whose displacements are linear (four nodes) or quadratic (ten). Gradient
-// of deformation at each point of integration, force and stiffness to their nodes.
+// The two elements: tets whose displacements are linear (four nodes) or quadratic (ten). Deformation gradient at each
+// integration point, and force and stiffness distributed to the nodes.
 //
 // At one point a quadratic tet is a linear one whose corners y are sums of its ten nodes,
-//   y_c = (4 L_c - 1) x_c + 4 sum over d of L_d x_cd,  L the point's barycentric weights, x_cd the middle of edge cd:
-// shape functions L (2 L - 1) and 4 L L' (Zienkiewicz, Taylor 2000, "The finite element method") have these gradients.
-// So materials see linear tets only. Four points at L = (a, b, b, b), a = (5 + 3 sqrt 5)/20, integrate squares of their
-// gradients exactly (Hammer, Marlowe, Stroud 1956).
+//   y_c = (4 L_c - 1) x_c + 4 sum over d of L_d x_cd,
+// L being the point's barycentric coordinates and x_cd the middle of edge cd: these are the gradients of the shape
+// functions L (2 L - 1) and 4 L L' (Zienkiewicz, Taylor 2000, "The finite element method"). So materials see linear
+// tets only. Four points at L = (a, b, b, b), a = (5 + 3 sqrt 5)/20, integrate squares of their gradients exactly
+// (Hammer, Marlowe, Stroud 1956).
 #pragma once
 
 #include "mechanics/mechanics.hpp"
 
 namespace frond {
 
-// Another shape at rest, node_count*3 [m].
+// Sets another rest shape, node_count*3 [m].
 void set_rest_positions(TetElements& elements, const VecX& rest_positions);
 
-// The nodes of a tet's element, ascending: `count` of them.
+// Nodes of a tet's element, ascending.
 struct ElementNodes {
     const int* node;
     size_t count;
@@ -24,23 +25,23 @@ inline ElementNodes element_nodes(const TetElements& elements, size_t e) {
     if (elements.nodes.order == 1) return {elements.ordered[e].data(), 4};
     return {elements.nodes.of_tet[e].data(), 10};
 }
-// The share of a tet's mass that one of its nodes has when mass is lumped.
+// Returns a node's share of its tet's lumped mass.
 double lumped_share(int order, size_t node);
-// Derivative of a tet's volume at rest by the places of its nodes [m^2].
+// Computes the derivative of a tet's rest volume by the rest positions of its nodes [m^2].
 void volume_slopes(const TetElements& elements, size_t e, std::vector<Vec3>& out);
 
-// The data that every row of the tets gets.
+// Casts elements to those of tets.
 inline const TetElements& as_tets(const Elements& elements) {
     return static_cast<const TetElements&>(elements);
 }
 
-// The data that a material gets: the share of a tet that one point of integration stands for.
+// Input of a material: the share of a tet that one integration point stands for.
 struct TetShare {
     const Mat3& rest_inverse;
     double volume, lambda, mu;
 };
 
-// Young's modulus out of Lame's constants [Pa].
+// Returns Young's modulus by Lame's constants [Pa].
 inline double young_of(double lambda, double mu) {
     return mu * (3 * lambda + 2 * mu) / (lambda + mu);
 }
@@ -50,7 +51,7 @@ inline const Mat3& rest_inverse(const TetElements& elements, size_t e, int q, in
     return elements.plastic.empty() ? elements.rest_inverse[at] : elements.plastic[at].rest_inverse;
 }
 
-// Stiffness between corners 1, 2, 3 of a linear tet; corner 0 follows, since moving all alike gives no force.
+// Stiffness between corners 1, 2, 3 of a linear tet; corner 0 follows, since a translation gives no force.
 struct TetStiffness {
     Mat3 k11, k21, k31, k22, k32, k33;
 };
@@ -71,12 +72,12 @@ struct LinearTet {
         return edges;
     }
 
-    // Of the tet as a point sees it, from its first corner.
+    // Returns the edges from the first corner of the linear tet at a point.
     static Mat3 edges(const Places& places, int) { return places; }
-    // F = sum over nodes of x b^T, with b the rest gradients of the shape functions.
+    // Returns F = sum over nodes of x b^T, with b the rest gradients of the shape functions.
     static Mat3 gradient(const TetShare& share, const Places& edges, int) { return edges * share.rest_inverse; }
-    // Adds what a point has between the corners that it sees, 16 blocks by rows, to what nodes have with each other;
-    // and what it has at corners to what nodes have.
+    // Adds a point's blocks between the corners of its linear tet, 16 by rows, to the blocks between nodes; the other
+    // adds a point's values at corners to the values at nodes.
     static void add_to_nodes(int, const std::array<Mat3, 16>& corners, std::vector<Mat3>& out) {
         for (size_t k = 0; k < 16; ++k) out[k] += corners[k];
     }
@@ -88,14 +89,14 @@ struct LinearTet {
 struct QuadraticTetElement {
     static constexpr int POINTS = 4, NODES = 10;
     static constexpr double NEAR = 0.58541019662496845446, FAR = 0.13819660112501051518;  // a and b
-    // What a node at a corner, or next to one, counts in that corner's y at a point far from it and from the node, and
-    // how much more at the point beside the node.
+    // Weights in a corner's y: of its own node, of its edges' nodes, and the excess of the node between it and corner q
+    // at point q.
     static constexpr double CORNER = 4 * FAR - 1, EDGE = 4 * FAR, MORE = 4 * (NEAR - FAR);
 
-    // All relative to the first corner.
+    // Positions relative to the first corner.
     struct Places {
         std::array<Vec3, 10> node;
-        std::array<Vec3, 4> corner;  // y but for what is more at a point
+        std::array<Vec3, 4> corner;  // y without the excess
     };
 
     static TetShare share(const TetElements& elements, size_t e, int q) {
@@ -134,7 +135,7 @@ struct QuadraticTetElement {
     static void add_to_nodes(int q, const std::array<Vec3, 4>& corners, std::vector<Vec3>& out);
 };
 
-// Gradients of a field, given at the nodes, at each of a tet's points of integration: `take(share, gradient)`.
+// Calls `take(share, gradient)` with the gradient of a nodal field at each integration point of a tet.
 template <class Take>
 void take_gradients(const TetElements& elements, size_t e, const VecX& x, Take&& take) {
     const auto with = [&](auto element) {

@@ -1,4 +1,4 @@
-// In: a model's cage and the materials of its tets. Out: what the mechanics of tets need at rest, and their masses.
+// In: a model's cage and the materials of its tets. Out: rest data and masses of the mechanics of tets.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace frond {
 
 namespace {
 
-// The mechanics trust what they are given, so everything is checked here.
+// Checks everything here, since the mechanics trust their input.
 void check_model(const Model& model, int order) {
     const size_t node_count = model.cage.nodes.size(), tet_count = model.cage.tets.size();
     const std::vector<double>& young = model.young_of(order);
@@ -32,7 +32,7 @@ void check_model(const Model& model, int order) {
     }
 }
 
-// Blocks of nodes a >= b, which ascend.
+// Returns the slots of the blocks of nodes a >= b, which ascend.
 template <size_t PAIRS, size_t N>
 std::array<int, PAIRS> slots_of(const BlockPattern& pattern, const std::array<int, N>& nodes) {
     static_assert(PAIRS == N * (N + 1) / 2);
@@ -104,7 +104,7 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions, in
     out.nodes = make_tet_nodes(int(model.cage.nodes.size()), out.tets, order);
     out.node_count = out.nodes.count();
     out.modelled = node_places(out.nodes, [&](int i) { return model.cage.nodes[size_t(i)]; });
-    // Ordering the nodes may mirror the tet; the deformation gradient does not see that.
+    // Ordering the nodes may mirror the tet, which does not change the deformation gradient.
     for (Tet& tet : out.ordered) std::sort(tet.begin(), tet.end());
     set_rest_positions(out, rest_positions ? *rest_positions : out.modelled);
 
@@ -123,7 +123,7 @@ TetElements make_tet_elements(const Model& model, const VecX* rest_positions, in
     return out;
 }
 
-// E I length / reach^2 of each capsule's section against bending to its thin side, as stiff as the organ was made.
+// Returns E I length / reach^2 of each capsule's section for bending to its thin side, with its organ's factor.
 static std::vector<double> bending_resistance(const Model& model) {
     std::vector<double> resistance(model.chain.nodes.size(), 0);
     for (size_t i = 0; i < resistance.size(); ++i) {
@@ -156,22 +156,21 @@ std::unique_ptr<const Elements> make_tets(const Model& model, frond_mechanics wh
 template std::unique_ptr<const Elements> make_tets<1>(const Model&, frond_mechanics);
 template std::unique_ptr<const Elements> make_tets<2>(const Model&, frond_mechanics);
 
-// Corners and the middles of edges of quadratic tets: see quadratic_share().
+// For corners and middles of edges of quadratic tets see quadratic_share().
 double lumped_share(int order, size_t node) {
     if (order == 1) return 0.25;
     return node < 4 ? 1.0 / 36 : 4.0 / 27;
 }
 
-// Masses of linear tets, lumped: a quarter to each node. Consistent: the shape functions' own products, (1 + delta)
-// / 20.
+// Mass matrix of linear tets. Lumped: a quarter to each node. Consistent: shape functions' products, (1 + delta) / 20.
 static double linear_share(size_t a, size_t b, bool lumped) {
     if (lumped) return a == b ? lumped_share(1, a) : 0.0;
     return a == b ? 1.0 / 10 : 1.0 / 20;
 }
 
-// Masses of quadratic tets, consistent: products of the shape functions, which depend on what the nodes have in common.
-// Lumped: the diagonal of that, scaled to the tet's mass (Hinton, Rock, Zienkiewicz 1976, "A note on mass lumping and
-// related processes"), since sums of rows are negative at corners.
+// Mass matrix of quadratic tets, consistent: integrals of the shape functions' products, which depend on the corners
+// that the nodes have in common. Lumped: its diagonal, scaled to the tet's mass (Hinton, Rock, Zienkiewicz 1976, "A
+// note on mass lumping and related processes"), since row sums are negative at corners.
 static double quadratic_share(size_t a, size_t b, bool lumped) {
     if (lumped) return a == b ? lumped_share(2, a) : 0.0;
     const auto touches = [](size_t node, size_t corner) {

@@ -1,9 +1,9 @@
-// Rows of the table of mechanics from a material that is written for lanes. Beside what tet_row.hpp asks for, such a
-// material ("law") says
-//   GOES_AHEAD                                       whether it has what follows, for Mechanics::add_ahead
+// Makes rows of the table of mechanics from a material that is written for lanes. Besides the functions of tet_row.hpp
+// such a material ("law") has
+//   GOES_AHEAD                                       true if it has the next one, for Mechanics::add_ahead
 //   Lanes33<S> stress_of_change(share, strain, dF)   the positive stiffness times a change of F [Pa]
-// Four points of integration are taken at once: of four tets with straight edges, or of one quadratic tet. Each comes
-// out as if it were alone, and they are added up in the order of tets.
+// Four integration points are taken at once: of four T4 tets or of one T10 tet. Results are the same as for each alone,
+// and are added up in the order of tets.
 #pragma once
 
 #include "mechanics/four_points.hpp"
@@ -13,21 +13,21 @@
 
 namespace frond {
 
-// The sums that one pass over the tets makes; those that are null are left out.
+// Sums of one pass over the tets; those that are null are skipped.
 template <class Law, class Group>
 struct TetPass {
     const TetElements& elements;
     const VecX& x;
-    int& inverted;  // how many
+    int& inverted;  // number of inverted tets
     VecX* f = nullptr;
     BlockMatrix* K = nullptr;
     Tangent tangent = Tangent::positive;
-    double scale = 1;                              // of the stiffness
+    double scale = 1;                              // factor of the stiffness
     const std::vector<double>* damping = nullptr;  // one an element [s]
-    BlockMatrix* D = nullptr;                      // takes damping times the stiffness
-    const Ahead* ahead = nullptr;                  // K is then that of Mechanics::add_ahead
+    BlockMatrix* D = nullptr;                      // gets damping times the stiffness
+    const Ahead* ahead = nullptr;                  // K is then A of Mechanics::add_ahead
 
-    // Four lanes also where the processor has two.
+    // Uses four lanes even if the processor has two.
     template <class>
     FROND_INLINE void run() const {
         using S = FourLanes;
@@ -140,7 +140,7 @@ Mechanics tet_row(const char* name, int order, bool needs_search) {
                rest_derivative<Points, QuadraticTetElement>);
 }
 
-// Of which plants are stepped as batches too.
+// Makes a row whose plants are stepped in batches too.
 template <class Law>
 Mechanics batched_tet_row(const char* name, int order) {
     Mechanics row = tet_row<Law>(name, order, false);

@@ -1,5 +1,5 @@
-// In: the gradient of deformation at a point. Out: energy, stress and stiffness of linear elasticity with displacements
-// u = x - x0, equation (1) of the paper: right for small deflections, and a large turn makes the body swell.
+// In: the deformation gradient at a point. Out: energy, stress and stiffness of linear elasticity with displacements
+// u = x - x0, equation (1) of the paper: valid for small deflections; a large rotation makes the body swell.
 #include "mechanics/tet_lanes.hpp"
 #include "mechanics/warped_stiffness.hpp"
 
@@ -48,7 +48,7 @@ struct Linear {
         return warped_stress(tet, identity<S>(), dF);
     }
 
-    // Constant, so that the two tangents are one.
+    // The stiffness is constant, so both tangents are the same.
     template <class S>
     FROND_INLINE static TetStiffnessLanes<S> stiffness(const TetShareLanes<S>& tet, const Strain<S>&, Tangent,
                                                        const S& scale) {

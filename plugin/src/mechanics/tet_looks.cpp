@@ -1,4 +1,4 @@
-// In: tets with straight edges and where their nodes are. Out: whether any of them has to be looked at closely.
+// In: T4 tets and their nodes' positions. Out: whether any of them needs an exact check.
 #include "mechanics/tet_looks.hpp"
 
 #include "mechanics/batch.hpp"
@@ -26,7 +26,7 @@ template <class Of>
 struct LookForWild {
     const TetElements& elements;
     const double *from, *to;
-    double part;  // of the way [-]
+    double part;  // share of the displacement [-]
     unsigned& found;
     template <class Width>
     FROND_INLINE void run() const {
@@ -43,7 +43,7 @@ struct LookForWild {
     }
 };
 
-// By Green's strain.
+// Checks by Green's strain.
 template <class Of>
 struct LookForStrained {
     const TetElements& elements;

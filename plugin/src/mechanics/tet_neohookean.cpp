@@ -1,11 +1,11 @@
-// In: the gradient of deformation at a point. Out: energy, stress and stiffness of the stable neo-Hookean solid of
-// Smith, de Goes, Kim 2018 ("Stable neo-Hookean flesh simulation"), with I = |F|^2 and J = det F
+// In: the deformation gradient at a point. Out: energy, stress and stiffness of the stable neo-Hookean solid of Smith,
+// de Goes, Kim 2018 ("Stable neo-Hookean flesh simulation"), with I = |F|^2 and J = det F
 //   W = m/2 (I - 3) - m/2 log((I + 1)/4) + l/2 (J - a)^2 - l/2 (1 - a)^2,  a = 1 + 3 m / (4 l).
-// It is finite and has a force that leads back wherever a tet is turned inside out. m = 4/3 mu and l = lambda + 5/6 mu
-// make it agree with Lame's constants at small strain.
+// It is finite and has a restoring force wherever a tet is inverted. m = 4/3 mu and l = lambda + 5/6 mu make it agree
+// with Lame's constants at small strain.
 //
-// The positive stiffness takes the negative parts out of the second derivative of W by F, in closed form in the frame
-// of the stretches: three pairs of shear and turn, and a 3x3 matrix for the stretches themselves.
+// The positive stiffness removes the negative eigenvalues from the second derivative of W by F, in closed form in the
+// principal frame: three pairs of shear and rotation, and a 3x3 matrix for the stretches themselves.
 #include <cmath>
 #include <utility>
 
@@ -23,7 +23,7 @@ struct Frame {
     Lanes3<S> stretch;
 };
 
-// U and V of what is nearly flat: the squares of F have lost the digits of the smallest stretch.
+// Returns U and V of a nearly flat F, for which F^T F has lost the digits of the smallest stretch.
 std::pair<Mat3, Mat3> turns_of_flat(const Mat3& F) {
     const SingularParts svd = singular_parts(F);
     Mat3 U = svd.U, V = svd.V;
@@ -32,8 +32,8 @@ std::pair<Mat3, Mat3> turns_of_flat(const Mat3& F) {
     return {U, V};
 }
 
-// A turn in the plane of p and q that leaves nothing at c_pq of a symmetric matrix, whose third row is r (Jacobi 1846).
-// False where all lanes had arrived, which then stay.
+// Rotates in the plane of p and q so that c_pq of a symmetric matrix, whose third row is r, becomes zero (Jacobi 1846).
+// Returns false if all lanes had converged; converged lanes stay unchanged.
 template <class S>
 FROND_INLINE bool turn_plane(S& pp, S& qq, S& pq, S& pr, S& qr, Lanes3<S>& p, Lanes3<S>& q, const S& least) {
     const auto is_left = (pq > least) | (pq < -least);
@@ -52,7 +52,7 @@ FROND_INLINE bool turn_plane(S& pp, S& qq, S& pq, S& pr, S& qr, Lanes3<S>& p, La
 
 template <class S>
 FROND_INLINE Frame<S> principal_frame(const Lanes33<S>& F) {
-    constexpr double ROUNDING = 1e-17, FLAT = 1e-6;  // of the squares
+    constexpr double ROUNDING = 1e-17, FLAT = 1e-6;  // in terms of squared stretches
     constexpr int MOST_SWEEPS = 12;
     const Lanes33<S> C = transposed_times(F, F);
     const S size = trace(C), least = ROUNDING * size;
@@ -69,7 +69,7 @@ FROND_INLINE Frame<S> principal_frame(const Lanes33<S>& F) {
         const Lanes3<S> drawn = F * out.V.r[i];
         out.U.r[i] = (1.0 / sqrt(dot(drawn, drawn))) * drawn;
     }
-    // Where a tet is inside out the smallest stretch is the negative one.
+    // If a tet is inverted, the smallest stretch is the negative one.
     const S turned = select(dot(out.U.r[0], cross(out.U.r[1], out.U.r[2])) < 0.0, constant<S>(-1), constant<S>(1));
     const S one = constant<S>(1), c_least = select(c00 < c11, c00, c11), smallest = select(c22 < c_least, c22, c_least);
     const S sign0 = select(c00 == smallest, turned, one), sign1 = select(c00 == smallest, one, turned);
@@ -77,7 +77,7 @@ FROND_INLINE Frame<S> principal_frame(const Lanes33<S>& F) {
     out.U.r[1] = select(c11 == smallest, sign1, one) * out.U.r[1];
     out.U.r[2] = select((c00 == smallest) | (c11 == smallest), one, turned) * out.U.r[2];
     const S c_most = select(c00 > c11, c00, c11), largest = select(c22 > c_most, c22, c_most);
-    // Numbers that are not finite stay so, and no solver gets them.
+    // Numbers that are not finite stay so; the solver never gets them.
     const auto is_flat = !(smallest > FLAT * largest);
     if (any(is_flat))
         for (int lane = 0; lane < LANES<S>; ++lane) {
@@ -126,7 +126,7 @@ struct Neohookean {
         return {F, cof, dot(F, F), dot(F.r[0], cof.r[0])};
     }
 
-    // The terms that stress and stiffness are made of.
+    // Terms of stress and stiffness.
     template <class S>
     struct Slopes {
         S m, l;     // the material's own constants [Pa]
@@ -140,7 +140,7 @@ struct Neohookean {
         return {m, l, m * s.I / more, 2.0 * m / (more * more), l * (s.J - 1.0) - 0.75 * m};
     }
 
-    // The constants of rest are taken out term by term, so that little is lost to rounding near rest.
+    // The values at rest are subtracted term by term, so that little is lost to rounding near rest.
     static double energy(const TetShareLanes<double>& tet, const Strain<double>& s) {
         const Slopes<double> of = slopes(tet, s);
         const double stretch = s.I - 3, swell = s.J - 1;
@@ -161,7 +161,7 @@ struct Neohookean {
         const Slopes<S> of = slopes(tet, s);
         const Lanes33<S>& B = tet.rest_inverse;
         const S V = scale * tet.volume;
-        const Lanes33<S> FB = B * transposed(s.F), CB = B * transposed(s.cofactor);  // a row a corner
+        const Lanes33<S> FB = B * transposed(s.F), CB = B * transposed(s.cofactor);  // one row a corner
         const auto block = [&](int a, int b) __attribute__((always_inline)) {
             Lanes33<S> k = outer(FB.r[a], S(V * of.bend) * FB.r[b]) + outer(CB.r[a], S(V * of.l) * CB.r[b]);
             add_to_diagonal(S(V * of.pull * dot(B.r[a], B.r[b])), k);
@@ -175,8 +175,8 @@ struct Neohookean {
         return {block(0, 0), block(1, 0), block(2, 0), block(1, 1), block(2, 1), block(2, 2)};
     }
 
-    // Tension resists turning. A solve far from rest needs that; but damping is made of this stiffness too, and must
-    // let a body turn as a whole. So tension counts only beyond this share of the modulus.
+    // Tension resists rotation. A solve far from rest needs that; but damping is made of this stiffness too, and must
+    // let a body rotate as a whole. So tension counts only beyond this share of the modulus.
     static constexpr double FREE_TURN = 0.05;
 
     template <class S>
@@ -186,7 +186,7 @@ struct Neohookean {
         const Frame<S> frame = principal_frame(s.F);
         const Lanes3<S>& z = frame.stretch;
 
-        // Stretches: second derivatives of W by z. Shears and turns in the plane of i and j: pull -+ squeeze z_k.
+        // Stretches: second derivatives of W by z. Shears and rotations in the plane of i and j: pull -+ squeeze z_k.
         const Lanes3<S> c = {z.y * z.z, z.z * z.x, z.x * z.y}, squeezed = of.squeeze * z;
         Lanes33<S> A = outer(z, of.bend * z) + outer(c, of.l * c);
         add_to_diagonal(of.pull, A);
@@ -214,7 +214,7 @@ struct Neohookean {
         const Lanes33<S> straight = planes(1), crossed = planes(-1);
 
         // With b in that frame: K_ij = A_ij b_i b'_j + crossed_ij b_j b'_i, and straight_ij b_j b'_j on the diagonal.
-        const Lanes33<S> G = tet.rest_inverse * transposed(frame.V);  // a row a corner
+        const Lanes33<S> G = tet.rest_inverse * transposed(frame.V);  // one row a corner
         const S V = scale * tet.volume;
         const auto block = [&](int a, int b) __attribute__((always_inline)) {
             const Lanes33<S> outside = outer(G.r[a], V * G.r[b]), across = transposed(outside);

@@ -1,5 +1,5 @@
-// One tet with straight edges of several plants at once, a plant a lane: what FourTets is for four tets of one. Of each
-// vector and matrix every number is there once a lane.
+// One T4 tet of several plants at once, one plant a lane: the batched counterpart of FourTets. Each number of a vector
+// or matrix is stored once a lane.
 #pragma once
 
 #include "mechanics/tet_point.hpp"
@@ -38,7 +38,7 @@ struct TetOfSeveral {
         return transposed(Lanes33<S>{{corner(1) - first, corner(2) - first, corner(3) - first}});
     }
     FROND_INLINE void add_force(const TetShareLanes<S>& share, const Lanes33<S>& P, double* f) const {
-        const Lanes33<S> forces = (share.volume * share.rest_inverse) * transposed(P);  // a row a corner
+        const Lanes33<S> forces = (share.volume * share.rest_inverse) * transposed(P);  // one row a corner
         const Lanes3<S> first = forces.r[0] + forces.r[1] + forces.r[2];
         const Tet& nodes = elements.ordered[tet];
         const auto at = [&](size_t a) __attribute__((always_inline)) {

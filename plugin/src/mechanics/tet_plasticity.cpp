@@ -1,11 +1,11 @@
-// In: the elastic stretch of tets. Out: what of it is lasting, as a change F_p of the shape at rest that keeps the
-// volume: F = F_e F_p (Lee 1969, "Elastic-plastic deformation at finite strains"; return to the yield strain after
-// Irving, Teran, Fedkiw 2004, "Invertible finite elements"). The material then sees F F_p^-1, so that the inverse of
-// the edges at rest times F_p^-1 stands in for the former.
+// In: the elastic stretch of tets. Out: its plastic part, as a change F_p of the rest shape that keeps the volume:
+// F = F_e F_p (Lee 1969, "Elastic-plastic deformation at finite strains"; return to the yield strain after Irving,
+// Teran, Fedkiw 2004, "Invertible finite elements"). The material then sees F F_p^-1, so the inverse of the rest edges
+// is replaced by its product with F_p^-1.
 //
-// A cage is thicker than the stem in it and its tets' strains are not those of a fibre. Along each capsule of the chain
-// cage and rod bend with one energy, which is what the cage is calibrated for: where the rim of the rod yields, the
-// tets have a mean square strain of EI k^2 L over the sum of their E V, k being the rod's curvature then.
+// A cage is thicker than the stem in it, so its tets' strains are not those of a fibre. Along each capsule of the chain
+// cage and rod have the same bending energy, by calibration: when the rim of the rod yields, the tets have a mean
+// square strain of EI k^2 L over the sum of their E V, k being the rod's curvature then.
 #include "mechanics/tet_plasticity.hpp"
 
 #include <algorithm>
@@ -22,23 +22,23 @@ namespace frond {
 
 namespace {
 
-constexpr double FLATTEST = 0.05;        // least stretch that still flows [-]
-constexpr double LOG_OVER_GREEN = 2.2;   // strains: down to a stretch of 0.4 the logarithmic one is no larger [-]
-constexpr size_t NUMBERS_OF_POINT = 10;  // of a point: F_p^-1 by columns, hardening
+constexpr double FLATTEST = 0.05;        // smallest stretch that still flows [-]
+constexpr double LOG_OVER_GREEN = 2.2;   // bound of logarithmic over Green's strain, down to a stretch of 0.4 [-]
+constexpr size_t NUMBERS_OF_POINT = 10;  // F_p^-1 by columns, hardening
 
-// Von Mises: of a bar pulled by e the deviator is (1 + nu) e (2/3, -1/3, -1/3).
+// Returns the equivalent strain after von Mises: a bar pulled by e has the deviator (1 + nu) e (2/3, -1/3, -1/3).
 double as_pulled(const TetShare& share, double deviator_norm) {
     const double poisson = share.lambda / (2 * (share.lambda + share.mu));
     return std::sqrt(1.5) * deviator_norm / (1 + poisson);
 }
 
-// Tets are strained unevenly: at the mean square the first ones would yield long before the rod's rim. At so many times
-// its root they keep their shape at half of the rod's load, and at one and a half times it within half of the rod's set
-// (tests/plant/plasticity.cpp).
+// Tets are strained unevenly: at the root mean square strain the first ones would yield long before the rod's rim. At
+// this multiple of it cages keep their shape at half of the rod's yield load, and at one and a half times that load
+// their plastic deflection is within half of the rod's (tests/plant/plasticity.cpp).
 constexpr double RIM = 1.4;
 
-// The strain at which a calibrated cage's tets, of the moduli that they have in these mechanics, yield over that of
-// their organ's outermost fibre, one a tet [-]. Within a capsule tets of other moduli bear the same energy a volume.
+// Returns the strain at which tets of a calibrated cage, with their moduli in these mechanics, yield over that of their
+// organ's outermost fibre, one a tet [-]. In a capsule all tets bear the same energy a volume, whatever their moduli.
 std::vector<double> strain_in_cage(const Model& model, const TetElements& elements) {
     const std::vector<int>& capsule = elements.section;
     std::vector<double> volume(model.chain.nodes.size(), 0);
@@ -90,7 +90,7 @@ Mat3 flow_of(const Mat3& S, double elastic) {
     return parts.vectors * change.matrix().asDiagonal() * parts.vectors.transpose();
 }
 
-// The largest strain that a tet stands with.
+// Returns the largest strain of a tet in the standing plant.
 template <class Element>
 static double standing_strain(const TetElements& elements, size_t e) {
     const auto places = Element::places(elements, e, elements.modelled);
@@ -118,7 +118,7 @@ void let_tets_yield(const Model& model, TetElements& elements) {
     elements.yields = std::move(yields);
 }
 
-// As a pulled bar, see as_pulled().
+// Inverts as_pulled().
 double green_square_allowed(const TetElements& elements, size_t e) {
     const double sum = elements.lambda[e] + elements.mu[e];
     const double most = elements.yields[e].strain / LOG_OVER_GREEN * (1 + elements.lambda[e] / (2 * sum));
@@ -158,11 +158,11 @@ std::vector<double> plastic_of_tets(const Elements& body) {
 }
 
 void set_plastic_of_tets(Elements& body, const std::vector<double>& values) {
-    constexpr double TOLERANCE = 1e-3;  // of the volume
+    constexpr double TOLERANCE = 1e-3;  // relative change of volume [-]
     TetElements& elements = static_cast<TetElements&>(body);
     std::vector<TetPlastic> plastic = elements.plastic;
     if (values.size() != NUMBERS_OF_POINT * plastic.size())
-        fail(FROND_RESULT_BAD_ARGUMENT, "%zu numbers of what is lasting were given, but a plant of these tets has %zu",
+        fail(FROND_RESULT_BAD_ARGUMENT, "%zu numbers of a plastic state were given, but a plant of these tets has %zu",
              values.size(), NUMBERS_OF_POINT * plastic.size());
     const size_t points = elements.nodes.order == 1 ? LinearTet::POINTS : QuadraticTetElement::POINTS;
     for (size_t p = 0; p < plastic.size(); ++p) {
@@ -171,7 +171,7 @@ void set_plastic_of_tets(Elements& body, const std::vector<double>& values) {
         l.hardening = values[NUMBERS_OF_POINT * p + 9];
         if (!(std::abs(l.inverse.determinant() - 1) < TOLERANCE) || !(l.hardening >= 0))
             fail(FROND_RESULT_BAD_ARGUMENT,
-                 "what is lasting changes the volume of tet %zu or its hardening is below 0; give numbers that "
+                 "the plastic state changes the volume of tet %zu or its hardening is below 0; give numbers that "
                  "frond_plant_get_plastic wrote",
                  p / points);
         l.rest_inverse = elements.rest_inverse[p] * l.inverse;

@@ -1,27 +1,27 @@
-// The plasticity of tets, as far as materials share it.
+// Plasticity of tets: what all materials share.
 #pragma once
 
 #include "mechanics/tet_element.hpp"
 
 namespace frond {
 
-// The elastic stretch S at a point, a symmetric matrix, and the strain of a bar that is pulled as much out of shape:
-// that of von Mises, of logarithmic strains [-]; 0 for what is turned inside out or flat.
+// Elastic stretch S at a point, a symmetric matrix, and its equivalent strain after von Mises, that of an equally
+// distorted pulled bar, from logarithmic strains [-]; 0 if inverted or flat.
 struct Strained {
     Mat3 S;
     double strain;
 };
-// Nearly the same by Green's strain, for strains that are small; without a rotation, and of any F.
+// Returns nearly the same strain by Green's strain, if strains are small; needs no rotation and takes any F.
 double green_strain(const TetShare& share, const Mat3& F);
 Strained strained_at(const TetShare& share, const Mat3& F);
-// Tells whether that strain is beyond `most`, never where `most` is zero. Most tets need no rotation for it.
+// Returns whether that strain is above `most`; never if `most` is zero. Most tets need no rotation for it.
 bool exceeds(const TetShare& share, const Mat3& F, double most, Strained& out);
-// Up to which square of its deviator, of Green's strain, a tet is far from its yield; infinite where it has none.
+// Returns the squared norm of Green's strain deviator up to which a tet is far from yielding; infinite: never yields.
 double green_square_allowed(const TetElements& elements, size_t e);
-// Makes 1 - `elastic` of the distortion of S lasting: F becomes F times this, of determinant one.
+// Returns the change, of determinant one, that F is multiplied by to make 1 - `elastic` of S's distortion plastic.
 Mat3 flow_of(const Mat3& S, double elastic);
 
-// Sets `yields` of elements that are complete otherwise.
+// Sets `yields` of elements that are otherwise complete.
 void let_tets_yield(const Model& model, TetElements& elements);
 template <class Element>
 bool tets_yield(const Elements& elements, const VecX& x);

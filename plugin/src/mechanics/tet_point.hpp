@@ -1,5 +1,5 @@
-// A point of integration of a tet as materials see it, of as many tets or points at once as there are lanes; a lane may
-// be a plain number.
+// A tet's integration point as materials see it, in lanes: as many tets or points at once as there are lanes; S may be
+// a plain number.
 #pragma once
 
 #include "core/lanes.hpp"
@@ -7,14 +7,14 @@
 
 namespace frond {
 
-// As TetShare.
+// TetShare in lanes.
 template <class S>
 struct TetShareLanes {
     Lanes33<S> rest_inverse;
     S volume, lambda, mu;
 };
 
-// As TetStiffness.
+// TetStiffness in lanes.
 template <class S>
 struct TetStiffnessLanes {
     Lanes33<S> k11, k21, k31, k22, k32, k33;
@@ -24,7 +24,7 @@ FROND_INLINE TetStiffnessLanes<S> operator*(const S& by, const TetStiffnessLanes
     return {by * k.k11, by * k.k21, by * k.k31, by * k.k22, by * k.k32, by * k.k33};
 }
 
-// Its blocks with corner 0, which follow from the others since moving all corners alike gives no force.
+// Blocks with corner 0, which follow from the others, since a translation gives no force.
 template <class S>
 struct FirstCorner {
     Lanes33<S> k00, k10, k20, k30;
@@ -37,7 +37,7 @@ FROND_INLINE FirstCorner<S> first_corner(const TetStiffnessLanes<S>& k) {
     return {-(k10 + k20 + k30), k10, k20, k30};
 }
 
-// Stress with what the stiffness says of the way ahead.
+// Returns the stress, extrapolated by the stiffness over the displacement ahead.
 template <class Law, class Group, class S, class Strain>
 FROND_INLINE Lanes33<S> stress_ahead(const Group& tets, const TetShareLanes<S>& share, const Strain& strain,
                                      const Ahead& ahead, const S& damped) {
@@ -69,7 +69,7 @@ inline Lanes33<double> one_lane(const Mat3& value) {
     return out;
 }
 
-// A material that is written for lanes, point by point; see tet_row.hpp for what a material is.
+// Applies a material written for lanes to single points; see tet_row.hpp for what a material is.
 template <class Law>
 struct PointByPoint {
     using Strain = typename Law::template Strain<double>;

@@ -1,6 +1,6 @@
-// What a row of the table of mechanics does tet by tet, from a material and an element; the rest is in tet_lanes.hpp. A
-// material ("law") says what follows from the gradient of deformation F at one point:
-//   Strain strain(share, F)                         what the rest is made of
+// Tet-by-tet functions of a row of the table of mechanics, from a material and an element; the rest is in
+// tet_lanes.hpp. A material ("law") has these functions of the deformation gradient F at one point:
+//   Strain strain(share, F)                         input of the others
 //   double energy(share, strain)                    a volume [J/m^3]
 //   Mat3 stress(share, strain)                      first Piola-Kirchhoff, dW/dF [Pa]
 //   TetStiffness stiffness(share, strain, tangent, scale)   scale times volume times d2W/dF2 between corners [N/m]
@@ -27,7 +27,7 @@ struct TetRow {
         return energy;
     }
 
-    // As much of it as is not too far.
+    // Makes the strain beyond yield plastic, or only a part of it where F_p would go too far.
     static void let_flow(const Yield& yield, const TetShare& share, const Mat3& F, const Strained& now, double h,
                          const Mat3& rest_inverse, TetPlastic& plastic) {
         double hardening = plastic.hardening;
@@ -39,7 +39,7 @@ struct TetRow {
             if (!(next.inverse.squaredNorm() < FARTHEST)) continue;
             next.rest_inverse = rest_inverse * next.inverse;
             next.hardening += part * (hardening - plastic.hardening);
-            // A change of shape may change the volume's energy at second order: energy never grows.
+            // A change of shape may raise the volumetric energy at second order; energy must not grow.
             if (Law::energy(share, Law::strain(share, F * change)) <= Law::energy(share, Law::strain(share, F)))
                 plastic = next;
             return;
@@ -60,17 +60,16 @@ struct TetRow {
         }
     }
 
-    // What flows on and on ends as a needle, which has no inverse, and no tissue does: it would have broken. Where a
-    // lasting stretch nears 1.5, tets stay elastic.
-    static constexpr double LEAST = 0.1;     // share of a flow that is worth while [-]
-    static constexpr double FARTHEST = 3.5;  // square of the norm of F_p^-1 [-]
+    // Unbounded flow would end in a needle, which has no inverse; tissue would have broken before. Where a plastic
+    // stretch nears 1.5, tets stay elastic.
+    static constexpr double LEAST = 0.1;     // smallest share of a flow that is tried [-]
+    static constexpr double FARTHEST = 3.5;  // largest squared norm of F_p^-1 [-]
 };
 
-// Of the tet that a point sees, a move of corner b at rest by dX acts on F as a move of it in space by -F dX does; it
-// changes the volume V and the gradients b_a besides. With H_a = V P b_a, minus the force on corner a, and K the
-// stiffness at x,
+// In the linear tet at a point, moving corner b at rest by dX acts on F as moving it in space by -F dX; it also changes
+// the volume V and the gradients b_a. With H_a = V P b_a, minus the force on corner a, and K the stiffness,
 //   df_a/dX_b = K_ab F - H_a b_b^T + H_b b_a^T.
-// Moving all corners alike changes nothing, and forces add up to nothing, which gives the blocks of corner 0.
+// A translation changes nothing, and forces add up to zero, which gives the blocks of corner 0.
 template <class Law, class Element>
 void rest_derivative(const Elements& body, size_t e, const VecX& x, std::vector<Mat3>& out) {
     const TetElements& elements = as_tets(body);

@@ -1,4 +1,4 @@
-// Bands, second half: in, distances of points; out, pieces of bands with their area, moments and ends, and their
+// Bands, second half. In: distances of points. Out: slabs of bands with their area, moments and ends, and their
 // contacts.
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace frond {
 
 namespace {
 
-constexpr double TOUCH = 1e-6;  // of a band: what is nearer to a level line lies on it
+constexpr double TOUCH = 1e-6;  // share of a band; points nearer to a level line lie on it
 
 struct Sets {
     std::vector<int> parent;
@@ -22,7 +22,7 @@ struct Sets {
         }
         return i;
     }
-    // The smaller number stays, so that the order of joining does not matter.
+    // The smaller number becomes the root, so that the order of joining does not matter.
     void join(int a, int b) {
         a = find(a);
         b = find(b);
@@ -65,7 +65,7 @@ struct Cutter {
         const double a = local(triangle, u), b = local(triangle, v);
         return bands_of(std::min(a, b), std::max(a, b), bands.height);
     }
-    // The share of the edge u v at level x, from u.
+    // Returns where level x crosses an edge with the distances a and b at its ends, as a share of the edge.
     static double at_level(double a, double b, double x) {
         return a == b ? 0.5 : std::clamp((x - a) / (b - a), 0.0, 1.0);
     }
@@ -79,7 +79,7 @@ void Cutter::touch(int low, int high, double length, const Vec3& middle, bool le
     if (fresh) bands.contacts.push_back({low, high, 0, middle, level});
     Contact& contact = bands.contacts[size_t(at->second)];
     contact.level = contact.level || level;
-    // The middle is the mean over the length; contacts in mere points count once.
+    // The middle is the mean weighted by length; a contact that has only points keeps the first of them.
     contact.length += length;
     if (length > 0) contact.middle += (middle - contact.middle) * (length / contact.length);
 }
@@ -105,7 +105,7 @@ void number_fragments(Cutter& cutter) {
     bands.first[count] = next;
 }
 
-// Joins fragments of one band and group over edges and points, then numbers the sets as pieces.
+// Joins fragments of one band and group over edges and points, then numbers the sets as slabs.
 void join_fragments(Cutter& cutter) {
     const Topology& topology = cutter.topology;
     Bands& bands = cutter.bands;
@@ -116,13 +116,13 @@ void join_fragments(Cutter& cutter) {
         if (cutter.group[size_t(edge.triangle_a)] != cutter.group[size_t(edge.triangle_b)]) continue;
         const Span span = cutter.span(edge.triangle_a, edge.u, edge.v);
         for (int band = span.low; band <= span.high; band++) {
-            // An edge that lies on a level line parts two bands.
+            // An edge on a level line separates two bands.
             const int a = cutter.fragment(edge.triangle_a, band), b = cutter.fragment(edge.triangle_b, band);
             if (cutter.band_of_fragment(edge.triangle_a, a) == cutter.band_of_fragment(edge.triangle_b, b))
                 sets.join(a, b);
         }
     }
-    // Around a point: each triangle with the first one of its group there.
+    // Around a point, each triangle is joined to the first one of its group there.
     std::vector<std::array<int, 2>> seen(topology.points.size(), {-1, -1});
     for (size_t t = 0; t < topology.triangles.size(); t++)
         for (int p : topology.triangles[t]) {
@@ -153,7 +153,7 @@ struct Corner {
     double x;
 };
 
-// The part of a triangle between two levels: at most five corners.
+// Clips a triangle to the part between two levels. Returns its number of corners, at most five.
 int clip(const std::array<Corner, 3>& triangle, double low, double high, std::array<Corner, 8>& out) {
     std::array<Corner, 8> in;
     int count = 3;
@@ -184,7 +184,7 @@ void add_area(Piece& piece, const Vec3& a, const Vec3& b, const Vec3& c) {
     piece.square += area / 12 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
 }
 
-// Areas, moments, ends and organs of the pieces, and the level lines between them.
+// Measures areas, moments, distances and organs of the slabs, and the level lines between them.
 void measure_pieces(Cutter& cutter) {
     const Topology& topology = cutter.topology;
     Bands& bands = cutter.bands;
@@ -232,7 +232,7 @@ void measure_pieces(Cutter& cutter) {
                 votes = std::abs(votes);
             }
             if (i == count - 1) continue;
-            // The level line to the next band: the polygon's corners on it.
+            // The level line to the next band runs between the polygon's corners on it.
             std::array<Vec3, 8> line;
             int ends = 0;
             for (int k = 0; k < n; k++)
@@ -245,8 +245,8 @@ void measure_pieces(Cutter& cutter) {
     }
 }
 
-// Contacts along edges: between groups, and between bands where an edge lies on the level line. Contacts in mere
-// points.
+// Finds contacts along edges, between groups and between bands where an edge lies on the level line, and contacts at
+// single points.
 void find_side_contacts(Cutter& cutter) {
     const Topology& topology = cutter.topology;
     const Bands& bands = cutter.bands;
@@ -282,7 +282,7 @@ void find_side_contacts(Cutter& cutter) {
         }
 }
 
-// Where each piece begins and ends: the mean of its points near the extremes.
+// Finds where each slab begins and ends: the mean of its points near the extreme distances.
 void find_ends(Cutter& cutter) {
     const Topology& topology = cutter.topology;
     Bands& bands = cutter.bands;

@@ -1,4 +1,5 @@
-// Bands, first half: in, a topology and root points; out, distances along the surface, and which triangles share edges.
+// Bands, first half. In: a topology and root points. Out: distances along the surface, and the triangles that share
+// edges.
 #include <algorithm>
 #include <cmath>
 #include <queue>
@@ -12,7 +13,8 @@ struct Ways {
     std::vector<double> length;
 };
 
-// All edges and, from every corner to every corner, the way over a joint; lists by starting point.
+// Lists the paths from each point: all edges, and over each joint from every corner of one triangle to every corner of
+// the other.
 static Ways find_ways(const Topology& topology) {
     const size_t count = topology.points.size();
     Ways ways;
@@ -97,7 +99,7 @@ std::vector<double> measure_distances(const Topology& topology, std::vector<int>
 }
 
 std::vector<SharedEdge> find_shared_edges(const Topology& topology) {
-    // Half edges in buckets by their smaller point; in a bucket, equal larger points belong together.
+    // Half edges go into buckets by their smaller point; in a bucket, equal larger points mark the same edge.
     struct Half {
         int other, triangle;
     };

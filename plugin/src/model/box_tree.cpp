@@ -1,4 +1,4 @@
-// Grows a box tree: boxes come in, are halved at the median centre along the longest side until few are left.
+// Builds a box tree: the boxes are halved at the median centre along the longest axis until few are left.
 #include "model/box_tree.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ static int grow(BoxTree& tree, const std::vector<Box>& boxes, int first, int cou
     tree.nodes.push_back({box, -1, first, count});
     if (count <= leaf_size) return self;
 
-    // Equal centres are told apart by number, so that the tree is the same everywhere.
+    // Equal centres are ordered by number, so that the tree is the same on every machine.
     int axis;
     centres.sizes().maxCoeff(&axis);
     const auto begin = tree.items.begin() + first;

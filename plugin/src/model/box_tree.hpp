@@ -1,4 +1,4 @@
-// Box tree: a binary tree of bounding boxes over items, cut at the median so that its depth is the logarithm of their
+// Box tree: a binary tree of bounding boxes over items, split at the median so that its depth is the logarithm of their
 // number whatever their shape. Several trees may share one array of nodes.
 #pragma once
 
@@ -11,8 +11,8 @@ using Box = Eigen::AlignedBox3d;
 struct BoxTree {
     struct Node {
         Box box;
-        int right;         // child; the left one is the next node. -1 at a leaf
-        int first, count;  // its items
+        int right;         // right child, -1 at a leaf; the left child is the next node
+        int first, count;  // range of its items
     };
     std::vector<Node> nodes;  // children come after their parent
     std::vector<int> items;   // numbers of boxes, in the order of the leaves

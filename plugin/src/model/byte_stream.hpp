@@ -1,4 +1,4 @@
-// Byte stream: numbers, texts and arrays to bytes and back. Taking checks lengths before memory is taken for them.
+// Byte stream: numbers, texts and arrays to bytes and back. Reading checks lengths before it allocates memory.
 #pragma once
 
 #include <cstdint>
@@ -65,7 +65,7 @@ inline std::string take_text(StreamReader& in) {
     return text;
 }
 
-// A tree of links, an empty one too. What is taken is to be checked by what_is_wrong_with().
+// Write and read a tree of links, also an empty one. A tree that was read must be checked by what_is_wrong_with().
 void put_tree(std::string& out, const UrdfTree& tree);
 void take_tree(StreamReader& in, UrdfTree& tree);
 

@@ -1,8 +1,8 @@
-// From a soup to a cage: lattice -> cells that the surface touches or encloses -> a copy of each for each piece of
-// plant in it -> twelve tets a copy -> the outside drawn towards the surface -> how much of each tet is plant. After
-// Spillmann, Wagner, Teschner 2006 ("Robust tetrahedral meshing of triangle soups": the pseudo volume, the lattice, the
-// smoothed boundary), with the virtual nodes of Molino, Bao, Fedkiw 2004 instead of a signed distance, which open
-// leaves do not have.
+// From a triangle soup to a cage: lattice -> cells that the surface touches or encloses -> a copy of each for each
+// connected part of the plant in it -> twelve tets per copy -> the outside moved towards the surface -> share of each
+// tet that is plant. After Spillmann, Wagner, Teschner 2006 ("Robust tetrahedral meshing of triangle soups": the pseudo
+// volume, the lattice, the smoothed boundary), with the virtual nodes of Molino, Bao, Fedkiw 2004 instead of a signed
+// distance, which open leaves do not have.
 #include "model/cage.hpp"
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 
 namespace frond {
 
-// A cage whose cell size was chosen has no more tets than this; else larger cells are tried.
+// Largest number of tets if the cell size is chosen here; with more, larger cells are tried.
 static constexpr size_t MOST_TETS_TRIED = 4000;
 static constexpr int TRIES = 12;
 
-// Twelve tets a copy: each half of each face with the middle. The diagonals of cells whose indices sum up to an odd
-// number are mirrored, so that faces fit.
+// Makes twelve tets per copy: each half of each face with the middle. The diagonals of cells whose indices add up to an
+// odd number are mirrored, so that faces match.
 static void make_tets(const Copies& copies, Cage& cage) {
     cage.nodes = copies.positions;
     cage.tets.reserve(copies.cell.size() * TETS_PER_COPY);
@@ -26,7 +26,7 @@ static void make_tets(const Copies& copies, Cage& cage) {
         const auto& nodes = copies.nodes[copy];
         const int parity = (copies.cell[copy][0] + copies.cell[copy][1] + copies.cell[copy][2]) & 1;
         for (int face = 0; face < 6; ++face) {
-            // The corner with which the diagonal begins, its two neighbours on the face, and the one across.
+            // The two edge directions of the face, and the two corners that its diagonal joins.
             const int u = 1 << (face / 2 + 1) % 3, v = 1 << (face / 2 + 2) % 3;
             const int low = face & 1 ? 1 << face / 2 : 0;
             const int begin = (face & 1) == parity ? low | u : low, end = begin ^ u ^ v;
@@ -56,7 +56,7 @@ static void bind_vertices(const Surface& surface, const Draft& draft, Embedding&
     const size_t count = surface.positions.size();
     embedding.tet.assign(count, 0);
     embedding.weights.assign(count, {1, 0, 0, 0});
-    Surface lost;  // vertices of no triangle
+    Surface lost;  // vertices that belong to no triangle
     std::vector<size_t> lost_vertices;
     for (size_t v = 0; v < count; ++v) {
         if (draft.vertex_copy[v] < 0) {

@@ -1,5 +1,6 @@
-// Copies of cells: one a piece, with eight corners of its own; then corners become one node wherever two copies side by
-// side carry the same piece (virtual nodes: Molino, Bao, Fedkiw 2004).
+// Copies of cells: one for each connected part of the surface in the cell, with eight corners of its own. Then corners
+// are merged into one node wherever two neighbouring copies carry parts that are connected (virtual nodes: Molino, Bao,
+// Fedkiw 2004).
 #include "model/cage_copies.hpp"
 
 #include <algorithm>
@@ -13,15 +14,15 @@ namespace {
 // Copies while their corners are being joined.
 struct Joining {
     Copies copies;
-    std::vector<int> component;                   // of a copy that is inside, else -1
-    UnionFind corners{0};                         // 8 a copy
-    std::vector<std::array<int, 8>> corner_sets;  // of the copies that remain
+    std::vector<int> component;                   // component that encloses each copy, -1 if none does
+    UnionFind corners{0};                         // 8 per copy
+    std::vector<std::array<int, 8>> corner_sets;  // corners of the copies that remain
     std::vector<std::array<int, 2>> links;
 };
 
 }  // namespace
 
-// The corners at which two cells meet become the same.
+// Joins the corners at which two cells meet.
 static void join_corners(Joining& joining, int a, int b) {
     const CellIndex &cell_a = joining.copies.cell[size_t(a)], &cell_b = joining.copies.cell[size_t(b)];
     for (int corner = 0; corner < 8; ++corner) {
@@ -44,7 +45,7 @@ static void add_inside(const Topology& topology, const Cover& cover, Joining& jo
         copies.cell.push_back(one.cell);
         joining.component.push_back(one.component);
     }
-    // Neighbours: more inside of the same body, and its skin.
+    // Neighbours are other cells inside the same component and the copies that carry its surface.
     const auto find = [&](const CellIndex& cell, int component) {
         const auto order = [](const Inside& a, const Inside& b) {
             if (a.component != b.component) return a.component < b.component;
@@ -73,7 +74,7 @@ static void add_inside(const Topology& topology, const Cover& cover, Joining& jo
         }
 }
 
-// Copies of one cell that came to have all corners in common are one.
+// Merges copies of one cell that now have all corners in common.
 static void merge_equal(Joining& joining) {
     Copies& copies = joining.copies;
     std::vector<std::array<int, 8>> corners(copies.cell.size());
@@ -115,7 +116,7 @@ static void merge_equal(Joining& joining) {
     copies.neighbors = std::move(neighbors);
 }
 
-// Numbers the nodes in the order of the copies.
+// Numbers the nodes in the order of the copies and computes their positions.
 static void place_nodes(const Lattice& lattice, Joining& joining) {
     Copies& copies = joining.copies;
     std::vector<int> number(joining.corners.parent.size(), -1);
@@ -136,7 +137,7 @@ static void place_nodes(const Lattice& lattice, Joining& joining) {
     }
 }
 
-// Finds what each copy mostly carries; copies inside take after their neighbours.
+// Finds the patch that each copy mostly carries; copies inside take that of a neighbour.
 static void find_patches(const Topology& topology, const Patches& patches, const Cover& cover, Copies& copies) {
     const size_t count = copies.cell.size();
     std::vector<std::vector<int>> carried(count);

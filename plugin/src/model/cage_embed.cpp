@@ -1,5 +1,5 @@
-// Embeds a surface in tets that somebody else made: each vertex gets the tet that it is in, else the one nearest to it,
-// found in a tree of boxes.
+// Embeds a surface in given tets: each vertex is attached to the tet that contains it, else to the nearest one, found
+// in a box tree.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@ namespace frond {
 namespace {
 
 struct Found {
-    double squared = std::numeric_limits<double>::infinity();  // distance from the tet [m^2]
+    double squared = std::numeric_limits<double>::infinity();  // squared distance from the tet [m^2]
     double least = 0;                                          // smallest weight
     int tet = -1;
 };
@@ -35,7 +35,7 @@ static double squared_distance(const Cage& cage, int tet, const Vec3& place) {
     return best;
 }
 
-// Inside of several, the one with the largest smallest weight; then the first.
+// Keeps the nearer tet; among several that contain the position, that with the largest minimum weight, then the first.
 static void try_tet(const Cage& cage, int tet, const Vec3& place, Found& found) {
     const auto weights = tet_weights(cage.nodes, cage.tets[size_t(tet)], place);
     const double least = *std::min_element(weights.begin(), weights.end());

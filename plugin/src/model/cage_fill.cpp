@@ -1,6 +1,6 @@
-// Fill: how much of each tet is plant, and of which organ. A sheet gives each tet the area that it has there times its
-// thickness; what a skin encloses is cut at the cells exactly, by the divergence theorem along one axis, and shared out
-// among the tets of a cell. The sum over all tets is the plant's volume.
+// Fill: how much of each tet is plant, and of which organ. A sheet gives each tet its area in the tet times its
+// thickness. The volume that a closed patch encloses is cut at the cells exactly, by the divergence theorem along one
+// axis, and distributed over the tets of a cell. The sum over all tets is the plant's volume.
 #include <algorithm>
 #include <cmath>
 
@@ -8,9 +8,9 @@
 
 namespace frond {
 
-// A tet has at least this share of what tets of its copy have on average, so that no node is without mass.
+// Least fill of a tet, as a share of the mean fill of its copy, so that no node is without mass.
 static constexpr double LEAST_SHARE = 0.1;
-// Larger pieces of area are looked at in parts; as a share of a cell's face.
+// Largest area that is added as a whole, as a share of a cell's face.
 static constexpr double LARGEST_SAMPLE = 1.0 / 32;
 
 namespace {
@@ -19,17 +19,17 @@ struct Filler {
     const std::vector<int>& triangle_organ;
     const std::vector<Organ>& organs;
     Draft& draft;
-    std::vector<double> volume;                                       // of each tet [m^3]
-    std::vector<double> tissue;                                       // in it [m^3]
-    std::vector<double> wall;                                         // area of skins in it [m^2]
+    std::vector<double> volume;                                       // volume of each tet [m^3]
+    std::vector<double> tissue;                                       // plant in each tet [m^3]
+    std::vector<double> wall;                                         // area of closed patches in each tet [m^2]
     std::vector<std::vector<std::pair<int, double>>> organ_strength;  // Young's modulus times tissue [J]
-    std::vector<double> left;  // of each patch's tissue that found no place yet [m^3]
+    std::vector<double> left;  // tissue of each patch that is not placed yet [m^3]
 };
 
-// Adds a skin's triangle to the cells below it and to its own.
+// Part of a closed patch's triangle in one cell, which adds to the volume in that cell and in those below it.
 struct Slice {
     CellIndex cell;
-    double area;    // seen along z, positive where the outside is up [m^2]
+    double area;    // projected along z, positive where the outside faces up [m^2]
     double volume;  // between it and its cell's floor [m^3]
 };
 
@@ -68,7 +68,7 @@ static void add_area(Filler& filler, int triangle, int copy, double area, const 
     filler.organ_strength[tet].push_back({organ, strength});
 }
 
-// Splits a triangle until it is small.
+// Splits a triangle until its parts are small, and adds them.
 static void add_parts(Filler& filler, int triangle, int copy, const Vec3& a, const Vec3& b, const Vec3& c,
                       double largest, int depth) {
     const double area = 0.5 * (b - a).cross(c - a).norm();
@@ -93,7 +93,7 @@ static void add_slices(const Lattice& lattice, const Polygon& polygon, std::vect
     });
 }
 
-// Area of every triangle to the tets; slices of those that enclose something.
+// Adds the area of every triangle to the tets, and lists the slices of closed patches.
 static void spread_surface(Filler& filler, std::vector<std::vector<Slice>>& slices) {
     const Draft& draft = filler.draft;
     const Lattice& lattice = draft.cover.lattice;
@@ -120,7 +120,7 @@ static void spread_surface(Filler& filler, std::vector<std::vector<Slice>>& slic
     }
 }
 
-// Shares a volume out among the tets of a copy: where the walls are if there is little, evenly if it fills the cell.
+// Distributes a volume over the tets of a copy: in proportion to their walls if small, evenly if it fills the cell.
 static void fill_copy(Filler& filler, int copy, size_t patch, double amount) {
     double whole = 0, walls = 0;
     for (int tet = copy * TETS_PER_COPY; tet < (copy + 1) * TETS_PER_COPY; ++tet) {
@@ -138,7 +138,7 @@ static void fill_copy(Filler& filler, int copy, size_t patch, double amount) {
     }
 }
 
-// Finds the volume that a skin encloses in each cell: all that is above, column by column from the top.
+// Finds the volume that a closed patch encloses in each cell, by summing slices column by column from the top.
 static void fill_skin(Filler& filler, size_t patch, std::vector<Slice>& slices,
                       const std::vector<std::pair<CellIndex, int>>& copies_by_cell) {
     const double cell_size = filler.draft.cover.lattice.cell_size;
@@ -158,7 +158,7 @@ static void fill_skin(Filler& filler, size_t patch, std::vector<Slice>& slices,
             volume += slices[i].volume;
             above += slices[i].area / (cell_size * cell_size);
         }
-        // This cell, and those below it down to the next slice, which are full of what is above.
+        // Fills this cell, and the cells below it down to the next slice to the share that the slices above add up to.
         const bool goes_on = i < slices.size() && slices[i].cell[0] == first[0] && slices[i].cell[1] == first[1];
         const int end = goes_on ? slices[i].cell[2] : first[2] - 1;
         for (int z = first[2]; z > end; --z) {
@@ -178,7 +178,7 @@ static void fill_skin(Filler& filler, size_t patch, std::vector<Slice>& slices,
     }
 }
 
-// A copy that found no place goes wherever there is room, first with its own patch, then anywhere.
+// Places leftover tissue wherever tets have free volume, first in its own patch, then anywhere.
 static void place_leftovers(Filler& filler) {
     const Draft& draft = filler.draft;
     std::vector<std::vector<int>> patch_tets(filler.left.size());
@@ -191,7 +191,7 @@ static void place_leftovers(Filler& filler) {
             room += std::max(0.0, filler.volume[size_t(tet)] - filler.tissue[size_t(tet)]);
             held += filler.tissue[size_t(tet)];
         }
-        // A negative rest, from rounding or a skin that crosses itself, is taken from what is there.
+        // A negative rest, from rounding or from a patch that intersects itself, reduces the tissue already there.
         const double taken = std::clamp(amount, -0.9 * held, room);
         for (int tet : tets) {
             double& tissue = filler.tissue[size_t(tet)];
@@ -215,7 +215,7 @@ static void place_leftovers(Filler& filler) {
     if (rest != 0) place(all, rest);
 }
 
-// Nearly empty tets get a little from the others of their copy.
+// Gives nearly empty tets a least fill, taken from all other tets.
 static void level(Filler& filler) {
     const Draft& draft = filler.draft;
     double total = 0, whole = 0;
@@ -245,7 +245,8 @@ static void level(Filler& filler) {
     }
 }
 
-// A tet belongs to the organ that carries most in it: a stem goes on through cells that are full of leaves.
+// Assigns each tet to the organ that adds most to its stiffness: a stem continues through cells that are full of
+// leaves.
 static void choose_organs(Filler& filler) {
     const Draft& draft = filler.draft;
     for (size_t tet = 0; tet < filler.organ_strength.size(); ++tet) {

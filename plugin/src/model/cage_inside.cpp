@@ -1,17 +1,17 @@
-// Inside: for each component large enough to have one, the cells that a flood from outside its box does not reach.
-// Holes narrower than a cell do not let it in.
+// Inside: for each component large enough to have an interior, the cells that a flood fill from outside its box does
+// not reach. The flood does not enter through holes narrower than a cell.
 #include <algorithm>
 
 #include "model/cage_copies.hpp"
 
 namespace frond {
 
-// Boxes of more cells than this are left hollow; no plant has such a fruit.
+// Components with more cells in their box are left hollow; no plant has a fruit that large.
 static constexpr int64_t MAX_BOX = 4000000;
 
 static void flood(const CellIndex& low, const CellIndex& count, std::vector<char>& state, int component,
                   std::vector<Inside>& inside) {
-    // One layer around the box is outside by itself. 1: touched, 2: reached.
+    // The box has one layer of outside cells around it. States: 1 touched, 2 reached.
     const auto at = [&count](int x, int y, int z) { return (z * count[1] + y) * count[0] + x; };
     std::vector<CellIndex> front = {{0, 0, 0}};
     state[0] = 2;
@@ -36,7 +36,7 @@ static void flood(const CellIndex& low, const CellIndex& count, std::vector<char
 }
 
 std::vector<Inside> find_inside(const Topology& topology, const Cover& cover) {
-    // Touched cells by component.
+    // Lists the touched cells of each component.
     const int triangle_count = int(topology.triangles.size());
     std::vector<std::vector<int>> touched(size_t(topology.component_count));
     for (int cell = 0; cell + 1 < int(cover.first.size()); ++cell)
@@ -49,7 +49,7 @@ std::vector<Inside> find_inside(const Topology& topology, const Cover& cover) {
     std::vector<char> state;
     for (int component = 0; component < topology.component_count; ++component) {
         const auto& cells = touched[size_t(component)];
-        if (cells.size() < 6) continue;  // it takes so many to enclose one
+        if (cells.size() < 6) continue;  // it takes six to enclose a cell
         CellIndex low = cover.cells.cells()[size_t(cells[0])], high = low;
         for (int cell : cells)
             for (size_t axis = 0; axis < 3; ++axis) {

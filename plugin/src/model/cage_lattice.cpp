@@ -1,5 +1,5 @@
-// Lays a lattice over a surface and finds the cells that it passes through, by cutting each triangle into slabs, rods
-// and cells: exact, and no more work than there are cells.
+// Lays a lattice over a surface and finds the cells that it passes through, by cutting each triangle into slabs,
+// columns and cells: exact, with work in proportion to the number of cells.
 #include "model/cage_lattice.hpp"
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace frond {
 
-// Cells count as larger by this share of their size and of the plant's (twice what welding may move a vertex), so that
-// nothing is lost on a face between two cells.
+// Cells are enlarged by the larger of these shares of their size and of the plant's (twice the distance by which
+// welding may move a vertex), so that nothing is lost on a face between two cells.
 static constexpr double CELL_MARGIN = 1e-4, SIZE_MARGIN = 2e-6;
 
 Lattice make_lattice(const Topology& topology, double cell_size) {
@@ -18,7 +18,7 @@ Lattice make_lattice(const Topology& topology, double cell_size) {
     if (!(box.diagonal().norm() / cell_size < 1e6))
         fail(FROND_RESULT_BAD_ARGUMENT, "cage_size is %g m for a plant of %g m; make it larger, or 0 to choose",
              cell_size, box.diagonal().norm());
-    // As many cells as are needed around the middle, none of them for a face that only touches.
+    // Takes just as many cells as are needed, centred on the plant; a face that only touches gets no further cell.
     Lattice lattice{Vec3::Zero(), cell_size};
     for (int axis = 0; axis < 3; ++axis) {
         const double cells = std::floor(box.sizes()[axis] / cell_size + 1e-3) + 1;
@@ -49,7 +49,7 @@ static Polygon cut(const Polygon& polygon, int axis, double limit, double sign) 
             between[axis] = limit;
             kept.corners[size_t(kept.count++)] = between;
         }
-        // A convex shape gains one corner a cut; more could only come from rounding.
+        // A convex shape gains one corner per cut; more could only come from rounding.
         if (kept.count >= 11) break;
     }
     return kept;
@@ -133,7 +133,7 @@ Cover make_cover(const Topology& topology, const Lattice& lattice, double offset
         enter(triangle_count + int(j), polygon_of(joint.point_a, joint.point_b, joint.point_b));
     }
 
-    // Sorted by cell; the order of items stays.
+    // Sorts the entries by cell and keeps the order of items.
     cover.first.assign(cover.cells.cells().size() + 1, 0);
     for (int cell : cell_of_entry) ++cover.first[size_t(cell) + 1];
     for (size_t c = 1; c < cover.first.size(); ++c) cover.first[c] += cover.first[c - 1];

@@ -1,4 +1,4 @@
-// Lattice: space in cubes, and which of them a surface passes through.
+// Lattice: space divided into cubic cells, and the cells that a surface passes through.
 #pragma once
 
 #include <cmath>
@@ -20,21 +20,21 @@ struct Lattice {
     Vec3 low(const CellIndex& cell) const { return origin + cell_size * Vec3(cell[0], cell[1], cell[2]); }
 };
 
-// Around the surface, their middles at the same place.
+// Makes a lattice around the surface, centred on it.
 Lattice make_lattice(const Topology& topology, double cell_size);
 
-// A flat convex shape: a triangle, or what is left of it in a cell.
+// A flat convex shape: a triangle, or the part of it in a cell.
 struct Polygon {
     std::array<Vec3, 12> corners;
     int count = 0;
 };
 Polygon polygon_of(const Vec3& a, const Vec3& b, const Vec3& c);
-// The space between two planes across an axis.
+// Clips a polygon to the space between two planes across an axis.
 Polygon clip(const Polygon& polygon, int axis, double low, double high);
 double area_of(const Polygon& polygon, Vec3& centre);
 
-// Calls visit(cell, polygon) for each cell, enlarged by `margin` on all sides, that a polygon reaches into, with its
-// part in there. The work is in proportion to the cells visited, however large the polygon.
+// Calls visit(cell, part) for each cell, enlarged by `margin` on all sides, that a polygon reaches into, with the
+// polygon's part in that cell. The work is proportional to the number of cells visited, however large the polygon.
 template <class Visit>
 void visit_cells(const Lattice& lattice, double margin, const Polygon& polygon, const Visit& visit) {
     CellIndex low, high;
@@ -70,7 +70,7 @@ void visit_cells(const Lattice& lattice, double margin, const Polygon& polygon, 
     }
 }
 
-// Cells by their indices: a hash table that numbers them in order of first appearance.
+// Hash table of cells by their indices, which numbers them in order of first appearance.
 class CellTable {
 public:
     CellTable() : slots(1024, -1) {}
@@ -96,27 +96,26 @@ private:
     std::vector<CellIndex> numbered;
 };
 
-// Which cells the surface passes through. Items are the triangles, then the joints (the line from one end to the
-// other).
+// The cells that the surface passes through. Items are the triangles, then the joints (as lines between their ends).
 struct Cover {
     Lattice lattice;
-    double margin;  // cells count as larger by so much [m]
+    double margin;  // enlargement of cells on all sides [m]
     CellTable cells;
-    std::vector<int> first;    // the entries of cell c are first[c] .. first[c+1]-1, by item upward
-    std::vector<int> item;     // of each entry
-    std::vector<Vec3> centre;  // of the item's part in the cell [m]
+    std::vector<int> first;    // the entries of cell c are first[c] .. first[c+1]-1, by ascending item
+    std::vector<int> item;     // item of each entry
+    std::vector<Vec3> centre;  // centre of the item's part in the cell [m]
 
     bool holds(int cell, const Vec3& place) const {
         const Vec3 offset = place - lattice.low(cells.cells()[size_t(cell)]);
         return offset.minCoeff() >= -margin && offset.maxCoeff() <= lattice.cell_size + margin;
     }
-    // The entry of an item in a cell, or -1.
+    // Returns the entry of an item in a cell, or -1.
     int find_entry(int cell, int item) const;
 };
 
 Cover make_cover(const Topology& topology, const Lattice& lattice, double offset);
 
-// More cells than this are refused: they are too small. So are more entries, for each triangle and in all.
+// Limits of cells, and of entries in all plus so many per triangle. Cells that need more are too small.
 constexpr size_t MAX_CELLS = 200000, MAX_ENTRIES = 4000000, MAX_ENTRIES_PER_TRIANGLE = 8;
 
 }  // namespace frond

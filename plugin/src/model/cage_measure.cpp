@@ -1,4 +1,4 @@
-// Measures a cage: angles, volumes, and how well the surface sits in it.
+// Measures a cage: angles, volumes, and how well the surface is attached to it.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
-// From triangles to patches: neighbours across an edge that exactly two triangles share get the same orientation; where
-// that closes up, or leaves small holes only, the divergence theorem gives the volume inside. Otherwise, or if the two
-// faces lie closer than the material is thick, it is a sheet.
+// From triangles to patches: neighbours across an edge that exactly two triangles share get the same orientation. If
+// the patch is then closed, or has small holes only, the divergence theorem gives the volume inside. Otherwise, or if
+// its two faces are closer than half the material's thickness, the patch is a sheet.
 #include "model/cage_patches.hpp"
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 namespace frond {
 
-// A patch is a skin if what closes its holes is smaller than this share of its area.
+// A patch is closed if the area that closes its holes is smaller than this share of its own.
 static constexpr double LARGEST_HOLE = 0.25;
 
-// For all triangles, sorted by `first_of(t)` (below `count`) with the order kept.
+// Sorts items by `first_of(i)` (below `count`), keeping the order of equal ones. Returns where each value begins.
 template <class First>
 static std::vector<int> bucket_starts(size_t item_count, int count, const First& first_of, std::vector<int>& sorted) {
     std::vector<int> start(size_t(count) + 1, 0);
@@ -46,7 +46,7 @@ static Edges find_edges(const Topology& topology, const std::vector<char>& repea
     const size_t count = topology.triangles.size();
     Edges edges;
     edges.triangle_edges.assign(count, {-1, -1, -1});
-    // Half edges that have two ends, by their smaller point.
+    // Half edges with two different ends, by their smaller point.
     std::vector<int> halves;
     halves.reserve(3 * count);
     const auto ends = [&](int half) {
@@ -79,14 +79,14 @@ static Edges find_edges(const Topology& topology, const std::vector<char>& repea
     return edges;
 }
 
-// Tells whether a triangle runs along its edge from the smaller point to the larger.
+// Returns whether a triangle runs along its edge from the smaller point to the larger.
 static bool runs_up(const Topology& topology, int t, int edge, const Edges& edges) {
     const auto& own = edges.triangle_edges[size_t(t)];
     const size_t k = own[0] == edge ? 0 : own[1] == edge ? 1 : 2;
     return topology.triangles[size_t(t)][k] < topology.triangles[size_t(t)][(k + 1) % 3];
 }
 
-// The one other triangle of the same organ at an edge, or -1.
+// Returns the only other triangle at an edge if it has the same organ, or -1.
 static int across(const Patches& patches, const std::vector<int>& triangle_organ, int t, int edge) {
     if (edge < 0) return -1;
     const int begin = patches.edges.first[size_t(edge)];
@@ -96,7 +96,7 @@ static int across(const Patches& patches, const std::vector<int>& triangle_organ
     return other != t && triangle_organ[size_t(other)] == triangle_organ[size_t(t)] ? other : -1;
 }
 
-// Gathers one patch from its first triangle; false if it cannot be oriented.
+// Collects a patch from its first triangle. Returns false if it cannot be oriented.
 static bool gather(const Topology& topology, const std::vector<int>& triangle_organ, int first, Patches& patches,
                    std::vector<int>& members) {
     const int number = int(patches.patches.size());
@@ -123,11 +123,12 @@ static bool gather(const Topology& topology, const std::vector<int>& triangle_or
     return oriented;
 }
 
-// Triangles from each rim to its middle. `loop` is scratch, one a point, all -1 before and after.
+// Closes each hole with triangles from its rim to its middle. Returns their area. `loop`: scratch, one per point, all
+// -1 before and after.
 static double close_holes(const Topology& topology, const std::vector<int>& triangle_organ,
                           const std::vector<int>& members, const Patches& patches, std::vector<int>& loop,
                           Patch& patch) {
-    // The rim, the way round that a closing triangle needs.
+    // Edges of the rims, in the direction that a closing triangle needs.
     std::vector<std::array<int, 2>> rim;
     for (int t : members)
         for (size_t k = 0; k < 3; ++k) {
@@ -167,7 +168,7 @@ static double close_holes(const Topology& topology, const std::vector<int>& tria
 
 static void measure(const Topology& topology, const std::vector<int>& members, const Material& material, bool oriented,
                     double hole_area, Patches& patches, Patch& patch) {
-    // Volume with respect to a point nearby, for the sake of precision.
+    // The volume is computed about a point nearby, for precision.
     const Vec3 origin = topology.points[size_t(topology.triangles[size_t(members[0])][0])];
     double volume = 0, area = 0;
     for (int t : members) {
@@ -181,7 +182,7 @@ static void measure(const Topology& topology, const std::vector<int>& members, c
     for (const auto& cap : patch.caps) volume += (cap[0] - origin).dot((cap[1] - origin).cross(cap[2] - origin)) / 6;
     patch.area = area;
     patch.solid = oriented && members.size() >= 4 && area > 0 && hole_area < LARGEST_HOLE * area && volume != 0;
-    // A leaf with two faces is a sheet drawn twice if they are nearer than it is thick.
+    // A leaf with two faces is a sheet drawn twice if they are closer together than half its thickness.
     const double sheet = area * material.thickness * (patch.solid ? 0.5 : 1);
     patch.filled = patch.solid && std::abs(volume) >= 0.5 * sheet;
     patch.tissue = patch.filled ? std::abs(volume) : sheet;

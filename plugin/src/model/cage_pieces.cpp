@@ -1,6 +1,6 @@
-// Pieces: in each cell, the parts of the surface that hang together there. First what shares a point or an edge within
-// the cell, and what a joint ties; then what belongs together without touching there: the two walls of a body that face
-// each other through its inside, the two faces of a thin sheet, and scraps smaller than a cell with what they hang on.
+// Pieces: the connected parts of the surface in each cell. First, triangles that share a point or an edge in the cell,
+// or that a joint ties, are joined; then parts that belong together without touching there: two walls of a body that
+// face each other across its interior, two faces of a thin sheet, and small components with those they hang on.
 #include <algorithm>
 #include <limits>
 
@@ -9,15 +9,15 @@
 
 namespace frond {
 
-// Two faces of a sheet are nearer than this share of a cell, and within so many cells along the surface.
+// Two faces are one sheet if they are closer than this share of a cell, and within so many cells along the surface.
 static constexpr double FACE_GAP = 0.2;
 static constexpr int FACE_STEPS = 4;
 // A component smaller than this many cells has no copies of its own.
 static constexpr double SCRAP = 1.5;
-// So many places of a piece are looked at when distances are compared.
+// Largest number of positions of a part that are compared in a distance test.
 static constexpr size_t NODE_SAMPLES = 48;
 
-// Tells whether a segment reaches into an enlarged cell.
+// Returns whether a line segment reaches into an enlarged cell.
 static bool reaches(const Cover& cover, int cell, const Vec3& a, const Vec3& b) {
     const Vec3 low = cover.lattice.low(cover.cells.cells()[size_t(cell)]) - Vec3::Constant(cover.margin);
     const double size = cover.lattice.cell_size + 2 * cover.margin;
@@ -49,7 +49,7 @@ std::vector<int> find_hosts(const Topology& topology, double cell_size) {
         tied[size_t(a)].push_back(b);
         tied[size_t(b)].push_back(a);
     }
-    // From the largest component outward.
+    // Starts from the largest component and follows the joints outwards.
     size_t largest = 0;
     for (size_t c = 1; c < count; ++c)
         if (boxes[c].diagonal().squaredNorm() > boxes[largest].diagonal().squaredNorm()) largest = c;
@@ -65,7 +65,7 @@ std::vector<int> find_hosts(const Topology& topology, double cell_size) {
 }
 
 static void join_touching(const Topology& topology, const Patches& patches, const Cover& cover, UnionFind& sets) {
-    // The last entry at a point and at an edge, valid if it is one of the cell at hand.
+    // The last entry at each point and edge, valid if it is in the current cell.
     std::vector<int> at_point(topology.points.size(), -1), at_edge(patches.edges.first.size(), -1);
     const int triangle_count = int(topology.triangles.size());
     for (int cell = 0; cell + 1 < int(cover.first.size()); ++cell) {
@@ -92,7 +92,7 @@ static void join_touching(const Topology& topology, const Patches& patches, cons
                 last = e;
             }
         }
-        // Joints tie in the cells that hold their ends.
+        // Joints tie parts in the cells that hold the joints' ends.
         for (int e = end - 1; e >= begin && cover.item[size_t(e)] >= triangle_count; --e) {
             const Joint& joint = topology.joints[size_t(cover.item[size_t(e)] - triangle_count)];
             const int a = cover.find_entry(cell, joint.triangle_a), b = cover.find_entry(cell, joint.triangle_b);
@@ -153,16 +153,16 @@ struct Nearness {
     int entry_a = -1, entry_b = -1;
 };
 
-// What finds the pieces of a cell that belong together though they do not touch.
+// Finds the parts of a cell that belong together though they do not touch.
 struct Gatherer {
     const Topology& topology;
     const Patches& patches;
     const Cover& cover;
     const Pieces& pieces;
     std::vector<int> host;
-    UnionFind sets;  // of pieces
+    UnionFind sets;  // sets of parts
     std::vector<std::vector<int>> linked;
-    std::vector<int> seen;  // by which search
+    std::vector<int> seen;  // number of the last search that reached each part
     int search = 0;
 
     bool is_triangle(int entry) const { return size_t(cover.item[size_t(entry)]) < topology.triangles.size(); }
@@ -190,7 +190,7 @@ static Nearness measure_nearness(const Gatherer& gatherer, int a, int b) {
     return best;
 }
 
-// Outward, of any length.
+// Returns the outward normal, of any length.
 static Vec3 outward(const Gatherer& gatherer, int entry) {
     const size_t t = size_t(gatherer.cover.item[size_t(entry)]);
     const Triangle& corner = gatherer.topology.triangles[t];
@@ -207,7 +207,7 @@ static bool face_through_inside(const Gatherer& gatherer, const Nearness& nearne
     return outward(gatherer, a).dot(way) < 0 && outward(gatherer, b).dot(way) > 0;
 }
 
-// Tells whether a piece can be reached from another within a few cells along the surface.
+// Returns whether a part can be reached from another within a few cells along the surface.
 static bool is_near_along(Gatherer& gatherer, int from, int to) {
     std::vector<int> front = {from}, next;
     const int mark = ++gatherer.search;
@@ -226,7 +226,7 @@ static bool is_near_along(Gatherer& gatherer, int from, int to) {
     return false;
 }
 
-// Two walls of a body, or two faces of a sheet.
+// Joins two walls of a body, or two faces of a sheet.
 static void gather_walls(Gatherer& gatherer, const std::vector<int>& in_cell) {
     const double gap = FACE_GAP * gatherer.cover.lattice.cell_size;
     for (size_t i = 0; i < in_cell.size(); ++i)
@@ -244,7 +244,7 @@ static void gather_walls(Gatherer& gatherer, const std::vector<int>& in_cell) {
         }
 }
 
-// The components in a piece that are no scraps; if there are none, `scrap_of` is what the piece hangs on.
+// Lists the components in a part that are not small; if there are none, `scrap_of` is the one that the part hangs on.
 static std::vector<int> list_components(const Gatherer& gatherer, int piece, int& scrap_of) {
     std::vector<int> components;
     scrap_of = -1;
@@ -261,16 +261,16 @@ static std::vector<int> list_components(const Gatherer& gatherer, int piece, int
     return components;
 }
 
-// Scraps go with the nearest piece of what they hang on; without one, they go together.
+// Joins parts of small components to the nearest part of the component they hang on; without one, to each other.
 static void gather_scraps(Gatherer& gatherer, const std::vector<int>& in_cell) {
     std::vector<int> scrap_of(in_cell.size());
-    std::vector<std::array<int, 2>> large;  // component, piece
+    std::vector<std::array<int, 2>> large;  // component, part
     for (size_t i = 0; i < in_cell.size(); ++i)
         for (int component : list_components(gatherer, in_cell[i], scrap_of[i]))
             large.push_back({component, in_cell[i]});
     std::sort(large.begin(), large.end());
     large.erase(std::unique(large.begin(), large.end()), large.end());
-    std::vector<std::array<int, 2>> first_scrap;  // host, piece
+    std::vector<std::array<int, 2>> first_scrap;  // host, part
     for (size_t i = 0; i < in_cell.size(); ++i) {
         if (scrap_of[i] < 0) continue;
         double best = std::numeric_limits<double>::infinity();
@@ -313,7 +313,7 @@ Pieces find_pieces(const Topology& topology, const Patches& patches, const Cover
     }
     std::vector<int> in_cell;
     for (size_t cell = 0; cell + 1 < cover.first.size(); ++cell) {
-        // Pieces are numbered by their first entry, so that those of a cell follow each other.
+        // Parts are numbered by their first entry, so those of a cell have consecutive numbers.
         in_cell.clear();
         for (int e = cover.first[cell]; e < cover.first[cell + 1]; ++e)
             if (in_cell.empty() || pieces.entry_piece[size_t(e)] > in_cell.back())

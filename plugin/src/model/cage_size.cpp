@@ -1,5 +1,5 @@
-// Cell size: a surface comes in, the size goes out at which about as many copies of cells are needed as a usual cage
-// has. Counting is cheap, so the size is found by halving the range.
+// Cell size. In: a surface. Out: the size that needs about as many copies of cells as a usual cage has. Counting is
+// cheap, so the size is found by bisection.
 #include <algorithm>
 #include <cmath>
 
@@ -7,12 +7,12 @@
 
 namespace frond {
 
-// Copies wanted, and most of them; twelve tets each.
+// Wanted and largest number of copies; each has twelve tets.
 static constexpr size_t WANTED_COPIES = 140, MOST_COPIES = 320;
 // Largest and smallest cell, as shares of the plant's diagonal.
 static constexpr double LARGEST_CELL = 1.0 / 6, SMALLEST_CELL = 1.0 / 120;
 
-// Cells times components in them, small ones left out; stops beyond `limit`.
+// Counts the pairs of a cell and a component in it, without small components; stops beyond `limit`.
 static size_t count_copies(const Topology& topology, double offset, double cell_size, size_t limit) {
     const std::vector<int> host = find_hosts(topology, cell_size);
     const Lattice lattice = make_lattice(topology, cell_size);
@@ -46,7 +46,7 @@ double choose_cell_size(const Topology& topology, double offset) {
     for (const Vec3& place : topology.points) box.extend(place);
     const double size = box.diagonal().norm();
     double low = SMALLEST_CELL * size, high = LARGEST_CELL * size;
-    // The offset makes a body of at least that thickness.
+    // The offset makes the cage at least that thick.
     low = std::max(low, offset);
     high = std::max(high, low);
     size_t at_low = MOST_COPIES + 1, at_high = 0;
@@ -56,7 +56,7 @@ double choose_cell_size(const Topology& topology, double offset) {
         (count > WANTED_COPIES ? low : high) = middle;
         (count > WANTED_COPIES ? at_low : at_high) = count;
     }
-    // The number jumps where small components stop having copies of their own; then the nearer side is better.
+    // The number jumps where small components lose their own copies; then the nearer side is better.
     const bool low_is_nearer = at_high > 0 && at_low * at_high < WANTED_COPIES * WANTED_COPIES;
     return at_low <= MOST_COPIES && (low_is_nearer || at_high == 0) ? low : high;
 }

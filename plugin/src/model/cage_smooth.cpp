@@ -1,6 +1,6 @@
-// Smoothing: nodes on the outside of the cage move towards the surface and towards the mean of their neighbours on the
-// outside, by turns. A move stands only if all tets around keep their volume and good angles, and if every vertex that
-// was in them still is in one of them; else half of it is tried.
+// Smoothing: one by one, nodes on the outside of the cage move towards the surface and towards the mean of their
+// neighbours on the outside. A move is accepted only if all tets around keep a positive volume and good angles, and if
+// every vertex that was in them still is in one of them; else half of it is tried.
 #include <algorithm>
 #include <cmath>
 
@@ -11,15 +11,15 @@ namespace frond {
 
 static constexpr int PASSES = 3;
 static constexpr int HALVINGS = 3;
-// No angle between two faces may get smaller or larger [degree].
+// Limits of the angles between two faces [degree].
 static constexpr double SMALLEST_ANGLE = 14, LARGEST_ANGLE = 162;
-// The outside is drawn as near to the surface as this share of a cell, beside the offset.
+// Least distance of the outside from the surface as a share of a cell, in addition to the offset.
 static constexpr double NEAREST = 0.15;
-// Share of the way to the mean of the neighbours, a pass.
+// Share of the distance to the mean of the neighbours that a pass moves a node.
 static constexpr double RELAXATION = 0.25;
-// So many triangles of a copy are looked at for the nearest place.
+// Largest number of triangles of a copy that are searched for the nearest point.
 static constexpr int TRIANGLE_SAMPLES = 150;
-// Rounding is worse than this nowhere.
+// Bound of rounding errors of weights.
 static constexpr double TOLERANCE = -1e-10;
 
 namespace {
@@ -28,11 +28,11 @@ struct Smoother {
     const Surface& surface;
     Draft& draft;
     std::vector<std::vector<int>> node_tets;
-    std::vector<std::vector<int>> around;   // neighbours of a node
-    std::vector<std::vector<int>> outside;  // those along the outside; none for nodes within
+    std::vector<std::vector<int>> around;   // neighbours of each node
+    std::vector<std::vector<int>> outside;  // neighbours along the outside; none for nodes within
     std::vector<int> vertex_tet;
     std::vector<std::vector<int>> tet_vertices;
-    // Scratch of a move.
+    // Scratch data of a move.
     struct Change {
         int vertex, from, to;
     };
@@ -41,12 +41,12 @@ struct Smoother {
         Mat3 inverse;
         Vec3 origin;
     };
-    std::vector<Frame> frames;  // of the tets around
+    std::vector<Frame> frames;  // frames of the tets around the node
 };
 
 }  // namespace
 
-// Nodes of faces that one tet only has, each with its neighbours there.
+// Finds the nodes of faces that belong to one tet only, each with its neighbours there.
 static void find_outside(const Cage& cage, std::vector<std::vector<int>>& outside) {
     std::vector<std::array<int, 3>> faces;
     faces.reserve(4 * cage.tets.size());
@@ -70,7 +70,7 @@ static void find_outside(const Cage& cage, std::vector<std::vector<int>>& outsid
     }
 }
 
-// For each node on the outside, where the surface that its copies carry is nearest.
+// Finds for each node on the outside the nearest point of the surface that its copies carry.
 static std::vector<Vec3> find_nearest_places(const Smoother& smoother) {
     const Draft& draft = smoother.draft;
     std::vector<std::vector<int>> copy_triangles(draft.copies.cell.size());
@@ -98,7 +98,7 @@ static std::vector<Vec3> find_nearest_places(const Smoother& smoother) {
     return nearest;
 }
 
-// Tells whether the tets around a node are well shaped; sets their frames.
+// Returns whether the tets around a node are well shaped; sets their frames.
 static bool are_sound(Smoother& smoother, int node) {
     static const double LARGEST_COSINE = std::cos(SMALLEST_ANGLE * PI / 180);
     static const double SMALLEST_COSINE = std::cos(LARGEST_ANGLE * PI / 180);
@@ -123,7 +123,8 @@ static bool holds(const Smoother::Frame& frame, const Vec3& place) {
     return weights.minCoeff() >= TOLERANCE && weights.sum() <= 1 - TOLERANCE;
 }
 
-// Tells whether a vertex may be bound to a tet: one of its own copy or of a copy that carries the same piece next door.
+// Returns whether a vertex may be attached to a tet: one of its own copy, or of a neighbouring copy with a connected
+// part.
 static bool belongs(const Smoother& smoother, int vertex, int tet) {
     const Draft& draft = smoother.draft;
     const int home = draft.vertex_copy[size_t(vertex)], copy = tet / TETS_PER_COPY;
@@ -132,7 +133,7 @@ static bool belongs(const Smoother& smoother, int vertex, int tet) {
     return std::binary_search(near.begin(), near.end(), copy);
 }
 
-// Tells whether all vertices that were in the tets around still are in one of them; notes those that changed.
+// Returns whether all vertices that were in the tets around still are in one of them; lists those that changed.
 static bool keeps_vertices(Smoother& smoother, int node) {
     const std::vector<int>& around = smoother.node_tets[size_t(node)];
     smoother.changes.clear();
@@ -170,7 +171,7 @@ static bool try_move(Smoother& smoother, int node, const Vec3& to) {
 static void move_nodes(Smoother& smoother, const std::vector<Vec3>& wanted, double smoothness) {
     std::vector<Vec3>& nodes = smoother.draft.cage.nodes;
     for (int node = 0; node < int(nodes.size()); ++node) {
-        // The middle of a cell, and what else lies within, stays in the middle of its neighbours.
+        // The middle of a cell, like any other node within, moves to the mean of its neighbours.
         const bool within = smoother.outside[size_t(node)].empty();
         const std::vector<int>& neighbors = within ? smoother.around[size_t(node)] : smoother.outside[size_t(node)];
         Vec3 mean = Vec3::Zero();
@@ -207,7 +208,7 @@ void smooth_cage(const Surface& surface, const CageOptions& options, Draft& draf
         list.erase(std::unique(list.begin(), list.end()), list.end());
     }
 
-    // Where a node would stand if nothing were in its way.
+    // Target of each node, without constraints.
     std::vector<Vec3> wanted = find_nearest_places(smoother);
     const double nearest = options.offset + NEAREST * draft.cover.lattice.cell_size;
     for (size_t i = 0; i < wanted.size(); ++i) {

@@ -1,17 +1,17 @@
-// The effect of weight on the capsules of a chain. A tree is statically determinate: forces and moments follow from the
-// masses alone, summed from the tips to the root.
+// Loads of a plant's weight on the capsules of its chain. A tree is statically determinate: forces and moments follow
+// from the masses alone, summed from the tips to the root.
 #pragma once
 
 #include "model/model.hpp"
 
 namespace frond {
 
-// By the chain node at the capsule's end; of roots nothing.
+// Indexed by the chain node at the capsule's end; roots have no capsule.
 struct ChainLoads {
-    std::vector<Vec3> force;   // on the end [N]
-    std::vector<Vec3> moment;  // in the middle [N m]
+    std::vector<Vec3> force;   // force on the capsule's end [N]
+    std::vector<Vec3> moment;  // moment at its middle [N m]
 };
-// Of the plant's weight, taken along an axis of the room.
+// Computes the loads of the plant's weight along a coordinate axis, 0..2.
 ChainLoads weigh_chain(const Model& model, int axis);
 
 }  // namespace frond

@@ -1,8 +1,7 @@
-// Chain making: in, a surface with its topology and organs; out, nodes and capsules.
-// 1. Distance along the surface from the root. 2. Bands of one height, cut into connected pieces, sheets apart from
-// tubes.
-// 3. A tree over the pieces. 4. A node at the end of each piece, a radius from its moments; pieces too short to be a
-// capsule become part of their parent. If no height is given, 2 to 4 are repeated until the count of capsules is
+// Chain making. In: a surface with its topology and organs. Out: nodes and capsules.
+// 1. Distance along the surface from the root. 2. Bands of one height, cut into connected slabs, sheets apart from
+// tubes. 3. A tree over the slabs. 4. A node at the end of each slab, a radius from its moments; slabs too short for a
+// capsule become part of their parent. If no height is given, 2 to 4 are repeated until the number of capsules is
 // reasonable.
 #include <algorithm>
 #include <array>
@@ -17,15 +16,16 @@ namespace frond {
 
 namespace {
 
-constexpr double USUAL_COUNT = 25;    // capsules along the longest way
-constexpr int FEW = 24, MANY = 400;   // capsules, if the height may be chosen
-constexpr double MOST_BANDS = 20000;  // along the longest way
+constexpr double USUAL_COUNT = 25;    // capsules along the longest path
+constexpr int FEW = 24, MANY = 400;   // least and most capsules, if the height may be chosen
+constexpr double MOST_BANDS = 20000;  // along the longest path
 constexpr double MOST_FRAGMENTS = 2e7;
-constexpr std::array<double, 3> LOOSE = {0.5, 1, 2};  // bands: smaller loose parts are no twigs; the first is usual
-constexpr double SHORT_TIP = 0.2;                     // of a band: a shorter last capsule is none
-constexpr double SHORT_PIECE = 0.15;                  // of a band: nor is one in between
+constexpr std::array<double, 3> LOOSE = {0.5, 1, 2};  // in bands: smaller loose parts are dropped; the first is usual
+constexpr double SHORT_TIP = 0.2;                     // in bands: a shorter slab at a tip gets no capsule
+constexpr double SHORT_PIECE = 0.15;                  // in bands: nor does a shorter one in between
 
-// Sheets, fruits and supports are cut apart from tubes, so that a leaf does not pull the stem's node aside.
+// Returns the group of a kind. Sheets, fruits and supports are cut apart from tubes, so that a leaf does not displace
+// the stem's node.
 int group_of_kind(const std::string& kind) {
     if (kind == "blade" || kind == "midrib" || kind == "flower" || kind == "crown") return 1;
     if (kind == "fruit") return 2;
@@ -36,14 +36,14 @@ int group_of_kind(const std::string& kind) {
 struct Shape {
     const Surface& surface;
     const Topology& topology;
-    std::vector<int> group, organ;  // by triangle
+    std::vector<int> group, organ;  // group and organ of each triangle
     std::vector<SharedEdge> edges;
     std::vector<int> roots;        // points
-    std::vector<double> distance;  // of points [m]
+    std::vector<double> distance;  // distances of points [m]
     double farthest;               // [m]
 };
 
-// Area and moments of what a node's capsule stands for.
+// Area and moments of the surface that a node's capsule represents.
 struct Moments {
     double area = 0;
     Vec3 sum = Vec3::Zero();
@@ -53,7 +53,7 @@ struct Moments {
         sum += piece.sum;
         square += piece.square;
     }
-    // Root of the mean squared distance from a line [m].
+    // Returns the root of the mean squared distance from a line [m].
     double distance_from(const Vec3& place, const Vec3& direction) const {
         if (!(area > 0)) return 0;
         const Mat3 second = square / area - place * (sum / area).transpose() - (sum / area) * place.transpose() +
@@ -82,7 +82,8 @@ struct Maker {
     }
 };
 
-// The node that a piece grows from: the end of its parent, or the parent's beginning if the contact is nearer to that.
+// Returns the node that a slab grows from: the end of its parent, or the parent's beginning if the contact is nearer to
+// that.
 int node_below(const Maker& maker, const Shoot& shoot) {
     const int node = maker.node_of_piece[size_t(shoot.parent)];
     const Contact& contact = maker.tree.contacts[size_t(shoot.contact)];
@@ -106,7 +107,8 @@ void make_nodes(Maker& maker) {
         const bool same = shoot.parent >= 0 && bands.pieces[size_t(shoot.parent)].component == piece.component &&
                           bands.pieces[size_t(shoot.parent)].group == piece.group;
         if (shoot.dropped || step < (tip ? SHORT_TIP : SHORT_PIECE) * bands.height) {
-            // Part of the capsule below; if nothing else goes on from there, that one reaches up to this end.
+            // The slab joins the capsule below; if nothing else continues from there, that capsule is extended to this
+            // end.
             maker.node_of_piece[size_t(number)] = below;
             maker.moments[size_t(below)].add(piece);
             if (!shoot.dropped && tip && same && !maker.is_foot[size_t(below)] &&
@@ -121,7 +123,7 @@ void make_nodes(Maker& maker) {
     }
 }
 
-// A chain of feet only has nothing that could bend: it gets one capsule, to the point farthest from the first foot.
+// Gives a chain that has only feet, and so cannot bend, one capsule: to the point farthest from the first foot.
 void add_last_resort(Maker& maker) {
     for (const ChainNode& node : maker.chain.nodes)
         if (node.parent >= 0) return;
@@ -139,7 +141,7 @@ void fit_radii(Maker& maker, const std::vector<Organ>& organs, double given) {
     std::vector<ChainNode>& nodes = maker.chain.nodes;
     for (size_t i = 0; i < nodes.size(); i++) {
         ChainNode& node = nodes[i];
-        // A tip may have moved after its children's distances were taken.
+        // A tip may have moved after its children's distances were computed.
         if (node.parent >= 0)
             node.distance =
                 nodes[size_t(node.parent)].distance + (node.position - nodes[size_t(node.parent)].position).norm();
@@ -161,7 +163,7 @@ void fit_radii(Maker& maker, const std::vector<Organ>& organs, double given) {
     }
 }
 
-// Each vertex to the nearer end of the capsule of its own piece.
+// Assigns each vertex to the nearer end of its own slab's capsule.
 void bind_vertices(Maker& maker) {
     const Surface& surface = maker.shape.surface;
     const Topology& topology = maker.shape.topology;
@@ -187,7 +189,7 @@ void bind_vertices(Maker& maker) {
         }
 }
 
-// The chain for one height. Loose parts larger than usual are dropped while there are more than `most` capsules.
+// Makes the chain for one height. Larger loose parts than usual are dropped while there are more than `most` capsules.
 Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, double height, double radius, int most) {
     const Bands bands = cut_bands(shape.topology, shape.edges, shape.distance, shape.group, shape.organ, height);
     const ChainTree grown = grow_tree(shape.topology, bands, shape.roots);
@@ -255,7 +257,7 @@ Chain make_chain(const Surface& surface, const Topology& topology, const std::ve
         return make_with_height(shape, organs, options.height, options.radius, INT_MAX);
     }
 
-    // Start from the longest way; shorter capsules while there are few (twice at most), longer ones while there are
+    // Starts from the longest path; capsules get shorter while there are few (twice at most), longer while there are
     // many.
     double height = shape.farthest / USUAL_COUNT;
     bool grew = false;

@@ -1,4 +1,4 @@
-// Chain root: in, a surface with organs; out, the points at its foot.
+// Chain root. In: a surface with organs. Out: the points at its foot.
 // Organs that can stand on the ground come first (stems, branches, roots; pots and stakes on their own); leaves only if
 // there is nothing else. A component is rooted if it reaches down to the ground of its class and does not stand on
 // another one.
@@ -13,14 +13,14 @@ namespace {
 
 enum Class { NEVER, PLANT, SUPPORT };
 
-// In shares of the plant's height or size.
-constexpr double FOOT = 0.02;       // what is lower than this above a component's lowest point is its foot
-constexpr double LEVEL = 0.005;     // what reaches down to this is on the ground for certain
-constexpr double HANGS = 0.3;       // a joint this high on a component, of its own height, is one that it hangs from
-constexpr double GROUND = 0.03;     // feet on uneven ground
-constexpr double STANDS_ON = 0.05;  // a joint this low on a component is one that it stands on
+// Shares of the plant's height or size.
+constexpr double FOOT = 0.02;       // points no higher than this above a component's lowest point are its foot
+constexpr double LEVEL = 0.005;     // a component that begins no higher than this is certainly on the ground
+constexpr double HANGS = 0.3;       // a component hangs from joints above this share of its own height
+constexpr double GROUND = 0.03;     // tolerance for feet on uneven ground
+constexpr double STANDS_ON = 0.05;  // a component stands on joints no higher than this above its foot
 constexpr double GAP = 0.01;        // a joint across a wider gap carries nothing
-constexpr double TOO_HIGH = 0.5;    // a stem that begins above this is not what the plant stands on
+constexpr double TOO_HIGH = 0.5;    // a plant does not stand on a stem that begins above this
 
 struct Feet {
     std::vector<Class> triangle;             // class of each triangle
@@ -48,7 +48,7 @@ void measure_feet(const Topology& topology, Feet& feet) {
         }
 }
 
-// Tells which triangles may be rooted; widens the choice until there are some and they reach low enough.
+// Chooses which triangles may be rooted; widens the choice until there are some and they reach low enough.
 Feet choose_feet(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs) {
     Feet feet;
     const double bottom = surface.lower().y(), height = surface.height();
@@ -70,13 +70,13 @@ Feet choose_feet(const Surface& surface, const Topology& topology, const std::ve
         const double lowest = std::min(feet.ground[PLANT], feet.ground[SUPPORT]);
         if (lowest <= bottom + TOO_HIGH * height) break;
     }
-    // A ring or clip that holds the plant in the air is not what it stands on, nor is a stalk in the air above a pot.
+    // A plant does not stand on a ring or clip that holds it in the air, nor on a stalk in the air above a pot.
     for (const Class what : {PLANT, SUPPORT})
         if (feet.ground[what] > bottom + TOO_HIGH * height) feet.ground[what] = -INFINITY;
     return feet;
 }
 
-// Each component is held up by some of these, as bits.
+// How a component is held up, as bits.
 enum Hold { STANDS_ON_SUPPORT = 1, STANDS = 2, HANGS_HIGH = 4 };
 
 std::vector<int> find_holds(const Surface& surface, const Topology& topology, const Feet& feet) {
@@ -120,14 +120,14 @@ RootPoints find_root_points(const Surface& surface, const Topology& topology, co
         const double low = feet.low[component][what], lift = low - feet.ground[what];
         const int hold = what == PLANT ? holds[component] : 0;
         if (lift > (hold & (STANDS | HANGS_HIGH) ? LEVEL : GROUND) * height || (hold & STANDS_ON_SUPPORT)) continue;
-        // A component that hangs and happens to touch the ground is rooted only if there is no other.
+        // A hanging component that happens to touch the ground is rooted only if none of its class reaches lower.
         if ((hold & HANGS_HIGH) && lift > 0) continue;
         for (int p : topology.triangles[t]) {
             const double y = topology.points[size_t(p)].y() - low;
             if (y <= FOOT * height) above[size_t(p)] = std::min(above[size_t(p)], y);
         }
     }
-    // Nothing fits: the lowest points of all.
+    // If nothing fits, the lowest points of all are taken.
     if (std::none_of(above.begin(), above.end(), [](double y) { return std::isfinite(y); })) {
         for (const Triangle& t : topology.triangles)
             for (int p : t) {

@@ -1,5 +1,5 @@
-// Stems -> chain. In: a tree of tapered pieces as the caller gave it, and the surface made of it, placed. Out: a chain
-// whose capsules lie exactly on the axes, from the begin of each piece to its end, and their sections, which are known.
+// Stems -> chain. In: the caller's tree of tapered segments, and the placed surface made of it. Out: a chain whose
+// capsules lie exactly on the axes, from the beginning of each segment to its end, and their sections, which are known.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +9,8 @@ namespace frond {
 
 namespace {
 
-constexpr int USUAL_STEM_COUNT = 20;  // capsules along the longest way
-constexpr int LEAST_COUNT = 2;        // of a piece
+constexpr int USUAL_STEM_COUNT = 20;  // capsules along the longest path
+constexpr int LEAST_COUNT = 2;        // capsules per segment
 constexpr int MOST_COUNT = 2000;
 
 struct StemPiece {
@@ -18,8 +18,8 @@ struct StemPiece {
     Vec3 begin, end;
     double radius_begin, radius_end, length;
     int organ;
-    std::vector<double> cuts;  // where chain nodes are, 0 .. 1, ascending
-    std::vector<int> nodes;    // of the chain, one a cut
+    std::vector<double> cuts;  // positions of chain nodes, 0 .. 1, ascending
+    std::vector<int> nodes;    // chain nodes, one per cut
     double radius(double share) const { return radius_begin + share * (radius_end - radius_begin); }
     Vec3 place(double share) const { return begin + share * (end - begin); }
     double nearest(const Vec3& p) const {
@@ -27,7 +27,7 @@ struct StemPiece {
     }
 };
 
-// Where the surface was moved to: the same turn, scale and shift take the stems along.
+// Places the stems as the surface was, by the same rotation, scale and translation.
 std::vector<StemPiece> place_stems(const frond_stem* stems, int count, const Surface& surface,
                                    const StemPlacement& placed) {
     std::vector<StemPiece> pieces;
@@ -46,7 +46,7 @@ std::vector<StemPiece> place_stems(const frond_stem* stems, int count, const Sur
     return pieces;
 }
 
-// The length of the longest way from a root to a tip.
+// Returns the length of the longest path from a root to a tip.
 double longest_way(const std::vector<StemPiece>& pieces) {
     std::vector<double> reach(pieces.size());
     double longest = 0;
@@ -57,7 +57,7 @@ double longest_way(const std::vector<StemPiece>& pieces) {
     return longest;
 }
 
-// Even cuts, and one where each child grows out; even ones that come too near to these give way.
+// Cuts each segment evenly and where a child grows out; even cuts too close to the others are left out.
 void cut_pieces(std::vector<StemPiece>& pieces, double height) {
     std::vector<std::vector<double>> joints(pieces.size());
     for (const StemPiece& piece : pieces)
@@ -118,7 +118,7 @@ struct StemChain {
     }
 };
 
-// The node of the parent from which a piece grows; with a gap or a side step between, a capsule of its own bridges it.
+// Returns the node from which a segment grows: its parent's nearest, or a new one with a capsule across the gap.
 int begin_of(StemChain& maker, const std::vector<StemPiece>& pieces, const StemPiece& piece) {
     if (piece.parent < 0) return maker.add(piece.begin, -1, piece.radius_begin, piece.organ);
     const StemPiece& parent = pieces[size_t(piece.parent)];
@@ -132,7 +132,7 @@ int begin_of(StemChain& maker, const std::vector<StemPiece>& pieces, const StemP
     return maker.add(piece.begin, node, piece.radius_begin, piece.organ);
 }
 
-// Each vertex to the nearest node of its own piece.
+// Assigns each vertex to the nearest node of its own segment.
 void bind_vertices(StemChain& maker, const Surface& surface, const std::vector<StemPiece>& pieces) {
     maker.chain.vertex_node.assign(surface.positions.size(), 0);
     for (const Part& part : surface.parts) {

@@ -1,4 +1,4 @@
-// Chain tree: in, bands and root points; out, a forest over their pieces, with the end of each piece's capsule.
+// Chain tree. In: bands and root points. Out: a forest over their slabs, with the end of each slab's capsule.
 #include "model/chain_tree.hpp"
 
 #include <algorithm>
@@ -10,9 +10,9 @@ namespace frond {
 
 namespace {
 
-constexpr double TINY = 0.5;  // of a band: shorter side twigs are no twigs
+constexpr double TINY = 0.5;  // in bands: shorter side twigs are dropped
 
-// Lists of contacts by piece.
+// Lists of contacts by slab.
 struct Around {
     std::vector<int> first, contact;
 };
@@ -32,7 +32,7 @@ Around contacts_of_pieces(size_t piece_count, const std::vector<Contact>& contac
     return around;
 }
 
-// Distance at a point of a triangle, linear between its corners, from where its component begins.
+// Returns the distance at a point of a triangle, linear between its corners, from the start of its component.
 double distance_at(const Topology& topology, const Bands& bands, int triangle, const Vec3& place) {
     const Triangle& t = topology.triangles[size_t(triangle)];
     const Vec3 &a = topology.points[size_t(t[0])], &b = topology.points[size_t(t[1])],
@@ -63,7 +63,7 @@ bool is_tie(const Bands& bands, const Contact& contact) {
     return low != high && contact.length >= 0;
 }
 
-// Ties to a support first, then level contacts before sides before joints; then the longest.
+// Orders contacts: ties to a support first, then level ones before sides before joints; then the longest.
 bool is_better(const Bands& bands, const Contact& a, const Contact& b) {
     const bool tie_a = is_tie(bands, a), tie_b = is_tie(bands, b);
     if (tie_a != tie_b) return tie_a;
@@ -71,7 +71,7 @@ bool is_better(const Bands& bands, const Contact& a, const Contact& b) {
     return a.length > b.length;
 }
 
-// Which pieces hold root points and have nothing below them; their feet, under the middle of those points.
+// Finds the slabs that hold root points and have nothing below them, and their feet, under the middle of those points.
 std::vector<char> find_feet(const Topology& topology, const Bands& bands, const std::vector<int>& roots,
                             ChainTree& tree) {
     std::vector<char> is_root(topology.points.size(), 0), rooted(bands.pieces.size(), 0), above(bands.pieces.size(), 0);
@@ -86,7 +86,7 @@ std::vector<char> find_feet(const Topology& topology, const Bands& bands, const 
             const double entry = bands.entry[size_t(topology.triangle_component[t])];
             const size_t piece = size_t(bands.piece_at(int(t), bands.distance[size_t(p)] - entry));
             if (above[piece]) continue;
-            is_root[size_t(p)] = 0;  // once is enough
+            is_root[size_t(p)] = 0;  // each point counts once
             rooted[piece] = 1;
             weight[piece] += 1;
             tree.foot[piece] += topology.points[size_t(p)];
@@ -100,8 +100,8 @@ std::vector<char> find_feet(const Topology& topology, const Bands& bands, const 
     return rooted;
 }
 
-// The end of a piece's capsule: the middle of the level line where it goes on (where it forks, the widest line counts
-// most), or its own end.
+// Returns the end of a slab's capsule: the middle of the level line where it goes on (where it forks, the widest line
+// counts most), or its own end.
 Vec3 end_of(const Bands& bands, const ChainTree& tree, const Around& around, int piece) {
     const Shoot& shoot = tree.shoots[size_t(piece)];
     Vec3 sum = Vec3::Zero();
@@ -129,7 +129,7 @@ ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vec
     const std::vector<char> rooted = find_feet(topology, bands, roots, tree);
 
     std::vector<char> grown(count, 0), waiting(count, 0);
-    using Entry = std::tuple<bool, double, int>;  // of the plant, distance [m], piece
+    using Entry = std::tuple<bool, double, int>;  // belongs to the plant, distance [m], slab
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> front;
     const auto wait = [&](int piece) {
         if (waiting[size_t(piece)]) return;
@@ -140,7 +140,7 @@ ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vec
     for (size_t i = 0; i < count; i++)
         if (rooted[i]) wait(int(i));
     for (size_t next_root = 0;;) {
-        // Nothing is left to grow from: the next piece that is not there yet becomes a root.
+        // Nothing is left to grow from: the next slab that has not grown yet becomes a root.
         if (front.empty()) {
             while (next_root < count && grown[next_root]) next_root++;
             if (next_root == count) break;
@@ -175,7 +175,7 @@ ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vec
 
 void prune_tree(const Bands& bands, ChainTree& tree, double loose) {
     const double tiny = TINY * bands.height;
-    // From the tips inward, so that what bears only what was dropped can be dropped too.
+    // Works from the tips inwards, so that a slab whose children were all dropped can be dropped too.
     const auto size_of = [&](const Piece& piece) {
         if (!(piece.area > 0)) return piece.far - piece.near;
         const Vec3 middle = piece.sum / piece.area;
@@ -186,7 +186,7 @@ void prune_tree(const Bands& bands, ChainTree& tree, double loose) {
     for (auto it = tree.order.rbegin(); it != tree.order.rend(); ++it) {
         Shoot& shoot = tree.shoots[size_t(*it)];
         const Piece& piece = bands.pieces[size_t(*it)];
-        // Side twigs of the same kind: the shortest go, one is kept so that the branch reaches its tip.
+        // The shortest side twigs of the same kind are dropped; one is kept so that the branch reaches its tip.
         std::vector<int>& own = twigs[size_t(*it)];
         std::sort(own.begin(), own.end(), [&](int a, int b) {
             const Piece &pa = bands.pieces[size_t(a)], &pb = bands.pieces[size_t(b)];

@@ -1,34 +1,34 @@
-// Chain tree: which piece of a band grows out of which.
+// Chain tree: which slab of a band grows out of which.
 #pragma once
 
 #include "model/bands.hpp"
 
 namespace frond {
 
-// The group of the pieces that are no plant: stakes, trellises, pots.
+// Group of slabs that are not part of the plant: stakes, trellises, pots.
 constexpr int SUPPORT_GROUP = 3;
 
 struct Shoot {
-    int parent = -1;       // piece; -1 at a root
+    int parent = -1;       // slab; -1 at a root
     int contact = -1;      // index into ChainTree::contacts; -1 at a root
     bool down = false;     // grows towards smaller distances
-    bool dropped = false;  // too small to be a capsule: part of its parent
-    int children = 0;      // that are not dropped
-    Vec3 end;              // where its capsule ends [m]
+    bool dropped = false;  // too small for a capsule: part of its parent
+    int children = 0;      // children that are not dropped
+    Vec3 end;              // end of its capsule [m]
 };
 
 struct ChainTree {
-    std::vector<Contact> contacts;  // those of the bands, then one a joint
-    std::vector<Shoot> shoots;      // one a piece
-    std::vector<int> order;         // pieces, parents first
-    std::vector<Vec3> foot;         // piece -> middle of its root points; only at roots
+    std::vector<Contact> contacts;  // contacts of the bands, then one per joint
+    std::vector<Shoot> shoots;      // one per slab
+    std::vector<int> order;         // slabs, parents first
+    std::vector<Vec3> foot;         // slab -> foot, under the middle of its root points; only at roots
 };
 
-// A forest over all pieces. Each grows from the widest level contact with what is there already, else from a side, else
-// over a joint; what is nearest to the root grows first. Supports grow before the plant, and a stem grows out of the
-// support wherever it is tied to it: that is what carries it.
+// Makes a forest over all slabs. Each grows from the widest level contact with a slab that has grown already, else from
+// a side, else over a joint; the slab nearest to the root grows first. Supports grow before the plant, and a stem grows
+// out of the support wherever it is tied to it, because the support carries it.
 ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vector<int>& roots);
-// Drops twigs that are no twigs: lobes and teeth within half a band, loose parts smaller than `loose` bands.
+// Drops slabs that are no twigs: lobes and teeth within half a band, and loose parts smaller than `loose` bands.
 void prune_tree(const Bands& bands, ChainTree& tree, double loose);
 
 }  // namespace frond

@@ -1,5 +1,5 @@
-// Finds the import program: where the environment says, beside the library or program that holds this code, in libexec
-// relative to that, where it was built, where it was to be installed.
+// Finds the import program: at the path that the environment gives, beside the library or program that holds this code,
+// in libexec relative to that, where it was built, where it was to be installed.
 #include <dlfcn.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@ static bool is_program(const std::string& path) {
     return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && access(path.c_str(), X_OK) == 0;
 }
 
-// The folder of a file, links resolved; "" if it does not exist.
+// Returns the folder of a file, links resolved; "" if it does not exist.
 static std::string folder_of(const char* path) {
     char resolved[PATH_MAX];
     if (!path || !realpath(path, resolved)) return "";

@@ -1,5 +1,5 @@
-// Places a surface: file units and axes come in, metres and +y up go out. What the caller leaves open is guessed: the
-// scale only where the file's own would make no plant, the up axis only where the file declares none.
+// Places a surface. In: file units and axes. Out: metres and +y up. What the caller leaves open is guessed: the scale
+// only if the file's own gives a size that no plant has, the up axis only if the file declares none.
 #include <algorithm>
 #include <cmath>
 
@@ -11,13 +11,13 @@
 
 namespace frond {
 
-// Heights that are believed [m], and the range that a guess aims at.
+// Plausible heights [m], and the range in which a guess must lie.
 static constexpr double SMALLEST_PLANT = 0.02, TALLEST_PLANT = 50;
 static constexpr double TALLEST_HERB = 6;  // sunflowers, tree ferns; a plant in a pot
 static constexpr double GUESS_LOWER = 0.1, GUESS_UPPER = 3;
-// z must beat y by this much to be taken for up.
+// z must score this much more than y to be taken as up.
 static constexpr double UP_MARGIN = 0.25;
-// A plant farther from the origin than this many times its size loses its precision in float.
+// A plant farther from the origin than this many times its size loses precision in float.
 static constexpr double FARTHEST = 100;
 
 static bool is_usable(const Vec3& position) {
@@ -31,8 +31,8 @@ static Eigen::AlignedBox3d box_of(const std::vector<Vec3>& positions) {
     return box;
 }
 
-// How much the low end along an axis looks like a plant's foot, 0..4: it starts at zero, stands on the origin and below
-// the middle, and is small compared with the whole.
+// Scores how much the low end along an axis resembles a plant's foot, 0..4: it starts at zero, stands on the origin and
+// below the middle, and is small compared with the whole.
 static double score_foot(const std::vector<Vec3>& positions, int axis) {
     const Eigen::AlignedBox3d box = box_of(positions);
     if (box.isEmpty()) return 0;
@@ -40,7 +40,7 @@ static double score_foot(const std::vector<Vec3>& positions, int axis) {
     if (size <= 0 || height < 0.02 * size) return 0;
     const int side = (axis + 1) % 3, depth = (axis + 2) % 3;
 
-    // The vertices of the lowest twentieth: their centre and spread.
+    // Centre and spread of the vertices in the lowest twentieth.
     const double band = box.min()[axis] + 0.05 * height;
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     double squares = 0, count = 0;
@@ -62,7 +62,7 @@ static double score_foot(const std::vector<Vec3>& positions, int axis) {
     return at_zero + on_origin + below_middle + compact;
 }
 
-// The axis along which the plant is by far the longest gets a bonus; else none does.
+// Gives a bonus to the axis along which the plant is by far the longest, if there is one.
 static double score_length(const std::vector<Vec3>& positions, int axis) {
     const Eigen::AlignedBox3d box = box_of(positions);
     if (box.isEmpty()) return 0;
@@ -70,7 +70,8 @@ static double score_length(const std::vector<Vec3>& positions, int axis) {
     return box.sizes()[axis] > 1.5 * others ? 0.4 : 0;
 }
 
-// Single organs are often drawn along x from the origin on: what is by far the longest that way, with its foot there.
+// Returns whether a surface lies along x, as single organs are often drawn: by far the longest along x, from the
+// origin, with its foot there.
 static bool lies_along_x(const Surface& surface, double other_score) {
     constexpr double LONG = 2.5, MARGIN = 1;
     const Eigen::AlignedBox3d box = box_of(surface.positions);
@@ -87,13 +88,13 @@ static Vec3 guess_up(const Surface& surface) {
     return z > y + UP_MARGIN ? Vec3::UnitZ() : Vec3::UnitY();
 }
 
-// The shortest turn that takes an axis to +y.
+// Returns the shortest rotation that takes an axis to +y.
 static Mat3 turn_to_y(const Vec3& up) {
     if (up.y() < -1 + 1e-12) return Eigen::AngleAxisd(PI, Vec3::UnitX()).toRotationMatrix();
     return turn_between(up, Vec3::UnitY()).toRotationMatrix();
 }
 
-// The power of ten (so millimetres and centimetres too) that brings the height nearest to one metre.
+// Returns the power of ten (so millimetres and centimetres too) that brings the height nearest to one metre.
 static double guess_scale(double height) {
     double best = 1, best_distance = 1e300;
     for (int power = -300; power <= 300; ++power) {
@@ -116,7 +117,7 @@ static void check_options(const ImportOptions& options) {
         fail(FROND_RESULT_BAD_ARGUMENT, "the up axis has no usable length; give it length one");
 }
 
-// Turns positions and normals from the axis that was up so far.
+// Rotates positions and normals so that another axis becomes +y.
 static void turn_surface(Surface& surface, const Vec3& up) {
     if (up == surface.up) return;
     const Mat3 turn = turn_to_y(up) * turn_to_y(surface.up).transpose();
@@ -125,7 +126,7 @@ static void turn_surface(Surface& surface, const Vec3& up) {
     surface.up = up;
 }
 
-// A plant that is called a lily is not 20 m high.
+// Returns the largest plausible height: a plant that is named a lily is not 20 m high.
 static double tallest_of(const Surface& surface, const std::string& file) {
     std::vector<std::string> names = {file};
     for (const Part& part : surface.parts) {
@@ -157,7 +158,7 @@ static void scale_surface(Surface& surface, const ImportOptions& options) {
     surface.scale *= factor;
 }
 
-// Puts the foot of a plant that is absurdly far away on the origin.
+// Moves a plant that is implausibly far away, so that its foot is at the origin.
 static void fetch_surface(Surface& surface) {
     const Vec3 lower = surface.lower(), upper = surface.upper();
     const double distance = lower.cwiseMax(-upper).cwiseMax(0).norm(), size = (upper - lower).norm();
@@ -181,7 +182,7 @@ void place_surface(Surface& surface, const ImportOptions& options) {
     surface.placed = true;
 }
 
-// The surface keeps what was done; its positions are the points only for as long as this takes.
+// The surface records scale and up; it holds the points during this call only.
 void place_points(std::vector<Vec3>& points, const ImportOptions& options, Surface& surface) {
     check_options(options);
     surface.positions.swap(points);

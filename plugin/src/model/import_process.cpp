@@ -1,7 +1,6 @@
-// Runs the import program on a file: a path comes in, a surface or a tree of links goes out, or an error with the
-// file's name and the cause. The program has limits on time and memory, and nothing that it says is believed unchecked.
-// Its exit status is a hint only: a host may ignore SIGCHLD or reap our child before us, so the complete stream alone
-// decides.
+// Runs the import program on a file. In: a path. Out: a surface or a tree of links, or an error with the file's name
+// and the cause. The program has limits on time and memory, and all of its output is checked. Its exit status is a hint
+// only: a host may ignore SIGCHLD or reap our child before us, so only a complete stream counts.
 #include "model/import_process.hpp"
 
 #include <errno.h>
@@ -44,7 +43,8 @@ struct Pipe {
     Descriptor reading, writing;
 };
 
-// Both ends lie above the standard descriptors, so that a host without stdin or stdout does not mix them up.
+// Opens a pipe with both ends above the standard descriptors, so that a host without stdin or stdout does not mix them
+// up.
 static void open_pipe(Pipe& pipe) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail(FROND_RESULT_INTERNAL, "no pipe could be opened: %s", strerror(errno));
@@ -62,7 +62,7 @@ static std::string file_name(const std::string& path) {
     return path.substr(path.rfind('/') + 1);
 }
 
-// Limits that are 0 grow with the file.
+// Replaces limits of 0 by limits chosen from the file's size.
 static ImportLimits choose_limits(const ImportLimits& wanted, double file_bytes) {
     const double mib = file_bytes / 1048576;
     ImportLimits limits = wanted;
@@ -81,7 +81,7 @@ static pid_t start_program(const std::string& program, const std::string& path, 
     const char* what = use == UrdfUse::COLLIDES ? "collides" : nullptr;
     const char* arguments[] = {program.c_str(), path.c_str(), cpu.c_str(), wall.c_str(), memory.c_str(), what, nullptr};
 
-    // Standard descriptors and default signals, nothing else of the host's.
+    // The child inherits the standard descriptors and default signals, nothing else of the host's.
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     posix_spawn_file_actions_init(&actions);
@@ -115,7 +115,7 @@ static pid_t start_program(const std::string& program, const std::string& path, 
 
 enum class Ending { COMPLETE, LATE, TOO_MUCH, WRONG_PROGRAM };
 
-// Adds what a pipe holds; false when it has ended.
+// Appends what a pipe holds; returns false at its end.
 static bool drain(Descriptor& end, std::string& text, std::vector<char>& buffer) {
     const ssize_t count = read(end.number, buffer.data(), buffer.size());
     if (count < 0 && (errno == EINTR || errno == EAGAIN)) return true;
@@ -124,7 +124,7 @@ static bool drain(Descriptor& end, std::string& text, std::vector<char>& buffer)
     return true;
 }
 
-// Has the program said all that it announced?
+// Returns whether the program has written all that it announced.
 static bool is_whole(const std::string& stream) {
     uint64_t length;
     if (stream.size() < IMPORT_GREETING_SIZE + sizeof length) return false;
@@ -138,7 +138,7 @@ static Ending listen_to(Pipe& output, Pipe& messages, const ImportLimits& limits
     const Timer timer;
     std::vector<char> buffer(65536);
     while (output.reading.number >= 0) {
-        // The program ends itself at its limit of wall time; the second on top is for the case that it cannot.
+        // The program ends itself at its limit of wall time; the additional second is for the case that it cannot.
         const double left = 1000 * (limits.wall_seconds + 1) - timer.ms();
         if (left <= 0) return Ending::LATE;
         pollfd ends[2] = {{output.reading.number, POLLIN, 0}, {messages.reading.number, POLLIN, 0}};
@@ -152,18 +152,18 @@ static Ending listen_to(Pipe& output, Pipe& messages, const ImportLimits& limits
         if (stream.compare(0, IMPORT_GREETING_SIZE, import_greeting(), 0, stream.size()) != 0)
             return Ending::WRONG_PROGRAM;
         if (double(stream.size()) > limits.output_mib * 1048576) return Ending::TOO_MUCH;
-        // Not waiting for the pipe to close: a host that forks just now holds a copy of its writing end.
+        // Does not wait for the pipe to close: a host that forks at this moment holds a copy of its writing end.
         if (is_whole(stream)) return Ending::COMPLETE;
     }
     return Ending::COMPLETE;
 }
 
-// Ends the program if it still runs and leaves no zombie. Its wait status, or -1 if somebody else took it.
+// Ends the program if it still runs and leaves no zombie. Returns its wait status, or -1 if another part reaped it.
 static int end_program(pid_t process, bool stop) {
     if (stop) {
         siginfo_t info;
         info.si_pid = 0;
-        // Only a child that nobody has reaped has a process number that is surely its own.
+        // Only a child that nobody has reaped still owns its process number for certain.
         if (waitid(P_PID, id_t(process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0)
             kill(process, SIGKILL);
     }
@@ -173,7 +173,7 @@ static int end_program(pid_t process, bool stop) {
     return status;
 }
 
-// The last line that the program wrote to stderr.
+// Returns the last line that the program wrote to stderr.
 static std::string last_line(std::string text) {
     while (!text.empty() && uint8_t(text.back()) <= 32) text.pop_back();
     text = text.substr(text.rfind('\n') + 1).substr(0, 300);
@@ -223,7 +223,7 @@ static ImportResult run_program(const std::string& path, const ImportLimits& wan
     const ImportLimits limits = choose_limits(wanted, double(status.st_size));
     const std::string program = find_importer();
 
-    // The program writes to the pipes; our copies of its ends are closed, so that we see when it is done.
+    // The program writes to the pipes; our copies of their writing ends are closed, so that we see when it is done.
     Pipe output, messages;
     open_pipe(output);
     open_pipe(messages);

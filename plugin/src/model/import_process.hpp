@@ -1,4 +1,4 @@
-// Import process: the program that reads mesh files for the library, so that a damaged one cannot bring down the host.
+// Import process: the program that reads mesh files for the library, so that a damaged file cannot crash the host.
 #pragma once
 
 #include "model/import.hpp"
@@ -6,7 +6,7 @@
 
 namespace frond {
 
-// Limits of the program; 0 chooses by the size of the file.
+// Limits of the program; 0: chosen by the size of the file.
 struct ImportLimits {
     double cpu_seconds = 0;
     double wall_seconds = 0;
@@ -14,10 +14,10 @@ struct ImportLimits {
     double output_mib = 0;
 };
 
-// Where the program is. Throws FILE_NOT_FOUND with the remedy if there is none.
+// Returns the path of the program. Throws FILE_NOT_FOUND with the remedy if there is none.
 std::string find_importer();
-// Runs it on a file. Throws FILE_FORMAT or FILE_NOT_FOUND with file name and cause; the surface is neither placed nor
-// clean.
+// Runs the program on a file. Throws FILE_FORMAT or FILE_NOT_FOUND with file name and cause; the surface is neither
+// placed nor clean.
 Surface run_importer(const std::string& path, const ImportLimits& limits);
 
 }  // namespace frond

@@ -1,5 +1,5 @@
-// Writes and reads the import stream. The reader trusts nothing: lengths are checked before memory is taken for them,
-// and a surface or tree whose indices or sizes do not agree is refused as a whole.
+// Writes and reads the import stream. The reader trusts nothing: lengths are checked before memory is allocated, and a
+// surface or tree whose indices or sizes do not agree is rejected as a whole.
 #include "model/import_stream.hpp"
 
 #include "model/byte_stream.hpp"
@@ -16,7 +16,7 @@ std::string import_greeting() {
     return greeting;
 }
 
-// Sum over 8-byte words: against cut and mixed-up streams, not against forgers.
+// Checksum over 8-byte words, against truncated and mixed-up streams, not against forged ones.
 static uint64_t checksum(const char* bytes, size_t count) {
     uint64_t sum = 0xCBF29CE484222325ull ^ count;
     size_t i = 0;
@@ -106,7 +106,7 @@ static void take_surface(StreamReader& in, Surface& surface) {
     surface.dropped_triangles = take<int32_t>(in);
 }
 
-// Do sizes and indices agree? What clean_surface() repairs is not looked at here.
+// Returns whether sizes and indices agree. Defects that clean_surface() repairs are not checked here.
 static bool holds_together(const Surface& surface) {
     const size_t count = surface.positions.size();
     if (surface.triangles.size() > size_t(MAX_TRIANGLES) || count > size_t(3) * MAX_TRIANGLES) return false;

@@ -68,7 +68,7 @@ static UrdfFrame take_frame(StreamReader& in) {
     return frame;
 }
 
-// A count of things that are each taken on their own.
+// Reads the number of items that follow one by one.
 static uint32_t take_count(StreamReader& in, uint32_t most) {
     const uint32_t count = take<uint32_t>(in);
     in.good = in.good && count <= most;

@@ -1,4 +1,4 @@
-// Takes the caller's triangles: arrays come in, a surface of one part goes out, neither placed nor cleaned.
+// Takes the caller's triangles. In: arrays. Out: a surface of one part, neither placed nor clean.
 #include "core/error.hpp"
 #include "model/import.hpp"
 

@@ -1,10 +1,10 @@
-// Materials: one row a kind of organ. In: a kind's name. Out: constants of fresh, living tissue, SI units.
+// Materials: one row per kind of organ. In: a kind's name. Out: constants of fresh, living tissue, SI units.
 //
-// The table gives the modulus of the whole organ in bending along its axis (rind, pith and cavity together),
-// because that is what a rod or a calibrated cage of one material needs; so every preset is solid. For a hollow culm
-// give the wall's modulus and `hollow`. Fresh tissue is mostly water, so its density is near 1000 kg/m^3; Poisson's
-// ratio of wet tissue taken as solid is near 0.3 when the air spaces are counted in. "Estimate" marks what no source
-// was found for, and says what it follows from. Sources:
+// The table gives the modulus of the whole organ in bending along its axis (rind, pith and cavity together), because
+// that is what a rod or a calibrated cage of one material needs; so every preset is solid. For a hollow culm give the
+// wall's modulus and `hollow`. Fresh tissue is mostly water, so its density is near 1000 kg/m^3; Poisson's ratio of wet
+// tissue is near 0.3 if it is taken as a solid that includes the air spaces. "Estimate" marks a value without a source,
+// and says what it follows from. Sources:
 //   [1] Xu 2016: cucumber stem at root, middle and head: modulus 281, 199, 137 MPa; strength 7.35, 6.30, 4.68 MPa at
 //       strains of 2.6-3.4 %; the root part yields, the rest is brittle.
 //   [2] Agriculture 2022, 12(10), 1519, doi 10.3390/agriculture12101519: broccoli stem, 940-1056 kg/m^3; rind 27-48,
@@ -18,10 +18,10 @@
 //   [6] Moulia, Fournier 1997, doi 10.1023/A:1018604012754, and Moulia, Fournier, Guitard 1994, doi 10.1007/BF00363427:
 //       the maize leaf is a sandwich beam whose midrib carries most of the bending.
 //   [7] Langer, Kelbel, Speck, Mueller, Speck 2021, doi 10.3389/fpls.2021.765605: petioles of four herbs, EI/GJ 11.5
-//       and 13.3 in dicots, 23.7 and 39.2 in monocots; they bear 1.7-2.9 times their leaf. Sci. Rep. 2018, doi
+//       and 13.3 in dicots, 23.7 and 39.2 in monocots; they can bear 1.7-2.9 times their leaf. Sci. Rep. 2018, doi
 //       10.1038/s41598-018-34588-0: petioles of four trees, 4.3 (2.7-8.0 after Vogel 1992).
 //   [8] Lehmann, Kampowski, Caliaro, Speck, Speck 2019, Biol. Lett. 15(9), doi 10.1098/rsbl.2019.0254: Gerbera
-//       peduncles, flexural rigidity falls when they wilt while the bending modulus keeps.
+//       peduncles, flexural rigidity falls when they wilt while the bending modulus stays the same.
 //   [9] Gibson 2012, doi 10.1098/rsif.2012.0341: parenchyma 0.3-14 MPa, palm tissue up to 30 GPa, and wood in between.
 //   [10] Rowe, Speck and others in the tables of tendril climbers: structural modulus of old stems below 1 GPa, young
 //       ones stiffer; Gerbode, Puzey, McCormick, Mahadevan 2012, doi 10.1126/science.1223304: cucumber tendrils.
@@ -36,17 +36,17 @@
 //       grain, so that EI/GJ = E / 2G is 5-10; modulus of rupture air-dry 60-100 MPa.
 //   [15] Moore, Maguire 2004, Trees 18(2), 195-203: internal damping ratio of conifers mostly below 0.05.
 //   [16] Speck, Spatz 2004, Am. J. Bot. 91(6), 789-796, doi 10.3732/ajb.91.6.789: the giant reed sways as a damped
-//       oscillator, much more so with leaves, by air and by its structure; de Langre 2008, Annu. Rev. Fluid Mech. 40,
-//       141-168, doi 10.1146/annurev.fluid.40.111406.102135: plants sway with a few to some tens of per cent.
+//       oscillator, damped much more with leaves, by air and by its structure; de Langre 2008, Annu. Rev. Fluid Mech.
+//       40, 141-168, doi 10.1146/annurev.fluid.40.111406.102135: damping ratios of a few to some tens of per cent.
 //   [17] Lei, Wang, Lei, Liu 2022, BioResources 17(4), 5984-5998: static friction of fresh sugarcane tops, stem on stem
 //       0.45, leaf on leaf 0.38.
 //   [18] Agriculture 2024 (September), contact parameters of maize kernels: static friction on steel 0.545.
 //   [19] Annals of Forest Science 2020, doi 10.1007/s13595-020-0926-8: fresh poplar stems, modulus of rupture 35-50
-//       MPa; bending to a strain of 0.8 % damages the tissue for good.
+//       MPa; bending to a strain of 0.8 % damages the tissue permanently.
 //   [20] Ray, Bret-Harte 2019, Front. Plant Sci. 10, 59, doi 10.3389/fpls.2019.00059: loaded branches creep by 30-50 %
-//       of their first deflection; what stays for good comes within the first hours up to a day.
+//       of their first deflection; the permanent part comes within the first hours up to a day.
 //   [21] Vincent 1991, J. Mater. Sci. 26, 1947-1950, doi 10.1007/BF00543628: strength of the sclerenchyma of grass
-//       leaves 144 MPa, of which they hold 2-30 %.
+//       leaves 144 MPa; its share in the leaf is 2-30 %.
 //   [22] Pohl, Stroude, Buttler, Rixen 2011, Ann. Bot. 108(3), 537-545, doi 10.1093/aob/mcr169: roots of alpine herbs
 //       break at 2-8 MPa in thick and 18-30 MPa in fine ones.
 //   [23] Klimm, Schmier, Bohn, Kleiser, Thielen, Speck 2021, J. Exp. Bot.: passion-flower tendrils bear up to 2 N.
@@ -63,27 +63,27 @@ struct MaterialRow {
     Material material;
 };
 
-// These hold for more than one row, all estimates:
+// Values that hold for more than one row, all estimates:
 // - damping_ratio of soft organs is twice that of wood [15]: their tissue is wetter, and pith and rind shear against
-//   each other; well below what whole plants show [16], because air and leaves do the rest there.
-// - yield_strain is at nine tenths of the strain at which the organ breaks where a source calls the organ brittle [1],
-//   at two thirds where it calls it elastic-plastic or where nothing is known.
-// - creep_rate: in wood, hours [20]: 1e-4 / s. Primary walls, turgid and not lignified, give way in a quarter of an
-//   hour.
+//   each other; it is well below that of whole plants [16], which air and leaves damp in addition.
+// - yield_strain is nine tenths of the strain at which the organ breaks if a source calls the organ brittle [1], two
+//   thirds if it calls it elastic-plastic or if nothing is known.
+// - creep_rate: wood creeps within hours [20]: 1e-4 / s. Primary walls, turgid and not lignified, creep within a
+//   quarter of an hour.
 // - drag is zero, so that it follows from the shape: see plant/air_pieces.cpp.
 // - fruit, flower, root and tendril have their strands in the middle or none, so they are near isotropic [13]; blades
-//   twist as the strips they are.
+//   twist as strips.
 constexpr double ISOTROPIC = 0, WOOD_CREEP = 1e-4, HERB_CREEP = 1e-3, BY_SHAPE = 0;
 
 // density [kg/m^3], young [Pa], poisson, thickness [m]; hollow, twist_to_bend, damping_ratio, friction; yield_strain,
 // creep_rate [1/s], strength [Pa], drag
 static const MaterialRow MATERIALS[] = {
-    // Cucumber, its middle, brittle [1]; wall of an open tube: rind. Friction [17]. Twist: estimate, a closed ring at
-    // the rim [13], between isotropic and the tulip [12].
+    // Middle of a cucumber stem, brittle [1]; wall of an open tube: rind. Friction [17]. Twist: estimate, a closed ring
+    // at the rim [13], between isotropic and the tulip [12].
     {"stem", {1000, 2.0e8, 0.30, 1.5e-3, 0, 4, 0.06, 0.45, 0.028, HERB_CREEP, 6.3e6, BY_SHAPE}},
     // Green maize as a whole: a rind of 6-16 GPa dry, less when wet, around a pith of 1/17 of it [3]. Strength:
     // estimate, the rind breaks at a strain of 1.1-1.3 % [3], [24], the whole stalk with it. Twist as the tulip's, a
-    // monocot's round stem [12]. Friction [17]. Between herbs and wood in damping and creep.
+    // monocot's round stem [12]. Friction [17]. Damping and creep lie between those of herbs and wood.
     {"grass_stem", {950, 1.5e9, 0.30, 1.0e-3, 0, 8.3, 0.05, 0.45, 0.008, 3e-4, 1.8e7, BY_SHAPE}},
     // Chosen: between veins [5] and stems [1]; carries a blade with the safety factors of [7]. Twist: the two dicots of
     // [7]. Strength: estimate, breaks at the strain of stems [1].
@@ -110,18 +110,17 @@ static const MaterialRow MATERIALS[] = {
     // The middle of living branches [4]; green wood sinks or nearly so. Twist [14], damping [15], yield and strength
     // [19], creep [20]. Friction: estimate, bark is rougher than stems.
     {"branch", {950, 3.0e9, 0.35, 3.0e-3, 0, 7, 0.03, 0.5, 0.008, WOOD_CREEP, 4.5e7, BY_SHAPE}},
-    // Foliage drawn as one solid: leaves, twigs and mostly air. Estimates: 2-5 m^2 of leaf a cubic metre, 0.25 kg each
-    // when fresh, and as much again in twigs; stiff enough to keep its shape and too soft to hold up the branches in
-    // it.
-    // It gives way without harm.
+    // Foliage drawn as one solid: leaves, twigs and mostly air. Estimates: 2-5 m^2 of leaf per cubic metre, 0.25 kg per
+    // m^2 when fresh, and as much again in twigs; stiff enough to keep its shape and too soft to hold up the branches
+    // in it. It neither yields nor breaks.
     {"crown", {4, 5.0e4, 0.20, 0.4e-3, 0, ISOTROPIC, 0.10, 0.38, 0, 0, 0, BY_SHAPE}},
     // Hydrated: between herbs and wood [11]. Strength: thick roots of herbs [22]. Friction: estimate, as bark.
     {"root", {1000, 2.0e8, 0.35, 2.0e-3, 0, ISOTROPIC, 0.06, 0.5, 0.025, HERB_CREEP, 7.5e6, BY_SHAPE}},
     // Thin, lignified late [10]. Strength: 2 N [23] on a tendril of half a millimetre. Friction: estimate, they hold on
     // by ridges and hooks.
     {"tendril", {950, 2.0e8, 0.30, 0.5e-3, 0, ISOTROPIC, 0.08, 0.6, 0.033, HERB_CREEP, 1.0e7, BY_SHAPE}},
-    // Not a plant: stakes, trellises, pots. Air-dry softwood [14], which neither sets nor creeps within a day; friction
-    // of wood on wood and damping of dry wood: estimates.
+    // Not a plant: stakes, trellises, pots. Air-dry softwood [14], which neither yields nor creeps within a day;
+    // friction of wood on wood and damping of dry wood: estimates.
     {"support", {600, 8.0e9, 0.35, 5.0e-3, 0, 7, 0.02, 0.4, 0, 0, 8.0e7, BY_SHAPE}},
 };
 
@@ -137,8 +136,8 @@ std::string material_kinds() {
     return text;
 }
 
-// Zero is allowed where a material need not have a property; tiny values besides are not, where others are divided by
-// them.
+// Zero is allowed for a property that a material need not have; other tiny values are rejected where something is
+// divided by the property.
 void check_material(const Material& material, const std::string& who) {
     const struct {
         const char* what;

@@ -1,4 +1,4 @@
-// The chain's place in the cage, and sums over a model.
+// Attaches the chain to the cage, finds the nodes that the ground holds, and computes sums over a model.
 #include "model/model.hpp"
 
 #include <algorithm>
@@ -17,10 +17,10 @@ const std::vector<double>& Model::young_of(int order) const {
     return order == 2 && !rest_shapes->quadratic_young.empty() ? rest_shapes->quadratic_young : tet_young;
 }
 
-// Holds those corners that lie in the lower part of the cells around a foot: held up to the top of a coarse cell, a
-// stem would be shorter than it is. All of them, if fewer than three off one line would be left.
+// Holds the corners in the lower part of the cells around a foot: held up to the top of a coarse cell, a stem would be
+// too short. If these are fewer than three or lie on one line, holds all corners.
 static void hold_foot(const Cage& cage, double foot, const std::vector<int>& corners, std::vector<uint8_t>& root) {
-    constexpr double SHARE = 0.35;  // of the height from the foot to the top of its cells [-]
+    constexpr double SHARE = 0.35;  // share of the height from the foot to the top of its cells [-]
     double top = foot;
     for (int corner : corners) top = std::max(top, cage.nodes[size_t(corner)].y());
     std::vector<int> low;
@@ -60,8 +60,8 @@ std::vector<uint8_t> find_root_nodes(const Model& model) {
     return root;
 }
 
-// Each chain node is bound to that tet, of those which carry its own vertices, that it lies deepest in: copies of cells
-// that belong to other organs at the same place do not move it.
+// Attaches each chain node to the tet in which it lies deepest, of those that carry its own vertices. Copies of cells
+// that belong to other organs at the same position therefore do not move it.
 static void embed_chain(Model& model) {
     const size_t count = model.chain.nodes.size();
     std::vector<std::vector<int>> tets(count);
@@ -70,7 +70,7 @@ static void embed_chain(Model& model) {
     model.chain_embedding.tet.resize(count);
     model.chain_embedding.weights.resize(count);
     for (size_t i = 0; i < count; i++) {
-        // A node that no vertex is nearest to takes its parent's tets (parents come first).
+        // A node that is nearest to no vertex takes its parent's tets (parents come first).
         const int parent = model.chain.nodes[i].parent;
         if (tets[i].empty()) tets[i] = parent >= 0 ? tets[size_t(parent)] : model.embedding.tet;
         std::sort(tets[i].begin(), tets[i].end());

@@ -1,5 +1,5 @@
-// Organ finding: in, a surface with parts, its topology and the caller's materials; out, organs with names, kinds and
-// materials, every part belonging to one of them.
+// Organ finding. In: a surface with parts, its topology and the caller's materials. Out: organs with names, kinds and
+// materials; every part belongs to one of them.
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -10,9 +10,9 @@
 
 namespace frond {
 
-constexpr double TREE_HEIGHT = 3;  // what stands higher is held by wood [m]
+constexpr double TREE_HEIGHT = 3;  // higher plants are held by wood [m]
 
-// A tube ends in nothing or in rings; a sheet has a border at least as long as itself.
+// Returns whether a part has the border of a sheet, at least as long as itself; a tube is closed or ends in rings.
 static bool has_border(const Topology& topology, const Part& part) {
     std::map<std::array<int, 2>, int> uses;
     Vec3 lower = Vec3::Constant(INFINITY), upper = -lower;
@@ -29,7 +29,8 @@ static bool has_border(const Topology& topology, const Part& part) {
     return border >= (upper - lower).norm();
 }
 
-// Twigs drawn as cards with leaves on them: called branches, beside wood that is none, and nearly all sheets.
+// Finds twigs drawn as cards with leaves on them: parts named branches that are nearly all sheets, if other branches
+// are not. Makes them blades.
 static void find_cards(const Surface& surface, const Topology& topology, const std::vector<char>& sheets,
                        std::vector<std::string>& named) {
     constexpr double NEARLY_ALL = 0.9;
@@ -51,7 +52,7 @@ static bool is_green(const std::array<float, 4>& color) {
     return color[1] > 1.1f * color[0] && color[1] > 1.3f * color[2];
 }
 
-// A green component that grows on wood is foliage, however solid it was drawn.
+// Makes unnamed green parts of a plant with wood blades: they are foliage, however solid they were drawn.
 static void find_foliage(const Surface& surface, std::vector<std::string>& named) {
     if (std::find(named.begin(), named.end(), "branch") == named.end()) return;
     for (size_t i = 0; i < named.size(); i++) {
@@ -61,7 +62,7 @@ static void find_foliage(const Surface& surface, std::vector<std::string>& named
     }
 }
 
-// A kind for every triangle: by the names of its part, else by colour and shape.
+// Returns a kind for every triangle: by the names of its part, else by colour and shape.
 static std::vector<std::string> kinds_of_triangles(const Surface& surface, const Topology& topology) {
     std::vector<std::string> named = kinds_by_name(surface);
     std::vector<std::string> kinds(surface.triangles.size());
@@ -95,8 +96,8 @@ static void reorder(std::vector<T>& values, const std::vector<int>& order) {
     values.swap(moved);
 }
 
-// Splits each part into runs of one kind; returns the kind of each new part. Larger runs of a part come in the order in
-// which their kinds first appear.
+// Splits each part into runs of one kind, in the order in which the kinds first appear. Returns the kind of each new
+// part.
 static std::vector<std::string> split_parts(Surface& surface, Topology& topology,
                                             const std::vector<std::string>& kinds) {
     std::vector<int> order(surface.triangles.size());
@@ -120,7 +121,7 @@ static std::vector<std::string> split_parts(Surface& surface, Topology& topology
     }
     surface.parts = std::move(parts);
     if (!moved) return part_kinds;
-    // The topology speaks of the same triangles.
+    // The topology must list the same triangles in the same order.
     reorder(surface.triangles, order);
     reorder(topology.triangles, order);
     reorder(topology.triangle_component, order);
@@ -133,7 +134,8 @@ static std::vector<std::string> split_parts(Surface& surface, Topology& topology
     return part_kinds;
 }
 
-// One organ a part; a part's own name if no other part has it, else its kind and a number that is still free.
+// Makes one organ per part, with the part's own name if no other part has it, else its kind and a number that is still
+// free.
 static std::vector<Organ> name_organs(Surface& surface, const std::vector<std::string>& kinds) {
     std::multiset<std::string> given;
     for (const Part& part : surface.parts) given.insert(part.name);
@@ -157,7 +159,7 @@ static std::vector<Organ> name_organs(Surface& surface, const std::vector<std::s
     return organs;
 }
 
-// "stem (stem), leaf_1 (blade) ... and 12 more"
+// Returns "stem (stem), leaf_1 (blade) ... and 12 more".
 static std::string list_organs(const std::vector<Organ>& organs) {
     std::string text;
     for (size_t i = 0; i < organs.size(); i++) {
@@ -189,7 +191,7 @@ void override_materials(std::vector<Organ>& organs, const frond_organ_material* 
     }
 }
 
-// The colour of a kind of organ (linear).
+// Returns the colour of a kind of organ (linear).
 static std::array<float, 4> color_of_kind(const std::string& kind) {
     static const struct {
         const char* kind;
@@ -205,7 +207,7 @@ static std::array<float, 4> color_of_kind(const std::string& kind) {
     return {0.12f, 0.24f, 0.05f, 1};
 }
 
-// A file whose parts are all grey, black or white, without texture or vertex colours, brings no colours.
+// Returns whether a file has no colours: all parts are grey, black or white, without texture or vertex colours.
 static bool is_colorless(const Surface& surface) {
     constexpr float GREY = 0.02f;
     if (!surface.colors.empty()) return false;
@@ -216,7 +218,7 @@ static bool is_colorless(const Surface& surface) {
     });
 }
 
-// Parts that the file gives no colour look like what they are.
+// Colours parts that have no colour in the file by their kind of organ.
 static void color_by_kind(Surface& surface, const std::vector<Organ>& organs) {
     const bool is_open = is_colorless(surface);
     for (Part& part : surface.parts)

@@ -1,4 +1,4 @@
-// Organ names: in, names of nodes and materials as artists give them; out, the kind of organ they tell.
+// Organ names. In: names of nodes and materials as artists give them. Out: the kind of organ that they mean.
 // A name is cut into words at everything that is not a letter, between letters and digits, and at camelCase; only whole
 // words, their plurals and compounds whose last part is a long enough word count ("earth" is no ear, "system" no stem).
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace frond {
 
 using WordTable = std::map<std::string, const char*>;
 
-// Words that mean an organ, with plurals that do not end in s.
+// Returns the words that mean an organ, with plurals that do not end in s.
 static const WordTable& organ_words() {
     static const struct {
         const char* kind;
@@ -65,7 +65,7 @@ static const WordTable& organ_words() {
     return table;
 }
 
-// Words that mean a fruit or a flower on a plant, or else the whole plant.
+// Returns the words that mean a fruit or a flower on a plant, or else the whole plant.
 static const WordTable& species_words() {
     static const WordTable table = [] {
         WordTable made;
@@ -85,7 +85,7 @@ static const WordTable& species_words() {
     return table;
 }
 
-// Words of the scene graph beside which "root" is no root.
+// Returns whether a word belongs to the scene graph: beside it "root" is no root.
 static bool is_scene_word(const std::string& word) {
     static const std::set<std::string> words = {"node",      "scene",     "model", "gltf",  "fbx",
                                                 "sketchfab", "armature",  "bone",  "joint", "rig",
@@ -100,7 +100,7 @@ static std::vector<std::string> words_of(const std::string& name) {
     std::string word;
     for (size_t i = 0; i < name.size(); i++) {
         const auto c = static_cast<unsigned char>(name[i]);
-        // A capital starts a word after a small letter, and before one when it ends a run of capitals.
+        // A capital starts a word after a lower-case letter, and before one at the end of a run of capitals.
         const bool starts = is_upper(c) && i > 0 &&
                             (!is_upper(static_cast<unsigned char>(name[i - 1])) ||
                              (i + 1 < name.size() && name[i + 1] >= 'a' && name[i + 1] <= 'z'));
@@ -114,7 +114,7 @@ static std::vector<std::string> words_of(const std::string& name) {
     return words;
 }
 
-// A word of the table as it stands or in the plural.
+// Looks up a word in the table, as it is or in the plural.
 static const char* look_up(const WordTable& table, const std::string& word) {
     const auto found = table.find(word);
     if (found != table.end()) return found->second;
@@ -134,7 +134,7 @@ static bool ends_with(const std::string& word, const std::string& end) {
     return word.size() > end.size() && word.compare(word.size() - end.size(), end.size(), end) == 0;
 }
 
-// "mapleleaf", "leafmat", and characters that are words by themselves.
+// Looks up compounds ("mapleleaf", "leafmat"), and characters that are words by themselves.
 static const char* look_up_compound(const std::string& word) {
     static const std::set<std::string> tails = {"mat",   "mats",   "material", "tex",     "texture", "mesh",
                                                 "geo",   "group",  "grp",      "obj",     "card",    "cards",
@@ -158,7 +158,8 @@ static const char* look_up_compound(const std::string& word) {
     return kind;
 }
 
-// The stem of a leaf is a petiole, that of a flower or fruit a peduncle, the rib of a leaf its midrib.
+// Returns the kind of a pair of words, or null: the stem of a leaf is a petiole, the stem of a flower or fruit a
+// peduncle, the rib of a leaf its midrib.
 static const char* kind_of_pair(const std::string& first, const std::string& second, const std::string& word) {
     if (second == "stem" && first == "blade") return word == "vine" || word == "shoot" ? nullptr : "petiole";
     if (second == "stem" && (first == "flower" || first == "fruit")) return "peduncle";
@@ -176,7 +177,7 @@ NameClue read_name(const std::string& name) {
         mixture =
             mixture || word == "and" || word == "with" || word == "und" || word == "mit" || word == "y" || word == "et";
     }
-    // Exact words first: the last one names the thing, those before it say which ("stem leaf" is a leaf).
+    // Exact words first: the last one names the organ, those before it qualify it ("stem leaf" is a leaf).
     for (const std::string& word : words) {
         const char* hit = look_up(organ_words(), word);
         if (word == "rib" || word == "ribs") hit = kind == "blade" ? "midrib" : nullptr;
@@ -227,7 +228,8 @@ bool names_a_herb(const std::vector<std::string>& names) {
     return speak_of(herbs) && !speak_of(trees);
 }
 
-// Words that all names have and that would make all parts pots, fruits or flowers: "FlowerPot6" is the whole.
+// Finds words that all names have and that would make all parts pots, fruits or flowers: "FlowerPot6" is the whole
+// plant.
 static std::set<std::string> find_common_words(const std::vector<std::string>& names) {
     std::set<std::string> common;
     for (size_t i = 0; i < names.size(); i++) {
@@ -253,8 +255,7 @@ static std::string without(const std::string& name, const std::set<std::string>&
     return out;
 }
 
-// Tells whether a material is called after a colour; those that share a name with a fruit or a flower count when told
-// to.
+// Returns whether a material is named after a colour. With `with_species`, so are those named like a fruit or flower.
 static bool is_color_name(const std::string& name, bool with_species) {
     static const std::set<std::string> shades = {"light", "dark", "pale", "bright", "deep", "medium"};
     static const std::set<std::string> colors = {"green", "yellow", "brown",  "red",     "blue",
@@ -269,7 +270,8 @@ static bool is_color_name(const std::string& name, bool with_species) {
     return has_color;
 }
 
-// "Orange" beside "Green" and "Wood" is a colour, and so is "LightOrange".
+// Returns whether materials are named after colours: "Orange" beside "Green" and "Wood" is one, and so is
+// "LightOrange".
 static bool has_palette(const Surface& surface) {
     return std::any_of(surface.parts.begin(), surface.parts.end(), [](const Part& part) {
         return is_color_name(part.material, false) ||
@@ -291,7 +293,7 @@ std::vector<std::string> kinds_by_name(const Surface& surface) {
     if (count > 1) whole_names = find_common_words(all_names);
     if (distinct.size() > 1) whole_materials = find_common_words(all_materials);
     const bool palette = has_palette(surface);
-    // A species that every part is named after is the plant, not its fruit.
+    // A species that every part is named after is the whole plant, not its fruit.
     size_t species = 0, roots = 0, flowers = 0;
     for (size_t i = 0; i < count; i++) {
         names[i] = read_name(without(all_names[i], whole_names));
@@ -302,8 +304,8 @@ std::vector<std::string> kinds_by_name(const Surface& surface) {
         flowers += names[i].kind == "flower" && !names[i].species;
     }
     for (size_t i = 0; i < count; i++) {
-        // When every mesh is called "root" it is the top of a scene graph; a lone "flower" has its stem and leaves with
-        // it.
+        // If every mesh is named "root", that is the top of a scene graph; a lone "flower" includes its stem and
+        // leaves.
         if (names[i].kind == "root" && roots == count) names[i] = {};
         if (names[i].kind == "flower" && flowers == 1 && count == 1) names[i] = {};
         for (const NameClue* clue : {&names[i], &materials[i]})

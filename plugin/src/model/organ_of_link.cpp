@@ -8,7 +8,7 @@
 
 namespace frond {
 
-// "grass_stem" is a material of stems, no kind of its own.
+// Returns whether a name is a kind of organ. "grass_stem" is only a material of stems.
 static bool is_kind(const std::string& name) {
     return material_preset(name) && name.compare(0, 6, "grass_") != 0;
 }

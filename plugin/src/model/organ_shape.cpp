@@ -1,6 +1,6 @@
-// Organ shape: in, a topology; out, for each triangle whether it is part of a sheet or of a tube.
-// The plant is cut into short bands along its distance from the ground. A piece of a band is a sheet when its normals,
-// taken without sign, all point nearly the same way, or when open edges run along it on both sides; a ring of a tube
+// Organ shape. In: a topology. Out: for each triangle whether it is part of a sheet or of a tube.
+// The plant is cut into short bands along its distance from the ground. A slab is a sheet if its normals, taken without
+// sign, are all nearly parallel, or if they are roughly so and open edges run along it on both sides; a ring of a tube
 // has normals all around and no open edge along it. That works for closed thin leaves and for coarse tubes alike. A
 // large round component that is held up stands for leaves; if it encloses a volume it is a crown drawn as a solid.
 #include <Eigen/Geometry>
@@ -13,13 +13,13 @@
 
 namespace frond {
 
-constexpr double FLAT = 0.72;   // share of the normals along one axis from which a piece is flat
-constexpr double FOLDED = 0.6;  // and from which it is, if it is open
-constexpr double OPEN = 1.5;    // open edges along a piece, in lengths of the piece, from which it is open
-constexpr double WHOLE = 0.93;  // share of a component from which all of it counts as one kind
-constexpr double SLICES = 40;   // along the longest way through the plant
+constexpr double FLAT = 0.72;   // least share of the normals along one axis in a flat slab
+constexpr double FOLDED = 0.6;  // the same in an open slab
+constexpr double OPEN = 1.5;    // least length of open edges of an open slab, in lengths of the slab
+constexpr double WHOLE = 0.93;  // share of a component's area from which all of it counts as one kind
+constexpr double SLICES = 40;   // bands along the longest path through the plant
 
-// Length of open edges along the distance, by piece [m].
+// Measures the length of open edges along the distance, per slab [m].
 static std::vector<double> measure_open_edges(const Topology& topology, const std::vector<SharedEdge>& edges,
                                               const Bands& bands) {
     std::vector<std::array<char, 3>> shared(topology.triangles.size(), {0, 0, 0});
@@ -51,14 +51,14 @@ static std::vector<double> measure_open_edges(const Topology& topology, const st
     return open;
 }
 
-// The piece that holds a triangle's middle.
+// Returns the slab that holds a triangle's middle.
 static int piece_of(const Topology& topology, const Bands& bands, size_t t) {
     double middle = 0;
     for (int p : topology.triangles[t]) middle += bands.distance[size_t(p)] / 3;
     return bands.piece_at(int(t), middle - bands.entry[size_t(topology.triangle_component[t])]);
 }
 
-// The largest share of a piece's normals along one axis [-]: 1 for a plane, 1/2 for a tube.
+// Measures the largest share of each slab's normals along one axis [-]: 1 for a plane, 1/2 for a tube.
 static std::vector<double> measure_flatness(const Topology& topology, const Bands& bands) {
     std::vector<Mat3> spread(bands.pieces.size(), Mat3::Zero());
     for (size_t t = 0; t < topology.triangles.size(); t++) {
@@ -81,7 +81,7 @@ static std::vector<double> measure_flatness(const Topology& topology, const Band
     return flat;
 }
 
-// A piece that differs from all its larger neighbours is noise.
+// Flips slabs that differ from all their neighbours, if these are larger together: such slabs are noise.
 static void smooth_pieces(const Bands& bands, std::vector<char>& sheet) {
     std::vector<double> same(sheet.size(), 0.0), other(sheet.size(), 0.0);
     for (const Contact& contact : bands.contacts) {
@@ -93,11 +93,11 @@ static void smooth_pieces(const Bands& bands, std::vector<char>& sheet) {
         if (same[i] == 0 && other[i] > 1.5 * bands.pieces[i].area) sheet[i] = !sheet[i];
 }
 
-// A component as it looks from afar.
+// Box, area and volume of a component.
 struct Lump {
     Eigen::AlignedBox3d box;
     double area = 0;    // [m^2]
-    double volume = 0;  // that its triangles enclose, seen from a corner of the first one [m^3]
+    double volume = 0;  // enclosed by its triangles, computed about a corner of the first one [m^3]
 };
 
 static std::vector<Lump> measure_lumps(const Topology& topology) {
@@ -117,8 +117,8 @@ static std::vector<Lump> measure_lumps(const Topology& topology) {
     return lumps;
 }
 
-// Components that stand for many leaves: about as wide as high, with as much surface as a ball of that size at least,
-// large, and held up by something else unless they may stand on the ground.
+// Finds components that stand for many leaves: about as wide as high, with nearly as much surface as a ball of that
+// size at least, large, and held up by something else unless they may stand on the ground.
 static std::vector<char> find_round(const std::vector<Lump>& lumps, bool on_ground) {
     constexpr double ROUND = 0.35, SOLID = 0.35, LARGE = 0.2, HELD_UP = 0.12;
     Eigen::AlignedBox3d whole;
@@ -136,8 +136,8 @@ static std::vector<char> find_round(const std::vector<Lump>& lumps, bool on_grou
 }
 
 std::vector<char> find_crowns(const Topology& topology, bool on_ground) {
-    constexpr double FULL = 0.2;     // share of its box that a solid fills: a cone 0.26, a ball 0.52
-    constexpr double COMPACT = 0.2;  // 36 pi V^2 / A^3: a ball 1, a cube 0.52; a rosette of thick leaves 0.1
+    constexpr double FULL = 0.2;     // least share of its box that a solid fills: a cone fills 0.26, a ball 0.52
+    constexpr double COMPACT = 0.2;  // least 36 pi V^2 / A^3: a ball has 1, a cube 0.52; a rosette of thick leaves 0.1
     const std::vector<Lump> lumps = measure_lumps(topology);
     std::vector<char> crown = find_round(lumps, on_ground);
     for (size_t i = 0; i < lumps.size(); i++)
@@ -150,7 +150,7 @@ std::vector<char> find_crowns(const Topology& topology, bool on_ground) {
 
 std::vector<char> find_sheets(const Topology& topology) {
     const size_t count = topology.triangles.size();
-    // From the lowest point of all; which way is not important here.
+    // Distances start from the lowest point of all; their direction is not important here.
     int lowest = 0;
     for (size_t i = 0; i < topology.points.size(); i++)
         if (topology.points[i].y() < topology.points[size_t(lowest)].y()) lowest = int(i);
@@ -171,7 +171,7 @@ std::vector<char> find_sheets(const Topology& topology) {
     }
     smooth_pieces(bands, sheet);
 
-    // A component that is nearly all of one kind is all of that kind; others are told piece by piece.
+    // A component that is nearly all of one kind is all of that kind; others are decided slab by slab.
     std::vector<double> area(size_t(topology.component_count), 0.0), flat(area);
     for (size_t i = 0; i < sheet.size(); i++) {
         area[size_t(bands.pieces[i].component)] += bands.pieces[i].area;

@@ -1,5 +1,5 @@
-// Numbers places: positions come in, equal ones get the same number. An open-addressing hash table over the
-// coordinates' bits; -0 and 0 are the same place.
+// Numbers positions: equal ones get the same number. Uses an open-addressing hash table over the coordinates' bits; -0
+// and 0 are equal.
 #include "model/place_index.hpp"
 
 #include <cstring>
@@ -23,7 +23,7 @@ PlaceIndex index_places(const std::vector<Vec3>& positions) {
     index.place.resize(positions.size());
     size_t slot_count = 16;
     while (slot_count < 2 * positions.size()) slot_count *= 2;
-    std::vector<int> slots(slot_count, -1);  // first vertex at a place
+    std::vector<int> slots(slot_count, -1);  // first vertex at a position
     for (size_t i = 0; i < positions.size(); ++i) {
         size_t slot = hash_of(positions[i]) & (slot_count - 1);
         while (slots[slot] >= 0 && positions[size_t(slots[slot])] != positions[i]) slot = (slot + 1) & (slot_count - 1);

@@ -1,4 +1,4 @@
-// Place index: vertices that lie at exactly the same place share one number.
+// Place index: vertices that have exactly the same position share one number.
 #pragma once
 
 #include "core/types.hpp"
@@ -6,7 +6,7 @@
 namespace frond {
 
 struct PlaceIndex {
-    std::vector<int> place;  // of each position; numbered from 0 in order of first appearance
+    std::vector<int> place;  // number of each position, from 0 in order of first appearance
     int count = 0;
 };
 

@@ -1,6 +1,6 @@
 // Surface, organs and chain -> sections. Where planes across a capsule cut one closed outline, that is the section.
-// Elsewhere (open sheets, soups, forks) it follows from how far the surface spreads across the axis. The material then
-// says what is hollow and how stiff and heavy it is.
+// Elsewhere (open sheets, soups, forks) the section follows from the spread of the surface across the axis. The
+// material then determines the hole, the stiffness and the mass.
 #include "model/section.hpp"
 
 #include <algorithm>
@@ -32,9 +32,9 @@ std::vector<CapsuleFrame> make_frames(const Chain& chain) {
     return frames;
 }
 
-// A sheet of width w and thickness t: area w t, inertia from the spread of its middle surface and its own thickness. A
-// blade has a midrib that its sheet does not show: at least a round rib whose diameter is a twentieth of the width
-// (maize: 4 mm of 80 mm).
+// Fills a sheet of width w and thickness t: area w t, inertia from the spread of its middle surface and its own
+// thickness. A blade has a midrib that its sheet does not show: at least a round rib whose diameter is a twentieth of
+// the width (maize: 4 mm of 80 mm).
 void fill_sheet(const Spread& spread, double width, double thickness, Section& section) {
     const double own = thickness * thickness / 12, rib = width / 40;
     section.area = width * thickness;
@@ -42,8 +42,9 @@ void fill_sheet(const Spread& spread, double width, double thickness, Section& s
     section.inertia_wide = std::max(section.area * (spread.large + own), section.inertia_thin);
 }
 
-// A solid ring of variances a and b encloses 2 pi sqrt(a b), and its inertia is area times variance over two (exact for
-// a circle); it is never less than the sheet that would be drawn the same.
+// Fills a solid from the ring that its surface forms: with variances a and b it encloses 2 pi sqrt(a b), and its
+// inertia is area times variance over two (exact for a circle). It is never less than that of a sheet with the same
+// surface.
 void fill_ring(const Spread& spread, double width, double thickness, Section& section) {
     const double own = thickness * thickness / 12, sheet = width * thickness;
     const double solid = 2 * M_PI * std::sqrt(spread.small * spread.large);
@@ -52,15 +53,15 @@ void fill_ring(const Spread& spread, double width, double thickness, Section& se
     section.inertia_wide = std::max(sheet * (spread.large + own), solid * spread.large / 2);
 }
 
-// Area and second moments of a capsule's outline, without its hole. Returns whether they are exact. An outline that is
-// much smaller than the surface around the capsule is that of a corner which happens to lie in the way.
+// Fills area and second moments of a capsule's outline, without its hole. Returns whether they are exact. An outline
+// that is much smaller than the surface around the capsule belongs to a corner that happens to be cut, and is not used.
 bool fill_outline(const ChainNode& node, const Organ& organ, const Spread& spread, const Outline& outline,
                   const std::vector<Section>& before, Section& section) {
     constexpr double TOO_SMALL = 0.4;
     const double drawn = spread.area / section.length;
     section.thickness = organ.material.thickness;
     if (is_sheet(organ) && spread.area > 0) {
-        // Drawn with two faces it is as thick as they are apart, unless that is next to nothing.
+        // A sheet drawn with two faces is as thick as they are apart, unless that is close to zero.
         const double width = outline.doubled ? drawn / 2 : drawn;
         if (outline.gap > 0.5 * section.thickness) section.thickness = outline.gap;
         section.thin = spread.thin;
@@ -81,7 +82,7 @@ bool fill_outline(const ChainNode& node, const Organ& organ, const Spread& sprea
         return false;
     }
     if (node.parent >= 0) {
-        // Nothing of the surface is nearest to it: as its parent is, turned to lie across its own axis.
+        // A capsule to which no surface is nearest takes its parent's section, rotated to lie across its own axis.
         const Section& parent = before[size_t(node.parent)];
         const Vec3 across = parent.thin - parent.thin.dot(section.axis) * section.axis;
         section.thin = across.norm() > 0.1 ? Vec3(across.normalized()) : Vec3(section.axis.unitOrthogonal());
@@ -127,8 +128,7 @@ void smooth_sections(const Chain& chain, const std::vector<char>& exact, std::ve
 
 }  // namespace
 
-// A strip of an open sheet is twisted as easily bowed as flat; what is more than that in its bending stiffness is a
-// rib, which is round.
+// Sheets: a bowed strip twists as easily as a flat one, so only the round rib is added to the flat strip's constant.
 void finish_section(const Organ& organ, Section& section) {
     const Material& material = organ.material;
     if (is_sheet(organ)) {

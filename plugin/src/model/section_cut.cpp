@@ -1,6 +1,7 @@
-// Surface and chain -> outlines. Planes across a capsule cut its triangles in line segments, turned so that they run
+// Surface and chain -> outlines. Planes across a capsule cut its triangles in line segments, directed so that they run
 // around what they enclose; Green's theorem then gives area and second moments of the outline, exactly for a mesh that
-// is closed there and oriented. Where segments do not close up (open sheets, forks, soups) there is no outline.
+// is closed there and oriented. Where segments do not form a closed loop (open sheets, forks, soups) there is no
+// outline.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -16,17 +17,17 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr double CLOSED = 1e-6;  // a gap, as a share of the perimeter, that is none
-constexpr double MAIN = 0.8;     // share of all that is cut that the main component must have
-constexpr double COMPACT = 9;    // A^2 / sqrt(I_thin I_wide) of one outline; of two apart it is less
-// Gauss's points and weights along the capsule: exact for a taper.
+constexpr double CLOSED = 1e-6;  // largest gap of a closed outline, as a share of its perimeter
+constexpr double MAIN = 0.8;     // least share of the whole perimeter that the main component must have
+constexpr double COMPACT = 9;    // least A^2 / sqrt(I_thin I_wide) of one outline; two apart have less
+// Gauss points and weights along the capsule: exact for a taper.
 constexpr std::array<double, 3> PLANES = {0.1127016653792583, 0.5, 0.8872983346207417};
 constexpr std::array<double, 3> WEIGHTS = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 
 // Sums over segments, about the axis.
 struct Sums {
     double perimeter = 0, area = 0;
-    Vector2d end = Vector2d::Zero();    // of all segments one after the other: zero if they close up
+    Vector2d end = Vector2d::Zero();    // sum of all segments as vectors: zero if they form a closed loop
     Vector2d first = Vector2d::Zero();  // moment of area
     Matrix2d second = Matrix2d::Zero();
 
@@ -41,7 +42,7 @@ struct Sums {
     bool closed() const { return perimeter > 0 && end.norm() < CLOSED * perimeter && area != 0; }
 };
 
-// The segment in which a plane across the axis cuts a triangle, run the way round that its normal says.
+// Finds the segment in which a plane across the axis cuts a triangle, directed by the triangle's normal.
 bool cut_triangle(const std::array<Vec3, 3>& corners, const CapsuleFrame& frame, double along, Vector2d& p,
                   Vector2d& q) {
     std::array<double, 3> side;
@@ -64,7 +65,7 @@ bool cut_triangle(const std::array<Vec3, 3>& corners, const CapsuleFrame& frame,
     return true;
 }
 
-// Triangles of each chain node's own organ with a corner there.
+// Lists for each chain node the triangles of its own organ with a corner assigned to it.
 std::vector<std::vector<int>> triangles_by_node(const Surface& surface, const Chain& chain) {
     std::vector<std::vector<int>> lists(chain.nodes.size());
     for (const Part& part : surface.parts)
@@ -77,7 +78,7 @@ std::vector<std::vector<int>> triangles_by_node(const Surface& surface, const Ch
     return lists;
 }
 
-// Triangles that a plane through a capsule may cut: its own and those of the capsules before and after it.
+// Lists the triangles that a plane through a capsule may cut: its own and those of the capsules before and after it.
 std::vector<std::vector<int>> triangles_by_capsule(const Surface& surface, const Chain& chain) {
     const std::vector<std::vector<int>> own = triangles_by_node(surface, chain);
     std::vector<std::vector<int>> lists = own;
@@ -97,7 +98,7 @@ std::vector<std::vector<int>> triangles_by_capsule(const Surface& surface, const
     return lists;
 }
 
-// The second moments about the centroid if the sums are those of one compact outline; else zero.
+// Returns the second moments about the centroid if the sums are those of one compact outline, else zero.
 Matrix2d compact_moments(const Sums& sums) {
     const double sign = sums.area < 0 ? -1 : 1;
     const Matrix2d moments = sign * (sums.second - sums.first * sums.first.transpose() / sums.area);
@@ -122,16 +123,17 @@ PlaneCut main_outline(const std::map<int, Sums>& components, double perimeter) {
     return {};
 }
 
-// Where an organ comes to a point within a capsule, the point does not speak for the rest.
+// Drops cuts through a pointed end within a capsule, as it does not represent the rest.
 void drop_points(std::array<PlaneCut, 3>& cuts) {
-    constexpr double POINT = 0.25;  // of the largest area
+    constexpr double POINT = 0.25;  // share of the largest area
     const double most = std::max({cuts[0].area, cuts[1].area, cuts[2].area});
     for (PlaneCut& cut : cuts)
         if (cut.area < POINT * most) cut = {};
 }
 
-// At its foot a plant ends in a face or a cap, which the ground holds: the section goes on from above. Towards a tip
-// the load vanishes faster than the section, so that the middle stands for the whole capsule.
+// Corrects the cuts at a plant's foot and tips. The foot ends in a face or a cap, which the ground holds: its section
+// is continued from above. Towards a tip the load vanishes faster than the section, so that the middle cut represents
+// the whole capsule.
 void repair_ends(bool foot, bool tip, std::array<PlaneCut, 3>& cuts) {
     if (tip && cuts[1].area > 0) cuts[0] = cuts[2] = cuts[1];
     if (!foot || tip || !(cuts[1].area > 0 && cuts[2].area > 0) || cuts[0].area >= cuts[1].area) return;
@@ -141,7 +143,7 @@ void repair_ends(bool foot, bool tip, std::array<PlaneCut, 3>& cuts) {
     cuts[0].moments += cuts[1].moments - cuts[2].moments;
 }
 
-// Area is averaged, and what averages in bending is the inverse of the second moments.
+// Averages the areas and the inverse second moments: in bending it is compliances that add up.
 void average(const std::array<PlaneCut, 3>& cuts, const CapsuleFrame& frame, Outline& outline) {
     double weight = 0, area = 0;
     Matrix2d inverse = Matrix2d::Zero();

@@ -1,4 +1,4 @@
-// Parts that the sources of Section share: two ways to look at the surface around a capsule.
+// Declarations that the sources of Section share: two measurements of the surface around a capsule.
 #pragma once
 
 #include "model/section.hpp"
@@ -11,9 +11,9 @@ struct CapsuleFrame {
     double length;  // [m]
 };
 
-// Spread of the surface across the axis, small one first, with the direction of the small one.
+// Spread of the surface across the axis, the small one first, with the direction of the small one.
 struct Spread {
-    double area;          // of the surface [m^2]
+    double area;          // area of the surface [m^2]
     double small, large;  // variances [m^2]
     Vec3 thin;
 };
@@ -21,7 +21,7 @@ struct Spread {
 // The cuts of planes across a capsule with the surface, averaged over the planes.
 struct Outline {
     bool found = false;                 // at least one plane cuts one closed, compact outline
-    double area;                        // inside [m^2]
+    double area;                        // enclosed area [m^2]
     double inertia_thin, inertia_wide;  // [m^4]
     Vec3 thin;
     // For sheets: whether they are drawn with two faces, and the mean distance of the faces [m].
@@ -29,13 +29,13 @@ struct Outline {
     double gap = 0;
 };
 
-// One a chain node. A capsule without surface of its own has a spread of zero area.
+// Return one result per chain node. A capsule without surface of its own has a spread of zero area.
 std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
                                     const std::vector<CapsuleFrame>& frames);
 std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topology, const Chain& chain,
                                   const std::vector<CapsuleFrame>& frames);
 
-// 0 for an ellipse and a polygon like one, 1 for a rectangle.
+// Returns 0 for an ellipse and a polygon like one, 1 for a rectangle.
 double squareness(double area, double inertia_thin, double inertia_wide);
 
 }  // namespace frond

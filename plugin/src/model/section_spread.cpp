@@ -1,5 +1,5 @@
-// Surface and chain -> spreads. Every triangle is shared out among the capsules nearest to it. The spread of a
-// capsule's surface across its axis is measured after the capsule's own bow along the axis is taken out, so that an
+// Surface and chain -> spreads. Every triangle is distributed over the capsules nearest to it. The spread of a
+// capsule's surface across its axis is measured after the capsule's own bow along the axis is subtracted, so that an
 // arching leaf is not mistaken for a thick one.
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -11,19 +11,19 @@
 namespace frond {
 namespace {
 
-// A share of surface that belongs to a capsule.
+// A point with the area around it that belongs to a capsule.
 struct Tile {
     Vec3 position;
     double area;
 };
 
-// Shares a triangle out among capsules: each point goes to the nearest one. What is nearest to more than one is halved
-// across its longest edge until it is small.
+// Distributes a triangle over capsules: each point goes to the nearest one. Triangles that are nearest to more than one
+// are halved across their longest edge until they are small.
 struct Sharer {
     const Chain& chain;
     std::vector<std::vector<Tile>>& patches;
-    std::vector<int> capsules = {};  // that may have a share of this triangle
-    double small = 0;                // [m]
+    std::vector<int> capsules = {};  // candidates for this triangle
+    double small = 0;                // shortest edge that is still halved [m]
 
     int nearest(const Vec3& p) const {
         int best = -1;
@@ -51,7 +51,7 @@ struct Sharer {
     }
 
     void share(Vec3 a, Vec3 b, Vec3 c) {
-        // a to b is the longest edge.
+        // Renames the corners so that a to b is the longest edge.
         const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
         if (bc > ab && bc >= ca) return share(b, c, a);
         if (ca > ab && ca > bc) return share(c, a, b);
@@ -64,10 +64,10 @@ struct Sharer {
     }
 };
 
-// A triangle's share goes to capsules of its own organ that begin or end where its corners are bound.
+// Distributes each triangle over the capsules of its own organ that begin or end where its corners are assigned.
 std::vector<std::vector<Tile>> collect_patches(const Surface& surface, const Chain& chain) {
-    constexpr double SMALL = 1.0 / 16;  // of a capsule
-    // No triangle falls into more than some hundreds of pieces, and all together not into many millions.
+    constexpr double SMALL = 1.0 / 16;  // share of a capsule's length
+    // A triangle gives some hundreds of tiles at most, and all together not many millions.
     constexpr double MOST_PIECES = 8e6, FINEST = 24;
     const double fineness = std::clamp(std::sqrt(MOST_PIECES / double(surface.triangles.size())), 1.0, FINEST);
     std::vector<std::vector<Tile>> patches(chain.nodes.size());
@@ -103,7 +103,7 @@ std::vector<std::vector<Tile>> collect_patches(const Surface& surface, const Cha
 }
 
 Spread measure_spread(const std::vector<Tile>& patches, const CapsuleFrame& frame) {
-    // Offsets across the axis as a parabola along it, by least squares weighted with area.
+    // Fits the offsets across the axis by a parabola along it, by least squares weighted by area.
     Mat3 normal = 1e-12 * Mat3::Identity();
     Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
     double total = 0;
@@ -118,7 +118,7 @@ Spread measure_spread(const std::vector<Tile>& patches, const CapsuleFrame& fram
     }
     normal.diagonal().array() += 1e-9 * total;
     const Eigen::Matrix<double, 3, 2> bow = normal.ldlt().solve(right);
-    // The rest is the spread of the section itself.
+    // The remainder is the spread of the section itself.
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
     for (const Tile& patch : patches) {
         const Vec3 offset = patch.position - frame.begin;

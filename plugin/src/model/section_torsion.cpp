@@ -1,8 +1,8 @@
 // Area and second moments of an outline -> its torsion constant. Saint-Venant 1855 ("De la torsion des prismes"): A^4 /
-// (4 pi^2 I_p) is exact for every ellipse and near for every compact outline; for rectangles his series is exact. How
-// much an outline is one or the other shows in A^2 / sqrt(I_thin I_wide), which is 4 pi for every ellipse and 12 for
-// every rectangle, and between them the two are mixed. A polygon of eight sides or more stands for an ellipse, whose
-// constant is then taken from its second moments alone: 4 I_thin I_wide / I_p, also exact.
+// (4 pi^2 I_p) is exact for every ellipse and close for every compact outline; for rectangles his series is exact. How
+// much an outline resembles one or the other follows from A^2 / sqrt(I_thin I_wide), which is 4 pi for every ellipse
+// and 12 for every rectangle; in between, the two are mixed. A polygon of eight sides or more counts as an ellipse,
+// whose constant is then taken from its second moments alone: 4 I_thin I_wide / I_p, also exact.
 #include <algorithm>
 #include <cmath>
 

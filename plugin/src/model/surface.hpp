@@ -1,5 +1,5 @@
-// Surface: the render mesh as it came in, cleaned, in metres with +y up. A soup: nothing says that it is closed,
-// manifold or oriented.
+// Surface: the render mesh as imported, cleaned, in metres with +y up. A triangle soup: it need not be closed, manifold
+// or oriented.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace frond {
 
-// A run of triangles that came from one node and one material of the file. What it looks like: color times texture
-// times vertex colors, as far as there are any.
+// A run of triangles that came from one node and one material of the file. Its appearance is color times texture times
+// vertex colors, as far as there are any.
 struct Part {
     std::string name, material;
     std::array<float, 4> color = {0.5f, 0.6f, 0.35f, 1.0f};  // linear RGBA
@@ -21,24 +21,23 @@ struct Part {
 
 struct Texture {
     std::string name;
-    std::vector<uint8_t> bytes;  // of an image file
+    std::vector<uint8_t> bytes;  // contents of an image file
 };
 
 struct Surface {
     std::vector<Vec3> positions;
-    std::vector<Vec3f> normals;       // one a vertex, length one
-    std::vector<Vec2f> uvs;           // empty or one a vertex; v = 0 is the texture's top row
-    std::vector<Color> colors;        // empty or one a vertex
+    std::vector<Vec3f> normals;       // one per vertex, unit length
+    std::vector<Vec2f> uvs;           // empty or one per vertex; v = 0 is the texture's top row
+    std::vector<Color> colors;        // empty or one per vertex
     std::vector<Triangle> triangles;  // ordered by part
     std::vector<Part> parts;          // cover the triangles without gap
     std::vector<Texture> textures;
 
-    // Counts of what the import repaired.
+    // Numbers of defects that the import repaired.
     int dropped_triangles = 0, repaired_vertices = 0;
     double scale = 1;         // metres per file unit
     Vec3 up = Vec3::UnitY();  // file axis that became +y
-    // For place_surface(): the file says which way is up; scale and up are final, so that placing again changes
-    // nothing.
+    // For place_surface(): the file states its up axis; scale and up are final, so that placing again changes nothing.
     bool up_declared = false, placed = false;
 
     Vec3 lower() const;
@@ -48,10 +47,11 @@ struct Surface {
 };
 
 // Drops triangles with bad indices, without area or given twice, and vertices that nothing uses; makes normals where
-// they are missing; keeps the order of what is left. Throws BAD_GEOMETRY when nothing is left, coordinates are
-// absurd or there are more faces than a plant can have.
+// they are missing; keeps the order of the rest. Throws BAD_GEOMETRY if nothing is left, if array sizes do not agree or
+// if there are more faces than a plant can have.
 void clean_surface(Surface& surface);
-// Normals for the vertices flagged in `missing`: smooth over all triangles at the same place, weighted by area.
+// Makes normals for the vertices flagged in `missing`: smooth over all triangles at the same position, weighted by
+// area.
 void make_normals(Surface& surface, const std::vector<char>& missing);
 
 constexpr int MAX_TRIANGLES = 5000000;

@@ -1,4 +1,4 @@
-// Bounds of a surface: positions come in, the corners of the smallest axis-parallel box go out [m].
+// Bounds of a surface. In: positions. Out: the corners of the smallest axis-parallel box [m].
 #include "model/surface.hpp"
 
 namespace frond {

@@ -1,4 +1,4 @@
-// Cleans a surface: a soup as it came goes in, the same soup without what no stage could use goes out: triangles with
+// Cleans a surface. In: an imported triangle soup. Out: the same soup without what no stage could use: triangles with
 // bad indices or absurd corners, without area or given twice, and vertices that nothing uses. The order of the rest is
 // kept.
 #include <cmath>
@@ -13,8 +13,8 @@ namespace frond {
 
 // A triangle lower than this share of the plant's size has no area.
 static constexpr double SMALLEST_HEIGHT = 1e-10;
-// More faces than this, in squares of its size, no plant has; a cage would take minutes and gigabytes only to be
-// refused.
+// Largest area of a plant's surface, in squares of its size. With more, a cage would take minutes and gigabytes only to
+// be rejected.
 static constexpr double MOST_AREA = 1000;
 
 static void check_sizes(const Surface& surface) {
@@ -41,7 +41,7 @@ static void check_sizes(const Surface& surface) {
         fail(FROND_RESULT_BAD_GEOMETRY, "the parts cover %d of %zu triangles", covered, surface.triangles.size());
 }
 
-// Which vertices have coordinates that can be used.
+// Finds the vertices whose coordinates can be used.
 static std::vector<char> find_usable(const std::vector<Vec3>& positions) {
     std::vector<char> usable(positions.size());
     for (size_t i = 0; i < positions.size(); ++i)
@@ -49,7 +49,7 @@ static std::vector<char> find_usable(const std::vector<Vec3>& positions) {
     return usable;
 }
 
-// The diagonal of the box around the usable vertices that triangles refer to [m].
+// Returns the diagonal of the box around the usable vertices that triangles refer to [m].
 static double size_of(const Surface& surface, const std::vector<char>& usable) {
     Eigen::AlignedBox3d box;
     for (const Triangle& triangle : surface.triangles)
@@ -77,14 +77,14 @@ struct TripleHash {
     }
 };
 
-// Starts at the smallest corner; the orientation stays.
+// Rotates a triangle's corners so that the smallest comes first; keeps the orientation.
 static Triangle rotated(Triangle triangle) {
     while (triangle[0] > triangle[1] || triangle[0] > triangle[2]) triangle = {triangle[1], triangle[2], triangle[0]};
     return triangle;
 }
 
-// Which triangles stay. Given twice are those with the same places the same way round, or the same vertices either way
-// round; a leaf drawn twice back to back, with vertices of its own for each side, is a wish and stays.
+// Chooses which triangles stay. Duplicates have the same positions in the same orientation, or the same vertices in
+// either orientation. A leaf drawn twice back to back, with separate vertices for each side, is intended and stays.
 static std::vector<char> choose_triangles(const Surface& surface, const std::vector<char>& usable) {
     const double size = size_of(surface, usable);
     const PlaceIndex index = index_places(surface.positions);
@@ -152,7 +152,7 @@ static void drop_vertices(Surface& surface, const std::vector<char>& usable) {
 }
 
 static void repair_values(Surface& surface) {
-    // Normals get length one; those that have no direction are made.
+    // Normals get unit length; those without a direction are made.
     const bool had_normals = !surface.normals.empty();
     std::vector<char> missing(surface.positions.size(), 1);
     surface.normals.resize(surface.positions.size(), Vec3f::Zero());

@@ -1,6 +1,6 @@
-// Makes normals: triangles and positions come in, a unit normal for each vertex that misses one goes out. Area-weighted
-// over all triangles at the vertex's place, so that a seam between two parts or two texture islands does not show; a
-// vertex whose place has another side (a leaf drawn twice, back to back) takes its own triangles only.
+// Makes normals. In: triangles and positions. Out: a unit normal for each vertex that has none. Area-weighted over all
+// triangles at the vertex's position, so that a seam between two parts or two texture islands does not show; a vertex
+// whose position has another side (a leaf drawn twice, back to back) takes its own triangles only.
 #include "model/place_index.hpp"
 #include "model/surface.hpp"
 
@@ -11,7 +11,7 @@ void make_normals(Surface& surface, const std::vector<char>& missing) {
     surface.normals.resize(vertex_count, Vec3f::Zero());
     const PlaceIndex index = index_places(surface.positions);
 
-    // Twice the area vectors of the triangles, by vertex and by place.
+    // Twice the area vectors of the triangles, by vertex and by position.
     std::vector<Vec3> own(vertex_count, Vec3::Zero()), first(vertex_count, Vec3::Zero());
     std::vector<Vec3> shared(size_t(index.count), Vec3::Zero());
     for (const Triangle& triangle : surface.triangles) {
@@ -25,7 +25,8 @@ void make_normals(Surface& surface, const std::vector<char>& missing) {
         }
     }
 
-    // The place's normal where it agrees with the vertex's own, else the vertex's, else that of its first triangle.
+    // Takes the position's normal where it agrees with the vertex's own, else the vertex's, else that of its first
+    // triangle.
     for (size_t i = 0; i < vertex_count; ++i) {
         if (!missing[i]) continue;
         const Vec3& place = shared[size_t(index.place[i])];

@@ -1,5 +1,5 @@
-// Makes the surface of a tree of stems: tapered straight pieces come in, tubes with rounded ends go out, one part a
-// stem. The round end of a piece reaches into the next one, so that forks and bends look joined.
+// Makes the surface of a tree of stems. In: tapered straight stems. Out: tubes with rounded ends, one part per stem.
+// The round end of a stem reaches into the next one, so that forks and bends look joined.
 #include <algorithm>
 #include <cmath>
 
@@ -39,7 +39,7 @@ static double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& 
     return (point - (a + along * (b - a))).norm();
 }
 
-// A stem that begins in the air is tied to the plant by the cage, over the gap.
+// Warns of stems that begin in the air. The cage ties them to the plant across the gap.
 static void warn_of_gaps(const frond_stem* stems, int stem_count) {
     int gaps = 0, first = -1;
     for (int i = 0; i < stem_count; ++i) {
@@ -54,12 +54,12 @@ static void warn_of_gaps(const frond_stem* stems, int stem_count) {
     if (gaps > 0) warn("%d stems do not touch their parents, the first is stem %d", gaps, first);
 }
 
-// A circle of the tube: where along the axis, and how wide.
+// A circle of the tube: its position along the axis, and its radius [m].
 struct Ring {
     double along, radius;
 };
 
-// From pole to pole, without the poles: the half sphere at the begin, the cone, the half sphere at the end.
+// Lists rings from pole to pole, without the poles: the half sphere at the begin, the cone, the half sphere at the end.
 static std::vector<Ring> rings_of(const frond_stem& stem, double length) {
     std::vector<Ring> rings;
     for (int k = CAP_RINGS - 1; k > 0; --k) {
@@ -79,8 +79,8 @@ static std::vector<Ring> rings_of(const frond_stem& stem, double length) {
     return rings;
 }
 
-// A prism of SIDES sides whose corners lie a little outside the circle, so that its faces are as far from the axis, in
-// the mean of squares, as the circle: it then bends as the round stem does.
+// Returns the corner radius of a prism of SIDES sides that bends as the round stem does: its corners lie a little
+// outside the circle, so that the mean squared distance of its faces from the axis is the circle's.
 static double corner_radius(double radius) {
     const double sine = std::sin(PI / SIDES);
     return radius / std::sqrt(1 - 2.0 / 3 * sine * sine);

@@ -1,4 +1,4 @@
-// Reads tet files: a path comes in, nodes, tets and named regions go out. The format is told by the name's ending; the
+// Reads tet files. In: a path. Out: nodes, tets and named regions. The format follows from the name's ending; the
 // readers are our own and trust nothing.
 #include "model/tet_file.hpp"
 
@@ -112,7 +112,7 @@ size_t read_count(TetFile& file, int64_t count, size_t smallest, const char* wha
 }
 
 int region_index(TetMesh& mesh, const std::string& name) {
-    // The last one used is nearly always the one.
+    // The region is nearly always the one used last.
     if (!mesh.tet_region.empty() && mesh.regions[size_t(mesh.tet_region.back())] == name) return mesh.tet_region.back();
     for (size_t i = 0; i < mesh.regions.size(); ++i)
         if (mesh.regions[i] == name) return int(i);

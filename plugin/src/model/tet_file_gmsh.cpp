@@ -1,5 +1,5 @@
-// Reads Gmsh files of versions 2.2 and 4.1, text and binary: tetrahedra of any order by their four corners; the names
-// of physical volumes become regions. Follows the file format chapter of the Gmsh manual.
+// Reads Gmsh files of versions 2.2 and 4.1, text and binary: tetrahedra of any order, of which the four corners are
+// kept; the names of physical volumes become regions. Follows the file format chapter of the Gmsh manual.
 #include <cmath>
 #include <map>
 #include <unordered_map>
@@ -13,14 +13,14 @@ namespace frond {
 struct GmshReading {
     TetMesh mesh;
     std::unordered_map<int64_t, int> node_index;
-    std::map<int64_t, std::string> physical_names;  // of volumes, by tag
+    std::map<int64_t, std::string> physical_names;  // names of volumes, by tag
     std::map<int64_t, int64_t> volume_physical;     // version 4: volume -> first physical tag
-    std::vector<std::array<int64_t, 4>> corners;    // of the tets, by node tag
-    size_t other_volumes = 0;                       // elements of other kinds that fill space
+    std::vector<std::array<int64_t, 4>> corners;    // corners of the tets, by node tag
+    size_t other_volumes = 0;                       // volume elements other than tets
     bool is_binary = false, is_version_4 = false, is_swapped = false;
 };
 
-// Nodes of each element type of Gmsh; 0 if unknown.
+// Returns the number of nodes of an element type of Gmsh; 0 if unknown.
 static int node_count_of(int64_t type) {
     static const int COUNTS[] = {0, 2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10, 27, 18, 14, 1,
                                  8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
@@ -32,13 +32,13 @@ static bool is_tet(int64_t type) {
     return type == 4 || type == 11 || (type >= 29 && type <= 31);
 }
 
-// Hexahedra, prisms and pyramids of any order.
+// Returns whether a type is a hexahedron, prism or pyramid of any order.
 static bool is_other_volume(int64_t type) {
     return (type >= 5 && type <= 7) || (type >= 12 && type <= 14) || (type >= 17 && type <= 19) || type == 92 ||
            type == 93;
 }
 
-// The text between a section's name line and its end is binary, if the file is.
+// The text between a section's name line and its end is binary if the file is.
 static void begin_numbers(TetFile& file, const GmshReading& reading) {
     file.is_binary = reading.is_binary;
     file.is_swapped = reading.is_swapped;
@@ -253,7 +253,7 @@ static void read_section(TetFile& file, GmshReading& reading, const std::string&
     if (word != end) fail_at(file, "\"" + word.substr(0, 40) + "\" stands where " + end + " should");
 }
 
-// Node tags become indices.
+// Replaces node tags by indices.
 static void join_tets(TetFile& file, GmshReading& reading) {
     for (size_t t = 0; t < reading.corners.size(); ++t) {
         Tet tet;

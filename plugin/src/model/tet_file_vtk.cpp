@@ -1,6 +1,6 @@
 // Reads legacy VTK files, versions 1 to 5.1, text and binary (big-endian), with an unstructured grid: tetrahedra of any
-// order by their four corners; an integer cell array that tells regions becomes them. Follows the VTK file formats
-// chapter of the VTK user's guide.
+// order, of which the four corners are kept; an integer cell array whose name means regions gives the regions. Follows
+// the VTK file formats chapter of the VTK user's guide.
 #include <algorithm>
 #include <cmath>
 
@@ -12,10 +12,10 @@ namespace frond {
 
 struct VtkReading {
     std::vector<Vec3> points;
-    std::vector<size_t> begins;  // of each cell in connectivity; one more than cells
+    std::vector<size_t> begins;  // start of each cell in connectivity; one more than cells
     std::vector<int64_t> connectivity;
     std::vector<int64_t> types;
-    std::vector<int64_t> regions;  // of each cell; empty if the file tells none
+    std::vector<int64_t> regions;  // region of each cell; empty if the file has none
     bool is_binary = false;
     size_t cell_data = 0, point_data = 0;  // tuples of the arrays that follow
 };
@@ -25,7 +25,7 @@ static bool is_word(const std::string& a, const char* b) {
     return std::equal(a.begin(), a.end(), b, [](char x, char y) { return toupper(x) == toupper(y); });
 }
 
-// Bytes of a value of a VTK type; 0 if it has none.
+// Returns the bytes of a value of a VTK type; 0 if the type is unknown.
 static size_t type_size(const std::string& type) {
     static const struct {
         const char* name;
@@ -86,7 +86,7 @@ static void read_points(TetFile& file, VtkReading& reading) {
     file.is_binary = false;
 }
 
-// Up to version 4: each cell is its length and its points. From 5: offsets, then points.
+// Up to version 4, each cell is stored as its length and its points; from version 5, as offsets, then points.
 static void read_cells(TetFile& file, VtkReading& reading) {
     const int64_t first = read_whole(file), second = read_whole(file);
     skip_line_end(file);
@@ -180,7 +180,7 @@ static void read_scalars(TetFile& file, VtkReading& reading) {
         file.at = before;
         file.line = line_before;
     }
-    // The line's end is behind us already.
+    // The line's end was already read: goes back to it.
     if (file.at > 0) {
         --file.at;
         --file.line;
@@ -217,7 +217,7 @@ static void begin_data(TetFile& file, VtkReading& reading, bool is_cells) {
         fail_at(file, text_of("there are %zu values for %zu cells", count, reading.types.size()));
 }
 
-// One keyword with what belongs to it; false when only things follow that are not needed.
+// Reads one keyword with its data. Returns false when only data follow that are not needed.
 static bool read_block(TetFile& file, VtkReading& reading) {
     const std::string word = read_word(file);
     if (is_word(word, "POINTS"))

@@ -1,4 +1,4 @@
-// Corners of a tet come in, its volume and the barycentric coordinates of places go out.
+// In: corners of a tet. Out: its volume, and the barycentric coordinates of positions.
 #include "model/tet_geometry.hpp"
 
 namespace frond {

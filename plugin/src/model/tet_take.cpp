@@ -1,5 +1,5 @@
-// Takes tets that somebody else meshed: nodes and tets come in, a cage with the very same nodes and tets goes out, its
-// boundary as surface, and every surface vertex bound to the node that it is.
+// Takes tets from another mesher. In: nodes and tets. Out: a cage with the very same nodes and tets, and its boundary
+// as surface, with every vertex attached to its own node.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -13,7 +13,7 @@
 namespace frond {
 
 static constexpr size_t MOST_TETS = 5000000;
-// A tet with less than this share of its longest edge's cube has no volume.
+// A tet is flat if six times its volume is less than this share of its longest edge's cube.
 static constexpr double SMALLEST_VOLUME = 1e-9;
 
 static void check_tets(const TetMesh& mesh) {
@@ -53,7 +53,7 @@ static void orient_tets(TetMesh& mesh) {
     }
 }
 
-// The same four nodes given twice would be twice as stiff: meshers write an element once for each group that it is in.
+// Drops tets given twice, which would be twice as stiff: meshers write an element once for each group that it is in.
 static void drop_repeated(TetMesh& mesh) {
     std::vector<std::pair<Tet, size_t>> sorted(mesh.tets.size());
     for (size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -100,11 +100,11 @@ static void drop_loose_nodes(TetMesh& mesh) {
 
 struct Face {
     std::array<int, 3> key;  // sorted nodes
-    Triangle triangle;       // outwards
+    Triangle triangle;       // oriented outwards
     int tet;
 };
 
-// Faces that belong to one tet only, by region, then in the order of the tets.
+// Finds the faces that belong to one tet only, by region, then in the order of the tets.
 static std::vector<Face> find_boundary(const TetMesh& mesh) {
     static const int CORNERS[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
     std::vector<Face> faces;
@@ -137,7 +137,7 @@ static std::vector<Face> find_boundary(const TetMesh& mesh) {
     return boundary;
 }
 
-// One part a region; vertices in the order of the nodes, each bound to its node.
+// Makes one part per region; vertices in the order of the nodes, each attached to its node.
 static void make_surface(const TetMesh& mesh, Surface& surface, Embedding& embedding) {
     const std::vector<Face> boundary = find_boundary(mesh);
     if (boundary.size() > size_t(MAX_TRIANGLES))
@@ -187,7 +187,7 @@ void take_tets(TetMesh mesh, const ImportOptions& options, Surface& surface, Cag
     drop_repeated(mesh);
     drop_loose_nodes(mesh);
 
-    // The nodes are placed as a surface's vertices would be, but neither cleaned nor fetched from afar.
+    // The nodes are placed as a surface's vertices would be, but neither cleaned nor moved to the origin from afar.
     surface = Surface();
     place_points(mesh.nodes, options, surface);
     orient_tets(mesh);

@@ -1,5 +1,5 @@
-// From a soup to its topology: vertices at nearly the same place become one point (a hash table of small cells),
-// triangles that share points become one component, and joints tie the components together.
+// From a triangle soup to its topology: vertices at nearly the same position become one point (a hash table of small
+// cells), triangles that share points become one component, and joints tie the components together.
 #include "model/topology.hpp"
 
 #include <algorithm>
@@ -11,21 +11,21 @@
 
 namespace frond {
 
-// Vertices nearer than this share of the plant's size are one point.
+// Vertices closer than this share of the plant's size are one point.
 static constexpr double WELD_TOLERANCE = 1e-6;
-// Edge of a hash cell in tolerances: large enough that most vertices look into one or two cells only.
+// Edge of a hash cell in tolerances: large enough that most vertices are searched for in one or two cells only.
 static constexpr double CELL = 8;
 
 using Cell = std::array<int64_t, 3>;
 
-// Points by the cell that they lie in: chains of points in an open-addressing table.
+// Points by the cell that they lie in: linked lists in an open-addressing table.
 struct PointTable {
     struct Slot {
         Cell cell;
         int first = -1;
     };
     std::vector<Slot> slots;
-    std::vector<int> next;  // of each point, in its cell
+    std::vector<int> next;  // next point in the same cell, for each point
 
     explicit PointTable(size_t expected) {
         size_t count = 16;
@@ -49,7 +49,7 @@ static Cell cell_of(const Vec3& place, double cell_size) {
             int64_t(std::floor(place.z() / cell_size))};
 }
 
-// The nearest point within the tolerance, or -1.
+// Returns the nearest point within the tolerance, or -1.
 static int find_point(PointTable& table, const std::vector<Vec3>& points, const Vec3& place, double tolerance) {
     const Cell low = cell_of(place - Vec3::Constant(tolerance), CELL * tolerance);
     const Cell high = cell_of(place + Vec3::Constant(tolerance), CELL * tolerance);
@@ -87,7 +87,7 @@ static void weld(const Surface& surface, double size, Topology& topology) {
         }
         topology.vertex_point[v] = found;
     }
-    // A point stands exactly where its first vertex does.
+    // A point is exactly where its first vertex is.
     std::vector<char> placed(topology.points.size(), 0);
     for (size_t v = 0; v < surface.positions.size(); ++v) {
         const size_t i = size_t(topology.vertex_point[v]);
@@ -109,7 +109,7 @@ static void find_components(Topology& topology) {
             const int a = find_root(parent, triangle[0]), b = find_root(parent, triangle[k]);
             parent[size_t(std::max(a, b))] = std::min(a, b);
         }
-    // Numbered in the order in which triangles name them.
+    // Numbers the components in the order in which triangles refer to them.
     std::vector<int> number(topology.points.size(), -1);
     topology.triangle_component.reserve(topology.triangles.size());
     for (const Triangle& triangle : topology.triangles) {
@@ -120,7 +120,7 @@ static void find_components(Topology& topology) {
 }
 
 Topology make_topology(const Surface& surface) {
-    // The stages after this one count on a shape that has a size.
+    // Later stages require a shape that has a size.
     if (surface.triangles.empty())
         fail(FROND_RESULT_BAD_GEOMETRY, "there are no triangles; a plant needs at least one");
     for (const Triangle& triangle : surface.triangles)

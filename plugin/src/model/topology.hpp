@@ -1,13 +1,13 @@
-// Topology: which triangles of a soup belong together. Vertices at the same place are one point; points that share
+// Topology: which triangles of a soup are connected. Vertices at the same position are one point; points that share
 // triangles are one component; components that do not touch are joined where they are nearest, so that the whole plant
-// hangs together. Chain and cage are both built on it.
+// is connected. Chain and cage are both built on it.
 #pragma once
 
 #include "model/surface.hpp"
 
 namespace frond {
 
-// Two components held together at one place: the nearest points of a pair of triangles.
+// Two components held together at one point each: the nearest points of a pair of triangles.
 struct Joint {
     int triangle_a, triangle_b;
     Vec3 point_a, point_b;  // equal when the surfaces cross or touch [m]

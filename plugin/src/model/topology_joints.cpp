@@ -1,10 +1,10 @@
-// Joints: components come in, a spanning tree of nearest places between them goes out. Boruvka's algorithm (1926):
-// every tree that does not hold a root yet looks for its cheapest way to another, all at once, so that their number
-// halves each round. Distances come from one box tree a component and one over all components, searched nearest first.
+// Joints. In: components. Out: a spanning tree of the nearest points between them. Boruvka's algorithm (1926): in each
+// round, every tree that does not hold a root yet finds its cheapest edge to another one, so that their number halves.
+// Distances come from one box tree per component and one over all components, searched nearest first.
 //
-// A joint costs its length and a little more, so that a leaf which crosses other leaves and almost touches its
-// stem hangs on the stem: more if the other end is no larger than this one, and more if this end is not the largest of
-// its tree. Components that stand on the ground side by side are roots: each gathers what hangs on it, and only then
+// A joint costs its length and a little more, so that a leaf that crosses other leaves and almost touches its stem
+// hangs on the stem: more if the other end is no larger than this one, and more if this end is not the largest of its
+// tree. Components that stand on the ground side by side are roots: each first collects what hangs on it, and only then
 // are they tied to each other, at the foot, where that does no harm.
 #include "model/topology_joints.hpp"
 
@@ -17,54 +17,55 @@
 
 namespace frond {
 
-// Cost of hanging on a component that is no larger, as a share of one's own size; half as large and less count as such.
+// Cost of hanging on another component, as a share of one's own size. It falls with the ratio of sizes if the other one
+// is more than 1 / ALIKE times as large.
 static constexpr double LIKENESS = 0.1, ALIKE = 0.5;
-// Cost of hanging by a component that is not the tree's largest, as a share of the difference.
+// Cost of joining a tree by a component that is not its largest, as a share of the difference in size.
 static constexpr double HEAD = 0.1;
-// A root begins this low, as a share of the plant's height, and is at least that high.
+// A root begins no higher than the first share of the plant's height and is at least as high as the second.
 static constexpr double ROOT_FOOT = 0.02, ROOT_HEIGHT = 0.4;
 static constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 namespace {
 
 struct Edge {
-    double cost = INFINITE;  // without the share of the head
+    double cost = INFINITE;  // without the HEAD cost
     int item_a = -1, item_b = -1;
     Joint joint{-1, -1, Vec3::Zero(), Vec3::Zero()};
 };
 
-// Anything below a node costs at least so much.
+// Lower bound of the cost of anything below a node.
 struct Promise {
     double cost;
-    int item, node;  // -1: a node of the tree over the items, else of that item's triangles
-    // The cheapest is on top of a heap; equal ones are told apart by number.
+    int item, node;  // item -1: a node of the tree over the items, else of that item's triangles
+    // Puts the cheapest on top of a heap; equal ones are ordered by number.
     bool operator<(const Promise& other) const {
         if (cost != other.cost) return cost > other.cost;
         return item != other.item ? item > other.item : node > other.node;
     }
 };
 
-// The things to be joined: items, each a list of triangles.
+// Items to be joined, each a list of triangles.
 struct Forest {
     const Topology& topology;
     double likeness, head;
     std::vector<std::vector<int>> item_triangles;
-    std::vector<char> is_root;  // of each item
+    std::vector<char> is_root;  // for each item whether it is a root
 
     std::vector<Box> triangle_box;
-    BoxTree triangle_tree;       // one tree an item
-    std::vector<int> item_tree;  // its root
+    BoxTree triangle_tree;       // one tree per item
+    std::vector<int> item_tree;  // root of each item's tree
     std::vector<Box> item_box;
     std::vector<double> item_size;  // [m]
-    std::vector<int> by_size;       // the largest first
+    std::vector<int> by_size;       // items, the largest first
     BoxTree tree;                   // over the items
-    std::vector<double> largest;    // item below a node of that tree [m]
+    std::vector<double> largest;    // size of the largest item below each node of that tree [m]
 
     std::vector<int> parent;     // union-find
-    std::vector<int> node_set;   // the set that all items below a node are in, or -1
-    std::vector<Edge> cheapest;  // that each item knows of
-    std::vector<Promise> heap;   // of a search
-    std::vector<double> least;   // and what any that it does not know of costs at least
+    std::vector<int> node_set;   // the set of all items below a node, or -1 if they differ
+    std::vector<Edge> cheapest;  // cheapest edge that each item has found
+    std::vector<Promise> heap;   // heap of a search
+    std::vector<double> least;   // lower bound of the cost of each item's edges not found yet
 
     Forest(const Topology& t, double like, double first) : topology(t), likeness(like), head(first) {}
     int set_of(int item) {
@@ -75,7 +76,7 @@ struct Forest {
 
 }  // namespace
 
-// Returns what an item pays for hanging on another one.
+// Returns the cost of an item for hanging on another one.
 static double likeness_cost(const Forest& forest, double size, double other) {
     return forest.likeness * size * (size < ALIKE * other ? size / other : 1);
 }
@@ -111,13 +112,13 @@ static void plant_trees(Forest& forest) {
     forest.least.assign(item_count, 0);
 }
 
-// Cheap tests that spare most pairs the exact one: along the way between the nearest places so far, and both normals.
+// Tests cheaply, to avoid most exact tests: along the line of the nearest points so far, and along both normals.
 static bool are_farther(const Corners& a, const Corners& b, const Vec3& way, double bound) {
     return are_apart(a, b, way, bound) || are_apart(a, b, (a[1] - a[0]).cross(a[2] - a[0]), bound) ||
            are_apart(a, b, (b[1] - b[0]).cross(b[2] - b[0]), bound);
 }
 
-// Nearest pair of triangles below two nodes, if nearer than `bound` [m^2], which is lowered.
+// Finds the nearest pair of triangles below two nodes, if nearer than `bound` [m^2], which is lowered.
 static void find_nearest(const Forest& forest, int node_a, int node_b, double& bound, Joint& joint) {
     const BoxTree::Node& a = forest.triangle_tree.nodes[size_t(node_a)];
     const BoxTree::Node& b = forest.triangle_tree.nodes[size_t(node_b)];
@@ -136,7 +137,8 @@ static void find_nearest(const Forest& forest, int node_a, int node_b, double& b
             }
         return;
     }
-    // The larger of the two opens, its nearer half first; of halves that both overlap, the one with the nearer middle.
+    // Opens the larger of the two, its nearer half first; if both halves overlap the other, that with the nearer
+    // centre.
     const bool open_a =
         b.right < 0 || (a.right >= 0 && a.box.diagonal().squaredNorm() > b.box.diagonal().squaredNorm());
     int near = (open_a ? node_a : node_b) + 1, far = open_a ? a.right : b.right;
@@ -166,8 +168,8 @@ static void try_part(const Forest& forest, int item, const Promise& part, Edge& 
     if (cost < best.cost) best = {cost, item, part.item, joint};
 }
 
-// The cheapest edge from an item to one of another set, if cheaper than `best`. What promises most is opened first, in
-// the tree over the items and then in those of their triangles: one's own stem before all the leaves around.
+// Finds the cheapest edge from an item to another set, if cheaper than `best`. The node with the lowest bound is opened
+// first, in the tree over the items and then in their triangles' trees: the item's own stem before all leaves around.
 static void search(Forest& forest, int item, int set, Edge& best) {
     std::vector<Promise>& heap = forest.heap;
     heap.clear();
@@ -200,7 +202,7 @@ static void search(Forest& forest, int item, int set, Edge& best) {
     }
 }
 
-// The cheapest edge out of each set that holds no root; indexed by the set's first item.
+// Finds the cheapest edge out of each set that holds no root; indexed by the set's first item.
 static std::vector<Edge> find_cheapest(Forest& forest, const std::vector<char>& rooted) {
     const int item_count = int(forest.parent.size());
     for (size_t n = forest.tree.nodes.size(); n-- > 0;) {
@@ -215,7 +217,7 @@ static std::vector<Edge> find_cheapest(Forest& forest, const std::vector<char>& 
         double& size = head_size[size_t(forest.set_of(i))];
         size = std::max(size, forest.item_size[size_t(i)]);
     }
-    // The largest items come first, and what is known from earlier rounds: that saves most of the searches.
+    // Edges known from earlier rounds and the largest items come first: that saves most of the searches.
     for (const bool known : {true, false}) {
         for (int i : forest.by_size) {
             const int set = forest.set_of(i);
@@ -260,7 +262,7 @@ static std::vector<Edge> grow_forest(Forest& forest) {
     return edges;
 }
 
-// Components that begin at the foot of the plant and are high enough to be stems; else the largest one.
+// Finds components that begin at the foot of the plant and are high enough to be stems; else the largest one.
 static std::vector<char> find_roots(const Topology& topology, const std::vector<Box>& boxes) {
     Box all;
     for (const Box& box : boxes) all.extend(box);
@@ -277,7 +279,7 @@ static std::vector<char> find_roots(const Topology& topology, const std::vector<
     return is_root;
 }
 
-// The roots tied to each other at their feet, by length alone.
+// Ties the roots to each other at their feet, by length alone.
 static std::vector<Edge> tie_roots(const Topology& topology, const Forest& grown) {
     Forest feet(topology, 0, 0);
     double lower = INFINITE, upper = -INFINITE;

@@ -1,6 +1,6 @@
-// Seams: places at which a file says that two parts are joined, however near others come. They go into the spanning
-// tree of joints first; then, of the joints that nearness found, those within a part and between parts of which none is
-// said to hang on another one; then those that still join something.
+// Seams: positions at which a file says that two parts are joined, however near others are. They enter the spanning
+// tree of joints first; next, of the joints that were found by distance, those within a part or between parts neither
+// of which hangs on another by a seam; then those that still connect something.
 #include <algorithm>
 #include <limits>
 
@@ -9,7 +9,7 @@
 
 namespace frond {
 
-// The point of a part that is nearest to another one, and its triangle.
+// Finds the point of a part that is nearest to another point, and its triangle.
 static void find_nearest(const Topology& topology, const Part& part, const Vec3& to, int& triangle, Vec3& nearest) {
     double least = std::numeric_limits<double>::infinity();
     for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
@@ -32,7 +32,7 @@ void join_at(const Surface& surface, const std::vector<Seam>& seams, Topology& t
             joints.push_back(joint);
     };
     for (const Seam& seam : seams) {
-        // From the seam to and fro between the two, until they are nearest there.
+        // Alternates between the two parts, from the seam on, until the points are nearest there.
         Joint joint = {-1, -1, seam.point, seam.point};
         for (int round = 0; round < ROUNDS; ++round) {
             find_nearest(topology, surface.parts[size_t(seam.part_a)], joint.point_b, joint.triangle_a, joint.point_a);

@@ -1,6 +1,6 @@
-// Nearest points: two triangles come in; the pair of points where they cross, or else where they are nearest, goes out.
-// Either an edge of one passes through the other, or the nearest points are a corner and a face or lie on two edges
-// (Ericson 2005, Real-Time Collision Detection, chapter 5).
+// Nearest points. In: two triangles. Out: the pair of points where they cross, or else where they are nearest. Either
+// an edge of one passes through the other, or the nearest points are a corner and a face or lie on two edges (Ericson
+// 2005, Real-Time Collision Detection, chapter 5).
 #include "model/triangle_distance.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ Vec3 nearest_in_triangle(const Corners& triangle, const Vec3& point) {
     const Vec3 &a = triangle[0], &b = triangle[1], &c = triangle[2];
     const Vec3 ab = b - a, ac = c - a, normal = ab.cross(ac);
     const double squared = normal.squaredNorm();
-    // Over the face, if there is one, and the point lies inside of all three edges.
+    // The nearest point is on the face, if there is one and the given point projects inside all three edges.
     if (squared > 0) {
         const Vec3 ap = point - a;
         const double weight_b = ap.cross(ac).dot(normal), weight_c = ab.cross(ap).dot(normal);
@@ -35,7 +35,7 @@ NearestPair nearest_of_segments(const Vec3& a0, const Vec3& a1, const Vec3& b0, 
     const Vec3 along_a = a1 - a0, along_b = b1 - b0, between = a0 - b0;
     const double aa = along_a.squaredNorm(), bb = along_b.squaredNorm(), ab = along_a.dot(along_b);
     const double a_between = along_a.dot(between), b_between = along_b.dot(between);
-    // On the two lines first; then each is held to its segment, which moves the other.
+    // The nearest points of the two lines come first; then each is clamped to its segment, which moves the other.
     const double determinant = aa * bb - ab * ab;
     double s = 0;
     if (determinant > 1e-14 * aa * bb) s = std::clamp((ab * b_between - a_between * bb) / determinant, 0.0, 1.0);
@@ -48,7 +48,7 @@ NearestPair nearest_of_segments(const Vec3& a0, const Vec3& a1, const Vec3& b0, 
     return {a, b, (a - b).squaredNorm()};
 }
 
-// Where a segment passes through a triangle's face, if it does.
+// Finds where a segment passes through a triangle's face, if it does.
 static bool crosses(const Vec3& begin, const Vec3& end, const Corners& triangle, Vec3& place) {
     const Vec3 ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0], normal = ab.cross(ac);
     const double squared = normal.squaredNorm();
@@ -87,7 +87,7 @@ bool are_apart(const Corners& a, const Corners& b, const Vec3& direction, double
 }
 
 NearestPair nearest_of_triangles(const Corners& a, const Corners& b) {
-    // Crossing: the middle of the line in which they do.
+    // If they cross, takes the middle of their line of intersection.
     Vec3 sum = Vec3::Zero(), place;
     int count = 0;
     for (size_t k = 0; k < 3; ++k) {

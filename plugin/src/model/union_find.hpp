@@ -1,4 +1,4 @@
-// Union-find: sets of numbers; the smallest member names its set, so that results do not depend on the order of
+// Union-find: sets of numbers, each represented by its smallest member, so that results do not depend on the order of
 // joining.
 #pragma once
 
@@ -16,7 +16,7 @@ struct UnionFind {
         while (parent[size_t(i)] != i) i = parent[size_t(i)] = parent[size_t(parent[size_t(i)])];
         return i;
     }
-    // False if they were in one set before.
+    // Joins two sets. Returns false if they were one set before.
     bool join(int a, int b) {
         a = find(a);
         b = find(b);
@@ -25,7 +25,7 @@ struct UnionFind {
         parent[size_t(b)] = a;
         return true;
     }
-    // All sets in the order of their first members.
+    // Returns all sets in the order of their first members.
     std::vector<std::vector<int>> sets() {
         std::vector<std::vector<int>> all;
         std::vector<int> number(parent.size(), -1);

@@ -1,5 +1,5 @@
-// Urdf: a description of links and joints as a URDF file has it, read and checked by the import program. Plants and
-// robots are both made of it.
+// URDF: links and joints as a URDF file describes them, read and checked by the import program. Plants and robots are
+// both made of it.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace frond {
 
-// What is refused as too large.
+// Files with more are rejected.
 constexpr uint32_t MOST_LINKS = 20000, MOST_SHAPES = 100000;
 
-// A frame in another one: places go to turn * place + origin.
+// A frame in another one: maps positions to turn * place + origin.
 struct UrdfFrame {
     Vec3 origin = Vec3::Zero();  // [m]
     Quat turn = Quat::Identity();
@@ -27,7 +27,7 @@ struct UrdfShape {
     UrdfFrame frame;           // in the link
     Vec3 size = Vec3::Zero();  // radius; sides; radius and length along z, a capsule's without its ends; scale [m], [-]
     int mesh = -1;             // index into UrdfTree::meshes
-    std::string material;      // its name; "" if it has none
+    std::string material;      // name; "" if there is none
     bool has_color = false;
     std::array<float, 4> color = {1, 1, 1, 1};  // linear RGBA
 };
@@ -41,25 +41,25 @@ struct UrdfLink {
     std::string joint_name;
     UrdfJoint joint = UrdfJoint::FIXED;
     UrdfFrame frame;              // in the parent, with the joint at zero
-    Vec3 axis = Vec3::UnitX();    // in the link, length one
-    double lower = 0, upper = 0;  // [rad] or [m]; of revolute and prismatic ones
-    double effort = 0;            // largest force or torque, 0: not said [N], [N m]
-    double speed = 0;             // likewise [m/s], [rad/s]
+    Vec3 axis = Vec3::UnitX();    // in the link, unit length
+    double lower = 0, upper = 0;  // limits of revolute and prismatic joints [rad], [m]
+    double effort = 0;            // largest force or torque, 0: not given [N], [N m]
+    double speed = 0;             // largest speed, 0: not given [m/s], [rad/s]
     // Inertia about the centre of mass, in a frame there.
     bool has_inertia = false;
     double mass = 0;  // [kg]
     UrdfFrame centre;
     Mat3 inertia = Mat3::Zero();  // [kg m^2]
     std::vector<UrdfShape> visuals, collisions;
-    // Of <frond organ="" name="" material="" mass="" stretching="" bending="" twisting=""/>; the numbers are of a
-    // section of the link, all zero if there are none.
+    // Values of <frond organ="" name="" material="" mass="" stretching="" bending="" twisting=""/>; the numbers
+    // describe a section of the link, all zero if there are none.
     std::string organ, organ_name, organ_material;
     double section_mass = 0;              // [kg/m]
     double stretching = 0, twisting = 0;  // EA [N], GJ [N m^2]
     double bending_x = 0, bending_y = 0;  // EI against bending towards the link's x and y axis [N m^2]
 };
 
-// Triangles of a mesh file, as they stand in it.
+// Triangles of a mesh file, as they are.
 struct UrdfMesh {
     std::string name;
     std::vector<Vec3> positions;
@@ -72,15 +72,15 @@ struct UrdfTree {
     std::vector<UrdfMesh> meshes;
 };
 
-// Which meshes are read: what is seen (collisions of links that show nothing), or what collides.
+// Which meshes are read: visual ones (of links without any, collision ones), or only collision ones.
 enum class UrdfUse { SEEN, COLLIDES };
 UrdfTree import_urdf(const std::string& path, UrdfUse use);
 bool is_urdf(const std::string& path);
 
-// The frame of each link in the root's frame, all joints at zero.
+// Returns the frame of each link in the root's frame, all joints at zero.
 std::vector<UrdfFrame> link_frames(const UrdfTree& tree);
 
-// Tells whether indices and sizes agree and numbers are such as can be simulated; else why not, "" if so.
+// Returns what is wrong with a tree, "" if indices and sizes agree and all numbers can be simulated.
 std::string what_is_wrong_with(const UrdfTree& tree);
 
 }  // namespace frond

@@ -1,4 +1,5 @@
-// Checks a tree of links: numbers that cannot be simulated, which urdfdom lets through, get a text that names the link.
+// Checks a tree of links: numbers that cannot be simulated, which urdfdom accepts, give an error text with the link's
+// name.
 #include <cmath>
 
 #include "core/error.hpp"
@@ -7,14 +8,14 @@
 
 namespace frond {
 
-static constexpr double LARGEST = 1e6;  // of any number [m], [kg], [N] ...
+static constexpr double LARGEST = 1e6;  // largest number allowed [m], [kg], [N] ...
 
 static bool is_usable(const UrdfFrame& frame) {
     return frame.origin.allFinite() && frame.origin.cwiseAbs().maxCoeff() <= LARGEST &&
            frame.turn.coeffs().allFinite() && std::abs(frame.turn.norm() - 1) < 1e-6;
 }
 
-// How many of a shape's sizes have to be above zero.
+// Returns how many of a shape's sizes must be above zero.
 static int size_count(UrdfKind kind) {
     switch (kind) {
         case UrdfKind::SPHERE:

@@ -1,4 +1,4 @@
-// Pieces of a tree of links: list of shapes in the plant's frame, and the stems that they are.
+// Shapes of a tree of links in the plant's frame, and the stems that they describe.
 #include "model/urdf_pieces.hpp"
 
 #include <algorithm>
@@ -51,11 +51,11 @@ std::vector<frond_stem> stems_of(const UrdfTree& tree, const std::vector<UrdfPie
     std::vector<std::vector<int>> of_link(tree.links.size());
     std::vector<frond_stem> stems;
     for (const UrdfPiece& piece : pieces) {
-        // A piece begins at the end that is nearer to its link's joint.
+        // A stem begins at the end that is nearer to its link's joint.
         const Vec3 half = 0.5 * piece.shape->size[1] * Vec3::UnitZ();
         const bool turned = (piece.shape->frame * half).norm() < (piece.shape->frame * Vec3(-half)).norm();
         const Vec3 begin = piece.frame * Vec3(turned ? half : -half), end = piece.frame * Vec3(turned ? -half : half);
-        // It grows on the nearest piece of the link before, or on those of its own.
+        // It grows on the nearest of the earlier stems of its own link or, for the first one, of the link before.
         std::vector<int>& own = of_link[size_t(piece.link)];
         const int before = parents[size_t(piece.link)];
         const std::vector<int> none;

@@ -1,5 +1,5 @@
-// Surface of a tree of links: spheres, boxes, cylinders, capsules and meshes come in, triangles go out, fine enough
-// along each shape that it can be seen to bend.
+// Surface of a tree of links. In: spheres, boxes, cylinders, capsules and meshes. Out: triangles, fine enough along
+// each shape to show how it bends.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ struct UrdfRing {
     double along, radius;  // [m]
 };
 
-// From the lower pole to the upper one, poles themselves left out.
+// Lists rings from the lower pole to the upper one, without the poles.
 static std::vector<UrdfRing> rings_of(const UrdfShape& shape) {
     const bool is_sphere = shape.kind == UrdfKind::SPHERE, is_flat = shape.kind == UrdfKind::CYLINDER;
     const double radius = shape.size[0], half = is_sphere ? 0 : 0.5 * shape.size[1];
@@ -62,7 +62,7 @@ static void add_round(Surface& surface, const UrdfPiece& piece) {
     }
 }
 
-// Each side a grid whose cells are as long as a share of the longest edge, or as the edge where that is shorter.
+// Makes each side a grid whose cells are as long as a share of the longest edge, or as the edge if that is shorter.
 static void add_box(Surface& surface, const UrdfPiece& piece) {
     const Vec3 half = 0.5 * piece.shape->size;
     const double cell = 2 * half.maxCoeff() / MOST_CELLS;

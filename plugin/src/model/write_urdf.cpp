@@ -1,5 +1,5 @@
 // Chain -> URDF: a link with a cylinder for each capsule, from its parent's end to its own along the link's z axis. The
-// cylinder has the section's area, so that it weighs what the capsule does; how stiff it is stands in <frond>.
+// cylinder has the section's area, and so the capsule's mass; <frond> gives the stiffness.
 #include "model/write_urdf.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ struct Frame {
     Quat turn = Quat::Identity();
 };
 
-// XML takes neither < & " nor control characters in an attribute.
+// Replaces characters that XML does not allow in an attribute, and >.
 std::string escaped(const std::string& text) {
     std::string out;
     for (char letter : text) {
@@ -33,7 +33,7 @@ std::string numbers(const Vec3& v) {
     return text_of("%.9g %.9g %.9g", v.x(), v.y(), v.z());
 }
 
-// Fixed axes x, y, z, as URDF turns.
+// Returns rotations about the fixed axes x, y, z, as URDF defines them.
 std::string roll_pitch_yaw(const Quat& q) {
     const Mat3 R = q.toRotationMatrix();
     const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
@@ -75,7 +75,7 @@ std::string joint_text(const std::string& parent, const std::string& child, cons
            roll_pitch_yaw(frame.turn) + "\"/>\n  </joint>\n";
 }
 
-// z along the capsule, x where it is thinnest.
+// Returns the frame's rotation: z along the capsule, x where it is thinnest.
 Quat turn_of(const Section& section) {
     Mat3 axes;
     axes.col(2) = section.axis;
@@ -91,7 +91,7 @@ std::string urdf_of(const Model& model, const std::string& name) {
     const std::vector<ChainNode>& nodes = model.chain.nodes;
     std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(name) + "\">\n  <link name=\"ground\"/>\n";
     std::vector<std::string> link(nodes.size(), "ground");
-    std::vector<Frame> frames(nodes.size());  // of the link that ends in a node; of a root the ground's
+    std::vector<Frame> frames(nodes.size());  // frame of the link that ends in a node; at a root, the ground's
     for (size_t i = 0; i < nodes.size(); ++i) {
         const int parent = nodes[i].parent;
         if (parent < 0) continue;

@@ -1,4 +1,4 @@
-// In: plants side by side and the air of their world. Out: drags on their chain nodes, as in air_gather.cpp.
+// In: a batch of plants and the air of their world. Out: drags on their chain nodes, as in air_gather.cpp.
 #include "plant/air_batch.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace frond {
 
 namespace {
 
-// Where the mechanics move the chain: places and rotations of its nodes.
+// Reads positions and velocities of chain nodes where the mechanics move the chain.
 struct Chains {
     template <class S>
     FROND_INLINE static Lanes3<S> place(const AirBatch&, const Batch& step, int i) {
@@ -23,7 +23,7 @@ struct Chains {
         return load3<S>(v.data(), 6 * i);
     }
 };
-// Where the chain follows a cage.
+// Reads them where the chain follows a cage.
 struct Cages {
     template <class S>
     FROND_INLINE static Lanes3<S> place(const AirBatch& air, const Batch&, int i) {
@@ -34,7 +34,7 @@ struct Cages {
         return attachment_sum<S>(step.system->chain[size_t(i)], v.data());
     }
 };
-// Runs Job<Chains> or Job<Cages>, whichever the plants are, made of these.
+// Runs Job<Chains> or Job<Cages>, depending on the plants, constructed from `parts`.
 template <template <class> class Job, class... Parts>
 void run_of(const Batch& step, Parts&&... parts) {
     if (step.system->chain.empty())
@@ -54,13 +54,13 @@ struct PlaceChain {
     }
 };
 
-// Where the chain nodes of all plants are in the world, and the wind there.
+// Finds the world positions of the chain nodes of all plants, and the wind there.
 template <class Of>
 struct LookAtWind {
     AirBatch& air;
     const Batch& step;
     const WindNow& now;
-    int count;  // of chain nodes
+    int count;  // number of chain nodes
     template <class S>
     FROND_INLINE void run() const {
         constexpr int MOST = 4;  // nodes at once
@@ -81,7 +81,7 @@ struct LookAtWind {
     }
 };
 
-// Where plants are.
+// Gathers the plants' rotations and positions.
 void look_at_frames(AirBatch& air, Plant* const* plants, int plant_count, int lanes) {
     air.to_world.resize(9 * size_t(lanes));
     air.position.resize(3 * size_t(lanes));
@@ -93,7 +93,7 @@ void look_at_frames(AirBatch& air, Plant* const* plants, int plant_count, int la
     }
 }
 
-// The host's own field, which is asked plant by plant. Returns those where it was unsound.
+// Queries the host's own field, plant by plant. Returns the plants for which it was unsound, a bit each.
 unsigned ask_field(AirBatch& air, const Surroundings& surroundings, int plant_count, int lanes) {
     unsigned unsound = 0;
     const size_t count = air.wind.size() / (3 * size_t(lanes));
@@ -118,9 +118,9 @@ template <class Of>
 struct GatherPiecesOfBatch {
     AirBatch& air;
     Batch& step;
-    int count;  // of chain nodes
+    int count;  // number of chain nodes
     double density, h;
-    bool is_dragged;  // not only pushed
+    bool is_dragged;  // whether air also damps motion
 
     template <class S>
     FROND_INLINE void look_at_air() const {
@@ -171,7 +171,7 @@ struct GatherPiecesOfBatch {
     template <class S>
     FROND_INLINE void add_pieces(Chains) const {
         const double* x = step.x.data();
-        // Pieces mostly go on from the one before.
+        // Most segments continue the one before.
         int last_node = -1;
         Lanes33<S> last_turn = {};
         for (const AirPiece& of : *air.pieces) {
@@ -183,7 +183,7 @@ struct GatherPiecesOfBatch {
             add_of(of, turn * wide + last_turn * wide);
         }
     }
-    // As wide_now().
+    // Finds `wide` as wide_now() does.
     template <class S>
     FROND_INLINE void add_pieces(Cages) const {
         for (const AirPiece& of : *air.pieces) {

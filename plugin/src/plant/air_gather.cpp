@@ -1,9 +1,8 @@
-// In: a plant as it is and the air of its world. Out: drags on its chain nodes, which take half of each piece beside
-// them.
+// In: a plant's motion and the air of its world. Out: drags on its chain nodes, half of each adjoining segment at each.
 //
-// The resistance is that of the air's speed past the plant at the start of the step; the velocity that it is multiplied
-// with is the one at the end, so that still air takes energy at any time step, and what stands in a wind feels exactly
-// its force.
+// The resistance is taken at the air's speed past the plant at the start of the step; the velocity that it multiplies
+// is the one at the end, so that still air takes energy at any time step, and a plant at rest in a wind feels exactly
+// the wind's force.
 #include "core/product.hpp"
 #include "plant/air_push.hpp"
 #include "plant/plant.hpp"
@@ -12,7 +11,7 @@ namespace frond {
 
 namespace {
 
-// A chain node as a point of the mechanics, in a grip that may have been another one.
+// Sets an attachment, which may hold another one, to a chain node as a point of the mechanics.
 void take_hold(const Plant& plant, size_t node, Attachment& attachment) {
     if (!plant.follow) {
         attachment = chain_attachment(plant, int(node));
@@ -24,7 +23,7 @@ void take_hold(const Plant& plant, size_t node, Attachment& attachment) {
     attachment.weight[0] = 1;
 }
 
-// Where the wide sides of pieces in a cage lie now.
+// Finds the present directions of the wide sides of segments in a cage.
 void look_at_cage(const Plant& plant, AirState& air) {
     for (size_t i = 0; i < air.wide.size(); i++) {
         const AirPiece& piece = (*air.pieces)[i];
@@ -32,7 +31,7 @@ void look_at_cage(const Plant& plant, AirState& air) {
     }
 }
 
-// Adds up what pieces do at their ends, a half at either, several pieces of a shape at once.
+// Adds up the air's push on segments, half of it at either end, several segments of one shape at once.
 struct GatherPieces {
     const Plant& plant;
     AirState& air;
@@ -43,7 +42,7 @@ struct GatherPieces {
         const AirPiece* piece[LANES<S>];
         int number[LANES<S>], count;
     };
-    // From the i-th piece on; past the last one of its shape that is taken again.
+    // Groups segments of one shape from the i-th on; lanes beyond the last one repeat it.
     template <class S>
     FROND_INLINE Group<S> group_at(size_t i) const {
         Group<S> group;
@@ -63,7 +62,7 @@ struct GatherPieces {
                 gather<S>([&](int l) { return of[size_t(group.piece[l]->*at)][1]; }),
                 gather<S>([&](int l) { return of[size_t(group.piece[l]->*at)][2]; })};
     }
-    // Of a piece of the chain, turned as one of its ends is.
+    // Turns a vector of a segment with one of its end nodes.
     template <class S>
     FROND_INLINE Lanes3<S> turned(const Group<S>& group, const Lanes3<S>& v, int AirPiece::*end) const {
         const double* x = plant.motion.x.data();
@@ -108,7 +107,7 @@ struct GatherPieces {
             const Lanes33<S> frame = frame_of(group);
             const AirPush<S> at_parent = push_at(group, piece, frame, &AirPiece::parent),
                              at_node = push_at(group, piece, frame, &AirPiece::node);
-            // Piece by piece: where three meet, sums in another order would be others.
+            // Segment by segment: where three meet, another order would round differently.
             for (int lane = 0; lane < group.count; lane++) {
                 add(at_parent, lane, group.piece[lane]->parent);
                 add(at_node, lane, group.piece[lane]->node);
@@ -118,7 +117,7 @@ struct GatherPieces {
     }
 };
 
-// The air at the chain nodes, and how it passes them.
+// Finds the air's velocity at the chain nodes and relative to them.
 void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects effects) {
     AirState& air = *plant.air;
     const size_t count = plant.chain_positions.size();
@@ -163,7 +162,7 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
     if (!plant.follow) look_at_cage(plant, air);
     run_in_lanes(GatherPieces{plant, air, surroundings.wind->def.density, h});
 
-    // Drags of the step before are written over, since most of what they have room for is not used.
+    // Drags of the step before are overwritten in place, since most of an attachment's memory is unused.
     drags.resize(air.resistance.size());
     size_t count = 0;
     for (size_t i = 0; i < air.resistance.size(); i++) {

@@ -1,8 +1,7 @@
-// In: a model's chain, sections and organs. Out: what each capsule turns to the air, and its drag coefficient.
+// In: a model's chain, sections and organs. Out: the areas of each capsule in the air, and its drag coefficient.
 //
 // Coefficients where the material gives none:
-//   blades, flowers  finite flat plates: 1.10 + 0.02 (a + 1 / a), a length over width, at most the 1.98 of an endless
-//   one
+//   blades, flowers  finite flat plates: 1.10 + 0.02 (a + 1 / a), a length over width, at most an endless plate's 1.98
 //                    (Hoerner 1965, "Fluid-dynamic drag", chapter 3)
 //   fruits           spheres, by Reynolds number, see air_resistance.cpp
 //   crowns           0.4: whole crowns in a wind tunnel, by their area in still air, have 0.2-0.6 in winds of 10-25 m/s
@@ -17,11 +16,11 @@ namespace frond {
 
 namespace {
 
-// Of an organ's capsules together.
+// Sizes of an organ, from all its capsules.
 struct OrganSize {
     double length = 0;   // [m]
     double sheet = 0;    // width times length [m^2]
-    double section = 0;  // the largest, as an ellipse [m^2]
+    double section = 0;  // largest cross-section, as an ellipse [m^2]
 };
 
 size_t organ_of(const Model& model, size_t node) {
@@ -74,7 +73,7 @@ AirPieces make_air_pieces(const Model& model) {
         const double end = piece.shape == AirShape::COMPACT ? size.section * section.length / size.length : 0;
         piece.area = Vec3(end, section.width * section.length, section.thickness * section.length);
         piece.size = section.width;
-        // An ellipse's rim is nearest to that of the circle of its mean square diameter.
+        // An ellipse's perimeter is approximated by that of the circle of its root mean square diameter.
         const double rim =
             piece.shape == AirShape::SHEET
                 ? 2 * section.width

@@ -1,5 +1,5 @@
-// What the air does to pieces of a plant, at their ends a half each: several pieces of a shape at once, or one piece of
-// several plants.
+// The air's push on segments of a plant, half of it at each end: several segments of one shape at once, or one segment
+// of several plants.
 #pragma once
 
 #include "mechanics/rod_piece.hpp"
@@ -7,7 +7,7 @@
 
 namespace frond {
 
-// Axis, thin, wide as rows; nothing where the piece has lost its shape.
+// Returns axis, thin and wide as rows; zero where the segment has collapsed.
 template <class S>
 FROND_INLINE Lanes33<S> air_frame(const Lanes3<S>& chord, const Lanes3<S>& wide) {
     constexpr double LEAST = 1e-9;  // [m], [-]
@@ -22,20 +22,20 @@ FROND_INLINE Lanes33<S> air_frame(const Lanes3<S>& chord, const Lanes3<S>& wide)
     return {{along, cross(beside, along), beside}};
 }
 
-// Of a node that is turned so.
+// Returns the rotation matrix of a node with this rotation vector.
 template <class S>
 FROND_INLINE Lanes33<S> rotation_by(const Lanes3<S>& turn) {
     const RodEnd<S> at = rod_end(Lanes3<S>{}, turn);
     return rotation_of(at.w, at.p);
 }
-// A direction of the chain, turned as a node is.
+// Turns a direction of the chain with a node.
 template <class S>
 FROND_INLINE Lanes3<S> turned_by(const Lanes3<S>& turn, const Lanes3<S>& direction) {
     return rotation_by(turn) * direction;
 }
 
-// At one end of a piece, of air that passes it and of its own velocity: a symmetric matrix, xx, xy, xz, yy, yz, zz, and
-// how much of it more it is held back by within a step of h [s].
+// The air's push at one end of a segment, from the air's velocity past it and its own: a symmetric matrix, xx, xy, xz,
+// yy, yz, zz, and the share of it that is added as damping within a step of h [s].
 template <class S>
 struct AirPush {
     S resistance[6];  // [N s/m]
@@ -46,8 +46,8 @@ FROND_INLINE AirPush<S> air_push(const AirLanes<S>& piece, AirShape shape, const
                                  const Lanes3<S>& passing, const Lanes3<S>& velocity, double density, double h) {
     const Lanes3<S> d = air_resistance(piece, shape, frame * passing, density);
     const Lanes33<S> by = scaled_rows(constant<S>(0.5) * d, frame), half = transposed_times(frame, by);
-    // Pressure is along the normal of the step's start. What a wind could carry past itself within a step is held back
-    // from turning by more than that allows: of no effect on what rests, and of first order in the step [-].
+    // Pressure acts along the normal at the start of the step. A segment that wind could carry past itself within the
+    // step is damped, so that it turns no farther than that allows: no effect at rest, first order in the step [-].
     constexpr double MANY = 2;
     const Lanes3<S> wind = passing + velocity;
     return {{half.r[0].x, half.r[0].y, half.r[0].z, half.r[1].y, half.r[1].z, half.r[2].z},

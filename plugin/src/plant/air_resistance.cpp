@@ -1,4 +1,4 @@
-// One piece alone, see air_resistance.hpp.
+// A single segment, see air_resistance.hpp.
 #include "plant/air_resistance.hpp"
 
 namespace frond {

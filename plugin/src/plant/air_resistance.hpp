@@ -1,11 +1,11 @@
-// In: pieces of organs, how they are turned and the air that passes them. Out: force over velocity.
+// In: segments of organs, their frames and the air that passes them. Out: resistance, force over velocity.
 //
-// The air's pressure follows the part of its velocity across a stem's axis or along a blade's normal, as if there were
-// no other (Hoerner 1965; Taylor 1952, "Analysis of the swimming of long and narrow animals"): F = rho/2 Cd A u |u|. So
-// the drag of a blade that is bent down the wind falls as Gosselin, de Langre, Machado-Almeida 2010 measured.
+// The air's pressure depends only on the component of its velocity across a stem's axis or along a blade's normal
+// (Hoerner 1965; Taylor 1952, "Analysis of the swimming of long and narrow animals"): F = rho/2 Cd A u |u|. So the drag
+// of a blade that is bent downwind falls as Gosselin, de Langre, Machado-Almeida 2010 measured.
 //   cylinder  Cd = 1 + 10 Re^(-2/3)                       (White 1991, "Viscous fluid flow")
 //   sphere    Cd = 24 / Re + 6 / (1 + sqrt Re) + 0.4      (the same); both up to Re = 2e5
-// The skin is rubbed as a flat plate: 1.328 / sqrt Re of either side (Blasius 1908).
+// Skin friction is that of a flat plate: 1.328 / sqrt Re on either side (Blasius 1908).
 #pragma once
 
 #include "core/lane_functions.hpp"
@@ -13,12 +13,12 @@
 
 namespace frond {
 
-// Pieces of one shape side by side.
+// Segments of one shape, one per lane.
 template <class S>
 struct AirLanes {
     S coefficient, size, skin, chord_along, chord_across;
     Lanes3<S> area;
-    // piece(lane) is one of them.
+    // piece(lane) returns the segment of a lane.
     template <class Piece>
     FROND_INLINE explicit AirLanes(const Piece& piece)
         : coefficient(gather<S>([&](int l) { return piece(l).coefficient; })),
@@ -30,9 +30,9 @@ struct AirLanes {
                gather<S>([&](int l) { return piece(l).area[2]; })} {}
 };
 
-constexpr double VISCOSITY = 1.5e-5;  // of air, kinematic [m^2/s]
+constexpr double VISCOSITY = 1.5e-5;  // kinematic viscosity of air [m^2/s]
 
-// Of drag, by Reynolds number.
+// Drag coefficients by Reynolds number.
 template <class S>
 FROND_INLINE S cylinder_coefficient(const S& Re) {
     return 1.0 + 10.0 * over_cube_root(S(Re * Re));
@@ -42,7 +42,7 @@ FROND_INLINE S sphere_coefficient(const S& Re) {
     return 24.0 / Re + 6.0 / (1.0 + sqrt(Re)) + 0.4;
 }
 
-// rho/2 Cd A |u|, the area as it is seen along u: exact for an ellipse and for an ellipsoid.
+// Returns rho/2 Cd A |u| with the area seen along u: exact for an ellipse and for an ellipsoid.
 template <class S>
 FROND_INLINE S air_pressure(const AirLanes<S>& piece, AirShape shape, const Lanes3<S>& local, double density) {
     constexpr double STILL = 1e-9;  // [m/s]
@@ -57,7 +57,7 @@ FROND_INLINE S air_pressure(const AirLanes<S>& piece, AirShape shape, const Lane
     return select(speed > STILL, S(0.5 * density * coefficient * sqrt(dot(seen, seen))), S{});
 }
 
-// Of air that goes along the skin.
+// Returns the resistance by friction of air that flows along the skin.
 template <class S>
 FROND_INLINE S air_friction(const AirLanes<S>& piece, const S& along, const S& across, double density) {
     const S square = along * along + across * across;
@@ -69,7 +69,7 @@ FROND_INLINE S air_friction(const AirLanes<S>& piece, const S& along, const S& a
                   S{});
 }
 
-// Along axis, thin and wide, of air that passes at `local` along these.
+// Returns the resistance along axis, thin and wide to air that passes with velocity `local` in that frame.
 template <class S>
 FROND_INLINE Lanes3<S> air_resistance(const AirLanes<S>& piece, AirShape shape, const Lanes3<S>& local,
                                       double density) {

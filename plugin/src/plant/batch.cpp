@@ -1,5 +1,6 @@
-// In: plants that go alike and a time h. Out: what solve_plant() finds for each. Gathered into lanes, solved, looked
-// at, and handed out again. A plant whose step cannot stand is put back where it was and stepped alone.
+// In: plants that may share a batch and a time h. Out: what solve_plant() finds for each. They are gathered into lanes,
+// solved, checked, and handed out again. A plant whose step is not acceptable is put back to its start and stepped
+// alone.
 #include "plant/batch.hpp"
 
 #include <algorithm>
@@ -19,12 +20,12 @@ struct PlantBatch {
     Batch step;
     AirBatch air;
     NumbersInLines forces;
-    std::array<VecX, MOST_LANES> x, v;  // each plant's at the end of the step
+    std::array<VecX, MOST_LANES> x, v;  // plants' states at the end of the step
 };
 
 namespace {
 
-// Of every lane's plant, the numbers that `of` gives.
+// Gathers the vectors that `of` returns for the lanes' plants.
 template <class Of>
 struct Gather {
     const Of& of;
@@ -37,7 +38,7 @@ struct Gather {
     }
 };
 
-// The other way round.
+// Copies lanes back to one vector per plant.
 struct HandOut {
     const NumbersInLines& from;
     std::array<VecX, MOST_LANES>& plants;
@@ -52,11 +53,11 @@ struct HandOut {
     }
 };
 
-// Which lanes went where a healthy step does not lead, and which ended off their course, or nearly so.
+// Finds lanes whose nodes moved farther than in any healthy step, and lanes that ended off course, or nearly so.
 struct LookAtWays {
     const Batch& step;
-    double size, h;  // of the plants [m], of the step [s]
-    bool turns;      // every other node
+    double size, h;  // size of the plants [m], length of the step [s]
+    bool turns;      // every other node is a rotation vector
     unsigned &far_away, &off_course;
     template <class S>
     FROND_INLINE void run() const {
@@ -76,7 +77,7 @@ struct LookAtWays {
     }
 };
 
-// Lanes in which a fibre pulls, or nearly so.
+// Finds lanes in which a fibre is taut, or nearly so.
 struct LookForTaut {
     const Batch& step;
     const Fibres& fibres;
@@ -136,7 +137,8 @@ void gather_motions(Batch& step, Plant* const* plants, int count, const Surround
     }
 }
 
-// All that solve_plant() leaves of a healthy step. False, with the motion as it was: the plant has to be stepped alone.
+// Leaves in the plant all that solve_plant() leaves of a healthy step. False, with the motion unchanged: the plant has
+// to be stepped alone.
 bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& settings, bool may_be_off, bool may_pull,
                double h) {
     const Batch& step = space.step;
@@ -157,13 +159,13 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
         return false;
     }
     if (!is_asked) {
-        // Where it began is kept once.
+        // The start of the step is kept once, in the history.
         plant.x_good.resize(0);
         plant.v_good.resize(0);
     }
     history.x_prev.swap(x);
     history.v_prev.swap(v);
-    // Until the next step nothing but its fibres moves the plant that does not drop its history.
+    // Until the next step only its fibres can move the plant without dropping its history.
     history.x_end.resize(0);
     history.v_end.resize(0);
     if (may_pull) {
@@ -193,7 +195,7 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     return true;
 }
 
-// Plants whose fibres pull need their own factors.
+// Gives plants whose fibres pull their own factors.
 void take_factors(const Batch& step, Plant* const* plants, unsigned which) {
     if (which == 0) return;
     std::array<Workspace*, MOST_LANES> workspaces = {};
@@ -205,7 +207,7 @@ void take_factors(const Batch& step, Plant* const* plants, unsigned which) {
     take_apart(step, workspaces.data());
 }
 
-// By its fibres, with what the air does to it told one by one.
+// Pulls back a plant's taut fibres, with its own drags.
 void pull(Plant& plant, const Batch& step, int lane, frond_effects effects, double h) {
     plant.blown.setZero();
     take_drags(step, lane, plant.loads.drags);
@@ -214,8 +216,8 @@ void pull(Plant& plant, const Batch& step, int lane, frond_effects effects, doub
 
 }  // namespace
 
-// By its history, or anew and damped. What went abreast last is not looked at closely: that costs a thousand plants as
-// much as what a job then has at hand.
+// Predicts whether the step continues from the history, or starts anew and damped. After a batched step the history is
+// not compared here but in goes_on(), where the job has the plant's numbers at hand.
 static bool foresee_method(Plant& plant, double h) {
     const History& history = plant.motion.history;
     plant.looks_back =
@@ -223,7 +225,7 @@ static bool foresee_method(Plant& plant, double h) {
     return plant.looks_back || history.shaken;
 }
 
-// As foreseen, with its pins at rest; what has gone abreast since they moved has them so.
+// Returns whether the prediction holds and the pins are at rest; after a batched step they are.
 static bool goes_on(const Plant& plant, double h) {
     const Motion& motion = plant.motion;
     return history_holds(motion, plant.settings.integrator, h) == plant.looks_back &&
@@ -259,7 +261,7 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
         else
             solve_plant(plant, surroundings, h);
     }
-    // Lanes of which half are empty take no less time than plants one by one.
+    // A batch with half of its lanes empty is no faster than its plants one by one.
     const int lanes = lanes_for(count);
     if (count < lanes / 2 + 1) {
         for (int i = 0; i < count; i++) solve_plant(*plants[size_t(i)], surroundings, h);
@@ -282,7 +284,8 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
     alone |= system.row->batch->not_calm(*system.elements, step.x, step.x_end, 0.5);
     run_in_lanes(step.lanes,
                  LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course});
-    // Without air the energy of what left its course is looked at; of what is wound that is asked later.
+    // Plants off course without air are stepped alone, where their energy is checked; so are those with rotations
+    // beyond half a turn, whose course is only checked later.
     alone |= far_away | ((off_course | step.wound) & ~air_forces(step, space->forces));
     const bool has_yields = (effects & FROND_EFFECT_PLASTICITY) && !system.elements->yields.empty();
     const unsigned may_yield = has_yields ? system.row->batch->may_yield(*system.elements, step.x_end) : 0;

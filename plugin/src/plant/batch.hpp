@@ -1,5 +1,5 @@
-// Plants abreast: steps of plants of one model that are worked on side by side (solve/batch.hpp), to the last bit as
-// those of each alone.
+// Batch: steps of plants of one model taken together, a plant per lane (solve/batch.hpp), with the same results to the
+// last bit as each alone.
 #pragma once
 
 #include "core/lanes.hpp"
@@ -7,14 +7,14 @@
 
 namespace frond {
 
-// What goes on in a step of h [s] is what goes on in every healthy one, as far as that is known before it. Leaves in
-// the plant which method that will be.
+// Returns whether a step of h [s] needs only what every healthy step does, as far as that is known before it. Stores in
+// the plant which method it will use.
 bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h);
-// Both of them may: whether they may with each other, in steps of a length.
+// Returns whether two plants that may both be batched may share a batch, in steps of one length.
 bool go_alike(const Plant& a, const Plant& b);
-// As many as go at once on this processor.
+// Returns how many plants a batch holds on this processor.
 int most_in_batch();
-// solve_plant() for up to so many plants that go alike. Those that turn out to need more are stepped alone.
+// Does solve_plant() for up to that many plants that go alike. Plants that turn out to need more are stepped alone.
 void solve_batch(Plant* const* plants, int count, const Surroundings& surroundings, double h);
 
 }  // namespace frond

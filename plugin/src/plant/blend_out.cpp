@@ -1,4 +1,4 @@
-// (offset + rate t) exp(-SPEED t): the shape and its velocity go on without a jump, and nothing swings.
+// (offset + rate t) exp(-SPEED t): shape and velocity continue without a jump, and nothing oscillates.
 #include "plant/blend_out.hpp"
 
 #include <cmath>

@@ -1,5 +1,4 @@
-// What follows the cage, point by point: vertices of the surface, the chain and its capsules, and where one can hold
-// on.
+// Points that follow the cage: vertices of the surface, the chain and its capsules, and their attachments for forces.
 #include <algorithm>
 
 #include "plant/plant.hpp"
@@ -7,7 +6,7 @@
 
 namespace frond {
 
-// Along the shape functions of the plant's elements, whatever they move.
+// Uses the shape functions of the cage's elements, even if the mechanics move the chain.
 static TetPlace bound_place(const Plant& plant, const Embedding& embedding, size_t i) {
     return place_in_tet(*plant.nodes, plant.model->cage.tets, embedding.tet[i], embedding.weights[i]);
 }
@@ -38,7 +37,7 @@ int nearest_vertex(const Plant& plant, const Vec3& point) {
     return nearest;
 }
 
-// Of a cage. A node whose tet is gone goes with its parent.
+// Returns a chain node carried by a cage. A node whose tet is gone moves with its parent.
 static Vec3 chain_point(const Plant& plant, size_t i) {
     const Embedding& embedding = plant.model->chain_embedding;
     const int parent = plant.model->chain.nodes[i].parent;
@@ -65,7 +64,7 @@ void update_chain(Plant& plant) {
     }
 }
 
-// One that came off begins where it broke.
+// Returns the ends; a capsule that came off begins where it broke.
 std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule) {
     const auto& [begin, end] = plant.model->capsules[capsule];
     const Fragment* fragment = fragment_of_chain_node(plant, size_t(end));
@@ -78,7 +77,7 @@ Attachment chain_attachment(const Plant& plant, int node) {
     return plant.system->chain[size_t(node)];
 }
 
-// Of a chain: the corner of the vertex's tet that it is nearest to stands for it, and a rigid arm reaches the rest.
+// With a chain, the vertex follows the nearest corner of its tet, on a rigid arm.
 Attachment vertex_attachment(const Plant& plant, int vertex) {
     const Embedding& embedding = plant.model->embedding;
     const Tet& tet = plant.model->cage.tets[size_t(embedding.tet[size_t(vertex)])];

@@ -1,8 +1,9 @@
-// In: a plant and a capsule of its chain. Out: the plant without what is beyond, and that as a rigid body.
+// In: a plant and a capsule of its chain. Out: the plant without the part beyond that capsule, and that part as a rigid
+// body.
 //
-// Elements of the capsules that are gone leave the plant's system, and their mass with them; nodes stay in their places
-// in all arrays, so that a plant's state keeps its shape, and are held. Cage nodes and vertices go by the tets they are
-// in, tets by the capsule that they belong to.
+// Elements of the capsules that are gone leave the plant's system, together with their mass. Nodes keep their places in
+// all arrays, so that a plant's state keeps its layout, and are held. Cage nodes and vertices go with the tets they are
+// in, tets with the capsule that they belong to.
 #include "core/decompose.hpp"
 #include "plant/fragment.hpp"
 
@@ -16,7 +17,7 @@ namespace frond {
 
 namespace {
 
-// What is on a broken capsule's far side and not in another fragment already.
+// Marks the chain nodes beyond a broken capsule that are not in another fragment already.
 void mark_chain(const Plant& plant, int node, int fragment, std::vector<int>& of_chain) {
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
     of_chain.resize(nodes.size(), -1);
@@ -57,7 +58,7 @@ void mark_surface(const Plant& plant, Parting& parting) {
     }
 }
 
-// How the fragment's cage nodes are turned against the modelled shape.
+// Returns the rotation of the fragment's cage nodes against the modelled shape.
 Mat3 turn_of(const Plant& plant, int number) {
     std::vector<Vec3> from, to;
     for (size_t i = 0; i < plant.parting->of_node.size(); i++) {
@@ -70,8 +71,8 @@ Mat3 turn_of(const Plant& plant, int number) {
     return fit_rigid(from, to, Vec3::Zero(), turn, image) ? turn : Mat3(Mat3::Identity());
 }
 
-// Principal axes and moments of inertia of the modelled shape, so that they are the same for every plant of a model,
-// turned as the fragment is. A node is as round as the stem at the break.
+// Finds principal axes and moments of inertia in the modelled shape, so that they are the same for every plant of a
+// model, and turns them with the fragment. The inertia of a ball with the stem's radius at the break is added.
 void set_inertia(const Plant& plant, const VecX& mass, Fragment& fragment) {
     const VecX& modelled = elements_of(*plant.system).modelled;
     const int step = plant.follow ? 2 : 1;
@@ -90,7 +91,7 @@ void set_inertia(const Plant& plant, const VecX& mass, Fragment& fragment) {
     fragment.moments = principal.values;
 }
 
-// Of the mass that left the nodes.
+// Finds mass, centre and motion of the mass that left the nodes.
 void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
     const int step = plant.follow ? 2 : 1;
     const auto place = [&](int i) { return plant.to_world(point(plant.motion.x, i)); };
@@ -103,7 +104,7 @@ void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
         momentum += mass[i] * velocity(i);
     }
     if (!(fragment.mass > 0)) {
-        // Too small for the cage to know of it.
+        // The fragment is too small to have mass in the cage.
         constexpr double LEAST = 1e-6;  // [kg]
         fragment.mass = LEAST;
         moment = LEAST * plant.to_world(plant.chain_positions[size_t(fragment.node)]);
@@ -117,7 +118,7 @@ void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
     fragment.angular_velocity = fragment.axes * (fragment.axes.transpose() * angular).cwiseQuotient(fragment.moments);
 }
 
-// Nodes that nothing holds any more rest where they are.
+// Puts nodes that no element holds any more to rest where they are.
 void let_rest(Plant& plant) {
     Motion& motion = plant.motion;
     for (size_t i = 0; i < plant.parting->of_node.size(); i++)
@@ -145,7 +146,7 @@ int find_break(const Plant& plant) {
     return find_overload(mechanics(plant.which, plant.nodes->order), elements_of(plant), plant.motion.x);
 }
 
-// The elements of what is gone leave the plant's system.
+// Takes the elements of all fragments out of the plant's system.
 static void take_away(Plant& plant) {
     std::vector<uint8_t> gone;
     for (int fragment : plant.parting->of_chain) gone.push_back(fragment >= 0);
@@ -186,13 +187,13 @@ const Fragment& break_off(Plant& plant, int node) {
     return plant.fragments.back();
 }
 
-// Rigidly with the last node before them that is not gone.
+// Moves nodes that are gone rigidly with the stump, the last node before them that is not gone.
 void carry_stumps(Plant& plant) {
     if (!plant.follow || plant.fragments.empty()) return;
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
     const VecX& start = plant.parting->start;
     Motion& motion = plant.motion;
-    // A method that looks back is not to take this for a push.
+    // A method with a history must not take this for a push.
     History& history = motion.history;
     const bool follows = history.valid && history.x_end.size() == motion.x.size();
     std::vector<int> stump(nodes.size(), -1);

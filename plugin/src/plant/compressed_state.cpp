@@ -1,7 +1,7 @@
-// In: a plant that stands still. Out: the same in little memory, and back.
+// In: a plant at rest. Out: the same in little memory, and back.
 //
-// What a step needs is made anew from the model; where a plant is, is kept as a difference from its modelled shape in
-// single precision, or not at all where there is none.
+// Memory for steps is made anew from the model; positions are kept as differences from the modelled shape in single
+// precision, or not at all if there are none.
 #include "plant/plant.hpp"
 
 namespace frond {
@@ -16,7 +16,7 @@ void drop(VecX& numbers) {
     VecX().swap(numbers);
 }
 
-// Of what all plants on the same foot share no copy is kept.
+// Drops what all plants on the same foot share.
 void drop_foot(Plant& plant) {
     const Foot& foot = *plant.foot;
     if (plant.pinned != foot.pinned || plant.anchor != foot.anchor || plant.pin_target != foot.pin_target) return;

@@ -1,4 +1,4 @@
-// A plant at rest in its place, with its root held.
+// Creation of a plant at rest in its place, with its root held, and changes of its mechanics.
 #include <algorithm>
 #include <map>
 #include <mutex>
@@ -10,7 +10,7 @@
 
 namespace frond {
 
-// What all plants of a model share, found again for as long as one of them lives.
+// Values that all plants of a model share, found again for as long as one of them lives.
 template <class Key, class Value>
 struct Shared {
     std::mutex mutex;
@@ -27,15 +27,15 @@ struct Shared {
     }
 };
 
-// What all plants of one model and mechanics share.
+// Data that all plants of one model and mechanics share.
 struct SharedSystem {
     std::shared_ptr<const System> system;
-    double full_damping;  // of full_damping(); 0 where no organ has a damping ratio [s]
-    double rest_time;     // half a period of the slowest sway [s]
+    double full_damping;  // see full_damping(); 0 if no organ has a damping ratio [s]
+    double rest_time;     // half a period of the slowest mode [s]
     std::shared_ptr<WorkspacePool> pool;
 };
 
-// Half a period of the slowest sway, within what a game notices.
+// Returns half a period of the slowest mode, within limits that a game notices.
 static double rest_time_of(const std::shared_ptr<const Model>& model) {
     constexpr double LEAST = 0.5, MOST = 3;  // [s]
     const double frequency = sway_frequency(model);
@@ -56,13 +56,13 @@ static std::shared_ptr<const SharedSystem> shared_system(const std::shared_ptr<c
     });
 }
 
-// Something made from a model, which keeps that alive, so that another one at the same address is not taken for it.
+// A value made from a model, which it keeps alive so that no other model at the same address is taken for it.
 template <class Value>
 struct OfModel {
     std::shared_ptr<const Model> model;
     Value value;
 };
-// One a model and order of its elements.
+// Returns the one value of a model and order of its elements.
 template <class Value, class Make>
 static std::shared_ptr<const Value> shared_of(const std::shared_ptr<const Model>& model, int order, Make&& make) {
     static Shared<std::pair<const Model*, int>, OfModel<Value>> values;
@@ -91,7 +91,7 @@ std::shared_ptr<const ModalBasis> modal_basis_of(const Plant& plant) {
     });
 }
 
-// None of those whose cage needs none.
+// Returns null if the cage needs no fibres.
 static std::shared_ptr<const Fibres> fibres_of(const Plant& plant) {
     const int order = plant.nodes->order;
     const auto fibres = shared_of<Fibres>(plant.model, order, [&] { return make_fibres(*plant.model, order); });
@@ -108,7 +108,7 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.which = which;
     const CageNodes& nodes = *plant.nodes;
     const std::shared_ptr<const SharedSystem> shared = shared_system(plant.model, which, plant.mass, nodes.order);
-    // Workspaces in the pool keep their system alive, so it is not to keep the pool.
+    // Workspaces in the pool keep their system alive, so the system must not keep the pool.
     plant.workspace = nullptr;
     plant.system = shared->system;
     plant.seat.leave();
@@ -138,7 +138,7 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.substeps = 1;
 }
 
-// What the ground holds of the cage's corners; a node between two is held where both are.
+// Finds the cage nodes that the ground holds; a node between two corners is held if both are.
 static std::vector<uint8_t> find_held(const Plant& plant, double root_height) {
     const Model& model = *plant.model;
     std::vector<uint8_t> held(model.cage.nodes.size(), 0);
@@ -150,7 +150,7 @@ static std::vector<uint8_t> find_held(const Plant& plant, double root_height) {
     return with_middles(*plant.nodes, held);
 }
 
-// The chain nodes that hold pinned cage nodes: of those that the ground holds, the nearest one at the foot.
+// Finds the chain nodes that hold pinned cage nodes: for each the nearest one that the ground holds.
 static std::vector<int> find_anchors(const Plant& plant, const std::vector<uint8_t>& pinned, double limit) {
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
     std::vector<int> anchor(pinned.size(), 0);
@@ -250,13 +250,13 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (which == plant.which) return;
     end_modal(plant);
     const VecX places = cage_places(plant), velocities = cage_velocities(plant);
-    // What still fades over from an earlier change is no part of the shape: taken for one, it would never fade.
+    // A blend-out left from an earlier change is no part of the shape; taken for one, it would never end.
     if (smoothly) plant.blend_out = {};
     plant.cage_stale = true;
     const VecX own = cage_places(plant), own_rate = cage_velocities(plant);
     if (smoothly && plant.follow) keep_only_modes(plant);
     const VecX smooth = cage_places(plant), smooth_rate = cage_velocities(plant);
-    // Tets have their points in common, rods their pieces.
+    // Plastic states carry over between mechanics of tets, and between those of the chain.
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
     const std::vector<double> plastic = keeps ? plastic_of(plant) : std::vector<double>();
     take_mechanics(plant, which);

@@ -1,11 +1,11 @@
-// In: a plant of tets that is solved but not yet accepted. Out: the same, with no capsule of a caged organ drawn out by
-// more than its tissue is.
+// In: a plant of tets that is solved but not yet accepted. Out: the same, with no capsule of a caged organ stretched
+// more than its tissue would be.
 //
-// A fibre is slack up to a small stretch and then as stiff as what the cage lacks, so small motions, the rest shape and
-// the fit of the cage do not know of it. It only pulls. Taut ones are rows of impulses against the plant's own factor,
-// as contacts are, with their softness on the diagonal: for a step whose places follow velocities by `reach`, an
-// impulse p is a force p / reach, which draws the fibre out by p / (reach k). What is held pulls at its capsule
-// likewise.
+// A fibre is slack up to a small stretch and beyond it as stiff as what the cage lacks, so small motions, the rest
+// shape and the fit of the cage are unaffected. It only pulls. Taut fibres are rows of impulses against the plant's own
+// factor, as contacts are, with their own compliance on the diagonal: for a step whose positions follow velocities by
+// `reach`, an impulse p is a force p / reach, which stretches the fibre by p / (reach k). A grabbed vertex pulls at its
+// capsule likewise.
 #include "plant/fibres.hpp"
 
 #include <algorithm>
@@ -19,11 +19,11 @@ namespace frond {
 
 namespace {
 
-constexpr double SLACK = 0.03;  // stretch that is let be [-]
+constexpr double SLACK = 0.03;  // stretch that is not resisted [-]
 constexpr int ROUNDS = 3;
-constexpr double CLOSE = 0.001;  // stretch beyond what pulls give that needs no further round [-]
+constexpr double CLOSE = 0.001;  // error in stretch that needs no further round [-]
 
-// Share of each organ's stiffness against pull that its cage has not [-].
+// Returns the share of each organ's tensile stiffness that its cage lacks [-].
 std::vector<double> lack_of_organs(const Model& model, int order) {
     std::vector<double> tissue(model.organs.size(), 0.0), cage(model.organs.size(), 0.0);
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
@@ -38,14 +38,14 @@ std::vector<double> lack_of_organs(const Model& model, int order) {
     return tissue;
 }
 
-// A fibre that is drawn out, or may come to be by others that pull.
+// A fibre that is taut, or that others may draw taut.
 struct Row {
     Attachment begin, end;
-    double length;     // from which it pulls [m]
+    double length;     // length from which it pulls [m]
     double stiffness;  // [N/m]
 };
 
-// What is held pulls at both ends of its capsule.
+// Adds rows from each grabbed vertex to both ends of its capsule.
 void add_rows_of_grabs(const Plant& plant, std::vector<Row>& rows) {
     const Model& model = *plant.model;
     const Fibres& fibres = *plant.fibres;
@@ -61,15 +61,15 @@ void add_rows_of_grabs(const Plant& plant, std::vector<Row>& rows) {
     }
 }
 
-// How long a fibre is now, over what it is slack at [-].
+// Returns the present length of a fibre over its slack length [-].
 double drawn_out(const Plant& plant, const Fibre& fibre) {
     const std::vector<Vec3>& places = plant.chain_positions;
     const size_t node = size_t(fibre.node), parent = size_t(plant.model->chain.nodes[node].parent);
     return (places[node] - places[parent]).norm() / fibre.length;
 }
 
-// Leaves that cross come apart only by being drawn out, so fibres of a plant that is entangled let it be, and then draw
-// it in again no faster than contacts can follow.
+// Crossed leaves come apart only by being stretched, so fibres of an entangled plant lengthen, and shorten afterwards
+// no faster than contacts can follow.
 void let_give(Plant& plant, double h) {
     constexpr double RATE = 0.02;  // [1/s]
     const std::vector<Fibre>& list = plant.fibres->list;
@@ -83,9 +83,9 @@ void let_give(Plant& plant, double h) {
     if (!gives) plant.fibre_give.clear();
 }
 
-// Those that are taut and, if there are any, those that nearly are, which others may draw out.
+// Finds the taut fibres and, if there are any, the nearly taut ones, which others may stretch.
 std::vector<Row> find_rows(const Plant& plant) {
-    constexpr double NEARLY = 0.985;  // as long as what is taut [-]
+    constexpr double NEARLY = 0.985;  // length over that of a taut fibre [-]
     std::vector<Row> rows;
     const std::vector<Fibre>& list = plant.fibres->list;
     bool any = false;
@@ -103,10 +103,10 @@ std::vector<Row> find_rows(const Plant& plant) {
     return rows;
 }
 
-// A row as it is now: how its length goes with the nodes, and how much too long it is [m].
+// A row at the present positions: forces of a unit pull on its nodes, and its excess length [m].
 struct NodePull {
     int node;
-    Vec3 along;  // on the node, by a pull of one [-]
+    Vec3 along;  // force on the node by a unit pull [-]
 };
 struct Stretch {
     std::vector<NodePull> pull;
@@ -131,8 +131,8 @@ std::vector<Stretch> stretches_of(const std::vector<Row>& rows, const VecX& x) {
     return stretches;
 }
 
-// How fast each row closes by pulls on every one [1/kg]; empty if the plant does not answer. An answer has room for
-// three directions of one push, so three rows go into one.
+// Returns how fast each row closes by pulls on every row [1/kg]; empty if that has no solution. A NodeCompliance has
+// three directions, so it takes three rows.
 Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
     const size_t count = stretches.size(), triples = (count + 2) / 3;
     std::vector<NodeCompliance> compliances(triples);
@@ -159,7 +159,7 @@ Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
     return W;
 }
 
-// What pulls change in the plant's velocities. False if it does not answer.
+// Finds the change of the plant's velocities by pulls. False if it has no solution.
 bool velocity_by(Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls, VecX& dv) {
     VecX impulse = VecX::Zero(plant.motion.v.size());
     for (size_t i = 0; i < stretches.size(); i++)
@@ -167,7 +167,7 @@ bool velocity_by(Plant& plant, const std::vector<Stretch>& stretches, const VecX
     return respond(*plant.workspace, plant.settings, impulse, dv);
 }
 
-// Rows that pull do not lengthen any more.
+// Stops the lengthening of rows that pull.
 void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const Eigen::MatrixXd& W, VecX pulls) {
     std::vector<Eigen::Index> taut;
     VecX lengthening = VecX::Zero(pulls.size()), stops, dv;
@@ -184,9 +184,9 @@ void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const
     if (velocity_by(plant, stretches, pulls, dv)) plant.motion.v += dv;
 }
 
-// Pulls are forces of the plant's own, which its integrator looks back beyond: begun anew after each step that has
-// some, by implicit Euler, it would damp a sway whose leaves are taut. Only rates at the step's end do not know of
-// them.
+// Pulls are internal forces, so the integrator keeps its history: started anew by implicit Euler after each step with
+// pulls, it would damp the vibration of a plant whose leaves are taut. Only the rates of generalized alpha at the
+// step's end do not include them.
 void go_on_from_here(Motion& motion, bool was_shaken) {
     History& history = motion.history;
     history.shaken = was_shaken;
@@ -202,7 +202,7 @@ void go_on_from_here(Motion& motion, bool was_shaken) {
 }  // namespace
 
 Fibres make_fibres(const Model& model, int order) {
-    constexpr double LEAST = 0.5;  // of an organ's stiffness against pull that a cage has to lack [-]
+    constexpr double LEAST = 0.5;  // share of an organ's tensile stiffness that its cage has to lack [-]
     Fibres fibres;
     fibres.of_node.assign(model.chain.nodes.size(), -1);
     if (!model.calibrated) return fibres;
@@ -225,8 +225,9 @@ bool are_slack(Plant& plant) {
     return find_rows(plant).empty();
 }
 
-// Places first, in rounds, since pulls turn what they pull, which is of second order in the way. Then velocities, by
-// themselves: what brings places back in a part of a step would be too fast after it.
+// Corrects positions first, in rounds, since pulls turn the fibres, which is of second order in the displacement.
+// Velocities are corrected separately: a velocity that restores positions within a part of a step would be too high
+// after it.
 void hold_lengths(Plant& plant, double h) {
     if (!plant.fibres || !plant.report.ok) return;
     update_chain(plant);
@@ -236,7 +237,7 @@ void hold_lengths(Plant& plant, double h) {
     const Eigen::Index count = Eigen::Index(rows.size());
     const bool was_shaken = plant.motion.history.shaken;
     const double reach = reach_of(*plant.workspace);
-    VecX pulls = VecX::Zero(count), softness(count), dv;  // impulses [N s]; how far each draws its row out [m/(N s)]
+    VecX pulls = VecX::Zero(count), softness(count), dv;  // impulses [N s]; a row's stretch by its impulse [m/(N s)]
     for (Eigen::Index i = 0; i < count; i++) softness[i] = 1 / (reach * rows[size_t(i)].stiffness);
     std::vector<Stretch> stretches = stretches_of(rows, plant.motion.x);
     Eigen::MatrixXd W;

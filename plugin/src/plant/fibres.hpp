@@ -1,6 +1,6 @@
-// Fibres: what an organ has against being drawn out and its cage has not. A cage is fatter than what it holds and is
-// fitted to how that bends: against a pull it has the square of the ratio of their thicknesses too little, of a blade
-// of 0.3 mm in cells of 24 mm the 1/6400th part.
+// Fibres: the tensile stiffness that an organ has and its cage lacks. A cage is fatter than its organ and fitted to the
+// organ's bending, so its tensile stiffness is too low by the square of the ratio of their thicknesses: for a blade of
+// 0.3 mm in cells of 24 mm it is the 1/6400th part.
 #pragma once
 
 #include "solve/solve.hpp"
@@ -9,25 +9,25 @@ namespace frond {
 
 struct Plant;
 
-// Along the capsule between a chain node and its parent.
+// Fibre along the capsule between a chain node and its parent.
 struct Fibre {
     int node;
-    double length;     // from which it pulls [m]
-    double stiffness;  // what the organ's tissue has and the cage has not [N/m]
+    double length;     // length from which it pulls [m]
+    double stiffness;  // tensile stiffness that the organ's tissue has and the cage lacks [N/m]
 };
 
-// One a chain node that has a parent, in the chain's order, of organs whose cage has less than half of their own
-// stiffness against pull. Shared by all plants of a model.
+// One per chain node that has a parent, in the chain's order, of organs whose cage has less than half of their own
+// tensile stiffness. Shared by all plants of a model.
 struct Fibres {
     std::vector<Fibre> list;
     std::vector<int> of_node;  // index into `list`; -1: none
 };
 Fibres make_fibres(const Model& model, int order);
 
-// Tells whether none would pull where the plant is now; chain_positions are brought there.
+// Returns whether no fibre would pull at the plant's present position; updates chain_positions.
 bool are_slack(Plant& plant);
 
-// After a solve over h [s]: pulls together what is drawn out. Nothing is done where nothing is.
+// Pulls back what is stretched, after a solve over h [s]; does nothing if all fibres are slack.
 void hold_lengths(Plant& plant, double h);
 
 }  // namespace frond

@@ -1,5 +1,5 @@
-// In: where the cage nodes shall be. Out: places and rotations of the chain, by rigid fits to begin with and then by
-// Gauss-Newton on the sum of squared distances.
+// In: target positions of the cage nodes. Out: positions and rotations of the chain, by rigid fits to begin with and
+// then by Gauss-Newton on the sum of squared distances.
 #include "mechanics/rotation.hpp"
 #include "plant/follow.hpp"
 #include "solve/block_factor.hpp"
@@ -8,13 +8,14 @@ namespace frond {
 
 namespace {
 
-// Normal equations of the grips, with a pull towards no change for nodes that no cage node tells enough of.
+// Normal equations of the attachments, with a weak pull towards no change for nodes that the cage nodes leave
+// undetermined.
 struct Normal {
     BlockPattern pattern;
     BlockPlan plan;
     BlockFactor factor;
     BlockMatrix A;
-    std::vector<double> weight;  // of no change, one a node of the mechanics
+    std::vector<double> weight;  // weights of no change, one per node of the mechanics
 
     Normal(const Follow& follow, Eigen::Index size) {
         std::vector<Tet> pairs;
@@ -31,7 +32,7 @@ struct Normal {
         constexpr double WEAK = 1e-9;
         for (int i = 0; i < pattern.node_count; i++) weight.push_back(i % 2 ? WEAK * reach * reach + 1e-30 : WEAK);
     }
-    // Factors for the grips as they are at x.
+    // Factorizes for the attachments at x.
     bool set(const Follow& follow, const VecX& x) {
         A.set_zero();
         for (const Attachment& attachment : follow.attachments) add_attachment_stiffness(attachment, x, 1, A);
@@ -41,7 +42,7 @@ struct Normal {
     }
 };
 
-// Each chain node as the cage nodes around it are moved; where they do not tell, as its parent.
+// Moves each chain node with the cage nodes around it; where these do not determine that, with its parent.
 void begin_rigid(const Follow& follow, const Model& model, const VecX& cage_x, VecX& x) {
     const size_t count = model.chain.nodes.size();
     std::vector<std::vector<Vec3>> from(count), to(count);

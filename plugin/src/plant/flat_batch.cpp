@@ -1,4 +1,4 @@
-// In: several plants as they are. Out: what flat_place.cpp tells of one.
+// In: several plants. Out: the frames that flat_place.cpp finds for one.
 #include "plant/flat_batch.hpp"
 
 #include <algorithm>

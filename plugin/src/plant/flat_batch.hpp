@@ -1,4 +1,5 @@
-// Chains of several plants of a model side by side: where they are, and how their flat pieces lie (plant/flat.hpp).
+// Chains of several plants of a model, one per lane: their positions, and the frames of their flat segments
+// (plant/flat.hpp).
 #pragma once
 
 #include <vector>
@@ -13,13 +14,14 @@ struct Flat;
 
 struct ChainBatch {
     int lanes = 0;
-    // Each number once a lane: six of a node, of which the first three are its place; of each flat capsule the columns
-    // axis, thin and wide, zero where it has lost its shape.
+    // Each number once per lane: six for a node, the first three its position; for each flat capsule the columns axis,
+    // thin and wide, zero where it has collapsed.
     NumbersInLines x, frames;
-    NumbersInLines turns;  // room: how nodes are turned
+    NumbersInLines turns;  // workspace: rotation matrices of nodes
 };
 
-// As many plants as that, whose chains move and have lost nothing; further lanes are as the last one's.
+// Finds chains and frames of `count` plants whose mechanics move the chain and that have no fragments; further lanes
+// repeat the last plant.
 void look_at_chains(const Plant* const* plants, int count, const std::vector<int>& capsules,
                     const std::vector<Flat>& flats, ChainBatch& out);
 

@@ -1,4 +1,4 @@
-// In: a model's sections. Out: which of its capsules are flat, and how wide and thick.
+// In: a model's sections. Out: which of its capsules are flat, with their widths and thicknesses.
 #include <cmath>
 
 #include "model/model.hpp"
@@ -21,7 +21,7 @@ TetSpread spread_of(const Model& model, int node, const Vec3& direction) {
 }
 
 std::vector<Flat> make_flats(const Model& model) {
-    constexpr double FLAT = 2.5, NARROW = 0.004;  // width over thickness; half a width that is not worth it [m]
+    constexpr double FLAT = 2.5, NARROW = 0.004;  // least width over thickness [-]; least half width [m]
     std::vector<Flat> flats(model.capsules.size());
     for (size_t i = 0; i < flats.size(); i++) {
         const auto& [begin, end] = model.capsules[i];

@@ -1,4 +1,4 @@
-// In: a plant as it is. Out: how its flat pieces lie, and how to take hold of them.
+// In: a plant. Out: the frames of its flat segments, and attachments to them.
 #include <algorithm>
 
 #include "mechanics/rotation.hpp"
@@ -39,7 +39,7 @@ bool piece_frame(const Plant& plant, int node, const Vec3& wide, const TetSpread
 
 namespace {
 
-// Several pieces of a chain at once; past the last one it is taken again.
+// Finds frames of several segments of a chain at once; lanes beyond the last one repeat it.
 struct FindFrames {
     const Plant& plant;
     const std::vector<int>& capsules;
@@ -96,7 +96,7 @@ Attachment flat_attachment(const Plant& plant, int capsule, const Flat& flat, do
             attachment.arm[k] = attachment.weight[k] * across * flat.wide;
         return attachment;
     }
-    // Quadratic tets have too many nodes for both ends of the capsule, and for a lever.
+    // An attachment has no space for the nodes of two quadratic tets, nor for a lever.
     if (plant.nodes->order == 2) return attachment;
     const auto& ends = plant.model->capsules[size_t(capsule)];
     const double share[2] = {1 - along, along};

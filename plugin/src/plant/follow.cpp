@@ -9,7 +9,7 @@ namespace frond {
 
 namespace {
 
-// The nearest place on a capsule's axis.
+// The nearest point on a capsule's axis.
 struct Place {
     int node = -1;  // the capsule's second chain node
     double along = 0, distance = INFINITY;
@@ -48,7 +48,7 @@ Attachment smooth_attachment(const Chain& chain, const Place& place, const Vec3&
     return attachment;
 }
 
-// Organs of the tets around each cage node.
+// Returns the organs of the tets around each cage node.
 std::vector<std::vector<int>> node_organs(const Cage& cage, const TetNodes& nodes) {
     std::vector<std::vector<int>> organs(size_t(nodes.count()));
     for (size_t e = 0; e < cage.tets.size(); e++) {
@@ -92,7 +92,7 @@ Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modell
         for (int organ : organs[n]) try_all(capsules[size_t(organ)]);
         if (best.node < 0) try_all(all);
         if (best.node < 0) {
-            // A chain of roots only.
+            // The chain has only roots.
             size_t nearest = 0;
             for (size_t i = 1; i < chain.nodes.size(); i++)
                 if ((chain.nodes[i].position - p).norm() < (chain.nodes[nearest].position - p).norm()) nearest = i;

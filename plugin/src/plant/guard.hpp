@@ -1,5 +1,5 @@
-// Guard: what is noticed of a step that no plant can have taken, and what is done about it. A healthy step pays for the
-// looks at how far its nodes went, nothing else.
+// Guard: detects steps that no plant can have taken, and recovers from them. A healthy step only pays for the check of
+// how far its nodes went.
 #pragma once
 
 #include "core/types.hpp"
@@ -9,55 +9,57 @@ namespace frond {
 struct Plant;
 struct SolveSettings;
 
-// Farthest way of a place in the running step [m]; infinite where it is no number.
+// Returns the largest displacement of a node in the running step [m]; infinite if it is not a number.
 double farthest_way(const Plant& plant);
-// Whether something ended a step of h [s] far from where it was heading when the step began: a place by more than 0.02
-// of the plant's size, the rotation of a chain's node by more than 0.35 rad; steps longer than 1/60 s are never trusted
-// that far.
+// Returns whether something ended a step of h [s] far from where it was heading when the step began: a position by more
+// than 0.02 of the plant's size, the rotation of a chain node by more than 0.35 rad. Steps longer than 1/60 s always
+// count as off course.
 bool ends_off_course(const Plant& plant, double h);
 constexpr double OFF_COURSE = 0.02, TURNED_OFF_COURSE = 0.35;  // over the plant's size [-], [rad]
-// What is stiff is strained much by little: the error of one solve grows over what moves as the square of the step [s].
+// Longest step that is trusted [s]: the error of one solve, relative to the motion, grows as the square of the step,
+// and small displacements strain stiff parts much.
 constexpr double TRUSTED = 1.001 / 60;
-// Whether a place went much farther than the plant is long, and than it has to come back.
+// Returns whether a node was displaced by much more than the plant's size and than it may have to come back.
 bool has_run_away(const Plant& plant);
-constexpr double FARTHEST_WAY = 4;  // over the plant's size, that is not asked about [-]
-// Stretched to many times its size.
+constexpr double FARTHEST_WAY = 4;  // displacement over the plant's size that is not questioned [-]
+// Returns whether the plant is stretched to many times its size.
 bool is_far_out(const Plant& plant);
-// Of a chain's node, whose rotation vector turns back by 2 pi where it has turned by more than pi [rad].
+// Returns the rotation of a chain node from `from` to `x`; unlike the difference of rotation vectors it does not jump
+// by 2 pi where they are unwound at pi [rad].
 Vec3 turn_of(const VecX& x, const VecX& from, int node);
 
-// Elastic and that of weight, forces and springs, those of pins too, which do not change within a step [J].
+// Returns the potential energy [J]: elastic, and of the running step's weight, forces and springs, also of pins.
 double potential_energy(const Plant& plant, const VecX& x);
-// What lifts it by its own size [J].
+// Returns the energy that lifts the plant by its own size [J].
 double lifting_energy(const Plant& plant);
 
 struct EnergyLook {
-    // It has more than it had and than forces, springs and pins that move can have given.
+    // It has more energy than it had and than forces, springs and moving pins can have given.
     bool comes_from_nowhere = false;
-    // It had less than lifts it by its size when the step began, or when it ended hardly more than it was given.
+    // Its energy could not lift it by its size: at the start, or at the end with hardly more than it was given.
     bool is_small = false;
 };
-// After a solve over h [s] from x_good and v_good; contacts did `work` [J]. Not told, both false, in the air, which may
-// give any.
+// Checks a solve over h [s] from x_good and v_good; contacts did `work` [J]. Both are false in air, which may give any
+// energy.
 EnergyLook look_at_energy(const Plant& plant, double h, double work = 0);
 
-// Between solves: a plant whose pins are put farther away than so much of its size goes along with them, as it is.
+// Translates a plant with its pins, between solves, if they were put farther away than `least` times its size.
 bool jump_with_pins(Plant& plant, double least);
-constexpr double JUMP = 1;             // so far no step follows them
-constexpr double STUCK_BEHIND = 1e-3;  // nor, where a step failed that began at rest, so far
+constexpr double JUMP = 1;  // distance of the pins from which no step follows them, over the plant's size [-]
+constexpr double STUCK_BEHIND = 1e-3;  // the same where a step failed that began at rest [-]
 
-// In a step: stronger damping, while the plant recovers.
+// Strengthens the damping of a step while the plant recovers.
 void damp_recovering(const Plant& plant, SolveSettings& settings);
-// After a step of h [s]: begins, keeps up and ends recovery from shapes to which nothing can have bent the plant.
+// Begins, continues and ends the recovery from states that no admissible load can reach, after a step of h [s].
 void watch_recovery(Plant& plant, double h);
 
-// After a step: whether no place went farther than any sway does where it turns.
+// Returns whether, after a step, all nodes are slower than a vibrating plant's at its turning points.
 bool hardly_moves(const Plant& plant, double h);
-// Whether tets are; never where a chain moves.
+// Returns whether tets are inside out; false if the mechanics move the chain.
 bool is_inside_out(const Plant& plant);
-// After a step: whether the plant rests with tets inside out.
+// Returns whether, after a step, the plant rests with tets inside out.
 bool is_caught_inside_out(const Plant& plant, double h);
-// Puts it into its modelled shape, at rest, if that has less potential energy; false if not.
+// Puts the plant into its modelled shape, at rest, if that has less potential energy; false if not.
 bool start_from_modelled(Plant& plant);
 
 }  // namespace frond

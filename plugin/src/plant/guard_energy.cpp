@@ -1,7 +1,7 @@
-// In: a plant before and after a solve. Out: whether energy came out of nothing.
+// In: a plant before and after a solve. Out: whether it gained energy that nothing can have given.
 //
-// One solve takes forces and stiffness of one place; where a plant turns far within the step they point elsewhere, and
-// a stiff, light one ends strained by many times what it was.
+// One solve takes forces and stiffness at one position; if a plant turns far within the step, they have the wrong
+// directions, and a stiff, light plant ends strained by many times what it was.
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +11,8 @@
 
 namespace frond {
 
-// With each node's own mass, and the rotary inertia that the step began with: to work it out anew costs as much as all
-// strains do [J].
+// Returns the kinetic energy by nodal masses and the rotary inertia at the start of the step: computing that anew costs
+// as much as all strains do [J].
 static double kinetic_in_step(const Plant& plant, const VecX& v) {
     const std::vector<Mat3>& inertia = plant.workspace->inertia;
     const VecX& mass = node_mass_of(*plant.system);
@@ -29,7 +29,7 @@ static double elastic_energy(const Plant& plant, const VecX& x) {
     return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
 }
 
-// What weight and forces do along a way [J].
+// Returns the work of weight and forces along a displacement [J].
 static double work_along(const Plant& plant, const VecX& way) {
     const VecX& mass = node_mass_of(*plant.system);
     Vec3 moved = Vec3::Zero();
@@ -38,9 +38,9 @@ static double work_along(const Plant& plant, const VecX& way) {
     return (force.size() > 0 ? force.dot(way) : 0) + plant.loads.gravity.dot(moved);
 }
 
-// Springs that hold pins are as stiff as what cannot move.
+// Springs that hold pins are nearly rigid.
 enum class Held { BY_GRABS, BY_PINS_TOO };
-// Those of pins come first.
+// Pin springs come first in the list.
 static double spring_energy(const Plant& plant, const VecX& x, Held held) {
     const std::vector<Spring>& springs = plant.loads.springs;
     double energy = 0;
@@ -54,7 +54,7 @@ double potential_energy(const Plant& plant, const VecX& x) {
     return elastic_energy(plant, x) - work_along(plant, x) + spring_energy(plant, x, Held::BY_PINS_TOO);
 }
 
-// The farthest way of what holds the plant [m].
+// Returns the largest displacement of pins in the step [m].
 static double way_of_pins(const Plant& plant) {
     const Motion& motion = plant.motion;
     const int count = int(motion.pinned.size());
@@ -72,9 +72,9 @@ double lifting_energy(const Plant& plant) {
 }
 
 EnergyLook look_at_energy(const Plant& plant, double h, double work) {
-    constexpr double SHARE = 0.05;  // of what moves and strains it [-]
-    constexpr double LIFT = 0.01;   // and what lifts it so far, in its sizes [-]
-    constexpr double CARRIED = 2;   // and what carries all of it so many times as fast as what holds it [-]
+    constexpr double SHARE = 0.05;  // allowed error, of kinetic and elastic energy [-]
+    constexpr double LIFT = 0.01;   // and of the energy that lifts the plant by its size [-]
+    constexpr double CARRIED = 2;   // speed at which moving pins may carry the plant, over their own [-]
     EnergyLook look;
     if (!plant.loads.drags.empty()) return look;
     const VecX &x = plant.motion.x, &x_good = plant.x_good;
@@ -82,12 +82,12 @@ EnergyLook look_at_energy(const Plant& plant, double h, double work) {
     const double speed = CARRIED * way_of_pins(plant) / h, lifting = lifting_energy(plant);
     double given = work + work_along(plant, x - x_good) + spring_energy(plant, x_good, Held::BY_GRABS) -
                    spring_energy(plant, x, Held::BY_GRABS) + 0.5 * node_mass_of(*plant.system).sum() * speed * speed;
-    // The work of moments, which few nodes have, is done along the turn, not along rotation vectors.
+    // The work of moments, which few nodes have, goes along the rotation, not along rotation vectors.
     const VecX& force = plant.loads.force;
     for (int i = 1; plant.follow && i < force.size() / 3; i += 2)
         if (point(force, i) != Vec3::Zero())
             given += point(force, i).dot(turn_of(x, x_good, i) - (point(x, i) - point(x_good, i)));
-    // Most often what it had need not be asked.
+    // The energy before the step is seldom needed.
     look.is_small = after < lifting && after <= given + LIFT * lifting;
     if (look.is_small) return look;
     const double before = kinetic_in_step(plant, plant.v_good) + elastic_energy(plant, x_good);

@@ -1,6 +1,6 @@
-// In: a plant whose pins were moved. Out: the plant carried along, if they were put somewhere else altogether.
+// In: a plant whose pins were moved. Out: the plant translated with them, if they were put somewhere else altogether.
 //
-// No step of elastic mechanics leads there: it was rewound in every step, and the plant stayed behind for ever.
+// No step of elastic mechanics leads there: the plant would be rewound in every step and stay behind for ever.
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
 

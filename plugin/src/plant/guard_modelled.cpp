@@ -1,6 +1,6 @@
 // In: a plant that is caught in a shape from which no step leads back: at rest with tets inside out, strained from all
-// sides; or so far drawn out that every step fails. Out: its modelled shape, where it is held, if that has less
-// potential energy than the one it is caught in. What is seen of it fades over within a second.
+// sides, or stretched so far that every step fails. Out: its modelled shape, where it is held, if that has less
+// potential energy. The visible difference blends out within a second.
 #include "mechanics/rotation.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
@@ -9,7 +9,8 @@ namespace frond {
 
 namespace {
 
-// Where the modelled shape is as it is held now, or as it lies if nothing holds it. False where that is not to be told.
+// Finds the placement of the modelled shape as it is held now, or as it lies if nothing holds it. False if that is
+// undetermined.
 bool find_frame(const Plant& plant, Mat3& rotation, Vec3& shift) {
     const Motion& motion = plant.motion;
     const VecX& modelled = elements_of(*plant.system).modelled;
@@ -20,7 +21,7 @@ bool find_frame(const Plant& plant, Mat3& rotation, Vec3& shift) {
         (is_held ? held_from : from).push_back(point(modelled, i));
         (is_held ? held_to : to).push_back(point(motion.x, i));
         if (!is_held || !plant.follow) continue;
-        // One node of a chain tells how it is turned.
+        // One held node of a chain determines it.
         rotation = rotation_of<double>(point(motion.x, i + 1));
         shift = point(motion.x, i) - rotation * point(modelled, i);
         return true;
@@ -40,8 +41,8 @@ VecX modelled_in(const Plant& plant, const Mat3& rotation, const Vec3& shift) {
     return x;
 }
 
-// Without the sets that would bend it there by more than its weight can: it got them where no plant can be. Nothing is
-// changed if that is no less than what it holds now.
+// Drops plastic strain that would bend the modelled shape by more than its weight can: it arose where no plant can be.
+// Changes nothing and returns false if the modelled shape would not have less energy than the present one.
 bool drop_wild_sets_for_less_energy(Plant& plant, const VecX& x) {
     const double caught = potential_energy(plant, plant.motion.x), with_sets = potential_energy(plant, x);
     if (!plant.own_elements) return with_sets < caught;
@@ -56,7 +57,7 @@ bool drop_wild_sets_for_less_energy(Plant& plant, const VecX& x) {
 
 }  // namespace
 
-// Points of integration may be right in a tet of order 2 whose corners are not.
+// A tet of order 2 may be right at its integration points and inverted at its corners.
 bool is_inside_out(const Plant& plant) {
     if (plant.follow) return false;
     if (plant.report.inverted > 0) return true;
@@ -83,13 +84,13 @@ bool start_from_modelled(Plant& plant) {
     motion.history.valid = false;
     plant.cage_stale = true;
     plant.blend_out = {};
-    // Bodies push what is seen of it: while that fades it would be bent from where it no longer is.
+    // Bodies touch the visible shape: a blend-out would have them bend the plant from where it no longer is.
     if (!plant.is_touched) begin_blend_out(plant.blend_out, places - cage_places(plant), VecX::Zero(places.size()));
     return true;
 }
 
 bool hardly_moves(const Plant& plant, double h) {
-    constexpr double SLOW = 0.002;  // in sizes of the plant a second; no sway turns as slowly as that
+    constexpr double SLOW = 0.002;  // plant sizes per second, slower than any vibration at its turning points
     const double slow = SLOW * double(plant.size);
     return plant.v_good.lpNorm<Eigen::Infinity>() < slow && farthest_way(plant) < slow * h;
 }

@@ -1,9 +1,9 @@
-// In: a plant after a step. Out: whether it has a shape to which nothing can have bent it, for how long it recovers
-// from that, and a way out where it cannot.
+// In: a plant after a step. Out: whether no admissible load can reach its state, how long it recovers from that, and a
+// restart from the modelled shape if it cannot.
 //
-// Put there by a host, or driven there by what no tissue bears, it holds thousands of times the energy of any sway. Set
-// free, that would keep it flying about for long, so while it recovers it is damped as much as stops a sway without
-// swinging back, by the integrator that damps most, and keeps no set.
+// Put there by a host, or driven there by loads that no tissue bears, the plant holds thousands of times the energy of
+// any vibration. Released, it would fly about for long; so while it recovers it is damped enough to stop a sway without
+// overshoot, by the integrator that damps most, and gains no plastic strain.
 #include <algorithm>
 #include <cmath>
 
@@ -14,15 +14,15 @@ namespace frond {
 
 namespace {
 
-constexpr double TORN = 0.5;    // all of it strained by that has no plant been [-]
-constexpr double FOLDED = 0.1;  // and so far none stays that nothing holds [-]
+constexpr double TORN = 0.5;    // uniform strain that no plant has ever had [-]
+constexpr double FOLDED = 0.1;  // uniform strain that no plant keeps by itself [-]
 
-// More elastic energy than if all of it were drawn out so far along its longest side, and as much narrower as keeps its
-// volume.
+// Returns whether the elastic energy exceeds that of the whole plant stretched by `strain` along its longest side, at
+// constant volume.
 bool holds_more_than(const Plant& plant, const VecX& x, double strain) {
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const double own = row.energy(elements_of(plant), x);
-    if (own < lifting_energy(plant)) return false;  // so far weight bends it
+    if (own < lifting_energy(plant)) return false;  // weight can bend it this far
     const VecX& modelled = elements_of(*plant.system).modelled;
     const int next = plant.follow ? 2 : 1;
     Vec3 low = point(modelled, 0), high = low;
@@ -39,12 +39,12 @@ bool holds_more_than(const Plant& plant, const VecX& x, double strain) {
     return own > row.energy(elements_of(*plant.system), drawn_out);
 }
 
-// The step was searched for, and the search gave up.
+// Returns whether the step needed a search, and the search gave up.
 bool is_lost(const Plant& plant) {
     return plant.trouble & FROND_TROUBLE_RETRIED && !plant.report.converged;
 }
 
-// Where the plant hardly moves, though nothing pulls or presses it.
+// Returns whether the search failed while the plant hardly moves, though nothing pulls or presses it.
 bool found_no_way(const Plant& plant, double h) {
     const bool is_pulled = plant.has_user_force || plant.loads.springs.size() > plant.pin_springs.size();
     return is_lost(plant) && !is_pulled && !plant.is_pressed && hardly_moves(plant, h);
@@ -59,8 +59,8 @@ void damp_recovering(const Plant& plant, SolveSettings& settings) {
 }
 
 void watch_recovery(Plant& plant, double h) {
-    constexpr float SWAYS = 1.5;    // of the slowest, that it takes
-    constexpr float CAUGHT = 0.25;  // for so much of one, a plant that nothing pulls
+    constexpr float SWAYS = 1.5;    // duration of a recovery, in periods of the slowest mode [-]
+    constexpr float CAUGHT = 0.25;  // time after which a plant that nothing pulls counts as caught, in such periods [-]
     const float sway = float(2 * plant.rest_time);
     bool ends = false;
     if (plant.recovers_for > 0) {
@@ -72,7 +72,8 @@ void watch_recovery(Plant& plant, double h) {
     } else {
         plant.recovers_for = found_no_way(plant, h) ? plant.recovers_for - float(h) : 0;
     }
-    // What lies folded or finds no way by now, or rests with tets inside out, would for ever.
+    // A plant that is still heavily strained or finds no solution by now, or rests with tets inside out, would stay so
+    // for ever.
     const bool is_folded =
         ends && (is_lost(plant) || is_inside_out(plant) || holds_more_than(plant, plant.motion.x, FOLDED));
     const bool is_caught = -plant.recovers_for > CAUGHT * sway || is_caught_inside_out(plant, h);

@@ -1,6 +1,6 @@
-// In: a plant before and after a solve. Out: whether a node of it went where a healthy step does not lead.
+// In: a plant before and after a solve. Out: whether one of its nodes moved as in no healthy step.
 //
-// A node that did is rare, and each step asks: some nodes are looked at together first, in the lanes of the vector
+// Every step is checked, but such nodes are rare: several nodes are first checked together, in the lanes of the vector
 // unit.
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace frond {
 
 namespace {
 
-// What of a motion is looked at: numbers from `k` on.
+// The part of a motion that is checked: numbers from `k` on.
 struct Way {
     const VecX &x, &from;
     template <class S>
@@ -31,7 +31,8 @@ struct OffCourse {
     }
 };
 
-// Tells whether a node `is_one`, which is asked of nodes among which any has a square above that of even or odd ones.
+// Finds whether some node satisfies `is_one`, which is called only for groups of nodes in which a square may exceed its
+// limit, `even` or `odd` by the node's index.
 template <class Of, class IsOne>
 struct FindNode {
     const Of& of;
@@ -41,8 +42,8 @@ struct FindNode {
     bool& found;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr int NODES = 4 * LANES<S>;  // together
-        S share[3];                          // of what a square may be
+        constexpr int NODES = 4 * LANES<S>;  // nodes per group
+        S share[3];                          // reciprocal limits of the squares
         for (int k = 0; k < 3 * LANES<S>; k++)
             set_lane(share[k / LANES<S>], k % LANES<S>, 1 / (k / 3 % 2 ? odd : even));
         int node = 0;
@@ -68,7 +69,7 @@ bool has_node(const Of& of, int count, double even, double odd, const IsOne& is_
     return found;
 }
 
-// Tells whether all places, not the rotations of a chain, are nearer than that to `from`.
+// Returns whether all positions, but not the rotations of a chain, are nearer to `from` than `distance`.
 bool are_near(const Plant& plant, const VecX& from, double distance) {
     const VecX& x = plant.motion.x;
     const double most = distance * distance;
@@ -78,7 +79,7 @@ bool are_near(const Plant& plant, const VecX& from, double distance) {
     return !has_node(Way{x, from}, int(x.size() / 3), most, plant.follow ? INFINITY : most, is_far);
 }
 
-// Of all places [m]; infinite where one is no number.
+// Returns the largest distance of a node from its place in `from` [m]; infinite if one is not a number.
 double farthest(const Plant& plant, const VecX& x, const VecX& from) {
     double most = 0;
     for (int i = 0; i < x.size() / 3; i += plant.follow ? 2 : 1) {
@@ -88,7 +89,7 @@ double farthest(const Plant& plant, const VecX& x, const VecX& from) {
     return std::sqrt(most);
 }
 
-// How far a place was from where it is modelled when the step began [m].
+// Returns the largest distance of a node from its modelled position at the start of the step [m].
 double reach_at_start(const Plant& plant) {
     return farthest(plant, plant.x_good, elements_of(*plant.system).modelled);
 }
@@ -119,7 +120,7 @@ bool ends_off_course(const Plant& plant, double h) {
 }
 
 bool has_run_away(const Plant& plant) {
-    constexpr double BACK = 2;  // in a step
+    constexpr double BACK = 2;  // displacement in a step over the distance to the modelled shape [-]
     const double size = double(plant.size);
     return !are_near(plant, plant.x_good, FARTHEST_WAY * size) &&
            !are_near(plant, plant.x_good, FARTHEST_WAY * size + BACK * reach_at_start(plant));

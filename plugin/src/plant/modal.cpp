@@ -1,8 +1,9 @@
-// In: a chain that moves, then the air. Out: the chain, moving by its two first sways.
+// In: a chain that moves, then the air. Out: the chain, moving by its first two modes.
 //
-// Each sway is an oscillator that the air's push displaces, solved exactly over the time for which the push is taken as
-// constant; so it can be told rarely and drawn at any time. Along the chain the modes' rotations turn its pieces, which
-// keep their lengths however far it bends. What the modes cannot have of the chain's shape fades.
+// Each mode is an oscillator displaced by the air's push, solved exactly over the time for which the push is taken as
+// constant; so it can be updated rarely and drawn at any time. The modes' rotations turn the segments of the chain,
+// which keep their lengths however far it bends. The part of the chain's shape that the modes cannot represent blends
+// out.
 #include "plant/modal.hpp"
 
 #include <cmath>
@@ -18,10 +19,10 @@ struct State {
     double place, speed;
 };
 
-// x'' + c x' + k (x - rest) = 0 after t.
+// Solves x'' + c x' + k (x - rest) = 0 for the state after t.
 State after(const State& start, double rest, double c, double k, double t) {
     const double a = 0.5 * c, d = k - a * a, x = start.place - rest;
-    double cosine, sine_over;  // of sqrt(d) t, the second over sqrt(d)
+    double cosine, sine_over;  // cos(sqrt(d) t), and sin(sqrt(d) t) over sqrt(d)
     double fall = std::exp(-a * t);
     if (d > 1e-9 * k) {
         const double omega = std::sqrt(d);
@@ -29,8 +30,7 @@ State after(const State& start, double rest, double c, double k, double t) {
         sine_over = std::sin(omega * t) / omega;
     } else if (d < -1e-9 * k) {
         const double omega = std::sqrt(-d);
-        // Where damping is strong cosh is beyond all numbers and what it falls by below them, so both are taken
-        // together.
+        // With strong damping cosh overflows and the decay underflows, so both are taken together.
         const double slow = std::exp(-k / (omega + a) * t), quick = std::exp(-(omega + a) * t);
         cosine = 0.5 * (slow + quick);
         sine_over = 0.5 * (slow - quick) / omega;
@@ -48,7 +48,7 @@ State state_of(const ModalMotion& modal, size_t k) {
                  modal.since);
 }
 
-// Places and rotations of the chain at coordinates of the modes.
+// Finds positions and rotations of the chain from modal coordinates.
 void bend_chain(const Plant& plant, const std::array<double, 2>& at, VecX& x) {
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
     const VecX& modelled = elements_of(*plant.system).modelled;
@@ -67,7 +67,7 @@ void bend_chain(const Plant& plant, const std::array<double, 2>& at, VecX& x) {
     }
 }
 
-// How the chain moves with the modes' speeds.
+// Finds the chain's rates from modal velocities.
 VecX rate_of(const Plant& plant, const std::array<double, 2>& at, const std::array<double, 2>& speed) {
     constexpr double SHORT = 1e-5;  // [s]
     VecX before, behind;
@@ -76,7 +76,7 @@ VecX rate_of(const Plant& plant, const std::array<double, 2>& at, const std::arr
     return (behind - before) / (2 * SHORT);
 }
 
-// What the air does to the modes until it is asked again.
+// Updates the air's push on the modes, which then stays constant until the next update.
 void ask_air(Plant& plant, const Surroundings& surroundings) {
     ModalMotion& modal = *plant.modal;
     const frond_effects effects = plant.effects & surroundings.effects;
@@ -102,7 +102,7 @@ void ask_air(Plant& plant, const Surroundings& surroundings) {
             push += density * speed * share * mode.push[a].dot(wind);
             if (effects & FROND_EFFECT_AIR_DRAG) modal.damping[k] += density * speed * share * mode.resist[a];
         }
-        constexpr double EBB = 0.85;  // of a lean that the air no longer holds
+        constexpr double EBB = 0.85;  // factor per update on a deflection that the air no longer holds [-]
         modal.rest[k] = modal.comes_to_rest ? EBB * modal.rest[k] : push / mode.square;
         if (modal.comes_to_rest) modal.damping[k] = std::max(modal.damping[k], std::sqrt(mode.square));
     }

@@ -1,4 +1,4 @@
-// ModalMotion: a plant of which only its two first sways are simulated, as the air drives them. The rest of the chain
+// ModalMotion: a plant of which only the first two modes are simulated, as the air drives them. The rest of the chain
 // follows.
 #pragma once
 
@@ -11,46 +11,46 @@ namespace frond {
 struct Plant;
 struct Surroundings;
 
-// One of the two. Of unit modal mass, so that coordinates are metres times the root of a kilogram.
+// One of the two modes, of unit modal mass, so that coordinates are metres times the root of a kilogram.
 struct NaturalMode {
-    VecX shape;            // of the chain's places and rotations; empty: the plant has no such sway
-    double square = 0;     // of the angular frequency, under weight [1/s^2]
+    VecX shape;            // positions and rotations of the chain; empty: the plant has no such mode
+    double square = 0;     // square of the angular frequency, under weight [1/s^2]
     double stiffness = 0;  // shape.K shape, without weight [1/s^2]
     double ratio = 0;      // the same, each element times its organ's damping ratio [1/s^2]
-    double reach = 0;      // of the place that moves farthest [1/sqrt kg]
-    // Of air at 1 m/s along each axis, over its speed and density.
+    double reach = 0;      // largest displacement of a node [1/sqrt kg]
+    // Push of air at 1 m/s along each axis, over its speed and density.
     std::array<Vec3, 3> push = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    std::array<double, 3> resist = {};  // of the mode's own motion likewise
+    std::array<double, 3> resist = {};  // likewise, resistance to the mode's own motion
 };
 // Shared by all plants of a model.
 struct ModalBasis {
     std::array<NaturalMode, 2> modes;
-    Vec3 middle = Vec3::Zero();  // where the air is asked for, model frame [m]
+    Vec3 middle = Vec3::Zero();  // point at which the air is sampled, model frame [m]
 };
 ModalBasis make_modal_basis(const System& rods, const AirPieces& pieces);
 
 struct ModalMotion {
     std::shared_ptr<const ModalBasis> modes;
-    std::array<double, 2> place = {}, speed = {};   // when the air was asked last
-    std::array<double, 2> rest = {}, damping = {};  // to which the air drives them, and how they are damped since [1/s]
-    double since = 0;                               // [s]
-    bool comes_to_rest = false;                     // whatever the air does, damped half critically at least
-    bool fresh = true;                              // the air was not asked yet
-    bool stale = true;                              // the chain is not yet where the sway is
-    BlendOut blend_out;                             // of the chain
-    std::vector<frond_vec3> at, air;                // one each
+    std::array<double, 2> place = {}, speed = {};   // at the last update of the air
+    std::array<double, 2> rest = {}, damping = {};  // equilibria in that air, and damping since then [1/s]
+    double since = 0;                               // time since then [s]
+    bool comes_to_rest = false;                     // whatever the air does, with at least half of critical damping
+    bool fresh = true;                              // the air was not sampled yet
+    bool stale = true;                              // the chain is not yet where the modes put it
+    BlendOut blend_out;                             // remainder of the chain's shape and motion
+    std::vector<frond_vec3> at, air;                // point and air for a query, one each
 };
 
-// A chain goes on as a sway, and as what it was, from where it is. Nothing of it may be broken off.
+// Switch a chain to modal motion and back from its present state. It must have no fragments.
 void begin_modal(Plant& plant);
 void end_modal(Plant& plant);
-// The chain without what its two first sways cannot have of its shape and motion.
+// Removes what the first two modes cannot represent of the chain's shape and motion.
 void keep_only_modes(Plant& plant);
-// Time goes on; `ask`: the air is asked what it does now.
+// Advances time; `ask`: updates the air.
 void step_modal(Plant& plant, const Surroundings& surroundings, double h, bool ask);
-// Puts the chain where its sway is, if it has one.
+// Puts the chain where its modes are, if it is modal.
 void pose(Plant& plant);
-// Where the places are that move farthest, one a mode [m].
+// Returns the displacements of the nodes that move farthest, one per mode [m].
 std::array<double, 2> modal_reach(const Plant& plant);
 
 }  // namespace frond

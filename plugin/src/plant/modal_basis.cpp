@@ -1,8 +1,8 @@
-// In: a model's rods, and what of them is in the air. Out: their two first sways and how air drives them.
+// In: a model's rods, and their segments in the air. Out: their first two modes and how air drives them.
 //
 // Modes are those of the exact stiffness under weight (build/sway_find.cpp). Air that passes a plant as modelled at a
-// velocity u presses a mode by rho |u| sum e_a^2 push_a . u, e being u's direction: pressures go with the square of the
-// speed and are known along the axes.
+// velocity u presses a mode by rho |u| sum e_a^2 push_a . u, e being u's direction: pressures grow with the square of
+// the speed and are known along the axes.
 #include "build/static_stiffness.hpp"
 #include "build/sway.hpp"
 #include "plant/modal.hpp"
@@ -12,7 +12,7 @@ namespace frond {
 
 namespace {
 
-// Columns axis, thin, wide, as modelled.
+// Returns the columns axis, thin, wide in the modelled shape.
 Mat3 frame_of(const AirPiece& piece, const Vec3& chord) {
     Mat3 frame;
     frame.col(0) = chord.normalized();
@@ -22,9 +22,9 @@ Mat3 frame_of(const AirPiece& piece, const Vec3& chord) {
     return frame;
 }
 
-// Adds a piece's drag along each axis; half of it is at either end.
+// Adds a segment's drag along each axis, half of it at either end.
 void add_air(const Model& model, const AirPiece& piece, ModalBasis& all, double& weight) {
-    constexpr double SPEED = 5;  // at which Reynolds numbers are taken [m/s]
+    constexpr double SPEED = 5;  // speed at which Reynolds numbers are taken [m/s]
     const int ends[2] = {model.chain.nodes[size_t(piece.node)].parent, piece.node};
     const Vec3 a = model.chain.nodes[size_t(ends[0])].position, b = model.chain.nodes[size_t(ends[1])].position;
     if (!((b - a).norm() > 1e-9)) return;

@@ -1,6 +1,6 @@
-// Pins: cage nodes held where they are put. Where the cage itself moves they are nodes of the mechanics. Where it
-// follows the chain, three pinned nodes or more that hang on one chain node hold that, place and rotation; fewer are
-// held by springs much stiffer than the plant.
+// Pins: cage nodes held where they are put. If the mechanics move the cage, they are nodes of the mechanics. If it
+// follows the chain, three or more pinned nodes that are attached to one chain node hold that, position and rotation;
+// fewer are held by springs much stiffer than the plant.
 #include <algorithm>
 #include <map>
 
@@ -33,7 +33,7 @@ void move_pin(Plant& plant, int node, const Vec3& target) {
     plant.pins_changed = plant.pins_are_own = true;
 }
 
-// The rotation vector of R, on that side of the half turn on which the node is now.
+// Returns the rotation vector of R on the same side of the half turn as the node's present one.
 static Vec3 nearest_vector(const Mat3& R, const Vec3& now) {
     const Vec3 turn = rotation_vector<double>(R);
     const double angle = turn.norm();
@@ -42,7 +42,8 @@ static Vec3 nearest_vector(const Mat3& R, const Vec3& now) {
     return (other - now).squaredNorm() < (turn - now).squaredNorm() ? other : turn;
 }
 
-// A plant stiffer than this many times its weight over a millimetre is not told from a rigid one [-].
+// Returns a spring's stiffness, STRONG times the plant's weight over a millimetre: with it a plant counts as rigidly
+// held.
 static double pin_stiffness(const Plant& plant) {
     constexpr double STRONG = 1e7;
     return STRONG * std::max(node_mass_of(*plant.system).sum(), 1e-6) * GRAVITY / 1e-3;
@@ -51,7 +52,7 @@ static double pin_stiffness(const Plant& plant) {
 // Cage nodes that are held together.
 struct PinGroup {
     std::vector<int> nodes;
-    std::vector<Vec3> from, to;  // in the modelled shape, and where they shall be [m]
+    std::vector<Vec3> from, to;  // modelled and target positions [m]
 };
 
 static void add_to_group(const Plant& plant, int node, PinGroup& group) {
@@ -60,7 +61,7 @@ static void add_to_group(const Plant& plant, int node, PinGroup& group) {
     group.to.push_back(point(plant.pin_target, node));
 }
 
-// Holds a chain node as the group is moved; false if that does not tell how it is turned.
+// Holds a chain node by the rigid motion of the group; false if that leaves its rotation undetermined.
 static bool hold_chain_node(Plant& plant, int chain_node, const PinGroup& group) {
     Mat3 rotation;
     Vec3 image;
@@ -78,14 +79,14 @@ static void pin_chain(Plant& plant) {
     std::fill(plant.motion.pinned.begin(), plant.motion.pinned.end(), uint8_t(0));
     plant.pin_springs.clear();
     std::map<int, PinGroup> groups;  // by chain node
-    PinGroup ground;                 // all that the model stands on
+    PinGroup ground;                 // all nodes that the model stands on
     for (size_t n = 0; n < plant.pinned.size(); n++) {
         if (!plant.pinned[n]) continue;
-        // What the ground does not hold was perhaps pinned while tets moved, which have no anchors.
+        // A node that the ground does not hold may have been pinned while tets moved, and then has no anchor.
         add_to_group(plant, int(n), groups[plant.foot->pinned[n] ? plant.anchor[n] : plant.follow->nearest[n]]);
         if (n < plant.model->root.size() && plant.model->root[n]) add_to_group(plant, int(n), ground);
     }
-    // A root that too few pinned nodes hang on stands as the ground does.
+    // A root with too few pinned nodes stands as the ground does.
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
     if (plant.stands_on_roots && !ground.nodes.empty())
         for (size_t i = 0; i < nodes.size(); i++)
@@ -100,7 +101,7 @@ static void pin_chain(Plant& plant) {
     }
 }
 
-// On the same side of the half turn.
+// Compares rotation vectors on the same side of the half turn.
 bool is_where_held(const Motion& motion) {
     const int count = int(motion.pinned.size());
     int i = next_pinned(motion, 0);

@@ -1,4 +1,4 @@
-// Plant: one instance of a model, everything that moves. It is simulated in the model's own frame, near the origin, so
+// Plant: one instance of a model: everything that moves. It is simulated in the model's own frame, near the origin, so
 // that a plant ten kilometres away is as exact as one at home; `position` and `rotation` place it in the world.
 #pragma once
 
@@ -14,34 +14,34 @@
 
 namespace frond {
 
-// A user's hold on a surface vertex.
+// A user's spring between a surface vertex and a target.
 struct Grab {
     int vertex;
     Vec3 target;       // world frame [m]
     double stiffness;  // [N/m]
-    uint64_t handle;   // of the C API
+    uint64_t handle;   // handle of the C API
 };
 
-// The nodes that the host sees, the cage's; with elements of order 2 the middles of its edges are among them.
+// The nodes that the host sees: the cage's, with elements of order 2 also the middles of its edges.
 struct CageNodes : TetNodes {
-    VecX modelled;  // where they are in the modelled shape [m]
+    VecX modelled;  // positions in the modelled shape [m]
 };
 
-// How velocities changed in the last substep, for a guess of the next one's end.
+// Change of velocities in the last substep, to predict the next one's end.
 struct Trend {
     VecX v_end;  // [m/s]
     VecX rate;   // [m/s^2]
 };
 
-// Workspaces that the plants of one system lend from each other: one has its own only between the halves of a step.
+// Workspaces that the plants of one system take by turns: a plant has one only between the halves of a step.
 struct PlantBatch;
 struct WorkspacePool {
     std::mutex mutex;
     std::vector<WorkspacePtr> free;
-    std::vector<std::shared_ptr<PlantBatch>> batch;  // likewise, of several plants at once
-    size_t seats = 0;                                // plants that may ask for one: those that are awake
+    std::vector<std::shared_ptr<PlantBatch>> batch;  // workspaces for batches
+    size_t seats = 0;                                // number of plants that may need one: those that are awake
 };
-// A plant's right to one. Without as many seats, free workspaces go.
+// A plant's claim to one. Free workspaces beyond the number of seats are deleted.
 struct PoolSeat {
     std::shared_ptr<WorkspacePool> pool;
     bool is_taken = false;
@@ -61,104 +61,104 @@ struct Foot {
     std::vector<int> anchor;
 };
 
-// Where the surface was in the frame before the last one that was shown.
+// The surface in the frame before the last one that was shown.
 struct PreviousSurface {
-    std::vector<float> positions;  // world frame [m]; empty: where it is
-    uint64_t substep;  // the last frame: the world's substeps until then, and how long before the end of the
-    float back;        // last one it was [s]
+    std::vector<float> positions;  // world frame [m]; empty: as now
+    uint64_t substep;              // number of the world's substeps at the last frame
+    float back;                    // time from the last frame to the end of that substep [s]
 };
 
-// Nodes that the host sees are the cage's, whatever moves. Where the mechanics move the chain, the cage follows it.
+// The host always sees the cage's nodes. If the mechanics move the chain, the cage follows it.
 struct Plant {
     std::shared_ptr<const Model> model;
     std::shared_ptr<const CageNodes> nodes;
     frond_mechanics which;
     frond_mass mass;
     std::shared_ptr<const System> system;
-    std::unique_ptr<Elements>
-        own_elements;                       // of a plant that has yielded, with what of its shape is lasting; else null
-    PoolSeat seat;                          // among the plants of the system
-    WorkspacePtr workspace;                 // lent for a step; refers to system and own elements
-    SolveSettings settings, step_settings;  // the latter without what the running step's effects leave out
-    double material_damping;                // share of the organs' damping ratios that counts [-]
-    double substep_tolerance;               // local error of a place in a step, over the plant's size [-]
-    Trend trend;                            // empty with one substep
-    double rest_time;                       // for which a plant that rests has been still [s]
-    Vec3 position;                          // of the model's frame in the world [m]
+    std::unique_ptr<Elements> own_elements;  // elements of a plant that has yielded, with its plastic state; else null
+    PoolSeat seat;                           // claim to a workspace of the system's pool
+    WorkspacePtr workspace;                  // from the pool, for a step; refers to system and own elements
+    SolveSettings settings, step_settings;   // the latter without effects that are off in the running step
+    double material_damping;                 // share of the organs' damping ratios that is applied [-]
+    double substep_tolerance;                // allowed local error of a position in a step, over the plant's size [-]
+    Trend trend;                             // empty with one substep
+    double rest_time;                        // time of stillness after which the plant counts as at rest [s]
+    Vec3 position;                           // origin of the model's frame in the world [m]
     Quat rotation;
     void* user = nullptr;
 
-    Motion motion;                         // of what the mechanics move, model frame
-    std::shared_ptr<const Follow> follow;  // null where the cage itself moves
-    std::unique_ptr<ModalMotion> modal;    // of a chain that only sways; else null
-    BlendOut blend_out;                    // of the cage, beside where the mechanics have it
-    double lead = 0;                       // for which the cage is drawn to go on, until the plant is stepped again [s]
-    double stepped_by = 0;                 // the last step, from x_good to here; 0: it was put here since [s]
-    std::shared_ptr<const Fibres> fibres;  // null where none pulls
+    Motion motion;                         // state of the mechanics' nodes, model frame
+    std::shared_ptr<const Follow> follow;  // null if the mechanics move the cage itself
+    std::unique_ptr<ModalMotion> modal;    // state of a chain in modal motion; else null
+    BlendOut blend_out;                    // offset of the cage from where the mechanics have it
+    double lead = 0;        // time by which the drawn cage is extrapolated until the plant is stepped again [s]
+    double stepped_by = 0;  // length of the last step, from x_good to here; 0: it was put here since [s]
+    std::shared_ptr<const Fibres> fibres;  // null if none can pull
     std::vector<double>
         fibre_give;               // lengths at which they pull, over their own, after an entanglement; else empty [-]
-    std::vector<uint8_t> pinned;  // one a cage node
-    VecX pin_target;              // where pinned cage nodes shall be, model frame [m]
-    std::vector<int> anchor;      // the chain node that holds each cage node where it is pinned
+    std::vector<uint8_t> pinned;  // one per cage node
+    VecX pin_target;              // targets of pinned cage nodes, model frame [m]
+    std::vector<int> anchor;      // chain node that holds each cage node if it is pinned
     std::vector<Spring> pin_springs;   // hold pinned cage nodes that are too few to hold a chain node
-    std::shared_ptr<const Foot> foot;  // the three above at first
-    VecX x_good, v_good;   // before the running step, of the motion; empty after a healthy one abreast: in the history
-    VecX contact_impulse;  // of the running step's contacts on the nodes of the mechanics [N s]; empty: none
-    VecX contact_correction;        // likewise, of those that move the plant and give it no velocity
-    Loads loads;                    // of the running step, kept to reuse its memory
+    std::shared_ptr<const Foot> foot;  // initial pinned, pin_target and anchor
+    VecX x_good, v_good;               // before the running step; empty after a healthy batched one: in the history
+    VecX contact_impulse;  // impulses of the running step's contacts on the nodes of the mechanics [N s]; empty: none
+    VecX contact_correction;        // likewise, those that move the plant without velocity
+    Loads loads;                    // loads of the running step, kept to reuse their memory
     std::unique_ptr<AirState> air;  // null until the plant is in air
-    Vec3 blown = Vec3::Zero();      // force of the last step's air, where no drags tell of it [N]
+    Vec3 blown = Vec3::Zero();      // force of the last step's air, if there are no drags to compute it from [N]
     VecX user_force;                // on cage nodes, until the end of the host's step, world frame [N]; empty: none yet
     std::list<Grab> grabs;
 
-    std::vector<Fragment> fragments;                  // that came off
-    std::shared_ptr<Parting> parting = no_parting();  // of its own only where there are fragments
+    std::vector<Fragment> fragments;                  // parts that came off
+    std::shared_ptr<Parting> parting = no_parting();  // its own only if there are fragments
 
-    // What follows the cage.
+    // Data that follows the cage.
     std::vector<Vec3> chain_positions;                      // model frame [m]
     std::vector<float> surface_positions, surface_normals;  // world frame
-    std::unique_ptr<PreviousSurface> previous;              // null: nobody has asked
-    mutable VecX cage_x;                                    // model frame [m]; where it is not what the mechanics have
+    std::unique_ptr<PreviousSurface> previous;              // null: never requested
+    mutable VecX cage_x;  // cage nodes if they are not the mechanics' own, model frame [m]
 
-    // Folded: put away as what it takes to unfold it. Then all above that a step changes is empty.
-    std::vector<float> away;  // from the modelled shape, of what the mechanics move [m]; empty: it is at rest there
+    // Compressed state. While the plant is compressed, all members above that a step changes are empty.
+    std::vector<float> away;  // displacements of the mechanics' nodes from the modelled shape [m]; empty: none
 
-    // Small ones side by side: fields have thousands of plants.
+    // Small members side by side: fields have thousands of plants.
     frond_effects effects;
     uint32_t trouble = 0;  // of the last step
     int max_substeps;
     int substeps = 1;           // of the next step
-    bool is_touched = false;    // by bodies, which answer to whole steps
-    bool is_pressed = false;    // and some of them may move
-    bool is_entangled = false;  // deep in itself or another plant: leaves that cross come apart only by being drawn out
+    bool is_touched = false;    // in contact, which is resolved over whole steps
+    bool is_pressed = false;    // in contact with something that may move
+    bool is_entangled = false;  // deep in itself or another plant; crossed leaves come apart only by being stretched
     bool has_user_force = false;
     bool pins_changed = true;
-    bool pins_are_own = false;     // the host has changed them
-    bool stands_on_roots = false;  // the model's own root holds it
+    bool pins_are_own = false;     // changed by the host
+    bool stands_on_roots = false;  // held by the model's own root
     bool surface_stale = true;
-    float surface_back = 0;  // for which the surface is drawn before the end of the last substep [s]
+    float surface_back = 0;  // time before the end of the last substep at which the surface is drawn [s]
     mutable bool cage_stale = true;
     bool is_compressed = false;
-    bool is_sound = true;        // what was found can be the next state
-    bool is_off_course = false;  // in the running step something went elsewhere than it was heading
-    float patience = 1;          // share of the work that searches are given [-]
-    bool may_yield = true;       // in the running step, for all that is known
-    bool looks_back = false;     // the running step does, as far as it may be taken abreast
-    // From a shape to which nothing can have bent it; below zero: was so long caught where searches find no way [s].
+    bool is_sound = true;        // the solution can be the next state
+    bool is_off_course = false;  // something ended the running step off course
+    float patience = 1;          // share of the usual work that searches are granted [-]
+    bool may_yield = true;       // the running step may cause yielding, as far as is known
+    bool looks_back = false;     // the running step continues from its history, if it can be batched
+    // Time left to recover from a state that no admissible load can reach; if negative, time for which the plant has
+    // been caught where searches find no solution [s].
     float recovers_for = 0;
-    float size;  // of the modelled surface, from corner to corner [m]
+    float size;  // diagonal of the modelled surface's box [m]
 
-    // Of the last step.
+    // Results of the last step.
     SolveReport report;
     float ms_effects = 0, ms_surface = 0, ms_normals = 0;
-    // Of ms_effects and of what is beside it [ms].
+    // Parts of ms_effects, and further times [ms].
     float ms_user_force = 0, ms_air = 0, ms_fibres = 0, ms_plasticity = 0;
 
     Vec3 to_world(const Vec3& p) const { return rotation * p + position; }
     Vec3 to_model(const Vec3& p) const { return rotation.conjugate() * (p - position); }
 };
 
-// What the world gives to every plant of a step.
+// Surroundings that the world gives to every plant of a step.
 struct Surroundings {
     Vec3 gravity = Vec3::Zero();               // world frame [m/s^2]
     frond_effects effects = FROND_EFFECT_ALL;  // mask
@@ -166,33 +166,33 @@ struct Surroundings {
     double time = 0;                           // at the end of the step [s]
 };
 
-// `def` has been checked by the caller.
+// Creates a plant; the caller has checked `def`.
 std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const frond_plant_def& def);
-// With which it would be made as it is set now, but for what is the world's.
+// Returns the def with which the plant would be made as it is set now, except for what belongs to the world.
 frond_plant_def def_of(const Plant& plant);
-// A step in two halves, between which contacts may change what the first one found: effects and solve; then accept,
-// with what becomes lasting, or rewind, and the chain.
+// A step in two halves, between which contacts may change the solution: effects and solve; then accept, with plastic
+// strain, or rewind, and the chain.
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
-// The end of the first half: what is drawn out is held, and whether what was found can be the next state is told.
+// Ends the first half: pulls back stretched fibres, and decides whether the solution can be the next state.
 void finish_solving(Plant& plant, frond_effects effects, double h);
-// The middle of the first half: plant.motion goes on by h under plant.loads.
+// Does the middle of the first half: advances plant.motion by h under plant.loads.
 SolveReport solve_in_substeps(Plant& plant, double h);
-// Of the running step; gravity in the model's frame [m/s^2].
+// Return gravity in the model's frame [m/s^2] and the settings of the running step.
 Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effects effects);
 SolveSettings settings_for(const Plant& plant, frond_effects effects);
-// Takes contact_impulse and contact_correction, if there are any, into the step that was solved, of a plant in touch:
-// only now its energy tells whether the step went wrong. `lost`: by bodies that push it [J].
+// Adds contact_impulse and contact_correction, if there are any, to the solved step of a plant in contact: only then
+// does its energy show whether the step went wrong. `lost`: energy that bodies which push it lost [J].
 void add_contacts(Plant& plant, double h, double lost);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
-// Instead of the second half, if the step was broken off: the plant stands where it stood before the first one.
+// Replaces the second half if the step was broken off: puts the plant back to where it was before the first one.
 void drop_step(Plant& plant);
-// Both.
+// Does both halves.
 void step_plant(Plant& plant, const Surroundings& surroundings, double h);
-// Before and after a step.
+// Called before and after a step.
 void take_workspace(Plant& plant);
 void return_workspace(Plant& plant);
-// Puts a plant that stands still away, and takes it out again: in the same place to 1e-8 m, or in the modelled shape if
-// nothing of it is farther than that from there. The surface stays if it is asked to.
+// Compress a plant at rest and restore it: to the same position within 1e-8 m, or to the modelled shape if no node is
+// farther from there than `tolerance`. `keep_surface` keeps the surface.
 void compress(Plant& plant, double tolerance, bool keep_surface);
 void decompress(Plant& plant);
 // Sets the drags of the running step's loads.
@@ -200,58 +200,59 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
 std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant);
 std::shared_ptr<const ModalBasis> modal_basis_of(const Plant& plant);
 Vec3 air_force(const Plant& plant);  // of the last step, world frame [N]
-// Forces given by frond_plant_add_force end.
+// Ends forces given by frond_plant_add_force.
 void clear_user_force(Plant& plant);
 // Writes surface_positions and surface_normals as far as the effects ask for them, as they were `back` before the end
-// of the last substep; below zero: as they will be if all goes on so [s].
+// of the last substep [s], or extrapolated if it is negative.
 void update_surface(Plant& plant, frond_effects effects, double back = 0);
 frond_energy energy_of(const Plant& plant, const Vec3& gravity);
-// The surface vertex nearest to a point of the world.
+// Returns the surface vertex nearest to a point of the world.
 int nearest_vertex(const Plant& plant, const Vec3& point);
 Vec3 vertex_position(const Plant& plant, int vertex);   // world frame [m]
 Vec3 grab_force(const Plant& plant, const Grab& grab);  // on the plant, world frame [N]
-// Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave that part as it is.
+// Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave positions or velocities
+// unchanged.
 void set_state(Plant& plant, const double* positions, const double* velocities);
-// All that is lasting in its shape, in numbers; none if nothing has yielded. Setting none makes it straight again.
+// Get and set the plastic state in numbers; none if nothing has yielded. Setting none removes all plastic strain.
 std::vector<double> plastic_of(const Plant& plant);
 void set_plastic(Plant& plant, const std::vector<double>& values);
 void update_chain(Plant& plant);
-// Of the outermost fibre of each capsule of Model::capsules [-].
+// Returns the strain in the outermost fibre of each capsule of Model::capsules [-].
 std::vector<double> capsule_strains(const Plant& plant);
-// Of a capsule of Model::capsules, model frame [m].
+// Returns the ends of a capsule of Model::capsules, model frame [m].
 std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule);
-// After the motion was changed: the chain now, cage and surface when somebody looks.
+// Updates after a change of the motion: the chain now, cage and surface when they are next read.
 void moved(Plant& plant);
 
 int node_count_of(const Plant& plant);
-// Its own, if it has yielded.
+// Returns the plant's own elements if it has yielded, else the system's.
 const Elements& elements_of(const Plant& plant);
-// Of cage nodes, world frame [m], wherever their fragments are.
+// Returns the position of a cage node, which may be in a fragment, world frame [m].
 Vec3 node_place(const Plant& plant, int node);
-// `v` being cage_velocities() [m/s].
+// Returns its velocity; `v` are cage_velocities() [m/s].
 Vec3 node_velocity(const Plant& plant, const VecX& v, int node);
-// Of the cage nodes, model frame [m]. Borrowed until the plant moves.
+// Returns the positions of the cage nodes, model frame [m]. The reference holds until the plant moves.
 const VecX& cage_places(const Plant& plant);
 VecX cage_velocities(const Plant& plant);  // [m/s]
-// A point of the plant for forces on it.
+// Returns the attachment of a vertex, for forces on it.
 Attachment vertex_attachment(const Plant& plant, int vertex);
-// A node of the chain, where tets move.
+// Returns the attachment of a chain node, if the mechanics move tets.
 Attachment chain_attachment(const Plant& plant, int node);
 
-// Holds a cage node where it is, lets it go, or moves where it is held to (model frame).
+// Hold a cage node where it is, release it, or move its target (model frame).
 bool is_pinned(const Plant& plant, int node);
 void pin_node(Plant& plant, int node);
 void unpin_node(Plant& plant, int node);
 void move_pin(Plant& plant, int node, const Vec3& target);
-// What the pins are for the nodes of the mechanics.
+// Transfers the pins to the nodes of the mechanics.
 void apply_pins(Plant& plant);
-// Tells whether the nodes of a chain that are held are where they shall be.
+// Returns whether the held nodes of a chain are at their targets.
 bool is_where_held(const Motion& motion);
 
-// Lets go of what would snap back at once.
+// Relaxes strain that would snap back at once.
 void relax(Plant& plant);
-// Goes on with other mechanics from the same shape and motion. `smoothly`: between cage and chain only the swing is
-// handed over, which strains neither, and the rest of shape and motion fades.
+// Switches to other mechanics with the same shape and motion. `smoothly`: between cage and chain only the modal part is
+// handed over, which strains neither, and the rest of shape and motion blends out.
 void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly = false);
 
 }  // namespace frond

@@ -1,9 +1,9 @@
-// In: a cage that has just taken over a chain's shape and motion. Out: nearly the same, without what would snap back at
-// once.
+// In: a cage that has just taken over a chain's shape and motion. Out: nearly the same, without strain that would snap
+// back at once.
 //
-// A cage takes a chain's shape with errors that cost little to bend but much to stretch. Some steps of implicit
-// Euler from rest, with the organs' fibres, let go of those and leave slow bending where it is; one solve does the same
-// to velocities: (M + h^2 K) v = M v_given.
+// A cage takes a chain's shape with errors that cost little to bend but much to stretch. A few steps of implicit Euler
+// from rest, with the organs' fibres, relax those and leave slow bending unchanged; one solve does the same to
+// velocities: (M + h^2 K) v = M v_given.
 #include "plant/plant.hpp"
 
 namespace frond {
@@ -33,7 +33,7 @@ void relax(Plant& plant) {
     if (!ok || !motion.x.allFinite()) motion.x = start;
     if (!ok || !respond(*plant.workspace, settings, momentum, motion.v)) motion.v = given;
     motion.history.valid = false;
-    motion.history.shaken = true;  // the first step damps what is left
+    motion.history.shaken = true;  // the first step damps the rest
     return_workspace(plant);
 }
 

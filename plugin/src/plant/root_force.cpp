@@ -1,5 +1,6 @@
-// A pinned node does not accelerate: what holds it is the opposite of all else that pulls it, elastic forces and
-// weight. Where the chain moves, nodes are pairs of a place and a rotation, and a held rotation is held by a moment.
+// A pinned node does not accelerate: the force that holds it is opposite to all others on it, elastic forces and
+// weight. If the mechanics move the chain, nodes are pairs of a position and a rotation, and a held rotation is held by
+// a moment.
 #include "plant/root_force.hpp"
 
 #include "mechanics/rotation.hpp"

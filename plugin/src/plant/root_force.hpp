@@ -1,4 +1,4 @@
-// Root force: what holds a plant.
+// Root force: force and moment that hold a plant.
 #pragma once
 
 #include "plant/plant.hpp"
@@ -9,7 +9,7 @@ struct Wrench {
     Vec3 force = Vec3::Zero();   // [N]
     Vec3 moment = Vec3::Zero();  // [N m]
 };
-// Of the ground on pinned nodes and pin springs, about a point; world frame. Damping forces are left out.
+// Returns those of the ground on pinned nodes and pin springs, about a point; world frame. Damping forces are left out.
 Wrench root_force(const Plant& plant, const Vec3& gravity, const Vec3& about);
 
 }  // namespace frond

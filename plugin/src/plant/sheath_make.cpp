@@ -1,7 +1,7 @@
 // In: a model's chain and sections. Out: rings of four nodes around the chain's nodes, and tets between two rings.
 //
-// A blade is at least as thick as what moves into it within a step: thinner ones would be through each other unseen.
-// What goes across a blade at a push beside its midrib turns with the chain's nodes.
+// A blade is at least as thick as the depth that others reach within a step: thinner ones would be passed through
+// undetected. A push beside a blade's midrib has a lever across the blade, which turns with the chain's nodes.
 #include <algorithm>
 
 #include "model/tet_geometry.hpp"
@@ -12,9 +12,9 @@ namespace frond {
 
 namespace {
 
-constexpr double THINNEST = 0.004;  // half of a blade [m]
+constexpr double THINNEST = 0.004;  // half the least thickness of a blade [m]
 
-// Half the size of a ring, across and through.
+// Half the size of a ring, in width and thickness.
 struct Ring {
     Vec3 wide, thin;
     double half_width, half_thickness;  // [m]
@@ -23,8 +23,8 @@ struct Ring {
 
 struct Maker {
     const Model& model;
-    std::vector<Flat> flats;      // one a capsule
-    std::vector<int> capsule_of;  // that ends at a chain node; -1: none
+    std::vector<Flat> flats;      // one per capsule
+    std::vector<int> capsule_of;  // capsule that ends at each chain node; -1: none
     Sheath sheath;
     std::vector<Tet> tets;
     std::vector<int> tet_piece, tet_organ;
@@ -46,7 +46,7 @@ Ring ring_of(const Maker& maker, int capsule) {
     return ring;
 }
 
-// The four corners of a ring around a chain node; returns the first.
+// Adds the four corners of a ring around a chain node; returns the first.
 int add_ring(Maker& maker, int chain_node, const Ring& ring) {
     const Vec3& middle = maker.model.chain.nodes[size_t(chain_node)].position;
     const int first = int(maker.sheath.modelled.size());
@@ -67,7 +67,7 @@ int add_ring(Maker& maker, int chain_node, const Ring& ring) {
     return first;
 }
 
-// Six tets around the diagonal from the first corner to the last (Kuhn 1960): those of two boxes in a row have the same
+// Adds six tets around the diagonal from the first corner to the last (Kuhn 1960), so that two boxes in a row share the
 // faces between them.
 void add_box(Maker& maker, int below, int above, int capsule) {
     constexpr int WAYS[6][3] = {{4, 2, 1}, {4, 1, 2}, {2, 4, 1}, {2, 1, 4}, {1, 4, 2}, {1, 2, 4}};
@@ -83,7 +83,7 @@ void add_box(Maker& maker, int below, int above, int capsule) {
     }
 }
 
-// Along a capsule: from the ring where the one before it ends, if both are alike, to one of its own.
+// Adds a capsule's box, from the last ring of the capsule before, if both are alike, to a new ring.
 void add_capsule(Maker& maker, int capsule, std::vector<int>& last_ring, std::vector<Ring>& rings) {
     const Model& model = maker.model;
     const auto& [begin, end] = model.capsules[size_t(capsule)];

@@ -25,7 +25,7 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
     if (positions) x = cage_places(plant);
     if (velocities) v.setZero(3 * node_count_of(plant));
     for (int i = 0; i < node_count_of(plant); i++) {
-        if (fragment_of_node(plant, size_t(i))) continue;  // where its fragment is
+        if (fragment_of_node(plant, size_t(i))) continue;  // it stays with its fragment
         if (positions) point(x, i) = plant.to_model(Vec3(positions + 3 * i));
         if (velocities) point(v, i) = to_model * Vec3(velocities + 3 * i);
     }

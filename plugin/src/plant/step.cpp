@@ -1,4 +1,4 @@
-// One step of a plant: effects -> solve -> (contact response) -> accept, with what becomes lasting, or rewind -> chain.
+// One step of a plant: effects -> solve -> (contact response) -> accept, with plastic strain, or rewind -> chain.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effe
                                           : Vec3(Vec3::Zero());
 }
 
-// Force per node, gravity and springs of this step, in the model's frame.
+// Gathers the forces on nodes, gravity and springs of this step, in the model's frame.
 static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_effects effects) {
     const Quat to_model = plant.rotation.conjugate();
     Loads& loads = plant.loads;
@@ -40,7 +40,7 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
                 {vertex_attachment(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
 }
 
-// What is bent beyond its yield keeps a part of that.
+// Makes a part of what is strained beyond its yield plastic.
 static void keep_sets(Plant& plant, double h) {
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const Elements& shared = elements_of(*plant.system);
@@ -52,31 +52,32 @@ static void keep_sets(Plant& plant, double h) {
     row.flow(*plant.own_elements, plant.motion.x, h);
 }
 
-// What is pressed springs far in a solve that knows of no contact yet: then its energy tells nothing.
+// A pressed plant springs far in a solve without contacts; its energy is meaningless there.
 enum class Contacts { TO_COME, DONE };
 
-// Of a step that was only solved yet.
+// Returns the contact state of a step that has only been solved so far.
 static Contacts contacts_of(const Plant& plant) {
     return plant.is_touched ? Contacts::TO_COME : Contacts::DONE;
 }
 
-// And none has gone elsewhere than it was heading by energy that came from nowhere; `work` was done by contacts [J].
+// Returns whether no node ran away, and none left its course with energy that nothing can have given; `work` was done
+// by contacts [J].
 static bool is_plausible(Plant& plant, double h, Contacts contacts, double work = 0) {
     plant.is_off_course = ends_off_course(plant, h);
-    // A push that turns a chain's piece a little, in a straight line, draws it out by more than its sway has. Cages are
-    // soft.
+    // A push that turns a segment of a chain a little moves its end in a straight line and so stretches it, with more
+    // energy than its vibration has. Cages are soft.
     const bool is_told = plant.is_touched ? contacts == Contacts::DONE && plant.follow : plant.is_off_course;
     const EnergyLook look = is_told ? look_at_energy(plant, h, work) : EnergyLook();
-    plant.is_off_course &= !look.is_small;  // too weak to be torn
+    plant.is_off_course &= !look.is_small;  // too little energy for damage
     return !look.comes_from_nowhere && !has_run_away(plant);
 }
 
-// Of what was found and moved since then.
+// Returns whether the solution, as moved since then, can be the next state.
 static bool is_sound(const Plant& plant) {
     return plant.report.ok && are_finite(plant.motion.x) && are_finite(plant.motion.v) && !has_run_away(plant);
 }
 
-// From the start of the step in equal parts, pinned nodes moving evenly.
+// Solves again from the start of the step in equal parts; pinned nodes move evenly.
 static void solve_in_equal_parts(Plant& plant, const SolveSettings& settings, int parts, double h) {
     Motion& motion = plant.motion;
     const VecX target = motion.pin_target;
@@ -93,7 +94,7 @@ static void solve_in_equal_parts(Plant& plant, const SolveSettings& settings, in
     motion.history.shaken = true;
 }
 
-// Searches that led nowhere will hardly do better the next time: less and less is given to them, until a step is calm
+// Searches that failed will hardly do better the next time: they are granted less and less work, until a step is calm
 // again.
 static void lose_patience(Plant& plant) {
     constexpr float LESS = 0.5, LEAST = 0.25;
@@ -104,13 +105,14 @@ static void gain_patience(Plant& plant) {
     plant.patience = std::min(1.0f, MORE * plant.patience);
 }
 constexpr float WORK = 400;  // about the most that a search needs
-// Of a stage; with all patience any.
+// Returns the work allowed in a stage; 0, with full patience: any.
 static int work_allowed(const Plant& plant) {
     return plant.patience < 1 ? int(plant.patience * WORK) : 0;
 }
 
-// A free plant by its own integrator, until forces balance: one solve may not tell where so fast a sway goes, yet a
-// damped step would end it. Not in long steps, nor where forces at the start count: those may lead anywhere.
+// Solves a free plant with its own integrator until forces balance: one solve may not predict so fast a vibration, yet
+// a damped step would end it. Does nothing in long steps, or with integrators that take forces at the start: those may
+// lead anywhere.
 static bool solve_to_balance(Plant& plant, double h) {
     constexpr int ITERATIONS = 30;
     constexpr double LONGEST = 1.001 / 30;  // [s]
@@ -125,7 +127,7 @@ static bool solve_to_balance(Plant& plant, double h) {
     return plant.report.ok && is_plausible(plant, h, contacts_of(plant)) && are_slack(plant);
 }
 
-// By what cannot overshoot; where a whole step is too long for that too, several short ones.
+// Solves with a line search, which cannot overshoot; if a whole step is too long for that too, in several short ones.
 static void solve_carefully(Plant& plant, double h, Contacts contacts, int most_work) {
     constexpr int ITERATIONS = 30, PARTS = 4;
     constexpr float LEAST_FOR_PARTS = 0.5;
@@ -133,7 +135,7 @@ static void solve_carefully(Plant& plant, double h, Contacts contacts, int most_
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
-    // Where entangled rods are bent by their leaves' tips, all would stand still and never part.
+    // From rest, entangled rods that are bent by their leaves' tips would stay still and never part.
     settings.from_rest = !plant.is_entangled;
     settings.most_work = most_work;
     plant.trouble |= FROND_TROUBLE_RETRIED;
@@ -148,10 +150,10 @@ static void solve_carefully(Plant& plant, double h, Contacts contacts, int most_
     plant.report.ok = is_good;
 }
 
-// In steps that are short enough to come back within some dozens of them. Bodies answer to whole ones.
+// Solves in steps short enough for a recovery within some dozens of them. Contacts are resolved over whole ones.
 static void solve_recovering(Plant& plant, double h) {
     constexpr double LONGEST = 1.0 / 60;  // [s]
-    constexpr int LEAST = 36;             // work
+    constexpr int LEAST = 36;             // least work of a part
     const int parts = plant.is_touched ? 1 : std::max(1, int(std::ceil(h / LONGEST - 1e-6)));
     plant.report = {};
     SolveSettings settings = plant.step_settings;
@@ -159,19 +161,20 @@ static void solve_recovering(Plant& plant, double h) {
     solve_in_equal_parts(plant, settings, parts, h);
 }
 
-// Whether one solve can tell well how far everything went in a share of the step. What was unwound has not turned far.
+// Returns whether one solve predicts the displacements well, up to a share of them. An unwound rotation vector has not
+// turned far.
 static bool is_calm_way(const Plant& plant, double share) {
     const VecX& from = plant.x_good;
     const auto is_calm_to = [&](const VecX& to) { return is_calm(*plant.system, from, from + share * (to - from)); };
     return is_calm_to(plant.motion.x) || (plant.follow && is_calm_to(wound_as(from, plant.motion.x)));
 }
 
-// Whether the air has turned something by more than twice what one solve can tell well.
+// Returns whether the air has turned something by more than twice what one solve predicts well.
 static bool is_blown_about(const Plant& plant) {
     return !plant.loads.drags.empty() && !is_calm_way(plant, 0.5);
 }
 
-// Part of the solve.
+// Pulls back stretched fibres; counts as part of the solve.
 static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h) {
     if (!(effects & FROND_EFFECT_FIBRES)) return;
     const Timer timer;
@@ -180,15 +183,15 @@ static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h
     plant.report.ms_solve += timer.ms();
 }
 
-// So that none of it is blown about in its share of the way; no more than eight.
+// Returns into how many parts to divide a step so that the air turns nothing too far in any; at most eight.
 static int parts_to_be_calm(const Plant& plant) {
     int parts = 2;
     while (parts < 8 && !is_calm_way(plant, 0.5 / parts)) parts *= 2;
     return parts;
 }
 
-// Again from the start in shorter steps, each in the air as it is then: a gale turns a leaf by more in a step than one
-// solve can tell.
+// Solves again from the start in shorter steps, each in the air at that time: a gale turns a leaf farther in a step
+// than one solve can predict.
 static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
     constexpr int MOST_WORK = 100;
     const int parts = parts_to_be_calm(plant);
@@ -260,16 +263,18 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
 
 void finish_solving(Plant& plant, frond_effects effects, double h) {
     hold_what_is_drawn_out(plant, effects, h);
-    // Chains have no fibres: nothing of them has moved since they were found plausible. What goes on as it was heading
-    // is not being stretched.
+    // Chains have no fibres, so none of their nodes has moved since the plausibility check. A plant on its course is
+    // not being stretched.
     plant.is_sound = (plant.follow ? plant.report.ok : is_sound(plant)) && !(plant.is_off_course && is_far_out(plant));
 }
 
-// Shifts as far as nothing is bent much, and as the work that it does on the plant stays small: contacts that want it
-// in different places at once would press it like a spring. What is left is for the next steps; a little is taken of
-// what is far too much, or stout stems would never part.
+// Corrects positions as far as nothing bends much and the work done on the plant stays small: contacts with conflicting
+// corrections would compress it like a spring. The rest is left to the next steps; even of an excessive correction a
+// little is applied, or thick stems would never part.
 static void move_by(Plant& plant, const VecX& dv, double h) {
-    constexpr double LEAST = 0.002, LIFT = 0.5;  // the work is that of lifting the plant so fast, by its weight [m/s]
+    constexpr double LEAST = 0.002,
+                     LIFT =
+                         0.5;  // least share [-]; speed of lifting the plant by its weight, for the allowed work [m/s]
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const Elements& elements = elements_of(plant);
     const VecX x = plant.motion.x;
@@ -288,17 +293,16 @@ void add_contacts(Plant& plant, double h, double lost) {
     const VecX shift = std::move(plant.contact_correction);
     plant.contact_impulse.resize(0);
     plant.contact_correction.resize(0);
-    // A wind turns rods far within a step, which no contact has to answer for.
+    // Wind turns rods far within a step, which is not due to contacts.
     const VecX before = plant.follow ? plant.motion.x : plant.x_good;
     VecX dv;
     if (is_pushed && respond(*plant.workspace, plant.settings, impulse, dv))
         add_response(*plant.workspace, dv, plant.motion);
-    // Bodies lose more than what they push gets where they are slowed by it; other plants go along with what they
-    // pushed.
+    // Bodies slowed by a push lose more than the plant gains; other plants go along with what they pushed.
     const double work = std::max({0.0, lost, impulse.dot(plant.motion.v)});
     const bool is_bent = is_pushed && !is_calm(*plant.system, before, plant.motion.x);
     if (is_bent || !is_plausible(plant, h, Contacts::DONE, work)) {
-        // Too much for a linear answer: the same push, along the plant's own curve.
+        // This is too far for the linear response: the same push is solved as a force, nonlinearly.
         VecX with_push = impulse / h;
         if (plant.loads.force.size() > 0) with_push += plant.loads.force;
         plant.loads.force.swap(with_push);
@@ -314,8 +318,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     Motion& motion = plant.motion;
     if (!plant.report.converged) plant.trouble |= FROND_TROUBLE_NOT_CONVERGED;
     if (plant.report.inverted > 0) plant.trouble |= FROND_TROUBLE_INVERTED;
-    // Accept, or go back to the last good state and stand still there; from where that leads nowhere, to the modelled
-    // one.
+    // Accept, or rewind to the last good state, at rest; from where that leads nowhere, start from the modelled shape.
     if (!plant.is_sound) {
         const bool is_stuck = plant.v_good.isZero(0);
         motion.x = plant.x_good;

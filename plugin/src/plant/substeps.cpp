@@ -1,9 +1,9 @@
 // In: a plant, its loads and a time h. Out: its motion h later, in as few equal substeps as keep its local error small.
 //
-// Where each node ends is compared with where its velocity and the last change of that said it would (Milne's device:
+// The end of each node is compared with a prediction from its velocity and the last change of that (Milne's device:
 // predictor against corrector). The difference, 5/12 h^3 d3x/dt3, is about twice the local error of bdf2; of more exact
-// integrators it is an upper bound. Counts are powers of two, so that bdf2, which looks back over steps of other
-// lengths, never meets one that grows by more than that (Hairer, Norsett, Wanner 1993, III.5).
+// integrators it is an upper bound. Counts are powers of two, so that bdf2, whose history has steps of other lengths,
+// never meets one that grows by more than that (Hairer, Norsett, Wanner 1993, III.5).
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace frond {
 
 namespace {
 
-// Half of the farthest miss of a free place [m]; keeps the trend for the next substep.
+// Returns half of the largest prediction error of a free node [m]; keeps the trend for the next substep.
 double local_error(Plant& plant, const VecX& x, const VecX& v, double h) {
     const Motion& motion = plant.motion;
     const bool known = plant.trend.v_end.size() == v.size() && plant.trend.v_end == v;
@@ -27,13 +27,13 @@ double local_error(Plant& plant, const VecX& x, const VecX& v, double h) {
     }
     plant.trend.rate = (motion.v - v) / h;
     plant.trend.v_end = motion.v;
-    constexpr double WILD = 1e15;  // [m/s], [m/s^2]: a step of next to no time tells of no trend
+    constexpr double WILD = 1e15;  // limits [m/s], [m/s^2]: a step of almost no time gives no trend
     const auto is_wild = [](const VecX& numbers) { return !(numbers.lpNorm<Eigen::Infinity>() <= WILD); };
     if (is_wild(plant.trend.rate) || is_wild(plant.trend.v_end)) plant.trend = {};
     return 0.5 * std::sqrt(most);
 }
 
-// All substeps, pinned nodes moving evenly; `error` is the sum of theirs.
+// Solves all substeps, pinned nodes moving evenly; `error` is the sum of theirs.
 SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
     Motion& motion = plant.motion;
     const VecX from = motion.x, target = motion.pin_target;

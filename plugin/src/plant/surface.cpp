@@ -1,9 +1,9 @@
-// In: where a cage is. Out: the surface that it carries along, and its normals.
+// In: positions of a cage. Out: the surface that it carries along, and its normals.
 //
-// A vertex is a sum of its tet's nodes. Normals turn with the cofactor of the deformation gradient F = E M^-1 from the
-// modelled shape, M a tet's edges and E those of now. One matrix a node, the volume-weighted mean over its tets, is
-// interpolated like the positions, so that shading stays smooth across tets and hard edges stay hard. Times the volume
-// det(M) / 6 the cofactor is cof(E) M^T / 6; of quadratic tets that at the node.
+// A vertex is a weighted sum of its tet's nodes. Normals turn with the cofactor of the deformation gradient F = E M^-1
+// from the modelled shape, M being a tet's edges in it and E the present ones. One matrix per node, the volume-weighted
+// mean over its tets, is interpolated like the positions, so that shading stays smooth across tets and hard edges stay
+// hard. Times the volume det(M) / 6 the cofactor is cof(E) M^T / 6; for quadratic tets it is taken at the node.
 #include <algorithm>
 
 #include "core/lanes.hpp"
@@ -15,7 +15,7 @@ namespace frond {
 
 namespace {
 
-// What is drawn as one: the plant, or a fragment that came off it.
+// A part that is drawn as one: the plant, or a fragment that came off it.
 struct Drawn {
     int fragment;  // -1: the plant itself
     const VecX& x;
@@ -26,7 +26,7 @@ bool belongs(const std::vector<int>& of, size_t i, const Drawn& drawn) {
     return (of.empty() ? -1 : of[i]) == drawn.fragment;
 }
 
-// Of a matrix, by columns.
+// A matrix, by columns.
 struct Columns {
     Quad column[3];
 };
@@ -37,7 +37,7 @@ FROND_INLINE void put(const FourLanes& value, float* to) {
     __builtin_memcpy(to, &narrow, 3 * sizeof(float));
 }
 
-// Nodes of the cage in the world.
+// Places the nodes of the cage in the world.
 struct PlaceNodes {
     const Drawn& drawn;
     std::vector<Quad>& nodes;
@@ -83,11 +83,11 @@ struct PlaceVertices {
     }
 };
 
-// cof(E) M^T of four tets, each whichever way round its corners run. edges(lane, a) gives edge a of now, modelled(lane,
-// a) that at rest.
+// Returns cof(E) M^T of four tets, for either order of their corners. edges(lane, a) gives the present edge a,
+// modelled(lane, a) the same one at rest.
 template <class Edges, class Modelled>
 FROND_INLINE Lanes33<FourLanes> weighted_cofactors(const Edges& edges, const Modelled& modelled) {
-    Lanes33<FourLanes> E, M;  // a row an edge
+    Lanes33<FourLanes> E, M;  // one row per edge
     for (int a = 0; a < 3; a++) {
         FourLanes now[4], then[4];
         turn_over(edges(0, a), edges(1, a), edges(2, a), edges(3, a), now);
@@ -100,7 +100,7 @@ FROND_INLINE Lanes33<FourLanes> weighted_cofactors(const Edges& edges, const Mod
     return sign * transposed_times(cofactor(E), M);
 }
 
-// A matrix a node.
+// Adds up one matrix per node.
 struct AddCofactors {
     const Plant& plant;
     const Drawn& drawn;
@@ -113,7 +113,7 @@ struct AddCofactors {
     }
     FROND_INLINE FourLanes now(int node) const { return load(nodes[size_t(node)]); }
 
-    // Corner by corner of the tets, or the same for all of them.
+    // Adds the lanes' matrices to one corner of four tets each, or to the four corners of one.
     FROND_INLINE void add(const Lanes33<FourLanes>& weighted, const int (&corner)[4], int lanes) const {
         FourLanes columns[3][4];
         const FourLanes none = {};
@@ -126,7 +126,7 @@ struct AddCofactors {
         }
     }
 
-    // Four at once; past the last one it is taken again, and not added.
+    // Adds four tets at once; lanes beyond the last one repeat a tet and are not added.
     FROND_INLINE void add_linear(const int (&tet)[4], int count) const {
         const std::vector<Tet>& tets = plant.model->cage.tets;
         const auto edge = [&](const auto& place) __attribute__((always_inline)) {
@@ -144,7 +144,7 @@ struct AddCofactors {
         }
     }
 
-    // One tet at its four corners: edges are those of the linear tet as which a quadratic one is seen there
+    // Adds one tet at its four corners, with the edges of the linear tet that a quadratic one is equivalent to there
     // (mechanics/tet_element.hpp).
     FROND_INLINE void add_quadratic(size_t e) const {
         const QuadraticTet& tet = plant.nodes->of_tet[e];
@@ -222,8 +222,8 @@ VecX cage_of(const Plant& plant, const VecX& x) {
     return cage;
 }
 
-// Of the cage nodes: the way that the last step took, over its time. What is not stepped in each substep goes on as it
-// moves; what was put somewhere stands there [m/s].
+// Returns the mean velocity of the cage nodes over the last step [m/s]. A plant that is not stepped in each substep
+// continues at its own velocities; one that was placed stands still.
 VecX way_of(const Plant& plant) {
     if (plant.lead > 0 || plant.modal) return cage_velocities(plant);
     const VecX now = cage_of(plant, plant.motion.x);
@@ -234,7 +234,7 @@ VecX way_of(const Plant& plant) {
     return way;
 }
 
-// A fragment goes as a free body does.
+// Draws a fragment where it was `back` before, as a free body moves.
 Drawn draw_fragment(const Fragment& fragment, int number, double back) {
     if (back == 0) return {number, fragment.cage_x, fragment.turn, fragment.shift};
     const Mat3 turned = rotation_of<double>(Vec3(-back * fragment.angular_velocity));

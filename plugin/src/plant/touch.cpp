@@ -2,7 +2,8 @@
 
 namespace frond {
 
-// Both chain nodes' tets together; of quadratic ones, which have too many nodes for that, those of the nearer node.
+// Attaches a point to the tets of both chain nodes; with quadratic tets, which have too many nodes, to the nearer
+// node's.
 static Attachment ends_attachment(const Plant& plant, int begin, int end, double along) {
     if (plant.nodes->order == 2) return chain_attachment(plant, along < 0.5 ? begin : end);
     const Attachment first = chain_attachment(plant, begin), second = chain_attachment(plant, end);

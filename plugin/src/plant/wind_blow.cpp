@@ -1,4 +1,4 @@
-// In: a wind, points and a time. Out: the velocity of the air there, with what the host's own field makes of it.
+// In: a wind, points and a time. Out: the velocity of the air there, as changed by the host's own field.
 #include <algorithm>
 
 #include "plant/wind_lanes.hpp"
@@ -35,7 +35,7 @@ struct BlowAt {
     }
 };
 
-// Takes out what no wind can be.
+// Sets velocities that no wind can have to zero; false if there were any.
 bool sort_out(std::vector<frond_vec3>& velocities) {
     constexpr double FASTEST = 1000;  // [m/s]
     bool sound = true;

@@ -1,5 +1,5 @@
-// The velocity of the air in many places at once: mean and gusts carried along with it (Taylor 1938). What the host's
-// own field makes of them comes after that.
+// Velocity of the air at many points at once: mean wind and gusts carried along with it (Taylor 1938). The host's own
+// field is applied after that.
 #pragma once
 
 #include <cmath>
@@ -9,29 +9,29 @@
 
 namespace frond {
 
-// What of a wind is the same everywhere.
+// Values of a wind that are the same everywhere.
 struct WindNow {
     const Wind& wind;
     Mat3 frame;  // along, across and above the mean wind, as rows
     Vec3 up;
-    bool blows;  // at all
+    bool blows;  // there is a mean wind
 };
 WindNow wind_now(const Wind& wind, const Vec3& up);
-// What the host's own field makes of velocities at points. False if it gave some that cannot be; they are zero then.
+// Applies the host's own field to velocities at points. False if it gave impossible ones; they are zero then.
 bool blow_by_field(const Wind& wind, double time, const std::vector<frond_vec3>& points,
                    std::vector<frond_vec3>& velocities);
 
-// cos 2 pi x within 4e-9.
+// Returns cos 2 pi x within 4e-9.
 template <class S>
 FROND_INLINE S cosine_of_turns(const S& x) {
-    // sin(2 pi y) / y by powers of y^2, for y up to a quarter: the odd polynomial that errs least (Remez).
+    // sin(2 pi y) / y in powers of y^2, for y up to a quarter: the odd polynomial of least error (Remez).
     constexpr double SINE[] = {6.2831851600897226565, -41.341655031479418784, 81.601004077356553391,
                                -76.549782387613466232, 39.536706762014835694};
     const S y = 0.25 - magnitude(S(x - whole<S>(x)));
     return y * polynomial(SINE, S(y * y));
 }
 
-// Mean wind and gusts at heights over those at the reference height [-].
+// Returns mean wind and gusts at heights over those at the reference height [-].
 template <class S>
 FROND_INLINE S wind_profile(const frond_wind_def& def, const S& height) {
     if (def.profile == FROND_WIND_PROFILE_UNIFORM) return constant<S>(1);
@@ -44,7 +44,7 @@ FROND_INLINE S wind_profile(const frond_wind_def& def, const S& height) {
     return logarithm(over) / logarithm(constant<S>(def.reference_height / def.roughness));
 }
 
-// Velocities [m/s] at so many groups of places [m].
+// Finds velocities [m/s] in groups of places [m].
 template <int MOST, class S>
 FROND_INLINE void wind_at(const WindNow& now, const Lanes3<S> (&places)[MOST], int groups, Lanes3<S> (&out)[MOST]) {
     const frond_wind_def& def = now.wind.def;

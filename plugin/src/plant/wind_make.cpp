@@ -3,10 +3,10 @@
 // Spectra after Kaimal et al. 1972 and coherence as in IEC 61400-1 (2005), annex B:
 //   f S(f) / sigma^2 = 4 n / (1 + 6 n)^(5/3), n = f L / U, for each component, and between two points r apart
 //   exp(-12 r sqrt((f / U)^2 + (0.12 / L)^2)), L that of the component along the wind.
-// The energy below n is 1 - (1 + 6 n)^(-2/3). Each wave has the energy of its own stretch of frequencies, so that all
-// of them have sigma^2 and every stretch has what the spectrum says, for any seed. Waves across the wind are drawn from
-// Cauchy's distribution in the plane, whose mean wave is the exponential of the coherence (sums of waves: Shinozuka,
-// Deodatis 1991).
+// The energy below n is 1 - (1 + 6 n)^(-2/3). Each wave has the energy of its own band of frequencies, so that all of
+// them together have sigma^2 and every band has its share of the spectrum, for any seed. Wave vectors across the wind
+// are drawn from Cauchy's distribution in the plane, whose characteristic function is the exponential of the coherence
+// (sums of waves: Shinozuka, Deodatis 1991).
 #include <cmath>
 
 #include "plant/wind.hpp"
@@ -15,7 +15,7 @@ namespace frond {
 
 namespace {
 
-// Numbers of a counter: splitmix64 (Steele, Lea, Flood 2014). The same on every machine.
+// Random numbers from a counter: splitmix64 (Steele, Lea, Flood 2014). The same on every machine.
 struct Numbers {
     uint64_t state;
     double next() {  // 0 .. 1
@@ -27,9 +27,9 @@ struct Numbers {
 };
 
 struct Component {
-    int count;      // of waves
+    int count;      // number of waves
     double size;    // standard deviation over that along the wind [-]
-    double length;  // scale over that along the wind [-]
+    double length;  // length scale over that along the wind [-]
 };
 constexpr Component COMPONENTS[3] = {{20, 1, 1}, {12, 0.8, 2.7 / 8.1}, {10, 0.5, 0.66 / 8.1}};
 
@@ -40,7 +40,7 @@ double frequency_of_energy(double energy) {
     return (std::pow(1 - energy, -1.5) - 1) / 6;
 }
 
-// How far the waves across the wind spread, from the coherence [1/m].
+// Returns the spread of wave vectors across the wind, from the coherence [1/m].
 double spread_of(double along, double length) {
     return 12 / (2 * M_PI) * std::hypot(along, 0.12 / length);
 }
@@ -52,7 +52,7 @@ std::unique_ptr<Wind> make_wind(const frond_wind_def& def) {
     wind->def = def;
     const double speed = Vec3(def.velocity.x, def.velocity.y, def.velocity.z).norm();
     if (!(speed > 0) || !(def.turbulence > 0)) return wind;
-    constexpr double LEAST = 0.01, MOST = 20;  // n between which the stretches are even in its logarithm
+    constexpr double LEAST = 0.01, MOST = 20;  // range of n in which the bands are even in its logarithm
     constexpr double FARTHEST = 0.97;          // share of Cauchy's distribution that is drawn from
     Numbers numbers = {def.seed};
     for (size_t c = 0; c < 3; c++) {
@@ -63,7 +63,7 @@ std::unique_ptr<Wind> make_wind(const frond_wind_def& def) {
             const bool last = i + 1 == component.count;
             const double end = LEAST * std::pow(MOST / LEAST, double(i) / (component.count - 2));
             const double above = last ? 1 : energy_below(end);
-            // What is beyond the last stretch's begin is drawn from the half of it that is slower.
+            // The last band has no upper end: its wave is drawn from the slower half of its energy.
             const double energy = below + (above - below) * numbers.next() * (last ? 0.5 : 1);
             Gust gust;
             const double along = frequency_of_energy(energy) / length;

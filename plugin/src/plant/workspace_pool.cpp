@@ -1,4 +1,4 @@
-// A plant's step needs a workspace of some hundred kilobytes, and nothing of it afterwards: plants of one system take
+// A plant's step needs a workspace of some hundred kilobytes, and no part of it afterwards: plants of one system take
 // turns.
 #include "plant/plant.hpp"
 

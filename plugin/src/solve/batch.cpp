@@ -1,5 +1,5 @@
-// In: the motions of several plants, a lane each. Out: their motions a step of bdf2 with one solve later, or of
-// implicit Euler where that begins anew: what step_bdf2() and solve_stage() do to each, in the same order.
+// In: the motions of several plants, one a lane. Out: their motions after a step of bdf2 with one solve, or of implicit
+// Euler where bdf2 starts anew: for each the operations of step_bdf2() and solve_stage(), in the same order.
 #include "solve/batch.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace frond {
 
 namespace {
 
-// Where the step comes from and where it is heading.
+// Sets the base of a bdf2 step from the history, and the predicted positions.
 struct LookBack {
     Batch& a;
     const std::vector<uint8_t>& pinned;
@@ -47,7 +47,7 @@ struct LookBack {
     }
 };
 
-// The same of implicit Euler, which begins anew.
+// The same for implicit Euler, without history.
 struct BeginAnew {
     LookBack step;
     template <class S>
@@ -67,12 +67,12 @@ FROND_INLINE Lanes33<S> drag_damping(const Batch& a, int drag) {
                     rest = load3<S>(a.drag_damping.data(), 6 * drag + 3);
     return {{first, {first.y, rest.x, rest.y}, {first.z, rest.y, rest.z}}};
 }
-// To add nothing would still change the sign of zeros.
+// Returns the lanes that have drag; in the others even adding zero would change the sign of zeros.
 template <class S>
 FROND_INLINE auto is_dragged(const Lanes3<S>& push, const Lanes33<S>& damping) {
     return dot(push, push) + dot(damping, damping) > 0.0;
 }
-// As hold() in newton.cpp.
+// Does what hold() in newton.cpp does.
 template <class S>
 FROND_INLINE void hold(Batch& a) {
     const BlockPattern& pattern = *a.A.pattern;
@@ -87,10 +87,10 @@ FROND_INLINE void hold(Batch& a) {
     }
 }
 
-// From elastic forces and stiffness to the linear system, of pairs of nodes that turn.
+// Forms the linear system from elastic forces and stiffness, for pairs of nodes, position and rotation.
 struct FormPairs {
     Batch& a;
-    double step, mass;  // of the stage [s], and what masses count [-]
+    double step, mass;  // step of the stage [s], and factor of the masses [-]
 
     template <class S>
     FROND_INLINE void form_right_side(int i) const {
@@ -114,7 +114,7 @@ struct FormPairs {
         const double* from = a.inertia.data();
         return {{load3<S>(from, 9 * pair), load3<S>(from, 9 * pair + 3), load3<S>(from, 9 * pair + 6)}};
     }
-    // The diagonal block of node i, which lies by columns.
+    // Forms the diagonal block of node i, which is stored by columns.
     template <class S>
     FROND_INLINE void form_block(int i) const {
         const int slot = a.A.pattern->start[size_t(i)];
@@ -139,7 +139,7 @@ struct FormPairs {
     }
 };
 
-// The same of places alone; drags are between them.
+// The same for nodes that are positions only; drags act on points between them.
 struct FormPlaces {
     Batch& a;
     double step, mass;
@@ -158,7 +158,7 @@ struct FormPlaces {
             store3(select(dragged, rhs + constant<S>(attachment.weight[r]) * force, rhs), a.rhs.data(), 3 * i);
             for (size_t c = 0; c < size_t(attachment.count); ++c) {
                 if (i < attachment.node[c]) continue;
-                // It is symmetric: its rows are columns too.
+                // The block is symmetric: its rows are columns too.
                 const int slot = 9 * a.A.pattern->slot(i, attachment.node[c]);
                 const S by = constant<S>(attachment.weight[r] * attachment.weight[c]);
                 for (int k = 0; k < 3; ++k) {
@@ -193,12 +193,12 @@ struct FormPlaces {
     }
 };
 
-// Where the step ends, unless something is no number there.
+// Computes the end of the step; lanes with a number that is not finite are lost.
 struct Finish {
     Batch& a;
     const std::vector<uint8_t>& pinned;
     double step;
-    bool turns;  // every other node
+    bool turns;  // every other node is a rotation
     unsigned& lost;
     template <class S>
     FROND_INLINE void run() const {

@@ -1,6 +1,6 @@
-// Abreast: plants of one system that take a step side by side, a plant a lane of the processor (core/lanes.hpp). Of
-// each vector every number is there once a lane. Only what every healthy step goes through is done so; a lane that
-// needs more is told of, and left as it was.
+// Batch: plants of one system that take a step together, one plant a lane (core/lanes.hpp). Each number of a vector is
+// stored once a lane. A batch does only what every healthy step needs; a lane that needs more is reported, and its
+// plant left as it was.
 #pragma once
 
 #include "core/lanes.hpp"
@@ -14,20 +14,19 @@ namespace frond {
 struct Batch {
     std::shared_ptr<const System> system;
     int lanes = 0;
-    // In: of each plant.
-    NumbersInLines x, v, x_prev, v_prev;  // as in Motion and History
+    // In, for each plant:
+    NumbersInLines x, v, x_prev, v_prev;  // see Motion and History
     NumbersInLines gravity;               // [m/s^2]
-    // Drags of places at rest with the air, one a chain node, which are pairs of nodes or System::chain; zero: there is
-    // none there.
+    // Air drag at each chain node, which is a pair of nodes or a point of System::chain; zero: none.
     NumbersInLines drag_force, drag_damping;  // three numbers [N], and xx, xy, xz, yy, yz, zz [N s/m]
-    // Out.
+    // Out:
     NumbersInLines x_end, v_end;
     std::array<double, MOST_LANES> residual;
-    std::array<int, MOST_LANES> inverted;  // tets, where the forces were taken
-    double reach = 0;                      // as in Workspace [s]
+    std::array<int, MOST_LANES> inverted;  // number of inverted tets where forces were evaluated
+    double reach = 0;                      // see Workspace [s]
     unsigned wound = 0;  // lanes with a rotation vector longer than half a turn, or nearly so, a bit each: see unwind()
 
-    // Room for the step.
+    // Scratch of the step.
     NumbersInLines v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia;
     std::vector<uint8_t> held, filled;
     std::vector<double> element_damping;
@@ -36,17 +35,17 @@ struct Batch {
     FrontBatch fronts;
 };
 
-// Whether plants of such a system, with such settings, can go abreast in steps of h [s].
+// Returns whether plants of such a system can be batched, with such settings, in steps of h [s].
 bool may_be_batched(const System& system, const SolveSettings& settings, double h);
-// In which so many plants go, on this processor.
+// Returns the number of lanes for so many plants on this processor.
 int lanes_for(int count);
-// For as many of a system.
+// Resizes a batch for a system and a number of lanes.
 void make_room(Batch& batch, std::shared_ptr<const System> system, int lanes);
-// A step of h [s] after one of h_before by bdf2, whose history holds in all lanes, or by implicit Euler where that is
-// 0. Pinned nodes stay where they are. Returns the lanes that have to be stepped alone, a bit each.
+// Takes a step of h [s]: of bdf2 after a step of h_before, with a valid history in all lanes, or of implicit Euler if
+// h_before is 0. Pinned nodes stay where they are. Returns a bit for each lane that has to be stepped alone.
 unsigned step_batch(Batch& batch, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,
                     double h_before);
-// Gives lanes that have a workspace, of a plan of fronts, what respond() and make_answer() ask of it.
+// Fills each lane's workspace, if any, with what respond() and make_compliance() need; only for plans of fronts.
 void take_apart(const Batch& batch, Workspace* const* workspaces);
 
 }  // namespace frond

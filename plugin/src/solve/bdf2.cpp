@@ -2,19 +2,21 @@
 //   y' = (1+w)^2/(1+2w) y - w^2/(1+2w) y_prev + h (1+w)/(1+2w) dy'/dt  for y = x and y = v
 // (Hairer, Norsett, Wanner 1993, "Solving ordinary differential equations I", III.5). One implicit stage a step. The
 // first step, and one after something else moved the plant, is of sdirk2. Where such steps follow each other, as under
-// contacts, and where motion is too wild or too sudden for the step, it is implicit Euler, which damps.
+// contacts, and where motion is outside the trust bound or too sudden for the step, it is implicit Euler, which damps.
 #include "solve/integrator.hpp"
 
 namespace frond {
 
-// Where a sudden load moves what is stiff, sdirk2 ends in the right place at a speed of its own.
+// Returns whether displacement and velocities agree: after a sudden load on stiff parts sdirk2 ends at the right
+// positions, but with wrong velocities.
 static bool is_smooth(const Workspace& w, const StepInput& input) {
-    constexpr double ROUGH = 0.5;  // of the way [-]
+    constexpr double ROUGH = 0.5;  // largest error, as a share of the displacement [-]
     const VecX way = w.x - input.motion.x;
     return (way - 0.5 * input.h * (w.v_start + w.v)).squaredNorm() <= ROUGH * ROUGH * way.squaredNorm();
 }
 
-// Implicit Euler alone would take 1 % of the energy from a 1 Hz sway at 1/60 s, and far more from higher ones.
+// Takes a first step by sdirk2 where possible: implicit Euler would take 1 % of the energy from a 1 Hz mode at 1/60 s,
+// and far more from higher modes.
 static bool step_first(Workspace& w, const StepInput& input, SolveReport& report) {
     const Motion& motion = input.motion;
     w.x_from = motion.x + input.h * w.v_start;
@@ -34,12 +36,12 @@ bool step_bdf2(Workspace& workspace, const StepInput& input, SolveReport& report
     if (!motion.history.valid) return step_first(workspace, input, report);
     Workspace& w = workspace;
 
-    // Forces are taken where the plant is heading: warped stiffness is then off by second order only. Motion that is
-    // too wild for the step is not looked back on either, but damped.
+    // Forces are evaluated at the predicted positions, so the warped stiffness is off at second order only. Motion
+    // outside the trust bound does not use the history either, but is damped.
     w.x_from = motion.x + input.h * w.v_start;
     if (!is_calm(*w.system, motion.x, w.x_from)) return step_implicit_euler(workspace, input, report);
 
-    // Held nodes move evenly, whatever they did before.
+    // Held nodes move at constant velocity, whatever they did before.
     w.x_prev = motion.history.x_prev;
     w.v_prev = motion.history.v_prev;
     for (size_t i = 0; i < w.held.size(); ++i) {

@@ -1,5 +1,5 @@
 // In: a symmetric matrix of 3x3 blocks. Out: its factors L D L^T and solutions through Eigen's SimplicialLDLT, number
-// by number: what Frond's own solver is measured against.
+// by number: the reference for Frond's own solver.
 #include "solve/direct.hpp"
 
 #include <Eigen/SparseCholesky>
@@ -14,7 +14,7 @@ namespace frond {
 
 using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-// Opens what Eigen keeps protected: factorizing a matrix that is ordered already, in place and without allocating.
+// Makes protected members of Eigen accessible: to factorize an already ordered matrix in place, without allocating.
 struct Ldlt : Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering<int>> {
     void analyze(const Sparse& ordered) { analyzePattern_preordered(ordered, true); }
     bool refactor(const Sparse& ordered) {
@@ -33,13 +33,13 @@ struct Ldlt : Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering
 };
 
 struct DirectFactor {
-    std::vector<int> order, source;  // nodes as they are eliminated; value k of the ordered matrix is values[source[k]]
+    std::vector<int> order, source;  // nodes in elimination order; value k of the ordered matrix is values[source[k]]
     Sparse ordered;                  // its upper triangle, by columns
     Ldlt ldlt;
     VecX solution;  // in elimination order
 };
 
-// Block by block becomes number by number; of a diagonal block the upper half only.
+// Expands blocks to numbers; diagonal blocks to their upper half only.
 static void place_numbers(const BlockPattern& pattern, DirectFactor& factor) {
     struct Entry {
         int row, slot;

@@ -1,4 +1,4 @@
-// Direct: the factor of one matrix by Eigen's simplicial LDLT, its symbolic part done once.
+// Direct: the factor of one matrix by Eigen's simplicial LDLT; the symbolic part is done once.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,11 @@ struct DirectFactorDeleter {
 };
 using DirectFactorPtr = std::unique_ptr<DirectFactor, DirectFactorDeleter>;
 DirectFactorPtr make_direct_factor(const BlockPattern& pattern);
-// False if a pivot is not above zero: A is not positive definite.
+// Returns false if a pivot is not above zero: A is not positive definite.
 bool factorize(DirectFactor& factor, const BlockMatrix& A);
-// x = A^-1 b with the matrix factorized last.
+// Computes x = A^-1 b with the matrix factorized last.
 void solve(DirectFactor& factor, const VecX& b, VecX& x);
-// Numbers below the diagonal of the factor.
+// Returns the count of numbers below the diagonal of the factor.
 int64_t fill_of(const DirectFactor& factor);
 
 }  // namespace frond

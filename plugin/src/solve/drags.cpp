@@ -1,4 +1,4 @@
-// In: drags, and where the nodes are and how they move. Out: the force F - D v of each on the nodes, its potential
+// In: drags, and positions and velocities of the nodes. Out: the force F - D v of each on the nodes, its potential
 // -F v + v D v / 2, and its damping.
 #include "solve/drags.hpp"
 
@@ -35,7 +35,7 @@ void add_drag_damping(const std::vector<Drag>& drags, const VecX& x, double scal
     for (const Drag& drag : drags) add_attachment_block(drag.attachment, x, scale * drag.damping, A);
 }
 
-// (sum of w v)^2 <= (sum of |w|) (sum of |w| v^2), Cauchy and Schwarz.
+// By Cauchy and Schwarz (sum of w v)^2 <= (sum of |w|) (sum of |w| v^2).
 void lump_drags(const std::vector<Drag>& drags, size_t node_count, double scale, std::vector<Mat3>& out) {
     out.assign(node_count, Mat3::Zero());
     for (const Drag& drag : drags) {

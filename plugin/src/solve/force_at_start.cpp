@@ -1,4 +1,4 @@
-// In: a plant's motion at the start of a step and what acts on it. Out: all forces on it, damping included.
+// In: a plant's motion at the start of a step, and its loads. Out: all forces on it, damping included.
 #include "core/timer.hpp"
 #include "solve/drags.hpp"
 #include "solve/integrator.hpp"
@@ -16,7 +16,7 @@ void force_at_start(Workspace& w, const StepInput& input, SolveReport& report) {
     add_spring_force(input.loads.springs, x, w.force);
     add_drag_force(input.loads.drags, x, w.v_start, w.force);
 
-    // D = a M + b K, or elements' own parts of it, the positive K as in a stage.
+    // D = a M + b K, or with each element's own b; K is the positive stiffness, as in a stage.
     if (!w.element_damping.empty()) {
         w.A.set_zero();
         w.damping.set_zero();

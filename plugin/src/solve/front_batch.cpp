@@ -1,6 +1,6 @@
 // In: matrices of a pattern, one a lane, and the plan of their fronts. Out: factors and solutions. front_factor.cpp
-// takes products of columns off several rows at once, and front_solve.cpp adds up rows by fours; here the same numbers
-// are taken off and added in the same order.
+// subtracts products of columns from several rows at once, and front_solve.cpp adds up rows by fours; here the same
+// numbers are subtracted and added in the same order.
 #include "solve/front_batch.hpp"
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace frond {
 
 namespace {
 
-constexpr int PARTS = 4;  // of a sum over rows, see front_solve.cpp
+constexpr int PARTS = 4;  // parts of a sum over rows, see front_solve.cpp
 
-// Rows of three columns.
+// A tile of three columns.
 template <class S, int ROWS>
 struct BatchTile {
     S at[3][ROWS];
@@ -32,7 +32,7 @@ struct BatchTile {
 #pragma GCC unroll 6
             for (int r = 0; r < ROWS; ++r) store(at[c][r], to + LANES<S> * (size_t(c) * stride + size_t(r)));
     }
-    // Takes the sum over k < count of left(k) times right(k) off.
+    // Subtracts the sum over k < count of left(k) times right(k).
     FROND_INLINE void take_off(const double* left, const double* right, size_t stride, int count) {
         for (int k = 0; k < count; ++k, left += LANES<S> * stride, right += LANES<S> * stride) {
             S by[3];
@@ -48,10 +48,10 @@ struct BatchTile {
     }
 };
 
-// Calls work.tile<ROWS>(row) for `nodes` nodes' rows from `row` on.
+// Calls work.tile<ROWS>(row) for the rows of `nodes` nodes, from `row` on.
 template <class S, class Work>
 FROND_INLINE void for_rows(int row, int nodes, const Work& work) {
-    // Only the widest lanes have registers for more than three rows.
+    // Only eight lanes have registers for more than three rows.
     if constexpr (LANES<S> == 8)
         for (; nodes >= 2; nodes -= 2, row += 6) work.template tile<6>(row);
     for (; nodes > 0; --nodes, row += 3) work.template tile<3>(row);
@@ -87,7 +87,7 @@ struct BatchPanel {
 template <class S>
 struct BatchUpdate {
     double* update;
-    const double *L, *LD;  // of the further rows
+    const double *L, *LD;  // the further rows
     size_t update_stride, stride;
     int column, count;
     template <int ROWS>
@@ -107,7 +107,7 @@ struct FactorizeFrontBatch {
     double *updates, *products;
     unsigned& failed;
 
-    // What the front begins with: zero but for the matrix, from the diagonal on.
+    // Initialises a front, from the diagonal on: zero, then the numbers of the matrix.
     template <class S>
     FROND_INLINE void begin(const Front& front, double* columns, double* update) const {
         const size_t stride = size_t(stride_of(front)), update_stride = size_t(padded(front.rows));
@@ -128,7 +128,7 @@ struct FactorizeFrontBatch {
         }
     }
 
-    // Adds three columns of a child's update to the parent's columns that they belong to.
+    // Adds three columns of a child's update to the parent's corresponding columns.
     template <class S>
     FROND_INLINE void add_columns(const Front& child, int column, const double* from, const Front& front, double* to,
                                   int to_stride, int skipped) const {
@@ -160,7 +160,7 @@ struct FactorizeFrontBatch {
         }
     }
 
-    // Returns what was sound, and is no more where a pivot is none.
+    // Returns the lanes of `before` whose pivots are all valid.
     template <class S>
     FROND_INLINE S eliminate(const Front& front, double* L, double* update, const S& before) const {
         const size_t stride = size_t(stride_of(front));
@@ -209,7 +209,7 @@ struct FactorizeFrontBatch {
 struct SolveFrontBatch {
     const FrontPlan& plan;
     const FrontBatch& factor;
-    double *all, *y;  // numbers in the order of elimination, and those of one front's rows
+    double *all, *y;  // numbers in elimination order, and those of one front's rows
 
     template <class S>
     FROND_INLINE static S get(const double* from, size_t i) {
@@ -219,7 +219,7 @@ struct SolveFrontBatch {
     FROND_INLINE static void put(const S& value, double* to, size_t i) {
         store(value, to + LANES<S> * i);
     }
-    // What a row has with itself and with later columns is zero in L.
+    // L is stored with zeros on and above its diagonal.
     template <class S>
     FROND_INLINE void down(const Front& front, const double* L) const {
         const size_t stride = size_t(stride_of(front)), own = size_t(3 * front.own);
@@ -310,7 +310,7 @@ struct TakeApart {
     }
 };
 
-// Of the memory that only factorize() needs.
+// Scratch of factorize().
 struct BatchRoom {
     NumbersInLines updates, products;
 };

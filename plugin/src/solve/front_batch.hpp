@@ -1,5 +1,5 @@
-// FrontBatch: factors of the matrices of several plants abreast, of the pattern of one plan (fronts.hpp), to the last
-// bit as of each alone.
+// FrontBatch: factors of a batch of matrices with the pattern of one plan (fronts.hpp), each the same to the last bit
+// as alone.
 #pragma once
 
 #include "solve/fronts.hpp"
@@ -8,16 +8,16 @@ namespace frond {
 
 struct FrontBatch {
     int lanes = 0;
-    // As in FrontFactor, where columns hold anything above the four rows of their diagonal.
+    // See FrontFactor; but numbers of a column above the four rows of its diagonal are arbitrary.
     NumbersInLines columns, pivot, inverse;
     NumbersInLines ordered, front;
 };
 
-// Returns the lanes whose matrix is not positive definite, a bit each.
+// Returns a bit for each lane whose matrix is not positive definite.
 unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontBatch& factor);
-// x = A^-1 b
+// Computes x = A^-1 b.
 void solve(const FrontPlan& plan, FrontBatch& factor, const NumbersInLines& b, NumbersInLines& x);
-// Of lanes that have a place to go to, each one's own.
+// Copies each lane's factor to its own place in `out`, if it has one.
 void take_apart(const FrontBatch& factor, FrontFactor* const* out);
 
 }  // namespace frond

@@ -1,4 +1,4 @@
-// Corner: the triangle of three columns of a front; of one matrix, or of one a lane.
+// Corner: the factorized triangle of three columns of a front; of one matrix, or of one a lane.
 #pragma once
 
 #include "core/lanes.hpp"
@@ -13,7 +13,7 @@ struct Corner {
 
 constexpr double LARGEST_PIVOT = 1e300;
 
-// Of what is on and below the diagonal, column by column.
+// Factorizes the triangle on and below the diagonal, given column by column.
 template <class S>
 FROND_INLINE Corner<S> corner_of(const S& a00, const S& a10, const S& a20, const S& a11, const S& a21, const S& a22) {
     const S i0 = 1.0 / a00, l10 = a10 * i0, l20 = a20 * i0;

@@ -1,8 +1,8 @@
 // In: a symmetric matrix of 3x3 blocks and the plan of its fronts. Out: its factors.
 //
-// A front's columns are eliminated three at a time, and its update is made at once from all of them. Both take products
-// of columns off rows, twelve rows by three columns in registers; no product is fused with a sum, so that the numbers
-// are the same on every processor.
+// A front's columns are eliminated three at a time, and its update is formed from all of them at once. Both subtract
+// products of columns from rows, twelve rows by three columns in registers; no product is fused with a sum, so that the
+// numbers are the same on every processor.
 #include <algorithm>
 #include <cmath>
 
@@ -14,9 +14,9 @@ namespace frond {
 
 namespace {
 
-constexpr int ROWS = 4;  // in a lane's vector
+constexpr int ROWS = 4;  // numbers in a vector register
 
-// Rows of three columns.
+// A tile of three columns.
 template <int V>
 struct Tile {
     FourLanes at[3][V];
@@ -36,7 +36,7 @@ FROND_INLINE void store_tile(const Tile<V>& tile, double* to, int stride) {
         for (int v = 0; v < V; ++v) store(tile.at[c][v], to + c * stride + ROWS * v);
 }
 
-// Takes the sum over k < count of left(k) times right(k) off a tile; right holds its three columns' factors.
+// Subtracts the sum over k < count of left(k) times right(k) from a tile; right holds its three columns' factors.
 template <int V>
 FROND_INLINE void take_off(Tile<V>& tile, const double* left, const double* right, int stride, int count) {
     for (int k = 0; k < count; ++k, left += stride, right += stride) {
@@ -69,8 +69,8 @@ FROND_INLINE bool factorize_corner(const Tile<1>& a, Corner<double>& out) {
     return is_pivot(out.pivot[0]) && is_pivot(out.pivot[1]) && is_pivot(out.pivot[2]);
 }
 
-// Three columns of a front, at `column`: what the columns before them take off, and division by their triangle. Beside
-// L its product with D is kept, for the columns and the update that follow.
+// Eliminates three columns of a front, at `column`: subtracts the products of the columns before them and divides by
+// their triangle. L times D is kept beside L, for the columns and the update that follow.
 struct Panel {
     double *L, *LD;
     int stride, column;
@@ -95,10 +95,10 @@ struct Panel {
     }
 };
 
-// Three columns of the update, likewise.
+// Computes three columns of the update likewise.
 struct Update {
     double* update;
-    const double *L, *LD;  // of the further rows
+    const double *L, *LD;  // the further rows
     int update_stride, stride, column, count;
     template <int V>
     FROND_INLINE void tile(int row) const {
@@ -113,7 +113,7 @@ int floor_to_rows(int row) {
     return row / ROWS * ROWS;
 }
 
-// Adds the rows of some nodes in three columns; how many is known beforehand, so that nothing is asked on the way.
+// Adds the rows of NODES nodes in three columns; the count is a constant, so that nothing branches.
 template <int NODES>
 FROND_INLINE void add_block(const double* from, int stride, double* to, int to_stride) {
     constexpr int COUNT = 3 * NODES, BY_FOURS = COUNT / ROWS * ROWS, BY_TWOS = COUNT / 2 * 2;
@@ -126,7 +126,7 @@ FROND_INLINE void add_block(const double* from, int stride, double* to, int to_s
     }
 }
 
-// Of the memory that only factorize() needs.
+// Scratch of factorize().
 struct Room {
     std::vector<Quad> updates, products;
 };
@@ -149,7 +149,7 @@ struct FactorizeFronts {
         }
     }
 
-    // Adds three columns of a child's update to the parent's columns that they belong to.
+    // Adds three columns of a child's update to the parent's corresponding columns.
     FROND_INLINE void add_columns(const Front& child, int column, const double* from, const Front& front, double* to,
                                   int to_stride, int skipped) const {
         const int stride = padded(child.rows), own = padded(front.own);
@@ -188,7 +188,7 @@ struct FactorizeFronts {
             Corner<double> corner;
             if (!factorize_corner(a, corner)) return false;
             for_rows(floor_to_rows(column), stride, Panel{L, products, stride, column, corner});
-            // Rows above the diagonal came along.
+            // Rows above the diagonal were computed along with the others.
             for (int c = 0; c < 3; ++c) {
                 for (int row = floor_to_rows(column); row <= column + c; ++row) L[(column + c) * stride + row] = 0;
                 factor.pivot[3 * front.first + column + c] = corner.pivot[c];

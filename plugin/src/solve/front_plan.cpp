@@ -1,9 +1,9 @@
-// In: a pattern of blocks. Out: its fronts, and where everything is in them.
+// In: a pattern of blocks. Out: its fronts, and the places of all data in them.
 //
-// Nodes that reach the same rows make a front of their own accord. A plant is thin, so those are small, and what is
-// done for each of them beside arithmetic would cost the most: a front is merged into its parent wherever the sum is
-// estimated to be cheaper, though it then has zeros (Ashcraft, Grimes 1989, "The influence of relaxed supernode
-// partitions on the multifrontal method").
+// Nodes with the same rows form a front. A plant is thin, so its fronts are small and their overhead would cost more
+// than arithmetic: a front is merged into its parent wherever the merged one is estimated to be cheaper than both,
+// though it then has zeros (Ashcraft, Grimes 1989, "The influence of relaxed supernode partitions on the multifrontal
+// method").
 #include <algorithm>
 
 #include "solve/elimination_order.hpp"
@@ -13,7 +13,7 @@ namespace frond {
 
 namespace {
 
-// While fronts are made: nodes by their places in the order that was found first.
+// A front under construction; nodes are given by their places in the initial elimination order.
 struct Draft {
     std::vector<int> own, rows;  // ascending
     std::vector<int> children;
@@ -21,7 +21,7 @@ struct Draft {
     bool is_merged = false;
 };
 
-// Rows of each column below the diagonal: of the matrix and of the columns that it is the parent of.
+// Returns the rows of each column below the diagonal: those of the matrix and those of its child columns.
 std::vector<std::vector<int>> columns_of_factor(const BlockPattern& pattern, const std::vector<int>& place) {
     std::vector<std::vector<int>> columns(place.size());
     for (int j = 0; j < pattern.node_count; ++j)
@@ -39,13 +39,13 @@ std::vector<std::vector<int>> columns_of_factor(const BlockPattern& pattern, con
     return columns;
 }
 
-// Estimated time of a front [ns]: of its own, of each of its numbers, of adding up its update, and of arithmetic.
+// Returns the estimated time of a front [ns]: fixed, for its numbers, for adding its update, and for arithmetic.
 double cost_of(size_t own_nodes, size_t row_nodes) {
     const double own = 3 * double(own_nodes), rows = 3 * double(row_nodes), all = own + rows;
     return 200 + 0.15 * all * all + 0.15 * rows * rows + 0.1 * own * all * all;
 }
 
-// Columns, each a draft, merged upwards.
+// Makes each column a draft and merges drafts upwards.
 std::vector<Draft> draft_fronts(const std::vector<std::vector<int>>& columns) {
     std::vector<Draft> drafts(columns.size());
     for (size_t j = 0; j < columns.size(); ++j) {
@@ -57,7 +57,7 @@ std::vector<Draft> draft_fronts(const std::vector<std::vector<int>>& columns) {
         drafts[size_t(draft.parent)].children.push_back(int(j));
     }
     for (Draft& parent : drafts) {
-        // Those with the most rows fill in the least.
+        // Children with the most rows cause the least fill.
         std::vector<int> children = std::move(parent.children);
         parent.children.clear();
         std::sort(children.begin(), children.end(), [&](int a, int b) {
@@ -81,12 +81,12 @@ std::vector<Draft> draft_fronts(const std::vector<std::vector<int>>& columns) {
     return drafts;
 }
 
-// Children before parents, and each front's descendants right before it.
+// Returns the fronts with children before parents, and each front's descendants right before it.
 std::vector<int> after_children(const std::vector<Draft>& drafts) {
     std::vector<int> order, open;
     for (size_t root = drafts.size(); root-- > 0;)
         if (!drafts[root].is_merged && drafts[root].parent < 0) open.push_back(int(root));
-    // Parents first and turned over, since a plant may be deeper than the stack of calls.
+    // Parents first, then reversed; without recursion, since a plant may be deeper than the call stack.
     while (!open.empty()) {
         const int at = open.back();
         open.pop_back();
@@ -103,7 +103,7 @@ int node_in_front(const FrontPlan& plan, const Front& front, int place) {
     return front.own + int(std::lower_bound(begin, end, place) - begin);
 }
 
-// Row of a node of a front in its columns.
+// Returns the row of a front's node in its columns.
 int row_of(const Front& front, int node) {
     return node < front.own ? 3 * node : padded(front.own) + 3 * (node - front.own);
 }
@@ -140,8 +140,8 @@ void place_rows(FrontPlan& plan) {
         }
 }
 
-// Updates wait for their parents on two stacks, on one those of fronts an even number of generations away from the
-// root, so that a front's own never lies among its children's.
+// Places updates on two stacks, for fronts an even and an odd number of generations away from the root, so that a
+// front's update never overlaps its children's.
 void place_numbers(FrontPlan& plan) {
     std::vector<uint8_t> is_odd(plan.fronts.size(), 0);
     for (size_t f = plan.fronts.size(); f-- > 0;)
@@ -154,7 +154,7 @@ void place_numbers(FrontPlan& plan) {
         plan.column_size += columns;
         plan.largest = std::max(plan.largest, columns);
         plan.longest = std::max(plan.longest, size_t(stride_of(front)));
-        // Its children's are on top of the other stack.
+        // The children's updates are on top of the other stack.
         size_t& others = top[!is_odd[f]];
         for (int c = 0; c < front.children; ++c)
             others = std::min(others, plan.fronts[size_t(plan.children[size_t(front.child + c)])].update);

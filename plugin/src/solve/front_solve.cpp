@@ -1,6 +1,6 @@
-// In: factors and a right side. Out: the solution, or the half of it that a few nodes' right side reaches.
+// In: factors and a right-hand side. Out: the solution, or the half-solve of a right-hand side of few nodes.
 //
-// The rows that are reached are those of the fronts on the way to the root (Gilbert, Peierls 1988, "Sparse partial
+// A half-solve reaches only the rows of the fronts on the paths to the root (Gilbert, Peierls 1988, "Sparse partial
 // pivoting in time proportional to arithmetic operations").
 #include <algorithm>
 
@@ -11,14 +11,14 @@ namespace frond {
 
 namespace {
 
-constexpr int ROWS_AT_ONCE = 4;  // at once
+constexpr int ROWS_AT_ONCE = 4;
 
 struct SolveFronts {
     const FrontPlan& plan;
     const FrontFactor& factor;
-    double *all, *y;  // numbers in the order of elimination, and those of one front's rows
+    double *all, *y;  // numbers in elimination order, and those of one front's rows
 
-    // Three columns at a time. What a row has with itself and with later columns is zero in L.
+    // Takes three columns at a time. L is stored with zeros on and above its diagonal.
     FROND_INLINE void down(const Front& front, const double* L) const {
         const int stride = stride_of(front), own = 3 * front.own;
         std::copy_n(all + 3 * front.first, own, y);
@@ -76,7 +76,7 @@ struct SolveFronts {
     }
 };
 
-// Takes what a front's columns eliminate off the rows below them, and puts its own rows into the answer.
+// Eliminates a front's columns from the rows below them, and appends its own rows to the compliance.
 void take_front(const FrontPlan& plan, const Front& front, FrontFactor& factor, Eigen::Index at,
                 NodeCompliance& compliance) {
     const int stride = stride_of(front), own = 3 * front.own;

@@ -1,9 +1,9 @@
-// Generalized-alpha in the form for equations of first order (Jansen, Whiting, Hulbert 2000), which on structures keeps
-// its second order in velocity too and does not overshoot (Kadapa, Dettmer, Peric 2017). With y = (x, v), rates r:
+// Generalized-alpha for equations of first order (Jansen, Whiting, Hulbert 2000), which on structures is second-order
+// accurate in velocity too and does not overshoot (Kadapa, Dettmer, Peric 2017). With y = (x, v), rates r:
 //   r_m = f(y_f),  r_m = r + m (r' - r),  y_f = y + a (y' - y),  y' = y + h (r + g (r' - r)),
 //   m = (3 - s) / (2 (1 + s)),  a = 1 / (1 + s),  g = 1/2 + m - a,
-// s the spectral radius at infinite frequency. Always solved to convergence: with one solve it blows up. The first
-// step is SDIRK2, and each after something else moved the plant implicit Euler.
+// s the spectral radius at infinite frequency. Always solved to convergence: with one solve it blows up. The first step
+// is of SDIRK2, and each after something else moved the plant of implicit Euler.
 #include <algorithm>
 #include <cmath>
 
@@ -15,8 +15,8 @@ namespace {
 
 constexpr int LEAST_ITERATIONS = 30;
 
-// Rates at the end of a first step: the velocity, and what the second stage of SDIRK2 found, or the step if there is
-// one.
+// Takes a first step and sets the rates at its end: the velocity, and the acceleration of SDIRK2's second stage, or of
+// the whole step if it was implicit Euler's.
 bool start(Workspace& w, const StepInput& input, SolveReport& report) {
     if (!step_sdirk2(w, input, report)) return false;
     w.x_rate = w.v;
@@ -34,7 +34,7 @@ bool step_generalized_alpha(Workspace& workspace, const StepInput& input, SolveR
     const History& history = input.motion.history;
     if (!history.valid) return start(w, input, report);
 
-    // Held nodes move evenly, whatever they did before.
+    // Held nodes move at constant velocity, whatever they did before.
     const VecX &x = input.motion.x, &v = w.v_start;
     w.x_rate = history.x_rate;
     w.v_rate = history.v_rate;
@@ -54,7 +54,7 @@ bool step_generalized_alpha(Workspace& workspace, const StepInput& input, SolveR
     const int iterations = std::max(LEAST_ITERATIONS, input.settings.newton_iterations);
     if (!solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from, nullptr, iterations}, report)) return false;
 
-    // From there to the end of the step.
+    // Extrapolates from the stage to the end of the step.
     w.x_rate += (w.v - w.x_rate) / m;
     w.v_rate += ((w.v - w.v_base) / step - w.v_rate) / m;
     w.x = x + (w.x - x) / a;

@@ -1,4 +1,4 @@
-// Implicit Euler, the paper's equations (2) and (3) with their signs put right:
+// Implicit Euler, the paper's equations (2) and (3) with corrected signs:
 //   (M + h D + h^2 K) dv = h (f - D v - h K v),  v' = v + dv,  x' = x + h v'
 // with f the forces at x. Several Newton iterations solve M dv = h (f(x') - D v') itself.
 #include "solve/integrator.hpp"

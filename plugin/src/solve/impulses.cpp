@@ -1,8 +1,8 @@
-// In: touches and how they are coupled. Out: impulses, by projected Gauss-Seidel: touch by touch the normal impulse and
-// then the one across are corrected by what is wrong with the velocity, and projected onto what can be (Moreau 1988,
-// Jean 1999, "The non-smooth contact dynamics method"). Between rounds all go on along the way they came, as far as the
-// gradients' ratio says (Silcowitz-Hansen, Niebe, Erleben 2010, "A nonsmooth nonlinear conjugate gradient method for
-// interactive contact force problems").
+// In: contacts and their coupling. Out: impulses, by projected Gauss-Seidel: contact by contact the normal and then the
+// tangential impulse is corrected by the velocity's error and projected onto the admissible set (Moreau 1988, Jean
+// 1999, "The non-smooth contact dynamics method"). Between rounds all impulses are extrapolated along the accumulated
+// direction by the ratio of the gradients (Silcowitz-Hansen, Niebe, Erleben 2010, "A nonsmooth nonlinear conjugate
+// gradient method for interactive contact force problems").
 #include "solve/impulses.hpp"
 
 #include <algorithm>
@@ -16,14 +16,14 @@ namespace frond {
 
 namespace {
 
-// How one touch answers to its own impulse, worked out when that first pushes.
+// Compliance of a contact to its own impulse, computed when it first pushes.
 struct Own {
     Mat3 block = Mat3::Zero();
-    double along = 0, across = 0;  // correction of an impulse by speed, along the normal and across it [kg]
-    Mat3 inverse = Mat3::Zero();   // of a bond, likewise
+    double along = 0, across = 0;  // impulse by velocity error, along the normal and tangential [kg]
+    Mat3 inverse = Mat3::Zero();   // the same for a bond
 };
 
-// What nothing can move needs no impulse.
+// A contact with less compliance is immovable and needs no impulse.
 constexpr double IMMOVABLE = 1e-12;  // [1/kg]
 
 }  // namespace
@@ -39,18 +39,18 @@ Mat3 firm_inverse(const Mat3& block) {
 namespace {
 
 struct Change {
-    double largest = 0, most = 0;  // impulse, and change of one [N s]
-    double speed = 0;              // most change of a touch's speed by its own impulse [m/s]
+    double largest = 0, most = 0;  // largest impulse, and largest change of one [N s]
+    double speed = 0;              // largest change of a contact's velocity by its own impulse [m/s]
 };
 
-// One island: its touches in a row.
+// One island: its contacts, numbered in a row.
 struct ImpulseSearch {
     const std::vector<Touch>& touches;
     const CouplingTable& coupling;
     const std::vector<int>& island;
-    std::vector<int>& place;  // of a touch in its island
+    std::vector<int>& place;  // index of a contact in its island
     VecX impulses, velocities;
-    std::vector<std::unique_ptr<Own>> own;  // of those that push or did
+    std::vector<std::unique_ptr<Own>> own;  // only for contacts that push or did
 };
 
 const Own& own_of(ImpulseSearch& search, int k) {
@@ -78,29 +78,29 @@ void add_impulse(ImpulseSearch& search, int k, const Vec3& change) {
         search.velocities.segment<3>(3 * search.place[size_t(c.other)]) += c.block.transpose() * change;
 }
 
-// A push and what holds across it, that no more than friction can.
+// Returns a push along the normal plus a tangential impulse, limited by friction.
 Vec3 in_cone(const Touch& touch, double push, Vec3 hold) {
     const double most = touch.friction * push, size = hold.norm();
     if (size > most) hold *= most / size;
     return push * touch.normal + hold;
 }
 
-// What one touch should have in place of `before`, with all others as they are.
+// Returns the impulse of one contact in place of `before`, with all others as they are.
 Vec3 corrected(const Touch& touch, const Own& own, Vec3 velocity, const Vec3& before) {
     if (touch.is_bond) return before + own.inverse * (touch.wanted - velocity);
 
-    // Along the normal: push, never pull.
+    // Along the normal, push but never pull.
     const double push_before = before.dot(touch.normal);
     const double lacking = touch.bias_velocity - velocity.dot(touch.normal);
     const double push = std::max(0.0, push_before + own.along * lacking);
 
-    // Across: against the sliding that the push leaves, no more than friction can.
+    // Tangentially, oppose the sliding that is left, as far as friction can.
     velocity += own.block * ((push - push_before) * touch.normal);
     const Vec3 sliding = velocity - velocity.dot(touch.normal) * touch.normal;
     return in_cone(touch, push, before - push_before * touch.normal - own.across * sliding);
 }
 
-// A round over the touches. What is not felt is not passed on to the others, who are many.
+// Does a round over the contacts. Changes up to `unfelt` are not passed on to the other contacts, which are many.
 Change sweep(ImpulseSearch& search, double unfelt) {
     Change change;
     for (int k = 0; k < int(search.island.size()); k++) {
@@ -120,10 +120,10 @@ Change sweep(ImpulseSearch& search, double unfelt) {
     return change;
 }
 
-// Rounds until they change nothing.
+// Does rounds until nothing changes.
 int solve_island(ImpulseSearch& search, const ImpulseLimits& limits, double unfelt, bool& converged) {
     VecX way = VecX::Zero(search.impulses.size()), way_faster = way, from, from_velocities;
-    double last = 0;  // square of the last round's change
+    double last = 0;  // squared norm of the last round's change
     for (int iteration = 1;; iteration++) {
         from = search.impulses;
         from_velocities = search.velocities;
@@ -132,7 +132,7 @@ int solve_island(ImpulseSearch& search, const ImpulseLimits& limits, double unfe
         if (converged || iteration >= limits.iterations) return iteration;
         from = search.impulses - from;
         from_velocities = search.velocities - from_velocities;
-        // On along the way so far by its share, unless rounds grow.
+        // Extrapolates along the accumulated direction, unless changes grow.
         const double square = from.squaredNorm(), share = last > 0 && square <= last ? square / last : 0;
         last = square;
         way *= share;
@@ -177,7 +177,7 @@ ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTab
         report.converged = report.converged && converged;
         for (size_t k = 0; k < island.size(); k++) {
             Vec3& impulse = impulses[size_t(island[k])] = search.impulses.segment<3>(3 * Eigen::Index(k));
-            // What was not felt may be beside its cone.
+            // Changes up to `unfelt` were skipped, so the impulse may lie outside its friction cone.
             const Touch& touch = touches[size_t(island[k])];
             if (touch.is_bond) continue;
             const double push = impulse.dot(touch.normal);

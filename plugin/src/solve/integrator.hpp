@@ -1,11 +1,11 @@
-// Integrator: takes a step in time; rows of a table indexed by frond_integrator. Each is made of implicit stages.
+// Integrator: takes a step in time; rows of a table indexed by frond_integrator. Most consist of implicit stages.
 #pragma once
 
 #include "solve/workspace.hpp"
 
 namespace frond {
 
-// What a step was given.
+// Input of a step.
 struct StepInput {
     const SolveSettings& settings;
     const Loads& loads;
@@ -18,56 +18,56 @@ struct Stage {
     const VecX& x_base;
     const VecX& v_base;
     double step;                    // [s]
-    const VecX& x_from;             // where the first solve takes forces and stiffness [m]
+    const VecX& x_from;             // positions at which the first solve evaluates forces and stiffness [m]
     const VecX* impulse = nullptr;  // [N s]
-    int iterations = 0;             // of Newton at most; 0: as the settings say
+    int iterations = 0;             // Newton iterations at most; 0: as the settings say
 };
 
-// Longer than what hangs takes to swing.
+// Returns whether a stage is longer than the period of hanging parts.
 bool is_long_stage(const System& system, double step);
-// What stiffness-proportional damping is times the stiffness [s]; `of_element` has each element's own unless all damp
-// alike.
+// Returns the factor on the stiffness in stiffness-proportional damping [s]; `of_element` gets each element's own
+// unless all damp alike.
 double damping_of(const System& system, const SolveSettings& settings, std::vector<double>& of_element);
 
-// What bdf2 takes of the step before, and the step of its stage [s].
+// Share of the last step's change in the base of bdf2, and the step of its stage [s].
 struct Bdf2 {
     double back, step;
 };
 Bdf2 bdf2_after(double h_before, double h);
 
-// Leaves the stage's solution in workspace.x and .v; held nodes keep the velocity of workspace.v_start. False if it
-// cannot be solved.
+// Solves a stage and leaves the solution in workspace.x and .v; held nodes keep the velocity of workspace.v_start.
+// Returns false if it cannot be solved.
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report);
 
-// Tells whether something pushed the plant that its integrator does not look back beyond. Impulses are answered to by
-// the last stage; one that is much shorter than the step is softer than what the step's forces bend, by the square of
-// that, and would be pushed on by the same each step: then the step is of implicit Euler, which has one stage.
+// Returns whether something pushed the plant, so that its history is not used. The response to impulses is the last
+// stage's; a stage much shorter than the step is softer, by the square of the ratio, and the plant would be pushed on
+// in every step. Such a step is of implicit Euler, which has one stage.
 inline bool is_pushed(const StepInput& input) {
     return !input.motion.history.valid && input.motion.history.shaken;
 }
 
-// Tells whether a guess of where a plant will be is near enough to be used.
+// Returns whether predicted positions are within the trust bound.
 inline bool is_calm(const System& system, const VecX& from, const VecX& to) {
     return system.row->is_calm(*system.elements, from, to);
 }
 
-// Adds the rotary inertia of free nodes that turn to the matrix in workspace.A.
+// Adds the rotary inertia of free nodes that rotate to the matrix in workspace.A.
 void add_inertia(Workspace& workspace, double scale);
 
-// Tells whether impulses are answered to by a mass alone, since the step solved no system.
+// Returns whether the response to impulses is by mass alone, since the step solved no system.
 bool responds_by_mass(const Workspace& workspace, const SolveSettings& settings);
-// x = M^-1 b for a lumped mass, with workspace.drag beside it; rows of held nodes are left as they are.
+// Computes x = M^-1 b for a lumped mass, with workspace.drag added; rows of held nodes are left as they are.
 void divide_by_mass(const Workspace& workspace, const VecX& b, VecX& x);
 
-// Forces and damping at the start of the step [N], into workspace.force.
+// Puts forces and damping at the start of the step [N] into workspace.force.
 void force_at_start(Workspace& workspace, const StepInput& input, SolveReport& report);
 
 struct Integrator {
     const char* name;
-    // Leaves the end of the step in workspace.x and .v.
+    // Takes a step and leaves its end in workspace.x and .v.
     bool (*step)(Workspace& workspace, const StepInput& input, SolveReport& report);
     bool looks_back;    // uses and needs the motion's history
-    bool trusts_start;  // takes the change, or half of it, from the forces at the step's start
+    bool trusts_start;  // takes the change, or half of it, from forces at the step's start
     bool is_explicit;   // stable only for steps below about two over the highest frequency
 };
 const Integrator& integrator(frond_integrator which);

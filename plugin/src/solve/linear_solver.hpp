@@ -14,30 +14,30 @@ struct LinearLimits {
 };
 
 struct LinearResult {
-    bool ok = false;         // false: A is not positive definite, or not finite; x is of no use
-    bool converged = false;  // to the tolerance
+    bool ok = false;         // false: A is not positive definite, or not finite; x is unusable
+    bool converged = false;  // reached the tolerance
     int iterations = 0;      // a direct solve counts as one
     double residual = 0;     // |b - A x| / |b|, computed from x itself
 };
 
-// Kept from solve to solve; each solver uses its own part.
+// Scratch, kept from solve to solve; each solver uses its own part.
 struct LinearScratch {
     BlockFactor block;
-    DirectFactorPtr direct;  // made when it is first asked for
+    DirectFactorPtr direct;  // made at first use
     VecX product, residual, direction, preconditioned, inverse_diagonal;
-    std::vector<double> inverse_blocks;  // of the diagonal, 9 a node
-    std::vector<double> incomplete;      // factor on the matrix's own pattern, 9 a block
+    std::vector<double> inverse_blocks;  // inverses of diagonal blocks, 9 numbers a node
+    std::vector<double> incomplete;      // factor on the matrix's own pattern, 9 numbers a block
 };
 
 struct LinearSolver {
     const char* name;
     LinearResult (*solve)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
                           VecX& x);
-    // The same with the matrix of the last solve, which need not be factorized again; what has factors does not look at
-    // the residual either.
+    // Solves with the last solve's matrix without factorizing it again; direct solvers do not compute a residual
+    // either.
     LinearResult (*again)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
                           VecX& x);
-    // Half of that for a right side of few nodes, from which an answer is made; null: the solver has no such thing.
+    // Does half of that for a right-hand side of few nodes, for a compliance; null: not available.
     void (*half)(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance);
 };
 const LinearSolver& linear_solver(frond_linear_solver which);
@@ -53,9 +53,9 @@ LinearResult solve_pcg_block_jacobi(const BlockMatrix&, const VecX& b, const Lin
 LinearResult solve_pcg_incomplete_cholesky(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&,
                                            VecX& x);
 
-// |b - A x| / |b|; leaves b - A x in `residual`. Zero for b = 0 and x = 0.
+// Returns |b - A x| / |b| and leaves b - A x in `residual`. Zero for b = 0 and x = 0.
 double relative_residual(const BlockMatrix& A, const VecX& b, const VecX& x, VecX& residual);
-// What a direct solve came to; without a look at the residual only whether it is finite.
+// Return the result of a direct solve: with its residual, or only with whether x is finite.
 LinearResult checked_once(const BlockMatrix& A, const VecX& b, const VecX& x, LinearScratch& scratch);
 LinearResult unchecked(const VecX& x);
 

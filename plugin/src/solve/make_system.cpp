@@ -1,4 +1,4 @@
-// In: a model and how mass is given to nodes. Out: elements, mass matrix and elimination order.
+// In: a model and the kind of mass matrix. Out: elements, mass matrix and elimination order.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -9,13 +9,14 @@
 
 namespace frond {
 
-// What follows from the elements.
+// Sets what follows from the elements.
 static void finish(System& system, frond_mass mass) {
     system.masses = system.row->masses(*system.elements, mass);
     const std::vector<double>& ratio = system.elements->damping_ratio;
     system.damps_alike = std::adjacent_find(ratio.begin(), ratio.end(), std::not_equal_to<>()) == ratio.end();
 
-    // A node without elements would make the matrix singular. Rotations have no mass but inertia, and go with places.
+    // A node without elements would make the matrix singular. Rotations have inertia instead of mass, and are loose
+    // with their positions.
     const BlockPattern& pattern = system.elements->pattern;
     const int step = system.row->moves_chain ? 2 : 1;
     system.loose.assign(size_t(system.elements->node_count), 0);

@@ -1,16 +1,16 @@
 // In: an implicit stage. Out: its velocities, by Newton's method.
 //
 // The first solve takes forces and stiffness at the start of the step and extrapolates them (Baraff, Witkin 1998);
-// alone it is the paper's step. Its stiffness is the positive one, which always points downhill. Further solves use the
-// exact stiffness, which converges quadratically, and fall back to the positive one when that has no factor. A line
+// alone it is the paper's step. Its stiffness is the positive one, whose directions always descend. Further solves use
+// the exact stiffness, which converges quadratically, and fall back to the positive one if that has no factor. A line
 // search keeps them from making the residual and the stage's potential both larger.
 //
-// Without what tension adds to the stiffness, what hangs swings ever farther in steps of rods that are longer than it
-// takes to swing. The one solve of such a step takes the exact stiffness, and goes no farther than pieces turn little;
-// where that has no factor and the positive one leads far, the line search finds the way.
+// Without the stiffness that tension adds, hanging parts of rods swing ever farther in steps longer than their period.
+// The one solve of such a step takes the exact stiffness, and is shortened to the trust bound; if that has no factor
+// and the positive one leads beyond the bound, a line search takes over.
 //
-// D = mass_damping M + stiffness_damping K, K being the positive stiffness at the start of the step, and an element's
-// own damping times its part of K: it never feeds energy and does not resist turning as a whole.
+// D = mass_damping M + stiffness_damping K plus each element's own damping times its part of K, K being the positive
+// stiffness at the start of the step: it never adds energy and does not resist rotation as a whole.
 #include <algorithm>
 #include <cmath>
 
@@ -31,28 +31,28 @@ struct Newton {
     const System& system;
     const Mechanics& body;
     double rayleigh;    // workspace.damping_scale [s]
-    int iterations;     // at most
-    bool apart;         // elements damp each in its own way: the damping is not a multiple of the stiffness
-    bool keep_damping;  // the damping is needed besides the stiffness
-    bool is_long;       // the step is longer than what hangs takes to swing, and has one solve
-    bool exact;         // the first solve takes the exact stiffness, the damping still the positive one
+    int iterations;     // most Newton iterations
+    bool apart;         // elements differ in damping ratio: the damping is not a multiple of the stiffness
+    bool keep_damping;  // the damping matrix is needed besides the stiffness
+    bool is_long;       // the step is longer than the period of hanging parts, and has one solve
+    bool exact;         // the first solve uses the exact stiffness, the damping still the positive one
     bool skipped;       // the first solve was left to the line search
-    bool at_once;       // the mechanics give right side and matrix of the only solve in one pass
-    int most_work;      // in report.work; 0: any
+    bool at_once;       // the mechanics assemble right-hand side and matrix of the only solve in one pass
+    int most_work;      // limit of report.work; 0: none
 };
 
-// A factor takes as long as so many evaluations of the forces, about.
+// Approximate cost of a factor, in evaluations of the forces.
 constexpr int WORK_OF_FACTOR = 4;
 bool is_spent(const Newton& n) {
     return n.most_work > 0 && n.report.work >= n.most_work;
 }
 
-// Where the stage ends with velocities v.
+// Sets w.x to the end of the stage with velocities v.
 void move(const Newton& n, const VecX& v) {
     n.w.x = n.stage.x_base + n.stage.step * v;
 }
 
-// Everything of the residual that does not come from K: step * f + impulse - M (v - v_base) - step * a M v.
+// Computes the residual without the terms of K: step * f + impulse - M (v - v_base) - step * a M v.
 void start_residual(const Newton& n, const VecX& v, VecX& rhs) {
     const double step = n.stage.step;
     rhs = n.w.external + n.w.elastic;
@@ -65,7 +65,7 @@ void start_residual(const Newton& n, const VecX& v, VecX& rhs) {
     rhs += n.w.momentum;
 }
 
-// Nodes whose velocity is given do not count.
+// Returns the norm over nodes that are not held.
 double free_norm(const Newton& n, const VecX& rhs) {
     double sum = 0;
     for (int i = 0; i < n.system.elements->node_count; ++i)
@@ -73,13 +73,13 @@ double free_norm(const Newton& n, const VecX& rhs) {
     return std::sqrt(sum);
 }
 
-// A wild guess is worse than none.
+// Returns the predicted positions if they are within the trust bound, else the start of the step.
 const VecX& linearized_from(const Newton& n) {
     const VecX& start = n.input.motion.x;
     return &n.stage.x_from == &start || is_calm(n.system, start, n.stage.x_from) ? n.stage.x_from : start;
 }
 
-// Force and stiffness at x_from, extrapolated to the end of the stage with the velocities known so far.
+// Computes force and stiffness at x_from, extrapolated to the end of the stage with the velocities known so far.
 void linearize_at_start(Newton& n) {
     Workspace& w = n.w;
     const auto assemble = [&](const VecX& x) {
@@ -105,7 +105,7 @@ void linearize_at_start(Newton& n) {
         return start_residual(n, w.v, w.rhs);
     }
     assemble(from);
-    const bool is_multiple = !n.apart && !n.exact;  // the damping, of this stiffness
+    const bool is_multiple = !n.apart && !n.exact;  // the damping is a multiple of this stiffness
     if (!n.apart && (n.exact || n.keep_damping)) w.damping = w.A;
     if (n.exact) {
         w.A.set_zero();
@@ -120,7 +120,8 @@ void linearize_at_start(Newton& n) {
     w.rhs -= n.stage.step * n.rayleigh * w.product;
 }
 
-// The residual at the end of the stage with velocities v; leaves its elastic force and positions in the workspace.
+// Computes the residual at the end of the stage with velocities v and returns its norm; leaves elastic force and
+// positions in the workspace.
 double residual_at(Newton& n, const VecX& v, VecX& rhs) {
     Workspace& w = n.w;
     n.report.work++;
@@ -135,7 +136,7 @@ double residual_at(Newton& n, const VecX& v, VecX& rhs) {
     return free_norm(n, rhs);
 }
 
-// The stage's solution is where this is least: minus its gradient by v is the residual.
+// Returns the stage's potential, which is least at the solution: minus its gradient by v is the residual.
 double potential_at(const Newton& n, const VecX& v) {
     Workspace& w = n.w;
     const double step = n.stage.step, a = n.input.settings.mass_damping;
@@ -166,8 +167,8 @@ void add_mass(const Masses& masses, double scale, BlockMatrix& A) {
         for (int k = 0; k < pattern.block_count(); ++k) add(k);
 }
 
-// A = (1 + step a) M + step^2 K + step b K_damping + springs + drags. `first`: K is the one at the start of the step,
-// of which the damping is a multiple unless elements damp each in its own way.
+// Forms A = (1 + step a) M + step^2 K + step b K_damping + springs + drags. `first`: K is the one at the start of the
+// step, of which the damping is a multiple unless elements differ in damping ratio.
 void form_matrix(Newton& n, bool first) {
     BlockMatrix& A = n.w.A;
     const double step = n.stage.step, mass = 1 + step * n.input.settings.mass_damping;
@@ -183,7 +184,7 @@ void form_matrix(Newton& n, bool first) {
     add_drag_damping(n.input.loads.drags, n.w.x, step, A);
 }
 
-// Rows and columns of held nodes become the identity, so that the pattern stays: their velocities are known already.
+// Makes rows and columns of held nodes, whose velocities are known, the identity, so that the pattern stays.
 void hold(Newton& n) {
     Workspace& w = n.w;
     const BlockPattern& pattern = *w.A.pattern;
@@ -199,7 +200,7 @@ void hold(Newton& n) {
         if (w.held[size_t(i)]) point(w.rhs, i).setZero();
 }
 
-// dv from the matrix in A and the right side.
+// Solves for dv with the matrix in A and the right-hand side.
 bool solve_linear(Newton& n) {
     const SolveSettings& s = n.input.settings;
     const LinearResult result =
@@ -210,7 +211,7 @@ bool solve_linear(Newton& n) {
     return result.ok;
 }
 
-// A direction from the stiffness at the velocities so far: exact, or positive where that has no factor.
+// Finds a direction by the stiffness at the current velocities: exact, or positive if the exact one has no factor.
 bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
     for (;;) {
         Timer timer;
@@ -230,7 +231,7 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
     }
 }
 
-// Goes along dv as far as that makes the residual or the potential smaller; false if nothing does.
+// Goes along dv as far as the residual or the potential decreases; returns false if neither does.
 bool search_line(Newton& n, VecX& rhs, double& norm) {
     constexpr int HALVINGS = 12;
     Workspace& w = n.w;
@@ -259,8 +260,9 @@ bool search_line(Newton& n, VecX& rhs, double& norm) {
     return false;
 }
 
-// Where a way straight on would wind pieces up, a search from there ends in another valley than where the plant is, or
-// not at all: then it begins at rest, and ends with no more energy than the step began with and was given.
+// Starts the search at rest if the potential is less there. If straight motion would wind segments up, a search from
+// its end reaches another minimum than the plant's, or none; from rest it ends with no more energy than the step began
+// with and was given.
 void stand_still_if_better(Newton& n) {
     Workspace& w = n.w;
     const double moving = potential_at(n, w.v);
@@ -292,9 +294,9 @@ bool ends_calmly(Newton& n, double part) {
     return is_calm(n.system, n.input.motion.x, n.w.x);
 }
 
-// The first solve, which is all there is with one iteration. Returns the norm of its right side, negative on failure.
+// Does the first solve, the only one with one iteration. Returns the norm of its right-hand side, negative on failure.
 double solve_first(Newton& n) {
-    constexpr double LEAST = 1.0 / 64;  // of a way that is shortened until pieces turn little [-]
+    constexpr double LEAST = 1.0 / 64;  // smallest share to which a solve is shortened for the trust bound [-]
     Timer timer;
     linearize_at_start(n);
     if (n.input.settings.careful || (n.body.needs_search && n.report.inverted > 0)) {
@@ -319,13 +321,13 @@ double solve_first(Newton& n) {
     return norm;
 }
 
-// A change of the nodes' places that counts as none, as a share of the plant's size: what follows it is smaller still.
+// Change of the positions that counts as none, as a share of the plant's size: the next one would be smaller still.
 constexpr double TINY = 1e-11;
-// A change of more than the plant's size: where not even a small part of it makes anything better, there is no way, as
-// for what is drawn out many times.
+// A change of more than the plant's size: if not even a small part of it makes anything better, the search has failed,
+// as it does for a plant stretched to many times its length.
 constexpr double FAR = 1;
 
-// Further solves until the residual is small against the first one, or steps are at the end of what double resolves.
+// Does further solves until the residual is small against the first one, or changes reach the resolution of double.
 bool iterate(Newton& n, double first) {
     const SolveSettings& s = n.input.settings;
     Workspace& w = n.w;
@@ -344,7 +346,7 @@ bool iterate(Newton& n, double first) {
         change = w.dv.cwiseAbs().maxCoeff() * n.stage.step;
         const bool better = search_line(n, rhs, norm);
         n.report.ms_assembly += timer.lap();
-        // The exact stiffness may lead to a place where nothing gets better; the positive one goes downhill.
+        // The exact stiffness may give a direction that does not descend; the positive one's does.
         if (!better && tangent == Tangent::positive) {
             n.report.converged = change <= TINY * n.system.size;
             return has_moved || change <= FAR * n.system.size;

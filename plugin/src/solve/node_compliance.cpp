@@ -1,4 +1,4 @@
-// In: a step that was just taken, and a few nodes. Out: how velocities at one push answer to impulses at another.
+// In: a step just taken, and a few nodes. Out: their compliance, velocities at one push by impulses at another.
 #include "solve/node_compliance.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool make_compliance(Workspace& workspace, const SolveSettings& settings, const 
         return compliance.right.allFinite();
     }
 
-    // Whole solves, direction by direction.
+    // Does whole solves, direction by direction.
     std::sort(free.begin(), free.end(), [](const NodeBlock& a, const NodeBlock& b) { return a.node < b.node; });
     compliance.rows.clear();
     compliance.left.resize(3, 3 * Eigen::Index(free.size()));
@@ -52,7 +52,7 @@ void add_compliances(const std::vector<const NodeCompliance*>& at, const NodeCom
     }
     const Eigen::Matrix3Xd& right = whole ? by.right : spread;
     for (size_t i = 0; i < at.size(); ++i) {
-        double sum[9] = {};  // kept in registers, which a matrix is not
+        double sum[9] = {};  // an array stays in registers, a matrix does not
         const double* left = at[i]->left.data();
         for (const int row : at[i]->rows) {
             const double* other = right.data() + 3 * row;

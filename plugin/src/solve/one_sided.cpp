@@ -1,7 +1,7 @@
-// In: W and b of one-sided rows. Out: p, the least of p'Wp/2 - b'p that pulls nowhere the wrong way, by active sets
-// (Lawson, Hanson 1974, "Solving least squares problems", chapter 23): rows that pull are solved as equations; on the
-// way to that, those that would push leave, then violated ones join. A few times all of them at once, which is quick
-// and mostly enough; then one by one, where each round makes it less, so that it ends.
+// In: W and b of one-sided rows. Out: the p >= 0 that minimises p'Wp/2 - b'p, by active sets (Lawson, Hanson 1974,
+// "Solving least squares problems", chapter 23): rows that pull are solved as equations; rows that would push leave on
+// the way to that, then violated ones join. In the first rounds all of them join at once, which is quick and mostly
+// enough; then one by one, which reduces the objective in each round, so that it ends.
 #include "solve/one_sided.hpp"
 
 #include <Eigen/Cholesky>
@@ -12,7 +12,8 @@ namespace frond {
 
 namespace {
 
-// Goes from p towards the solution on the rows that pull, as far as none pushes; these leave. False if there is none.
+// Moves p towards the solution on the rows that pull, as far as none pushes; rows that would push leave. Returns false
+// if there is no solution.
 bool solve_on(const Eigen::MatrixXd& W, const VecX& b, std::vector<Eigen::Index>& pulling, VecX& p) {
     while (true) {
         const Eigen::LLT<Eigen::MatrixXd> factor(W(pulling, pulling));
@@ -40,7 +41,7 @@ bool solve_on(const Eigen::MatrixXd& W, const VecX& b, std::vector<Eigen::Index>
 }  // namespace
 
 bool solve_one_sided(const Eigen::MatrixXd& W, const VecX& b, VecX& p) {
-    constexpr int EAGER = 6;  // rounds in which all that are violated join
+    constexpr int EAGER = 6;  // rounds in which all violated rows join
     const Eigen::Index count = b.size();
     const double rounding = 1e-9 * (count > 0 ? b.cwiseAbs().maxCoeff() : 0);
     std::vector<Eigen::Index> pulling;

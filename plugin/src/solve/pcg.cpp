@@ -10,7 +10,7 @@ namespace {
 
 enum class Outcome { small, limit, broken };
 
-// From x with residual r = b - A x until |r| is at most `goal`, going by the recurrence for r.
+// Iterates from x with residual r = b - A x until |r|, by the recurrence for r, is at most `goal`.
 Outcome iterate(const Preconditioner& preconditioner, const BlockMatrix& A, double goal, int max_iterations,
                 LinearScratch& s, VecX& x, int& iterations) {
     VecX &r = s.residual, &z = s.preconditioned, &p = s.direction, &q = s.product;

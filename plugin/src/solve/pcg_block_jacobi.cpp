@@ -7,7 +7,7 @@ namespace frond {
 
 namespace {
 
-// False if a block of the diagonal is not positive definite.
+// Returns false if a block of the diagonal is not positive definite.
 bool invert_blocks(const BlockMatrix& A, LinearScratch& scratch) {
     const BlockPattern& pattern = *A.pattern;
     scratch.inverse_blocks.resize(9 * size_t(pattern.node_count));

@@ -1,7 +1,7 @@
 // Conjugate gradients preconditioned by an incomplete Cholesky factor on the matrix's own pattern of 3x3 blocks, IC(0)
-// (Meijerink, van der Vorst 1977). Where a block of the diagonal is no longer positive on the way, all begins anew with
-// a larger shift of the diagonal (Manteuffel 1980, "An incomplete factorization technique for positive definite linear
-// systems").
+// (Meijerink, van der Vorst 1977). If a block of the diagonal stops being positive definite, factorization starts anew
+// with a larger shift of the diagonal (Manteuffel 1980, "An incomplete factorization technique for positive definite
+// linear systems").
 #include <Eigen/Cholesky>
 
 #include "solve/preconditioner.hpp"
@@ -10,8 +10,8 @@ namespace frond {
 
 namespace {
 
-// One column at a time: its own factor, then what it takes from the columns to its right. In `values` the blocks below
-// the diagonal become those of L; of those on the diagonal the inverse is kept.
+// Factorizes a column at a time and subtracts its products from the columns to its right. Blocks below the diagonal in
+// `values` become those of L; blocks on the diagonal become the inverses of L's.
 bool factorize_in_place(const BlockPattern& pattern, std::vector<double>& values) {
     const auto block = [&](int slot) { return Eigen::Map<Mat3>(values.data() + 9 * size_t(slot)); };
     for (int k = 0; k < pattern.node_count; ++k) {
@@ -23,7 +23,7 @@ bool factorize_in_place(const BlockPattern& pattern, std::vector<double>& values
         block(begin) = inverse;
         for (int s = begin + 1; s < end; ++s) block(s) = Mat3(block(s) * inverse.transpose());
 
-        // Only blocks that the pattern has: both columns are in order, so one pass finds them.
+        // Updates only blocks of the pattern: both columns are in order, so one pass finds them.
         for (int s = begin + 1; s < end; ++s) {
             const int j = pattern.row[size_t(s)], last = pattern.start[size_t(j) + 1];
             const Mat3 right = block(s).transpose();
@@ -38,7 +38,7 @@ bool factorize_in_place(const BlockPattern& pattern, std::vector<double>& values
     return true;
 }
 
-// False if no shift helps, or a block of the diagonal is not positive from the start.
+// Returns false if no shift helps, or a block of the diagonal is not positive definite from the start.
 bool factorize_incompletely(const BlockMatrix& A, LinearScratch& scratch) {
     constexpr double FIRST_SHIFT = 1e-3, LAST_SHIFT = 10;
     const BlockPattern& pattern = *A.pattern;
@@ -56,7 +56,7 @@ bool factorize_incompletely(const BlockMatrix& A, LinearScratch& scratch) {
     return false;
 }
 
-// z = L^-T L^-1 r
+// Computes z = L^-T L^-1 r.
 void apply_incomplete_factor(const BlockMatrix& A, const LinearScratch& scratch, const VecX& r, VecX& z) {
     const BlockPattern& pattern = *A.pattern;
     const auto block = [&](int slot) { return Eigen::Map<const Mat3>(scratch.incomplete.data() + 9 * size_t(slot)); };

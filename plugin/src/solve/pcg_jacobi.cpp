@@ -7,7 +7,7 @@ namespace frond {
 
 namespace {
 
-// False if a number of the diagonal is not above zero.
+// Returns false if a number of the diagonal is not above zero.
 bool invert_diagonal(const BlockMatrix& A, LinearScratch& scratch) {
     const BlockPattern& pattern = *A.pattern;
     VecX& inverse = scratch.inverse_diagonal;

@@ -1,5 +1,4 @@
-// In: touches that overlap and how they are coupled. Out: impulses of places, by projected Gauss-Seidel along the
-// normals.
+// In: overlapping contacts and their coupling. Out: impulses on positions, by projected Gauss-Seidel along the normals.
 #include "solve/position_correction.hpp"
 
 #include <algorithm>
@@ -14,10 +13,10 @@ struct Along {
     double compliance;  // along the other's normal, by an impulse along this one's [1/kg]
 };
 
-// A touch whose impulse has ever changed.
+// Row of W of a contact, filled when its impulse first changes.
 struct Row {
     bool known = false;
-    double own = 0, compliance = 0;  // what it answers to itself along the normal and in all [1/kg]
+    double own = 0, compliance = 0;  // compliance to its own impulse, along the normal and in all directions [1/kg]
     std::vector<Along> others;
 };
 
@@ -44,7 +43,7 @@ const Row& row_of(CorrectionSearch& search, int i) {
     return row;
 }
 
-// A round over an island's touches; returns whether another one is of use.
+// Does a round over an island's contacts; returns whether another one is of use.
 bool sweep(CorrectionSearch& search, const std::vector<int>& island, double tolerance, double unfelt) {
     constexpr double IMMOVABLE = 1e-12;  // [1/kg]
     double most = 0, largest = 0, speed = 0;

@@ -6,9 +6,9 @@
 namespace frond {
 
 struct Preconditioner {
-    // From A, into the solver's scratch space; false if A is found not to be positive definite, or not finite.
+    // Makes it from A in the solver's scratch; returns false if A is found not to be positive definite, or not finite.
     bool (*make)(const BlockMatrix& A, LinearScratch& scratch);
-    // z = P^-1 r
+    // Computes z = P^-1 r.
     void (*apply)(const BlockMatrix& A, const LinearScratch& scratch, const VecX& r, VecX& z);
 };
 

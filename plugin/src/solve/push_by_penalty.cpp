@@ -1,9 +1,10 @@
-// In: touches that come nearer or overlap. Out: impulses of springs between them, found in a few rounds.
+// In: contacts that approach or overlap. Out: impulses of springs at them, found in a few rounds.
 //
-// A spring of stiffness k that is h further along in time: p = h k (depth - h v) for the velocity v along the normal
-// that all springs together leave, W p of them. That is a touch which gives by p / (h^2 k), so no k is too stiff:
-// without end the bodies just stop and part. Rounds go from touch to touch, each spring with what the others push by
-// then, and end early: what is left is for the next steps. Plants that overlap part by shifts, as with impulses.
+// A spring of stiffness k is implicit in time: p = h k (depth - h v) for the velocity v along the normal that remains
+// after the impulses of all springs, W p. That is a contact with a compliance of 1 / (h^2 k), so no k is too stiff:
+// with infinite k the bodies just stop and part. Rounds go from contact to contact, each spring with the others'
+// current impulses, and end early: the rest is left to the next steps. Plants that overlap part by position correction,
+// as with impulses.
 #include <algorithm>
 #include <cmath>
 
@@ -14,8 +15,8 @@ namespace frond {
 namespace {
 
 struct ContactSpring {
-    Mat3 own = Mat3::Zero();       // what the touch answers to itself [1/kg]
-    double along = 0, across = 0;  // of that; across no less than any direction's
+    Mat3 own = Mat3::Zero();       // compliance of the contact to its own impulse [1/kg]
+    double along = 0, across = 0;  // normal part, and a bound of the tangential part
     bool known = false;
 };
 
@@ -31,14 +32,15 @@ const ContactSpring& spring_of(std::vector<ContactSpring>& springs, const Touch&
     return spring;
 }
 
-// How fast a spring without end wants them to part; plants that overlap only stop, as shifts part them.
+// Returns the velocity at which an infinitely stiff spring would part them; plants that overlap only stop, since
+// position correction parts them.
 double wanted_speed(const Touch& touch, double h) {
-    constexpr double FASTEST = 0.3;  // that a spring lets overlapping bodies part [m/s]
+    constexpr double FASTEST = 0.3;  // velocity at which a spring parts overlapping bodies [m/s]
     return touch.least_correction == Touch::NO_CORRECTION ? std::min(touch.depth / h, FASTEST)
                                                           : std::min(touch.depth, 0.0) / h;
 }
 
-// What one spring pushes in place of `before`, with all others as they are.
+// Returns the impulse of one spring in place of `before`, with all others as they are.
 Vec3 pushed(const Touch& touch, const ContactSpring& spring, Vec3 velocity, const Vec3& before,
             const ResponseSettings& settings) {
     if (touch.is_bond) return before + firm_inverse(spring.own) * (touch.wanted - velocity);
@@ -46,7 +48,7 @@ Vec3 pushed(const Touch& touch, const ContactSpring& spring, Vec3 velocity, cons
     const double push_before = before.dot(touch.normal);
     const double lacking = wanted_speed(touch, settings.h) - velocity.dot(touch.normal) - give * push_before;
     const double push = std::max(0.0, push_before + lacking / (spring.along + give));
-    // Friction stops the sliding that is left, as far as it can.
+    // Friction stops the remaining sliding, as far as it can.
     velocity += spring.own * ((push - push_before) * touch.normal);
     const Vec3 sliding = velocity - velocity.dot(touch.normal) * touch.normal;
     Vec3 hold = before - push_before * touch.normal;

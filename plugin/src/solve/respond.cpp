@@ -1,5 +1,4 @@
-// In: a step that was just taken, and impulses that it did not know of. Out: how velocities and places at its end
-// change.
+// In: a step just taken, and impulses that it did not include. Out: the change of velocities and positions at its end.
 #include "solve/integrator.hpp"
 
 namespace frond {

@@ -1,4 +1,4 @@
-// The table of responses: one row for each name in FROND_RESPONSES; what needs impulses alone stands here.
+// The table of responses: one row for each name in FROND_RESPONSES; and the response by impulses.
 #include "solve/position_correction.hpp"
 
 namespace frond {
@@ -13,11 +13,11 @@ const ResponseRow& response_row(frond_response which) {
     return TABLE[which];
 }
 
-// Velocities first. Then places, as if all were at rest and smooth, so that what parts gets no energy of motion.
+// Finds velocities first, then positions as if all rested without friction, so that parting adds no kinetic energy.
 void push_by_impulse(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
                      Pushes& out) {
     out.corrections.clear();
-    constexpr double MOVES = 1e-5;  // what is not felt [m/s]
+    constexpr double MOVES = 1e-5;  // change of velocity that is neglected [m/s]
     find_impulses(touches, coupling, settings.limits, out.impulses, MOVES);
     correct_positions(touches, coupling, settings, out.corrections);
 }

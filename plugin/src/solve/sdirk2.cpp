@@ -1,6 +1,6 @@
 // SDIRK2 (Alexander 1977, "Diagonally implicit Runge-Kutta methods for stiff ODEs"): two implicit stages with
 // g = 1 - 1/sqrt 2, the second one at the end of the step; stable at any step (L-stable). Each stage has its own
-// factor. What is pushed by contacts goes by implicit Euler.
+// factor. Plants that contacts push are stepped by implicit Euler.
 #include <cmath>
 
 #include "solve/integrator.hpp"

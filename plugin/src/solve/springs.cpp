@@ -1,4 +1,4 @@
-// In: springs and where the nodes are. Out: their energy 1/2 k |p - target|^2, its force and stiffness.
+// In: springs and positions of the nodes. Out: their energy 1/2 k |p - target|^2, its force and stiffness.
 #include "solve/springs.hpp"
 
 #include <cmath>

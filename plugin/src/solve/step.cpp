@@ -1,4 +1,4 @@
-// In: a plant's motion, what acts on it and a time h. Out: its motion h later, or the same motion and ok = false.
+// In: a plant's motion, its loads and a time h. Out: its motion h later, or the same motion and ok = false.
 #include <cmath>
 #include <cstring>
 #include <tuple>
@@ -11,7 +11,7 @@ namespace frond {
 
 namespace {
 
-// Sizes fit and what acts is finite; what is not would only come back as NaN after an expensive step.
+// Returns whether sizes fit and loads are finite; others would only give NaN after an expensive step.
 bool input_is_sound(const System& system, const StepInput& input) {
     const SolveSettings& s = input.settings;
     const Eigen::Index n = 3 * Eigen::Index(system.elements->node_count);
@@ -25,8 +25,8 @@ bool input_is_sound(const System& system, const StepInput& input) {
            drags_are_sound(system, input.loads.drags);
 }
 
-// What does not change during a step: which nodes are held and how they move, and the forces that do not depend on the
-// motion.
+// Sets what does not change during a step: which nodes are held and how they move, and the forces that do not depend on
+// the motion.
 void prepare(Workspace& workspace, const StepInput& input) {
     const System& system = *workspace.system;
     const Motion& motion = input.motion;
@@ -47,14 +47,14 @@ void prepare(Workspace& workspace, const StepInput& input) {
         point(workspace.external, i) += system.masses.node[i] * input.loads.gravity;
 }
 
-// Stiffness-proportional damping: the same for all elements, or each its own in a matrix apart.
+// Sets stiffness-proportional damping: the same for all elements, or each element's own in a separate matrix.
 void prepare_damping(Workspace& workspace, const SolveSettings& settings) {
     const System& system = *workspace.system;
     workspace.damping_scale = damping_of(system, settings, workspace.element_damping);
     if (!workspace.element_damping.empty()) workspace.damping.set_pattern(system.elements->pattern);
 }
 
-// Pinned nodes are where they were told to be, to the last bit, with the velocity that took them there.
+// Puts pinned nodes at their targets, to the last bit, with the velocity that took them there.
 void finish_pins(Workspace& workspace, const Motion& motion) {
     const int count = int(motion.pinned.size());
     for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1)) {
@@ -63,7 +63,7 @@ void finish_pins(Workspace& workspace, const Motion& motion) {
     }
 }
 
-// The start of this step becomes the past of the next one.
+// Keeps this step as the history of the next one.
 void keep_history(Workspace& workspace, const StepInput& input, Motion& motion) {
     History& history = motion.history;
     const bool was_valid = history.valid;
@@ -135,7 +135,7 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     if (!input_is_sound(*workspace.system, input)) return report;
     const Integrator& method = integrator(settings.integrator);
     const bool goes_on = method.looks_back && history_holds(motion, settings.integrator, h);
-    if (!goes_on && !(are_finite(motion.x) && are_finite(motion.v))) return report;  // what a step left is
+    if (!goes_on && !(are_finite(motion.x) && are_finite(motion.v))) return report;  // after a step they are
     prepare(workspace, input);
     prepare_damping(workspace, settings);
     motion.history.valid = goes_on;

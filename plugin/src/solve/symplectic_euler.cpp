@@ -1,7 +1,6 @@
-// Symplectic Euler, explicit: M (v' - v) = h (f - D v), x' = x + h v'. Keeps the energy of slow motion well and costs
+// Symplectic Euler, explicit: M (v' - v) = h (f - D v), x' = x + h v'. Keeps the energy of slow motion well and needs
 // no factor, but is stable only below h = 2 / (highest frequency), which for a plant is some microseconds: it is here
-// to show that. Drags, which may be stiffer still, are taken implicitly: M + h D in place of M, D lumped as the mass
-// is.
+// to show that. Drags, which may be stiffer still, are implicit: M + h D in place of M, D lumped as the mass is.
 #include <Eigen/Cholesky>
 
 #include "core/timer.hpp"
@@ -12,7 +11,7 @@ namespace frond {
 
 namespace {
 
-// A consistent mass has a factor after all; held nodes are left out as in a stage.
+// A consistent mass matrix needs a factor after all; held nodes are left out as in a stage.
 bool solve_mass(Workspace& w, const StepInput& input, SolveReport& report) {
     const BlockPattern& pattern = w.system->elements->pattern;
     w.A.set_zero();

@@ -1,4 +1,4 @@
-// System: what all plants of one model share for solving. Read-only once made.
+// System: data for solving that all plants of one model share. Read-only once made.
 #pragma once
 
 #include "solve/block_factor.hpp"
@@ -12,13 +12,13 @@ struct System {
     std::unique_ptr<const Elements> elements;
     Masses masses;
     bool damps_alike = true;     // all elements have the same damping ratio
-    std::vector<uint8_t> loose;  // one a node: no element holds it
+    std::vector<uint8_t> loose;  // one a node: it belongs to no element
     double size = 0;             // longest side of the box around the nodes at rest [m]
     BlockPlan plan;
-    std::vector<Attachment> chain;  // of a cage: what each chain node follows
+    std::vector<Attachment> chain;  // attachment of each chain node of a cage
 };
 
-// y = M v, with the rotary inertia of nodes that turn, if there are any.
+// Computes y = M v, with the rotary inertia of nodes that rotate, if there are any.
 void multiply_mass(const System& system, const std::vector<Mat3>& inertia, const VecX& v, VecX& y);
 
 }  // namespace frond

@@ -1,7 +1,7 @@
 // TR-BDF2 (Bank et al. 1985; Hosea, Shampine 1996, "Analysis and implementation of TR-BDF2"): the trapezoidal rule over
-// g h with g = 2 - sqrt 2, then BDF2 from both ends of that to the end of the step; L-stable. Both stages have the
-// same length g h / 2, yet each has its own factor: with the first one's in the second it blows up. What moves
-// too wildly for forces at its start to tell where it goes, goes by SDIRK2, as does what is pushed by contacts.
+// g h with g = 2 - sqrt 2, then BDF2 from both ends of that to the end of the step; L-stable. Both stages have the same
+// length g h / 2, yet each has its own factor: with the first one's in the second it blows up. Motion outside the trust
+// bound is stepped by SDIRK2, as are plants that contacts push.
 #include <cmath>
 
 #include "solve/integrator.hpp"

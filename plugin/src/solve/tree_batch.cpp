@@ -1,5 +1,5 @@
-// In: matrices of a tree's pattern, one a lane. Out: factors and solutions. tree_factor.cpp adds up rows in lanes of
-// their own; here the same numbers are added in the same order.
+// In: matrices of a tree's pattern, one a lane. Out: factors and solutions. tree_factor.cpp has the numbers of a row in
+// lanes; here the same numbers are added in the same order.
 #include "solve/tree_batch.hpp"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace frond {
 
 namespace {
 
-constexpr int OWN = 0, TO_PARENT = 36, INVERSE = 72, NUMBERS = 78;  // of a pair
+constexpr int OWN = 0, TO_PARENT = 36, INVERSE = 72, NUMBERS = 78;  // offsets and count of a pair's numbers
 
 template <class S>
 FROND_INLINE const double* entry_at(const BlockMatrix& A, int slot, int i) {
@@ -23,26 +23,26 @@ FROND_INLINE S entry(const BlockMatrix& A, int slot, int i) {
     return load<S>(entry_at<S>(A, slot, i));
 }
 
-// a . b as lanes within a row add it up.
+// Returns a . b, summed in the order of the lanes of a row in tree_factor.cpp.
 template <class S>
 FROND_INLINE S dot_of_six(const S* a, const S* b) {
     const S even = (a[0] * b[0] + a[2] * b[2]) + a[4] * b[4], odd = (a[1] * b[1] + a[3] * b[3]) + a[5] * b[5];
     return even + odd;
 }
 
-// Unrolled by hand, as it were: six numbers stay in registers only if loops over them are gone.
+// All loops are unrolled: only then do six numbers stay in registers.
 struct FactorizeTreeBatch {
     const TreePlan& plan;
     const BlockMatrix& A;
     double* numbers;
-    uint8_t* begun;  // of pairs: what is below them has changed them
+    uint8_t* begun;  // one a pair: the elimination of a child has changed it
     unsigned& failed;
 
     template <class S>
     FROND_INLINE double* of(size_t pair, int first) const {
         return numbers + LANES<S> * (NUMBERS * pair + size_t(first));
     }
-    // (r, c) of a pair's own block, as far as pairs below it are eliminated. Only what is right of the diagonal counts.
+    // Returns entry (r, c) of a pair's own block, with the children eliminated so far. Only the upper triangle counts.
     template <class S>
     FROND_INLINE S own_now(size_t i, int r, int c) const {
         const std::array<int, 3>& slots = plan.pairs[i].own;
@@ -51,7 +51,7 @@ struct FactorizeTreeBatch {
                        : c < 3  ? entry_at<S>(A, slots[0], r + 3 * c)
                                 : entry_at<S>(A, slots[1], 3 * r + c - 3));
     }
-    // Becomes L', its inverse pivots beside it. Returns what was sound, and is no more where a pivot is none.
+    // Factorizes a pair's own block to L', with inverse pivots beside it. Returns lanes of `before` with valid pivots.
     template <class S>
     FROND_INLINE S factorize_own(size_t i, S (&own)[SIX][SIX], S (&inverse)[SIX], const S& before) const {
         S sound = before;
@@ -64,7 +64,7 @@ struct FactorizeTreeBatch {
         for (int k = 0; k < SIX; ++k) {
             const S d = own[k][k];
             inverse[k] = 1.0 / d;
-            // Above zero and not infinite, which would make this product none.
+            // The pivot is above zero and finite: an infinite one would make this product NaN.
             sound = select(inverse[k] > 0.0, select(d * inverse[k] > 0.0, sound, S{}), S{});
 #pragma GCC unroll 6
             for (int r = k + 1; r < SIX; ++r) {
@@ -81,7 +81,7 @@ struct FactorizeTreeBatch {
         }
         return sound;
     }
-    // Column by column of its block with the parent.
+    // Eliminates a pair, column by column of its block with the parent.
     template <class S>
     FROND_INLINE void eliminate(size_t i, const S (&own)[SIX][SIX], const S (&inverse)[SIX]) const {
         const TreePlan::Pair& place = plan.pairs[i];
@@ -211,7 +211,7 @@ struct FindResiduals {
             for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
                 const int i = pattern.row[size_t(k)];
                 const double* a = A.values.data() + LANES<S> * 9 * size_t(k);
-                // By columns: what is read as rows is the block turned over.
+                // Blocks are stored by columns, so read as rows this is the transpose.
                 const Lanes33<S> over = {{load3<S>(a, 0), load3<S>(a, 3), load3<S>(a, 6)}};
                 if (i == j) {
                     left_j = left_j - transposed_times(over, x_j);
@@ -237,7 +237,7 @@ struct FindResiduals {
 
 }  // namespace
 
-// Of the numbers of matrices side by side.
+// Returns the number of lanes of batched matrices.
 static int lanes_of(const BlockMatrix& A) {
     return int(A.values.size() / (9 * size_t(A.pattern->block_count())));
 }

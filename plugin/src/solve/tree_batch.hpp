@@ -1,5 +1,5 @@
-// TreeBatch: factors of the matrices of several plants abreast, of the pattern of one tree (tree_factor.hpp), to the
-// last bit as of each alone.
+// TreeBatch: factors of a batch of matrices with the pattern of one tree (tree_factor.hpp), each the same to the last
+// bit as alone.
 #pragma once
 
 #include "solve/tree_factor.hpp"
@@ -8,15 +8,15 @@ namespace frond {
 
 struct TreeBatch {
     int lanes = 0;
-    NumbersInLines numbers;      // of a pair: L' of its own, row by row, L' to its parent, and 1 / D
-    std::vector<uint8_t> begun;  // room
+    NumbersInLines numbers;      // for each pair: its own L', row by row, L' to its parent, and 1 / D
+    std::vector<uint8_t> begun;  // scratch
 };
 
-// Returns the lanes whose matrix is not positive definite, a bit each.
+// Returns a bit for each lane whose matrix is not positive definite.
 unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeBatch& factor);
-// x = A^-1 b
+// Computes x = A^-1 b.
 void solve(const TreePlan& plan, const TreeBatch& factor, const NumbersInLines& b, NumbersInLines& x);
-// |b - A x| / |b| of each lane; `left` is room.
+// Computes |b - A x| / |b| of each lane; `left` is scratch.
 void relative_residuals(const BlockMatrix& A, const NumbersInLines& b, const NumbersInLines& x, NumbersInLines& left,
                         double* out);
 

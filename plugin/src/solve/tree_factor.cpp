@@ -1,7 +1,7 @@
-// In: a symmetric matrix over pairs of nodes that hang together as a tree. Out: its factors L D L^T and solutions.
+// In: a symmetric matrix over pairs of nodes connected as a tree. Out: its factors L D L^T and solutions.
 //
-// Eliminated from the tips to the root a tree fills nothing in (Parter 1961, "The use of linear graphs in Gauss
-// elimination"), so that all there is are dense blocks of six by six: one of each pair's own, one to its parent.
+// A tree eliminated from the tips to the root has no fill (Parter 1961, "The use of linear graphs in Gauss
+// elimination"), so that the factor is dense blocks of six by six: each pair's own, and one to its parent.
 #include "solve/tree_factor.hpp"
 
 #include <algorithm>
@@ -47,21 +47,21 @@ struct Six<FourLanes> {
     }
 };
 
-// The 3x3 block of a matrix, which is stored by columns, at (r, c) of one of six by six.
+// Puts a 3x3 block of a matrix, which is stored by columns, at (r, c) of a 6x6 block.
 void put(const BlockMatrix& A, int slot, int r, int c, Block& out) {
     const double* from = A.values.data() + 9 * size_t(std::max(slot, 0));
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) out[r + i][c + j] = slot < 0 ? 0.0 : from[i + 3 * j];
 }
 
-// The same, turned over.
+// The same, transposed.
 void put_transposed(const BlockMatrix& A, int slot, int r, int c, Block& out) {
     const double* from = A.values.data() + 9 * size_t(std::max(slot, 0));
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) out[r + i][c + j] = slot < 0 ? 0.0 : from[3 * i + j];
 }
 
-// Of a pair's own block only what is right of the diagonal counts; it becomes L' and D.
+// Factorizes a pair's own block, of which only the upper triangle counts, to L' and D.
 template <class S>
 FROND_INLINE bool factorize_own(TreeFactor::Pair& pair) {
     Block& a = pair.own;
@@ -82,8 +82,7 @@ FROND_INLINE bool factorize_own(TreeFactor::Pair& pair) {
     return true;
 }
 
-// What the pair's elimination takes off its parent's own block, C' A^-1 C, C being its block with the parent; C becomes
-// D^-1 L^-1 C.
+// Eliminates a pair with the block C to its parent: subtracts C' A^-1 C from the parent's own; C becomes D^-1 L^-1 C.
 template <class S>
 FROND_INLINE void eliminate(TreeFactor::Pair& pair, Block& parent) {
     Block &C = pair.to_parent, over;
@@ -214,7 +213,7 @@ void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<Node
         factor.reached.assign(count, 0);
         factor.sparse.setZero(3, Eigen::Index(SIX * count));
     }
-    // Pairs that are not zero: on the paths from the given ones to their roots.
+    // Only pairs on the paths from the given ones to their roots are not zero.
     std::vector<int> path;
     for (const NodeBlock& given : right_side) {
         for (int r = 0; r < 3; ++r) factor.sparse.col(3 * given.node + r) += given.block.row(r).transpose();

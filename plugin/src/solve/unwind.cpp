@@ -1,5 +1,5 @@
-// In: the motion of nodes that turn. Out: the same motion, no rotation vector longer than half a turn: beyond that it
-// changes too fast with the rotation, and at a whole turn it has no rate.
+// In: the motion of nodes that rotate. Out: the same motion, no rotation vector longer than half a turn: beyond that it
+// changes too fast with the rotation, and at a whole turn its rate is undefined.
 #include <cmath>
 #include <initializer_list>
 
@@ -8,7 +8,7 @@
 
 namespace frond {
 
-// The same rotation as a vector within half a turn; `rates` of the vector keep their angular velocities.
+// Replaces a rotation vector by its equivalent within half a turn; `rates` of it keep their angular velocities.
 static void turn_back(VecX& x, int node, std::initializer_list<VecX*> rates) {
     const Vec3 turn = point(x, node);
     const double angle = turn.norm(), whole = 2 * M_PI * std::round(angle / (2 * M_PI));
@@ -26,7 +26,7 @@ void unwind(Motion& motion) {
         if (point(motion.x, node).squaredNorm() <= M_PI * M_PI) continue;
         turn_back(motion.x, node, {&motion.v});
         if (!history.valid) continue;
-        // A node at rest half a turn back would lose its direction: its past is dropped with everybody's.
+        // A past rotation vector near zero has no axis to rotate it about: the history of all nodes is dropped.
         if (point(history.x_prev, node).squaredNorm() < 1) {
             history.valid = false;
             continue;

@@ -1,4 +1,4 @@
-// Making and freeing a plant's workspace.
+// Makes and frees a plant's workspace.
 #include "solve/workspace.hpp"
 
 #include "core/error.hpp"

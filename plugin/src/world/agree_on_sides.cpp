@@ -1,4 +1,4 @@
-// In: contacts of the last substep and of this one. Out: of this one's, those whose pieces agree on a side.
+// In: contacts of the last substep and of this one. Out: this substep's contacts whose regions agree on a side.
 #include "world/agree_on_sides.hpp"
 
 #include <algorithm>
@@ -11,12 +11,12 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-using Piece = std::array<int, 2>;     // a plant's number and its piece's
-using Pieces = std::array<Piece, 2>;  // the lower one first
+using Piece = std::array<int, 2>;     // plant number and region number
+using Pieces = std::array<Piece, 2>;  // lower one first
 
 struct Sided {
     Pieces pieces;
-    Vec3 way;  // along which the lower piece leaves the other, as long as they are in each other [m]
+    Vec3 way;  // exit direction of the lower region from the other one, times the overlap's depth [m]
 };
 Sided sided(const PlantContact& contact) {
     const Piece first = {contact.plants[0]->number, contact.sides[0].piece};
@@ -37,11 +37,11 @@ Ways ways_of(const std::vector<const PlantContact*>& contacts) {
     return ways;
 }
 
-// Where nothing is known from the last substep, or the pieces are deep in each other and what agrees with that is
-// shallow against what does not, the deepest counts.
+// Takes the deepest contact's direction for pairs without one from the last substep, and for pairs that overlap deeply
+// if the contacts against their last direction are much deeper than those along it.
 void overrule(const std::vector<PlantContact>& contacts, Ways& ways) {
     constexpr double FAR = 2, DEEP = 0.005;         // [-], [m]
-    std::map<Pieces, std::array<Vec3, 2>> deepest;  // with and against what is known
+    std::map<Pieces, std::array<Vec3, 2>> deepest;  // along and against the last direction
     for (const PlantContact& contact : contacts) {
         if (contact.depth <= 0) continue;
         const Sided of = sided(contact);

@@ -1,4 +1,4 @@
-// Which way a piece of a plant leaves a piece of another one, where its points want to leave on both sides.
+// Chooses the side on which two regions of plants separate, where their contacts point to both sides.
 #pragma once
 
 #include "world/plant_contact.hpp"
@@ -6,9 +6,9 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// A point that has nearly gone through a blade is told to leave at the far side, and then holds in what has not;
-// branches that cross were so pressed from both sides for ever. Two pieces leave each other on the side of the last
-// substep, or on that of what is deepest; contacts that want the other side are dropped.
+// Two regions separate on the side of the last substep, or on that of their deepest contact; contacts that point to the
+// other side are dropped. Otherwise a point that has nearly passed through a blade would leave on the far side and hold
+// in the points that have not: branches that cross would be pressed from both sides for ever.
 void agree_on_sides(const std::vector<const PlantContact*>& last, std::vector<PlantContact>& contacts);
 
 }  // namespace FROND_BULLET_PRECISION

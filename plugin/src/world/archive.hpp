@@ -1,4 +1,4 @@
-// Archive: numbers to bytes, or the same bytes to the same numbers, by one description of what there is.
+// Archive: writes numbers to bytes, or reads them back, by one description of the data.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ public:
         check_row(number, values);
         value = T(number);
     }
-    // Any byte but zero is true.
+    // Reads any byte but zero as true.
     void operator()(bool& value) {
         uint8_t byte = !is_reading && value;
         copy(&byte, 1);
@@ -59,7 +59,7 @@ public:
 private:
     void copy(void* value, size_t size);
     void check_row(int row, int rows);
-    // How many follow, each of so many bytes or more.
+    // Writes or reads the number of elements that follow, each of at least `least` bytes.
     size_t count(size_t written, size_t least);
 
     const uint8_t* in = nullptr;
@@ -67,7 +67,7 @@ private:
     bool is_reading = false;
 };
 
-// Plain numbers in lists; other things have their own.
+// Visits plain numbers in lists; other types have overloads of their own.
 template <class T>
 std::enable_if_t<std::is_arithmetic_v<T>> visit(Archive& archive, T& value) {
     archive(value);
@@ -76,7 +76,7 @@ inline void visit(Archive& archive, Vec3& value) {
     archive(value);
 }
 
-// FNV-1a.
+// Computes the FNV-1a hash of the bytes.
 uint64_t checksum_of(const uint8_t* bytes, size_t count);
 
 }  // namespace frond

@@ -8,7 +8,7 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// How joints and base answer to impulses at the point, by the articulated inertia of Bullet's last step.
+// Computes Jacobians and unit responses of joints and base at the point, by the inertia of Bullet's last step.
 static void prepare_link(ContactBody& contact_body) {
     btMultiBody& body = *contact_body.link->m_multiBody;
     const size_t count = size_t(body.getNumDofs()) + 6;
@@ -33,7 +33,7 @@ static void prepare_link(ContactBody& contact_body) {
 }
 
 void wake(btCollisionObject& object, const Vec3& normal, const Vec3& plant_velocity) {
-    constexpr double SLOW = 0.02;  // what rests on a plant that hardly moves sleeps on [m/s]
+    constexpr double SLOW = 0.02;  // speed of the plant up to which a body that rests on it sleeps on [m/s]
     if (object.isActive() || object.isStaticOrKinematicObject()) return;
     if (plant_velocity.dot(normal) < -SLOW) object.activate();
 }
@@ -53,7 +53,7 @@ ContactBody make_contact_body(btCollisionObject& object, const Vec3& point, doub
     if (!rigid) return contact_body;
     contact_body.velocity =
         from_bullet(rigid->getVelocityInLocalPoint(to_bullet(point) - rigid->getCenterOfMassPosition()));
-    // One that sleeps is as good as nailed down until it is woken.
+    // A sleeping body acts as a static one until it is woken.
     if (rigid->isStaticOrKinematicObject() || !rigid->isActive()) return contact_body;
     contact_body.rigid = rigid;
     contact_body.velocity += h * from_bullet(rigid->getGravity());

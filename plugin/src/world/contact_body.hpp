@@ -1,5 +1,5 @@
-// ContactBody: the other side of a contact, a body of the host's: rigid, a link of a multi-body, or one that nothing
-// moves.
+// ContactBody: the body on the other side of a plant's contact: a rigid body, a link of a multi-body, or an immovable
+// object.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -16,17 +16,17 @@ inline namespace FROND_BULLET_PRECISION {
 
 struct ContactBody {
     btCollisionObject* object;
-    btRigidBody* rigid = nullptr;  // that impulses move
+    btRigidBody* rigid = nullptr;  // the body, if impulses move it
     btMultiBodyLinkCollider* link = nullptr;
-    Vec3 point, velocity;  // where it is touched, and how fast that moves [m], [m/s]
-    std::array<std::vector<btScalar>, 3> jacobian, unit_responses;  // of a multi-body, along the world's axes
+    Vec3 point, velocity;                                           // contact point and its velocity [m], [m/s]
+    std::array<std::vector<btScalar>, 3> jacobian, unit_responses;  // a multi-body's, for each axis of the world
 };
 
-// Wakes a body that sleeps in the way of a plant that moves there; `normal` points to the plant.
+// Wakes a sleeping body if the plant moves towards it; `normal` points to the plant.
 void wake(btCollisionObject& object, const Vec3& normal, const Vec3& plant_velocity);
-// With what gravity adds to a free body's velocity before it next moves, in h [s].
+// Makes a contact body at a point. A free body's velocity includes what gravity adds in its next step of h [s].
 ContactBody make_contact_body(btCollisionObject& object, const Vec3& point, double h);
-// Velocity at one by an impulse at the other [1/kg]; zero unless they are of one body that moves.
+// Returns the velocity at `at` by a unit impulse at `by` [1/kg]; zero unless both are on the same movable body.
 Mat3 compliance_between(const ContactBody& at, const ContactBody& by);
 void take_impulse(ContactBody& contact_body, const Vec3& impulse);
 

@@ -1,5 +1,5 @@
-// ContactIsland: contacts and bonds that have to do with each other, through a plant or a body that can be pushed, and
-// with none of another island: so each can be answered by a thread of its own.
+// ContactIsland: contacts and bonds that are coupled through plants or movable bodies, and are independent of all other
+// islands, so that each island can be solved by a thread of its own.
 #pragma once
 
 #include "world/bond.hpp"
@@ -9,8 +9,8 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 struct ContactIsland {
-    std::vector<PlantBody*> plants;  // each at its PlantBody::place
-    // The world's, in its order.
+    std::vector<PlantBody*> plants;  // each at index PlantBody::place
+    // Pointers into the world's lists, in their order.
     std::vector<Contact*> with_bodies;
     std::vector<PlantContact*> with_plants;
     std::vector<Bond*> bonds;

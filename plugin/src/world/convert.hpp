@@ -1,4 +1,4 @@
-// Bullet's vectors and ours.
+// Conversion between Bullet's vectors and Eigen's.
 #pragma once
 
 #include <LinearMath/btVector3.h>

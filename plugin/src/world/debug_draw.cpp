@@ -1,5 +1,5 @@
-// Shows plants to a host's btIDebugDraw in debugDrawWorld. Bullet itself draws the capsules, as it draws any
-// shape; this adds the cages' edges (DBG_DrawWireframe) and, where plants are touched, points, normals and impulses
+// Draws plants by a host's btIDebugDraw in debugDrawWorld. Bullet itself draws the capsules, as it draws any shape;
+// this adds the cages' edges (DBG_DrawWireframe) and the contacts' points, normals and impulses
 // (DBG_DrawContactPoints).
 #include <LinearMath/btIDebugDraw.h>
 
@@ -22,7 +22,7 @@ static void draw_cage(PlantBody& body, btIDebugDraw& drawer) {
         drawer.drawLine(to_bullet(node_place(plant, a)), to_bullet(node_place(plant, b)), green);
 }
 
-// As long as the force would be at a newton a centimetre.
+// Draws a contact, and its mean force over the substep at a centimetre per newton.
 static void draw_contact(const Vec3& point, const Vec3& normal, double gap, const Vec3& impulse, double h,
                          btIDebugDraw& drawer) {
     constexpr double METRES_A_NEWTON = 0.01;

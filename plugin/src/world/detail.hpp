@@ -1,4 +1,4 @@
-// Detail: how much of each plant of a world is simulated, by its distance and by what time there is.
+// Detail: how much of each plant of a world is simulated, by its distance and the time available.
 #pragma once
 
 #include "core/types.hpp"
@@ -15,21 +15,21 @@ struct Detail {
     frond_detail_def def;
     Vec3 viewer = Vec3::Zero();
     bool has_viewer = false;
-    // The measured time that steps take.
-    double ms_of[2] = {0.05, 0.05};  // a plant in full, as rods [ms]
-    double overhead = 1.3;           // time of a substep over that of its plants' steps [-]
-    double room = 1;                 // of the budget that is planned with: what the other three cannot tell [-]
+    // Measured step times.
+    double ms_of[2] = {0.05, 0.05};  // time of a plant's step in full and as rods [ms]
+    double overhead = 1.3;           // time of a substep over the sum of its plants' steps [-]
+    double room = 1;                 // factor on the planned budget, for what the other three do not predict [-]
 };
 
-// Null ends it. `def` has been checked by the caller.
+// Sets the distances of detail; null ends it. The caller has checked `def`.
 void set_detail(World& world, const frond_detail_def* def);
-// Tells whether a plant that sleeps is so far away that nothing wakes it.
+// Returns whether a sleeping plant is so far away that nothing wakes it.
 bool is_still(const World& world, const PlantBody& body);
-// A plant is simulated again, until its detail is chosen anew.
+// Ends a plant's modal motion: it is simulated until its detail is chosen again.
 void end_sway(PlantBody& body);
-// Before plants are stepped: gives those that are awake their detail.
+// Gives each plant that is awake its detail. Call it before plants are stepped.
 void choose_details(World& world);
-// After a substep: how long it took.
+// Updates the measured times. Call it after a substep.
 void learn_times(World& world);
 // Returns the detail that the plant has, or should have when it wakes.
 frond_detail detail_of(const World& world, const PlantBody& body);

@@ -1,8 +1,8 @@
-// In: where plants and the viewer are, and the time that steps took. Out: the detail of each plant that is awake.
+// In: places of plants and the viewer, and measured step times. Out: the detail of each plant that is awake.
 //
-// Distances decide, with hysteresis. With a budget the plants that are nearest are planned first, each with the time
-// that it took lately, until the budget is used up; from there on plants only sway. What is planned follows what is
-// measured, quickly down and slowly up, so that the steps of a crowd that comes in are too long once or twice at most.
+// Distances decide, with hysteresis. With a budget the nearest plants are planned first, each with its recently
+// measured time, until the budget is used up; all farther ones are modal. The planned time follows the measured one,
+// quickly down and slowly up, so that steps are too long once or twice at most when a crowd of plants comes near.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// Of a plant that must move as the host wants it.
+// Returns whether forces, grabs, bonds, fragments or pins other than the model's roots require a plant to be simulated.
 bool is_used_by_host(const World& world, const PlantBody& body) {
     const Plant& plant = *body.plant;
     return plant.has_user_force || !plant.grabs.empty() || !plant.fragments.empty() || plant.pins_are_own ||
@@ -25,7 +25,7 @@ bool is_used_by_host(const World& world, const PlantBody& body) {
 double distance_of(const World& world, const PlantBody& body) {
     const Detail& detail = *world.detail;
     if (!detail.has_viewer) return 0;
-    // Of its capsules as modelled.
+    // The middle of its capsules as modelled.
     btVector3 lower, upper;
     body.hull->rest->btCompoundShape::getAabb(btTransform::getIdentity(), lower, upper);
     const Vec3 middle = body.plant->to_world(0.5 * (from_bullet(lower) + from_bullet(upper)));
@@ -51,13 +51,13 @@ frond_mechanics mechanics_for(const PlantBody& body, frond_detail detail) {
     return detail == FROND_DETAIL_FULL || mechanics(own).moves_chain ? own : FROND_MECHANICS_ROD;
 }
 
-// What slept has no swing, whatever it had before.
+// Returns whether a plant has this detail. After sleep it has no modal motion, whatever it had before.
 bool is_given(const PlantBody& body, frond_detail detail) {
     const Plant& plant = *body.plant;
     return is_simulated(detail) == !plant.modal && plant.which == mechanics_for(body, detail);
 }
 
-// Goes over to another detail, from where the plant is.
+// Changes the plant's detail, from its present shape and motion.
 void give(PlantBody& body, frond_detail wanted) {
     Plant& plant = *body.plant;
     Level& level = body.level;
@@ -74,15 +74,15 @@ void give(PlantBody& body, frond_detail wanted) {
     level.now = wanted;
 }
 
-// Estimates the time that a step of it will take in a detail [ms].
+// Estimates a plant's time per substep in a detail [ms].
 double cost_of(const Detail& detail, const PlantBody& body, frond_detail wanted) {
     const double ms = wanted == body.level.now && body.level.ms > 0 ? double(body.level.ms) : detail.ms_of[int(wanted)];
     return ms / body.level.every;
 }
 
-// Returns the detail that the budget allows; `left` is the time that is not planned yet [ms].
+// Returns the detail that the budget allows; `left` is the time not yet planned [ms].
 frond_detail affordable(const Detail& detail, const PlantBody& body, frond_detail wanted, double& left) {
-    constexpr double KEEP = 0.7;  // of what is left, that a plant which gets more detail must find room in [-]
+    constexpr double KEEP = 0.7;  // share of the time left that a plant may take when it gets more detail [-]
     for (; is_simulated(wanted); wanted = frond_detail(wanted + 1)) {
         const double cost = cost_of(detail, body, wanted), room = wanted >= body.level.now ? left : KEEP * left;
         if (cost > room) continue;
@@ -127,8 +127,8 @@ void choose_details(World& world) {
     if (!world.detail) return;
     const Detail& detail = *world.detail;
     const frond_detail_def& def = detail.def;
-    constexpr double SAFE = 0.75;  // of the budget, for what cannot be foreseen [-]
-    constexpr int MOST = 2;        // plants that go over between cage and chain in a substep with a budget
+    constexpr double SAFE = 0.75;  // share of the budget that is planned; the rest is a margin [-]
+    constexpr int MOST = 2;        // plants that change between cage and chain in a substep with a budget
     std::vector<PlantBody*> order = world.awake;
     for (PlantBody* body : order) body->level.distance = float(distance_of(world, *body));
     const bool is_limited = def.budget > 0;
@@ -156,9 +156,9 @@ void choose_details(World& world) {
 void learn_times(World& world) {
     if (!world.detail) return;
     Detail& detail = *world.detail;
-    constexpr double LEAST = 0.05;                     // that tells anything [ms]
+    constexpr double LEAST = 0.05;                     // shortest time that is significant [ms]
     constexpr double SLOWLY = 0.1, MOST_OVERHEAD = 3;  // [-]
-    // Up as slowly that a step in fifty, of those that go beyond the budget, is one too many [-].
+    // UP is so slow that about one step in fifty exceeds the budget [-].
     constexpr double DOWN = 0.8, UP = 1.005, FULL = 0.8, LEAST_ROOM = 0.02, MOST_ROOM = 3;
     double sum[2] = {}, count[2] = {};
     for (const PlantBody* body : world.awake) {

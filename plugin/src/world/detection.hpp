@@ -1,5 +1,5 @@
-// Detection: whether Bullet looks for contacts for a step, or for somebody who asks it between two. It sets its own
-// count of steps to 0 before it does in a step, and never reads it; Frond sets it to something else afterwards.
+// Detection: whether Bullet detects collisions for a step, or for a query between two steps. Bullet sets m_stepCount to
+// 0 before it does so in a step, and never reads it; Frond sets it to another value afterwards.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>

@@ -1,6 +1,6 @@
-// In: contacts of a substep. Out: the events of those that were none in the substep before.
+// In: contacts of a substep. Out: events of those that did not exist in the substep before.
 //
-// A contact is one from when it pushes or overlaps until the search does not see it any more, so that what rests on a
+// A contact exists from when it pushes or overlaps until the search no longer finds it, so that a body that rests on a
 // plant does not begin to touch it again and again.
 #include "world/events.hpp"
 
@@ -13,7 +13,7 @@ inline namespace FROND_BULLET_PRECISION {
 
 void add_event(World& world, frond_event event, const PlantBody& body, int capsule) {
     constexpr size_t MOST = 65536;
-    if (!world.events.are_kept || !body.handle.id) return;  // nobody asks, or a plant that the host never got
+    if (!world.events.are_kept || !body.handle.id) return;  // not requested, or the host has no handle of the plant
     std::deque<frond_event_info>& list = world.events.list;
     if (list.size() == MOST) list.pop_front();
     const double time = world.time + (world.is_stepping ? world.substep_length : 0);
@@ -28,7 +28,7 @@ struct TouchedPair {
     bool pushes;
 };
 
-// Both sides of a contact of two plants, one of a plant with itself.
+// Lists both sides of contacts of two plants, and one side of contacts of a plant with itself.
 std::vector<TouchedPair> list_touches(const World& world) {
     std::vector<TouchedPair> list;
     for (const Contact& c : world.contacts)

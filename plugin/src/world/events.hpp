@@ -1,4 +1,4 @@
-// Events: what happened to plants since the host asked last.
+// Events: what happened to plants since the host last took the events.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -15,7 +15,7 @@ struct World;
 struct PlantBody;
 
 struct Events {
-    // A plant and what touches it. A body may be gone: it is only compared.
+    // A plant and what touches it. A body may be gone: only its address is compared.
     struct Touching {
         const PlantBody* plant;
         const btCollisionObject* other;
@@ -24,15 +24,15 @@ struct Events {
             return plant != b.plant ? std::less<>()(plant, b.plant) : std::less<>()(other, b.other);
         }
     };
-    bool are_kept = false;  // the host has asked for them
+    bool are_kept = false;  // the host has requested them
     std::deque<frond_event_info> list;
-    std::vector<Touching> touching;  // in the last substep, sorted; those of sleepers stay
+    std::vector<Touching> touching;  // pairs in the last substep, sorted; pairs of sleepers stay
 };
 
 void add_event(World& world, frond_event event, const PlantBody& body, int capsule = -1);
-// After a substep: who began to touch whom.
+// Adds the events of touches that began in the last substep.
 void note_touching(World& world);
-// A plant leaves the world, and with it what happened to it.
+// Removes the events and touches of a plant that leaves the world.
 void forget_events(World& world, const PlantBody& body);
 
 }  // namespace FROND_BULLET_PRECISION

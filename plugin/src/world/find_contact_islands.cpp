@@ -1,5 +1,5 @@
-// In: contacts and bonds of a world. Out: its islands of them, in the order in which their first contacts come. What
-// nothing can push joins nothing.
+// In: contacts and bonds of a world. Out: its contact islands, in the order of their first contacts. Immovable bodies
+// join no islands.
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <unordered_map>
@@ -13,13 +13,13 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// Returns the object that moves when this one is pushed: itself, or a multi-body with all its links. Null: nothing.
+// Returns the object that moves when this one is pushed: itself, or a multi-body with all its links; null if none.
 const void* pushed_with(const btCollisionObject& object) {
     if (const auto* link = btMultiBodyLinkCollider::upcast(&object)) return link->m_multiBody;
     return object.isStaticOrKinematicObject() ? nullptr : &object;
 }
 
-// Plants by their numbers, then bodies as they come.
+// Members of islands: plants by their numbers, then bodies in the order in which they occur.
 struct Members {
     UnionFind sets;
     size_t count;

@@ -1,7 +1,7 @@
-// In: where bodies and capsules are, and what Bullet's broad and narrow phase found. Out: contacts.
+// In: places of bodies and capsules, and the results of Bullet's broad and narrow phase. Out: contacts.
 //
 // Bullet keeps contact points of earlier substeps, whose side on the plant is stale since capsules move within their
-// compound. So a point tells only where the other body is touched; how far that is from the capsule is worked out anew.
+// compound. So only the point on the other body is used; its distance from the capsule is computed anew.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ bool is_plane(const btCollisionObject& object) {
 
 namespace {
 
-// GImpact meshes do not say which of the compound's children they met.
+// Finds the capsule nearest to p: GImpact meshes do not report which of the compound's children they met.
 int nearest_capsule(const PlantBody& body, const Vec3& p) {
     int nearest = -1;
     double least = INFINITY;
@@ -44,13 +44,13 @@ int nearest_capsule(const PlantBody& body, const Vec3& p) {
     return nearest;
 }
 
-// Bullet multiplies the coefficients of two bodies. An infinite gap: none.
+// Makes the contact of a body's point with a capsule; an infinite gap means none. Friction is multiplied, as in Bullet.
 Contact contact_at(PlantBody& body, int capsule, btCollisionObject& other, const Vec3& on_other, const Vec3& towards) {
     const OnCore core = nearest_on_core(body, capsule, on_other);
     const double radius = radius_of(body, capsule);
     const Vec3 way = core.point - on_other;
     const double distance = way.norm();
-    // Where the body's point is past the core, the way out is the one that Bullet found.
+    // Where the body's point is past the core, the exit direction is Bullet's.
     constexpr double SIDEWAYS = 0.2;
     const bool outside = way.dot(towards) > SIDEWAYS * distance;
     const Vec3 normal = outside ? Vec3(way / distance) : towards;
@@ -76,12 +76,12 @@ void add_contact(PlantBody& body, int capsule, btCollisionObject& other, const V
     if (contact.gap < FAR) contacts.push_back(contact);
 }
 
-// A capsule in whose place a plate is touched.
+// Returns whether a child is a capsule that a plate replaces in contact.
 bool is_covered(const PlantBody& body, int child) {
     return child >= 0 && size_t(child) < body.capsules().size() && body.hull->flats[size_t(child)].half_width > 0;
 }
 
-// Those of planes were made for somebody who asked between steps.
+// Adds a manifold's contacts. Manifolds of planes are skipped: they were made for queries between steps.
 void add_manifold(World& world, const btPersistentManifold& manifold, std::vector<Contact>& contacts) {
     auto* first = const_cast<btCollisionObject*>(manifold.getBody0());
     auto* second = const_cast<btCollisionObject*>(manifold.getBody1());
@@ -91,9 +91,9 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
     btCollisionObject* other = plant_first ? second : first;
     if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other) || is_plane(*other)) return;
     if (body->rest.asleep && !is_moving(*other)) return;
-    // Those that sway are only asked whether they are touched: as they were put last is near enough.
+    // Modal plants are only checked for touch: their last pose is near enough.
     if (!body->plant->modal) look_at(*body);
-    std::vector<int> plates;  // whose corners are in it
+    std::vector<int> plates;  // plates whose corners have been added
     for (int i = 0; i < manifold.getNumContacts(); i++) {
         const btManifoldPoint& p = manifold.getContactPoint(i);
         const btVector3 on_other = other->getWorldTransform() * (plant_first ? p.m_localPointB : p.m_localPointA);
@@ -111,7 +111,7 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
     }
 }
 
-// All pieces of this world's plants in the way of a shape.
+// Adds contacts of all segments of this world's plants that a moving shape hits.
 struct Sweep : btCollisionWorld::ConvexResultCallback {
     World& world;
     btCollisionObject& other;
@@ -147,7 +147,7 @@ struct Sweep : btCollisionWorld::ConvexResultCallback {
         contact.across = core.across;
         contact.gap = std::max(0.0, passed.dot(contact.normal));
         contacts.push_back(contact);
-        return 1;  // go on: every piece in the way counts
+        return 1;  // continue: every segment that is hit counts
     }
 };
 
@@ -168,9 +168,10 @@ void sweep_shape(World& world, btCollisionObject& object, const btCollisionShape
     world.bullet->convexSweepTest(static_cast<const btConvexShape*>(&shape), from, to, sweep);
 }
 
-// What Bullet's narrow phase does not tell: of bodies that go farther in a step than a stem is thick, and of planes.
+// Adds contacts that Bullet's narrow phase misses: of bodies that move farther in a step than a stem is thick, and of
+// planes.
 void add_fast_bodies_and_planes(World& world, double h, std::vector<Contact>& contacts) {
-    constexpr double FAR = 0.005;  // in a step [m]
+    constexpr double FAR = 0.005;  // displacement in a step beyond which a body is swept [m]
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     std::vector<const btCollisionObject*>& plants = world.plants_at;
     plants.resize(size_t(objects.size()));
@@ -198,8 +199,8 @@ void add_fast_bodies_and_planes(World& world, double h, std::vector<Contact>& co
     }
 }
 
-// How deep capsules are in what does not move when their plant is new counts as no depth later. Those whose axis is in
-// it, roots in the ground, do not touch it at all.
+// Subtracts from overlaps with bodies at rest the depth that they had when the plant was new. Capsules whose axis was
+// inside, such as roots in the ground, do not touch the body at all.
 void discount_grown_in(std::vector<Contact>& contacts) {
     for (Contact& contact : contacts) {
         std::unique_ptr<GrownIn>& grown_in = contact.plant->grown_in;
@@ -220,7 +221,7 @@ void discount_grown_in(std::vector<Contact>& contacts) {
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_far), contacts.end());
 }
 
-// The chain nodes from one to its root.
+// Marks the chain nodes from one to its root.
 std::vector<uint8_t> path_down(const Plant& plant, int chain_node) {
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
     std::vector<uint8_t> path(nodes.size(), 0);
@@ -228,7 +229,7 @@ std::vector<uint8_t> path_down(const Plant& plant, int chain_node) {
     return path;
 }
 
-// How a body pushes a stem: 1 along it and away from its root, -1 towards that, 0 across.
+// Returns how a body pushes a stem: 1 along it and away from its root, -1 towards the root, 0 across.
 int way_along(const Contact& contact) {
     constexpr double ALONG = 0.5;  // cosine
     const Plant& plant = *contact.plant->plant;
@@ -238,7 +239,7 @@ int way_along(const Contact& contact) {
     return along > least ? 1 : along < -least ? -1 : 0;
 }
 
-// Of what is held: 2 where the capsule itself is, 1 where it grows out of that.
+// Returns how pins hold a capsule: 2 at one of its own nodes, 1 farther down towards the root, 0 not at all.
 int how_held(const Plant& plant, int capsule) {
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
     const std::vector<uint8_t> path = path_down(plant, end);
@@ -250,10 +251,10 @@ int how_held(const Plant& plant, int capsule) {
     return held;
 }
 
-// Where a stem is held, what moves as it likes would only draw it out by pushing it along itself; or press it together,
-// where the stem goes through that and is held beyond, there and above.
+// Drops contacts by which a static or kinematic body pushes a held stem along its own axis: they would only stretch the
+// stem, or compress it where it passes through the body and is held beyond. Contacts farther up the stem go with them.
 void drop_what_draws_out(std::vector<Contact>& contacts) {
-    constexpr double AXIS = 0.9;  // share of the radius from which on the axis counts as reached
+    constexpr double AXIS = 0.9;  // depth from which the axis counts as reached, over the radius [-]
     std::vector<Contact> useless;
     for (const Contact& contact : contacts) {
         if (!contact.other->isStaticOrKinematicObject()) continue;
@@ -261,7 +262,7 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
         if (way == 0) continue;
         const double radius = radius_of(*contact.plant, contact.capsule);
         const bool goes_through = contact.gap < -AXIS * radius;
-        const bool may_lift = way > 0 && contact.other->isKinematicObject();  // what is static lifts nothing
+        const bool may_lift = way > 0 && contact.other->isKinematicObject();  // static bodies lift nothing
         if (!goes_through && !may_lift) continue;
         if (how_held(*contact.plant->plant, contact.capsule) >= (goes_through ? 1 : 2)) useless.push_back(contact);
     }

@@ -1,9 +1,9 @@
-// In: a world of Frond's own. Out: the same without what Bullet knows from earlier steps: pairs, their order, contact
+// In: a world of Frond's own. Out: the same without Bullet's memory of earlier steps: pairs, their order, contact
 // points and the impulses at them.
 //
-// Bullet's broad phase, and each compound, is a tree that each step changes a little, and pairs and points come and go
-// in its order, which the solver's depends on. All objects leave it and come back in the order in which they are in the
-// world, with compounds that are new.
+// Bullet's broad phase and each compound are trees that every step changes a little. Pairs and points follow their
+// order, on which the solver depends. So all objects leave the broad phase and enter it again in the order in which
+// they are in the world, with new compounds.
 #include "world/own_bullet.hpp"
 #include "world/world.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 struct Filter {
     int group, mask, number;
-    bool is_in;  // the broad phase
+    bool is_in;  // in the broad phase
 };
 
 Filter leave(World& world, btCollisionObject& object) {
@@ -50,9 +50,9 @@ void find_contacts_anew(World& world) {
     if (!world.own) return;
     btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     std::vector<Filter> filters;
-    std::map<const btCollisionObject*, std::array<int, 2>> numbers;  // in the broad phase, before and then
+    std::map<const btCollisionObject*, std::array<int, 2>> numbers;  // in the broad phase, before and after
     const bool was_stepping = world.is_stepping;
-    world.is_stepping = true;  // boxes are asked for, but no step begins
+    world.is_stepping = true;  // boxes are requested, but no step begins
     for (int i = 0; i < objects.size(); i++) filters.push_back(leave(world, *objects[i]));
     world.own->broadphase.resetPool(&world.own->dispatcher);
     for (const auto& body : world.bodies) renew_shape(*body);
@@ -66,7 +66,7 @@ void find_contacts_anew(World& world) {
     compress_looked_at(world);
     world.own->solver.reset();
 
-    // Overlaps with which plants were made are stored by those numbers.
+    // Overlaps from when plants were made are stored by those numbers.
     for (const auto& body : world.bodies) {
         if (!body->grown_in) continue;
         GrownIn kept;

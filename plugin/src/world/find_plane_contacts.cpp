@@ -1,7 +1,7 @@
-// In: an infinite plane, and where plants are. Out: their contacts with it.
+// In: an infinite plane, and plants in their places. Out: their contacts with it.
 //
-// Bullet gives a plane a box without end, so its narrow phase would look at every piece of each plant that is awake,
-// and keep an algorithm and a manifold for each. Here a piece that is not near it costs two products.
+// Bullet gives a plane an infinite box, so its narrow phase would test every segment of each plant that is awake, and
+// keep an algorithm and a manifold for each. Here a segment that is not near the plane costs two products.
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// From which height on a piece is told of: one that rests, one over a plane that moves, and any [m].
+// Height below which a contact is reported: for a node at rest, over a plane that moves, and at most [m].
 constexpr double NEAR = 0.004, MOVING = 0.05, FAR = 0.2;
 
 // A plane in a plant's own frame.
@@ -37,7 +37,7 @@ Plane plane_for(const Plant& plant, btCollisionObject& object, bool moves) {
     return {object, normal, plant.rotation.conjugate() * normal, offset, moves};
 }
 
-// As Bullet asks before it looks closer, but for what a plant answers of planes.
+// Returns whether Bullet's narrow phase would test the pair, apart from PlantBody's own exclusion of planes.
 bool may_meet(const World& world, const PlantBody& body, const btCollisionObject& plane) {
     btBroadphaseProxy *of_body = const_cast<btBroadphaseProxy*>(body.getBroadphaseHandle()),
                       *of_plane = const_cast<btBroadphaseProxy*>(plane.getBroadphaseHandle());
@@ -45,12 +45,12 @@ bool may_meet(const World& world, const PlantBody& body, const btCollisionObject
            body.btSoftBody::checkCollideWithOverride(&plane) && plane.checkCollideWith(&body);
 }
 
-// Held nodes cannot be pushed.
+// Returns whether a node is held and so cannot be pushed.
 bool is_held_node(const Plant& plant, int node) {
     return plant.follow && plant.motion.pinned[2 * size_t(node)];
 }
 
-// Below which height a chain's node is told of: where it may get within two steps.
+// Returns the height below which a chain node is reported: it may reach the plane within two steps [m].
 double reach_of(const Plant& plant, const Plane& plane, int node, double h) {
     if (plane.moves || plant.modal) return MOVING;
     const Motion& motion = plant.motion;
@@ -59,7 +59,7 @@ double reach_of(const Plant& plant, const Plane& plane, int node, double h) {
     return std::min(NEAR + 2 * h * std::max(0.0, -plane.normal.dot(velocity)), FAR);
 }
 
-// Of a piece at one of its nodes, the rim's two corners there where it is flat.
+// Adds the contact of a segment at one of its nodes, or those of a plate's two corners there.
 void add_at_node(PlantBody& body, int capsule, double along, double reach, const Plane& plane,
                  std::vector<Contact>& contacts) {
     const Plant& plant = *body.plant;
@@ -92,7 +92,7 @@ void add_at_node(PlantBody& body, int capsule, double along, double reach, const
     }
 }
 
-// Each node with the piece that ends there, roots with those that begin there.
+// Adds the contacts of each node as the end of its segment, and of roots as the beginning of theirs.
 void add_pieces(PlantBody& body, const Plane& plane, double h, std::vector<Contact>& contacts) {
     const Plant& plant = *body.plant;
     for (size_t i = 0; i < plant.model->capsules.size(); i++) {
@@ -115,7 +115,7 @@ void add_pieces(PlantBody& body, const Plane& plane, double h, std::vector<Conta
 void add_plane_contacts(World& world, btCollisionObject& object, double h, std::vector<Contact>& contacts) {
     const bool moves = is_moving(object);
     const auto add = [&](PlantBody& body) {
-        // Those that only sway are asked whether what moves touches them.
+        // Modal plants are only checked against planes that move.
         if (!takes_part(world, &body) || (body.plant->modal && !moves) || !may_meet(world, body, object)) return;
         if (!body.plant->modal) look_at(body);
         add_pieces(body, plane_for(*body.plant, object, moves), h, contacts);

@@ -1,4 +1,4 @@
-// In: where plants are, and which of them Bullet's broad phase saw together. Out: contacts of their cages and sheaths.
+// In: plants in their places, and the pairs of Bullet's broad phase. Out: contacts of their cages and sheaths.
 #include <algorithm>
 
 #include "core/timer.hpp"
@@ -12,12 +12,12 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// The cage of a plant that broke still has the nodes of what came off: it takes no part any more.
+// Returns whether a plant takes part in an effect. One that broke does not: its cage still has the fragments' nodes.
 bool has(const World& world, const PlantBody& body, frond_effects effect) {
     return world.effects & body.plant->effects & effect && !body.capsules().empty() && body.plant->fragments.empty();
 }
 
-// Plants whose boxes meet, and lone ones that touch themselves.
+// Finds groups of plants whose boxes overlap, and single plants with self-contact.
 std::vector<std::vector<PlantBody*>> find_islands(World& world) {
     btBroadphasePairArray& pairs = world.bullet->getPairCache()->getOverlappingPairArray();
     std::vector<std::array<int, 2>> meet;
@@ -49,7 +49,7 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
     return islands;
 }
 
-// Where cage or sheath are, and would be at the end of the step.
+// Computes the places of the cage's or sheath's nodes, now and as they would be at the end of the step [m].
 void place_nodes(const PlantBody& body, double h, VecX& now, VecX& then) {
     const Plant& plant = *body.plant;
     if (plant.follow) {
@@ -61,10 +61,10 @@ void place_nodes(const PlantBody& body, double h, VecX& now, VecX& then) {
     then = now + h * cage_velocities(plant);
 }
 
-// Where a plant will be at the end of the step if nothing touches it, so that what is about to meet is found before it
-// is in each other; no farther than straight ways can tell. Plants at exactly the same place have no side on which one
-// could leave the other, and parted by rounding, every leaf its own way: each is a hair beside the one before
-// (Edelsbrunner and Mücke 1990, Simulation of simplicity).
+// Places a plant's shape where it will be at the end of the step if nothing touches it, so that contacts are found
+// before they overlap; displacements are limited to what a straight path can predict. Plants at exactly the same place
+// have no side on which to separate, and rounding would part each leaf in another direction: so each plant is displaced
+// by a hair from the one before (Edelsbrunner and Mücke 1990, Simulation of simplicity).
 void place_shape(const PlantBody& body, size_t number, double h, PlantSearch::Shape& shape) {
     constexpr double FARTHEST = 0.03, HAIR = 1e-8;  // [m]
     const Vec3 hair = HAIR * double(number) * Vec3(0.8, 0.1, 0.6);
@@ -93,7 +93,7 @@ double friction_of(const PlantBody& body, int organ) {
     return organ >= 0 ? body.plant->model->organs[size_t(organ)].material.friction : 0;
 }
 
-// How a point goes on in the step.
+// Returns the displacement of a point in the step [m].
 Vec3 way_of(const PlantSearch::Shape& shape, const ContactSide& side) {
     Vec3 way = Vec3::Zero();
     for (size_t k = 0; k < size_t(side.node_count); k++) way += side.weights[k] * shape.ways[size_t(side.nodes[k])];
@@ -109,7 +109,7 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
         contact.by_sheath[k] = contact.plants[k]->plant->follow != nullptr;
         contact.friction *= friction_of(*contact.plants[k], contact.sides[k].organ);
     }
-    // Back to where they are now.
+    // Back from the predicted to the present places.
     const Vec3 first = way_of(memory.shapes[size_t(found.a.body)], found.a);
     const Vec3 second = way_of(memory.shapes[size_t(found.b.body)], found.b);
     contact.point = found.point - first;
@@ -119,10 +119,10 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     return contact;
 }
 
-// Where plants stand in each other with all they have, the deepest contacts say enough: each is coupled with all others
-// of its plants, so that cost grows with the square of their number.
+// Keeps each plant's deepest contacts: they suffice where plants overlap completely, and each contact is coupled with
+// all others of its plants, so that cost grows with the square of their number.
 void keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
-    constexpr int MOST = 100;  // a plant
+    constexpr int MOST = 100;  // contacts per plant
     if (contacts.size() <= MOST) return;
     std::stable_sort(contacts.begin(), contacts.end(),
                      [](const PlantContact& a, const PlantContact& b) { return a.depth > b.depth; });
@@ -137,13 +137,13 @@ void keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_too_many), contacts.end());
 }
 
-// Of one island, and the time it took [ms].
+// Contacts of one island, and the time of the search [ms].
 struct Found {
     std::vector<PlantContact> contacts;
     double ms_broad = 0, ms_hash = 0, ms_narrow = 0;
 };
 
-// The same bodies where they are now, not where they will be.
+// Returns the same bodies in their present places, not the predicted ones.
 PlacedIsland placed_now(const World& world, const std::vector<PlantBody*>& island,
                         const std::vector<CollisionBody>& bodies, PlantSearch& memory) {
     PlacedIsland placed = {world, island, bodies};
@@ -182,13 +182,13 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
         for (const CageContact& found : memory.found) result.contacts.push_back(contact_of(found, memory, island));
     }
     if (!last.empty()) remember_contacts(placed_now(world, island, bodies, memory), last, result.contacts);
-    // What springs hold wavers too much to say where it went.
+    // Plants held by penalty springs fluctuate too much for their last sides to count.
     if (world.response != FROND_RESPONSE_PENALTY) agree_on_sides(last, result.contacts);
     result.ms_narrow = timer.lap() - result.ms_hash;
     return result;
 }
 
-// Where boxes do not meet any more nothing touches.
+// Sorts contacts by island; those of plants whose boxes no longer overlap are dropped.
 std::vector<std::vector<const PlantContact*>> sort_by_island(const World& world,
                                                              const std::vector<std::vector<PlantBody*>>& islands,
                                                              const std::vector<PlantContact>& contacts) {
@@ -236,7 +236,7 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     const std::vector<PlantContact> last = std::move(world.plant_contacts);
     world.plant_contacts.clear();
     Timer timer;
-    // Those that move are as wide as their cages or sheaths for the broad phase, before they meet any.
+    // Awake plants get their colliders in advance: the broad phase sees them as wide as their cages or sheaths.
     bool any = false;
     for (PlantBody* body : world.awake) {
         const bool together = world.bodies.size() > 1 && has(world, *body, FROND_EFFECT_PLANT_CONTACT);

@@ -1,8 +1,8 @@
-// In: plants that broke. Out: rigid bodies for what came off, and where these take it.
+// In: plants that broke. Out: rigid bodies for their fragments, and the fragments' places.
 //
 // The body is made of the capsules that came off, with the mass, momentum and angular momentum that the nodes had.
-// Bullet moves it; plants and other bodies meet it as any other. What it grew on does not, or it would be torn from it
-// by their overlap.
+// Bullet moves it, and it collides with plants and other bodies as any other, but not with the plant that it grew on:
+// their overlap would tear them apart.
 #include "world/fragments.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ Mat3 matrix_from_bullet(const btMatrix3x3& m) {
     return out;
 }
 
-// The capsules of a fragment, in the body's frame.
+// Adds the capsules of a fragment, in the body's frame.
 void add_capsules(const PlantBody& body, const Fragment& fragment, const btTransform& frame, Rigid& rigid) {
     const Plant& plant = *body.plant;
     auto compound = std::make_unique<btCompoundShape>();
@@ -54,7 +54,7 @@ Rigid* add_fragment(World& world, PlantBody& body, const Fragment& fragment) {
     rigid->is_plane = false;
     rigid->grown_on = &body;
 
-    // Bullet's bodies turn about their principal axes.
+    // A body's frame lies along its principal axes in Bullet.
     const Mat3& turn = fragment.axes;
     rigid->grown_turn = turn.transpose() * plant.rotation.toRotationMatrix();
     rigid->grown_shift = turn.transpose() * (plant.position - fragment.centre);
@@ -104,7 +104,7 @@ void carry_fragments(PlantBody& body) {
     }
 }
 
-// As implicit Euler would, so that a stiff spring holds still.
+// Pulls by implicit Euler, so that a stiff spring is stable.
 void pull_fragments(PlantBody& body, double h) {
     const Plant& plant = *body.plant;
     for (const Grab& grab : plant.grabs) {

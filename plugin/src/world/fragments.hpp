@@ -1,4 +1,4 @@
-// Parts of plants that came off, as rigid bodies of the Bullet world.
+// Fragments of plants, as rigid bodies of the Bullet world.
 #pragma once
 
 #include "world/rigid.hpp"
@@ -6,17 +6,17 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// Takes off what is beyond a capsule, by the chain node at its end, and makes a rigid body of it.
+// Breaks off a capsule, given by the chain node at its end, with all beyond it, and makes a rigid body of them.
 void break_off(World& world, PlantBody& body, int chain_node);
-// The same where a capsule is strained beyond its strength, one a substep. Returns how many came off.
+// Breaks off a capsule that is strained beyond its strength, one per substep. Returns how many came off.
 int break_overloaded(World& world, PlantBody& body);
-// The plant's fragments are where their bodies are.
+// Moves the plant's fragments to where their bodies are.
 void carry_fragments(PlantBody& body);
-// The user's springs on what came off.
+// Applies the user's grabs on fragments.
 void pull_fragments(PlantBody& body, double h);
-// Tells whether a capsule and a body do not push each other: one is a fragment of the plant that came off.
+// Returns whether a capsule and a body do not collide, because either belongs to a fragment of the plant.
 bool is_apart(const PlantBody& body, int capsule, const btCollisionObject& other);
-// Their bodies end.
+// Removes the bodies of a plant's fragments.
 void remove_fragments(World& world, PlantBody& body);
 
 }  // namespace FROND_BULLET_PRECISION

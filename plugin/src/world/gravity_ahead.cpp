@@ -14,7 +14,7 @@ void give_gravity(GravityAhead& ahead, btRigidBody& body, double h) {
     ahead.bodies.push_back({&body, -body.getGravity() / body.getInvMass()});
 }
 
-// Bodies that the host has taken out of its world are not looked at any more.
+// Forgets bodies that the host has taken out of its world, without dereferencing them.
 static void forget_gone(GravityAhead& ahead, const btCollisionWorld& world) {
     const auto is_gone = [&](const GravityAhead::Held& held) { return !is_in(world, held.body); };
     ahead.bodies.erase(std::remove_if(ahead.bodies.begin(), ahead.bodies.end(), is_gone), ahead.bodies.end());

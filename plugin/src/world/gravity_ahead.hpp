@@ -1,5 +1,5 @@
-// What a plant gives to a body counts for the body's next motion, with the gravity of that step in it: see pusher.hpp.
-// For the host to see a body at rest at rest, that gravity comes with the impulse, and is held off when the step comes.
+// A plant's impulse on a body acts in the body's next step and balances the gravity of that step (contact_body.hpp). So
+// that the host sees a resting body at rest, that gravity is added with the impulse, and cancelled in the step.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -14,17 +14,17 @@ inline namespace FROND_BULLET_PRECISION {
 struct GravityAhead {
     struct Held {
         btRigidBody* body;  // may be gone by the time of the next step
-        btVector3 force;    // against its gravity [N]
+        btVector3 force;    // force that cancels its gravity [N]
     };
     std::vector<Held> bodies;
-    bool is_held = false;  // the forces are among the bodies' own
+    bool is_held = false;  // the forces have been applied to the bodies
 };
 
-// In an action, once a body: its velocity becomes that at the end of its next step, h [s] long.
+// Adds the gravity of the next step of h [s] to a body's velocity, once per body. Call it in an action.
 void give_gravity(GravityAhead& ahead, btRigidBody& body, double h);
-// Before Bullet's solver, as often as one likes.
+// Applies the cancelling forces. Call it before Bullet's solver, once or several times.
 void hold_gravity(GravityAhead& ahead, const btCollisionWorld& world);
-// After it, before anything else is given.
+// Takes the forces back. Call it after Bullet's solver, before the next give_gravity.
 void end_hold(GravityAhead& ahead, const btCollisionWorld& world);
 
 }  // namespace FROND_BULLET_PRECISION

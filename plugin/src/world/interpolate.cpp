@@ -1,6 +1,5 @@
-// In: a Bullet world that was left between two of its fixed steps. Out: how long before the end of the last one its
-// motion states show bodies, as btDiscreteDynamicsWorld::synchronizeSingleMotionState reckons it, so that surfaces go
-// with them.
+// In: a Bullet world between two of its fixed steps. Out: how long before the end of the last one its motion states
+// show bodies, as btDiscreteDynamicsWorld::synchronizeSingleMotionState computes it, so that surfaces agree with them.
 #include "world/world.hpp"
 
 namespace frond {
@@ -8,7 +7,7 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// Bullet keeps what is left over of a host's frame for its children.
+// Gives access to Bullet's protected rest of a host's frame.
 struct LeftOver : btDiscreteDynamicsWorld {
     static double back(const btDiscreteDynamicsWorld& world) {
         const double left = double(world.*(&LeftOver::m_localTime)), step = double(world.*(&LeftOver::m_fixedTimeStep));

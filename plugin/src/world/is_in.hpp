@@ -1,4 +1,4 @@
-// Tells whether a body is still in a Bullet world, without a look at the body, whose memory may be gone.
+// Returns whether a body is still in a Bullet world, without dereferencing it: its memory may be gone.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>

@@ -1,4 +1,4 @@
-// Piece: a capsule of a plant, or the flat piece of a blade for which it stands, as bodies touch it.
+// Segment as bodies touch it: a capsule of a plant, or the plate of a blade that replaces it.
 #pragma once
 
 #include "world/plant_body.hpp"
@@ -6,18 +6,18 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// All of a piece is within that of its core: a capsule's axis, or a flat one's rectangle [m].
+// Returns a segment's radius around its core, a capsule's axis or a plate's rectangle [m].
 double radius_of(const PlantBody& body, int capsule);
 
-// The point of a piece's core that is nearest to p, world frame [m].
+// The point of a segment's core that is nearest to p, world frame [m].
 struct OnCore {
     Vec3 point;
-    double along, across;  // as in Contact
+    double along, across;  // place on the core, as in Contact
 };
 OnCore nearest_on_core(const PlantBody& body, int capsule, const Vec3& p);
 
 double piece_friction(const PlantBody& body, int capsule);  // [-]
-// Whether a body would push a flat piece against its end, where the blade goes on with the next one. `normal` leads
+// Returns whether a body would push a plate at its end where the blade continues with the next one. `normal` points
 // away from the body.
 bool is_between_pieces(const PlantBody& body, int capsule, const Vec3& normal);
 

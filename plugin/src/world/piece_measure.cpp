@@ -1,4 +1,4 @@
-// In: a plant as it is now. Out: where its pieces are, how thick and how rough.
+// In: a plant in its present shape. Out: place, radius and friction of its segments.
 #include <algorithm>
 #include <cmath>
 
@@ -46,7 +46,7 @@ bool is_between_pieces(const PlantBody& body, int capsule, const Vec3& normal) {
     if (std::abs(along) < least) return false;
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
     const auto grows_on = [tip = end](const ChainNode& node) { return node.parent == tip; };
-    // From its tip a blade is pushed back.
+    // At its tip, which nothing continues, a blade can be pushed back.
     return along > 0 || std::any_of(nodes.begin(), nodes.end(), grows_on);
 }
 

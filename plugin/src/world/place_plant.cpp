@@ -1,4 +1,4 @@
-// In: a plant of a world. Out: the same elsewhere, or as if it was made now.
+// In: a plant of a world. Out: the same elsewhere, or as newly made.
 #include <algorithm>
 
 #include "world/convert.hpp"
@@ -14,7 +14,7 @@ btQuaternion quat_to_bullet(const Quat& q) {
     return btQuaternion(btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w()));
 }
 
-// It leaves where it is: what leaned on it moves, and what is known of its contacts holds no more.
+// Removes a plant from its place: wakes what leaned on it, and drops its contacts.
 void leave_place(World& world, PlantBody& body) {
     wake(body);
     wake_neighbours(world, body);

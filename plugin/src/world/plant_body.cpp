@@ -13,10 +13,10 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// How much thicker a plate is than its blade, so that Bullet tells what is about to touch: where boxes have edges it
-// takes them for round ones [m].
+// Margin by which a plate is thicker than its blade, so that Bullet reports contacts before they touch; it rounds the
+// plate's edges [m].
 static constexpr double AHEAD = 0.012;
-// Half of a blade's thickness for bodies, at least: they sink by half a millimetre into what they rest on [m].
+// Least half thickness of a blade for bodies, which sink by half a millimetre into what they rest on [m].
 static constexpr double THINNEST = 0.002;
 
 int Hull::capsule_of(int child) const {
@@ -24,8 +24,8 @@ int Hull::capsule_of(int child) const {
     return child < int(capsules.size()) ? child : plate_capsule[size_t(child) - capsules.size()];
 }
 
-// Rectangles with a margin, round at their rims. Boxes tell only of what is in each other already, and of other points
-// from step to step where edges are touched.
+// Adds plates: rectangles with a margin, round at their rims. Boxes would report only overlaps, and other points from
+// step to step where edges are touched.
 static void add_plates(const Model& model, Hull& hull) {
     hull.flats = make_flats(model);
     for (size_t i = 0; i < hull.flats.size(); i++) {
@@ -45,12 +45,12 @@ static void add_plates(const Model& model, Hull& hull) {
     }
 }
 
-// For several at once; past the last one it is there again.
+// Lists sizes for lanes; the last one is repeated as padding.
 static void list_sizes(Hull& hull) {
     const auto fill = [](std::vector<double>& to, size_t count, const auto& of) {
         for (size_t i = 0; count > 0 && i < count + MOST_LANES; i++) to.push_back(double(of(std::min(i, count - 1))));
     };
-    // Of a rectangle the last corner is +x, +y.
+    // A rectangle's last corner is +x, +y.
     const auto corner = [&](size_t i) {
         return hull.plates[i]->getUnscaledPoints()[hull.plates[i]->getNumPoints() - 1];
     };
@@ -92,7 +92,7 @@ static std::shared_ptr<Hull> hull_of(World& world, const Model& model) {
     }
     add_plates(model, *hull);
     list_sizes(*hull);
-    // Filled where all pieces are, the tree of their boxes is a good one.
+    // Filled with all segments in place, the tree of their boxes is a good one.
     const std::vector<Mat3> frames = modelled_frames(*hull, model);
     PlantShape first(world, *hull);
     place_pieces(first, *hull, {places.data(), model.capsules, frames});
@@ -117,7 +117,7 @@ void take_own_shape(PlantBody& body) {
     move_capsules(body);
 }
 
-// In the broad phase under another filter, from where it finds its pairs anew.
+// Enters the broad phase anew with another filter, so that pairs are found anew.
 static void enter_broad_phase(PlantBody& body, int group, int mask) {
     btDynamicsWorld& bullet = *body.world->bullet;
     btBroadphaseInterface& broad = *bullet.getBroadphase();
@@ -152,7 +152,7 @@ void show_again(PlantBody& body) {
 
 PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> given)
     : btSoftBody(info), plant(std::move(given)), world(world), hull(hull_of(*world, *plant->model)) {
-    m_softBodySolver = nullptr;  // Bullet's constructor leaves it open
+    m_softBodySolver = nullptr;  // not initialised by Bullet's constructor
     level.own = plant->which;
 
     // One compound in place of the soft body's own shape; btSoftBody deletes it.
@@ -165,10 +165,10 @@ PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Pl
     setWorldTransform(btTransform(rotation, to_bullet(plant->position)));
     setInterpolationWorldTransform(getWorldTransform());
 
-    // Kinematic, or islands would merge over the whole box of the plant; seen by queries, not yet an obstacle.
+    // Kinematic, or Bullet's islands would merge over the plant's whole box; no response, but seen by queries.
     setCollisionFlags(CF_KINEMATIC_OBJECT | CF_NO_CONTACT_RESPONSE);
     setActivationState(DISABLE_DEACTIVATION);
-    m_checkCollideWith = true;  // ask checkCollideWithOverride
+    m_checkCollideWith = true;  // call checkCollideWithOverride
 }
 
 bool PlantBody::checkCollideWithOverride(const btCollisionObject* other) const {
@@ -176,7 +176,7 @@ bool PlantBody::checkCollideWithOverride(const btCollisionObject* other) const {
            btSoftBody::checkCollideWithOverride(other);
 }
 
-// Bullet deletes the shape that it finds.
+// btSoftBody would delete the shape, but a shared one is the hull's.
 PlantBody::~PlantBody() {
     if (m_collisionShape == hull->rest.get()) m_collisionShape = nullptr;
 }
@@ -219,7 +219,7 @@ void move_capsules(PlantBody* const* bodies, int count) {
     place_pieces(shapes.data(), batched, hull, plants[0]->model->capsules, chains);
 }
 
-// By how much capsules around the pieces of a collider at rest are wider than those of the chain, at most [m].
+// Returns by how much capsules around the regions of a collider at rest are wider than the chain's, at most [m].
 static double wider_than_capsules(const PlantBody& body, const Collider& collider, const Vec3* places) {
     const Model& model = *body.plant->model;
     std::vector<Axis> axes;

@@ -1,5 +1,5 @@
-// PlantContact: a place where two plants are in each other, or where one is in itself: by their cages, or by their
-// sheaths where their chains move by themselves.
+// PlantContact: a contact of two plants, or of a plant with itself, between their cages, or their sheaths where the
+// mechanics move their chains.
 #pragma once
 
 #include "collide/cage_contact.hpp"
@@ -11,27 +11,27 @@ inline namespace FROND_BULLET_PRECISION {
 
 struct PlantContact {
     std::array<PlantBody*, 2> plants;  // the same one twice where it touches itself
-    std::array<ContactSide, 2> sides;  // of cages or sheaths
+    std::array<ContactSide, 2> sides;  // points of cages or sheaths
     std::array<bool, 2> by_sheath = {};
-    std::array<Attachment, 2> attachments;  // what holds those points
-    Vec3 between;                           // of the grips' places, the first's less the second's, world frame [m]
-    Vec3 point;                             // on the first, world frame [m]
-    Vec3 normal;                            // along which the first leaves the second
-    double depth;                           // by which it has to [m]; below zero they are apart
-    double friction;                        // of both together [-]
-    int missed = 0;                         // substeps since the search saw it
-    Vec3 impulse = Vec3::Zero();            // on the first; that of the last substep until this one's is known [N s]
+    std::array<Attachment, 2> attachments;  // attachments of those points
+    Vec3 between;                           // place of the first attachment less that of the second, world frame [m]
+    Vec3 point;                             // point on the first, world frame [m]
+    Vec3 normal;                            // exit direction of the first from the second
+    double depth;                           // depth of the overlap [m]; below zero they are apart
+    double friction;                        // combined coefficient of both [-]
+    int missed = 0;                         // substeps since the search last found it
+    Vec3 impulse = Vec3::Zero();            // impulse on the first; the last substep's until this one's is known [N s]
 };
 
-// Tells whether both sides still are touched by what they were touched by then: what holds its points is of the
-// mechanics that they had.
+// Returns whether both sides still touch by cage or sheath as when the contact was found: its attachments are those of
+// the mechanics at that time.
 bool is_by_the_same(const PlantContact& contact);
-// Takes hold of the points on both sides as they are now.
+// Sets the attachments of the points on both sides, by their present mechanics.
 void take_attachments(PlantContact& contact);
-// Tells whether the effects that let its plants touch are on.
+// Returns whether the effects that let its plants touch are on.
 bool may_touch(const World& world, const PlantContact& contact);
 
-// Of one plant, with bodies and with plants.
+// Contacts of one plant, with bodies and with plants.
 struct LastContacts {
     std::vector<Contact> with_bodies;
     std::vector<PlantContact> with_plants;
@@ -41,20 +41,20 @@ struct LastContacts {
 struct PlantSearch {
     ContactSearchPtr search = make_contact_search();
     std::vector<CageContact> found;
-    // One a plant.
+    // One per plant.
     struct Shape {
-        std::vector<Vec3> places;  // of the nodes of cage or sheath at the end of the step, world frame [m]
-        std::vector<Vec3> ways;    // by which they get there [m]
+        std::vector<Vec3> places;  // nodes of cage or sheath at the end of the step, world frame [m]
+        std::vector<Vec3> ways;    // displacements of the nodes in the step [m]
         std::vector<Axis> axes;
         std::vector<Capsule> covers;
     };
     std::vector<Shape> shapes;
 };
 
-// Bullet's broad phase says which plants may meet, capsules around pieces of their cages which organs do, a spatial
-// hash which nodes, edges and tets of those (section 3.3 of the paper). Contacts of the last substep that the search
-// does not see go on (remember_contacts.hpp), so that what rests on another plant does not sink into it again and
-// again; those that will meet within the step of h, as they move now, are found before.
+// Finds the contacts of plants. Bullet's broad phase finds plants that may meet, capsules around regions of their cages
+// find the organs, and a spatial hash finds nodes, edges and tets (section 3.3 of the paper). Contacts of the last
+// substep that the search misses are kept (remember_contacts.hpp), so that a plant that rests on another one does not
+// sink into it again and again. Contacts that will occur within the step of h [s] at present velocities are included.
 std::vector<PlantContact> find_plant_contacts(World& world, double h);
 
 }  // namespace FROND_BULLET_PRECISION

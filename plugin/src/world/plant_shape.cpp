@@ -1,4 +1,4 @@
-// In: where a plant's capsules end and how its plates lie. Out: a compound of Bullet's that is there.
+// In: ends of a plant's capsules, frames of its plates. Out: a Bullet compound in these places.
 #include "world/plant_shape.hpp"
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-constexpr double BACK = -0.99;  // cosine from which on the shortest turn is not well conditioned
+constexpr double BACK = -0.99;  // cosine from which on the shortest rotation is ill-conditioned
 
-// The shortest turn from y: 1 + [k] + [k]^2 / (1 + cos), k = y x axis.
+// The shortest rotation from y: 1 + [k] + [k]^2 / (1 + cos), k = y x axis.
 btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
     const Vec3 chord = end - begin, axis = chord.normalized();
     const btVector3 middle = to_bullet(0.5 * (begin + end));
@@ -34,9 +34,9 @@ btTransform capsule_frame(const Vec3& begin, const Vec3& end) {
 
 namespace {
 
-constexpr size_t ROOM = 8, UPPER = 4;  // numbers of a room; where its upper corner begins
+constexpr size_t ROOM = 8, UPPER = 4;  // numbers of a child's box; where its upper corner begins
 
-// Nodes with others below them, those first.
+// Lists the inner nodes, each after its children.
 void list_inner(btDbvtNode* node, std::vector<btDbvtNode*>& out) {
     if (!node || node->isleaf()) return;
     list_inner(node->childs[0], out);
@@ -44,7 +44,7 @@ void list_inner(btDbvtNode* node, std::vector<btDbvtNode*>& out) {
     out.push_back(node);
 }
 
-// Several children at once: their frames, by rows, and half of their boxes.
+// Several children in lanes: their frames, by rows, and half extents of their boxes.
 template <class S>
 struct Children {
     Lanes33<S> rows;
@@ -59,7 +59,7 @@ FROND_INLINE Lanes3<S> absolute(const Lanes3<S>& v) {
 
 // Four of Bullet's numbers.
 using FourScalars = btScalar __attribute__((vector_size(4 * sizeof(btScalar))));
-// Three numbers of each lane from the places that `at` names; a fourth is there.
+// Loads three numbers per lane from at(lane), where a fourth is readable.
 template <class S, class At>
 FROND_INLINE Lanes3<S> take_in(const At& at) {
     if constexpr (LANES<S> == 4) {
@@ -78,7 +78,7 @@ FROND_INLINE Lanes3<S> take_in(const At& at) {
     }
 }
 
-// Three numbers of each lane to the places that `to` names.
+// Stores three numbers per lane in to(lane).
 template <class S, class To>
 FROND_INLINE void hand_out(const Lanes3<S>& v, int count, const To& to) {
     for (int lane = 0; lane < count; lane++) {
@@ -96,7 +96,7 @@ FROND_INLINE void hand_out(const Lanes3<FourLanes>& v, int count, const To& to) 
     }
 }
 
-// Boxes of children.
+// Bounding boxes of children in lanes.
 template <class S>
 struct Boxes {
     Lanes3<S> lower, upper;
@@ -114,7 +114,7 @@ FROND_INLINE btVector3 corner_of(const Lanes3<S>& v, int lane) {
     return btVector3(btScalar(v.x[lane]), btScalar(v.y[lane]), btScalar(v.z[lane]));
 }
 
-// Several children of one plant, from the first one on; past the last one that is taken again.
+// Several children of one plant, from the first one on; the last one is repeated as padding.
 template <class S>
 struct ChildrenOfOne {
     static constexpr size_t MANY = size_t(LANES<S>);
@@ -131,7 +131,7 @@ struct ChildrenOfOne {
         return {gather<S>([&](int lane) { return of(lane)[0]; }), gather<S>([&](int lane) { return of(lane)[1]; }),
                 gather<S>([&](int lane) { return of(lane)[2]; })};
     }
-    // An end of capsule(lane).
+    // Returns an end of capsule(lane).
     template <class Capsule>
     FROND_INLINE Lanes3<S> place(const Capsule& capsule, size_t end) const {
         return three([&](int lane) -> const Vec3& { return now.places[now.ends[capsule(lane)][end]]; });
@@ -155,7 +155,7 @@ struct ChildrenOfOne {
     }
 };
 
-// A child of several plants, whose chains lie from that lane on; past the last plant that is taken again.
+// One child of several plants, whose chains begin at lane `from`; the last plant is repeated as padding.
 template <class S>
 struct ChildOfSeveral {
     static constexpr size_t MANY = 1;
@@ -191,8 +191,8 @@ struct ChildOfSeveral {
     }
 };
 
-// Wider than the box of the child, more so on sides where that has left it: there it will go on. It holds what it held
-// before as far as that is near.
+// Makes a child's box in the tree wider than the child, more so on sides that the child has left, as it will move on
+// there. It keeps what it contained before as far as that is near.
 void make_room(PlantShape& shape, size_t child, const btVector3& from, const btVector3& to) {
     constexpr btScalar WIDER = btScalar(0.03), AHEAD = btScalar(0.08), NEAR = btScalar(0.1);  // [m]
     btScalar *lower = &shape.room[ROOM * child], *upper = lower + UPPER;
@@ -329,7 +329,7 @@ struct PlaceOfSeveral {
     }
 };
 
-// Boxes above the children's only grow.
+// Refits the inner boxes, which otherwise only grow.
 void fit_tree(PlantShape& shape) {
     constexpr int MOST_GROWTHS = 256;
     if (shape.growths < MOST_GROWTHS) return;
@@ -349,7 +349,7 @@ PlantShape::PlantShape(World& world, const Hull& hull) : world(world) {
     for (const auto& plate : hull.plates) add(*plate);
     setMargin(btScalar(std::max(hull.wider_by_cage, hull.wider_by_sheath)));
     list_inner(getDynamicAabbTree()->m_root, inner);
-    // None has any yet.
+    // All boxes are empty at first.
     room.assign(ROOM * (child + MOST_LANES), btScalar(BT_LARGE_FLOAT));
     for (size_t i = 0; i < room.size(); i += ROOM) std::fill_n(&room[i + UPPER], UPPER, btScalar(-BT_LARGE_FLOAT));
 }

@@ -1,5 +1,5 @@
-// In: a flat piece, and a convex body near it. Out: the points by which they touch if they do: the outline of the
-// body's side that looks at the piece, clipped by the piece (Sutherland, Hodgman 1974, "Reentrant polygon clipping").
+// In: a plate, and a convex body near it. Out: the points at which they touch if they do: the outline of the body's
+// side that faces the plate, clipped by the plate (Sutherland, Hodgman 1974, "Reentrant polygon clipping").
 #include <cmath>
 
 #include "world/convert.hpp"
@@ -10,10 +10,10 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// x is wide, y along, z thin; from the middle of the piece.
+// Points from the middle of the plate: x is wide, y along, z thin [m].
 using Outline = std::vector<Vec3>;
 
-// What of an outline is on the lower side of `most` along an axis, or with sign -1 on the upper side of -most.
+// Clips an outline along an axis: keeps the part below `most`, or with sign -1 the part above -most.
 Outline clip(const Outline& outline, int axis, double sign, double most) {
     Outline inside;
     for (size_t i = 0; i < outline.size(); i++) {
@@ -26,7 +26,7 @@ Outline clip(const Outline& outline, int axis, double sign, double most) {
     return inside;
 }
 
-// Without points that are beside one there is.
+// Drops points that are close to another one.
 void drop_doubles(Outline& outline) {
     constexpr double BESIDE = 0.001;  // [m]
     Outline kept;
@@ -43,9 +43,9 @@ void drop_doubles(Outline& outline) {
 std::vector<Vec3> points_over_plate(const PlantBody& body, int capsule, const btCollisionObject& other,
                                     const Vec3& towards) {
     constexpr double FACING = 0.7;  // cosine
-    // Of the body's side against the piece, first of a face that lies on it, then of edges that slope over its rim [-].
+    // Slopes of the body's side against the plate: of a face on it, then of edges that slope over its rim [-].
     constexpr double TILTS[] = {0.05, 0.2, 0.6};
-    constexpr double NEAR = 0.005;  // farther above the piece slopes are of no use [m]
+    constexpr double NEAR = 0.005;  // height above the plate up to which points of slopes are used [m]
     constexpr int DIRECTIONS = 8;
     const Plant& plant = *body.plant;
     const Flat& flat = body.hull->flats[size_t(capsule)];
@@ -64,7 +64,7 @@ std::vector<Vec3> points_over_plate(const PlantBody& body, int capsule, const bt
     const double half_width = flat.half_width - flat.half_thickness, half_length = 0.5 * (b - a).norm();
     Outline points;
     for (const double tilt : TILTS) {
-        // The body's outermost points in directions around the piece's normal.
+        // The body's outermost points in directions around the plate's normal.
         Outline outline;
         for (int k = 0; k < DIRECTIONS; k++) {
             const double turn = 2 * M_PI * k / DIRECTIONS;

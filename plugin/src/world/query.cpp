@@ -1,11 +1,11 @@
-// Rays against the capsules, through Bullet's own ray test.
+// Casts rays against the capsules, by Bullet's own ray test.
 #include "world/convert.hpp"
 #include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// Keeps the nearest hit of a plant of this world and looks through everything else.
+// Keeps the nearest hit of a plant of this world and ignores everything else.
 struct NearestPlant : btCollisionWorld::RayResultCallback {
     World* world = nullptr;
     const PlantBody* body = nullptr;

@@ -1,4 +1,4 @@
-// In: contacts of the last substep, and those that were found now. Out: what is known of both.
+// In: contacts of the last substep, and those found in this one. Out: both together.
 #include "world/remember_contacts.hpp"
 
 #include <algorithm>
@@ -13,16 +13,16 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-constexpr double DRIFTED = 0.02;  // farther from where it was, a contact is another one [m]
-constexpr double APART = 0.01;    // farther apart nothing touches any more [m]
+constexpr double DRIFTED = 0.02;  // distance from its last place beyond which a contact is another one [m]
+constexpr double APART = 0.01;    // distance between both sides beyond which a contact ends [m]
 
-// The point that touches: its plant, the other one, and its nodes.
+// A contact's first plant, second plant, and nodes of the point on the first.
 using Key = std::tuple<int, int, std::array<int, 4>>;
 Key key_of(const PlantContact& contact) {
     return {contact.plants[0]->number, contact.plants[1]->number, contact.sides[0].nodes};
 }
 
-// By what its points have moved since.
+// Moves a contact on by the displacements of its points.
 PlantContact moved_on(const PlantContact& before) {
     PlantContact contact = before;
     take_attachments(contact);
@@ -30,10 +30,10 @@ PlantContact moved_on(const PlantContact& before) {
     return contact;
 }
 
-// Where the two are nearest now. False: they are apart, or lie another way round.
+// Moves a contact to where the two are nearest now. False if they are apart, or lie on other sides of each other.
 bool follow(const PlacedIsland& island, PlantContact& contact) {
     constexpr double IN = 0.005;           // [m]
-    if (contact.depth > IN) return false;  // a way out of something deep that is gone
+    if (contact.depth > IN) return false;  // exit of a deep overlap that is gone
     const auto body_of = [&](const PlantBody* body) -> const CollisionBody& {
         return island
             .bodies[size_t(std::find(island.plants.begin(), island.plants.end(), body) - island.plants.begin())];
@@ -56,21 +56,21 @@ bool move_on(const PlacedIsland&, PlantContact& contact) {
     const Vec3 between = contact.between;
     contact = moved_on(contact);
     const Vec3 moved = contact.between - between;
-    // Not in each other any more, whatever the depth was said to be; nor is there anything where it would be in by now.
+    // The search found no overlap, so depth begins at zero or below; if it grows too far unseen, the contact ends.
     if (contact.missed++ == 0) contact.depth = std::min(contact.depth, 0.0);
     if (contact.missed > LONG || contact.depth > IN || contact.depth < -APART) return false;
     return (moved - moved.dot(contact.normal) * contact.normal).norm() <= DRIFTED;
 }
 
-// How contacts of two plants are remembered.
+// How contacts of two plants are kept.
 struct Memory {
-    bool (*go_on)(const PlacedIsland&, PlantContact&);  // as a contact that was not found stands now; false: it ends
-    double alike;  // cosine between two ways out, for one contact: a tip may leave in several
-    bool doubts;   // of what is deeper than it was
+    bool (*go_on)(const PlacedIsland&, PlantContact&);  // updates a contact that was not found; false: it ends
+    double alike;  // least cosine between the exits of one contact: a tip may have several
+    bool doubts;   // contacts that become deeper are checked
 };
 constexpr Memory OF_CAGES = {follow, 0.8, false}, OF_SHEATHS = {move_on, -1, true};
 
-// Springs do not hold what is followed well enough: a leaf of the corn pair was 53 mm in the other one after 2 s.
+// Penalty springs hold followed contacts badly: a leaf of the corn pair was 53 mm in the other one after 2 s.
 const Memory& memory_of(const World& world, const PlantContact& contact) {
     const bool is_followed = !contact.by_sheath[0] && !contact.by_sheath[1] && world.response != FROND_RESPONSE_PENALTY;
     return is_followed ? OF_CAGES : OF_SHEATHS;
@@ -80,8 +80,8 @@ bool are_one_pair(const PlantContact& a, const PlantContact& b) {
     return a.plants == b.plants || (a.plants[0] == b.plants[1] && a.plants[1] == b.plants[0]);
 }
 
-// Nothing gets deeper into each other than it was and has moved since: where a search says so it has taken another way
-// out, as where a leaf slides off another one's tip. Then the way of the last substep stands, if there is one.
+// Limits depths to those of the last substep plus the motion since then: where the search finds more, it has chosen
+// another exit direction, as where a leaf slides off another one's tip. Then the last substep's stays, if there is one.
 void doubt_what_is_deeper(const World& world, const std::vector<const PlantContact*>& last,
                           std::vector<PlantContact>& contacts) {
     constexpr double NEAR = 0.1, CALM = 0.005, SLACK = 0.002;  // [m]
@@ -113,12 +113,12 @@ void doubt_what_is_deeper(const World& world, const std::vector<const PlantConta
     }
 }
 
-// Those that pushed and were not found again.
+// Keeps contacts that pushed and were not found again; those found again take over their impulses.
 void keep_what_pushes(const PlacedIsland& island, const std::vector<const PlantContact*>& last,
                       std::vector<PlantContact>& contacts) {
     std::multimap<Key, size_t> found;
     for (size_t i = 0; i < contacts.size(); i++) found.emplace(key_of(contacts[i]), i);
-    // An edge may touch at several places: what is found at another one does not stand for this one.
+    // An edge may touch at several places: a contact found at another place is another one.
     const auto find_again = [&](const PlantContact& before) -> PlantContact* {
         PlantContact* nearest = nullptr;
         double least = DRIFTED;

@@ -1,5 +1,4 @@
-// Which contacts of plants go on from substep to substep, where the search does not see them any more or sees them
-// otherwise.
+// Keeps contacts of plants from substep to substep, where the search no longer finds them or finds them otherwise.
 #pragma once
 
 #include "world/plant_contact.hpp"
@@ -7,18 +6,18 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// Plants that may touch, with their cages and sheaths as they are now.
+// Plants that may touch, with the present places of their cages and sheaths.
 struct PlacedIsland {
     const World& world;
     const std::vector<PlantBody*>& plants;
-    std::vector<CollisionBody> bodies;  // one a plant
+    std::vector<CollisionBody> bodies;  // one per plant
 };
 
-// Contacts of the last substep that were not found again are kept as long as they push and both sides are beside each
-// other; those that were begin with what they had to push. Where two cages touch, a contact is followed to where they
-// are nearest now: what is held out by it is not in the other, and light leaves spring back by centimetres in a step.
-// Sheaths are so thin that the nearest place soon is on their other side: theirs is moved with its points, for some
-// substeps, and what gets deeper all at once is doubted.
+// Keeps contacts of the last substep that were not found again as long as they push and both sides are close to each
+// other; contacts found again begin with their last impulse. A contact of two cages is followed to where they are
+// nearest now: while it holds them apart no overlap is found, and without it light leaves would spring back by
+// centimetres in a step. Sheaths are so thin that the nearest place is soon on their other side: their contacts move
+// with their points, for some substeps, and sudden increases of depth are limited.
 void remember_contacts(const PlacedIsland& island, const std::vector<const PlantContact*>& last,
                        std::vector<PlantContact>& contacts);
 

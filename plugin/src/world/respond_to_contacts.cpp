@@ -1,8 +1,8 @@
 // In: contacts, and plants whose step is solved but not yet accepted. Out: impulses on plants and bodies.
 //
-// A plant answers with the inverse of its own implicit system, so that resting, pushing and stacking need no penalties:
-// what a stem can bear within the step it bears. Bodies have moved already when plants step, so an impulse changes how
-// they move next; both sides of a contact are advanced from the places at which it was found.
+// A plant's compliance is the inverse of its own implicit system, so that resting, pushing and stacking need no
+// penalties: a stem bears within the step what it can bear. Bodies have already moved when plants step, so an impulse
+// changes their next motion; both sides of a contact advance from the places at which it was found.
 #include <algorithm>
 #include <numeric>
 
@@ -16,19 +16,20 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// How fast two that overlap must part: a share of the overlap a step but for the slop, no faster than that [m/s].
+// Returns how fast overlapping sides must part: by a share of the overlap beyond the slop per step, up to `fastest`
+// [m/s].
 double parting_speed(double depth, double slop, double h, double share, double fastest) {
     return std::min(share * std::max(0.0, depth - slop) / h, fastest);
 }
 
-// A contact as both sides see it.
+// A contact with the data of both sides.
 struct Row {
     std::array<PlantBody*, 2> plants = {};  // the second is null where a body is on the other side
     std::array<PlantTouch, 2> touches;
-    std::array<size_t, 2> sides = {};  // their places among all sides of that plant
-    ContactBody contact_body;          // of what is no plant
+    std::array<size_t, 2> sides = {};  // their indices among all sides of that plant
+    ContactBody contact_body;          // the other side, if that is no plant
     Touch touch;
-    Vec3* impulse;  // where the contact keeps it
+    Vec3* impulse;  // the contact's own
 };
 
 bool rubs(const World& world, const PlantBody& body) {
@@ -44,7 +45,7 @@ Attachment attachment_of(const Contact& contact) {
     return flat_attachment(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
 }
 
-// With bodies, which have moved already, velocities see to it that overlaps go.
+// Adds the row of a contact with a body. Bodies have already moved, so overlaps are removed by velocities.
 void add_row(const World& world, Contact& contact, double h, std::vector<Row>& rows) {
     constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 1;  // [m], [-], [m/s]
     Plant& plant = *contact.plant->plant;
@@ -62,7 +63,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
     rows.push_back(std::move(row));
 }
 
-// Before there are rows: all of a body's know it as it is then, asleep or not.
+// Wakes bodies that plants push. Call it before rows are made, so that all rows of a body see it in the same state.
 void wake_pushed(const std::vector<Contact*>& contacts) {
     PlantTouch touch;
     for (const Contact* contact : contacts)
@@ -70,7 +71,8 @@ void wake_pushed(const std::vector<Contact*>& contacts) {
             wake(*contact->other, contact->normal, touch.velocity);
 }
 
-// What is struck at its rim would turn by more in the step than a linear answer can tell: then it is taken at its axis.
+// Moves an attachment from the rim to the axis where a push at the rim would turn it in the step by more than a linear
+// compliance can predict. Returns whether it did.
 bool drop_levers(double way, Attachment& attachment) {
     constexpr double TURN = 0.15;  // [rad]
     const double lever = (attachment.arm[0] + attachment.arm[1]).norm();
@@ -80,11 +82,12 @@ bool drop_levers(double way, Attachment& attachment) {
     return true;
 }
 
-// Plants part by being moved: cages may have been in each other by half a leaf when they were made, and would fly.
+// Adds the row of a contact of plants. They part by position correction: cages may overlap by half a leaf when they are
+// made, and velocities would make them fly.
 void add_row(const World& world, PlantContact& contact, double h, std::vector<Row>& rows) {
     constexpr double SLOP = 0.0002, SHARE = 0.4, FASTEST = 0.5;  // [m], [-], [m/s]
-    // Of the lighter one's weight: feet that cannot part would use up all work that shifts may do, and nothing else
-    // would part.
+    // Limit of a position correction, over the lighter plant's weight [-]. Without it, feet that cannot part would use
+    // up all work that position correction may do, and nothing else would part.
     constexpr double STRONG = 0.4;
     Row row;
     row.plants = contact.plants;
@@ -100,7 +103,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
             !make_touch(*contact.plants[k]->plant, contact.attachments[k], row.touches[k]))
             return;
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
-    // Springs leave nearly all of the parting to shifts.
+    // Penalty springs leave nearly all of the parting to position correction.
     if (world.response != FROND_RESPONSE_PENALTY)
         row.touch.most_correction =
             h * STRONG * GRAVITY * std::min(mass_of(contact.plants[0]), mass_of(contact.plants[1]));
@@ -111,7 +114,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
     rows.push_back(std::move(row));
 }
 
-// A bond closes half of its gap a step.
+// Adds the row of a bond, which closes half of its gap per step.
 void add_row(Bond& bond, double h, std::vector<Row>& rows) {
     constexpr double SHARE = 0.5, FASTEST = 10;  // [m/s]
     if (bond.plant->rest.asleep) return;
@@ -136,8 +139,8 @@ void add_row(Bond& bond, double h, std::vector<Row>& rows) {
     rows.push_back(std::move(row));
 }
 
-// Tells whether no row would push anything: all are apart and come no nearer in the step than they may. Then nobody has
-// to know how plants answer.
+// Returns whether no row would push anything: all are apart and come no nearer in the step than they may. Then no
+// compliances are needed.
 bool all_wait(const std::vector<Row>& rows, double h) {
     const auto waits = [&](const Row& row) {
         const Touch& touch = row.touch;
@@ -156,12 +159,12 @@ void find_compliances(std::vector<Row>& rows) {
     rows.erase(std::remove_if(rows.begin(), rows.end(), has_none), rows.end());
 }
 
-// A plant's sides of rows: of a row's first plant, or with the opposite sign of its second.
+// Sides of rows that are one plant's: as a row's first plant, or with the opposite sign as its second.
 struct Sides {
     std::vector<int> rows;
     std::vector<double> signs;
     std::vector<const NodeCompliance*> compliances;
-    std::vector<std::vector<Mat3>> known;  // how all of them answer to one of them, empty until somebody asks
+    std::vector<std::vector<Mat3>> known;  // compliances of all sides to one of them, empty until requested
 };
 
 std::vector<Sides> sort_by_plant(size_t plant_count, std::vector<Row>& rows) {
@@ -186,7 +189,7 @@ bool are_one_body(const Row& a, const Row& b) {
     return a.contact_body.rigid && a.contact_body.rigid == b.contact_body.rigid;
 }
 
-// How touches answer to each other, worked out for those that somebody asks for.
+// Compliances between touches, computed on request.
 struct Coupler {
     const std::vector<Row>& rows;
     std::vector<Sides> plants;
@@ -196,8 +199,8 @@ struct Coupler {
     std::vector<Mat3> blocks;
 };
 
-// How all sides of a plant answer to one. Who has been asked how this one answers to it needs not be asked again, as
-// A^-1 is symmetric.
+// Returns the compliances of all sides of a plant to side `by`. Where that of `by` to the other side is known, it is
+// transposed, as A^-1 is symmetric.
 const std::vector<Mat3>& compliances_of(Coupler& coupler, Sides& sides, size_t by) {
     std::vector<Mat3>& compliances = sides.known[by];
     if (!compliances.empty()) return compliances;
@@ -212,7 +215,7 @@ const std::vector<Mat3>& compliances_of(Coupler& coupler, Sides& sides, size_t b
     return compliances = std::move(found);
 }
 
-// Passes the change of a row's plants on to their other rows.
+// Adds the couplings of a row to the other rows of its plants.
 void couple_by_plants(Coupler& coupler, int by, std::vector<Coupling>& row) {
     const Row& at = coupler.rows[size_t(by)];
     for (size_t k = 0; k < 2; k++) {
@@ -238,7 +241,7 @@ const std::vector<Coupling>& couple(Coupler& coupler, int by) {
     return row;
 }
 
-// Of each plant, what the bodies that push it lose by that [J].
+// Returns for each plant the energy that bodies lose by pushing it [J].
 std::vector<double> losses_of_bodies(size_t plant_count, const std::vector<Row>& rows,
                                      const std::vector<Vec3>& impulses) {
     std::vector<double> losses(plant_count, 0);
@@ -253,13 +256,13 @@ std::vector<double> losses_of_bodies(size_t plant_count, const std::vector<Row>&
     return losses;
 }
 
-// Also of plants that nothing pushes: what they came to without contacts stands now. `losses`: of bodies, one a plant
-// [J].
+// Adds contacts to the steps of all plants, also of those that nothing pushes: their solution without contacts then
+// stands. `losses`: of bodies, one per plant [J].
 void end_steps(const ContactIsland& island, const std::vector<double>& losses) {
     for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending, losses[size_t(body->place)]);
 }
 
-// Adds what the rows got to both sides. Returns the rigid bodies among them.
+// Applies the rows' impulses to both sides. Returns the rigid bodies that were pushed.
 std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, std::vector<Row>& rows,
                                const Pushes& pushes) {
     const auto to_plants = [&](const Row& row, const Vec3& impulse, auto take) {
@@ -275,7 +278,7 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
     }
     end_steps(island, losses_of_bodies(island.plants.size(), rows, pushes.impulses));
     std::vector<btRigidBody*> pushed;
-    // A plant that cannot bear it is put back, and then pushes nothing.
+    // A plant whose step fails is rewound, and then pushes nothing.
     for (size_t i = 0; i < rows.size(); i++) {
         if (rows[i].plants[1] || pushes.impulses[i].isZero(0)) continue;
         const Plant& plant = *rows[i].plants[0]->plant;
@@ -287,7 +290,7 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
     return pushed;
 }
 
-// Finds the impulses of an island and gives them. Returns the bodies that were pushed.
+// Finds and applies the impulses of an island. Returns the rigid bodies that were pushed.
 std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& response, const ContactIsland& island,
                                      double h) {
     std::vector<Row> rows;

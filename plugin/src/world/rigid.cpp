@@ -46,7 +46,7 @@ Rigid* add_rigid(World& world, const frond_rigid_def& def) {
     info.m_startWorldTransform = frame_of(def.state);
     info.m_friction = btScalar(def.friction);
     rigid->body = std::make_unique<btRigidBody>(info);
-    // A body that the host carries about stays awake, or Bullet would not see how fast it moves.
+    // A kinematic body stays awake, or Bullet would not compute its velocity.
     if (mass == 0 && !rigid->is_plane) {
         rigid->body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
         rigid->body->setActivationState(DISABLE_DEACTIVATION);
@@ -81,7 +81,7 @@ void set_state(Rigid& rigid, const frond_rigid_state& state) {
     btRigidBody& body = *rigid.body;
     const btTransform frame = frame_of(state);
     body.setWorldTransform(frame);
-    if (body.isKinematicObject()) return;  // its velocity follows from where it was
+    if (body.isKinematicObject()) return;  // Bullet computes its velocity from its last place
     body.setInterpolationWorldTransform(frame);
     body.setLinearVelocity(to_bullet(to_vec(state.velocity)));
     body.setAngularVelocity(to_bullet(to_vec(state.angular_velocity)));

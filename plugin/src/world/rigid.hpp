@@ -1,4 +1,4 @@
-// Rigid: a rigid body that Frond makes for a caller who has no Bullet types at hand.
+// Rigid: a rigid body that Frond makes, for callers without Bullet types or as a plant's fragment.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -19,16 +19,16 @@ struct Rigid {
     World* world;
     frond_rigid handle = {};
     bool is_plane;
-    std::vector<std::unique_ptr<btCollisionShape>> children;  // of a compound
+    std::vector<std::unique_ptr<btCollisionShape>> children;  // shapes of a compound
     std::unique_ptr<btCollisionShape> shape;
     std::unique_ptr<btRigidBody> body;
-    // A fragment that came off a plant: where the body's frame was in the model's one then.
+    // For a fragment: its plant, and the model's frame in the body's frame when it came off.
     PlantBody* grown_on = nullptr;
     Mat3 grown_turn = Mat3::Identity();
     Vec3 grown_shift = Vec3::Zero();
 };
 
-// `def` has been checked by the caller.
+// Makes a rigid body in a world. The caller has checked `def`.
 Rigid* add_rigid(World& world, const frond_rigid_def& def);
 void remove_rigid(World& world, Rigid* rigid);
 frond_rigid_state state_of(const Rigid& rigid);

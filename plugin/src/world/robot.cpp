@@ -1,4 +1,4 @@
-// Joints and motors of a robot, and where its links are.
+// Joints and motors of a robot, and the places of its links.
 #include "world/robot.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ double joint_velocity(const Robot& robot, size_t link) {
     return moves(robot, link) ? double(robot.body->getJointVel(int(link) - 1)) : 0;
 }
 
-// Colliders where the joints put them.
+// Moves the colliders to where the joints put them.
 static void move_colliders(Robot& robot) {
     btAlignedObjectArray<btQuaternion> turns;
     btAlignedObjectArray<btVector3> places;
@@ -55,7 +55,7 @@ void shift_base(Robot& robot, const Vec3& origin) {
     move_colliders(robot);
 }
 
-// An eighth of what is left to go is made up for in a substep, which neither overshoots nor lags much.
+// Closes an eighth of the remaining distance per substep, which neither overshoots nor lags much.
 void drive_to(Robot& robot, size_t link, double position, double speed, double force) {
     constexpr double GAIN = 0.125;
     const double of_file = file_link(robot, link).speed;
@@ -90,7 +90,7 @@ void limit_motors(World& world, double h) {
         }
 }
 
-// From what the joints are now; Bullet's own cached transforms may be a substep old.
+// Returns a link's frame at its centre of mass by the present joints; Bullet's cached transforms may be a substep old.
 static UrdfFrame centre_frame(const Robot& robot, size_t link) {
     const int number = int(link) - 1;
     btQuaternion q;

@@ -1,5 +1,5 @@
 // Makes a robot: a tree of links comes in, a multi-body with motors and limits in the Bullet world goes out. Frames and
-// offsets follow btMultiBody.h: those of links are at their centres of mass, along principal axes.
+// offsets follow btMultiBody.h: links' frames are at their centres of mass, along principal axes.
 #include <BulletCollision/CollisionShapes/btEmptyShape.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ UrdfFrame inverse(const UrdfFrame& frame) {
     return {frame.turn.conjugate() * -frame.origin, frame.turn.conjugate()};
 }
 
-// A base that floats hangs on a root that is nothing but the world: that root goes.
+// Drops the root on which a floating base hangs: it only stands for the world. False if no joint floats.
 bool drop_floating_root(UrdfTree& tree) {
     const auto floats = [](const UrdfLink& link) { return link.joint == UrdfJoint::FLOATING; };
     if (std::none_of(tree.links.begin(), tree.links.end(), floats)) return false;
@@ -43,9 +43,10 @@ bool drop_floating_root(UrdfTree& tree) {
     return true;
 }
 
-// Principal axes. A link that moves needs some inertia, or its joint would answer to any force without end.
+// Finds a link's mass and principal inertia. A link that moves needs some inertia, or any force would accelerate its
+// joint without limit.
 RobotLink weigh(const UrdfLink& link, bool needs_mass) {
-    constexpr double LIGHT = 0.01, SIZE = 0.02;  // of what has none [kg], [m]
+    constexpr double LIGHT = 0.01, SIZE = 0.02;  // mass of links without any, size for the least inertia [kg], [m]
     RobotLink out;
     out.centre = link.centre;
     out.mass = link.mass;
@@ -80,7 +81,7 @@ void set_up_joint(Robot& robot, size_t i) {
         robot.body->setupRevolute(number, mass, inertia, above, turn, axis, to_pivot, to_centre, true);
 }
 
-// Bullet solves the motor of a link only if the link has a collider, which may be of no shape.
+// Bullet solves the motor of a link only if the link has a collider, which may be empty.
 void add_collider(Robot& robot, size_t i, const frond_robot_def& def) {
     RobotLink& link = robot.links[i];
     const UrdfLink& of_file = robot.tree.links[i];
@@ -149,7 +150,7 @@ std::unique_ptr<Robot> make_robot(World& world, UrdfTree tree, const frond_robot
 }  // namespace
 
 Robot* add_robot(World& world, UrdfTree tree, const frond_robot_def& def) {
-    // With Bullet's ten rounds motors sag and give way to each other and to limits; the host's world is the host's.
+    // With Bullet's ten iterations motors sag and yield to each other and to limits. A host's own world is left alone.
     constexpr int ROUNDS = 100;
     std::unique_ptr<Robot> robot = make_robot(world, std::move(tree), def);
     if (world.own) robot->bullet->getSolverInfo().m_numIterations = ROUNDS;

@@ -1,4 +1,4 @@
-// Collision shapes of a robot's link: what the file says comes in, a compound of Bullet's shapes goes out. Meshes
+// Collision shapes of a robot's link: the file's shapes come in, a compound of Bullet's shapes goes out. Meshes
 // become their convex hulls.
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 static std::unique_ptr<btCollisionShape> make_hull(const UrdfMesh& mesh, const Vec3& scale) {
-    constexpr double MARGIN = 0.001;  // Bullet's own would make a finger four centimetres fatter [m]
+    constexpr double MARGIN = 0.001;  // Bullet's default would make a finger four centimetres fatter [m]
     auto hull = std::make_unique<btConvexHullShape>();
     for (const Vec3& place : mesh.positions) hull->addPoint(to_bullet(place.cwiseProduct(scale)), false);
     hull->recalcLocalAabb();

@@ -1,4 +1,4 @@
-// Makes the surface of a robot: the shapes that collide, as triangles that go with their links.
+// Makes the surface of a robot: the shapes that collide, as triangles that move with their links.
 #include "model/urdf_pieces.hpp"
 #include "world/robot.hpp"
 

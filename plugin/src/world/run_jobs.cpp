@@ -1,5 +1,5 @@
-// Jobs of a substep on the threads that the host lends: its own, or Bullet's task scheduler. Debian builds Bullet
-// without BT_THREADSAFE, whose btParallelFor then asserts, so the scheduler is asked itself.
+// Runs jobs of a substep on the host's threads or by Bullet's task scheduler. Debian builds Bullet without
+// BT_THREADSAFE, whose btParallelFor then asserts, so the scheduler is called directly.
 #include <LinearMath/btThreads.h>
 
 #include <exception>
@@ -11,7 +11,7 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// An exception in a job is thrown again by the thread that waits for all.
+// Keeps an exception of a job, which the thread that waits for all jobs throws again.
 struct Jobs : btIParallelForBody {
     const std::function<void(size_t)>& job;
     mutable std::mutex mutex;

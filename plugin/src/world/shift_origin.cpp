@@ -1,7 +1,6 @@
 // In: a world and a point of it. Out: the same world, whose origin is that point.
 //
-// All that is kept as a place in the world moves by the same way; what is kept in the frames of plants and bodies
-// stays.
+// All positions in the world's frame change by the same displacement; those in the frames of plants and bodies stay.
 #include "world/convert.hpp"
 #include "world/robot.hpp"
 #include "world/world.hpp"
@@ -64,7 +63,7 @@ bool is_fronds(const World& world, const btCollisionObject* object) {
     return false;
 }
 
-// Points that Bullet found in the last step, which it does not look for anew where bodies sleep.
+// Moves the contact points of Bullet's last step, which it does not search anew where bodies sleep.
 void shift_manifolds(World& world, const Vec3& origin) {
     btDispatcher& dispatcher = *world.bullet->getDispatcher();
     const btVector3 by = to_bullet(origin);

@@ -28,7 +28,7 @@ std::vector<PlantBody*> plants_in(World& world, const btVector3& lower, const bt
 
 void show_sleepers_to(World& world, const btCollisionObject& mover, double h) {
     constexpr btScalar STEPS = 3,
-                       NEAR = btScalar(0.02);  // a pair is made a substep after this, and met in the next; [m]
+                       NEAR = btScalar(0.02);  // pairs are made a substep later, contacts in the next; [m]
     const btBroadphaseProxy* proxy = mover.getBroadphaseHandle();
     const btRigidBody* rigid = btRigidBody::upcast(&mover);
     if (!proxy) return;
@@ -42,7 +42,7 @@ void show_sleepers_to(World& world, const btCollisionObject& mover, double h) {
 }
 
 void hide_sleepers_again(World& world) {
-    constexpr size_t TURNS = 64;  // substeps in which each plant is asked about once
+    constexpr size_t TURNS = 64;  // substeps in which each plant is checked once
     for (size_t i = size_t(world.substep % TURNS); i < world.bodies.size(); i += TURNS) {
         PlantBody& body = *world.bodies[i];
         if (body.rest.asleep && !body.rest.contacts) hide(body);

@@ -1,8 +1,9 @@
-// In: plants of a world after each substep, and what touches them. Out: which of them sleep.
+// In: plants of a world after each substep, and their contacts. Out: which of them sleep.
 //
-// Speeds would not tell rest from the turning point of a slow sway, so places do: a plant is still when nothing of it
-// has gone farther than a set way for half a period of its slowest sway. What it still swings is then within that way,
-// and so is the difference that sleeping makes. As in Bullet's islands, plants sleep with those that they touch.
+// Speeds do not distinguish rest from the turning point of a slow vibration, so positions decide: a plant is at rest
+// when no point of it has moved farther than a set distance for half a period of its first mode. The remaining
+// vibration is then within that distance, and so is the change by sleep. As in Bullet's islands, plants sleep with
+// those they touch.
 #include "world/sleep.hpp"
 
 #include <algorithm>
@@ -19,11 +20,11 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// Air at the middle of sleeping plants, for a share of them in each substep.
+// Wakes sleeping plants if the air at their middle has changed; checks a share of them in each substep.
 void wake_blown(World& world) {
-    constexpr size_t TURNS = 8;    // substeps in which each plant is asked about once,
-    constexpr size_t MOST = 128;   // if there are not more than so many to ask about in one
-    constexpr double GUST = 0.05;  // change of the air that wakes [m/s]
+    constexpr size_t TURNS = 8;    // substeps in which each plant is checked once,
+    constexpr size_t MOST = 128;   // if not more than this many have to be checked in one
+    constexpr double GUST = 0.05;  // change of the air's velocity that wakes a plant [m/s]
     std::vector<PlantBody*> asked;
     std::vector<frond_vec3> points, air;
     const size_t count = world.bodies.size(), here = std::min((count + TURNS - 1) / TURNS, MOST);
@@ -40,7 +41,7 @@ void wake_blown(World& world) {
         if ((Vec3(air[i].x, air[i].y, air[i].z) - asked[i]->rest.air).norm() > GUST) wake(*asked[i]);
 }
 
-// It begins at the end, where points move most.
+// Returns whether all numbers agree within `distance`. Begins at the end, where points move most.
 bool are_within(const VecX& a, const VecX& b, double distance) {
     constexpr Eigen::Index MANY = 24;
     if (a.size() != b.size()) return false;
@@ -51,7 +52,7 @@ bool are_within(const VecX& a, const VecX& b, double distance) {
     return true;
 }
 
-// Of the contacts of a plant and a body within a step.
+// Returns whether a body touches the plant, or may within two steps of h [s] at its speed.
 bool meets(const Contact& contact, double h) {
     constexpr double NEAR = 0.001;  // [m]
     const Vec3 velocity = make_contact_body(*contact.other, contact.on_other, h).velocity;
@@ -125,7 +126,7 @@ void wake(PlantBody& body) {
     body.level.pending = 0;
     end_sway(body);
     add_event(*body.world, FROND_EVENT_WOKE, body);
-    // With what leans on it, or the other way round.
+    // Plants that touch it wake too.
     const std::shared_ptr<const LastContacts> contacts = std::move(body.rest.contacts);
     if (!contacts) return;
     for (const PlantContact& contact : contacts->with_plants)
@@ -191,8 +192,8 @@ void watch(const World& world, PlantBody& body, double h) {
         return;
     }
     rest.still = 0;
-    // From where it moves on need not be known in each substep.
-    constexpr double EVERY = 0.1, APART = 0.3;  // [s], of plants that follow each other [-]
+    // The reference places are not updated in each substep.
+    constexpr double EVERY = 0.1, APART = 0.3;  // interval [s]; its offset between consecutive plants [-]
     const auto turn = [&](double time) { return std::floor(time / EVERY + APART * body.index); };
     if (rest.places.size() != x.size() || turn(world.time) != turn(world.time - h)) rest.places = x;
 }

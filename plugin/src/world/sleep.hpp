@@ -15,34 +15,34 @@ struct World;
 struct PlantBody;
 struct LastContacts;
 
-// The known history of a plant's rest.
+// How long a plant has been at rest, and how it sleeps.
 struct Rest {
     bool asleep = false;
-    std::shared_ptr<const LastContacts> contacts;  // with which it sleeps; null: none
-    double still = 0;                              // for how long nothing of it has gone far from `places` [s]
-    VecX places;                                   // of what its mechanics move
-    Vec3 air = Vec3::Zero();                       // at its middle when it fell asleep [m/s]
+    std::shared_ptr<const LastContacts> contacts;  // contacts with which it sleeps; null: none
+    double still = 0;                              // time for which no point has moved far from `places` [s]
+    VecX places;                                   // reference places of what its mechanics move, or of its modes [m]
+    Vec3 air = Vec3::Zero();                       // velocity at its middle when it fell asleep [m/s]
 };
 
 void wake(PlantBody& body);
-// Stands still where it is from now on.
+// Puts a plant to sleep in its present shape.
 void fall_asleep(World& world, PlantBody& body);
-// Folds again those that sleep and that somebody has looked at.
+// Compresses again the sleepers that were decompressed for reading.
 void compress_looked_at(World& world);
-frond_vec3 middle_of(const PlantBody& body);  // of its box [m]
-// Plants whose boxes meet that of an object which is about to leave.
+frond_vec3 middle_of(const PlantBody& body);  // middle of its box [m]
+// Wakes plants whose boxes overlap that of an object which is about to leave.
 void wake_neighbours(World& world, const btCollisionObject& leaving);
 
-// What of a substep wakes plants. First gravity, effects, the air, and bonds to bodies that move; then what was found
-// to touch them. Contacts of plants that sleep on are taken out.
+// Wake plants in a substep: first by changes of gravity, effects and air, and by bonds to bodies that move; then by
+// contacts that were found. The second removes contacts of plants that sleep on.
 void wake_by_world(World& world);
 void wake_touched(World& world, double h);
-// Tells whether a body may push what sleeps.
+// Returns whether a body may push a sleeper.
 bool is_moving(btCollisionObject& object);
 
-// After a substep: how long has the plant been still?
+// Updates how long the plant has been still. Call it after a substep.
 void watch(const World& world, PlantBody& body, double h);
-// Plants fall asleep together with all that they touch, or not at all.
+// Puts plants to sleep together with all plants that they touch, or not at all.
 void put_to_sleep(World& world);
 
 }  // namespace FROND_BULLET_PRECISION

@@ -1,5 +1,5 @@
-// Snapshot: all that steps change in a world, apart from the objects that it belongs to. Things name each other by
-// their place: plants in the world, bodies among Bullet's collision objects.
+// Snapshot: all that steps change in a world, without the objects themselves. References are indices: of plants in the
+// world, of bodies among Bullet's collision objects.
 #pragma once
 
 #include "world/archive.hpp"
@@ -15,7 +15,7 @@ struct SavedContact {
 };
 struct SavedPlantContact {
     std::array<int, 2> plants;
-    PlantContact contact;  // its plants are not told
+    PlantContact contact;  // without its pointers to plants
 };
 struct SavedTouches {
     std::vector<SavedContact> with_bodies;
@@ -39,7 +39,7 @@ struct SavedModal {
 };
 
 struct SavedPlant {
-    uint64_t kind;  // of its model, place and settings: those of the plant that it fits
+    uint64_t kind;  // hash of model, place and settings, which must be the plant's
     frond_mechanics which;
     Motion motion;
     Trend trend;
@@ -57,7 +57,7 @@ struct SavedPlant {
     float patience, recovers_for;
     std::vector<Vec3> grab_targets;
     std::vector<SavedFragment> fragments;
-    // Of its body.
+    // State of its PlantBody.
     int16_t new_for;
     bool asleep;
     double still;
@@ -98,20 +98,20 @@ struct Snapshot {
     SavedTouches touches;
 };
 
-// Describes the world as it is now. Sleeping plants are looked at.
+// Describes the world as it is now. Sleeping plants are decompressed meanwhile.
 Snapshot take_snapshot(World& world);
-// Throws BAD_ARGUMENT or FILE_FORMAT, with nothing changed, if it does not fit the world.
+// Throws BAD_ARGUMENT or FILE_FORMAT, with nothing changed, if the snapshot does not fit the world.
 void check_snapshot(World& world, const Snapshot& snapshot);
 void put_snapshot(World& world, Snapshot snapshot);
 // Returns a hash of a plant's model, place and settings.
 uint64_t kind_of(const Plant& plant);
 
-// With a head that tells version and precision, and a checksum.
+// Convert a snapshot to bytes and back, with a header of version, precision and checksum.
 std::vector<uint8_t> bytes_of(Snapshot& snapshot);
 Snapshot snapshot_from(const uint8_t* bytes, size_t count);
 
-// Bullet forgets which pairs and points it knows, so that what follows depends on where things are and on nothing else.
-// In a world of Frond's own only.
+// Makes Bullet forget its pairs and contact points, so that steps depend on the present state and on nothing else. Does
+// nothing unless Bullet's world is Frond's own.
 void find_contacts_anew(World& world);
 
 }  // namespace FROND_BULLET_PRECISION

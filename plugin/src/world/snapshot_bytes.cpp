@@ -1,4 +1,4 @@
-// In: a snapshot, or bytes that were one. Out: the other. Layout: magic word, version, precision, length and checksum
+// In: a snapshot, or its bytes. Out: the other. Layout: magic word, version, precision, length and checksum
 // of what follows; then everything in the order below, in the machine's own byte order.
 #include <cstring>
 
@@ -109,7 +109,7 @@ constexpr uint32_t LAYOUT = 2;  // to be raised with every change above
 
 struct Head {
     char magic[8];
-    char version[16];  // of Frond: what steps do may change with it
+    char version[16];  // Frond's: steps may change with it
     uint32_t layout, precision;
     uint64_t length, checksum;
 };

@@ -1,5 +1,5 @@
-// In: a snapshot that was read, and a world. Out: nothing, or an Error if the one does not fit the other. After this
-// nothing of the snapshot can lead outside what the world has.
+// In: a snapshot that was read, and a world. Out: nothing, or an Error if they do not fit. After this no index of the
+// snapshot is out of the world's bounds.
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +23,7 @@ void check_count(size_t saved, size_t own, const char* what) {
              "the snapshot has %zu %s, this world %zu; restore into a world with the same ones", saved, what, own);
 }
 
-// Forces, rates and the like: their products are numbers still.
+// Bound on forces, rates and the like, whose products are then still finite.
 constexpr double MOST = 1e15;
 
 template <class List>
@@ -41,7 +41,7 @@ bool are_flags(const std::vector<uint8_t>& bytes) {
     return std::all_of(bytes.begin(), bytes.end(), [](uint8_t byte) { return byte <= 1; });
 }
 
-// Axes at right angles and a place, as Bullet takes frames.
+// Checks a frame as Bullet has it: axes at right angles, and an origin.
 void check_frame(const std::array<btScalar, 12>& frame, const char* what) {
     constexpr double SLACK = 1e-3;
     check_numbers(frame, what, LARGEST_COORDINATE);
@@ -54,11 +54,11 @@ void check_index(int index, size_t count, const char* what) {
     if (index < 0 || size_t(index) >= count) damaged(what);
 }
 
-// The mechanics that a plant is to have, which need not be those that it has.
+// The mechanics that a plant has in the snapshot, which need not be its present ones.
 struct Becomes {
     std::shared_ptr<const System> system;
     const Mechanics* row;
-    Eigen::Index numbers;  // of places
+    Eigen::Index numbers;  // number of coordinates
 };
 Becomes becomes(const Plant& plant, frond_mechanics which) {
     const auto system =
@@ -99,14 +99,15 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
 void check_motion(const SavedPlant& saved, const Becomes& becomes) {
     const Motion& motion = saved.motion;
     const History& history = motion.history;
-    // A place from the plant's own, both in the world; what a pin moves in a short step is quicker than that.
+    // Bounds places against the plant's own, both in the world. Velocities have no such bound: pins may move any
+    // distance in a short step.
     constexpr double FARTHEST = 4 * LARGEST_COORDINATE;
     for (const VecX* numbers : {&motion.x, &motion.v, &motion.pin_target}) {
         check_size(*numbers, becomes.numbers, "motion");
         if (numbers != &motion.v) check_numbers(*numbers, "motion", FARTHEST);
     }
     if (motion.pinned.size() * 3 != size_t(becomes.numbers) || !are_flags(motion.pinned)) damaged("motion");
-    // What a step does not look back on may be of other mechanics.
+    // A history that is not valid may be of other mechanics.
     for (const VecX* numbers : {&history.x_end, &history.v_end, &history.x_prev, &history.v_prev})
         check_size(*numbers, history.valid ? becomes.numbers : numbers->size(), "history");
     const bool has_rates = history.valid && history.integrator == FROND_INTEGRATOR_GENERALIZED_ALPHA;
@@ -119,9 +120,9 @@ void check_motion(const SavedPlant& saved, const Becomes& becomes) {
 }
 
 void check_blend_out(const BlendOut& blend_out, Eigen::Index numbers) {
-    check_size(blend_out.offset, numbers, "fade", true);
-    check_size(blend_out.rate, blend_out.offset.size(), "fade");
-    check_numbers(std::array{blend_out.time}, "fade");
+    check_size(blend_out.offset, numbers, "blend-out", true);
+    check_size(blend_out.rate, blend_out.offset.size(), "blend-out");
+    check_numbers(std::array{blend_out.time}, "blend-out");
 }
 
 void check_fragments(const SavedPlant& saved, const PlantBody& body) {
@@ -144,11 +145,11 @@ void check_fragments(const SavedPlant& saved, const PlantBody& body) {
 }
 
 void check_plastic(const SavedPlant& saved, const Becomes& becomes) {
-    check_numbers(saved.plastic, "lasting shape");
+    check_numbers(saved.plastic, "plastic state");
     if (saved.plastic.empty()) return;
     const auto own = becomes.row->copy(elements_of(*becomes.system));
     if (!saved.has_own_elements || becomes.row->get_plastic(*own).size() != saved.plastic.size())
-        damaged("lasting shape");
+        damaged("plastic state");
 }
 
 void check_pins(const SavedPlant& saved, const Plant& plant) {

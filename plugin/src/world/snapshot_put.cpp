@@ -1,4 +1,4 @@
-// In: a snapshot that fits a world. Out: the world as it was.
+// In: a snapshot that fits a world. Out: the world in the snapshot's state.
 #include <algorithm>
 
 #include "world/snapshot.hpp"
@@ -45,7 +45,7 @@ void put_touches(const World& world, const SavedTouches& saved, std::vector<Cont
         for (size_t k = 0; k < 2; k++) {
             PlantBody& body = *world.bodies[size_t(s.plants[k])];
             with_plants.back().plants[k] = &body;
-            take_collider(body);  // of the mechanics that it has now; another world may not have needed it yet
+            take_collider(body);  // for its present mechanics; it may have none yet
         }
     }
 }
@@ -73,7 +73,7 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     plant.pin_target = std::move(saved.pin_target);
     plant.anchor = std::move(saved.anchor);
     plant.pins_changed = true;
-    apply_pins(plant);  // for their springs; the rest is in the motion
+    apply_pins(plant);  // makes the pins' springs; the rest is in the motion
     plant.motion = std::move(saved.motion);
     plant.trend = std::move(saved.trend);
     plant.blend_out = std::move(saved.blend_out);
@@ -103,7 +103,7 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
         fragment.angular_velocity = from.angular_velocity;
     }
     body.new_for = saved.new_for;
-    const double ms = body.level.ms, ms_capsules = body.level.ms_capsules;  // of this machine
+    const double ms = body.level.ms, ms_capsules = body.level.ms_capsules;  // measured on this machine
     body.level = saved.level;
     body.level.ms = ms;
     body.level.ms_capsules = ms_capsules;
@@ -118,7 +118,7 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     body.world->bullet->updateSingleAabb(&body);
 }
 
-// How a plant that is awake was at rest.
+// Restores a plant's state of rest or sleep; the plant is awake.
 void put_rest(World& world, SavedPlant& saved, PlantBody& body) {
     Rest& rest = body.rest;
     if (saved.asleep) {
@@ -149,7 +149,7 @@ void put_rigid(const SavedRigid& saved, Rigid& rigid) {
 }  // namespace
 
 void put_snapshot(World& world, Snapshot snapshot) {
-    world.gravity_ahead = {};  // nothing more is to be held off on the way
+    world.gravity_ahead = {};  // no gravity is left to be cancelled
     for (const auto& body : world.bodies) wake(*body);
     world.time = snapshot.time;
     if (world.wind) world.wind->travelled = snapshot.travelled;

@@ -8,7 +8,7 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// Where a body is among Bullet's objects; -1: it has gone.
+// Returns a body's index among Bullet's objects; -1 if it has gone.
 int place_of(const World& world, const btCollisionObject* object) {
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     for (int i = 0; i < objects.size(); i++)
@@ -47,7 +47,7 @@ void take_modal(const ModalMotion& modal, SavedPlant& saved) {
                            modal.fresh, modal.blend_out});
 }
 
-// What a step abreast left is kept once.
+// Adds the end of the last step to the history of a batched plant, which has it in its motion only.
 Motion with_end(Motion motion) {
     History& history = motion.history;
     if (!history.valid || history.x_end.size() > 0) return motion;

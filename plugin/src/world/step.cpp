@@ -15,13 +15,13 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-constexpr double ENTANGLED = 0.0007;  // depth of plants in each other that touching alone does not make [m]
+constexpr double ENTANGLED = 0.0007;  // overlap of plants beyond that of mere touch [m]
 
 Vec3 gravity_of(const World& world) {
     return from_bullet(world.bullet->getGravity());
 }
 
-// Records what was done for an effect, and the time it took [ms].
+// Records that an effect ran, and its time [ms].
 static void add_effect(World& world, frond_effects effect, double ms) {
     world.report.effects_run |= effect;
     size_t bit = 0;
@@ -29,7 +29,7 @@ static void add_effect(World& world, frond_effects effect, double ms) {
     world.profile.ms_of_effect[bit] += ms;
 }
 
-// Adds what a plant did in this substep to the world's report and profile.
+// Adds a plant's counts and times in this substep to the world's report and profile.
 static void add_to_report(World& world, const Plant& plant) {
     frond_report& report = world.report;
     report.trouble |= plant.trouble;
@@ -66,7 +66,7 @@ bool any_wants(const World& world, frond_effects effect) {
                        [&](const PlantBody* body) { return body->plant->effects & world.effects & effect; });
 }
 
-// Those that are awake, in the order in which they came into the world.
+// Numbers the plants that are awake, in the order in which they came into the world.
 void call_roll(World& world) {
     for (PlantBody* body : world.taking_part) body->number = -1;
     world.taking_part.clear();
@@ -101,7 +101,7 @@ void find_touches(World& world, double h) {
     world.profile.ms_collide = find_timer.ms();
 }
 
-// A plant that a body touches is simulated for a while, wherever it is.
+// Notes plants that moving bodies touch: they are simulated for a while at any distance.
 void note_touches(World& world) {
     constexpr double WHILE = 0.5, NEAR = 0.02;  // [s], [m]
     if (!world.detail) return;
@@ -109,8 +109,8 @@ void note_touches(World& world) {
         if (contact.gap < NEAR && is_moving(*contact.other)) contact.plant->level.touched = world.time + WHILE;
 }
 
-// Contacts of plants that only sway push nothing, nor do those of what has gone over to another detail since they were
-// found; those that push are stepped now.
+// Drops contacts of modal plants, and of plants whose detail changed after their contacts were found; marks plants that
+// have others, which are stepped now.
 void mark_touched(World& world) {
     const auto sways = [](const PlantBody* body) { return body->plant->modal != nullptr; };
     world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(),
@@ -140,8 +140,8 @@ void mark_touched(World& world) {
         if (body->plant->is_touched || body->plant->has_user_force) body->level.is_due = true;
 }
 
-// Takes the rest of a step when nothing pushes the plants any more, of one or of those that went abreast; plants that
-// may break move their capsules later.
+// Takes the rest of a step, of one plant or of a batch, when no contact is left to push them; plants that may break
+// move their capsules later.
 void finish(const World& world, PlantBody* const* bodies, int count, const Surroundings& surroundings) {
     constexpr double LATELY = 0.3;
     for (int i = 0; i < count; i++) {
@@ -164,7 +164,7 @@ void finish(const World& world, PlantBody& body, const Surroundings& surrounding
     finish(world, bodies, 1, surroundings);
 }
 
-// Sways are told, and more seldom the capsules put where they are, in every so many substeps.
+// Steps a modal plant: queries the air once in TURNS substeps, and moves the capsules once in SEEN.
 void sway(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
     constexpr uint64_t TURNS = 4, SEEN = 8;
     const uint64_t turn = world.substep + uint64_t(body.index);
@@ -178,7 +178,7 @@ void sway(const World& world, PlantBody& body, const Surroundings& surroundings,
     body.level.ms_capsules = float(timer.ms());
 }
 
-// A plant's own part of the substep, which no other has anything to do with.
+// Takes a plant's own part of the substep, which is independent of all others.
 void step_alone(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
     if (body.plant->modal) return sway(world, body, surroundings, h);
     if (!body.level.is_due) {
@@ -190,7 +190,7 @@ void step_alone(const World& world, PlantBody& body, const Surroundings& surroun
     if (!body.plant->is_touched) finish(world, body, surroundings);
 }
 
-// Plants that are stepped by one job: one, or several that go abreast.
+// Plants that are stepped by one job: a single one, or a batch.
 struct StepJob {
     std::array<PlantBody*, MOST_LANES> bodies;
     int count = 0;
@@ -204,17 +204,17 @@ void run_job(const World& world, const StepJob& job, const Surroundings& surroun
     finish(world, job.bodies.data(), job.count, surroundings);
 }
 
-// Tells whether a plant can be stepped with those of a job.
+// Returns whether a plant can be batched with those of a job.
 bool goes_with(const StepJob& job, const PlantBody& body) {
     return job.bodies[0]->level.pending == body.level.pending && go_alike(*job.bodies[0]->plant, *body.plant);
 }
 
-// All that is awake; those that may go abreast with the next ones that go alike.
+// Shares all awake plants out into jobs; those that may be batched go with the next ones of their kind.
 std::vector<StepJob> share_out(const World& world, const Surroundings& surroundings, double h) {
-    constexpr size_t MOST_OPEN = 8;  // or plants that all differ would each be compared with all before it
+    constexpr size_t MOST_OPEN = 8;  // most jobs that a plant is compared with, where all plants differ
     const int most = most_in_batch();
     std::vector<StepJob> jobs;
-    std::vector<size_t> open;  // of those, that have room
+    std::vector<size_t> open;  // jobs whose batch is not full
     for (PlantBody* body : world.awake) {
         if (!body->plant->modal) body->level.pending += h;
         const bool is_due = !body->plant->modal && body->level.is_due;
@@ -237,7 +237,7 @@ std::vector<StepJob> share_out(const World& world, const Surroundings& surroundi
     return jobs;
 }
 
-// Does what has to be done by one thread, plant by plant.
+// Does the part of a plant's step that has to be done by one thread.
 void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
     frond_report& report = world.report;
     report.detail_count[body.level.now]++;
@@ -333,8 +333,8 @@ void take_step(World& world, btCollisionWorld& collision_world, double h) {
     learn_times(world);
 }
 
-// Of a step that cannot be ended: who was not done with it stands where it began. Bullet, which has moved its bodies
-// and will not come to the end of stepSimulation, forgets the forces that moved them.
+// Aborts a step that cannot be completed: plants that have not completed it are put back to its start. Bullet has moved
+// its bodies and will not reach the end of stepSimulation, so the forces on them are cleared here.
 void break_off_step(World& world) {
     world.bullet->clearForces();
     for (PlantBody* body : world.awake) {
@@ -371,7 +371,7 @@ void advance(World& world, double dt) {
     for (PlantBody* body : world.awake) clear_user_force(*body->plant);
 }
 
-// FNV-1a over the bits of all nodes, of what is lasting and of what came off.
+// Computes FNV-1a over the bits of all nodes, plastic states and fragments.
 uint64_t state_hash(World& world) {
     uint64_t hash = 0xcbf29ce484222325u;
     const auto add = [&](const auto& values) {

@@ -1,4 +1,4 @@
-// Making and ending a world; plants enter and leave it.
+// Makes and ends worlds, adds plants to them and removes them.
 #include "world/world.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// World: the plants of one Bullet world, stepped inside each of its substeps by an action, the one hook that every kind
-// of Bullet world runs at the same place and that belongs to nobody else.
+// World: the plants of one Bullet world, stepped inside each of its substeps by an action, the only hook that every
+// kind of Bullet world runs at the same place and that is not the host's.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -26,7 +26,7 @@ struct Robot;
 struct World final : btActionInterface {
     std::unique_ptr<OwnBullet> own;  // null when attached
     btDynamicsWorld* bullet;
-    btSoftBodyWorldInfo soft_info;  // what btSoftBody's constructor asks for; not otherwise used
+    btSoftBodyWorldInfo soft_info;  // an argument of btSoftBody's constructor; not otherwise used
     frond_effects effects;
     double max_substep;  // [s]
     HashSettings hash;
@@ -35,34 +35,33 @@ struct World final : btActionInterface {
     std::unique_ptr<Wind> wind;  // null: there is no air
     std::map<const Model*, std::weak_ptr<Hull>> hulls;
     std::vector<std::unique_ptr<PlantBody>> bodies;
-    std::vector<PlantBody*> awake;        // by index, but for those that woke since the last substep
-    std::vector<PlantBody*> taking_part;  // in the running substep, by number: what is awake, and what sleeps beside it
-    std::vector<PlantBody*> looked_at;    // asleep, but unfolded since the last substep
-    // Bullet's objects that are plants, at their places among all: thousands need not be looked at to know what they
-    // are.
+    std::vector<PlantBody*> awake;        // by index, except those that woke since the last substep
+    std::vector<PlantBody*> taking_part;  // in the running substep, by number: awake plants and sleepers beside them
+    std::vector<PlantBody*> looked_at;    // asleep, but decompressed since the last substep
+    // Bullet's objects that are plants, at their indices among all objects, so that thousands need not be checked anew.
     std::vector<const btCollisionObject*> plants_at;
-    frond_parallel_for_fn* parallel_for;  // null: the host lends no threads of its own
+    frond_parallel_for_fn* parallel_for;  // null: the host provides no threads
     void* parallel_user;
-    std::vector<std::unique_ptr<Rigid>> rigids;  // that Frond made
+    std::vector<std::unique_ptr<Rigid>> rigids;  // rigid bodies made by Frond
     std::vector<std::unique_ptr<Robot>> robots;  // likewise
     std::list<Bond> bonds;
     double sleep_distance;  // 0: no plant sleeps [m]
-    size_t turn = 0;        // of asking sleeping plants about the air
+    size_t turn = 0;        // next plant to be checked for a change of air
     uint64_t substep = 0;
-    double substep_length = 0;  // of the last one [s]
-    double interpolation =
-        1;  // where surfaces are shown between the last two [-], or FROND_INTERPOLATION_AS_MOTION_STATES
+    double substep_length = 0;  // length of the last one [s]
+    // Where surfaces are shown between the last two substeps [-], or FROND_INTERPOLATION_AS_MOTION_STATES.
+    double interpolation = 1;
     std::unique_ptr<Detail> detail;      // null: all plants are simulated in full
-    Vec3 gravity_before = Vec3::Zero();  // in the last substep [m/s^2]
+    Vec3 gravity_before = Vec3::Zero();  // gravity in the last substep [m/s^2]
     frond_effects effects_before = 0;    // likewise
     bool is_stepping = false;            // in updateAction
     bool is_ending = false;
-    std::vector<Contact> contacts;                             // of the last substep, with bodies
-    GravityAhead gravity_ahead;                                // of those
-    std::vector<PlantContact> plant_contacts;                  // likewise, of plants with each other and themselves
-    std::vector<std::unique_ptr<PlantSearch>> plant_searches;  // one an island of plants that may touch
+    std::vector<Contact> contacts;                             // contacts of the last substep, with bodies
+    GravityAhead gravity_ahead;                                // gravity given in advance to the bodies of those
+    std::vector<PlantContact> plant_contacts;                  // contacts of plants with each other and themselves
+    std::vector<std::unique_ptr<PlantSearch>> plant_searches;  // one per island of plants that may touch
     double time = 0;                                           // [s]
-    frond_report report = {};                                  // of the last substep
+    frond_report report = {};                                  // report of the last substep
     frond_profile profile = {};                                // likewise
     Events events;
 
@@ -73,29 +72,30 @@ struct World final : btActionInterface {
     void debugDraw(btIDebugDraw* drawer) override;
 };
 
-// job(i) for all i below count, on as many threads as the host lends.
+// Runs job(i) for all i below count, on as many threads as the host provides.
 void run_jobs(const World& world, size_t count, const std::function<void(size_t)>& job);
-// Its number in the running substep, in which it takes part from now on.
+// Returns a plant's number in the running substep, in which it takes part from now on.
 int number_of(World& world, PlantBody& body);
-// A plant as it is now, whether it sleeps or only sways: for those who read it.
+// Brings a plant up to date for reading: decompresses a sleeper, poses a modal plant.
 PlantBody& look_at(PlantBody& body);
-// Without `bullet` the world makes its own. Throws BAD_ARGUMENT when `bullet` has plants already.
+// Makes a world, with a Bullet world of its own if `bullet` is null. Throws BAD_ARGUMENT if `bullet` has plants
+// already.
 std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def& def);
-// With a group and a mask of Bullet's collision filter.
+// Adds a plant, with a group and a mask of Bullet's collision filter.
 PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, int group, int mask, bool asleep);
 void remove_plant(World& world, PlantBody* body);
 // Puts a plant elsewhere, with its shape and its fragments. `rotation` has length one.
 void place_plant(PlantBody& body, const Vec3& position, const Quat& rotation);
-// With which the plant would be made as it is set now.
+// Returns the def with which the plant would be made as it is set now.
 frond_plant_def def_of(const PlantBody& body);
-// As if it was made now; grabs and bonds stay.
+// Resets a plant to how it was made; grabs and bonds stay.
 void reset_plant(PlantBody& body);
-// The world's origin moves to this place of it [m].
+// Moves the world's origin to this place of it [m].
 void shift_origin(World& world, const Vec3& origin);
 // Steps a world of Frond's own by exactly dt.
 void advance(World& world, double dt);
 Vec3 gravity_of(const World& world);
-// How long before the end of the last substep surfaces are shown [s].
+// Returns how long before the end of the last substep surfaces are shown [s].
 double surfaces_back(const World& world);
 uint64_t state_hash(World& world);
 
