@@ -19,7 +19,7 @@ file(RENAME ${WORK}/installed ${prefix})
 if(EXISTS ${prefix}/bin/frond)
     run(${prefix}/bin/frond run corn --steps 2)
 endif()
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_C_FLAGS=${flags}
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_C_FLAGS=${flags}
     -DCMAKE_CXX_FLAGS=${flags} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_C_COMPILER=${CC})
 run(${CMAKE_COMMAND} --build ${WORK}/build -j 2)
 file(GLOB programs ${WORK}/build/main_* ${WORK}/build/attach_*)
