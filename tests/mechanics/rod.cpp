@@ -172,6 +172,45 @@ TEST_P(EveryRod, ForcesOnPlacesAddUpToNothing) {
     EXPECT_LT(sum.norm(), 1e-12 * size);
 }
 
+TEST_P(EveryRod, RetractionMakesALinearTurnARigidOne) {
+    const RodElements elements = make_rod_elements(chain_model(), which);
+    const std::vector<uint8_t> held(size_t(elements.node_count), 0);
+    const Vec3 turn(0.3, -0.8, 0.5), centre = point(elements.modelled, 0);
+    VecX end = elements.modelled, out;
+    for (int i = 0; i < elements.node_count; i += 2) {
+        point(end, i) += turn.cross(point(elements.modelled, i) - centre);
+        point(end, i + 1) = turn;
+    }
+    const double size = row.energy(elements, end);
+    row.retract(elements, elements.modelled, end, held, out);
+    EXPECT_LT(row.energy(elements, out), 1e-20 * size);
+    // Nothing holds it: its centre of mass is where the displacement takes it.
+    Vec3 off = Vec3::Zero();
+    for (size_t i = 0; i < elements.mass.size(); ++i)
+        off += elements.mass[i] * (point(out, int(2 * i)) - point(end, int(2 * i)));
+    EXPECT_LT(off.norm(), 1e-14);
+}
+
+TEST_P(EveryRod, RetractionDiffersInSecondOrderAndLeavesWhatIsHeld) {
+    const RodElements elements = make_rod_elements(chain_model(), which);
+    Dice dice(5);
+    const VecX from = deformed(elements, dice, 0.01, 0.5),
+               way = deformed(elements, dice, 0.02, 0.4) - elements.modelled;
+    std::vector<uint8_t> held(size_t(elements.node_count), 0);
+    held[0] = held[6] = 1;
+    VecX out, off[2];
+    for (const int k : {0, 1}) {
+        const VecX end = from + 1e-3 / (k + 1) * way;
+        row.retract(elements, from, end, held, out);
+        off[k] = out - end;
+        EXPECT_EQ(point(off[k], 0), Vec3::Zero());
+        EXPECT_EQ(point(off[k], 6), Vec3::Zero());
+        for (int i = 1; i < elements.node_count; i += 2) EXPECT_EQ(point(off[k], i), Vec3::Zero());
+    }
+    EXPECT_GT(off[0].norm(), 1e-9);
+    EXPECT_LT((off[0] - 4 * off[1]).norm(), 0.01 * off[0].norm());
+}
+
 TEST(Rod, StandsInBalanceAsModelled) {
     const RodElements elements = make_rod_elements(chain_model(true), FROND_MECHANICS_ROD);
     VecX f = VecX::Zero(elements.modelled.size());

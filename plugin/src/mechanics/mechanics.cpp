@@ -28,7 +28,8 @@ static Mechanics rods(const char* name) {
             false,
             true,
             true,
-            &rod_batch()};
+            &rod_batch(),
+            retract_rods};
 }
 
 const Mechanics& mechanics(frond_mechanics which, int order) {

@@ -95,6 +95,8 @@ struct BatchMechanics {
     // that is so close to such a limit that its plant has to be checked alone.
     unsigned (*not_calm)(const Elements& elements, const NumbersInLines& from, const NumbersInLines& to, double part);
     unsigned (*may_yield)(const Elements& elements, const NumbersInLines& x);
+    void (*retract)(const Elements& elements, const NumbersInLines& from, const NumbersInLines& end,
+                    const std::vector<uint8_t>& held, NumbersInLines& out) = nullptr;
 };
 
 // x is in the frame of the rest positions, so a plant's rotation in the world does not strain it.
@@ -147,6 +149,10 @@ struct Mechanics {
     // Rotations cause no strain; false for linear tets, which grow when they rotate far.
     bool turns = true;
     const BatchMechanics* batch = nullptr;  // null: plants are stepped one by one
+    // Puts the end of a displacement that a solve found by linearizing at `from` back onto motions that strain elements
+    // as the solve says: `out` is `end` but for that. Held nodes, one flag a node, stay. Null: `end` is good as it is.
+    void (*retract)(const Elements& elements, const VecX& from, const VecX& end, const std::vector<uint8_t>& held,
+                    VecX& out) = nullptr;
 };
 // Returns the row for elements of order 1 .. HIGHEST_ORDER; chain mechanics are the same for both orders.
 const Mechanics& mechanics(frond_mechanics which, int order = 1);

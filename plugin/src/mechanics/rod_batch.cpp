@@ -104,7 +104,7 @@ unsigned may_yield(const Elements& body, const NumbersInLines& x) {
 }  // namespace
 
 const BatchMechanics& rod_batch() {
-    static const BatchMechanics ROW = {set_ahead, rotary_inertia, not_calm, may_yield};
+    static const BatchMechanics ROW = {set_ahead, rotary_inertia, not_calm, may_yield, retract_rods_of_batch};
     return ROW;
 }
 

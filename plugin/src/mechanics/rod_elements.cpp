@@ -150,11 +150,19 @@ RodElements make_elements(const Model& model, Take&& take) {
     for (double m : model.chain_mass) out.mass.push_back(std::max(m, 1e-6 * total / double(nodes.size())));
     set_inertia(model, out);
     bound_shear(out);
+    find_roots(out);
     if (model.stands_as_modelled) let_stand(out);
     return out;
 }
 
 }  // namespace
+
+void find_roots(RodElements& elements) {
+    elements.root.resize(elements.mass.size());
+    for (size_t i = 0; i < elements.root.size(); ++i) elements.root[i] = int(i);
+    // Segments go from a parent to a later node, parents first.
+    for (const RodSegment& rod : elements.segments) elements.root[size_t(rod.b)] = elements.root[size_t(rod.a)];
+}
 
 RodElements make_spring_elements(const Model& model, const std::vector<double>& radii,
                                  const std::vector<double>& stiffer) {

@@ -31,8 +31,12 @@ struct RodElements : Elements {
     std::vector<RodSegment> segments;
     std::vector<double> mass;         // one a chain node [kg]
     std::vector<Mat3> inertia;        // rotary, one a chain node, in the modelled shape [kg m^2]
+    std::vector<int> root;            // of each chain node: the first node that segments lead to it from, or itself
     std::vector<RodPlastic> plastic;  // one a segment; empty unless the plant has yielded
 };
+
+// Sets `root` from the segments.
+void find_roots(RodElements& elements);
 
 inline const RodElements& as_rods(const Elements& elements) {
     return static_cast<const RodElements&>(elements);

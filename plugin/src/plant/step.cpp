@@ -186,7 +186,7 @@ static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h
 // Returns into how many parts to divide a step so that the air turns nothing too far in any; at most eight.
 static int parts_to_be_calm(const Plant& plant) {
     int parts = 2;
-    while (parts < 8 && !is_calm_way(plant, 0.5 / parts)) parts *= 2;
+    while (parts < 8 && !is_calm_way(plant, 1.0 / parts)) parts *= 2;
     return parts;
 }
 
@@ -222,6 +222,8 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects) {
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
     settings.most_work = work_allowed(plant);
+    // Contacts add their response to the linear solution, of which a part may be a displacement that they take back.
+    settings.retracts = !plant.is_touched;
     return settings;
 }
 

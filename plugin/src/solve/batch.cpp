@@ -193,11 +193,39 @@ struct FormPlaces {
     }
 };
 
-// Computes the end of the step; lanes with a number that is not finite are lost.
+// Where the solve leads.
+struct Move {
+    Batch& a;
+    double step;
+    template <class S>
+    FROND_INLINE void run() const {
+        for (int i = 0; i < a.system->elements->node_count; ++i) {
+            const Lanes3<S> v = load3<S>(a.v_start.data(), 3 * i) + load3<S>(a.dv.data(), 3 * i);
+            store3(v, a.v_end.data(), 3 * i);
+            store3(load3<S>(a.x_base.data(), 3 * i) + constant<S>(step) * v, a.x_end.data(), 3 * i);
+        }
+    }
+};
+
+// As retract() in newton.cpp.
+struct TakeRetracted {
+    Batch& a;
+    double step;
+    template <class S>
+    FROND_INLINE void run() const {
+        for (int i = 0; i < a.system->elements->node_count; ++i) {
+            const Lanes3<S> by = load3<S>(a.retracted.data(), 3 * i) - load3<S>(a.x_end.data(), 3 * i);
+            const Lanes3<S> v = load3<S>(a.v_end.data(), 3 * i) + constant<S>(1 / step) * by;
+            store3(v, a.v_end.data(), 3 * i);
+            store3(load3<S>(a.x_base.data(), 3 * i) + constant<S>(step) * v, a.x_end.data(), 3 * i);
+        }
+    }
+};
+
+// Puts pinned nodes where they are held; lanes with a number that is not finite are lost.
 struct Finish {
     Batch& a;
     const std::vector<uint8_t>& pinned;
-    double step;
     bool turns;  // every other node is a rotation
     unsigned& lost;
     template <class S>
@@ -205,17 +233,14 @@ struct Finish {
         constexpr double NEARLY = 1 - 1e-9;
         S sound = constant<S>(1), within = sound;
         for (int i = 0; i < a.system->elements->node_count; ++i) {
-            Lanes3<S> v = load3<S>(a.v_start.data(), 3 * i) + load3<S>(a.dv.data(), 3 * i);
-            Lanes3<S> x = load3<S>(a.x_base.data(), 3 * i) + constant<S>(step) * v;
             if (pinned[size_t(i)]) {
-                x = load3<S>(a.x.data(), 3 * i);
-                v = load3<S>(a.v_start.data(), 3 * i);
+                store3(load3<S>(a.x.data(), 3 * i), a.x_end.data(), 3 * i);
+                store3(load3<S>(a.v_start.data(), 3 * i), a.v_end.data(), 3 * i);
             }
+            const Lanes3<S> x = load3<S>(a.x_end.data(), 3 * i), v = load3<S>(a.v_end.data(), 3 * i);
             const S far = dot(x, x);
             sound = select(far + dot(v, v) <= 1e300, sound, S{});
             if (turns && i % 2) within = select(far <= M_PI * M_PI * NEARLY, within, S{});
-            store3(x, a.x_end.data(), 3 * i);
-            store3(v, a.v_end.data(), 3 * i);
         }
         lost |= bits_of(sound == 0.0);
         a.wound = bits_of(within == 0.0);
@@ -291,7 +316,12 @@ unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<u
         solve(system.plan.fronts, a.fronts, a.rhs, a.dv);
     }
     relative_residuals(a.A, a.rhs, a.dv, a.way, a.residual.data());
-    run_in_lanes(a.lanes, Finish{a, pinned, method.step, turns, lost});
+    run_in_lanes(a.lanes, Move{a, method.step});
+    if (system.row->batch->retract) {
+        system.row->batch->retract(elements, a.x_from, a.x_end, a.held, a.retracted);
+        run_in_lanes(a.lanes, TakeRetracted{a, method.step});
+    }
+    run_in_lanes(a.lanes, Finish{a, pinned, turns, lost});
     return lost;
 }
 

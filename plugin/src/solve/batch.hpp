@@ -27,7 +27,7 @@ struct Batch {
     unsigned wound = 0;  // lanes with a rotation vector longer than half a turn, or nearly so, a bit each: see unwind()
 
     // Scratch of the step.
-    NumbersInLines v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia;
+    NumbersInLines v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia, retracted;
     std::vector<uint8_t> held, filled;
     std::vector<double> element_damping;
     BlockMatrix A;

@@ -52,6 +52,14 @@ void move(const Newton& n, const VecX& v) {
     n.w.x = n.stage.x_base + n.stage.step * v;
 }
 
+// Keeps the strain that the solve linearized at `from` gave to what rotates, by velocities that lead there.
+void retract(const Newton& n, const VecX& from, VecX& v) {
+    if (!n.body.retract || !n.input.settings.retracts) return;
+    move(n, v);
+    n.body.retract(*n.w.elements, from, n.w.x, n.w.held, n.w.retracted);
+    v += (1 / n.stage.step) * (n.w.retracted - n.w.x);
+}
+
 // Computes the residual without the terms of K: step * f + impulse - M (v - v_base) - step * a M v.
 void start_residual(const Newton& n, const VecX& v, VecX& rhs) {
     const double step = n.stage.step;
@@ -318,6 +326,7 @@ double solve_first(Newton& n) {
     while (n.exact && part > LEAST && !ends_calmly(n, part)) part *= 0.5;
     if (n.is_long && !n.exact && !ends_calmly(n, 1)) return skip_first(n);
     n.w.v += part * n.w.dv;
+    retract(n, linearized_from(n), n.w.v);
     return norm;
 }
 

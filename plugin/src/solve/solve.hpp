@@ -48,6 +48,7 @@ struct SolveSettings {
     double spectral_radius = 0.8;  // generalized_alpha's at infinite frequency, 0..1 [-]
     bool careful = false;          // every solve has a line search
     bool from_rest = false;        // and may begin at rest, if the potential is less there
+    bool retracts = true;          // rods keep the strain that a solve gives them: see Mechanics::retract
     int most_work = 0;             // work after which a stage with line searches ends where it is; 0: no limit
 };
 

@@ -33,6 +33,7 @@ struct Workspace {
     VecX force, impulse;          // forces at the start of the step [N], impulse of the stage [N s]
     double reach = 0;             // derivative of positions by velocities at the end [s]
     VecX rhs_stage;               // residual at v
+    VecX retracted;               // end of the stage after Mechanics::retract [m]
     VecX direction, v_trial, rhs_trial;  // scratch of the line search
 };
 
