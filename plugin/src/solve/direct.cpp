@@ -14,11 +14,10 @@ namespace frond {
 
 using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-// Makes protected members of Eigen accessible: to factorize an already ordered matrix in place, without allocating.
+// Makes protected members of Eigen accessible: to check pivots and to solve in place.
 struct Ldlt : Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering<int>> {
-    void analyze(const Sparse& ordered) { analyzePattern_preordered(ordered, true); }
     bool refactor(const Sparse& ordered) {
-        factorize_preordered<true>(ordered);
+        factorize(ordered);
         if (m_info != Eigen::Success) return false;
         for (double pivot : m_diag)
             if (!(pivot > 0) || !std::isfinite(pivot)) return false;
@@ -77,7 +76,7 @@ DirectFactorPtr make_direct_factor(const BlockPattern& pattern) {
     DirectFactorPtr factor(new DirectFactor);
     factor->order = elimination_order(pattern);
     place_numbers(pattern, *factor);
-    factor->ldlt.analyze(factor->ordered);
+    factor->ldlt.analyzePattern(factor->ordered);
     factor->solution.resize(factor->ordered.cols());
     return factor;
 }
