@@ -13,6 +13,7 @@ namespace frond {
 template <class S>
 struct PiecesOfOne {
     static constexpr int MANY = LANES<S>;
+    using Number = double;  // number of a node in x
     const RodSegment* rod[LANES<S>];
     size_t first;
     int count;
@@ -56,6 +57,14 @@ struct PiecesOfOne {
             }
         }
     }
+    // Places second ends by chords from the first ones, lane by lane; held nodes, one flag a node, stay.
+    FROND_INLINE void put_second_ends(const Lanes3<S>& chord, const std::vector<uint8_t>& held, double* x) const {
+        for (int lane = 0; lane < count; ++lane) {
+            if (held[size_t(2 * rod[lane]->b)]) continue;
+            const double *a = x + 6 * rod[lane]->a, by[] = {chord.x[lane], chord.y[lane], chord.z[lane]};
+            for (int k = 0; k < 3; ++k) x[6 * rod[lane]->b + k] = a[k] + by[k];
+        }
+    }
     // Adds blocks to a BlockMatrix, which stores them by columns.
     FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, BlockMatrix& K,
                                  std::vector<uint8_t>*) const {
@@ -81,6 +90,7 @@ struct PiecesOfOne {
 template <class S>
 struct PieceOfSeveral {
     static constexpr int MANY = 1;
+    using Number = S;
     const RodSegment& rod;
     size_t first;
     FROND_INLINE PieceOfSeveral(const std::vector<RodSegment>& rods, size_t first) : rod(rods[first]), first(first) {}
@@ -100,6 +110,9 @@ struct PieceOfSeveral {
         const auto from = [&](int at, const Lanes3<S>& part) { store3(load3<S>(f, at) - part, f, at); };
         from(6 * rod.a, g.place_a), from(6 * rod.a + 3, g.turn_a);
         from(6 * rod.b, g.place_b), from(6 * rod.b + 3, g.turn_b);
+    }
+    FROND_INLINE void put_second_ends(const Lanes3<S>& chord, const std::vector<uint8_t>& held, double* x) const {
+        if (!held[size_t(2 * rod.b)]) store3(load3<S>(x, 6 * rod.a) + chord, x, 6 * rod.b);
     }
     // Adds to blocks that are filled, and overwrites the others.
     FROND_INLINE void add_blocks(const Lanes33<S> (&blocks)[10], const S& by, BlockMatrix& A,

@@ -14,11 +14,9 @@ namespace frond {
 
 namespace {
 
-// From the first to the second end of segments at the end of the displacement [m].
-template <class Pieces, class S = LanesOf<Pieces>>
-FROND_INLINE Lanes3<S> chord_after(const Pieces& pieces, const double* from, const double* end) {
-    const Placed<S> at(pieces, from);
-    const Placed<S> after(pieces, end);
+// Returns the chord of segments, from the first to the second end, after the displacement between two states [m].
+template <class S>
+FROND_INLINE Lanes3<S> chord_after(const Placed<S>& at, const Placed<S>& after) {
     const RodChange<S> change = change_of(at.piece, rotation_of(at.a.w, at.a.p), rate_of(at.a), rate_of(at.b), at.bent);
     const S per_length = 1.0 / at.piece.length;
     const Lanes3<S> by_chord = transposed_times(at.bent.middle, after.bent.chord - at.bent.chord);
@@ -51,6 +49,7 @@ FROND_INLINE void keep_centres(const RodElements& elements, const std::vector<ui
     }
 }
 
+template <template <class> class Pieces>
 struct Retract {
     const RodElements& elements;
     const std::vector<uint8_t>& held;
@@ -58,33 +57,15 @@ struct Retract {
     double* out;
     template <class S>
     FROND_INLINE void run() const {
-        for (size_t s = 0; s < elements.segments.size(); s += size_t(LANES<S>)) {
-            const PiecesOfOne<S> pieces(elements.segments, s);
-            const Lanes3<S> chord = chord_after(pieces, from, end);
-            for (int lane = 0; lane < pieces.count; ++lane) {
-                const RodSegment& rod = *pieces.rod[lane];
-                if (held[size_t(2 * rod.b)]) continue;
-                const double *a = out + 6 * rod.a, by[] = {chord.x[lane], chord.y[lane], chord.z[lane]};
-                for (int k = 0; k < 3; ++k) out[6 * rod.b + k] = a[k] + by[k];
-            }
+        LastEnd<S> last_at, last_after;
+        for (size_t s = 0; s < elements.segments.size(); s += size_t(Pieces<S>::MANY)) {
+            const Pieces<S> pieces(elements.segments, s);
+            const Placed<S> at = last_at.place(pieces, from), after = last_after.place(pieces, end);
+            last_at.go_on(pieces, at);
+            last_after.go_on(pieces, after);
+            pieces.put_second_ends(chord_after(at, after), held, out);
         }
-        keep_centres<double>(elements, held, end, out);
-    }
-};
-
-struct RetractBatch {
-    const RodElements& elements;
-    const std::vector<uint8_t>& held;
-    const double *from, *end;
-    double* out;
-    template <class S>
-    FROND_INLINE void run() const {
-        for (size_t s = 0; s < elements.segments.size(); ++s) {
-            const PieceOfSeveral<S> pieces(elements.segments, s);
-            if (held[size_t(2 * pieces.rod.b)]) continue;
-            store3(load3<S>(out, 6 * pieces.rod.a) + chord_after(pieces, from, end), out, 6 * pieces.rod.b);
-        }
-        keep_centres<S>(elements, held, end, out);
+        keep_centres<typename Pieces<S>::Number>(elements, held, end, out);
     }
 };
 
@@ -93,13 +74,14 @@ struct RetractBatch {
 void retract_rods(const Elements& body, const VecX& from, const VecX& end, const std::vector<uint8_t>& held,
                   VecX& out) {
     out = end;
-    run_in_lanes(Retract{as_rods(body), held, from.data(), end.data(), out.data()});
+    run_in_lanes(Retract<PiecesOfOne>{as_rods(body), held, from.data(), end.data(), out.data()});
 }
 
 void retract_rods_of_batch(const Elements& body, const NumbersInLines& from, const NumbersInLines& end,
                            const std::vector<uint8_t>& held, NumbersInLines& out) {
     out = end;
-    run_in_lanes(lanes_of(body, from), RetractBatch{as_rods(body), held, from.data(), end.data(), out.data()});
+    run_in_lanes(lanes_of(body, from),
+                 Retract<PieceOfSeveral>{as_rods(body), held, from.data(), end.data(), out.data()});
 }
 
 }  // namespace frond

@@ -274,9 +274,8 @@ void finish_solving(Plant& plant, frond_effects effects, double h) {
 // corrections would compress it like a spring. The rest is left to the next steps; even of an excessive correction a
 // little is applied, or thick stems would never part.
 static void move_by(Plant& plant, const VecX& dv, double h) {
-    constexpr double LEAST = 0.002,
-                     LIFT =
-                         0.5;  // least share [-]; speed of lifting the plant by its weight, for the allowed work [m/s]
+    constexpr double LEAST = 0.002;  // share [-]
+    constexpr double LIFT = 0.5;     // speed of lifting the plant by its weight, for the allowed work [m/s]
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const Elements& elements = elements_of(plant);
     const VecX x = plant.motion.x;
