@@ -44,19 +44,16 @@ TEST(SectionLimit, IsTheIntegralOverElasticAndPerfectlyPlasticFibres) {
 TEST(ElasticShare, FollowsTheSectionHoweverTheLoadingIsCut) {
     const Yield yield = {0.02, 0, 0, true};
     double hardening = 0;
-    EXPECT_EQ(elastic_share(yield, 0.0199, 1, NEVER, hardening), 1);
+    EXPECT_EQ(elastic_share(yield, 0.0199, NEVER, hardening), 1);
     EXPECT_EQ(hardening, 0);
     double elastic = 0, bent = 0;
     for (int step = 0; step < 100; ++step) {
         bent += 0.001;
         elastic += 0.001;
-        elastic *= elastic_share(yield, elastic, 1, NEVER, hardening);
+        elastic *= elastic_share(yield, elastic, NEVER, hardening);
         EXPECT_NEAR(elastic, 0.02 * section_limit(yield, bent / 0.02), 1e-12);
         EXPECT_NEAR(bent - elastic, 0.02 * hardening, 1e-12);
     }
-    // A section in tension has no elastic core.
-    hardening = 0;
-    EXPECT_NEAR(0.05 * elastic_share(yield, 0.05, 0, NEVER, hardening), 0.02, 1e-12);
 }
 
 // ---- rods -------------------------------------------------------------------------------------------------------
@@ -134,6 +131,17 @@ TEST(RodPlasticity, KeepsNothingBelowItsYield) {
     for (double value : row.get_plastic(*own)) EXPECT_EQ(value, 0);
     EXPECT_EQ(row.energy(*own, x), row.energy(*shared, x));
     EXPECT_TRUE(row.make(stem_model(0), FROND_MECHANICS_ROD)->yields.empty());
+}
+
+TEST(RodPlasticity, KeepsNoStretch) {
+    const Mechanics& row = mechanics(FROND_MECHANICS_ROD);
+    const auto shared = row.make(stem_model(0.02), FROND_MECHANICS_ROD);
+    VecX x = shared->modelled;
+    for (int i = 0; i < shared->node_count; i += 2) point(x, i) *= 1.5;
+    EXPECT_FALSE(row.yields(*shared, x));
+    const auto own = row.copy(*shared);
+    row.flow(*own, x, NEVER);
+    EXPECT_EQ(row.energy(*own, x), row.energy(*shared, x));
 }
 
 TEST(RodPlasticity, CreepsAtItsRateTowardsTheYield) {

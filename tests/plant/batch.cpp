@@ -256,8 +256,8 @@ TEST(PlantBatch, GoOnPastHalfATurn) {
             EXPECT_EQ(plant.trouble, 0u) << "plant " << i << " in step " << step;
             EXPECT_EQ(plant.report.work, 0);
             EXPECT_TRUE(step == 0 || plant.motion.history.valid);
-            // The rotation passes half a turn and comes back.
-            EXPECT_EQ(end(plant) < 0, step == 1) << end(plant) << ", plant " << i << " in step " << step;
+            // The rotation passes half a turn and goes on.
+            EXPECT_EQ(end(plant) < 0, step > 0) << end(plant) << ", plant " << i << " in step " << step;
         }
     }
     EXPECT_EQ(together.alone, 3);  // first steps

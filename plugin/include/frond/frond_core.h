@@ -212,9 +212,11 @@ typedef struct frond_material {
      * leaf's own, has n times the ratio. frond_plant_def.material_damping scales it. */
     double damping_ratio;
     double friction; /* Coulomb's coefficient against what it touches [-], 0 .. 100 */
-    /* Strain of the outermost fibre, in bending or in pulling, beyond which a part of the deformation stays [-], 0
-     * (never), else 1e-6 .. 10. Sections then yield from the rim inwards, elastic and perfectly plastic. Where its
-     * own weight strains a plant by more than two thirds of this, one and a half times that strain counts instead. */
+    /* Strain of the outermost fibre by bending beyond which a part of the deformation stays [-], 0 (never), else
+     * 1e-6 .. 10. Sections then yield from the rim inwards, elastic and perfectly plastic. Rods do not yield along
+     * their axis: tissue that is pulled breaks (`strength`) before it flows; tets yield by any strain but that of
+     * volume. Where its own weight strains a plant by more than two thirds of this, one and a half times that strain
+     * counts instead. */
     double yield_strain;
     /* Share of the elastic strain beyond yield_strain that becomes plastic per second [1/s], 0 (none) .. 1e6. */
     double creep_rate;

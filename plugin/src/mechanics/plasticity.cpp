@@ -22,12 +22,12 @@ double section_limit(const Yield& yield, double k) {
     return (round_limit(k) - cube * round_limit(yield.hollow * k)) / (1 - cube * yield.hollow);
 }
 
-double elastic_share(const Yield& yield, double strain, double bending, double h, double& hardening) {
+double elastic_share(const Yield& yield, double strain, double h, double& hardening) {
     const double trial = strain / yield.strain;
     if (!(trial > 1)) return 1;
 
     // Bent monotonically from the start, it would now be at k = elastic + plastic strain, both over the yield strain.
-    const double limit = 1 + bending * (section_limit(yield, trial + hardening) - 1);
+    const double limit = section_limit(yield, trial + hardening);
     double elastic = std::min(trial, limit);
     elastic = 1 + (elastic - 1) * std::exp(-yield.creep * h);
     hardening += trial - elastic;

@@ -24,9 +24,8 @@ struct Yield {
 double section_limit(const Yield& yield, double k);
 
 // Returns the share, 0 .. 1, of an element's elastic strain `strain` [-] that stays elastic after a time h [s], and
-// updates `hardening`, the accumulated plastic strain over yield.strain. `bending` is the share of bending in the
-// strain; under tension no core stays elastic.
-double elastic_share(const Yield& yield, double strain, double bending, double h, double& hardening);
+// updates `hardening`, the accumulated plastic strain over yield.strain.
+double elastic_share(const Yield& yield, double strain, double h, double& hardening);
 
 // Returns the limits of an organ, by its material and kind; the strain is the material's.
 Yield yield_of(const Model& model, int organ);

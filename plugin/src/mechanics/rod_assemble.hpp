@@ -30,10 +30,10 @@ struct Assemble {
         const Lanes3<S> turn_a = move(pieces, &RodSegment::a, 3, c), turn_b = move(pieces, &RodSegment::b, 3, c);
         const Lanes3<S> chord = move(pieces, &RodSegment::b, 0, c) - move(pieces, &RodSegment::a, 0, c);
         const Lanes3<S> force =
-            per_length * scaled(at.piece.stretch, transposed_times(at.bent.middle, chord) + change.strain_a * turn_a +
-                                                      change.strain_b * turn_b);
+            per_length *
+            scaled(at.piece.stretch, change.strain_chord * chord + change.strain_a * turn_a + change.strain_b * turn_b);
         const Lanes3<S> moment = per_length * scaled(at.piece.bend, change.bend_b * turn_b - change.bend_a * turn_a);
-        const Lanes3<S> on_b = at.bent.middle * force;
+        const Lanes3<S> on_b = transposed_times(change.strain_chord, force);
         g.place_a = g.place_a - on_b;
         g.place_b = g.place_b + on_b;
         g.turn_a = g.turn_a + transposed_times(change.strain_a, force) - transposed_times(change.bend_a, moment);
@@ -57,7 +57,7 @@ struct Assemble {
                 const S c = damping ? pieces.own(*damping) : S{};
                 const RodChange<S> change = change_of(at.piece, rotation_a, rate_a, rate_b, at.bent);
                 Lanes33<S> blocks[10];
-                positive_stiffness(at.piece, at.bent, change, blocks);
+                positive_stiffness(at.piece, change, blocks);
                 const double step = ahead ? ahead->step : 1;
                 const S alike = c + (ahead ? ahead->damping : 0.0);
                 if (ahead) look_ahead(pieces, at, change, alike, g);

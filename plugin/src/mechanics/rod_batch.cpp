@@ -64,8 +64,7 @@ struct FindYielding {
             last.go_on(pieces, at);
             const S wide = pieces.rod.reach_wide * at.bent.curvature.y,
                     thin = pieces.rod.reach_thin * at.bent.curvature.z;
-            const S pull = select(at.bent.strain.x < 0.0, S(-at.bent.strain.x), at.bent.strain.x);
-            const S most = pull + sqrt(S(wide * wide + thin * thin));
+            const S most = sqrt(S(wide * wide + thin * thin));
             within = select(most < elements.yields[s].strain * NEARLY, within, S{});
         }
         yielding = bits_of(within == 0.0);

@@ -82,21 +82,6 @@ void let_stand(RodElements& elements) {
     }
 }
 
-// Bounds the shear stiffness from below: long segments of thin blades bend more than one segment can represent, and the
-// shear that stands for it would stretch them. The weight beyond a segment shears it by a third at most.
-void bound_shear(RodElements& elements) {
-    constexpr double LARGEST_SHEAR = 1.0 / 3;
-    std::vector<double> weight;
-    for (double m : elements.mass) weight.push_back(GRAVITY * m);
-    for (size_t s = elements.segments.size(); s-- > 0;) {
-        RodSegment& rod = elements.segments[s];
-        const double least = weight[size_t(rod.b)] / LARGEST_SHEAR;
-        rod.stretch[1] = std::max(rod.stretch[1], least);
-        rod.stretch[2] = std::max(rod.stretch[2], least);
-        weight[size_t(rod.a)] += weight[size_t(rod.b)];
-    }
-}
-
 // Adds half of each segment's rotary inertia, by its section, to either end; nodes have at least that of a small ball.
 void set_inertia(const Model& model, RodElements& elements) {
     const size_t count = elements.mass.size();
@@ -149,7 +134,6 @@ RodElements make_elements(const Model& model, Take&& take) {
     for (double m : model.chain_mass) total += m;
     for (double m : model.chain_mass) out.mass.push_back(std::max(m, 1e-6 * total / double(nodes.size())));
     set_inertia(model, out);
-    bound_shear(out);
     find_roots(out);
     if (model.stands_as_modelled) let_stand(out);
     return out;

@@ -13,16 +13,15 @@ struct RodSegment {
     Mat3 frame;           // axis, thin and wide in the modelled shape
     Vec3 stretch;         // stiffness against stretch and against shear towards thin and wide [N]
     Vec3 bend;            // stiffness against twist and against bending about thin and wide [N m^2]
-    Vec3 rest_strain;     // stretch and shear without load; (1, 0, 0) for a straight segment at its own length [-]
+    Vec3 rest_strain;     // stretch and tilt without load; (1, 0, 0) for a straight segment at its own length [-]
     Vec3 rest_curvature;  // twist and curvature without load, relative to the modelled shape [1/m]
     double reach_thin, reach_wide;  // distances of the outermost fibres from the axis, towards thin and wide [m]
     std::array<int, 16> slots;      // blocks of the nodes 2a, 2a+1, 2b, 2b+1 in a BlockMatrix of the pattern
 };
 
-// Plastic strain of a segment, and its rest strain and curvature without it.
+// Plastic strain of a segment, and its rest curvature without it.
 struct RodPlastic {
-    Vec3 rest_strain, rest_curvature;
-    double stretch;               // [-]
+    Vec3 rest_curvature;          // [1/m]
     double bend_wide, bend_thin;  // curvature towards wide and towards thin, each about the other axis [1/m]
     double hardening;             // see elastic_share()
 };

@@ -66,16 +66,66 @@ FROND_INLINE Lanes33<S> inertia_by_rate(const Lanes3<S>& turn, const Lanes33<S>&
     return transposed_times(rate, inertia * rate);
 }
 
+// A segment cannot fold onto itself: beyond two radians between its ends the measure of its curvature grows faster than
+// the angle, and has no bound as the angle nears half a turn, where the axis of the rotation would change its sign.
+template <class S>
+FROND_INLINE void fold_up(const S& square, S& fold, S& fold_slope) {
+    constexpr double FROM = 0.29844638;  // tan(angle/4)^2 at two radians
+    constexpr double STIFFNESS = 10, ROOM = 1e-6;
+    const S beyond = select(square < FROM, constant<S>(0), S(square - FROM));
+    const S over = 1.0 / (1.0 + ROOM - square);
+    const S grown = STIFFNESS * beyond * beyond * over;
+    fold = 1.0 + grown * beyond;
+    fold_slope = 0.5 * (1.0 + square) * grown * (3.0 + beyond * over);
+}
+
 // Deformation of a segment by its two ends.
 template <class S>
 struct RodBent {
-    Lanes3<S> chord;              // [m]
-    Lanes3<S> turn;               // rotation vector of the second end relative to the first
-    Lanes3<S> quarter;            // its axis times tan(angle/4)
-    S cotangent;                  // angle/2 cot(angle/2)
-    Lanes33<S> middle;            // the frame at the midway rotation
+    Lanes3<S> chord;     // [m]
+    Lanes3<S> turn;      // rotation vector of the second end relative to the first
+    Lanes3<S> quarter;   // its axis times tan(angle/4)
+    S cotangent;         // angle/2 cot(angle/2)
+    S fold, fold_slope;  // curvature is by fold * turn, whose derivative by turn is fold + fold_slope turn quarter^T
+    Lanes33<S> middle;   // the frame at the midway rotation
     Lanes3<S> strain, curvature;  // relative to rest
+    Lanes3<S> along;              // direction of the chord in the frame `middle`
+    S tilt_scale;                 // derivative of tilt by the chord's component across, for a straight chord
 };
+
+// Sets the strain by the chord in the frame `middle`, over the length at rest. Stretch is the ratio of lengths and tilt
+// 2 tan(angle/2), by the angle between chord and frame, so that what tilts a segment does not lengthen it.
+template <class S>
+FROND_INLINE void measure_chord(const Lanes3<S>& chord, RodBent<S>& out) {
+    constexpr double SHORT = 1e-9, LEAST = 1e-6;  // keep a chord of no length, and one turned around, finite
+    const S length = sqrt(SHORT * SHORT + dot(chord, chord)), sum = length + chord.x;
+    out.along = (1.0 / length) * chord;
+    out.tilt_scale = 2.0 / select(sum < LEAST, constant<S>(LEAST), sum);
+    out.strain = {length, out.tilt_scale * chord.y, out.tilt_scale * chord.z};
+}
+
+// Returns the chord, as above, of a strain that is not relative to rest.
+template <class S>
+FROND_INLINE Lanes3<S> chord_of_strain(const Lanes3<S>& strain) {
+    const S square = 0.25 * (strain.y * strain.y + strain.z * strain.z), by = strain.x / (1.0 + square);
+    return {by * (1.0 - square), by * strain.y, by * strain.z};
+}
+
+// Returns the derivative of the strain by the chord, as above, times a matrix.
+template <class S>
+FROND_INLINE Lanes33<S> strain_change(const RodPiece<S>& rod, const RodBent<S>& bent, const Lanes33<S>& m) {
+    const Lanes3<S> stretch = transposed_times(m, bent.along);
+    const Lanes3<S> turned = (0.5 * bent.tilt_scale) * (stretch + m.r[0]);
+    return {{stretch, bent.tilt_scale * m.r[1] - (bent.strain.y + rod.rest_strain.y) * turned,
+             bent.tilt_scale * m.r[2] - (bent.strain.z + rod.rest_strain.z) * turned}};
+}
+// Returns its transposed times a vector.
+template <class S>
+FROND_INLINE Lanes3<S> strain_change_transposed(const RodPiece<S>& rod, const RodBent<S>& bent, const Lanes3<S>& f) {
+    const S turned =
+        0.5 * bent.tilt_scale * ((bent.strain.y + rod.rest_strain.y) * f.y + (bent.strain.z + rod.rest_strain.z) * f.z);
+    return (f.x - turned) * bent.along + Lanes3<S>{-turned, bent.tilt_scale * f.y, bent.tilt_scale * f.z};
+}
 
 template <class S>
 FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a, const RodEnd<S>& b) {
@@ -96,13 +146,15 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
     const S angle_over = 8.0 * eighth * polynomial(ARC, S(square * eighth * eighth));  // angle over tan(angle/4)
     out.turn = angle_over * out.quarter;
     out.cotangent = 0.5 * angle_over * over * w;
+    fold_up(square, out.fold, out.fold_slope);
     const S shrink = 1.0 / secant;
     const S w_middle = (a.w - dot(a.p, out.quarter)) * shrink;
     const Lanes3<S> p_middle = shrink * (a.p + a.w * out.quarter + cross(a.p, out.quarter));
     out.middle = rotation_of(w_middle, p_middle) * rod.frame;
     const S per_length = 1.0 / rod.length;
-    out.strain = per_length * transposed_times(out.middle, out.chord) - rod.rest_strain;
-    out.curvature = per_length * transposed_times(rod.frame, out.turn) - rod.rest_curvature;
+    measure_chord(per_length * transposed_times(out.middle, out.chord), out);
+    out.strain = out.strain - rod.rest_strain;
+    out.curvature = per_length * transposed_times(rod.frame, out.fold * out.turn) - rod.rest_curvature;
     return out;
 }
 
@@ -128,9 +180,10 @@ struct RodGradient {
 template <class S>
 FROND_INLINE RodGradient<S> gradient_of(const RodPiece<S>& rod, const Lanes33<S>& rotation_a, const Lanes33<S>& rate_a,
                                         const Lanes33<S>& rate_b, const RodBent<S>& bent) {
-    const Lanes3<S> force = bent.middle * scaled(rod.stretch, bent.strain);
+    const Lanes3<S> force = bent.middle * strain_change_transposed(rod, bent, scaled(rod.stretch, bent.strain));
     const Lanes3<S> middle_moment = cross(force, bent.chord);
-    const Lanes3<S> couple = rod.frame * scaled(rod.bend, bent.curvature);
+    const Lanes3<S> by_fold = rod.frame * scaled(rod.bend, bent.curvature);
+    const Lanes3<S> couple = bent.fold * by_fold + (bent.fold_slope * dot(bent.turn, by_fold)) * bent.quarter;
     const Lanes3<S> turned = cross(bent.turn, couple);
     const Lanes3<S> end_moment =
         rotation_a * (couple + constant<S>(0.5) * turned + inverse_rate_second(bent) * cross(bent.turn, turned));
@@ -140,11 +193,11 @@ FROND_INLINE RodGradient<S> gradient_of(const RodPiece<S>& rod, const Lanes33<S>
     return {-force, transposed_times(rate_a, middle_moment - second), force, transposed_times(rate_b, second)};
 }
 
-// Derivatives of strain and curvature by the ends: strain changes by middle^T (place b - place a) + strain_a turn_a +
-// strain_b turn_b, curvature by bend_b turn_b - bend_a turn_a; all over the length.
+// Derivatives of strain and curvature by the ends: strain changes by strain_chord (place b - place a) + strain_a turn_a
+// + strain_b turn_b, curvature by bend_b turn_b - bend_a turn_a; all over the length.
 template <class S>
 struct RodChange {
-    Lanes33<S> strain_a, strain_b, bend_a, bend_b;
+    Lanes33<S> strain_chord, strain_a, strain_b, bend_a, bend_b;
 };
 
 template <class S>
@@ -162,21 +215,26 @@ FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& ro
         by_share.r[i] = constant<S>(0.5) * (seen.r[i] - cross(seen.r[i], share));
     }
     const Lanes33<S> inverse_rate = turning<S>(bent.turn, constant<S>(-0.5), inverse_rate_second(bent));
-    const Lanes33<S> turning_by = transposed_times(rod.frame, inverse_rate) * transposed(rotation_a);
-    return {(seen - by_share) * rate_a, by_share * rate_b, turning_by * rate_a, turning_by * rate_b};
+    Lanes33<S> folding = bent.fold * inverse_rate;
+    for (int i = 0; i < 3; ++i) {
+        const S along = bent.fold_slope * (i == 0 ? bent.turn.x : i == 1 ? bent.turn.y : bent.turn.z);
+        folding.r[i] = folding.r[i] + along * transposed_times(inverse_rate, bent.quarter);
+    }
+    const Lanes33<S> turning_by = transposed_times(rod.frame, folding) * transposed(rotation_a);
+    return {strain_change(rod, bent, transposed(bent.middle)), strain_change(rod, bent, (seen - by_share) * rate_a),
+            strain_change(rod, bent, by_share * rate_b), turning_by * rate_a, turning_by * rate_b};
 }
 
 // Computes the lower blocks (r, c), c <= r, at [r (r + 1) / 2 + c], of the stiffness's positive semi-definite part.
 template <class S>
-FROND_INLINE void positive_stiffness(const RodPiece<S>& rod, const RodBent<S>& bent, const RodChange<S>& change,
-                                     Lanes33<S> (&K)[10]) {
+FROND_INLINE void positive_stiffness(const RodPiece<S>& rod, const RodChange<S>& change, Lanes33<S> (&K)[10]) {
     const S per_length = 1.0 / rod.length;
     const Lanes3<S> stretch = per_length * rod.stretch, bend = per_length * rod.bend;
-    const Lanes33<S> pulled = scaled_rows(stretch, transposed(bent.middle));
+    const Lanes33<S> pulled = scaled_rows(stretch, change.strain_chord);
     const Lanes33<S> weighted_a = scaled_rows(stretch, change.strain_a),
                      weighted_b = scaled_rows(stretch, change.strain_b);
     const Lanes33<S> bent_a = scaled_rows(bend, change.bend_a), bent_b = scaled_rows(bend, change.bend_b);
-    K[0] = bent.middle * pulled;
+    K[0] = transposed_times(change.strain_chord, pulled);
     K[1] = -transposed_times(change.strain_a, pulled);
     K[2] = transposed_times(change.strain_a, weighted_a) + transposed_times(change.bend_a, bent_a);
     K[3] = -K[0];

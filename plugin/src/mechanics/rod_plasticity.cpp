@@ -1,7 +1,7 @@
-// In: rods and their nodes' positions and rotations. Out: the plastic part of their curvature and stretch. A segment
-// yields by one strain, its outermost fibre's: the stretch of its axis plus the strain by its two curvatures. The
-// return to what the section bears scales all of them alike, so that elastic energy never grows by it. Twist and shear
-// stay elastic.
+// In: rods and their nodes' positions and rotations. Out: the plastic part of their curvature. A segment yields by the
+// strain of its outermost fibre under its two curvatures. The return to what the section bears scales both of them
+// alike, so that elastic energy never grows by it. Twist, tilt and stretch stay elastic: along its axis tissue breaks
+// before it flows.
 #include <algorithm>
 #include <cmath>
 
@@ -14,11 +14,10 @@ namespace frond {
 namespace {
 
 void apply(const RodPlastic& plastic, RodSegment& rod) {
-    rod.rest_strain = plastic.rest_strain + Vec3(plastic.stretch, 0, 0);
     rod.rest_curvature = plastic.rest_curvature + Vec3(0, plastic.bend_wide, plastic.bend_thin);
 }
 
-constexpr size_t NUMBERS_OF_PIECE = 4;  // stretch, the two curvatures, hardening
+constexpr size_t NUMBERS_OF_PIECE = 3;  // the two curvatures, hardening
 
 }  // namespace
 
@@ -34,7 +33,7 @@ void let_rods_yield(const Model& model, RodElements& elements) {
     const std::vector<RodStrain> standing = rod_strains(elements, elements.modelled);
     for (size_t s = 0; s < yields.size(); ++s)
         if (yields[s].strain > 0)
-            yields[s].strain = firm_strain(yields[s].strain, fibre_strain(elements.segments[s], standing[s]).sum());
+            yields[s].strain = firm_strain(yields[s].strain, fibre_strain(elements.segments[s], standing[s]).bend);
     elements.yields = std::move(yields);
 }
 
@@ -43,15 +42,14 @@ bool rods_yield(const Elements& body, const VecX& x) {
     const std::vector<RodStrain> strains = rod_strains(elements, x);
     for (size_t s = 0; s < strains.size(); ++s) {
         const double most = elements.yields[s].strain;
-        if (most > 0 && fibre_strain(elements.segments[s], strains[s]).sum() > most) return true;
+        if (most > 0 && fibre_strain(elements.segments[s], strains[s]).bend > most) return true;
     }
     return false;
 }
 
 std::unique_ptr<Elements> copy_rods(const Elements& body) {
     auto own = std::make_unique<RodElements>(as_rods(body));
-    for (const RodSegment& rod : own->segments)
-        own->plastic.push_back({rod.rest_strain, rod.rest_curvature, 0, 0, 0, 0});
+    for (const RodSegment& rod : own->segments) own->plastic.push_back({rod.rest_curvature, 0, 0, 0});
     return own;
 }
 
@@ -60,11 +58,10 @@ void rods_flow(Elements& body, const VecX& x, double h) {
     const std::vector<RodStrain> strains = rod_strains(elements, x);
     for (size_t s = 0; s < strains.size(); ++s) {
         const Yield& yield = elements.yields[s];
-        const FibreStrain fibre = fibre_strain(elements.segments[s], strains[s]);
-        if (yield.strain == 0 || !(fibre.sum() > yield.strain)) continue;
+        const double bend = fibre_strain(elements.segments[s], strains[s]).bend;
+        if (yield.strain == 0 || !(bend > yield.strain)) continue;
         RodPlastic& plastic = elements.plastic[s];
-        const double gone = 1 - elastic_share(yield, fibre.sum(), fibre.bend / fibre.sum(), h, plastic.hardening);
-        plastic.stretch += gone * strains[s].strain[0];
+        const double gone = 1 - elastic_share(yield, bend, h, plastic.hardening);
         plastic.bend_wide += gone * strains[s].curvature[1];
         plastic.bend_thin += gone * strains[s].curvature[2];
         apply(plastic, elements.segments[s]);
@@ -74,7 +71,7 @@ void rods_flow(Elements& body, const VecX& x, double h) {
 std::vector<double> plastic_of_rods(const Elements& body) {
     std::vector<double> values;
     for (const RodPlastic& l : as_rods(body).plastic)
-        values.insert(values.end(), {l.stretch, l.bend_wide, l.bend_thin, l.hardening});
+        values.insert(values.end(), {l.bend_wide, l.bend_thin, l.hardening});
     return values;
 }
 
@@ -85,13 +82,13 @@ void set_plastic_of_rods(Elements& body, const std::vector<double>& values) {
              values.size(), NUMBERS_OF_PIECE * elements.segments.size());
     for (size_t s = 0; s < elements.segments.size(); ++s) {
         const double* v = values.data() + NUMBERS_OF_PIECE * s;
-        if (!(v[3] >= 0))
-            fail(FROND_RESULT_BAD_ARGUMENT, "the plastic state has a hardening of %g; it is never below 0", v[3]);
+        if (!(v[2] >= 0))
+            fail(FROND_RESULT_BAD_ARGUMENT, "the plastic state has a hardening of %g; it is never below 0", v[2]);
     }
     for (size_t s = 0; s < elements.segments.size(); ++s) {
         const double* v = values.data() + NUMBERS_OF_PIECE * s;
         RodPlastic& plastic = elements.plastic[s];
-        plastic.stretch = v[0], plastic.bend_wide = v[1], plastic.bend_thin = v[2], plastic.hardening = v[3];
+        plastic.bend_wide = v[0], plastic.bend_thin = v[1], plastic.hardening = v[2];
         apply(plastic, elements.segments[s]);
     }
 }

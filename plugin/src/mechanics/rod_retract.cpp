@@ -19,11 +19,11 @@ template <class S>
 FROND_INLINE Lanes3<S> chord_after(const Placed<S>& at, const Placed<S>& after) {
     const RodChange<S> change = change_of(at.piece, rotation_of(at.a.w, at.a.p), rate_of(at.a), rate_of(at.b), at.bent);
     const S per_length = 1.0 / at.piece.length;
-    const Lanes3<S> by_chord = transposed_times(at.bent.middle, after.bent.chord - at.bent.chord);
+    const Lanes3<S> by_chord = change.strain_chord * (after.bent.chord - at.bent.chord);
     const Lanes3<S> by_turns =
         change.strain_a * (after.a.turn - at.a.turn) + change.strain_b * (after.b.turn - at.b.turn);
     const Lanes3<S> strain = at.bent.strain + at.piece.rest_strain + per_length * (by_chord + by_turns);
-    return at.piece.length * (after.bent.middle * strain);
+    return at.piece.length * (after.bent.middle * chord_of_strain(strain));
 }
 
 // A component of the tree that nothing holds keeps the centre of mass that the solve gave it.

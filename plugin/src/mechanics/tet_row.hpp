@@ -31,7 +31,7 @@ struct TetRow {
     static void let_flow(const Yield& yield, const TetShare& share, const Mat3& F, const Strained& now, double h,
                          const Mat3& rest_inverse, TetPlastic& plastic) {
         double hardening = plastic.hardening;
-        const double elastic = elastic_share(yield, now.strain, 1, h, hardening);
+        const double elastic = elastic_share(yield, now.strain, h, hardening);
         for (double part = 1; part > LEAST; part /= 2) {
             const Mat3 change = flow_of(now.S, 1 - part * (1 - elastic));
             TetPlastic next = plastic;

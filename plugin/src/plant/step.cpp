@@ -222,7 +222,7 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects) {
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
     settings.most_work = work_allowed(plant);
-    // Contacts add their response to the linear solution, of which a part may be a displacement that they take back.
+    // Contacts add their response to the linear solution first.
     settings.retracts = !plant.is_touched;
     return settings;
 }
@@ -299,6 +299,7 @@ void add_contacts(Plant& plant, double h, double lost) {
     VecX dv;
     if (is_pushed && respond(*plant.workspace, plant.settings, impulse, dv))
         add_response(*plant.workspace, dv, plant.motion);
+    retract_step(*plant.workspace, plant.motion);
     // Bodies slowed by a push lose more than the plant gains; other plants go along with what they pushed.
     const double work = std::max({0.0, lost, impulse.dot(plant.motion.v)});
     const bool is_bent = is_pushed && !is_calm(*plant.system, before, plant.motion.x);

@@ -52,9 +52,14 @@ void move(const Newton& n, const VecX& v) {
     n.w.x = n.stage.x_base + n.stage.step * v;
 }
 
-// Keeps the strain that the solve linearized at `from` gave to what rotates, by velocities that lead there.
+// Keeps the strain that the solve linearized at `from` gave to what rotates, by velocities that lead there; or leaves
+// that to retract_step().
 void retract(const Newton& n, const VecX& from, VecX& v) {
-    if (!n.body.retract || !n.input.settings.retracts) return;
+    if (!n.body.retract) return;
+    if (!n.input.settings.retracts) {
+        if (n.iterations == 1) n.w.retract_from = from;
+        return;
+    }
     move(n, v);
     n.body.retract(*n.w.elements, from, n.w.x, n.w.held, n.w.retracted);
     v += (1 / n.stage.step) * (n.w.retracted - n.w.x);
@@ -400,6 +405,7 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
                 input.settings.careful && input.settings.most_work > 0 ? report.work + input.settings.most_work : 0};
     workspace.v = workspace.v_start;
     workspace.reach = stage.step;
+    workspace.retract_from.resize(0);
     const bool converged_before = report.converged;
     const double first = solve_first(n);
     if (first < 0) return false;

@@ -35,4 +35,18 @@ void add_correction(const Workspace& workspace, const VecX& dv, Motion& motion) 
     motion.history.shaken = true;
 }
 
+void retract_step(Workspace& workspace, Motion& motion) {
+    Workspace& w = workspace;
+    if (w.retract_from.size() == 0) return;
+    const VecX end = wound_as(w.retract_from, motion.x);
+    w.system->row->retract(*w.elements, w.retract_from, end, w.held, w.retracted);
+    // Of pairs of nodes only the positions change.
+    for (int i = 0; i < end.size() / 3; i += 2) {
+        const Vec3 by = point(w.retracted, i) - point(end, i);
+        point(motion.x, i) += by;
+        point(motion.v, i) += by / w.reach;
+    }
+    w.retract_from.resize(0);
+}
+
 }  // namespace frond

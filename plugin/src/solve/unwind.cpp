@@ -8,12 +8,9 @@
 
 namespace frond {
 
-// Replaces a rotation vector by its equivalent within half a turn; `rates` of it keep their angular velocities.
+// Replaces a rotation vector by its equivalent a whole turn less; `rates` of it keep their angular velocities.
 static void turn_back(VecX& x, int node, std::initializer_list<VecX*> rates) {
-    const Vec3 turn = point(x, node);
-    const double angle = turn.norm(), whole = 2 * M_PI * std::round(angle / (2 * M_PI));
-    if (whole == 0 || !std::isfinite(angle)) return;
-    const Vec3 back = turn * (1 - whole / angle);
+    const Vec3 turn = point(x, node), back = turn * (1 - 2 * M_PI / turn.norm());
     const Mat3 change = inverse_rate_matrix<double>(back) * rate_matrix<double>(turn);
     for (VecX* rate : rates)
         if (rate->size() == x.size()) point(*rate, node) = change * point(*rate, node);
@@ -21,17 +18,20 @@ static void turn_back(VecX& x, int node, std::initializer_list<VecX*> rates) {
 }
 
 void unwind(Motion& motion) {
+    constexpr double NEAR = M_PI / 2;  // what a history may look back over [rad]
     History& history = motion.history;
     for (int node = 1; node < motion.x.size() / 3; node += 2) {
-        if (point(motion.x, node).squaredNorm() <= M_PI * M_PI) continue;
+        const double angle = point(motion.x, node).norm();
+        if (angle <= M_PI || !std::isfinite(angle)) continue;
         turn_back(motion.x, node, {&motion.v});
         if (!history.valid) continue;
-        // A past rotation vector near zero has no axis to rotate it about: the history of all nodes is dropped.
-        if (point(history.x_prev, node).squaredNorm() < 1) {
+        // The past goes along, though it was within half a turn: differences from it are velocities. Where that does
+        // not bring it near, as if its axis was another one, the history of all nodes is dropped.
+        if (point(history.x_prev, node).squaredNorm() >= 1) turn_back(history.x_prev, node, {&history.v_prev});
+        if (!((point(history.x_prev, node) - point(motion.x, node)).squaredNorm() < NEAR * NEAR)) {
             history.valid = false;
             continue;
         }
-        turn_back(history.x_prev, node, {&history.v_prev});
         if (history.x_end.size() == 0) continue;
         turn_back(history.x_end, node, {&history.v_end, &history.x_rate, &history.v_rate});
         point(history.x_end, node) = point(motion.x, node);

@@ -34,6 +34,7 @@ struct Workspace {
     double reach = 0;             // derivative of positions by velocities at the end [s]
     VecX rhs_stage;               // residual at v
     VecX retracted;               // end of the stage after Mechanics::retract [m]
+    VecX retract_from;            // where the only solve was linearized, if retract_step() is to come; else empty [m]
     VecX direction, v_trial, rhs_trial;  // scratch of the line search
 };
 
