@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "export.hpp"
 #include "stability/stability.hpp"
+#include "stability_random.hpp"
 #include "studio/studio.hpp"
 
 namespace frond::tools {
@@ -17,6 +18,9 @@ struct StabilityOptions {
     stability::Limits limits;
     std::string mechanics, integrator, json, html;
     bool list = false, bullet = false;
+    RandomOptions random;
+    std::string program;
+    bool as_source = false;
 };
 
 // Returns the row of a table that has that name.
@@ -48,6 +52,8 @@ private:
 };
 
 void run_stability(StabilityOptions& options) {
+    if (!options.program.empty()) return run_program(options.program, options.as_source);
+    if (options.random.count > 0) return run_random(options.random);
     if (options.list) {
         for (const stability::Case& one : stability::cases())
             std::printf("%-20s %s\n%-20s passes: %s\n", one.name, one.does, "", one.passes);
@@ -104,16 +110,37 @@ void add_stability(CLI::App& app) {
     integrator->excludes(quick, of_default);
     for (CLI::Option* option : {names, mechanics, integrator, of_default, json, html}) option->excludes(list, bullet);
     list->excludes(quick, bullet);
+    CLI::Option* random =
+        command->add_option("--random", options->random.count, "worlds made at random instead, this many at most")
+            ->check(CLI::Range(1, 1000000000));
+    CLI::Option* program = command->add_option("--program", options->program, "run a program that --random wrote");
+    command->add_option("--seed", options->random.seed, "seed of the first world, default 1")->needs(random);
+    command
+        ->add_option("--shrink", options->random.shrinking, "with --random: time to shorten a program [s], default 60")
+        ->needs(random)
+        ->check(real_in(0, 1e6));
+    command->add_option("--out", options->random.out, "with --random: write what was found to this folder")
+        ->needs(random);
+    command->add_flag("--source", options->as_source, "print the program as C, or C++ in a host's world")
+        ->needs(program);
+    for (CLI::Option* other : {names, mechanics, integrator, quick, of_default, json, html, list, bullet}) {
+        random->excludes(other);
+        program->excludes(other);
+    }
+    random->excludes(program);
     // In the soft bodies' table a cell may take about as long as the time that it simulates: what a game could wait
     // for.
     constexpr int WITH_BULLET = 6;
-    const CLI::Option* seconds = command
-                                     ->add_option("--seconds", options->limits.seconds,
-                                                  "CPU time after which a cell is red, default 120, with --bullet 6")
-                                     ->check(CLI::Range(1, 100000));
+    const CLI::Option* seconds =
+        command
+            ->add_option("--seconds", options->limits.seconds,
+                         "CPU time after which a cell is red, default 120, with --bullet 6; with "
+                         "--random, after which no more worlds begin")
+            ->check(CLI::Range(1, 100000));
     command->add_option("--processes", options->limits.processes, "at once; default: one a processor")
         ->check(CLI::Range(1, 1024));
     command->callback([options, seconds] {
+        if (seconds->count() > 0) options->random.seconds = options->limits.seconds;
         if (options->bullet && seconds->count() == 0) options->limits.seconds = WITH_BULLET;
         run_stability(*options);
     });

@@ -1,0 +1,135 @@
+// In: a plant, and the loads, start and end of its last step. Out: the work of each kind of load.
+//
+// The force that moves a held node is what the step's equation lacks there:
+//   R = M dv/dt - (elastic and damping forces, weight, other loads).
+#include "plant/load_work.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/drags.hpp"
+#include "solve/integrator.hpp"
+#include "solve/springs.hpp"
+
+namespace frond {
+
+namespace {
+
+Vec3 displacement(const Attachment& attachment, const Plant& plant) {
+    return attachment_place(attachment, plant.motion.x) - attachment_place(attachment, plant.x_good);
+}
+
+VecX elastic_force(const Plant& plant, const VecX& x) {
+    VecX force = VecX::Zero(x.size());
+    mechanics(plant.which, plant.nodes->order).add_force(elements_of(plant), x, force);
+    return force;
+}
+
+// Adds work in the air: at the end of the step each drag's force is force - damping v.
+void add_air(const Plant& plant, LoadWork& work) {
+    for (const Drag& drag : plant.loads.drags) {
+        const Vec3 before = attachment_velocity(drag.attachment, plant.x_good, plant.v_good);
+        const Vec3 after = attachment_velocity(drag.attachment, plant.motion.x, plant.motion.v);
+        const Vec3 way = displacement(drag.attachment, plant);
+        work.air += (drag.force - drag.damping * after).dot(way);
+        work.error += 0.5 * std::abs((drag.damping * (after - before)).dot(way));
+    }
+}
+
+void add_grabs(const Plant& plant, LoadWork& work) {
+    for (size_t i = plant.pin_springs.size(); i < plant.loads.springs.size(); i++) {
+        const Spring& spring = plant.loads.springs[i];
+        const Vec3 way = displacement(spring.attachment, plant);
+        const Vec3 force = spring.stiffness * (spring.target - attachment_place(spring.attachment, plant.motion.x));
+        work.grabs += force.dot(way);
+        work.error += 0.5 * spring.stiffness * way.squaredNorm();
+    }
+}
+
+// Stiff springs hold pinned nodes that hold no node of the mechanics.
+void add_pin_springs(const Plant& plant, const VecX& change, LoadWork& work) {
+    for (const Spring& spring : plant.pin_springs) {
+        const Vec3 way = displacement(spring.attachment, plant);
+        const Vec3 force = spring.stiffness * (spring.target - attachment_place(spring.attachment, plant.motion.x));
+        work.pins += force.dot(way);
+        for (int k = 0; k < spring.attachment.count; k++)
+            work.error += 0.5 * std::abs(spring.attachment.weight[size_t(k)] *
+                                         way.dot(point(change, spring.attachment.node[size_t(k)])));
+    }
+}
+
+// Returns the forces on all nodes but those that hold them, and damping proportional to stiffness.
+VecX forces_at_end(const Plant& plant, const VecX& elastic) {
+    const Motion& motion = plant.motion;
+    const VecX& mass = node_mass_of(*plant.system);
+    VecX force = elastic;
+    if (plant.loads.force.size() > 0) force += plant.loads.force;
+    add_spring_force(plant.loads.springs, motion.x, force);
+    add_drag_force(plant.loads.drags, motion.x, motion.v, force);
+    for (int i = 0; i < mass.size(); i++)
+        point(force, i) +=
+            mass[i] * (plant.loads.gravity - plant.step_settings.mass_damping * Vec3(point(motion.v, i)));
+    return force;
+}
+
+// Returns the force of stiffness-proportional damping per second of it, -K v, by a difference of elastic forces.
+VecX damping_per_second(const Plant& plant, const VecX& elastic) {
+    constexpr double FAR = 1e-6;  // [m]
+    const double fastest = plant.motion.v.lpNorm<Eigen::Infinity>();
+    if (!(fastest > 0)) return VecX::Zero(elastic.size());
+    const double time = FAR / fastest;
+    return (elastic_force(plant, plant.motion.x + time * plant.motion.v) - elastic) / time;
+}
+
+// The damping of elements that differ counts by its mean, and half its range as error.
+void add_held_nodes(const Plant& plant, double h, const VecX& way, const VecX& elastic, const VecX& change,
+                    LoadWork& work) {
+    const Motion& motion = plant.motion;
+    const VecX& mass = node_mass_of(*plant.system);
+    std::vector<double> of_element;
+    double damping = damping_of(*plant.system, plant.step_settings, of_element), range = 0;
+    if (!of_element.empty()) {
+        const auto [least, most] = std::minmax_element(of_element.begin(), of_element.end());
+        damping = 0.5 * (*least + *most);
+        range = *most - *least;
+    }
+    const VecX force = forces_at_end(plant, elastic), per_second = damping_per_second(plant, elastic);
+    const int count = int(motion.pinned.size());
+    for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1)) {
+        const Vec3 acceleration = (point(motion.v, i) - point(plant.v_good, i)) / h;
+        const Vec3 held = mass[i] * acceleration - point(force, i) - damping * point(per_second, i);
+        work.pins += held.dot(point(way, i));
+        work.error += 0.5 * (std::abs(point(change, i).dot(point(way, i))) +
+                             range * std::abs(point(per_second, i).dot(point(way, i))));
+    }
+}
+
+bool pins_move(const Plant& plant, const VecX& way) {
+    const Motion& motion = plant.motion;
+    const int count = int(motion.pinned.size());
+    int i = next_pinned(motion, 0);
+    while (i < count && point(way, i).isZero(0)) i = next_pinned(motion, i + 1);
+    return i < count || !plant.pin_springs.empty();
+}
+
+}  // namespace
+
+VecX way_of_step(const Plant& plant) {
+    const VecX& end = plant.motion.x;
+    return (plant.follow ? wound_as(plant.x_good, end) : end) - plant.x_good;
+}
+
+LoadWork work_of_loads(const Plant& plant, double h) {
+    LoadWork work;
+    const VecX way = way_of_step(plant);
+    if (plant.loads.force.size() > 0) work.forces = plant.loads.force.dot(way);
+    add_air(plant, work);
+    add_grabs(plant, work);
+    if (!pins_move(plant, way)) return work;
+    const VecX elastic = elastic_force(plant, plant.motion.x), change = elastic - elastic_force(plant, plant.x_good);
+    add_pin_springs(plant, change, work);
+    add_held_nodes(plant, h, way, elastic, change, work);
+    return work;
+}
+
+}  // namespace frond

@@ -1,0 +1,76 @@
+// Laws: what has to hold after every step of every program, whatever it does.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <stdexcept>
+
+#include "frond/frond.h"
+#include "programs/program.hpp"
+
+namespace frond::programs {
+
+enum class Law { CALL, FINITE, FAR, ENERGY, HANDOVER, STRETCH, WORK, BITS, REPLAY, HOME, CRASH, COUNT };
+const char* name_of(Law law);
+const char* text_of(Law law);  // the law in words
+
+// A law that does not hold.
+struct Breach : std::runtime_error {
+    Breach(Law law, const std::string& text) : std::runtime_error(text), law(law) {}
+    Law law;
+};
+
+using Places = std::vector<frond_vec3>;
+Places places_of(frond_plant plant);
+Places velocities_of(frond_plant plant);
+
+// A plant, and what the laws know of it.
+struct Standing {
+    frond_plant handle = {};
+    frond_model model = {};
+    frond_plant_def def = {};
+    frond_model_info info = {};
+    double size = 0;              // diagonal of the modelled surface's box [m]
+    Places home;                  // its nodes as it was made [m]
+    std::vector<double> lengths;  // of capsules as modelled [m]
+    // What operations did to it.
+    bool is_strained = false;  // it may be drawn out by what holds or pushes it
+    bool is_changed = false;   // it need not come home
+};
+
+// The greatest speed and force that operations gave anything.
+struct Loads {
+    double speed = 0, force = 0;  // [m/s], [N]
+    bool has_bodies = false;      // something may press plants
+};
+
+class Laws {
+public:
+    explicit Laws(frond_world world);
+    void begin(std::map<int, Standing>& plants);  // accounting
+    void after_step(std::map<int, Standing>& plants, const Loads& loads, double dt);
+    // Checks a change of mechanics, which must not add energy.
+    void change_mechanics(Standing& plant, frond_mechanics to);
+    // Takes all loads away and checks that plants come home.
+    static bool may_come_home(const Standing& plant);
+    static void expect_home(const Standing& plant);
+
+private:
+    void check_finite(const Standing& plant);
+    void check_places(const Standing& plant, const Loads& loads);
+    void check_lengths(const Standing& plant, const Loads& loads);
+    void check_energy(const std::map<int, Standing>& plants);
+    void check_work(const std::map<int, Standing>& plants);
+    double modelled_energy(const Standing& plant, frond_mechanics mechanics);
+
+    frond_world world;
+    double time = 0;                     // [s]
+    frond_energy_ledger last = {};       // after the last step
+    double turnover = 0, most = -1e300;  // sum of all work's magnitude, and the most that was dissipated [J]
+    double error_at_most = 0;            // the ledger's error then [J]
+    double kinetic = 0;                  // largest kinetic energy so far [J]
+    std::vector<int> work;               // solves a plant in each step
+    std::map<std::pair<uint64_t, int>, double> modelled;  // energies of plants as modelled, by plant and mechanics [J]
+};
+
+}  // namespace frond::programs
