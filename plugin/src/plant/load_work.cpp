@@ -36,9 +36,13 @@ void add_air(const Plant& plant, LoadWork& work) {
     }
 }
 
+// Returns the springs of grabs, which follow those that hold pinned nodes.
+std::vector<Spring> grab_springs(const Plant& plant) {
+    return {plant.loads.springs.begin() + long(plant.pin_springs.size()), plant.loads.springs.end()};
+}
+
 void add_grabs(const Plant& plant, LoadWork& work) {
-    for (size_t i = plant.pin_springs.size(); i < plant.loads.springs.size(); i++) {
-        const Spring& spring = plant.loads.springs[i];
+    for (const Spring& spring : grab_springs(plant)) {
         const Vec3 way = displacement(spring.attachment, plant);
         const Vec3 force = spring.stiffness * (spring.target - attachment_place(spring.attachment, plant.motion.x));
         work.grabs += force.dot(way);
@@ -46,16 +50,18 @@ void add_grabs(const Plant& plant, LoadWork& work) {
     }
 }
 
-// Stiff springs hold pinned nodes that hold no node of the mechanics.
-void add_pin_springs(const Plant& plant, const VecX& change, LoadWork& work) {
-    for (const Spring& spring : plant.pin_springs) {
-        const Vec3 way = displacement(spring.attachment, plant);
-        const Vec3 force = spring.stiffness * (spring.target - attachment_place(spring.attachment, plant.motion.x));
-        work.pins += force.dot(way);
-        for (int k = 0; k < spring.attachment.count; k++)
-            work.error += 0.5 * std::abs(spring.attachment.weight[size_t(k)] *
-                                         way.dot(point(change, spring.attachment.node[size_t(k)])));
-    }
+// Returns which nodes pins hold: those that are pinned, and those that stiff springs hold for pinned cage nodes. Such a
+// spring's own force would be the difference of two nearly equal places.
+std::vector<uint8_t> held_nodes(const Plant& plant) {
+    std::vector<uint8_t> held = plant.motion.pinned;
+    held.resize(size_t(plant.motion.x.size() / 3));
+    for (const Spring& spring : plant.pin_springs)
+        for (int k = 0; k < spring.attachment.count; k++) {
+            const size_t node = size_t(spring.attachment.node[size_t(k)]);
+            held[node] = 1;
+            if (spring.attachment.turns) held[node + 1] = 1;
+        }
+    return held;
 }
 
 // Returns the forces on all nodes but those that hold them, and damping proportional to stiffness.
@@ -64,7 +70,7 @@ VecX forces_at_end(const Plant& plant, const VecX& elastic) {
     const VecX& mass = node_mass_of(*plant.system);
     VecX force = elastic;
     if (plant.loads.force.size() > 0) force += plant.loads.force;
-    add_spring_force(plant.loads.springs, motion.x, force);
+    add_spring_force(grab_springs(plant), motion.x, force);
     add_drag_force(plant.loads.drags, motion.x, motion.v, force);
     for (int i = 0; i < mass.size(); i++)
         point(force, i) +=
@@ -82,8 +88,8 @@ VecX damping_per_second(const Plant& plant, const VecX& elastic) {
 }
 
 // The damping of elements that differ counts by its mean, and half its range as error.
-void add_held_nodes(const Plant& plant, double h, const VecX& way, const VecX& elastic, const VecX& change,
-                    LoadWork& work) {
+void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, const VecX& way, LoadWork& work) {
+    const VecX elastic = elastic_force(plant, plant.motion.x), change = elastic - elastic_force(plant, plant.x_good);
     const Motion& motion = plant.motion;
     const VecX& mass = node_mass_of(*plant.system);
     std::vector<double> of_element;
@@ -94,30 +100,29 @@ void add_held_nodes(const Plant& plant, double h, const VecX& way, const VecX& e
         range = *most - *least;
     }
     const VecX force = forces_at_end(plant, elastic), per_second = damping_per_second(plant, elastic);
-    const int count = int(motion.pinned.size());
-    for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1)) {
+    for (int i = 0; i < int(held.size()); i++) {
+        if (!held[size_t(i)]) continue;
         const Vec3 acceleration = (point(motion.v, i) - point(plant.v_good, i)) / h;
-        const Vec3 held = mass[i] * acceleration - point(force, i) - damping * point(per_second, i);
-        work.pins += held.dot(point(way, i));
+        const Vec3 reaction = mass[i] * acceleration - point(force, i) - damping * point(per_second, i);
+        work.pins += reaction.dot(point(way, i));
         work.error += 0.5 * (std::abs(point(change, i).dot(point(way, i))) +
                              range * std::abs(point(per_second, i).dot(point(way, i))));
     }
 }
 
-bool pins_move(const Plant& plant, const VecX& way) {
-    const Motion& motion = plant.motion;
-    const int count = int(motion.pinned.size());
-    int i = next_pinned(motion, 0);
-    while (i < count && point(way, i).isZero(0)) i = next_pinned(motion, i + 1);
-    return i < count || !plant.pin_springs.empty();
+bool any_moves(const std::vector<uint8_t>& held, const VecX& way) {
+    for (size_t i = 0; i < held.size(); i++)
+        if (held[i] && !point(way, int(i)).isZero(0)) return true;
+    return false;
 }
 
-}  // namespace
-
+// Returns the displacement in the step, rotation vectors by the shorter way [m], [rad].
 VecX way_of_step(const Plant& plant) {
     const VecX& end = plant.motion.x;
     return (plant.follow ? wound_as(plant.x_good, end) : end) - plant.x_good;
 }
+
+}  // namespace
 
 LoadWork work_of_loads(const Plant& plant, double h) {
     LoadWork work;
@@ -125,10 +130,8 @@ LoadWork work_of_loads(const Plant& plant, double h) {
     if (plant.loads.force.size() > 0) work.forces = plant.loads.force.dot(way);
     add_air(plant, work);
     add_grabs(plant, work);
-    if (!pins_move(plant, way)) return work;
-    const VecX elastic = elastic_force(plant, plant.motion.x), change = elastic - elastic_force(plant, plant.x_good);
-    add_pin_springs(plant, change, work);
-    add_held_nodes(plant, h, way, elastic, change, work);
+    const std::vector<uint8_t> held = held_nodes(plant);
+    if (any_moves(held, way)) add_pins(plant, h, held, way, work);
     return work;
 }
 

@@ -16,7 +16,4 @@ struct LoadWork {
 // the force over the step times the displacement, the difference to the trapezoidal rule.
 LoadWork work_of_loads(const Plant& plant, double h);
 
-// Returns the displacement of the mechanics' nodes in the last step, rotation vectors by the shorter way [m], [rad].
-VecX way_of_step(const Plant& plant);
-
 }  // namespace frond
