@@ -61,7 +61,6 @@ private:
     void check_lengths(const Standing& plant, const Loads& loads);
     void check_energy(const std::map<int, Standing>& plants);
     void check_work(const std::map<int, Standing>& plants);
-    double modelled_energy(const Standing& plant, frond_mechanics mechanics);
 
     frond_world world;
     double time = 0;                     // [s]
@@ -70,7 +69,6 @@ private:
     double error_at_most = 0;            // the ledger's error then [J]
     double kinetic = 0;                  // largest kinetic energy so far [J]
     std::vector<int> work;               // solves a plant in each step
-    std::map<std::pair<uint64_t, int>, double> modelled;  // energies of plants as modelled, by plant and mechanics [J]
 };
 
 }  // namespace frond::programs

@@ -18,10 +18,11 @@ struct Outcome {
     uint64_t hash = 0;     // of the last step, if all are kept
     double seconds = 0;    // CPU time [s]
 };
-// Runs a program here: with the laws, again with several threads, and home.
-Outcome outcome_of(const Program& program);
+// Runs a program here: with the laws, again with several threads, and home; only as far as one law needs it, unless
+// that is Law::COUNT.
+Outcome outcome_of(const Program& program, Law only = Law::COUNT);
 // Does the same in a child process, which may crash, or hang for longer than `seconds` of CPU time.
-Outcome outcome_apart(const Program& program, int seconds);
+Outcome outcome_apart(const Program& program, int seconds, Law only = Law::COUNT);
 
 struct Finding {
     uint64_t seed;
@@ -33,7 +34,7 @@ struct SearchSettings {
     uint64_t seed = 1;      // of the first; the others count on
     double seconds = 0;     // CPU time after which no more begin [s]; 0: any
     double shrinking = 60;  // CPU time for one shrinking [s]
-    int longest = 30;       // CPU time after which a program hangs [s]
+    int longest = 120;      // CPU time after which a program hangs [s]
 };
 struct SearchResult {
     int worlds = 0;

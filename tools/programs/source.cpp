@@ -198,6 +198,12 @@ void Source::fields(const std::string& def, const Operation& operation,
             }
 }
 
+std::string Source::step_call(double rate) const {
+    const std::string dt = "1.0 / " + text_of(rate);
+    if (host < 0) return "frond_world_step(world, " + dt + ");";
+    return "host.stepSimulation(btScalar(" + dt + "), 0, btScalar(1.0 / 60));";
+}
+
 void Source::numbers(const std::string& type, const std::string& name, const std::vector<double>& values,
                      int in_a_line) {
     body += "    static const " + type + " " + name + "[] = {";

@@ -16,6 +16,8 @@ public:
     // parameter.
     void fields(const std::string& def, const Operation& operation,
                 std::initializer_list<std::array<const char*, 2>> fields);
+    // Returns the call of a step.
+    std::string step_call(double rate) const;
     // Adds an array of numbers.
     void numbers(const std::string& type, const std::string& name, const std::vector<double>& values, int in_a_line);
     int host = -1;  // kind of the host's world; -1: Frond's own

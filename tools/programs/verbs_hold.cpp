@@ -66,7 +66,7 @@ void carry(Run& run, const Operation& o) {
     }
 }
 void write_carry(Source& s, const Operation& o) {
-    const std::string plant = plant_name(o), dt = "1.0 / " + text_of(number(o, "rate"));
+    const std::string plant = plant_name(o);
     const frond_vec3 way = xyz(o);
     const int count = whole(o, "count");
     s.line("{");
@@ -76,8 +76,7 @@ void write_carry(Source& s, const Operation& o) {
     s.line("        for (int n = 0; n < nodes; n++)");
     s.line("            frond_plant_move_pin(%s, n, moved(from[n], %s * i / %d, %s * i / %d, %s * i / %d));",
            plant.c_str(), text_of(way.x).c_str(), count, text_of(way.y).c_str(), count, text_of(way.z).c_str(), count);
-    s.line(s.host < 0 ? "        frond_world_step(world, %s);" : "        host.stepSimulation(btScalar(%s), 0);",
-           dt.c_str());
+    s.line("        %s", s.step_call(number(o, "rate")).c_str());
     s.line("    }");
     s.line("    free(from);");
     s.line("}");
@@ -95,11 +94,11 @@ void push(Run& run, const Operation& o) {
     }
 }
 void write_push(Source& s, const Operation& o) {
-    const std::string plant = plant_name(o), dt = "1.0 / " + text_of(number(o, "rate"));
+    const std::string plant = plant_name(o);
     s.line("for (int i = 0; i < %d; i++) {", whole(o, "count"));
     s.line("    frond_plant_add_force(%s, node(%s, %d), vec(%s));", plant.c_str(), plant.c_str(), whole(o, "node"),
            vec_text(xyz(o)).c_str());
-    s.line(s.host < 0 ? "    frond_world_step(world, %s);" : "    host.stepSimulation(btScalar(%s), 0);", dt.c_str());
+    s.line("    %s", s.step_call(number(o, "rate")).c_str());
     s.line("}");
     s.line("tell();");
 }

@@ -39,12 +39,8 @@ void step(Run& run, const Operation& o) {
     const int count = whole(o, "count");
     for (int i = 0; i < count; i++) run.step(1 / number(o, "rate"));
 }
-std::string step_call(const Source& s, double rate) {
-    const std::string dt = "1.0 / " + text_of(rate);
-    return s.host < 0 ? "frond_world_step(world, " + dt + ");" : "host.stepSimulation(btScalar(" + dt + "), 0);";
-}
 void write_step(Source& s, const Operation& o) {
-    s.line("for (int i = 0; i < %d; i++) %s", whole(o, "count"), step_call(s, number(o, "rate")).c_str());
+    s.line("for (int i = 0; i < %d; i++) %s", whole(o, "count"), s.step_call(number(o, "rate")).c_str());
     s.line("tell();");
 }
 
@@ -197,7 +193,7 @@ void replay(Run& run, const Operation& o) {
             throw Breach(Law::REPLAY, "another state after " + std::to_string(i - first + 1) + " steps");
 }
 void write_replay(Source& s, const Operation& o) {
-    const std::string step = step_call(s, number(o, "rate"));
+    const std::string step = s.step_call(number(o, "rate"));
     s.line("{");
     s.line("    const size_t size = frond_world_get_snapshot_size(world);");
     s.line("    void* snapshot = malloc(size + 1);");

@@ -98,7 +98,9 @@ FROND_API frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* o
  * it; `error` bounds what that leaves open. Plants in FROND_DETAIL_MODAL do not count: their energy goes with `calls`.
  * Contacts among plants are part of `dissipated`, which no step should lower by more than `error` rises. */
 typedef struct frond_energy_ledger {
-    frond_energy now; /* of all plants together; gravity only of those on which it acts */
+    /* Of all plants together; elastic and gravity over those of each plant as modelled, where it stands, gravity only
+     * of plants on which it acts. */
+    frond_energy now;
     double begin;     /* sum of the three when accounting began */
     double forces;    /* work of frond_plant_add_force */
     double grabs;     /* of the springs of grabs */

@@ -12,11 +12,19 @@ double sum_of(const frond_energy& energy) {
     return energy.kinetic + energy.elastic + energy.gravity;
 }
 
-// Returns the energy of a plant, of which modal ones have none.
+// Returns the energy of a plant over that of its modelled shape, so that all its mechanics count from one zero. Modal
+// plants have none.
 frond_energy energy_in(const World& world, const Plant& plant) {
     if (plant.modal) return {};
     const bool has_weight = plant.effects & world.effects & FROND_EFFECT_GRAVITY;
-    return energy_of(plant, has_weight ? gravity_of(world) : Vec3(Vec3::Zero()));
+    const Vec3 gravity = has_weight ? gravity_of(world) : Vec3(Vec3::Zero());
+    const Elements& whole = elements_of(*plant.system);
+    const VecX& mass = node_mass_of(*plant.system);
+    frond_energy energy = energy_of(plant, gravity);
+    energy.elastic -= mechanics(plant.which, plant.nodes->order).energy(whole, whole.modelled);
+    for (int i = 0; i < mass.size(); i++)
+        energy.gravity += mass[i] * gravity.dot(plant.to_world(point(whole.modelled, i)));
+    return energy;
 }
 
 // Counts the energy of a plant anew; returns by how much it changed.
