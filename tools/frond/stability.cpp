@@ -121,6 +121,10 @@ void add_stability(CLI::App& app) {
         ->check(real_in(0, 1e6));
     command->add_option("--out", options->random.out, "with --random: write what was found to this folder")
         ->needs(random);
+    command
+        ->add_flag("--converged", options->random.converged,
+                   "with --random: implicit Euler to balance, to tell the step's errors from others")
+        ->needs(random);
     command->add_flag("--source", options->as_source, "print the program as C, or C++ in a host's world")
         ->needs(program);
     for (CLI::Option* other : {names, mechanics, integrator, quick, of_default, json, html, list, bullet}) {

@@ -44,6 +44,7 @@ void run_random(const RandomOptions& options) {
     settings.seed = options.seed;
     settings.seconds = options.seconds;
     settings.shrinking = options.shrinking;
+    settings.converged = options.converged;
     if (!options.out.empty()) std::filesystem::create_directories(options.out);
     std::printf("seeds from %llu on\n", static_cast<unsigned long long>(settings.seed));
     const programs::SearchResult result = programs::search(settings, [&](const programs::Finding& finding) {

@@ -58,7 +58,7 @@ public:
 private:
     void check_finite(const Standing& plant);
     void check_places(const Standing& plant, const Loads& loads);
-    void check_lengths(const Standing& plant, const Loads& loads);
+    void check_lengths(const Standing& plant, bool is_touched);
     void check_energy(const std::map<int, Standing>& plants);
     void check_work(const std::map<int, Standing>& plants);
 

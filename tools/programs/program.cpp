@@ -53,6 +53,18 @@ int whole(const Operation& operation, const char* name) {
     return int(std::lround(number(operation, name)));
 }
 
+void converge(Program& program) {
+    constexpr int ITERATIONS = 16;
+    const size_t plant = verb_called("plant"), integrator = verb_called("integrator");
+    for (Operation& operation : program.operations) {
+        const Verb& verb = verb_of(operation);
+        if (operation.verb == integrator) operation.numbers[0] = FROND_INTEGRATOR_IMPLICIT_EULER;
+        if (operation.verb != plant) continue;
+        operation.numbers[parameter_called(verb, "integrator")] = FROND_INTEGRATOR_IMPLICIT_EULER;
+        operation.numbers[parameter_called(verb, "newton_iterations")] = ITERATIONS;
+    }
+}
+
 void prune(Program& program) {
     std::set<int> made = {0};
     std::vector<Operation> kept;

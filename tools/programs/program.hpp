@@ -62,6 +62,9 @@ int whole(const Operation& operation, const char* name);
 
 // Makes a program by chance: the same for the same seed.
 Program random_program(uint64_t seed);
+// Has all plants take each step by implicit Euler to balance: what then breaks a law is not the fault of steps that do
+// not converge.
+void converge(Program& program);
 // Removes operations on what nothing has made.
 void prune(Program& program);
 

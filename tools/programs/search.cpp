@@ -75,6 +75,7 @@ void warm_up() {
 }
 
 Finding shrunk(uint64_t seed, Program program, const Outcome& outcome, const SearchSettings& settings) {
+    constexpr int SHORT = 15;  // a candidate that takes longer is not simpler [s]
     // What comes after the breach has no part in it.
     if (outcome.operation < program.operations.size()) program.operations.resize(outcome.operation + 1);
     Finding finding = {seed, outcome, program};
@@ -82,13 +83,16 @@ Finding shrunk(uint64_t seed, Program program, const Outcome& outcome, const Sea
     const auto is_over = [&] { return cpu_seconds(CLOCK_MONOTONIC) - begin > settings.shrinking; };
     finding.program = shrink(
         std::move(program),
-        [&](const Program& candidate) {
-            const Outcome now = outcome_apart(candidate, settings.longest, outcome.law);
+        [&](Program candidate) {
+            if (settings.converged) converge(candidate);
+            const int longest = outcome.law == Law::CRASH ? settings.longest : SHORT;
+            const Outcome now = outcome_apart(candidate, longest, outcome.law);
             if (now.is_kept || now.law != outcome.law) return false;
             finding.outcome = now;
             return true;
         },
         is_over);
+    if (settings.converged) converge(finding.program);
     return finding;
 }
 
@@ -150,7 +154,8 @@ SearchResult search(const SearchSettings& settings, const std::function<void(con
     SearchResult result;
     for (int i = 0; i < settings.count && (settings.seconds <= 0 || result.seconds < settings.seconds); i++) {
         const uint64_t seed = settings.seed + uint64_t(i);
-        const Program program = random_program(seed);
+        Program program = random_program(seed);
+        if (settings.converged) converge(program);
         const Outcome outcome = outcome_apart(program, settings.longest);
         result.worlds++;
         result.seconds += outcome.law == Law::CRASH ? settings.longest : outcome.seconds;

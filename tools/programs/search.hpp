@@ -30,11 +30,12 @@ struct Finding {
     Program program;  // shrunk
 };
 struct SearchSettings {
-    int count = 100;        // number of programs
-    uint64_t seed = 1;      // of the first; the others count on
-    double seconds = 0;     // CPU time after which no more begin [s]; 0: any
-    double shrinking = 60;  // CPU time for one shrinking [s]
-    int longest = 120;      // CPU time after which a program hangs [s]
+    int count = 100;         // number of programs
+    uint64_t seed = 1;       // of the first; the others count on
+    double seconds = 0;      // CPU time after which no more begin [s]; 0: any
+    double shrinking = 60;   // CPU time for one shrinking [s]
+    bool converged = false;  // see converge()
+    int longest = 120;       // CPU time after which a program hangs [s]
 };
 struct SearchResult {
     int worlds = 0;
