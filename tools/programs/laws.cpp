@@ -86,7 +86,7 @@ void Laws::after_step(std::map<int, Standing>& plants, const Loads& loads, doubl
         must(frond_plant_get_def(plant.handle, &plant.def));
         check_finite(plant);
         check_places(plant, loads);
-        if (moves_chain(plant)) check_lengths(plant, loads.has_bodies || plants.size() > 1);
+        if (moves_chain(plant)) check_lengths(plant, loads, loads.has_bodies || plants.size() > 1);
     }
     check_energy(plants);
     check_work(plants);
@@ -116,7 +116,7 @@ void Laws::check_places(const Standing& plant, const Loads& loads) {
 
 // A chain that nothing but air, weight and light forces act on keeps its lengths; what presses or pulls it may draw it
 // out a little.
-void Laws::check_lengths(const Standing& plant, bool is_touched) {
+void Laws::check_lengths(const Standing& plant, const Loads& loads, bool is_touched) {
     constexpr double FREE = 1.05, LOADED = 1.5;
     if (plant.is_strained || frond_plant_get_fragment_count(plant.handle) > 0) return;
     std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant.handle)));
@@ -124,8 +124,10 @@ void Laws::check_lengths(const Standing& plant, bool is_touched) {
     double most = 0;
     for (size_t i = 0; i < capsules.size(); i++)
         most = std::max(most, length(capsules[i].end - capsules[i].begin) / plant.lengths[i]);
+    const bool may_give = is_touched || plant.def.mechanics == FROND_MECHANICS_SPRING_CHAIN;
+    // A sudden force draws out by twice what it does at rest.
     expect(Law::STRETCH, "a capsule's length over its own", most,
-           is_touched || plant.def.mechanics == FROND_MECHANICS_SPRING_CHAIN ? LOADED : FREE);
+           (may_give ? LOADED : FREE) + 2 * loads.force / plant.strength);
 }
 
 // What was dissipated may fall by the ledger's error, by a twentieth of what went through the plants, and by what lifts

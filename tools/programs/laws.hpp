@@ -33,7 +33,9 @@ struct Standing {
     double size = 0;              // diagonal of the modelled surface's box [m]
     Places home;                  // its nodes as it was made [m]
     std::vector<double> lengths;  // of capsules as modelled [m]
+    double strength = 0;          // least Young's modulus times area of an organ [N]
     // What operations did to it.
+    double carried = 0;        // how far it was put elsewhere, in all [m]
     bool is_strained = false;  // it may be drawn out by what holds or pushes it
     bool is_changed = false;   // it need not come home
 };
@@ -58,7 +60,7 @@ public:
 private:
     void check_finite(const Standing& plant);
     void check_places(const Standing& plant, const Loads& loads);
-    void check_lengths(const Standing& plant, bool is_touched);
+    void check_lengths(const Standing& plant, const Loads& loads, bool is_touched);
     void check_energy(const std::map<int, Standing>& plants);
     void check_work(const std::map<int, Standing>& plants);
 

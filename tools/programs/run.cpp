@@ -109,6 +109,17 @@ void Run::add_shared_model(int id, frond_model model) {
     models[id] = model;
 }
 
+// Organs that lie within others' capsules have no sections.
+static double strength_of(frond_model model, const frond_model_info& info) {
+    double least = 1e300;
+    for (int i = 0; i < info.organ_count; i++) {
+        frond_organ organ = {};
+        must(frond_model_get_organ(model, i, &organ));
+        if (organ.capsule_count > 0) least = std::min(least, organ.material.young * organ.area.lower);
+    }
+    return least;
+}
+
 void Run::add_plant(int id, int model, const frond_plant_def& def) {
     Standing plant;
     plant.model = models.at(model);
@@ -120,6 +131,7 @@ void Run::add_plant(int id, int model, const frond_plant_def& def) {
     std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant.handle)));
     must(frond_plant_get_capsules(plant.handle, capsules.data(), int(capsules.size())));
     for (const frond_capsule& capsule : capsules) plant.lengths.push_back(length(capsule.end - capsule.begin));
+    plant.strength = strength_of(plant.model, plant.info);
     plants[id] = plant;
 }
 

@@ -57,6 +57,7 @@ void carry(Run& run, const Operation& o) {
     const int count = whole(o, "count");
     const frond_vec3 way = xyz(o);
     plant.is_changed = true;
+    plant.carried += 1;
     run.loads.speed = std::max(run.loads.speed, number(o, "rate") * 2);
     for (int i = 1; i <= count; i++) {
         for (size_t n = 0; n < from.size(); n++)

@@ -41,6 +41,7 @@ void put(Run& run, const Operation& o) {
     const frond_vec3 to = {def.position.x + by.x, def.position.y + by.y, def.position.z + by.z};
     run.check(frond_plant_set_transform(plant.handle, to, {0, std::sin(turn), 0, std::cos(turn)}));
     plant.is_changed = true;
+    plant.carried += size_of(by) + 2 * plant.size;
 }
 void write_put(Source& s, const Operation& o) {
     const double turn = 0.5 * number(o, "turn");
@@ -89,6 +90,7 @@ void copy_state(Run& run, const Operation& o) {
     const Places x = places_of(from.handle), v = velocities_of(from.handle);
     run.check(frond_plant_set_state(to.handle, &x[0].x, &v[0].x, int(x.size())));
     to.is_changed = to.is_strained = true;
+    to.carried += size_of(x[0]) + size_of(to.home[0]) + from.carried;
 }
 void write_copy(Source& s, const Operation& o) {
     s.line("copy_state(plant_%d, plant_%d);", o.of[0], o.of[1]);

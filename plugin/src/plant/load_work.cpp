@@ -87,17 +87,18 @@ VecX damping_per_second(const Plant& plant, const VecX& elastic) {
     return (elastic_force(plant, plant.motion.x + time * plant.motion.v) - elastic) / time;
 }
 
-// The damping of elements that differ counts by its mean, and half its range as error.
+// The damping of elements that differ counts by its mean; half of the largest counts as error, since the step took it
+// from a stiffness that is not known here.
 void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, const VecX& way, LoadWork& work) {
     const VecX elastic = elastic_force(plant, plant.motion.x), change = elastic - elastic_force(plant, plant.x_good);
     const Motion& motion = plant.motion;
     const VecX& mass = node_mass_of(*plant.system);
     std::vector<double> of_element;
-    double damping = damping_of(*plant.system, plant.step_settings, of_element), range = 0;
+    double damping = damping_of(*plant.system, plant.step_settings, of_element), most = damping;
     if (!of_element.empty()) {
-        const auto [least, most] = std::minmax_element(of_element.begin(), of_element.end());
-        damping = 0.5 * (*least + *most);
-        range = *most - *least;
+        const auto [low, high] = std::minmax_element(of_element.begin(), of_element.end());
+        damping = 0.5 * (*low + *high);
+        most = *high;
     }
     const VecX force = forces_at_end(plant, elastic), per_second = damping_per_second(plant, elastic);
     for (int i = 0; i < int(held.size()); i++) {
@@ -106,7 +107,7 @@ void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, co
         const Vec3 reaction = mass[i] * acceleration - point(force, i) - damping * point(per_second, i);
         work.pins += reaction.dot(point(way, i));
         work.error += 0.5 * (std::abs(point(change, i).dot(point(way, i))) +
-                             range * std::abs(point(per_second, i).dot(point(way, i))));
+                             most * std::abs(point(per_second, i).dot(point(way, i))));
     }
 }
 
@@ -114,6 +115,16 @@ bool any_moves(const std::vector<uint8_t>& held, const VecX& way) {
     for (size_t i = 0; i < held.size(); i++)
         if (held[i] && !point(way, int(i)).isZero(0)) return true;
     return false;
+}
+
+// A constant force works along any way, but rotation vectors do not add up: moments along great turns count with the
+// error of that.
+void add_forces(const Plant& plant, const VecX& way, LoadWork& work) {
+    const VecX& force = plant.loads.force;
+    if (force.size() == 0) return;
+    work.forces = force.dot(way);
+    for (int i = 1; plant.follow && i < way.size() / 3; i += 2)
+        work.error += 0.5 * point(force, i).norm() * point(way, i).squaredNorm();
 }
 
 // Returns the displacement in the step, rotation vectors by the shorter way [m], [rad].
@@ -127,7 +138,7 @@ VecX way_of_step(const Plant& plant) {
 LoadWork work_of_loads(const Plant& plant, double h) {
     LoadWork work;
     const VecX way = way_of_step(plant);
-    if (plant.loads.force.size() > 0) work.forces = plant.loads.force.dot(way);
+    add_forces(plant, way, work);
     add_air(plant, work);
     add_grabs(plant, work);
     const std::vector<uint8_t> held = held_nodes(plant);
