@@ -128,7 +128,7 @@ std::string hash_of_source(const Program& program) {
 }
 
 std::string hash_of_run(const Program& program) {
-    const Outcome outcome = outcome_apart(program, 100, Law::CALL);
+    const Outcome outcome = outcome_apart(program, 100, bit_of(Law::CALL));
     EXPECT_NE(outcome.law, Law::CRASH) << outcome.text;
     char text[40];
     std::snprintf(text, sizeof text, "hash %016llx\n", static_cast<unsigned long long>(outcome.hash));

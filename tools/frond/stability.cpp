@@ -53,7 +53,7 @@ private:
 
 void run_stability(StabilityOptions& options) {
     if (!options.program.empty()) return run_program(options.program, options.as_source);
-    if (options.random.count > 0) return run_random(options.random);
+    if (options.random.count > 0) return options.list ? list_random(options.random) : run_random(options.random);
     if (options.list) {
         for (const stability::Case& one : stability::cases())
             std::printf("%-20s %s\n%-20s passes: %s\n", one.name, one.does, "", one.passes);
@@ -102,7 +102,8 @@ void add_stability(CLI::App& app) {
         "the default integrator only, at all time steps");
     CLI::Option* json = command->add_option("--json", options->json, "write all cells to this file");
     CLI::Option* html = command->add_option("--html", options->html, "write the table as a page");
-    CLI::Option* list = command->add_flag("--list", options->list, "the cases and their criteria; runs nothing");
+    CLI::Option* list = command->add_flag("--list", options->list,
+                                          "the cases and their criteria, or the worlds of --random; runs nothing");
     CLI::Option* bullet =
         command->add_flag("--bullet", options->bullet,
                           "Bullet's own soft bodies in the cases that they can be put through, beside Frond");
@@ -121,17 +122,18 @@ void add_stability(CLI::App& app) {
         ->check(real_in(0, 1e6));
     command->add_option("--out", options->random.out, "with --random: write what was found to this folder")
         ->needs(random);
+    command->add_option("--skip", options->random.skipped, "with --random: laws that are not checked")->needs(random);
     command
         ->add_flag("--converged", options->random.converged,
                    "with --random: implicit Euler to balance, to tell the step's errors from others")
         ->needs(random);
     command->add_flag("--source", options->as_source, "print the program as C, or C++ in a host's world")
         ->needs(program);
-    for (CLI::Option* other : {names, mechanics, integrator, quick, of_default, json, html, list, bullet}) {
+    for (CLI::Option* other : {names, mechanics, integrator, quick, of_default, json, html, bullet}) {
         random->excludes(other);
         program->excludes(other);
     }
-    random->excludes(program);
+    program->excludes(random, list);
     // In the soft bodies' table a cell may take about as long as the time that it simulates: what a game could wait
     // for.
     constexpr int WITH_BULLET = 6;

@@ -45,8 +45,10 @@ void run_random(const RandomOptions& options) {
     settings.seconds = options.seconds;
     settings.shrinking = options.shrinking;
     settings.converged = options.converged;
+    for (const std::string& name : options.skipped) settings.laws &= ~programs::bit_of(programs::law_called(name));
     if (!options.out.empty()) std::filesystem::create_directories(options.out);
     std::printf("seeds from %llu on\n", static_cast<unsigned long long>(settings.seed));
+    std::fflush(stdout);
     const programs::SearchResult result = programs::search(settings, [&](const programs::Finding& finding) {
         std::printf("\nseed %llu: %s\n%s", static_cast<unsigned long long>(finding.seed), told(finding.outcome).c_str(),
                     programs::text_of(finding.program).c_str());
@@ -56,6 +58,12 @@ void run_random(const RandomOptions& options) {
     std::printf("\n%d worlds in %.0f s of CPU time, %.0f a minute: %zu broke a law\n", result.worlds, result.seconds,
                 60 * result.worlds / std::max(result.seconds, 1e-3), result.findings.size());
     if (!result.findings.empty()) throw SceneError("laws were broken");
+}
+
+void list_random(const RandomOptions& options) {
+    for (uint64_t seed = options.seed; seed < options.seed + uint64_t(options.count); seed++)
+        std::printf("# Seed %llu.\n%s\n", static_cast<unsigned long long>(seed),
+                    programs::text_of(programs::random_program(seed)).c_str());
 }
 
 void run_program(const std::string& path, bool as_source) {

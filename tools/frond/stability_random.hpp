@@ -3,19 +3,23 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace frond::tools {
 
 struct RandomOptions {
     int count = 0;  // number of worlds; 0: no search
     uint64_t seed = 1;
-    double seconds = 0;      // CPU time after which no more begin [s]; 0: any
-    double shrinking = 60;   // time for one shrinking [s]
-    bool converged = false;  // by implicit Euler to balance
-    std::string out;         // folder for what was found; empty: none
+    double seconds = 0;                // CPU time after which no more begin [s]; 0: any
+    double shrinking = 60;             // time for one shrinking [s]
+    bool converged = false;            // by implicit Euler to balance
+    std::vector<std::string> skipped;  // laws that are not checked
+    std::string out;                   // folder for what was found; empty: none
 };
 // Makes worlds and checks the laws; throws a SceneError if one was broken.
 void run_random(const RandomOptions& options);
+// Prints the worlds' programs.
+void list_random(const RandomOptions& options);
 // Runs a program from a file, or prints it as source.
 void run_program(const std::string& path, bool as_source);
 

@@ -12,7 +12,12 @@ namespace frond::programs {
 
 enum class Law { CALL, FINITE, FAR, ENERGY, HANDOVER, STRETCH, WORK, BITS, REPLAY, HOME, CRASH, COUNT };
 const char* name_of(Law law);
-const char* text_of(Law law);  // the law in words
+const char* text_of(Law law);             // the law in words
+Law law_called(const std::string& name);  // throws a SceneError that names the laws
+using LawSet = uint32_t;                  // a bit a law
+constexpr LawSet bit_of(Law law) {
+    return LawSet(1) << int(law);
+}
 
 // A law that does not hold.
 struct Breach : std::runtime_error {
@@ -48,8 +53,7 @@ struct Loads {
 
 class Laws {
 public:
-    explicit Laws(frond_world world);
-    void begin(std::map<int, Standing>& plants);  // accounting
+    Laws(frond_world world, LawSet checked);
     void after_step(std::map<int, Standing>& plants, const Loads& loads, double dt);
     // Checks a change of mechanics, which must not add energy.
     void change_mechanics(Standing& plant, frond_mechanics to);
@@ -64,7 +68,10 @@ private:
     void check_energy(const std::map<int, Standing>& plants);
     void check_work(const std::map<int, Standing>& plants);
 
+    bool checks(Law law) const { return checked & bit_of(law); }
+
     frond_world world;
+    LawSet checked;
     double time = 0;                     // [s]
     frond_energy_ledger last = {};       // after the last step
     double turnover = 0, most = -1e300;  // sum of all work's magnitude, and the most that was dissipated [J]

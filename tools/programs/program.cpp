@@ -62,6 +62,7 @@ void converge(Program& program) {
         if (operation.verb != plant) continue;
         operation.numbers[parameter_called(verb, "integrator")] = FROND_INTEGRATOR_IMPLICIT_EULER;
         operation.numbers[parameter_called(verb, "newton_iterations")] = ITERATIONS;
+        operation.numbers[parameter_called(verb, "linear_solver")] = FROND_LINEAR_SOLVER_BLOCK;
     }
 }
 

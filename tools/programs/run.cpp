@@ -42,7 +42,7 @@ void Run::make_world(const Operation& operation) {
         must(frond_world_create(&def, &world));
     else
         host = std::make_unique<Host>(kind, def, &world);
-    if (conditions.checks_laws) laws = std::make_unique<Laws>(world);
+    if (conditions.laws) laws = std::make_unique<Laws>(world, conditions.laws);
 }
 
 bool Run::has_all(const Operation& operation) const {

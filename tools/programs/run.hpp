@@ -13,7 +13,7 @@ namespace frond::programs {
 
 struct Conditions {
     int threads = 1;
-    bool checks_laws = true;
+    LawSet laws = bit_of(Law::COUNT) - 1;  // those that are checked; with none there is no ledger
 };
 
 class Run {
@@ -36,6 +36,7 @@ public:
     bool check(frond_result result);
     void change_mechanics(int plant, frond_mechanics to);
     uint64_t hash() const;
+    bool checks(Law law) const { return conditions.laws & bit_of(law); }
     bool is_own() const { return !host; }  // the world is Frond's own
 
     frond_world world = {};

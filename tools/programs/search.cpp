@@ -32,13 +32,13 @@ struct Head {
     double seconds;
 };
 
-[[noreturn]] void run_child(const Program& program, int seconds, Law only, int out) {
+[[noreturn]] void run_child(const Program& program, int seconds, LawSet laws, int out) {
     const rlim_t limit = rlim_t(seconds);
     const rlimit cpu = {limit, limit};
     setrlimit(RLIMIT_CPU, &cpu);
     alarm(unsigned(20 * seconds));  // ends a child that sleeps forever
     frond_set_log(nullptr, nullptr);
-    const Outcome outcome = outcome_of(program, only);
+    const Outcome outcome = outcome_of(program, laws);
     const Head head = {outcome.is_kept, outcome.law, outcome.operation, outcome.steps, outcome.hash, outcome.seconds};
     bool written = write(out, &head, sizeof head) == ssize_t(sizeof head);
     written &= write(out, outcome.text.data(), outcome.text.size()) == ssize_t(outcome.text.size());
@@ -71,11 +71,12 @@ void warm_up() {
     Program program = program_from(
         "world\nmodel 1 file=0\nmodel 2 file=1\nmodel 3 file=2\nmodel 4 file=3\n"
         "model 5 file=4\nmodel 6 file=5\n");
-    Run(program, {}).go();
+    Run(program, {1, 0}).go();
 }
 
 Finding shrunk(uint64_t seed, Program program, const Outcome& outcome, const SearchSettings& settings) {
     constexpr int SHORT = 15;  // a candidate that takes longer is not simpler [s]
+    const LawSet laws = outcome.law == Law::CRASH ? settings.laws : bit_of(outcome.law);
     // What comes after the breach has no part in it.
     if (outcome.operation < program.operations.size()) program.operations.resize(outcome.operation + 1);
     Finding finding = {seed, outcome, program};
@@ -86,7 +87,7 @@ Finding shrunk(uint64_t seed, Program program, const Outcome& outcome, const Sea
         [&](Program candidate) {
             if (settings.converged) converge(candidate);
             const int longest = outcome.law == Law::CRASH ? settings.longest : SHORT;
-            const Outcome now = outcome_apart(candidate, longest, outcome.law);
+            const Outcome now = outcome_apart(candidate, longest, laws);
             if (now.is_kept || now.law != outcome.law) return false;
             finding.outcome = now;
             return true;
@@ -99,7 +100,7 @@ Finding shrunk(uint64_t seed, Program program, const Outcome& outcome, const Sea
 // Runs the program again, with several threads and without a ledger, so that plants that go alike are stepped together.
 void expect_same_bits(const Program& program, const Run& first) {
     constexpr int THREADS = 3;
-    Run again(program, {THREADS, false});
+    Run again(program, {THREADS, 0});
     again.go();
     if (again.hashes.size() != first.hashes.size()) throw Breach(Law::BITS, "another number of steps");
     for (size_t i = 0; i < first.hashes.size(); i++)
@@ -109,11 +110,10 @@ void expect_same_bits(const Program& program, const Run& first) {
 
 }  // namespace
 
-Outcome outcome_of(const Program& program, Law only) {
-    const auto matters = [&](Law law) { return only == law || only == Law::COUNT || only == Law::CRASH; };
+Outcome outcome_of(const Program& program, LawSet laws) {
     Outcome outcome;
     const double begin = cpu_seconds(CLOCK_PROCESS_CPUTIME_ID);
-    Run first(program, {});
+    Run first(program, {1, laws});
     const auto breaks = [&](const Run& run, Law law, const std::string& text) {
         outcome.is_kept = false;
         outcome.law = law;
@@ -123,9 +123,9 @@ Outcome outcome_of(const Program& program, Law only) {
     };
     try {
         first.go();
-        if (matters(Law::BITS)) expect_same_bits(program, first);
+        if (laws & bit_of(Law::BITS)) expect_same_bits(program, first);
         outcome.hash = first.hash();
-        if (matters(Law::HOME)) first.come_home();
+        if (laws & bit_of(Law::HOME)) first.come_home();
     } catch (const Breach& breach) {
         breaks(first, breach.law, breach.what());
     } catch (const std::exception& error) {
@@ -135,12 +135,12 @@ Outcome outcome_of(const Program& program, Law only) {
     return outcome;
 }
 
-Outcome outcome_apart(const Program& program, int seconds, Law only) {
+Outcome outcome_apart(const Program& program, int seconds, LawSet laws) {
     int ends[2];
     if (pipe(ends) != 0) throw tools::SceneError(std::string("no pipe: ") + std::strerror(errno));
     const pid_t child = fork();
     if (child < 0) throw tools::SceneError(std::string("no process: ") + std::strerror(errno));
-    if (child == 0) run_child(program, seconds, only, ends[1]);
+    if (child == 0) run_child(program, seconds, laws, ends[1]);
     close(ends[1]);
     int status = 0;
     waitpid(child, &status, 0);
@@ -156,7 +156,7 @@ SearchResult search(const SearchSettings& settings, const std::function<void(con
         const uint64_t seed = settings.seed + uint64_t(i);
         Program program = random_program(seed);
         if (settings.converged) converge(program);
-        const Outcome outcome = outcome_apart(program, settings.longest);
+        const Outcome outcome = outcome_apart(program, settings.longest, settings.laws);
         result.worlds++;
         result.seconds += outcome.law == Law::CRASH ? settings.longest : outcome.seconds;
         if (outcome.is_kept) continue;

@@ -18,11 +18,11 @@ struct Outcome {
     uint64_t hash = 0;     // of the last step, if all are kept
     double seconds = 0;    // CPU time [s]
 };
-// Runs a program here: with the laws, again with several threads, and home; only as far as one law needs it, unless
-// that is Law::COUNT.
-Outcome outcome_of(const Program& program, Law only = Law::COUNT);
+constexpr LawSet ALL_LAWS = bit_of(Law::COUNT) - 1;
+// Runs a program here: with these laws, again with several threads, and home, as far as the laws need it.
+Outcome outcome_of(const Program& program, LawSet laws = ALL_LAWS);
 // Does the same in a child process, which may crash, or hang for longer than `seconds` of CPU time.
-Outcome outcome_apart(const Program& program, int seconds, Law only = Law::COUNT);
+Outcome outcome_apart(const Program& program, int seconds, LawSet laws = ALL_LAWS);
 
 struct Finding {
     uint64_t seed;
@@ -30,10 +30,11 @@ struct Finding {
     Program program;  // shrunk
 };
 struct SearchSettings {
-    int count = 100;         // number of programs
-    uint64_t seed = 1;       // of the first; the others count on
-    double seconds = 0;      // CPU time after which no more begin [s]; 0: any
-    double shrinking = 60;   // CPU time for one shrinking [s]
+    int count = 100;        // number of programs
+    uint64_t seed = 1;      // of the first; the others count on
+    double seconds = 0;     // CPU time after which no more begin [s]; 0: any
+    double shrinking = 60;  // CPU time for one shrinking [s]
+    LawSet laws = ALL_LAWS;
     bool converged = false;  // see converge()
     int longest = 120;       // CPU time after which a program hangs [s]
 };

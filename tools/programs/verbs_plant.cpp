@@ -124,7 +124,7 @@ std::vector<Verb> plant_verbs() {
         {"stiffness_damping", 0.002, 0, 0.01, 0.2},
         {"material_damping", 1, 0, 3, 0.2},
         {"starts_asleep", 0, 0, 1, 0.2, WHOLE},
-        {"linear_solver", FROND_LINEAR_SOLVER_BLOCK, 0, FROND_LINEAR_SOLVER_COUNT - 1, 0.1, WHOLE},
+        {"linear_solver", FROND_LINEAR_SOLVER_BLOCK, 0, FROND_LINEAR_SOLVER_COUNT - 1, 0.05, WHOLE},
         {"mass", FROND_MASS_LUMPED, 0, 1, 0.2, WHOLE},
         {"newton_iterations", 1, 1, 8, 0.2, WHOLE},
         {"spectral_radius", 0.8, 0, 1, 0.1},
