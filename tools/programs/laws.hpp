@@ -65,7 +65,7 @@ private:
     void check_finite(const Standing& plant);
     void check_places(const Standing& plant, const Loads& loads);
     void check_lengths(const Standing& plant, const Loads& loads, bool is_touched);
-    void check_energy(const std::map<int, Standing>& plants);
+    void check_energy(const std::map<int, Standing>& plants, double dt);
     void check_work(const std::map<int, Standing>& plants);
 
     bool checks(Law law) const { return checked & bit_of(law); }
@@ -76,6 +76,7 @@ private:
     frond_energy_ledger last = {};       // after the last step
     double turnover = 0, most = -1e300;  // sum of all work's magnitude, and the most that was dissipated [J]
     double error_at_most = 0;            // the ledger's error then [J]
+    double parted = 0;                   // what parting of plants may have added [J]
     double kinetic = 0;                  // largest kinetic energy so far [J]
     std::vector<int> work;               // solves a plant in each step
 };

@@ -1,7 +1,9 @@
 // In: a plant, and the loads, start and end of its last step. Out: the work of each kind of load.
 //
-// The force that moves a held node is what the step's equation lacks there:
+// The force that moves a held node is what the equation of motion lacks there:
 //   R = M dv/dt - (elastic and damping forces, weight, other loads).
+// The sum of R over all held nodes follows from the plant's momentum alone, as its mean over the step, however the step
+// was solved. So the mean displacement of held nodes counts with that, and only what each moves beside it with its R.
 #include "plant/load_work.hpp"
 
 #include <algorithm>
@@ -87,11 +89,41 @@ VecX damping_per_second(const Plant& plant, const VecX& elastic) {
     return (elastic_force(plant, plant.motion.x + time * plant.motion.v) - elastic) / time;
 }
 
+// Returns the mean force on all held nodes together in the step, given the impulse of contacts.
+Vec3 mean_holding_force(const Plant& plant, double h, const Vec3& impulse) {
+    const Motion& motion = plant.motion;
+    const VecX& mass = node_mass_of(*plant.system);
+    const int next = plant.follow ? 2 : 1;
+    Vec3 momentum = -impulse, loads = Vec3::Zero();
+    for (int i = 0; i < mass.size(); i += next) {
+        momentum += mass[i] * (point(motion.v, i) - point(plant.v_good, i));
+        loads += mass[i] * (plant.loads.gravity - plant.step_settings.mass_damping * Vec3(point(motion.v, i)));
+        if (plant.loads.force.size() > 0) loads += point(plant.loads.force, i);
+    }
+    for (const Spring& spring : grab_springs(plant))
+        loads += spring.stiffness * (spring.target - attachment_place(spring.attachment, motion.x));
+    for (const Drag& drag : plant.loads.drags)
+        loads += drag.force - drag.damping * attachment_velocity(drag.attachment, motion.x, motion.v);
+    return momentum / h - loads;
+}
+
+// Returns the mean displacement of held nodes.
+Vec3 mean_way(const Plant& plant, const std::vector<uint8_t>& held, const VecX& way) {
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (int i = 0; i < int(held.size()); i += plant.follow ? 2 : 1) {
+        if (!held[size_t(i)]) continue;
+        sum += point(way, i);
+        count++;
+    }
+    return sum / std::max(count, 1);
+}
+
 // The damping of elements that differ counts by its mean; half of the largest counts as error, since the step took it
 // from a stiffness that is not known here.
-void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, const VecX& way, LoadWork& work) {
+void add_pins(const Plant& plant, double h, const Vec3& impulse, const std::vector<uint8_t>& held, const VecX& way,
+              LoadWork& work) {
     const VecX elastic = elastic_force(plant, plant.motion.x), change = elastic - elastic_force(plant, plant.x_good);
-    const Motion& motion = plant.motion;
     const VecX& mass = node_mass_of(*plant.system);
     std::vector<double> of_element;
     double damping = damping_of(*plant.system, plant.step_settings, of_element), most = damping;
@@ -101,13 +133,16 @@ void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, co
         most = *high;
     }
     const VecX force = forces_at_end(plant, elastic), per_second = damping_per_second(plant, elastic);
+    const Vec3 mean = mean_way(plant, held, way);
+    work.pins += mean_holding_force(plant, h, impulse).dot(mean);
     for (int i = 0; i < int(held.size()); i++) {
         if (!held[size_t(i)]) continue;
-        const Vec3 acceleration = (point(motion.v, i) - point(plant.v_good, i)) / h;
+        const bool is_turn = plant.follow && i % 2 == 1;
+        const Vec3 own = is_turn ? Vec3(point(way, i)) : Vec3(point(way, i) - mean);
+        const Vec3 acceleration = (point(plant.motion.v, i) - point(plant.v_good, i)) / h;
         const Vec3 reaction = mass[i] * acceleration - point(force, i) - damping * point(per_second, i);
-        work.pins += reaction.dot(point(way, i));
-        work.error += 0.5 * (std::abs(point(change, i).dot(point(way, i))) +
-                             most * std::abs(point(per_second, i).dot(point(way, i))));
+        work.pins += reaction.dot(own);
+        work.error += 0.5 * (std::abs(point(change, i).dot(own)) + most * std::abs(point(per_second, i).dot(own)));
     }
 }
 
@@ -135,14 +170,14 @@ VecX way_of_step(const Plant& plant) {
 
 }  // namespace
 
-LoadWork work_of_loads(const Plant& plant, double h) {
+LoadWork work_of_loads(const Plant& plant, double h, const Vec3& impulse) {
     LoadWork work;
     const VecX way = way_of_step(plant);
     add_forces(plant, way, work);
     add_air(plant, work);
     add_grabs(plant, work);
     const std::vector<uint8_t> held = held_nodes(plant);
-    if (any_moves(held, way)) add_pins(plant, h, held, way, work);
+    if (any_moves(held, way)) add_pins(plant, h, impulse, held, way, work);
     return work;
 }
 

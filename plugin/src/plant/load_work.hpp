@@ -14,6 +14,7 @@ struct LoadWork {
 // Computes the work of the loads in a step of h [s] that the plant has just completed: each load's force at the step's
 // end times the displacement of what it acts on, as implicit Euler counts it. The estimated error is half the change of
 // the force over the step times the displacement, the difference to the trapezoidal rule.
-LoadWork work_of_loads(const Plant& plant, double h);
+// `impulse`: sum of the impulses of contacts and bonds, model frame [N s].
+LoadWork work_of_loads(const Plant& plant, double h, const Vec3& impulse);
 
 }  // namespace frond

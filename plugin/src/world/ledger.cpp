@@ -83,28 +83,43 @@ void begin_work(World& world) {
         const double change = recount(world, *body, entry);
         if (entry.is_modal || was_modal) world.ledger->sums.calls += change;
         entry.x = body->plant->motion.x;
+        entry.impulse.setZero();
+    }
+}
+
+static void count_impulses(World& world) {
+    Ledger& ledger = *world.ledger;
+    const auto add = [&](const PlantBody& body, const Attachment& attachment, const Vec3& impulse, double& work) {
+        add_impulse(body, attachment, impulse, work);
+        ledger.plants[body.handle.id].impulse += impulse;
+    };
+    for (const Contact& contact : world.contacts)
+        add(*contact.plant, attachment_of(contact), contact.impulse, ledger.sums.bodies);
+    for (const Bond& bond : world.bonds)
+        if (bond.body && !bond.plant->rest.asleep)
+            add(*bond.plant, vertex_attachment(*bond.plant->plant, bond.vertex), bond.impulse, ledger.sums.bonds);
+    for (const PlantContact& contact : world.plant_contacts) {
+        ledger.plants[contact.plants[0]->handle.id].impulse += contact.impulse;
+        ledger.plants[contact.plants[1]->handle.id].impulse -= contact.impulse;
     }
 }
 
 void count_work(World& world) {
+    count_impulses(world);
     frond_energy_ledger& sums = world.ledger->sums;
     for (PlantBody* body : world.awake) {
         if (!is_stepped(*body)) continue;
+        const Plant& plant = *body->plant;
         Ledger::Entry& entry = world.ledger->plants[body->handle.id];
-        const LoadWork work = work_of_loads(*body->plant, body->level.pending);
+        const LoadWork work = work_of_loads(plant, body->level.pending, plant.rotation.conjugate() * entry.impulse);
         sums.forces += work.forces;
         sums.grabs += work.grabs;
         sums.air += work.air;
         sums.pins += work.pins;
         sums.error += work.error;
-        add_jump(*body->plant, entry.x, sums.pins);
+        add_jump(plant, entry.x, sums.pins);
         recount(world, *body, entry);
     }
-    for (const Contact& contact : world.contacts)
-        add_impulse(*contact.plant, attachment_of(contact), contact.impulse, sums.bodies);
-    for (const Bond& bond : world.bonds)
-        if (bond.body && !bond.plant->rest.asleep)
-            add_impulse(*bond.plant, vertex_attachment(*bond.plant->plant, bond.vertex), bond.impulse, sums.bonds);
 }
 
 void count_what_came_off(World& world) {
