@@ -19,8 +19,6 @@ struct StabilityOptions {
     std::string mechanics, integrator, json, html;
     bool list = false, bullet = false;
     RandomOptions random;
-    std::string program;
-    bool as_source = false;
 };
 
 // Returns the row of a table that has that name.
@@ -52,7 +50,7 @@ private:
 };
 
 void run_stability(StabilityOptions& options) {
-    if (!options.program.empty()) return run_program(options.program, options.as_source);
+    if (!options.random.program.empty()) return run_program(options.random);
     if (options.random.count > 0) return options.list ? list_random(options.random) : run_random(options.random);
     if (options.list) {
         for (const stability::Case& one : stability::cases())
@@ -111,29 +109,8 @@ void add_stability(CLI::App& app) {
     integrator->excludes(quick, of_default);
     for (CLI::Option* option : {names, mechanics, integrator, of_default, json, html}) option->excludes(list, bullet);
     list->excludes(quick, bullet);
-    CLI::Option* random =
-        command->add_option("--random", options->random.count, "worlds made at random instead, this many at most")
-            ->check(CLI::Range(1, 1000000000));
-    CLI::Option* program = command->add_option("--program", options->program, "run a program that --random wrote");
-    command->add_option("--seed", options->random.seed, "seed of the first world, default 1")->needs(random);
-    command
-        ->add_option("--shrink", options->random.shrinking, "with --random: time to shorten a program [s], default 60")
-        ->needs(random)
-        ->check(real_in(0, 1e6));
-    command->add_option("--out", options->random.out, "with --random: write what was found to this folder")
-        ->needs(random);
-    command->add_option("--skip", options->random.skipped, "with --random: laws that are not checked")->needs(random);
-    command
-        ->add_flag("--converged", options->random.converged,
-                   "with --random: implicit Euler to balance, to tell the step's errors from others")
-        ->needs(random);
-    command->add_flag("--source", options->as_source, "print the program as C, or C++ in a host's world")
-        ->needs(program);
-    for (CLI::Option* other : {names, mechanics, integrator, quick, of_default, json, html, bullet}) {
-        random->excludes(other);
-        program->excludes(other);
-    }
-    program->excludes(random, list);
+    add_random_options(*command, options->random, {names, mechanics, integrator, quick, of_default, json, html, bullet},
+                       list);
     // In the soft bodies' table a cell may take about as long as the time that it simulates: what a game could wait
     // for.
     constexpr int WITH_BULLET = 6;

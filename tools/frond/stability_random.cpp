@@ -66,13 +66,14 @@ void list_random(const RandomOptions& options) {
                     programs::text_of(programs::random_program(seed)).c_str());
 }
 
-void run_program(const std::string& path, bool as_source) {
+void run_program(const RandomOptions& options) {
+    const std::string& path = options.program;
     std::ifstream file(path);
     std::stringstream text;
     text << file.rdbuf();
     if (!file) throw SceneError(path + " cannot be read");
     const programs::Program program = programs::program_from(text.str());
-    if (as_source) {
+    if (options.as_source) {
         std::printf("%s", programs::c_source(program, path).c_str());
         return;
     }
@@ -81,6 +82,30 @@ void run_program(const std::string& path, bool as_source) {
         throw SceneError(told(outcome) + " (operation " + std::to_string(outcome.operation + 1) + ", step " +
                          std::to_string(outcome.steps) + ")");
     std::printf("all laws hold; hash %016llx\n", static_cast<unsigned long long>(outcome.hash));
+}
+
+void add_random_options(CLI::App& command, RandomOptions& options, const std::vector<CLI::Option*>& others,
+                        CLI::Option* list) {
+    CLI::Option* random =
+        command.add_option("--random", options.count, "worlds made at random instead, this many at most")
+            ->check(CLI::Range(1, 1000000000));
+    CLI::Option* program = command.add_option("--program", options.program, "run a program that --random wrote");
+    command.add_flag("--source", options.as_source, "print the program as C, or C++ in a host's world")->needs(program);
+    command.add_option("--seed", options.seed, "with --random: seed of the first world, default 1")->needs(random);
+    command.add_option("--shrink", options.shrinking, "with --random: time to shorten a program [s], default 60")
+        ->needs(random)
+        ->check(real_in(0, 1e6));
+    command.add_option("--out", options.out, "with --random: write what was found to this folder")->needs(random);
+    command.add_option("--skip", options.skipped, "with --random: laws that are not checked")->needs(random);
+    command
+        .add_flag("--converged", options.converged,
+                  "with --random: implicit Euler to balance, to tell the step's errors from others")
+        ->needs(random);
+    for (CLI::Option* other : others) {
+        random->excludes(other);
+        program->excludes(other);
+    }
+    program->excludes(random, list);
 }
 
 }  // namespace frond::tools

@@ -22,7 +22,7 @@ const std::vector<Verb>& verbs() {
     static const std::vector<Verb> table = [] {
         std::vector<Verb> all;
         for (const auto& rows :
-             {world_verbs(), model_verbs(), plant_verbs(), state_verbs(), hold_verbs(), body_verbs()})
+             {world_verbs(), snapshot_verbs(), model_verbs(), plant_verbs(), state_verbs(), hold_verbs(), body_verbs()})
             all.insert(all.end(), rows.begin(), rows.end());
         return all;
     }();

@@ -47,6 +47,7 @@ struct Verb {
 };
 // Rows of the table, by what they act on.
 std::vector<Verb> world_verbs();
+std::vector<Verb> snapshot_verbs();
 std::vector<Verb> model_verbs();
 std::vector<Verb> plant_verbs();
 std::vector<Verb> state_verbs();

@@ -234,7 +234,7 @@ void write_look(Source& s, const Operation& o) {
 }  // namespace
 
 std::vector<Verb> world_verbs() {
-    constexpr Kind NONE = Kind::NONE, SNAPSHOT = Kind::SNAPSHOT;
+    constexpr Kind NONE = Kind::NONE;
     constexpr Scale LINEAR = Scale::LINEAR, LOG = Scale::LOG, WHOLE = Scale::WHOLE;
     const Parameter rate = {"rate", 60, 30, 240, 0.4, LINEAR};
     const Parameter x = {"x", 3, 0, 60, 0.8, LINEAR}, y = {"y", 1, 0, 5, 0.3, LINEAR};
@@ -292,6 +292,14 @@ std::vector<Verb> world_verbs() {
          write_detail},
         {"viewer", NONE, {NONE, NONE}, 2, {x, y}, move_viewer, write_viewer},
         {"end_detail", NONE, {NONE, NONE}, 1, {}, end_detail, write_end_detail},
+    };
+}
+
+std::vector<Verb> snapshot_verbs() {
+    constexpr Kind NONE = Kind::NONE, SNAPSHOT = Kind::SNAPSHOT;
+    constexpr Scale LINEAR = Scale::LINEAR, WHOLE = Scale::WHOLE;
+    const Parameter rate = {"rate", 60, 30, 240, 0.4, LINEAR};
+    return {
         {"shift",
          NONE,
          {NONE, NONE},
