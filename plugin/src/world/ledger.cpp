@@ -14,14 +14,18 @@ double sum_of(const frond_energy& energy) {
 
 // Returns the energy of a plant over that of its modelled shape, so that all its mechanics count from one zero. Modal
 // plants have none.
-frond_energy energy_in(const World& world, const Plant& plant) {
+frond_energy energy_in(const World& world, const Plant& plant, Ledger::Entry& entry) {
     if (plant.modal) return {};
     const bool has_weight = plant.effects & world.effects & FROND_EFFECT_GRAVITY;
     const Vec3 gravity = has_weight ? gravity_of(world) : Vec3(Vec3::Zero());
     const Elements& whole = elements_of(*plant.system);
     const VecX& mass = node_mass_of(*plant.system);
     frond_energy energy = energy_of(plant, gravity);
-    energy.elastic -= mechanics(plant.which, plant.nodes->order).energy(whole, whole.modelled);
+    if (entry.system != plant.system) {
+        entry.system = plant.system;
+        entry.modelled = mechanics(plant.which, plant.nodes->order).energy(whole, whole.modelled);
+    }
+    energy.elastic -= entry.modelled;
     for (int i = 0; i < mass.size(); i++)
         energy.gravity += mass[i] * gravity.dot(plant.to_world(point(whole.modelled, i)));
     return energy;
@@ -30,7 +34,7 @@ frond_energy energy_in(const World& world, const Plant& plant) {
 // Counts the energy of a plant anew; returns by how much it changed.
 double recount(const World& world, const PlantBody& body, Ledger::Entry& entry) {
     const double before = sum_of(entry.energy);
-    entry.energy = energy_in(world, *body.plant);
+    entry.energy = energy_in(world, *body.plant, entry);
     entry.is_modal = body.plant->modal != nullptr;
     return sum_of(entry.energy) - before;
 }
@@ -79,9 +83,10 @@ void count_calls(World& world) {
 void begin_work(World& world) {
     for (PlantBody* body : world.awake) {
         Ledger::Entry& entry = world.ledger->plants[body->handle.id];
-        const bool was_modal = entry.is_modal;
-        const double change = recount(world, *body, entry);
-        if (entry.is_modal || was_modal) world.ledger->sums.calls += change;
+        const bool was_modal = entry.is_modal, is_modal = body->plant->modal != nullptr;
+        const bool has_changed = entry.system != body->plant->system || is_modal != was_modal;
+        const double change = has_changed ? recount(world, *body, entry) : 0;
+        if (is_modal || was_modal) world.ledger->sums.calls += change;
         entry.x = body->plant->motion.x;
         entry.impulse.setZero();
     }

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 
 #include "core/types.hpp"
 #include "frond/frond_bullet.hpp"
 
 namespace frond {
+struct System;
 inline namespace FROND_BULLET_PRECISION {
 
 struct World;
@@ -18,7 +20,9 @@ struct Ledger {
         Vec3 impulse = Vec3::Zero();  // of contacts and bonds in the running step, world frame [N s]
         VecX x;                       // positions before the running step, model frame [m]
         size_t fragments = 0;
-        bool is_modal = false;  // does not count
+        bool is_modal = false;                 // does not count
+        std::shared_ptr<const System> system;  // of which `modelled` is the elastic energy in the modelled shape [J]
+        double modelled = 0;
         bool is_there = false;  // scratch
     };
     frond_energy_ledger sums = {};     // all but `now` and `dissipated`
