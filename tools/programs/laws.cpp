@@ -202,8 +202,8 @@ void Laws::change_mechanics(Standing& plant, frond_mechanics to) {
 
 bool Laws::may_come_home(const Standing& plant) {
     const frond_linear_solver solver = plant.def.tuning.linear_solver;
-    return (solver == FROND_LINEAR_SOLVER_BLOCK || solver == FROND_LINEAR_SOLVER_DIRECT) && !plant.is_changed &&
-           plant.def.root_height >= 0 && plant.def.mechanics != FROND_MECHANICS_TET_LINEAR &&
+    return (solver == FROND_LINEAR_SOLVER_BLOCK || solver == FROND_LINEAR_SOLVER_DIRECT) && plant.stands &&
+           !plant.is_changed && plant.def.root_height >= 0 && plant.def.mechanics != FROND_MECHANICS_TET_LINEAR &&
            !(plant.def.effects & (FROND_EFFECT_PLASTICITY | FROND_EFFECT_BREAKING)) && plant.def.mass_damping >= 0.1 &&
            plant.def.material_damping >= 1 && plant.def.stiffness_damping >= 0.001 &&
            frond_plant_get_fragment_count(plant.handle) == 0;

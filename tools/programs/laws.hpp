@@ -39,6 +39,7 @@ struct Standing {
     Places home;                  // its nodes as it was made [m]
     std::vector<double> lengths;  // of capsules as modelled [m]
     double strength = 0;          // least Young's modulus times area of an organ [N]
+    bool stands = true;           // as modelled, under its weight
     // What operations did to it.
     double carried = 0;        // how far it was put elsewhere, in all [m]
     bool is_strained = false;  // it may be drawn out by what holds or pushes it

@@ -100,7 +100,8 @@ uint64_t Run::hash() const {
     return value;
 }
 
-void Run::add_model(int id, frond_model model) {
+void Run::add_model(int id, frond_model model, bool stands) {
+    if (!stands) drooping.insert(id);
     models[id] = model;
     own_models.push_back(model);
 }
@@ -131,6 +132,7 @@ void Run::add_plant(int id, int model, const frond_plant_def& def) {
     std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant.handle)));
     must(frond_plant_get_capsules(plant.handle, capsules.data(), int(capsules.size())));
     for (const frond_capsule& capsule : capsules) plant.lengths.push_back(length(capsule.end - capsule.begin));
+    plant.stands = drooping.count(model) == 0;
     plant.strength = strength_of(plant.model, plant.info);
     plants[id] = plant;
 }

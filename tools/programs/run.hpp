@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 
 #include "frond/frond_robot.h"
 #include "programs/host.hpp"
@@ -27,8 +28,9 @@ public:
 
     // For operations.
     void make_world(const Operation& operation);
-    void add_model(int id, frond_model model);         // takes ownership
-    void add_shared_model(int id, frond_model model);  // does not
+    // Takes ownership; `stands`: plants of it stand as modelled.
+    void add_model(int id, frond_model model, bool stands);
+    void add_shared_model(int id, frond_model model);
     void add_plant(int id, int model, const frond_plant_def& def);
     void remove_plant(int id);
     void step(double dt);
@@ -63,6 +65,7 @@ private:
     std::unique_ptr<Host> host;
     std::unique_ptr<Laws> laws;
     std::vector<frond_model> own_models;
+    std::set<int> drooping;  // models of which plants do not stand as modelled
 };
 
 // Return the first thing that an operation acts on, a plant, and its numbers x, y and z.

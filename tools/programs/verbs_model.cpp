@@ -66,7 +66,8 @@ void grow(Run& run, const Operation& o) {
     frond_model_def def = frond_default_model_def();
     def.rest = frond_rest(whole(o, "rest"));
     frond_model model = {};
-    if (run.check(frond_model_from_stems(stems.data(), int(stems.size()), &def, &model))) run.add_model(o.id, model);
+    if (run.check(frond_model_from_stems(stems.data(), int(stems.size()), &def, &model)))
+        run.add_model(o.id, model, def.rest == FROND_REST_STANDS_AS_MODELLED);
 }
 void write_grow(Source& s, const Operation& o) {
     const std::vector<frond_stem> stems = stems_of(o);
@@ -104,7 +105,7 @@ void pile(Run& run, const Operation& o) {
     frond_model model = {};
     if (run.check(frond_model_from_tets(lattice.nodes.data(), int(lattice.nodes.size() / 3), lattice.tets.data(),
                                         int(lattice.tets.size() / 4), &def, &model)))
-        run.add_model(o.id, model);
+        run.add_model(o.id, model, false);
 }
 void write_pile(Source& s, const Operation& o) {
     const Lattice lattice = lattice_of(o);
@@ -161,7 +162,7 @@ void pour(Run& run, const Operation& o) {
     frond_model model = {};
     if (run.check(frond_model_from_triangles(soup.xyz.data(), int(soup.xyz.size() / 3), soup.indices.data(),
                                              int(soup.indices.size() / 3), &def, &model)))
-        run.add_model(o.id, model);
+        run.add_model(o.id, model, true);
 }
 void write_pour(Source& s, const Operation& o) {
     const Soup soup = soup_of(o);
