@@ -206,12 +206,14 @@ void look_at_world(Stage& s) {
     frond_ray_hit hit;
     frond_report report;
     frond_profile profile;
+    frond_energy_ledger ledger;
     frond_vec3 vec;
     frond_rigid_state state;
     uint64_t hash;
     require(frond_world_is_valid(s.world) && frond_world_get_report(s.world, &report) == FROND_OK, "no report");
     require(frond_world_get_profile(s.world, &profile) == FROND_OK, "no profile");
     require(frond_world_get_state_hash(s.world, &hash) == FROND_OK, "no hash");
+    if (s.input.below(4) == 0) require(frond_world_get_energy_ledger(s.world, &ledger) == FROND_OK, "no energy ledger");
     frond_world_cast_ray(s.world, s.input.vec(), s.input.vec(), s.input.number(), &hit);
     if (frond_world_get_wind_at(s.world, s.input.vec(), &vec) == FROND_OK)
         require(std::isfinite(vec.x) && std::isfinite(vec.y) && std::isfinite(vec.z), "wind is not finite");

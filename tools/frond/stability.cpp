@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "export.hpp"
 #include "stability/stability.hpp"
+#include "stability_random.hpp"
 #include "studio/studio.hpp"
 
 namespace frond::tools {
@@ -17,6 +18,7 @@ struct StabilityOptions {
     stability::Limits limits;
     std::string mechanics, integrator, json, html;
     bool list = false, bullet = false;
+    RandomOptions random;
 };
 
 // Returns the row of a table that has that name.
@@ -48,6 +50,8 @@ private:
 };
 
 void run_stability(StabilityOptions& options) {
+    if (!options.random.program.empty()) return run_program(options.random);
+    if (options.random.count > 0) return options.list ? list_random(options.random) : run_random(options.random);
     if (options.list) {
         for (const stability::Case& one : stability::cases())
             std::printf("%-20s %s\n%-20s passes: %s\n", one.name, one.does, "", one.passes);
@@ -96,7 +100,8 @@ void add_stability(CLI::App& app) {
         "the default integrator only, at all time steps");
     CLI::Option* json = command->add_option("--json", options->json, "write all cells to this file");
     CLI::Option* html = command->add_option("--html", options->html, "write the table as a page");
-    CLI::Option* list = command->add_flag("--list", options->list, "the cases and their criteria; runs nothing");
+    CLI::Option* list = command->add_flag("--list", options->list,
+                                          "the cases and their criteria, or the worlds of --random; runs nothing");
     CLI::Option* bullet =
         command->add_flag("--bullet", options->bullet,
                           "Bullet's own soft bodies in the cases that they can be put through, beside Frond");
@@ -104,16 +109,21 @@ void add_stability(CLI::App& app) {
     integrator->excludes(quick, of_default);
     for (CLI::Option* option : {names, mechanics, integrator, of_default, json, html}) option->excludes(list, bullet);
     list->excludes(quick, bullet);
+    add_random_options(*command, options->random, {names, mechanics, integrator, quick, of_default, json, html, bullet},
+                       list);
     // In the soft bodies' table a cell may take about as long as the time that it simulates: what a game could wait
     // for.
     constexpr int WITH_BULLET = 6;
-    const CLI::Option* seconds = command
-                                     ->add_option("--seconds", options->limits.seconds,
-                                                  "CPU time after which a cell is red, default 120, with --bullet 6")
-                                     ->check(CLI::Range(1, 100000));
+    const CLI::Option* seconds =
+        command
+            ->add_option("--seconds", options->limits.seconds,
+                         "CPU time after which a cell is red, default 120, with --bullet 6; with "
+                         "--random, after which no more worlds begin")
+            ->check(CLI::Range(1, 100000));
     command->add_option("--processes", options->limits.processes, "at once; default: one a processor")
         ->check(CLI::Range(1, 1024));
     command->callback([options, seconds] {
+        if (seconds->count() > 0) options->random.seconds = options->limits.seconds;
         if (options->bullet && seconds->count() == 0) options->limits.seconds = WITH_BULLET;
         run_stability(*options);
     });

@@ -90,6 +90,37 @@ FROND_API frond_result frond_plant_get_air_force(frond_plant plant, frond_vec3* 
 /* Computes the momentum of all nodes together, in the world's frame [kg m/s]. */
 FROND_API frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out);
 
+/* ---- energy ledger: what was given to plants, and what became of it -----------------------------------------------
+ */
+
+/* The energy of a world's plants, and all work done on them since accounting began, each [J]; negative: they gave it
+ * away. A step's work is a force's value at its end times the displacement of what it acts on, as implicit Euler counts
+ * it; `error` bounds what that leaves open. Plants in FROND_DETAIL_MODAL do not count: their energy goes with `calls`.
+ * Contacts among plants are part of `dissipated`, which no step should lower by more than `error` rises. */
+typedef struct frond_energy_ledger {
+    /* Of all plants together; elastic and gravity over those of each plant as modelled, where it stands, gravity only
+     * of plants on which it acts. */
+    frond_energy now;
+    double begin;     /* sum of the three when accounting began */
+    double forces;    /* work of frond_plant_add_force */
+    double grabs;     /* of the springs of grabs */
+    double air;       /* of wind, and of the air's resistance, which takes energy */
+    double pins;      /* of pinned nodes that the host moved */
+    double bodies;    /* of bodies of the Bullet world in contact */
+    double bonds;     /* of bodies to which plants are bonded */
+    double fragments; /* went off with what broke off */
+    double calls; /* changes by calls between steps: plants made, destroyed or put elsewhere, states that were set or
+                   * restored, other mechanics, effects or gravity */
+    double
+        dissipated; /* begin + all the above - now: damping, friction, plastic flow, and the errors of the solution */
+    double
+        error; /* estimated error of all work together: half the change of each force in a step, times displacement */
+} frond_energy_ledger;
+
+/* Gives a world's energy ledger. Accounting begins with the first call and makes steps take longer from then on, to the
+ * same bits; without a call it costs nothing. */
+FROND_API frond_result frond_world_get_energy_ledger(frond_world world, frond_energy_ledger* out);
+
 /* ---- advice: which settings for which accuracy -------------------------------------------------------------- */
 
 typedef struct frond_advice {

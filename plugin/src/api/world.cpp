@@ -150,6 +150,14 @@ frond_result frond_world_get_state_hash(frond_world world, uint64_t* out) {
     });
 }
 
+frond_result frond_world_get_energy_ledger(frond_world world, frond_energy_ledger* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        *out = ledger_now(get(world));
+    });
+}
+
 int frond_world_get_plant_count(frond_world world) {
     const std::shared_ptr<World> found = world_slots().find(world.id);
     return found ? int(found->bodies.size()) : 0;

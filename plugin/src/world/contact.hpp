@@ -22,6 +22,9 @@ struct Contact {
     Vec3 impulse = Vec3::Zero();  // impulse on the plant, once it is known [N s]
 };
 
+// Returns the attachment of the touched point of the plant.
+Attachment attachment_of(const Contact& contact);
+
 // Finds contacts from Bullet's manifolds, by sweeps of bodies so fast that they would tunnel before Bullet detects
 // them, and with planes.
 std::vector<Contact> find_contacts(World& world, double h);

@@ -14,6 +14,11 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
+Attachment attachment_of(const Contact& contact) {
+    const Flat& flat = contact.plant->hull->flats[size_t(contact.capsule)];
+    return flat_attachment(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
+}
+
 namespace {
 
 // Returns how fast overlapping sides must part: by a share of the overlap beyond the slop per step, up to `fastest`
@@ -38,11 +43,6 @@ bool rubs(const World& world, const PlantBody& body) {
 
 double mass_of(const PlantBody* body) {
     return node_mass_of(*body->plant->system).sum();
-}
-
-Attachment attachment_of(const Contact& contact) {
-    const Flat& flat = contact.plant->hull->flats[size_t(contact.capsule)];
-    return flat_attachment(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
 }
 
 // Adds the row of a contact with a body. Bodies have already moved, so overlaps are removed by velocities.

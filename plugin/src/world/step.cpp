@@ -219,7 +219,7 @@ std::vector<StepJob> share_out(const World& world, const Surroundings& surroundi
         if (!body->plant->modal) body->level.pending += h;
         const bool is_due = !body->plant->modal && body->level.is_due;
         auto found = open.end();
-        if (is_due && may_be_batched(*body->plant, surroundings, body->level.pending)) {
+        if (is_due && !world.ledger && may_be_batched(*body->plant, surroundings, body->level.pending)) {
             found = std::find_if(open.begin(), open.end(), [&](size_t i) { return goes_with(jobs[i], *body); });
             if (found == open.end()) {
                 if (open.size() == MOST_OPEN) open.erase(open.begin());
@@ -304,6 +304,7 @@ void finish_touched(World& world, const Surroundings& surroundings) {
 void take_step(World& world, btCollisionWorld& collision_world, double h) {
     const Timer step_timer;
     const Surroundings surroundings = begin_step(world, collision_world, h);
+    if (world.ledger) count_calls(world);
     call_roll(world);
     carry_what_came_off(world, h);
     find_touches(world, h);
@@ -311,6 +312,7 @@ void take_step(World& world, btCollisionWorld& collision_world, double h) {
     note_touches(world);
     choose_details(world);
     mark_touched(world);
+    if (world.ledger) begin_work(world);
     {
         BT_PROFILE("frond solve");
         const std::vector<StepJob> jobs = share_out(world, surroundings, h);
@@ -318,12 +320,14 @@ void take_step(World& world, btCollisionWorld& collision_world, double h) {
     }
     handle_contacts(world, h);
     finish_touched(world, surroundings);
+    if (world.ledger) count_work(world);
     {
         BT_PROFILE("frond settle");
         const Timer timer;
         for (PlantBody* body : world.awake) settle(world, *body, collision_world);
         world.profile.ms_capsules += timer.ms();
     }
+    if (world.ledger) count_what_came_off(world);
     note_touching(world);
     if (world.sleep_distance > 0) put_to_sleep(world);
     compress_looked_at(world);

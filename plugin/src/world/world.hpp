@@ -14,6 +14,7 @@
 #include "world/detail.hpp"
 #include "world/events.hpp"
 #include "world/gravity_ahead.hpp"
+#include "world/ledger.hpp"
 #include "world/plant_contact.hpp"
 #include "world/rigid.hpp"
 
@@ -64,6 +65,7 @@ struct World final : btActionInterface {
     frond_report report = {};                                  // report of the last substep
     frond_profile profile = {};                                // likewise
     Events events;
+    std::unique_ptr<Ledger> ledger;  // null: the host has not requested it
 
     World(std::unique_ptr<OwnBullet> own, btDynamicsWorld* bullet, const frond_world_def& def);
     ~World() override;

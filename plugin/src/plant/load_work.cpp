@@ -1,0 +1,184 @@
+// In: a plant, and the loads, start and end of its last step. Out: the work of each kind of load.
+//
+// The force that moves a held node is what the equation of motion lacks there:
+//   R = M dv/dt - (elastic and damping forces, weight, other loads).
+// The sum of R over all held nodes follows from the plant's momentum alone, as its mean over the step, however the step
+// was solved. So the mean displacement of held nodes counts with that, and only what each moves beside it with its R.
+#include "plant/load_work.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/drags.hpp"
+#include "solve/integrator.hpp"
+#include "solve/springs.hpp"
+
+namespace frond {
+
+namespace {
+
+Vec3 displacement(const Attachment& attachment, const Plant& plant) {
+    return attachment_place(attachment, plant.motion.x) - attachment_place(attachment, plant.x_good);
+}
+
+VecX elastic_force(const Plant& plant, const VecX& x) {
+    VecX force = VecX::Zero(x.size());
+    mechanics(plant.which, plant.nodes->order).add_force(elements_of(plant), x, force);
+    return force;
+}
+
+// Adds work in the air: at the end of the step each drag's force is force - damping v.
+void add_air(const Plant& plant, LoadWork& work) {
+    for (const Drag& drag : plant.loads.drags) {
+        const Vec3 before = attachment_velocity(drag.attachment, plant.x_good, plant.v_good);
+        const Vec3 after = attachment_velocity(drag.attachment, plant.motion.x, plant.motion.v);
+        const Vec3 way = displacement(drag.attachment, plant);
+        work.air += (drag.force - drag.damping * after).dot(way);
+        work.error += 0.5 * std::abs((drag.damping * (after - before)).dot(way));
+    }
+}
+
+// Returns the springs of grabs, which follow those that hold pinned nodes.
+std::vector<Spring> grab_springs(const Plant& plant) {
+    return {plant.loads.springs.begin() + long(plant.pin_springs.size()), plant.loads.springs.end()};
+}
+
+void add_grabs(const Plant& plant, LoadWork& work) {
+    for (const Spring& spring : grab_springs(plant)) {
+        const Vec3 way = displacement(spring.attachment, plant);
+        const Vec3 force = spring.stiffness * (spring.target - attachment_place(spring.attachment, plant.motion.x));
+        work.grabs += force.dot(way);
+        work.error += 0.5 * spring.stiffness * way.squaredNorm();
+    }
+}
+
+// Returns which nodes pins hold: those that are pinned, and those that stiff springs hold for pinned cage nodes. Such a
+// spring's own force would be the difference of two nearly equal places.
+std::vector<uint8_t> held_nodes(const Plant& plant) {
+    std::vector<uint8_t> held = plant.motion.pinned;
+    held.resize(size_t(plant.motion.x.size() / 3));
+    for (const Spring& spring : plant.pin_springs)
+        for (int k = 0; k < spring.attachment.count; k++) {
+            const size_t node = size_t(spring.attachment.node[size_t(k)]);
+            held[node] = 1;
+            if (spring.attachment.turns) held[node + 1] = 1;
+        }
+    return held;
+}
+
+// Returns the forces on all nodes but those that hold them, and damping proportional to stiffness.
+VecX forces_at_end(const Plant& plant, const VecX& elastic) {
+    const Motion& motion = plant.motion;
+    const VecX& mass = node_mass_of(*plant.system);
+    VecX force = elastic;
+    if (plant.loads.force.size() > 0) force += plant.loads.force;
+    add_spring_force(grab_springs(plant), motion.x, force);
+    add_drag_force(plant.loads.drags, motion.x, motion.v, force);
+    for (int i = 0; i < mass.size(); i++)
+        point(force, i) +=
+            mass[i] * (plant.loads.gravity - plant.step_settings.mass_damping * Vec3(point(motion.v, i)));
+    return force;
+}
+
+// Returns the force of stiffness-proportional damping per second of it, -K v, by a difference of elastic forces.
+VecX damping_per_second(const Plant& plant, const VecX& elastic) {
+    constexpr double FAR = 1e-6;  // [m]
+    const double fastest = plant.motion.v.lpNorm<Eigen::Infinity>();
+    if (!(fastest > 0)) return VecX::Zero(elastic.size());
+    const double time = FAR / fastest;
+    return (elastic_force(plant, plant.motion.x + time * plant.motion.v) - elastic) / time;
+}
+
+// Returns the mean force on all held nodes together in the step, given the impulse of contacts.
+Vec3 mean_holding_force(const Plant& plant, double h, const Vec3& impulse) {
+    const Motion& motion = plant.motion;
+    const VecX& mass = node_mass_of(*plant.system);
+    const int next = plant.follow ? 2 : 1;
+    Vec3 momentum = -impulse, loads = Vec3::Zero();
+    for (int i = 0; i < mass.size(); i += next) {
+        momentum += mass[i] * (point(motion.v, i) - point(plant.v_good, i));
+        loads += mass[i] * (plant.loads.gravity - plant.step_settings.mass_damping * Vec3(point(motion.v, i)));
+        if (plant.loads.force.size() > 0) loads += point(plant.loads.force, i);
+    }
+    for (const Spring& spring : grab_springs(plant))
+        loads += spring.stiffness * (spring.target - attachment_place(spring.attachment, motion.x));
+    for (const Drag& drag : plant.loads.drags)
+        loads += drag.force - drag.damping * attachment_velocity(drag.attachment, motion.x, motion.v);
+    return momentum / h - loads;
+}
+
+// Returns the mean displacement of held nodes.
+Vec3 mean_way(const Plant& plant, const std::vector<uint8_t>& held, const VecX& way) {
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (int i = 0; i < int(held.size()); i += plant.follow ? 2 : 1) {
+        if (!held[size_t(i)]) continue;
+        sum += point(way, i);
+        count++;
+    }
+    return sum / std::max(count, 1);
+}
+
+// The damping of elements that differ counts by its mean; half of the largest counts as error, since the step took it
+// from a stiffness that is not known here.
+void add_pins(const Plant& plant, double h, const Vec3& impulse, const std::vector<uint8_t>& held, const VecX& way,
+              LoadWork& work) {
+    const VecX elastic = elastic_force(plant, plant.motion.x), change = elastic - elastic_force(plant, plant.x_good);
+    const VecX& mass = node_mass_of(*plant.system);
+    std::vector<double> of_element;
+    double damping = damping_of(*plant.system, plant.step_settings, of_element), most = damping;
+    if (!of_element.empty()) {
+        const auto [low, high] = std::minmax_element(of_element.begin(), of_element.end());
+        damping = 0.5 * (*low + *high);
+        most = *high;
+    }
+    const VecX force = forces_at_end(plant, elastic), per_second = damping_per_second(plant, elastic);
+    const Vec3 mean = mean_way(plant, held, way);
+    work.pins += mean_holding_force(plant, h, impulse).dot(mean);
+    for (int i = 0; i < int(held.size()); i++) {
+        if (!held[size_t(i)]) continue;
+        const bool is_turn = plant.follow && i % 2 == 1;
+        const Vec3 own = is_turn ? Vec3(point(way, i)) : Vec3(point(way, i) - mean);
+        const Vec3 acceleration = (point(plant.motion.v, i) - point(plant.v_good, i)) / h;
+        const Vec3 reaction = mass[i] * acceleration - point(force, i) - damping * point(per_second, i);
+        work.pins += reaction.dot(own);
+        work.error += 0.5 * (std::abs(point(change, i).dot(own)) + most * std::abs(point(per_second, i).dot(own)));
+    }
+}
+
+bool any_moves(const std::vector<uint8_t>& held, const VecX& way) {
+    for (size_t i = 0; i < held.size(); i++)
+        if (held[i] && !point(way, int(i)).isZero(0)) return true;
+    return false;
+}
+
+// A constant force works along any way, but rotation vectors do not add up: moments along great turns count with the
+// error of that.
+void add_forces(const Plant& plant, const VecX& way, LoadWork& work) {
+    const VecX& force = plant.loads.force;
+    if (force.size() == 0) return;
+    work.forces = force.dot(way);
+    for (int i = 1; plant.follow && i < way.size() / 3; i += 2)
+        work.error += 0.5 * point(force, i).norm() * point(way, i).squaredNorm();
+}
+
+// Returns the displacement in the step, rotation vectors by the shorter way [m], [rad].
+VecX way_of_step(const Plant& plant) {
+    const VecX& end = plant.motion.x;
+    return (plant.follow ? wound_as(plant.x_good, end) : end) - plant.x_good;
+}
+
+}  // namespace
+
+LoadWork work_of_loads(const Plant& plant, double h, const Vec3& impulse) {
+    LoadWork work;
+    const VecX way = way_of_step(plant);
+    add_forces(plant, way, work);
+    add_air(plant, work);
+    add_grabs(plant, work);
+    const std::vector<uint8_t> held = held_nodes(plant);
+    if (any_moves(held, way)) add_pins(plant, h, impulse, held, way, work);
+    return work;
+}
+
+}  // namespace frond

@@ -1,0 +1,20 @@
+// Work of loads: what each load of a step did on a plant.
+#pragma once
+
+#include "plant/plant.hpp"
+
+namespace frond {
+
+// All [J].
+struct LoadWork {
+    double forces = 0, grabs = 0, air = 0, pins = 0;
+    double error = 0;  // estimate of the error of their sum
+};
+
+// Computes the work of the loads in a step of h [s] that the plant has just completed: each load's force at the step's
+// end times the displacement of what it acts on, as implicit Euler counts it. The estimated error is half the change of
+// the force over the step times the displacement, the difference to the trapezoidal rule.
+// `impulse`: sum of the impulses of contacts and bonds, model frame [N s].
+LoadWork work_of_loads(const Plant& plant, double h, const Vec3& impulse);
+
+}  // namespace frond

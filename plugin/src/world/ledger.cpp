@@ -1,0 +1,161 @@
+#include "world/ledger.hpp"
+
+#include "plant/load_work.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+double sum_of(const frond_energy& energy) {
+    return energy.kinetic + energy.elastic + energy.gravity;
+}
+
+// Returns the energy of a plant over that of its modelled shape, so that all its mechanics count from one zero. Modal
+// plants have none.
+frond_energy energy_in(const World& world, const Plant& plant, Ledger::Entry& entry) {
+    if (plant.modal) return {};
+    const bool has_weight = plant.effects & world.effects & FROND_EFFECT_GRAVITY;
+    const Vec3 gravity = has_weight ? gravity_of(world) : Vec3(Vec3::Zero());
+    const Elements& whole = elements_of(*plant.system);
+    const VecX& mass = node_mass_of(*plant.system);
+    frond_energy energy = energy_of(plant, gravity);
+    if (entry.system != plant.system) {
+        entry.system = plant.system;
+        entry.modelled = mechanics(plant.which, plant.nodes->order).energy(whole, whole.modelled);
+    }
+    energy.elastic -= entry.modelled;
+    for (int i = 0; i < mass.size(); i++)
+        energy.gravity += mass[i] * gravity.dot(plant.to_world(point(whole.modelled, i)));
+    return energy;
+}
+
+// Counts the energy of a plant anew; returns by how much it changed.
+double recount(const World& world, const PlantBody& body, Ledger::Entry& entry) {
+    const double before = sum_of(entry.energy);
+    entry.energy = energy_in(world, *body.plant, entry);
+    entry.is_modal = body.plant->modal != nullptr;
+    return sum_of(entry.energy) - before;
+}
+
+// Returns whether the plant takes a step in the running substep.
+bool is_stepped(const PlantBody& body) {
+    return body.level.is_due && !body.plant->modal;
+}
+
+// Adds the work of an impulse [N s], as a force over the plant's step, at an attachment; world frame.
+void add_impulse(const PlantBody& body, const Attachment& attachment, const Vec3& impulse, double& work) {
+    const Plant& plant = *body.plant;
+    if (impulse.isZero(0) || !is_stepped(body)) return;
+    const Vec3 way = attachment_place(attachment, plant.motion.x) - attachment_place(attachment, plant.x_good);
+    work += impulse.dot(plant.rotation * way) / body.level.pending;
+}
+
+// Adds the work of plants that were put elsewhere with their pins before they were solved: nothing but their height
+// changed.
+void add_jump(const Plant& plant, const VecX& before, double& work) {
+    if (before.size() != plant.x_good.size() || are_same(before, plant.x_good)) return;
+    const VecX& mass = node_mass_of(*plant.system);
+    for (int i = 0; i < mass.size(); i++)
+        work -= mass[i] * plant.loads.gravity.dot(point(plant.x_good, i) - point(before, i));
+}
+
+}  // namespace
+
+void count_calls(World& world) {
+    Ledger& ledger = *world.ledger;
+    for (auto& [handle, entry] : ledger.plants) entry.is_there = false;
+    for (const std::unique_ptr<PlantBody>& body : world.bodies) {
+        const bool is_new = ledger.plants.count(body->handle.id) == 0;
+        Ledger::Entry& entry = ledger.plants[body->handle.id];
+        entry.is_there = true;
+        if (is_new || !body->rest.asleep || body->is_looked_at)
+            ledger.sums.calls += recount(world, look_at(*body), entry);
+        entry.fragments = body->plant->fragments.size();
+    }
+    for (auto it = ledger.plants.begin(); it != ledger.plants.end();) {
+        if (!it->second.is_there) ledger.sums.calls -= sum_of(it->second.energy);
+        it = it->second.is_there ? std::next(it) : ledger.plants.erase(it);
+    }
+}
+
+void begin_work(World& world) {
+    for (PlantBody* body : world.awake) {
+        Ledger::Entry& entry = world.ledger->plants[body->handle.id];
+        const bool was_modal = entry.is_modal, is_modal = body->plant->modal != nullptr;
+        const bool has_changed = entry.system != body->plant->system || is_modal != was_modal;
+        const double change = has_changed ? recount(world, *body, entry) : 0;
+        if (is_modal || was_modal) world.ledger->sums.calls += change;
+        entry.x = body->plant->motion.x;
+        entry.impulse.setZero();
+    }
+}
+
+static void count_impulses(World& world) {
+    Ledger& ledger = *world.ledger;
+    const auto add = [&](const PlantBody& body, const Attachment& attachment, const Vec3& impulse, double& work) {
+        add_impulse(body, attachment, impulse, work);
+        ledger.plants[body.handle.id].impulse += impulse;
+    };
+    for (const Contact& contact : world.contacts)
+        add(*contact.plant, attachment_of(contact), contact.impulse, ledger.sums.bodies);
+    for (const Bond& bond : world.bonds)
+        if (bond.body && !bond.plant->rest.asleep)
+            add(*bond.plant, vertex_attachment(*bond.plant->plant, bond.vertex), bond.impulse, ledger.sums.bonds);
+    for (const PlantContact& contact : world.plant_contacts) {
+        ledger.plants[contact.plants[0]->handle.id].impulse += contact.impulse;
+        ledger.plants[contact.plants[1]->handle.id].impulse -= contact.impulse;
+    }
+}
+
+void count_work(World& world) {
+    count_impulses(world);
+    frond_energy_ledger& sums = world.ledger->sums;
+    for (PlantBody* body : world.awake) {
+        if (!is_stepped(*body)) continue;
+        const Plant& plant = *body->plant;
+        Ledger::Entry& entry = world.ledger->plants[body->handle.id];
+        const LoadWork work = work_of_loads(plant, body->level.pending, plant.rotation.conjugate() * entry.impulse);
+        sums.forces += work.forces;
+        sums.grabs += work.grabs;
+        sums.air += work.air;
+        sums.pins += work.pins;
+        sums.error += work.error;
+        add_jump(plant, entry.x, sums.pins);
+        recount(world, *body, entry);
+    }
+}
+
+void count_what_came_off(World& world) {
+    for (PlantBody* body : world.awake) {
+        Ledger::Entry& entry = world.ledger->plants[body->handle.id];
+        if (entry.fragments == body->plant->fragments.size()) continue;
+        world.ledger->sums.fragments += recount(world, *body, entry);
+        entry.fragments = body->plant->fragments.size();
+    }
+}
+
+frond_energy_ledger ledger_now(World& world) {
+    const bool begins = !world.ledger;
+    if (begins) world.ledger = std::make_unique<Ledger>();
+    count_calls(world);
+    frond_energy_ledger& sums = world.ledger->sums;
+    frond_energy_ledger out = sums;
+    for (const auto& [handle, entry] : world.ledger->plants) {
+        out.now.kinetic += entry.energy.kinetic;
+        out.now.elastic += entry.energy.elastic;
+        out.now.gravity += entry.energy.gravity;
+    }
+    if (begins) {
+        sums.begin = out.begin = sum_of(out.now);
+        sums.calls = out.calls = 0;
+    }
+    const double given =
+        out.forces + out.grabs + out.air + out.pins + out.bodies + out.bonds + out.fragments + out.calls;
+    out.dissipated = out.begin + given - sum_of(out.now);
+    return out;
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
