@@ -38,7 +38,8 @@ def preprocessed(folders):
         for name in ("stdbool.h", "stddef.h", "stdint.h"):
             Path(stubs, name).touch()
         source = "".join(f'#include "{header}"\n' for header in HEADERS)
-        command = ["cc", "-E", "-P", "-xc", "-nostdinc", "-DFROND_API=", f"-I{stubs}", *[f"-I{f}" for f in folders], "-"]
+        places = [f"-I{folder}" for folder in (stubs, *folders)]
+        command = ["cc", "-E", "-P", "-xc", "-nostdinc", "-DFROND_API=", *places, "-"]
         text = subprocess.run(command, input=source, capture_output=True, text=True, check=True).stdout
     return re.sub(r"static inline [^{;]*\{.*?\n\}", "", text, flags=re.S)
 

@@ -26,7 +26,8 @@ def steps_a_second(mechanics):
     for step in range(STEPS):
         if step % 24 == 0:
             pose = poses[step // 24 % len(poses)]
-            p.setJointMotorControlArray(arm, joints, p.POSITION_CONTROL, targetPositions=pose, forces=[200] * len(joints))
+            p.setJointMotorControlArray(arm, joints, p.POSITION_CONTROL, targetPositions=pose,
+                                        forces=[200] * len(joints))
         begin = time.process_time()
         p.stepSimulation()
         spent += time.process_time() - begin

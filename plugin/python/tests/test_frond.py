@@ -43,7 +43,7 @@ def test_models_come_from_all_sources(corn, tmp_path):
     for model in (frond.Model.from_triangles(box, faces), frond.Model.from_stems(STEMS),
                   frond.Model.from_tets(box[[0, 2, 1, 4]], [[0, 1, 2, 3]], scale=1, up=(0, 1, 0))):
         assert model.info.mass > 0 and len(model.organs) == model.info.organ_count
-        assert len(model.capsule_organs) == model.info.capsule_count == len(model.chain.parents[model.chain.parents >= 0])
+        assert len(model.capsule_organs) == model.info.capsule_count == (model.chain.parents >= 0).sum()
     corn.write_urdf(tmp_path / "corn.urdf")
     assert frond.Model(tmp_path / "corn.urdf").info.chain_length == pytest.approx(corn.info.chain_length)
     assert len(corn.textures) == corn.info.texture_count and corn.textures[0].bytes[:4] == b"\x89PNG"
@@ -252,7 +252,8 @@ def test_every_wrong_argument_is_refused_with_a_remedy(stem):
         lambda: world.add_plant(stem, tuning={"mass": "heavy"}), lambda: world.add_plant(stem, group=2**40),
         lambda: world.add_plant(stem, user=3), lambda: world.add_plant(17), lambda: world.step(-1),
         lambda: world.step("long"), lambda: world.step(math.nan), lambda: world.set_wind(velocity=(1e9, 0, 0)),
-        lambda: world.set_wind(profile="steep"), lambda: world.set_wind_field(3), lambda: world.add_rigid(shape="torus"),
+        lambda: world.set_wind(profile="steep"), lambda: world.set_wind_field(3),
+        lambda: world.add_rigid(shape="torus"),
         lambda: world.add_rigid(mass=-1), lambda: world.add_robot("no.urdf"), lambda: world.restore(b"nonsense"),
         lambda: world.restore(None), lambda: world.cast_ray((0, 0, 0), (0, 0, 0), 1), lambda: world.set_effects("wind"),
         lambda: plant.pin(-1), lambda: plant.pin(1.5), lambda: plant.pin(True), lambda: plant.pin(2**70),

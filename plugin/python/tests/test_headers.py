@@ -86,8 +86,8 @@ def test_all_is_documented(cls):
 
 
 def test_the_package_s_own_types_agree(tmp_path):
-    run = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "-p", "frond", "--exclude", "examples"],
-                         capture_output=True, text=True, cwd=tmp_path)
+    command = [sys.executable, "-m", "mypy", "--ignore-missing-imports", "-p", "frond", "--exclude", "examples"]
+    run = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
     assert run.returncode == 0, run.stdout + run.stderr
 
 

@@ -20,12 +20,14 @@ from typing import Any, Callable
 
 from ._generated import *  # noqa: F403
 from ._generated import ENUMS, RESULTS
-from ._lib import Error, check, ffi, lib, text_of
+from ._lib import Error, ffi, lib, text_of
 from .model import (MODELS, Cage, Chain, Model, Texture, default_material, find_model, material_preset)
-from .plant import Bond, Grab, Plant, Surface, plant_at
+from .hold import Bond, Grab
+from .plant import Plant, Surface, plant_at
 from .rigid import Rigid
 from .robot import Robot
-from .world import AS_MOTION_STATES, FORCE_TYPE, World, Wrench
+from .thing import Wrench
+from .world import AS_MOTION_STATES, FORCE_TYPE, World
 
 __version__ = text_of(lib.frond_version_string())
 

@@ -39,7 +39,8 @@ class ReachThroughLeaves(gymnasium.Env):
 
     def __init__(self, mechanics: str = "rod", speed: float = 1.0, steps: int = 12, limit: int = 200,
                  render_mode: str | None = None) -> None:
-        self.mechanics, self.speed, self.steps, self.limit, self.render_mode = mechanics, speed, steps, limit, render_mode
+        self.mechanics, self.speed, self.steps, self.limit = mechanics, speed, steps, limit
+        self.render_mode = render_mode
         reach = np.array([4.0] * 7 + [20.0] * 7 + [2.0] * 6 + [1000.0] * 4 + [10.0], np.float32)
         self.reach = reach
         self.observation_space = gymnasium.spaces.Box(-reach, reach, dtype=np.float32)

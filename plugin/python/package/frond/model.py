@@ -202,14 +202,16 @@ class Model:
         """The tets around the plant at rest; read-only arrays that keep the model alive."""
         out = ffi.new("frond_cage_view *")
         check(lib.frond_model_get_cage(self._handle, out))
-        return Cage(view(out.nodes, "f8", (out.node_count, 3), self._lease), view(out.tets, "i4", (out.tet_count, 4), self._lease))
+        return Cage(view(out.nodes, "f8", (out.node_count, 3), self._lease),
+                    view(out.tets, "i4", (out.tet_count, 4), self._lease))
 
     @property
     def chain(self) -> Chain:
         """The capsules of the plant at rest; read-only arrays that keep the model alive."""
         out = ffi.new("frond_chain_view *")
         check(lib.frond_model_get_chain(self._handle, out))
-        return Chain(view(out.nodes, "f8", (out.node_count, 3), self._lease), view(out.radii, "f8", (out.node_count,), self._lease),
+        return Chain(view(out.nodes, "f8", (out.node_count, 3), self._lease),
+                     view(out.radii, "f8", (out.node_count,), self._lease),
                      view(out.parents, "i4", (out.node_count,), self._lease))
 
     @property

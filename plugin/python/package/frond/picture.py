@@ -15,14 +15,15 @@ from typing import TYPE_CHECKING, Any, Iterator, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ._generated import (PictureCamera, PictureDifference, PicturePlatform, PictureWhat, Result)
-from ._lib import Error, documented, ffi, fill, integer, numbers, path_of, picture_library, real, refuse, row_of
+from ._generated import PictureCamera, PicturePlatform, PictureWhat
+from ._lib import documented, ffi, fill, integer, numbers, path_of, picture_library, real, refuse, row_of
 from ._lib import text_of, to_python, vector
+from .film import TOLERANCE, Film, check, compare, compare_file, read_png, write_png
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._generated import FilmDefOptions, PictureCameraOptions, PictureDefOptions, PictureSceneOptions, Vector
+    from ._generated import PictureDefOptions, PictureSceneOptions, Vector
     from .plant import Grab, Plant
     from .rigid import Rigid
     from .robot import Robot
@@ -31,16 +32,9 @@ LARGEST = 8192
 """Largest width and height of a picture [pixel]."""
 FARTHEST = 1.0e6
 """Largest coordinate that is drawn [m]."""
-TOLERANCE = 3.5
-"""Tolerance for reference pictures [Delta E]."""
 
 Color = Sequence[float]
 """Linear red, green, blue and, if given, alpha, 0 .. 1."""
-
-
-def check(ok: bool) -> None:
-    if not ok:
-        raise Error(Result.BAD_ARGUMENT, text_of(picture_library().frond_picture_last_error()))
 
 
 def color_of(color: Color) -> tuple[float, ...]:
@@ -79,7 +73,7 @@ def camera_of_matrices(view: Sequence[float], projection: Sequence[float]) -> Pi
     projected = numbers(projection, "projection", (16,)).reshape(4, 4).T
     if projected[3, 2] != -1 or abs(projected[0, 2]) > 1e-9 or abs(projected[1, 2]) > 1e-9 or projected[1, 1] <= 0:
         raise refuse("projection is not a symmetric perspective; make it by computeProjectionMatrixFOV")
-    right, up, back = v[0, :3], v[1, :3], v[2, :3]
+    up, back = v[1, :3], v[2, :3]
     eye = -v[:3, :3].T @ v[:3, 3]
     return PictureCamera(eye=eye, target=eye - back, up=up, field_of_view=2 * math.atan(1 / projected[1, 1]))
 
@@ -194,8 +188,8 @@ class Picture:
     def draw_mesh(self, positions: npt.ArrayLike, triangles: npt.ArrayLike, normals: npt.ArrayLike | None = None,
                   uvs: npt.ArrayLike | None = None, colors: npt.ArrayLike | None = None,
                   parts: Sequence[dict[str, Any]] = (), color: Color | None = None) -> None:
-        """Draws triangles: positions n x 3 [m], triangles m x 3, normals n x 3, uvs n x 2, colors n x 4 of bytes; parts:
-        dicts of the fields of PicturePart; or color: one for all."""
+        """Draws triangles: positions n x 3 [m], triangles m x 3, normals n x 3, uvs n x 2, colors n x 4 of bytes;
+        parts: dicts of the fields of PicturePart; or color: one for all."""
         mesh = ffi.new("frond_picture_mesh *")
         kept = []
 
@@ -212,12 +206,13 @@ class Picture:
         mesh.triangle_count = put("triangles", triangles, 3, np.int32, "int32_t[]")
         for name, value, width in (("normals", normals, 3), ("uvs", uvs, 2), ("colors", colors, 4)):
             is_bytes = name == "colors"
-            count = put(name, value, width, np.uint8 if is_bytes else np.float32, "uint8_t[]" if is_bytes else "float[]")
+            kind = (np.uint8, "uint8_t[]") if is_bytes else (np.float32, "float[]")
+            count = put(name, value, width, *kind)
             if value is not None and count != mesh.vertex_count:
                 raise refuse(f"{name} has {count} rows; there are {mesh.vertex_count} positions")
         if color is not None:
-            parts = [{"first_triangle": 0, "triangle_count": mesh.triangle_count, "color": color_of(color), "gloss": 0.2,
-                      "texture": -1}]
+            parts = [{"first_triangle": 0, "triangle_count": mesh.triangle_count, "color": color_of(color),
+                      "gloss": 0.2, "texture": -1}]
         array = ffi.new("frond_picture_part[]", max(len(parts), 1))
         for i, part in enumerate(parts):
             fill(array[i], {"texture": -1, **part}, "a part")
@@ -303,89 +298,6 @@ class Picture:
     def draw_grab(self, grab: Grab) -> None:
         """Draws an arrow from the held point to its target."""
         check(picture_library().frond_picture_draw_grab(self._picture, grab._handle))
-
-
-@documented
-class Film:
-    """Frames of a run, to be written as a moving picture and as a contact sheet."""
-
-    def __init__(self, width: int, height: int, **options: Unpack[FilmDefOptions]) -> None:
-        """Begins a film of frames of this size; the other keyword arguments are those of FilmDefOptions."""
-        library = picture_library()
-        struct = ffi.new("frond_film_def *", library.frond_default_film_def())
-        fill(struct[0], {"width": width, "height": height, **options}, "a film")
-        out = ffi.new("frond_film **")
-        check(library.frond_film_create(struct, out))
-        self._film = ffi.gc(out[0], library.frond_film_destroy)
-        self._shape = (height, width, 3)
-
-    def _world_guard(self, function: Any) -> None:
-        return None
-
-    def destroy(self) -> None:
-        """Frees the film now."""
-        picture_library().frond_film_destroy(self._film)
-
-    def add(self, pixels: npt.ArrayLike) -> None:
-        """Adds a frame, height x width x 3 of bytes, as Picture.pixels."""
-        array = numbers(pixels, "pixels", self._shape, np.uint8)
-        check(picture_library().frond_film_add(self._film, ffi.from_buffer("uint8_t[]", array)))
-
-    @property
-    def frame_count(self) -> int:
-        """The number of frames."""
-        return picture_library().frond_film_get_frame_count(self._film)
-
-    def write_webp(self, path: Any) -> None:
-        """Writes an animated WebP; afterwards nothing can be added."""
-        check(picture_library().frond_film_write_webp(self._film, path_of(path)))
-
-    def write_sheet(self, png_path: Any, columns: int, rows: int) -> None:
-        """Writes a sheet of at most columns x rows frames."""
-        check(picture_library().frond_film_write_sheet(self._film, path_of(png_path), integer(columns, "columns"),
-                                                       integer(rows, "rows")))
-
-
-def rgb_of(pixels: npt.ArrayLike, name: str) -> np.ndarray:
-    return numbers(pixels, name, (-1, -1, 3), np.uint8)
-
-
-def write_png(path: Any, pixels: npt.ArrayLike) -> None:
-    """Writes height x width x 3 bytes as a PNG."""
-    array = rgb_of(pixels, "pixels")
-    check(picture_library().frond_picture_write_png(path_of(path), ffi.from_buffer("uint8_t[]", array), array.shape[1],
-                                                    array.shape[0]))
-
-
-def read_png(path: Any) -> npt.NDArray[np.uint8]:
-    """Reads a PNG as height x width x 3 bytes, blended over black."""
-    out, width, height = ffi.new("uint8_t **"), ffi.new("int *"), ffi.new("int *")
-    check(picture_library().frond_picture_read_png(path_of(path), out, width, height))
-    pixels = np.frombuffer(bytes(ffi.buffer(out[0], width[0] * height[0] * 3)), np.uint8)
-    picture_library().frond_picture_free(out[0])
-    return pixels.reshape(height[0], width[0], 3)
-
-
-def compare(a: npt.ArrayLike, b: npt.ArrayLike, tolerance: float = TOLERANCE) -> PictureDifference:
-    """Compares two pictures as the eye does."""
-    first, second = rgb_of(a, "a"), rgb_of(b, "b")
-    if first.shape != second.shape:
-        raise refuse(f"the pictures are of different size, {first.shape} and {second.shape}")
-    out = ffi.new("frond_picture_difference *")
-    check(picture_library().frond_picture_compare(
-        ffi.from_buffer("uint8_t[]", first), ffi.from_buffer("uint8_t[]", second), first.shape[1], first.shape[0],
-        real(tolerance, "tolerance"), out, ffi.NULL))
-    return to_python(out[0])
-
-
-def compare_file(pixels: npt.ArrayLike, reference_png: Any, tolerance: float = TOLERANCE,
-                 difference_png: Any = None) -> PictureDifference:
-    """Compares a picture with a reference, and writes both and their difference to a PNG where they differ."""
-    array, out = rgb_of(pixels, "pixels"), ffi.new("frond_picture_difference *")
-    check(picture_library().frond_picture_compare_file(
-        ffi.from_buffer("uint8_t[]", array), array.shape[1], array.shape[0], path_of(reference_png),
-        real(tolerance, "tolerance"), out, ffi.NULL if difference_png is None else path_of(difference_png)))
-    return to_python(out[0])
 
 
 def platform(name: PicturePlatform | str) -> PicturePlatform:

@@ -1,4 +1,4 @@
-"""Plants, and what holds them: grabs and bonds."""
+"""Plants."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ._generated import (Capsule, Contact, Detail, Effect, Energy, Fragment, Integrator, Mechanics, PlantDef, Vector)
-from ._lib import (Array, array_out, changes_world, check, check_host, documented, effects_of, ffi, host, integer, lib, numbers,
-                   real, refuse, row_of, to_python, vector, wrap_handle)
-from .world import OfWorld, Wrench
+from ._lib import (Array, array_out, changes_world, check, check_host, documented, effects_of, ffi, host, integer,
+                   lib, numbers, real, refuse, row_of, to_python, vector, wrap_handle)
+from .hold import Bond, Grab
+from .thing import OfWorld, Wrench
 
 if TYPE_CHECKING:
     from .model import Model
@@ -319,77 +320,6 @@ class Plant(OfWorld):
         return Bond(out[0], self.world)
 
 
-@documented
-class Grab(OfWorld):
-    """A spring between a point of a plant and a target; Plant.grab makes it."""
-
-    def move(self, target: Vector) -> None:
-        """Moves the target [m]."""
-        check(lib.frond_grab_move(self._handle, vector(target, "target")))
-
-    def _get(self, which: int) -> Array:
-        out = [ffi.new("frond_vec3 *") for _ in range(3)]
-        check(lib.frond_grab_get(self._handle, *out))
-        return to_python(out[which][0])
-
-    @property
-    def point(self) -> Array:
-        """The point of the plant that is held [m]."""
-        return self._get(0)
-
-    @property
-    def target(self) -> Array:
-        """Where the spring pulls to [m]."""
-        return self._get(1)
-
-    @property
-    def force(self) -> Array:
-        """The force on the plant [N]."""
-        return self._get(2)
-
-    @changes_world
-    def destroy(self) -> None:
-        """Lets go."""
-        lib.frond_grab_destroy(self._handle)
-
-    @property
-    def is_valid(self) -> bool:
-        """Whether it still holds."""
-        return host.frond_host_is_alive(self.world._handle) and lib.frond_grab_is_valid(self._handle)
-
-
-@documented
-class Bond(OfWorld):
-    """A point of a plant held to a body; Plant.bond makes it."""
-
-    @property
-    def point(self) -> Array:
-        """The point of the plant that is held [m]."""
-        out = ffi.new("frond_vec3 *")
-        check(lib.frond_bond_get(self._handle, out, ffi.NULL))
-        return to_python(out[0])
-
-    def force(self, mean: bool = False) -> Array:
-        """Returns the force on the plant [N] in the last substep; or the mean over the last call of step or
-        stepSimulation, recorded from the first such request on."""
-        out = ffi.new("frond_vec3 *")
-        if mean:
-            check_host(host.frond_host_get_bond_force(self.world._handle, self._handle, out))
-        else:
-            check(lib.frond_bond_get(self._handle, ffi.NULL, out))
-        return to_python(out[0])
-
-    @changes_world
-    def destroy(self) -> None:
-        """Lets go."""
-        lib.frond_bond_destroy(self._handle)
-
-    @property
-    def is_valid(self) -> bool:
-        """Whether it exists."""
-        return host.frond_host_is_alive(self.world._handle) and lib.frond_bond_is_valid(self._handle)
-
-
 def plant_at(world: Any, object_: int) -> Plant | None:
     """Returns the plant whose collision object is at this address, None if it is not one's."""
     handle = host.frond_host_get_plant(ffi.cast("void *", object_))
@@ -398,4 +328,4 @@ def plant_at(world: Any, object_: int) -> Plant | None:
 
 wrap_handle["frond_plant"] = Plant
 
-__all__ = ["Bond", "Grab", "Plant", "Surface", "plant_at"]
+__all__ = ["Plant", "Surface", "plant_at"]

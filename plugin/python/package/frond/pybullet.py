@@ -19,12 +19,13 @@ import pybullet as p
 
 from ._generated import Result
 from ._lib import HOST_PATH, Error, changes_world, check_host, documented, ffi, host, integer, make_def, refuse
-from .world import Held, World
+from .thing import Held
+from .world import World
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._generated import PlantDefOptions, Vector, WorldDefOptions
+    from ._generated import PlantDefOptions, WorldDefOptions
     from .model import Model
     from .plant import Plant
 

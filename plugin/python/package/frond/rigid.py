@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ._generated import RigidState
 from ._lib import changes_world, check, documented, ffi, fill, host, lib, to_python, wrap_handle
-from .world import OfWorld
+from .thing import OfWorld
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

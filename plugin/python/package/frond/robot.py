@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ._generated import LinkState, RobotLink
 from ._lib import changes_world, check, documented, ffi, host, integer, lib, real, to_python, wrap_handle
-from .world import OfWorld
+from .thing import OfWorld
 
 if TYPE_CHECKING:
     from .plant import Surface

@@ -33,8 +33,8 @@ RETRIES = 5
 
 
 def sway(mechanics: str, integrator: str, dt: float, seconds: float = 1.0) -> tuple[np.ndarray, float]:
-    """Pulls a corn plant aside for a tenth of a second and lets it sway. Returns its tip each tenth of a second [m], and
-    the CPU time [s]."""
+    """Pulls a corn plant aside for a tenth of a second and lets it sway. Returns its tip each tenth of a second [m],
+    and the CPU time [s]."""
     world = World(sleep_distance=0, max_substep=dt)
     plant = world.add_plant(Model("corn"), mechanics=mechanics, integrator=integrator)
     node = int(np.argmax(plant.get_state()[0][:, 1]))

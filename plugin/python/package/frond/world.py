@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import weakref
-from typing import TYPE_CHECKING, Any, Callable, NamedTuple
+from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
 
 from ._generated import Effect, EventInfo, Profile, RayHit, Report, Vector
-from ._lib import (Array, Error, changes_world, check, check_host, documented, effects_of, ffi, fill, host, integer, lib, make_def,
-                   numbers, real, refuse, to_python, vector, wrap_handle)
+from ._lib import (Array, Error, changes_world, check, check_host, documented, effects_of, ffi, fill, host, integer,
+                   lib, make_def, numbers, real, refuse, to_python, vector, wrap_handle)
+from .thing import Wrench
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -36,60 +37,6 @@ FORCE_TYPE = np.dtype([
 the collision object; body, link: PyBullet's unique id and link, -1 for none and for the base; organ: index in
 Model.organs; point on the plant [m]; normal from the body to the plant; force on the plant [N], the body has the
 opposite; moment of that force about the world's origin [N m]; gap [m]."""
-
-
-class Wrench(NamedTuple):
-    """A force [N] and its moment [N m] about a point."""
-
-    force: Array
-    moment: Array
-
-
-class Held:
-    """Holds plants while another thread would step them."""
-
-    def __init__(self, world: Any) -> None:
-        self.world = world
-
-    def __enter__(self) -> None:
-        host.frond_host_hold(self.world._handle)
-
-    def __exit__(self, *_: Any) -> None:
-        host.frond_host_let_go(self.world._handle)
-
-
-class OfWorld:
-    """Something of a world, known by its handle, which becomes stale when it goes."""
-
-    _handle: Any
-    world: World
-
-    def __init__(self, handle: Any, world: World) -> None:
-        self._handle = ffi.new(ffi.getctype(ffi.typeof(handle), "*"), handle)[0]
-        self.world = world
-
-    def _world_guard(self, function: Callable) -> Any:
-        return self.world._world_guard(function)
-
-    @property
-    def id(self) -> int:
-        """A number that is this thing's alone, 0 for none."""
-        return int(self._handle.id)
-
-    def __eq__(self, other: object) -> bool:
-        return type(other) is type(self) and other.id == self.id  # type: ignore[attr-defined]
-
-    def __hash__(self) -> int:
-        return hash(self.id)
-
-    def __enter__(self) -> Any:
-        return self
-
-    def __exit__(self, *_: Any) -> None:
-        self.destroy()
-
-    def destroy(self) -> None:
-        raise NotImplementedError
 
 
 @documented
