@@ -220,14 +220,13 @@ def test_wrong_use_is_refused_with_a_remedy(client, corn):
     assert frond.pybullet.attach(client).is_valid
 
 
-def test_the_plugin_may_be_unloaded(client, corn):
+# PyBullet itself crashes when it loads a plugin again after it was unloaded, of whatever kind.
+def test_the_plugin_may_be_unloaded_for_good(client, corn):
     world = frond.pybullet.attach(client)
     plant = world.add_plant(corn)
     p.stepSimulation()
     p.unloadPlugin(p.loadPlugin(frond._lib.HOST_PATH, "_frond"))
     assert not world.is_valid and not plant.is_valid
-    p.stepSimulation()
-    assert frond.pybullet.attach(client).add_plant(corn).is_valid
     p.stepSimulation()
 
 
