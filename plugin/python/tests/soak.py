@@ -58,7 +58,7 @@ def main():
     kept = []
     client = p.connect(p.DIRECT)
     for number in range(RESETS):
-        if number % max(RESETS // 100, 1) == 0:
+        if number % max(RESETS // 20, 1) == 0:
             print(f"{number} resets: {megabytes():.1f} MB", flush=True)
         kept = (kept + [episode(client, model, random)])[-3:]
         p.resetSimulation(physicsClientId=client)
