@@ -37,6 +37,10 @@ FORCE_TYPE = np.dtype([
 the collision object; body, link: PyBullet's unique id and link, -1 for none and for the base; organ: index in
 Model.organs; point on the plant [m]; normal from the body to the plant; force on the plant [N], the body has the
 opposite; moment of that force about the world's origin [N m]; gap [m]."""
+FORCE_ROW = np.dtype([
+    ("plant", "u8"), ("other", "u8"), ("object", "u8"), ("body", "i4"), ("link", "i4"), ("capsule", "i4"),
+    ("point", "f8", 3), ("normal", "f8", 3), ("force", "f8", 3), ("moment", "f8", 3), ("gap", "f8")], align=True)
+assert FORCE_ROW.itemsize == ffi.sizeof("frond_force")
 
 
 @documented
@@ -289,15 +293,16 @@ class World:
         count = host.frond_host_get_force_count(self._handle, bool(mean))
         out = ffi.new("frond_force[]", max(count, 1))
         check_host(host.frond_host_get_forces(self._handle, bool(mean), out, count))
+        rows = np.frombuffer(ffi.buffer(out, ffi.sizeof("frond_force") * count), FORCE_ROW)
         table = np.zeros(count, FORCE_TYPE)
-        for row, force in zip(table, out):
-            at = {name: tuple(to_python(getattr(force, name))) for name in ("point", "normal", "force", "moment")}
-            row["plant"], row["other"] = force.plant.id, force.other.id
-            row["object"] = int(ffi.cast("uintptr_t", force.body))
-            row["body"], row["link"], row["capsule"], row["gap"] = force.body_id, force.link, force.capsule, force.gap
-            row["organ"] = self._organ_of(int(force.plant.id), force.capsule)
-            for name, value in at.items():
-                row[name] = value
+        for name in set(FORCE_ROW.names or ()) & set(FORCE_TYPE.names or ()):
+            table[name] = rows[name]
+        table["organ"] = -1
+        for number in np.unique(rows["plant"]):
+            its = rows["plant"] == number
+            organs = self._organs.get(int(number))
+            if organs is not None:
+                table["organ"][its] = organs[rows["capsule"][its]]
         keep = np.ones(count, bool)
         if plant is not None:
             keep &= table["plant"] == plant.id
@@ -314,10 +319,6 @@ class World:
         force = -table["force"].sum(axis=0)
         moment = -table["moment"].sum(axis=0) - np.cross(vector(about, "about"), force)
         return Wrench(force, moment)
-
-    def _organ_of(self, plant: int, capsule: int) -> int:
-        organs = self._organs.get(plant)
-        return int(organs[capsule]) if organs is not None and capsule >= 0 else -1
 
     # ---- snapshots
 
