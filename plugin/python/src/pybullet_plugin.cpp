@@ -3,12 +3,17 @@
 // PyBullet hands a plugin the address of its command processor. Its first member after the table of virtual functions
 // points to its data, in which one slot has the world, that world whose user pointer is the processor. Memory is read
 // through the kernel, so that a wrong guess is refused and does not crash. Tried with PyBullet 3.2.5 to 3.2.7 on Linux.
-#include <dlfcn.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <malloc.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
+#include <typeinfo>
 
 #include "host.hpp"
 
@@ -50,21 +55,37 @@ bool read_memory(const void* from, void* to, size_t size) {
     return process_vm_readv(getpid(), &local, 1, &remote, 1, 0) == ssize_t(size);
 }
 
-const char* file_of(const void* address) {
-    Dl_info info;
-    return address && dladdr(address, &info) ? info.dli_fname : nullptr;
+// Where a world has its user pointer.
+struct Members : btDynamicsWorld {
+    static size_t of_user_info() {
+        void* btDynamicsWorld::*member = &Members::m_worldUserInfo;
+        size_t offset;
+        static_assert(sizeof member == sizeof offset, "a pointer to data of a class is its offset");
+        std::memcpy(&offset, &member, sizeof offset);
+        return offset;
+    }
+};
+
+// Returns whether an object is of one of these types, by the name that its table of functions leads to.
+bool is_of(const void* object, std::initializer_list<const std::type_info*> types) {
+    const char *functions, *type, *name;
+    char text[80] = {};
+    if (!read_memory(object, &functions, sizeof functions) ||
+        !read_memory(functions - sizeof(void*), &type, sizeof type) ||
+        !read_memory(type + sizeof(void*), &name, sizeof name) || !read_memory(name, text, sizeof text - 1))
+        return false;
+    return std::any_of(types.begin(), types.end(),
+                       [&](const std::type_info* known) { return std::strcmp(known->name(), text) == 0; });
 }
 
 // Returns whether the memory at `at` is a Bullet world whose user pointer is the processor.
 bool is_world_of(const void* at, const void* processor) {
-    alignas(btDynamicsWorld) unsigned char bytes[sizeof(btDynamicsWorld)];
-    if (reinterpret_cast<uintptr_t>(at) % alignof(void*) || !read_memory(at, bytes, sizeof bytes)) return false;
-    if (reinterpret_cast<const btDynamicsWorld*>(bytes)->getWorldUserInfo() != processor) return false;
-    const void *functions, *of_processor;
-    std::memcpy(&functions, bytes, sizeof functions);
-    if (!read_memory(processor, &of_processor, sizeof of_processor)) return false;
-    const char *file = file_of(functions), *expected = file_of(of_processor);
-    return file && expected && std::strcmp(file, expected) == 0;
+    if (reinterpret_cast<uintptr_t>(at) % alignof(void*)) return false;
+    const void* user;
+    if (!read_memory(static_cast<const char*>(at) + Members::of_user_info(), &user, sizeof user)) return false;
+    return user == processor && is_of(at, {&typeid(btDiscreteDynamicsWorld), &typeid(btMultiBodyDynamicsWorld),
+                                           &typeid(btSoftRigidDynamicsWorld), &typeid(btSoftMultiBodyDynamicsWorld),
+                                           &typeid(btDeformableMultiBodyDynamicsWorld)});
 }
 
 }  // namespace
@@ -76,13 +97,7 @@ btDynamicsWorld* find_world(const void* processor) {
     for (size_t at = 0; at + sizeof(void*) <= size; at += sizeof(void*)) {
         const void* slot;
         if (!read_memory(static_cast<const char*>(data) + at, &slot, sizeof slot)) return nullptr;
-        if (!slot || !is_world_of(slot, processor)) continue;
-        auto* world = static_cast<btDynamicsWorld*>(const_cast<void*>(slot));
-        const btDynamicsWorldType kind = world->getWorldType();
-        const bool is_known = kind == BT_DISCRETE_DYNAMICS_WORLD || kind == BT_SOFT_RIGID_DYNAMICS_WORLD ||
-                              kind == BT_SOFT_MULTIBODY_DYNAMICS_WORLD ||
-                              kind == BT_DEFORMABLE_MULTIBODY_DYNAMICS_WORLD;
-        return is_known ? world : nullptr;
+        if (slot && is_world_of(slot, processor)) return static_cast<btDynamicsWorld*>(const_cast<void*>(slot));
     }
     return nullptr;
 }
