@@ -45,8 +45,8 @@ def color_of(color: Color) -> tuple[float, ...]:
 
 
 def camera_struct(camera: Any) -> Any:
-    struct = ffi.new("frond_picture_camera *")
-    struct[0] = picture_library().frond_default_picture_scene().camera
+    scene = picture_library().frond_default_picture_scene()  # kept, since its camera is a part of it
+    struct = ffi.new("frond_picture_camera *", scene.camera)
     options = camera if isinstance(camera, dict) else {n: getattr(camera, n) for n in PictureCamera.__annotations__}
     return fill(struct[0], options, "a camera")
 
