@@ -117,7 +117,7 @@ frond_result frond_host_attach(int plugin, const frond_world_def* def, frond_wor
     btDynamicsWorld* bullet = find_world(processor);
     if (!bullet)
         return failed(FROND_RESULT_UNSUPPORTED,
-                      "the Bullet world of this PyBullet was not found; use PyBullet 3.2.5 to 3.2.7 from the package "
+                      "the Bullet world of this PyBullet was not found; use PyBullet 3.2.6 and 3.2.7 from the package "
                       "index, in double precision");
     const frond_result result = frond::attach(bullet, def, out);
     if (result != FROND_OK) return failed(result, nullptr);

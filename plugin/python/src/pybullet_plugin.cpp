@@ -2,7 +2,8 @@
 //
 // PyBullet hands a plugin the address of its command processor. Its first member after the table of virtual functions
 // points to its data, in which one slot has the world, that world whose user pointer is the processor. Memory is read
-// through the kernel, so that a wrong guess is refused and does not crash. Tried with PyBullet 3.2.5 to 3.2.7 on Linux.
+// through the kernel, so that a wrong guess is refused and does not crash. Tried with PyBullet 3.2.6 and 3.2.7 on
+// Linux.
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
 #include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>

@@ -116,7 +116,7 @@ def attach(client: int = 0, **options: Unpack[WorldDefOptions]) -> PyBulletWorld
         raise Error(Result.UNSUPPORTED, "plants need PyBullet's world in this process; connect by DIRECT or GUI")
     plugin = p.loadPlugin(HOST_PATH, "_frond", physicsClientId=client)
     if plugin < 0:
-        raise Error(Result.UNSUPPORTED, "PyBullet does not load the plugin; use PyBullet 3.2.5 to 3.2.7")
+        raise Error(Result.UNSUPPORTED, "PyBullet does not load the plugin; use PyBullet 3.2.6 and 3.2.7")
     number = p.executePluginCommand(plugin, "attach", physicsClientId=client)
     world = PyBulletWorld.__new__(PyBulletWorld)
     world.client = client
