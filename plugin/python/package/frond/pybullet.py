@@ -168,7 +168,7 @@ def remove_saved(world: PyBulletWorld, saved: Saved) -> None:
 class Drawing:
     """Plants in PyBullet's window: the points of their surfaces, moved by each update."""
 
-    def __init__(self, world: PyBulletWorld, point_size: float = 3, most: int = 4000) -> None:
+    def __init__(self, world: PyBulletWorld, point_size: float = 3, most: int = 6000) -> None:
         self.world, self.point_size, self.most = world, point_size, most
         self.items: dict[int, int] = {}  # by plant
 
@@ -178,7 +178,10 @@ class Drawing:
         for gone in set(self.items) - set(plants):
             p.removeUserDebugItem(self.items.pop(gone), physicsClientId=self.world.client)
         for identity, plant in plants.items():
-            points = plant.surface.positions
+            surface = plant.surface
+            corners = surface.positions[surface.triangles]
+            middles = (corners + np.roll(corners, 1, axis=1)).reshape(-1, 3) / 2
+            points = np.concatenate([surface.positions, corners.mean(axis=1), middles])
             points = points[:: max(1, -(-len(points) // self.most))].astype(float)
             height = points[:, 2] - points[:, 2].min()
             shade = 0.35 + 0.4 * height / max(height.max(), 1e-9)
