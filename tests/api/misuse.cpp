@@ -267,6 +267,13 @@ TEST(Misuse, OfModelsIsRefused) {
         EXPECT_EQ(organ.name, nullptr);
     }
     EXPECT_EQ(frond_model_get_texture(model, 0, &texture), FROND_RESULT_BAD_ARGUMENT);
+    std::vector<int32_t> organs(size_t(info.capsule_count), -2);
+    EXPECT_EQ(frond_model_get_capsule_organs({}, organs.data(), info.capsule_count), FROND_RESULT_BAD_HANDLE);
+    EXPECT_EQ(frond_model_get_capsule_organs(model, nullptr, info.capsule_count), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(frond_model_get_capsule_organs(model, organs.data(), info.capsule_count + 1), FROND_RESULT_BAD_ARGUMENT);
+    EXPECT_EQ(organs, std::vector<int32_t>(size_t(info.capsule_count), -2));
+    EXPECT_EQ(frond_model_get_capsule_organs(model, organs.data(), info.capsule_count), FROND_OK);
+    EXPECT_EQ(organs, std::vector<int32_t>(size_t(info.capsule_count), 0));
     frond_model_destroy(model);
     frond_model_destroy(model);
     EXPECT_FALSE(frond_model_is_valid(model));

@@ -244,6 +244,8 @@ void look_at_model(Stage& s) {
     frond_model_get_texture(model, s.input.integer(), &texture);
     frond_model_get_cage(model, &cage);
     frond_model_get_chain(model, &chain);
+    int32_t organs[8];
+    frond_model_get_capsule_organs(model, organs, s.input.byte() % 8);
     frond_recommend(model, s.input.number(), s.input.number(), &advice);
     const int number = s.input.integer();
     for (const char* name :

@@ -65,7 +65,7 @@ done < <(for page in "${pages[@]}"; do
 done | sort -u)
 [ "$commands" -ge 40 ] || fail "only $commands commands were found"
 for page in "${pages[@]}"; do
-    for script in $(grep -oE '\b(tools|tests|plugin)/[a-z_/-]+(\.(cpp|cmake|hpp|h|md))?' "$page" | sort -u); do
+    for script in $(grep -oE '\b(tools|tests|plugin)/[a-z_/-]+(\.(cpp|cmake|hpp|h|md|py))?' "$page" | sort -u); do
         [ -e "$script" ] || [ "$script" = tests/placements/placements ] || fail "$page: there is no $script"
     done
 done

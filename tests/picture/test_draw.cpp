@@ -397,3 +397,31 @@ TEST(PictureDraw, FarFromTheOriginLooksTheSame) {
 }
 
 }  // namespace test_draw_tests
+
+// A sphere of radius 1 m, 5 m away, before a wall 8 m away.
+TEST(PictureDraw, MeasuresWhatIsSeenAndHowFarItIs) {
+    Canvas canvas;
+    frond_picture_scene scene = front_scene();
+    scene.camera.field_of_view = 0.6;
+    canvas.begin(scene);
+    ASSERT_TRUE(frond_picture_set_id(canvas.picture, 7));
+    ASSERT_TRUE(frond_picture_draw_sphere(canvas.picture, {0, 0, 0}, 1, {1, 0, 0, 1}));
+    ASSERT_TRUE(frond_picture_set_id(canvas.picture, 1 << 30));
+    ASSERT_TRUE(frond_picture_draw_box(canvas.picture, {0, 2, -3}, {0, 0, 0, 1}, {9, 2, 1}, {0, 1, 0, 1}));
+    canvas.end();
+    const int32_t* ids = frond_picture_get_ids(canvas.picture);
+    const float* distances = frond_picture_get_distances(canvas.picture);
+    ASSERT_TRUE(ids && distances) << frond_picture_last_error();
+    const auto at = [](int x, int y) { return y * WIDTH + x; };
+    EXPECT_EQ(ids[at(WIDTH / 2, HEIGHT / 2)], 7);
+    EXPECT_NEAR(double(distances[at(WIDTH / 2, HEIGHT / 2)]), 5, 0.02);
+    EXPECT_EQ(ids[at(2, 2)], 1 << 30);
+    EXPECT_NEAR(double(distances[at(2, 2)]), 8, 0.001);
+    EXPECT_EQ(ids[at(2, HEIGHT - 2)], -1);
+    EXPECT_EQ(distances[at(2, HEIGHT - 2)], INFINITY);
+    canvas.begin(scene);
+    canvas.end();
+    EXPECT_FALSE(frond_picture_get_ids(canvas.picture));  // it was not measured
+    EXPECT_FALSE(frond_picture_get_distances(canvas.picture));
+    EXPECT_FALSE(frond_picture_set_id(canvas.picture, 1));  // no frame is begun
+}

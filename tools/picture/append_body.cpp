@@ -31,6 +31,7 @@ struct Body {
         run.index_count = frame.indices.size() - first_index;
         run.color = color;
         run.gloss = 0.25f;
+        run.id = frame.id;
         (color.a >= 1 ? frame.solid : frame.glass).push_back(run);
     }
 };

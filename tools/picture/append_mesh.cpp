@@ -71,6 +71,7 @@ void append_mesh(Frame& frame, const frond_picture_mesh& mesh, int texture_count
         run.texture = mesh.uvs && part.texture >= 0 && part.texture < texture_count ? part.texture : -1;
         run.translucency = clamped(part.translucency, 0, 1);
         run.gloss = clamped(part.gloss, 0, 1);
+        run.id = frame.id;
         frame.solid.push_back(run);
     }
     if (!frame.solid_box.empty()) frame.box.add(frame.solid_box.lower), frame.box.add(frame.solid_box.upper);

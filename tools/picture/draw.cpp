@@ -166,7 +166,7 @@ void set_defaults(const Renderer& renderer) {
 
 }  // namespace
 
-void draw(Renderer& renderer, const Frame& frame, std::vector<uint8_t>& rgb) {
+void draw(Renderer& renderer, const Frame& frame, std::vector<uint8_t>& rgb, Measures& measures) {
     while (glGetError() != GL_NO_ERROR) continue;
     set_defaults(renderer);
     SceneUniforms scene;
@@ -192,6 +192,8 @@ void draw(Renderer& renderer, const Frame& frame, std::vector<uint8_t>& rgb) {
     const int width = renderer.def.width, height = renderer.def.height;
     glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     read_pixels(renderer, rgb);
+    measures = {};
+    if (frame.is_measured) draw_measures(renderer, frame, measures);
 
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glBindVertexArray(0);

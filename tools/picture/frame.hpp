@@ -23,6 +23,7 @@ struct MeshRun {
     frond_color color{1, 1, 1, 1};
     int texture = -1;
     float translucency = 0, gloss = 0;
+    int32_t id = 0;
 };
 
 // A straight line on the screen that tapers from one width to another.
@@ -41,6 +42,8 @@ struct PointVertex {
 struct Frame {
     frond_picture_scene scene;
     Vec origin{0, 0, 0};  // origin of all positions here
+    int32_t id = 0;       // number of what is drawn next
+    bool is_measured = false;
     std::vector<MeshVertex> vertices;
     std::vector<uint32_t> indices;
     std::vector<MeshRun> solid;  // opaque; cast shadows

@@ -101,6 +101,14 @@ bool frond_picture_end(frond_picture* picture);
 /* Returns the last finished frame, width*height*3. Borrowed until the next end or destroy. Null before the first. */
 const uint8_t* frond_picture_get_pixels(frond_picture* picture);
 bool frond_picture_write(frond_picture* picture, const char* png_path);
+/* Gives all surfaces that are drawn from now on in this frame a number, at its beginning 0; a frame in which it was
+ * called is measured, too: */
+bool frond_picture_set_id(frond_picture* picture, int32_t id);
+/* Returns the number of the surface in the middle of each pixel of the last finished frame, and its distance along the
+ * camera's axis [m], width*height each, rows from top to bottom; -1 and infinity where there is none. Ground, glass and
+ * overlays are not measured. Borrowed until the next end or destroy. Null if the frame was not measured. */
+const int32_t* frond_picture_get_ids(frond_picture* picture);
+const float* frond_picture_get_distances(frond_picture* picture);
 /* Copies the last finished frame to a framebuffer of the caller's context (FROND_PICTURE_CURRENT only); 0 is the
  * window. */
 bool frond_picture_present(frond_picture* picture, unsigned framebuffer, int width, int height);

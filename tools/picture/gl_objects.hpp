@@ -104,13 +104,14 @@ struct Renderer {
     int samples = 1;  // samples per pixel, as limited by OpenGL
     int sky_size = 512;
     int shade_size = 96;  // size of the map of the sky's light on the ground [pixel]
-    Program depth, depth_cut, cover, shade, surface, ground, background, glass, line, point;
+    Program depth, depth_cut, cover, shade, surface, ground, background, glass, line, point, measure;
     Name<Kind::BUFFER> uniforms, mesh_vertices, mesh_indices, ground_vertices, line_vertices, point_vertices;
     Name<Kind::VERTEX_ARRAY> mesh_array, ground_array, empty_array, line_array, point_array;
     Name<Kind::TEXTURE> sun_map, sun_cover, sky_map, ground_map, white;
     Name<Kind::SAMPLER> compare, plain, smooth;
-    Name<Kind::RENDERBUFFER> color, depth_buffer, resolved;
+    Name<Kind::RENDERBUFFER> color, depth_buffer, resolved, ids, distances, measure_depth;
     Name<Kind::FRAMEBUFFER> target, resolve_target, shadow_target, cover_target, shade_target;
+    Name<Kind::FRAMEBUFFER> measure_target;  // made for the first frame that is measured
     struct Texture {
         Name<Kind::TEXTURE> name;
         bool cut = false;  // parts of it are transparent
@@ -125,5 +126,7 @@ void set_scene(const Renderer& renderer, const Frame& frame, SceneUniforms& scen
 Mat4 map_to_ground(const Frame& frame, Mat4& to_map);
 // Draws depth maps of sun and sky, and from them the sky's shade on the ground. Leaves a framebuffer of its own bound.
 void draw_shadows(Renderer& renderer, const Frame& frame, const SceneUniforms& scene);
+// Draws numbers and distances of the uploaded surfaces and reads them. Leaves a framebuffer of its own bound.
+void draw_measures(Renderer& renderer, const Frame& frame, Measures& out);
 
 }  // namespace picture

@@ -21,6 +21,7 @@ struct frond_picture {
     Frame frame;
     bool drawing = false;  // true between begin and end
     std::vector<uint8_t> pixels;
+    Measures measures;
     std::map<std::pair<uint64_t, size_t>, int> textures;  // texture indices by hash and length of their bytes
 };
 
@@ -174,7 +175,7 @@ bool frond_picture_end(frond_picture* picture) {
     return guarded([&] {
         open_frame(picture);
         Current current(*picture->context);
-        draw(*picture->renderer, picture->frame, picture->pixels);
+        draw(*picture->renderer, picture->frame, picture->pixels, picture->measures);
         picture->drawing = false;
         picture->frame = Frame();
     });
@@ -193,6 +194,33 @@ const uint8_t* frond_picture_get_pixels(frond_picture* picture) {
 bool frond_picture_write(frond_picture* picture, const char* png_path) {
     const uint8_t* pixels = frond_picture_get_pixels(picture);
     return pixels && frond_picture_write_png(png_path, pixels, picture->def.width, picture->def.height);
+}
+
+bool frond_picture_set_id(frond_picture* picture, int32_t id) {
+    return guarded([&] {
+        Frame& frame = open_frame(picture);
+        frame.id = id;
+        frame.is_measured = true;
+    });
+}
+
+// Returns the measures of the last frame.
+static const Measures& measured(const frond_picture* picture) {
+    const Measures& measures = living(picture).measures;
+    if (measures.ids.empty()) fail("the last frame was not measured; call frond_picture_set_id while it is drawn");
+    return measures;
+}
+
+const int32_t* frond_picture_get_ids(frond_picture* picture) {
+    const int32_t* ids = nullptr;
+    guarded([&] { ids = measured(picture).ids.data(); });
+    return ids;
+}
+
+const float* frond_picture_get_distances(frond_picture* picture) {
+    const float* distances = nullptr;
+    guarded([&] { distances = measured(picture).distances.data(); });
+    return distances;
 }
 
 bool frond_picture_present(frond_picture* picture, unsigned framebuffer, int width, int height) {

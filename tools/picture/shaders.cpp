@@ -77,6 +77,34 @@ void main() {
 }
 )";
 
+// The fourth clip coordinate of a camera with perspective is the distance along its axis.
+const char* const MEASURE_VERTEX = R"(
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec2 uv;
+out vec2 surface_uv;
+out float surface_distance;
+void main() {
+    surface_uv = uv;
+    gl_Position = view_projection * vec4(position, 1.0);
+    surface_distance = gl_Position.w;
+}
+)";
+
+const char* const MEASURE_FRAGMENT = R"(
+uniform sampler2D base_texture;
+uniform bool textured;
+uniform int id;
+in vec2 surface_uv;
+in float surface_distance;
+layout(location = 0) out int seen_id;
+layout(location = 1) out float seen_distance;
+void main() {
+    if (textured && texture(base_texture, surface_uv).a < 0.5) discard;
+    seen_id = id;
+    seen_distance = surface_distance;
+}
+)";
+
 const char* const SURFACE_VERTEX = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

@@ -10,6 +10,8 @@ extern const char* const DEPTH_FRAGMENT;
 extern const char* const DEPTH_CUT_FRAGMENT;
 extern const char* const SURFACE_VERTEX;
 extern const char* const SURFACE_FRAGMENT;
+extern const char* const MEASURE_VERTEX;
+extern const char* const MEASURE_FRAGMENT;
 extern const char* const FULL_VERTEX;
 extern const char* const COVER_FRAGMENT;
 extern const char* const SHADE_VERTEX;

@@ -29,8 +29,19 @@ inline namespace FROND_BULLET_PRECISION {
 // Puts plants into `world`, which must outlive the frond_world. Gravity is the Bullet world's own, always; the def's
 // gravity and max_substep are not used; null takes the defaults. Nothing of the host's is replaced: no tick callback,
 // no user pointer, no filter. A world can be attached once at a time (BAD_ARGUMENT). Forces of frond_plant_add_force
-// act for one substep. Call frond_world_destroy before the world is deleted and never while it steps.
+// act for one substep. Call frond_world_destroy before the world is deleted and never while it steps; see
+// forget() for a world that is gone already.
 FROND_API frond_result attach(btDynamicsWorld* world, const frond_world_def* def, frond_world* out);
+
+// Frees a frond_world whose Bullet world was deleted, and touches nothing of that; all its handles become stale.
+// BAD_ARGUMENT as long as the Bullet world has objects of it.
+//
+// A host that clears its world may delete Frond's objects with all others, once it has removed them from the world as
+// Bullet asks for: what they stood for is gone, and its handles are stale. The frond_world stays, until one of
+//     frond_world_destroy(plants);   // the Bullet world goes on: new plants may be made in it before that
+//     frond::forget(plants);         // the Bullet world was deleted too
+// A robot is gone with its first part. A fragment of a plant stays where it was.
+FROND_API frond_result forget(frond_world world);
 
 // Returns the Bullet world behind a handle, Frond's own or yours; null for an invalid handle. Borrowed.
 FROND_API btDynamicsWorld* bullet_world(frond_world world);

@@ -358,6 +358,9 @@ FROND_API frond_result frond_model_get_info(frond_model model, frond_model_info*
 FROND_API frond_result frond_model_get_part(frond_model model, int part, frond_part* out);
 /* Describes an organ; organ: 0 .. frond_model_info.organ_count - 1. Strings live as long as the model. */
 FROND_API frond_result frond_model_get_organ(frond_model model, int organ, frond_organ* out);
+/* Copies which organ each capsule of the chain belongs to, as frond_model_get_organ counts them; -1: to none.
+ * capsule_count must be frond_model_info.capsule_count; out: capsule_count. */
+FROND_API frond_result frond_model_get_capsule_organs(frond_model model, int32_t* out, int capsule_count);
 /* Gives a texture of the surface; texture: 0 .. frond_model_info.texture_count - 1. Borrowed from the model. */
 FROND_API frond_result frond_model_get_texture(frond_model model, int texture, frond_texture_view* out);
 

@@ -35,7 +35,9 @@ static void require(bool found, uint64_t id, const char* noun) {
     if (found) return;
     if (id == 0)
         fail(FROND_RESULT_BAD_HANDLE, "the %s handle is null; use the one that its create or load call gave", noun);
-    fail(FROND_RESULT_BAD_HANDLE, "the %s handle is stale or of another kind; the %s was destroyed, or its world was",
+    fail(FROND_RESULT_BAD_HANDLE,
+         "the %s handle is stale or of another kind; the %s was destroyed, or its world was, or the "
+         "host deleted it; make it anew",
          noun, noun);
 }
 

@@ -205,6 +205,17 @@ frond_result frond_model_get_organ(frond_model model, int organ, frond_organ* ou
     });
 }
 
+frond_result frond_model_get_capsule_organs(frond_model model, int32_t* out, int capsule_count) {
+    return call([&] {
+        const std::shared_ptr<const Model> found = get(model);
+        const int own = int(found->capsules.size());
+        if (capsule_count != own)
+            fail(FROND_RESULT_BAD_ARGUMENT, "capsule_count is %d; this model has %d", capsule_count, own);
+        if (own > 0) check_pointer(out, "out");
+        for (const auto& [begin, end] : found->capsules) *out++ = int32_t(found->chain.nodes[size_t(end)].organ);
+    });
+}
+
 frond_result frond_model_get_texture(frond_model model, int texture, frond_texture_view* out) {
     return view_model(model, out, [&](const Model& m, frond_texture_view& view) {
         check_range(texture, 0, double(m.surface.textures.size()) - 1, "texture");

@@ -19,9 +19,20 @@ static frond_world open_world(btDynamicsWorld* bullet, const frond_world_def& de
     check_range(def.tuning.response_tolerance, 0, 1, "def.tuning.response_tolerance");
     check_range(def.tuning.penalty_stiffness, 1e-6, 1e12, "def.tuning.penalty_stiffness [N/m]");
     check_range(def.sleep_distance, 0, 0.01, "def.sleep_distance [m]");
-    const uint64_t id = world_slots().insert(make_world(bullet, def));
+    std::shared_ptr<World> made = make_world(bullet, def);
+    made->release.plant = [](PlantBody& body) { forget(body); };
+    made->release.rigid = [](const Rigid& rigid) { rigid_slots().erase(rigid.handle.id); };
+    made->release.robot = [](const Robot& robot) { robot_slots().erase(robot.handle); };
+    const uint64_t id = world_slots().insert(std::move(made));
     if (!id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many worlds; destroy some");
     return {id};
+}
+
+// Releases the handles of all that is in a world.
+static void forget_all(const World& world) {
+    for (const auto& body : world.bodies) forget(*body);
+    for (const auto& rigid : world.rigids) rigid_slots().erase(rigid->handle.id);
+    forget_robots(world);
 }
 
 static void check_count(int given, int own, const char* name, const char* what) {
@@ -81,10 +92,7 @@ frond_result frond_world_create(const frond_world_def* def, frond_world* out) {
 void frond_world_destroy(frond_world world) {
     call([&] {
         const std::shared_ptr<World> taken = world_slots().erase(world.id);
-        if (!taken) return;
-        for (const auto& body : taken->bodies) forget(*body);
-        for (const auto& rigid : taken->rigids) rigid_slots().erase(rigid->handle.id);
-        forget_robots(*taken);
+        if (taken) forget_all(*taken);
     });
 }
 
@@ -233,6 +241,20 @@ frond_result attach(btDynamicsWorld* world, const frond_world_def* def, frond_wo
         *out = {};
         check_pointer(world, "world");
         *out = open_world(world, def ? *def : frond_default_world_def());
+    });
+}
+
+frond_result forget(frond_world world) {
+    return call([&] {
+        World& w = get(world);
+        if (w.own) fail(FROND_RESULT_UNSUPPORTED, "this world is Frond's own; call frond_world_destroy");
+        if (is_held(w))
+            fail(FROND_RESULT_BAD_ARGUMENT,
+                 "the Bullet world still has objects of this frond_world; if it is to go on, or to be deleted later, "
+                 "call "
+                 "frond_world_destroy");
+        w.is_gone = true;
+        forget_all(*world_slots().erase(world.id));
     });
 }
 

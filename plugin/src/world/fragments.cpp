@@ -64,7 +64,7 @@ Rigid* add_fragment(World& world, PlantBody& body, const Fragment& fragment) {
                                                   to_bullet(fragment.moments));
     info.m_startWorldTransform = frame;
     info.m_friction = btScalar(friction_of(*plant.model, fragment.node));
-    rigid->body = std::make_unique<btRigidBody>(info);
+    rigid->body = lend<btRigidBody>(*rigid, info);
     rigid->body->setLinearVelocity(to_bullet(fragment.velocity));
     rigid->body->setAngularVelocity(to_bullet(fragment.angular_velocity));
     world.bullet->addRigidBody(rigid->body.get());

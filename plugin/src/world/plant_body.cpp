@@ -178,6 +178,7 @@ bool PlantBody::checkCollideWithOverride(const btCollisionObject* other) const {
 
 // btSoftBody would delete the shape, but a shared one is the hull's.
 PlantBody::~PlantBody() {
+    if (!is_taken_back) host_deleted(*this);
     if (m_collisionShape == hull->rest.get()) m_collisionShape = nullptr;
 }
 

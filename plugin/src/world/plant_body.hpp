@@ -66,6 +66,7 @@ struct PlantBody : btSoftBody {
     std::unique_ptr<GrownIn> grown_in;  // null: none
     bool starts_asleep = false;         // asleep when it is made, or reset
     bool is_hidden = false;             // hidden from sleepers and static bodies: it sleeps, and nothing touches it
+    bool is_taken_back = false;         // Frond itself deletes it, not the host
     bool is_looked_at = false;          // asleep, but decompressed for reading
     // Substeps in which overlaps are still recorded in grown_in; 2 if it starts asleep, as it then wakes without pairs.
     int16_t new_for = 1;
@@ -94,6 +95,8 @@ struct PlantBody : btSoftBody {
     static const PlantBody* of(const btCollisionObject* object) { return dynamic_cast<const PlantBody*>(object); }
 };
 
+// Forgets a plant whose object the host deletes.
+void host_deleted(PlantBody& body);
 // Switch to the hull's shape as modelled, or to one of the plant's own that moves.
 void share_shape(PlantBody& body);
 void take_own_shape(PlantBody& body);

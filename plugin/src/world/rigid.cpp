@@ -45,7 +45,7 @@ Rigid* add_rigid(World& world, const frond_rigid_def& def) {
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, rigid->shape.get(), inertia);
     info.m_startWorldTransform = frame_of(def.state);
     info.m_friction = btScalar(def.friction);
-    rigid->body = std::make_unique<btRigidBody>(info);
+    rigid->body = lend<btRigidBody>(*rigid, info);
     // A kinematic body stays awake, or Bullet would not compute its velocity.
     if (mass == 0 && !rigid->is_plane) {
         rigid->body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -61,10 +61,31 @@ Rigid* add_rigid(World& world, const frond_rigid_def& def) {
 void remove_rigid(World& world, Rigid* rigid) {
     wake_neighbours(world, *rigid->body);
     world.bullet->removeRigidBody(rigid->body.get());
+    forget_body(world, *rigid->body);
+    const auto is_it = [&](const std::unique_ptr<Rigid>& other) { return other.get() == rigid; };
+    world.rigids.erase(std::find_if(world.rigids.begin(), world.rigids.end(), is_it));
+}
+
+void forget_body(World& world, const btCollisionObject& body) {
     world.contacts.clear();
     for (Bond& bond : world.bonds)
-        if (bond.body == rigid->body.get()) bond.body = nullptr;
-    const auto is_it = [&](const std::unique_ptr<Rigid>& other) { return other.get() == rigid; };
+        if (bond.body == &body) bond.body = nullptr;
+}
+
+void host_deleted(Rigid& rigid, btRigidBody& body) {
+    World& world = *rigid.world;
+    rigid.body.release();
+    forget_body(world, body);
+    if (world.release.rigid) world.release.rigid(rigid);
+    rigid.handle = {};
+    if (rigid.grown_on) {
+        const btScalar mass = body.getInvMass() > 0 ? 1 / body.getInvMass() : 0;
+        btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, rigid.shape.get(), body.getLocalInertia());
+        info.m_startWorldTransform = body.getWorldTransform();
+        rigid.body = lend<btRigidBody>(rigid, info);
+        return;
+    }
+    const auto is_it = [&](const std::unique_ptr<Rigid>& other) { return other.get() == &rigid; };
     world.rigids.erase(std::find_if(world.rigids.begin(), world.rigids.end(), is_it));
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/types.hpp"
 #include "frond/frond_bullet.hpp"
+#include "world/lent.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -21,7 +22,7 @@ struct Rigid {
     bool is_plane;
     std::vector<std::unique_ptr<btCollisionShape>> children;  // shapes of a compound
     std::unique_ptr<btCollisionShape> shape;
-    std::unique_ptr<btRigidBody> body;
+    Loan<btRigidBody, Rigid> body;
     // For a fragment: its plant, and the model's frame in the body's frame when it came off.
     PlantBody* grown_on = nullptr;
     Mat3 grown_turn = Mat3::Identity();
@@ -31,6 +32,8 @@ struct Rigid {
 // Makes a rigid body in a world. The caller has checked `def`.
 Rigid* add_rigid(World& world, const frond_rigid_def& def);
 void remove_rigid(World& world, Rigid* rigid);
+// Forgets a rigid body that the host deletes. A fragment of a plant stays where it was, out of the Bullet world.
+void host_deleted(Rigid& rigid, btRigidBody& body);
 frond_rigid_state state_of(const Rigid& rigid);
 void set_state(Rigid& rigid, const frond_rigid_state& state);
 

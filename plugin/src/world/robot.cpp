@@ -78,7 +78,7 @@ void drive_at(Robot& robot, size_t link, double velocity, double force) {
 
 void limit_motors(World& world, double h) {
     for (const std::unique_ptr<Robot>& robot : world.robots)
-        for (size_t i = 1; i < robot->links.size(); i++) {
+        for (size_t i = 1; !robot->is_gone && i < robot->links.size(); i++) {
             RobotLink& link = robot->links[i];
             if (!link.motor) continue;
             link.motor->setMaxAppliedImpulse(btScalar(link.motor_force * h));

@@ -11,23 +11,26 @@
 
 #include "frond/frond_robot.h"
 #include "model/urdf.hpp"
+#include "world/lent.hpp"
 #include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
+struct Robot;
+
 // A link of the file. `centre` is the frame of Bullet's link in the file's: at the centre of mass, along principal
 // axes.
 struct RobotLink {
     UrdfFrame centre;
-    double mass = 0;                                         // [kg]
-    Vec3 inertia = Vec3::Zero();                             // about the principal axes [kg m^2]
-    std::vector<std::unique_ptr<btCollisionShape>> shapes;   // parts of the collider's shape, which comes last
-    std::unique_ptr<btMultiBodyLinkCollider> collider;       // null: it touches nothing and its joint is fixed
-    std::unique_ptr<btMultiBodyJointMotor> motor;            // null: the joint is fixed
-    std::unique_ptr<btMultiBodyJointLimitConstraint> limit;  // null: it has none
-    double motor_force = 0;                                  // largest force; 0: the joint is free [N], [N m]
-    double speed = 0;                                        // velocity that the motor keeps; 0: none [rad/s], [m/s]
+    double mass = 0;                                        // [kg]
+    Vec3 inertia = Vec3::Zero();                            // about the principal axes [kg m^2]
+    std::vector<std::unique_ptr<btCollisionShape>> shapes;  // parts of the collider's shape, which comes last
+    Loan<btMultiBodyLinkCollider, Robot> collider;          // null: it touches nothing and its joint is fixed
+    Loan<btMultiBodyJointMotor, Robot> motor;               // null: the joint is fixed
+    Loan<btMultiBodyJointLimitConstraint, Robot> limit;     // null: it has none
+    double motor_force = 0;                                 // largest force; 0: the joint is free [N], [N m]
+    double speed = 0;                                       // velocity that the motor keeps; 0: none [rad/s], [m/s]
 };
 
 // The surface of a robot, each vertex in its link's frame.
@@ -44,13 +47,18 @@ struct Robot {
     uint64_t handle = 0;  // handle in the C API
     UrdfTree tree;        // links[i] is link i - 1 of Bullet's, 0 its base
     std::vector<RobotLink> links;
-    std::unique_ptr<btMultiBody> body;
+    Loan<btMultiBody, Robot> body;
+    bool is_gone = false;  // the host has deleted a part of it
     RobotSurface surface;
 };
 
 // Makes a robot. Throws UNSUPPORTED with the remedy. The caller has checked `def`.
 Robot* add_robot(World& world, UrdfTree tree, const frond_robot_def& def);
 void remove_robot(World& world, Robot* robot);
+// Forget a part of a robot that the host deletes. The robot is gone with its first part; the world takes back the rest.
+void host_deleted(Robot& robot, btMultiBody& body);
+void host_deleted(Robot& robot, btMultiBodyLinkCollider& collider);
+void host_deleted(Robot& robot, btMultiBodyConstraint& constraint);
 // Makes a collision shape for the link, in Bullet's frame; false if it has none.
 bool make_shapes(const UrdfTree& tree, const UrdfLink& link, const UrdfFrame& centre, RobotLink& out);
 

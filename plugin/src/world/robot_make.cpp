@@ -89,7 +89,7 @@ void add_collider(Robot& robot, size_t i, const frond_robot_def& def) {
         if (of_file.joint == UrdfJoint::FIXED) return;
         link.shapes.push_back(std::make_unique<btEmptyShape>());
     }
-    link.collider = std::make_unique<btMultiBodyLinkCollider>(robot.body.get(), int(i) - 1);
+    link.collider = lend<btMultiBodyLinkCollider>(robot, robot.body.get(), int(i) - 1);
     link.collider->setCollisionShape(link.shapes.back().get());
     link.collider->setFriction(btScalar(def.friction));
     if (i == 0)
@@ -105,12 +105,12 @@ void add_constraints(Robot& robot, size_t i) {
     RobotLink& own = robot.links[i];
     if (link.joint == UrdfJoint::FIXED) return;
     btMultiBody* body = robot.body.get();
-    own.motor = std::make_unique<btMultiBodyJointMotor>(body, int(i) - 1, btScalar(0), btScalar(0));
+    own.motor = lend<btMultiBodyJointMotor>(robot, body, int(i) - 1, btScalar(0), btScalar(0));
     own.motor->finalizeMultiDof();
     robot.bullet->addMultiBodyConstraint(own.motor.get());
     if (link.joint == UrdfJoint::CONTINUOUS) return;
     own.limit =
-        std::make_unique<btMultiBodyJointLimitConstraint>(body, int(i) - 1, btScalar(link.lower), btScalar(link.upper));
+        lend<btMultiBodyJointLimitConstraint>(robot, body, int(i) - 1, btScalar(link.lower), btScalar(link.upper));
     own.limit->finalizeMultiDof();
     robot.bullet->addMultiBodyConstraint(own.limit.get());
 }
@@ -130,8 +130,8 @@ std::unique_ptr<Robot> make_robot(World& world, UrdfTree tree, const frond_robot
         robot->links.push_back(weigh(link, i == 0 ? !is_fixed : link.joint != UrdfJoint::FIXED));
     }
     const RobotLink& base = robot->links.front();
-    robot->body = std::make_unique<btMultiBody>(int(robot->links.size()) - 1, btScalar(is_fixed ? 0 : base.mass),
-                                                to_bullet(base.inertia), is_fixed, false);
+    robot->body = lend<btMultiBody>(*robot, int(robot->links.size()) - 1, btScalar(is_fixed ? 0 : base.mass),
+                                    to_bullet(base.inertia), is_fixed, false);
     btMultiBody& body = *robot->body;
     const frond_quat& q = def.rotation;
     UrdfFrame placed = {Vec3(def.position.x, def.position.y, def.position.z), Quat(q.w, q.x, q.y, q.z).normalized()};
@@ -180,13 +180,47 @@ void remove_robot(World& world, Robot* robot) {
         if (!link.collider) continue;
         wake_neighbours(world, *link.collider);
         robot->bullet->removeCollisionObject(link.collider.get());
-        for (Bond& bond : world.bonds)
-            if (bond.body == link.collider.get()) bond.body = nullptr;
+        forget_body(world, *link.collider);
     }
-    world.contacts.clear();
-    robot->bullet->removeMultiBody(robot->body.get());
+    if (robot->body) robot->bullet->removeMultiBody(robot->body.get());
     const auto is_it = [&](const std::unique_ptr<Robot>& other) { return other.get() == robot; };
     world.robots.erase(std::find_if(world.robots.begin(), world.robots.end(), is_it));
+}
+
+// Releases the robot's handle with the first part, and the robot with the last one.
+static void lose_part(Robot& robot) {
+    World& world = *robot.world;
+    if (!robot.is_gone && world.release.robot) world.release.robot(robot);
+    robot.is_gone = true;
+    const bool has_parts = std::any_of(robot.links.begin(), robot.links.end(),
+                                       [](const RobotLink& link) { return link.collider || link.motor || link.limit; });
+    if (has_parts || robot.body) return;
+    const auto is_it = [&](const std::unique_ptr<Robot>& other) { return other.get() == &robot; };
+    world.robots.erase(std::find_if(world.robots.begin(), world.robots.end(), is_it));
+}
+
+void host_deleted(Robot& robot, btMultiBody&) {
+    robot.body.release();
+    lose_part(robot);
+}
+
+void host_deleted(Robot& robot, btMultiBodyLinkCollider& collider) {
+    for (size_t i = 0; i < robot.links.size(); i++) {
+        if (robot.links[i].collider.get() != &collider) continue;
+        robot.links[i].collider.release();
+        if (robot.body && i == 0) robot.body->setBaseCollider(nullptr);
+        if (robot.body && i > 0) robot.body->getLink(int(i) - 1).m_collider = nullptr;
+    }
+    forget_body(*robot.world, collider);
+    lose_part(robot);
+}
+
+void host_deleted(Robot& robot, btMultiBodyConstraint& constraint) {
+    for (RobotLink& link : robot.links) {
+        if (link.motor.get() == &constraint) link.motor.release();
+        if (link.limit.get() == &constraint) link.limit.release();
+    }
+    lose_part(robot);
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -82,7 +82,8 @@ void shift_manifolds(World& world, const Vec3& origin) {
 void shift_origin(World& world, const Vec3& origin) {
     for (const auto& body : world.bodies) shift_plant(world, *body, origin);
     for (const auto& rigid : world.rigids) shift_object(world, *rigid->body, origin);
-    for (const auto& robot : world.robots) shift_base(*robot, origin);
+    for (const auto& robot : world.robots)
+        if (!robot->is_gone) shift_base(*robot, origin);
     shift_contacts(world.contacts, world.plant_contacts, origin);
     shift_manifolds(world, origin);
     if (world.detail) world.detail->viewer -= origin;

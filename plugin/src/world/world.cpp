@@ -43,10 +43,14 @@ World::World(std::unique_ptr<OwnBullet> given, btDynamicsWorld* bullet, const fr
 
 World::~World() {
     is_ending = true;
-    while (!bodies.empty()) remove_plant(*this, bodies.back().get());
-    while (!robots.empty()) remove_robot(*this, robots.back().get());
-    while (!rigids.empty()) remove_rigid(*this, rigids.back().get());
-    bullet->removeAction(this);
+    if (is_gone) {
+        for (const auto& body : bodies) body->is_taken_back = true;
+    } else {
+        while (!bodies.empty()) remove_plant(*this, bodies.back().get());
+        while (!robots.empty()) remove_robot(*this, robots.back().get());
+        while (!rigids.empty()) remove_rigid(*this, rigids.back().get());
+        bullet->removeAction(this);
+    }
     std::lock_guard<std::mutex> lock(attached_mutex);
     attached_worlds().erase(bullet);
 }
@@ -63,7 +67,8 @@ std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def
         std::lock_guard<std::mutex> lock(attached_mutex);
         if (!attached_worlds().insert(bullet).second)
             fail(FROND_RESULT_BAD_ARGUMENT,
-                 "this Bullet world is attached already; use the frond_world of the first attach");
+                 "this Bullet world is attached already; use the frond_world of the first attach, or call "
+                 "frond::forget for it if its Bullet world was deleted");
     }
     return std::make_unique<World>(std::move(own), bullet, def);
 }
@@ -84,14 +89,8 @@ PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, int group, int 
     return body;
 }
 
-void remove_plant(World& world, PlantBody* body) {
-    remove_fragments(world, *body);
-    if (!world.is_ending) {
-        wake(*body);
-        wake_neighbours(world, *body);
-    }
-    show_again(*body);
-    world.bullet->removeCollisionObject(body);
+// Takes a plant out of the lists of a world. Returns its object, which they owned.
+static std::unique_ptr<PlantBody> take_out(World& world, PlantBody* body) {
     world.contacts.clear();
     world.plant_contacts.clear();
     forget_events(world, *body);
@@ -101,8 +100,50 @@ void remove_plant(World& world, PlantBody* body) {
     std::replace(world.plants_at.begin(), world.plants_at.end(), static_cast<const btCollisionObject*>(body),
                  static_cast<const btCollisionObject*>(nullptr));
     const size_t index = size_t(body->index);
+    std::unique_ptr<PlantBody> taken = std::move(world.bodies[index]);
     world.bodies.erase(world.bodies.begin() + body->index);
     for (size_t i = index; i < world.bodies.size(); i++) world.bodies[i]->index = int(i);
+    return taken;
+}
+
+void remove_plant(World& world, PlantBody* body) {
+    remove_fragments(world, *body);
+    if (!world.is_ending) {
+        wake(*body);
+        wake_neighbours(world, *body);
+    }
+    show_again(*body);
+    world.bullet->removeCollisionObject(body);
+    take_out(world, body)->is_taken_back = true;
+}
+
+// Sleepers forget that they touched it, and wake in the next substep.
+void host_deleted(PlantBody& body) {
+    World& world = *body.world;
+    if (world.release.plant) world.release.plant(body);
+    for (Rigid* fragment : body.fragment_bodies) fragment->grown_on = nullptr;
+    for (const auto& other : world.bodies) {
+        if (other.get() == &body || !other->rest.contacts) continue;
+        auto contacts = std::make_shared<LastContacts>(*other->rest.contacts);
+        std::vector<PlantContact>& plants = contacts->with_plants;
+        plants.erase(
+            std::remove_if(plants.begin(), plants.end(),
+                           [&](const PlantContact& c) { return c.plants[0] == &body || c.plants[1] == &body; }),
+            plants.end());
+        other->rest.contacts = std::move(contacts);
+    }
+    world.effects_before = ~world.effects;
+    take_out(world, &body).release();
+}
+
+bool is_held(const World& world) {
+    const auto is_in = [](const btCollisionObject* object) { return object && object->getBroadphaseHandle(); };
+    bool held = false;
+    for (const auto& body : world.bodies) held |= is_in(body.get());
+    for (const auto& rigid : world.rigids) held |= is_in(rigid->body.get());
+    for (const auto& robot : world.robots)
+        for (const RobotLink& link : robot->links) held |= is_in(link.collider.get());
+    return held;
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -24,6 +24,13 @@ inline namespace FROND_BULLET_PRECISION {
 struct OwnBullet;
 struct Robot;
 
+// Release the handles of what the host deletes in its Bullet world; set by the C API, which knows them.
+struct Release {
+    void (*plant)(PlantBody&) = nullptr;
+    void (*rigid)(const Rigid&) = nullptr;
+    void (*robot)(const Robot&) = nullptr;
+};
+
 struct World final : btActionInterface {
     std::unique_ptr<OwnBullet> own;  // null when attached
     btDynamicsWorld* bullet;
@@ -57,6 +64,8 @@ struct World final : btActionInterface {
     frond_effects effects_before = 0;    // likewise
     bool is_stepping = false;            // in updateAction
     bool is_ending = false;
+    bool is_gone = false;  // the Bullet world was deleted
+    Release release;
     std::vector<Contact> contacts;                             // contacts of the last substep, with bodies
     GravityAhead gravity_ahead;                                // gravity given in advance to the bodies of those
     std::vector<PlantContact> plant_contacts;                  // contacts of plants with each other and themselves
@@ -86,6 +95,10 @@ std::unique_ptr<World> make_world(btDynamicsWorld* bullet, const frond_world_def
 // Adds a plant, with a group and a mask of Bullet's collision filter.
 PlantBody* add_plant(World& world, std::unique_ptr<Plant> plant, int group, int mask, bool asleep);
 void remove_plant(World& world, PlantBody* body);
+// Drops contacts, and holds of bonds, of a body that leaves the world.
+void forget_body(World& world, const btCollisionObject& body);
+// Returns whether a Bullet world still holds something that Frond put there.
+bool is_held(const World& world);
 // Puts a plant elsewhere, with its shape and its fragments. `rotation` has length one.
 void place_plant(PlantBody& body, const Vec3& position, const Quat& rotation);
 // Returns the def with which the plant would be made as it is set now.
