@@ -29,6 +29,7 @@ void take_section(const Model& model, size_t node, RodSegment& rod) {
     rod.reach_wide = 0.5 * section.width;
     rod.stretch = Vec3(stiffer * section.stretching(), over * thin, over * wide);
     rod.bend = Vec3(stiffer * section.twisting(), wide, thin);
+    rod.warping = section.stretching() * std::pow(section.width, 4) / (720 * section.twisting());
 }
 void take_cylinder(const Model& model, size_t node, double radius, double stiffer, RodSegment& rod) {
     const size_t organ = organ_of(model, node);

@@ -31,8 +31,8 @@ struct PiecesOfOne {
     FROND_INLINE S element(int row, int column) const {
         return gather<S>([&](int l) { return rod[l]->frame.data()[row + 3 * column]; });
     }
-    FROND_INLINE S length() const {
-        return gather<S>([&](int l) { return rod[l]->length; });
+    FROND_INLINE S number(double RodSegment::*of) const {
+        return gather<S>([&](int l) { return rod[l]->*of; });
     }
     // Gathers a number of each segment.
     FROND_INLINE S own(const std::vector<double>& of) const {
@@ -101,7 +101,7 @@ struct PieceOfSeveral {
         return {constant<S>(v[0]), constant<S>(v[1]), constant<S>(v[2])};
     }
     FROND_INLINE S element(int row, int column) const { return constant<S>(rod.frame.data()[row + 3 * column]); }
-    FROND_INLINE S length() const { return constant<S>(rod.length); }
+    FROND_INLINE S number(double RodSegment::*of) const { return constant<S>(rod.*of); }
     FROND_INLINE S own(const std::vector<double>& of) const { return constant<S>(of[first]); }
     FROND_INLINE Lanes3<S> point(const double* x, int RodSegment::*end, int from) const {
         return load3<S>(x, 6 * (rod.*end) + from);
@@ -142,12 +142,13 @@ struct PieceOfSeveral {
 };
 
 template <class Pieces>
-using LanesOf = decltype(std::declval<const Pieces&>().length());
+using LanesOf = decltype(std::declval<const Pieces&>().number(&RodSegment::length));
 
 template <class Pieces, class S = LanesOf<Pieces>>
 FROND_INLINE RodPiece<S> piece_of(const Pieces& pieces) {
     RodPiece<S> out;
-    out.length = pieces.length();
+    out.length = pieces.number(&RodSegment::length);
+    out.warping = pieces.number(&RodSegment::warping);
     for (int r = 0; r < 3; ++r) out.frame.r[r] = {pieces.element(r, 0), pieces.element(r, 1), pieces.element(r, 2)};
     out.stretch = pieces.vector(&RodSegment::stretch);
     out.bend = pieces.vector(&RodSegment::bend);

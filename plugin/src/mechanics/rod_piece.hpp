@@ -12,7 +12,7 @@ namespace frond {
 // A segment at rest; see RodSegment.
 template <class S>
 struct RodPiece {
-    S length;
+    S length, warping;
     Lanes33<S> frame;
     Lanes3<S> stretch, bend, rest_strain, rest_curvature;
 };
@@ -66,30 +66,38 @@ FROND_INLINE Lanes33<S> inertia_by_rate(const Lanes3<S>& turn, const Lanes33<S>&
     return transposed_times(rate, inertia * rate);
 }
 
-// A segment cannot fold onto itself: beyond two radians between its ends the measure of its curvature grows faster than
-// the angle, and has no bound as the angle nears half a turn, where the axis of the rotation would change its sign.
+// A segment cannot fold onto itself: beyond two radians between the axes of its ends the measure of its curvature grows
+// faster than the angle, and has no bound as that nears half a turn, where bending would change its sign. `quarter` is
+// the axis of the rotation times tan(angle/4), of which `bending` is the part across the segment; `over_angle` is
+// tan(angle/4) over the angle. Sets the growth and its derivative by the rotation vector.
 template <class S>
-FROND_INLINE void fold_up(const S& square, S& fold, S& fold_slope) {
+FROND_INLINE void fold_up(const Lanes3<S>& quarter, const S& square, const Lanes3<S>& bending, const S& over_angle,
+                          S& fold, Lanes3<S>& fold_slope) {
     constexpr double FROM = 0.29844638;  // tan(angle/4)^2 at two radians
     constexpr double STIFFNESS = 10, ROOM = 1e-6;
-    const S beyond = select(square < FROM, constant<S>(0), S(square - FROM));
-    const S over = 1.0 / (1.0 + ROOM - square);
+    const S bent = dot(bending, bending);
+    const S beyond = select(bent < FROM, constant<S>(0), S(bent - FROM));
+    const S over = 1.0 / (1.0 + ROOM - bent);
     const S grown = STIFFNESS * beyond * beyond * over;
     fold = 1.0 + grown * beyond;
-    fold_slope = 0.5 * (1.0 + square) * grown * (3.0 + beyond * over);
+    const S by_bent = 2.0 * grown * (3.0 + beyond * over);
+    const S along = (0.25 * (1.0 + square) - over_angle) * bent / select(square < FROM, constant<S>(FROM), square);
+    fold_slope = by_bent * (over_angle * bending + along * quarter);
 }
 
 // Deformation of a segment by its two ends.
 template <class S>
 struct RodBent {
-    Lanes3<S> chord;     // [m]
-    Lanes3<S> turn;      // rotation vector of the second end relative to the first
-    Lanes3<S> quarter;   // its axis times tan(angle/4)
-    S cotangent;         // angle/2 cot(angle/2)
-    S fold, fold_slope;  // curvature is by fold * turn, whose derivative by turn is fold + fold_slope turn quarter^T
-    Lanes33<S> middle;   // the frame at the midway rotation
+    Lanes3<S> chord;              // [m]
+    Lanes3<S> turn;               // rotation vector of the second end relative to the first
+    Lanes3<S> quarter;            // its axis times tan(angle/4)
+    S cotangent;                  // angle/2 cot(angle/2)
+    S fold;                       // curvature is by fold * turn
+    Lanes3<S> fold_slope;         // derivative of fold by turn
+    Lanes33<S> middle;            // the frame at the midway rotation
     Lanes3<S> strain, curvature;  // relative to rest
     Lanes3<S> along;              // direction of the chord in the frame `middle`
+    S twist_slope;                // derivative of the measure of twist by twist
     S tilt_scale;                 // derivative of tilt by the chord's component across, for a straight chord
 };
 
@@ -127,6 +135,18 @@ FROND_INLINE Lanes3<S> strain_change_transposed(const RodPiece<S>& rod, const Ro
     return (f.x - turned) * bent.along + Lanes3<S>{-turned, bent.tilt_scale * f.y, bent.tilt_scale * f.z};
 }
 
+// Measures a segment's twist [1/m] so that half its stiffness times the square is the energy per length. A section that
+// twists stretches its rim and shortens its middle: besides Saint-Venant's G J twist^2 / 2 that stores E twist^4 / 8
+// times the integral of (r^2 - mean r^2)^2 over the section (Wagner's effect, Timoshenko and Goodier 1951, section
+// 103); A width^4 / 180 for strips, and A width^4 / 192 for circles, where it does not count. It is what keeps blades
+// from being wound up.
+template <class S>
+FROND_INLINE void measure_twist(const RodPiece<S>& rod, RodBent<S>& out) {
+    const S grown = rod.warping * out.curvature.x * out.curvature.x, scale = sqrt(1.0 + grown);
+    out.twist_slope = (1.0 + 2.0 * grown) / scale;
+    out.curvature.x = scale * out.curvature.x;
+}
+
 template <class S>
 FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a, const RodEnd<S>& b) {
     // atan(x)/x by powers of x^2, for x up to tan(pi/8): the best uniform (Chebyshev) approximation, within 2e-18.
@@ -146,7 +166,9 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
     const S angle_over = 8.0 * eighth * polynomial(ARC, S(square * eighth * eighth));  // angle over tan(angle/4)
     out.turn = angle_over * out.quarter;
     out.cotangent = 0.5 * angle_over * over * w;
-    fold_up(square, out.fold, out.fold_slope);
+    const Lanes3<S> axis = {rod.frame.r[0].x, rod.frame.r[1].x, rod.frame.r[2].x};
+    fold_up(out.quarter, square, out.quarter - dot(axis, out.quarter) * axis, S(1.0 / angle_over), out.fold,
+            out.fold_slope);
     const S shrink = 1.0 / secant;
     const S w_middle = (a.w - dot(a.p, out.quarter)) * shrink;
     const Lanes3<S> p_middle = shrink * (a.p + a.w * out.quarter + cross(a.p, out.quarter));
@@ -154,7 +176,9 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
     const S per_length = 1.0 / rod.length;
     measure_chord(per_length * transposed_times(out.middle, out.chord), out);
     out.strain = out.strain - rod.rest_strain;
-    out.curvature = per_length * transposed_times(rod.frame, out.fold * out.turn) - rod.rest_curvature;
+    out.curvature = per_length * transposed_times(rod.frame, out.fold * out.turn);
+    measure_twist(rod, out);
+    out.curvature = out.curvature - rod.rest_curvature;
     return out;
 }
 
@@ -182,8 +206,10 @@ FROND_INLINE RodGradient<S> gradient_of(const RodPiece<S>& rod, const Lanes33<S>
                                         const Lanes33<S>& rate_b, const RodBent<S>& bent) {
     const Lanes3<S> force = bent.middle * strain_change_transposed(rod, bent, scaled(rod.stretch, bent.strain));
     const Lanes3<S> middle_moment = cross(force, bent.chord);
-    const Lanes3<S> by_fold = rod.frame * scaled(rod.bend, bent.curvature);
-    const Lanes3<S> couple = bent.fold * by_fold + (bent.fold_slope * dot(bent.turn, by_fold)) * bent.quarter;
+    Lanes3<S> moment = scaled(rod.bend, bent.curvature);
+    moment.x = bent.twist_slope * moment.x;
+    const Lanes3<S> by_fold = rod.frame * moment;
+    const Lanes3<S> couple = bent.fold * by_fold + dot(bent.turn, by_fold) * bent.fold_slope;
     const Lanes3<S> turned = cross(bent.turn, couple);
     const Lanes3<S> end_moment =
         rotation_a * (couple + constant<S>(0.5) * turned + inverse_rate_second(bent) * cross(bent.turn, turned));
@@ -216,11 +242,11 @@ FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& ro
     }
     const Lanes33<S> inverse_rate = turning<S>(bent.turn, constant<S>(-0.5), inverse_rate_second(bent));
     Lanes33<S> folding = bent.fold * inverse_rate;
-    for (int i = 0; i < 3; ++i) {
-        const S along = bent.fold_slope * (i == 0 ? bent.turn.x : i == 1 ? bent.turn.y : bent.turn.z);
-        folding.r[i] = folding.r[i] + along * transposed_times(inverse_rate, bent.quarter);
-    }
-    const Lanes33<S> turning_by = transposed_times(rod.frame, folding) * transposed(rotation_a);
+    const Lanes3<S> grown = transposed_times(inverse_rate, bent.fold_slope);
+    for (int i = 0; i < 3; ++i)
+        folding.r[i] = folding.r[i] + (i == 0 ? bent.turn.x : i == 1 ? bent.turn.y : bent.turn.z) * grown;
+    Lanes33<S> turning_by = transposed_times(rod.frame, folding) * transposed(rotation_a);
+    turning_by.r[0] = bent.twist_slope * turning_by.r[0];
     return {strain_change(rod, bent, transposed(bent.middle)), strain_change(rod, bent, (seen - by_share) * rate_a),
             strain_change(rod, bent, by_share * rate_b), turning_by * rate_a, turning_by * rate_b};
 }

@@ -40,12 +40,9 @@ void retract_step(Workspace& workspace, Motion& motion) {
     if (w.retract_from.size() == 0) return;
     const VecX end = wound_as(w.retract_from, motion.x);
     w.system->row->retract(*w.elements, w.retract_from, end, w.held, w.retracted);
-    // Of pairs of nodes only the positions change.
-    for (int i = 0; i < end.size() / 3; i += 2) {
-        const Vec3 by = point(w.retracted, i) - point(end, i);
-        point(motion.x, i) += by;
-        point(motion.v, i) += by / w.reach;
-    }
+    // Of pairs of nodes only the positions change; velocities keep what the responses gave them, for contacts bound
+    // those.
+    for (int i = 0; i < end.size() / 3; i += 2) point(motion.x, i) += point(w.retracted, i) - point(end, i);
     w.retract_from.resize(0);
 }
 
