@@ -67,20 +67,19 @@ FROND_INLINE Lanes33<S> inertia_by_rate(const Lanes3<S>& turn, const Lanes33<S>&
 }
 
 // A segment cannot fold onto itself: beyond two radians between the axes of its ends the measure of its curvature grows
-// faster than the angle, and has no bound as that nears half a turn, where bending would change its sign. `quarter` is
-// the axis of the rotation times tan(angle/4), of which `bending` is the part across the segment; `over_angle` is
-// tan(angle/4) over the angle. Sets the growth and its derivative by the rotation vector.
+// faster than the angle, to 4.5 times at half a turn, where bending would change its sign. `quarter` is the axis of the
+// rotation times tan(angle/4), of which `bending` is the part across the segment; `over_angle` is tan(angle/4) over the
+// angle. Sets the growth and its derivative by the rotation vector.
 template <class S>
 FROND_INLINE void fold_up(const Lanes3<S>& quarter, const S& square, const Lanes3<S>& bending, const S& over_angle,
                           S& fold, Lanes3<S>& fold_slope) {
     constexpr double FROM = 0.29844638;  // tan(angle/4)^2 at two radians
-    constexpr double STIFFNESS = 10, ROOM = 1e-6;
+    constexpr double STIFFNESS = 10;
     const S bent = dot(bending, bending);
     const S beyond = select(bent < FROM, constant<S>(0), S(bent - FROM));
-    const S over = 1.0 / (1.0 + ROOM - bent);
-    const S grown = STIFFNESS * beyond * beyond * over;
+    const S grown = STIFFNESS * beyond * beyond;
     fold = 1.0 + grown * beyond;
-    const S by_bent = 2.0 * grown * (3.0 + beyond * over);
+    const S by_bent = 6.0 * grown;
     const S along = (0.25 * (1.0 + square) - over_angle) * bent / select(square < FROM, constant<S>(FROM), square);
     fold_slope = by_bent * (over_angle * bending + along * quarter);
 }

@@ -208,21 +208,17 @@ template <class Of>
 struct AddForces {
     const Batch& step;
     NumbersInLines& out;
-    unsigned& dragged;
     template <class S>
     FROND_INLINE void run() const {
         Lanes3<S> sum = {};
-        S any = {};
         for (int i = 0; i < int(step.drag_force.size()) / (3 * LANES<S>); i++) {
             const Lanes3<S> force = load3<S>(step.drag_force.data(), 3 * i),
                             first = load3<S>(step.drag_damping.data(), 6 * i),
                             rest = load3<S>(step.drag_damping.data(), 6 * i + 3);
             const Lanes33<S> damping = {{first, {first.y, rest.x, rest.y}, {first.z, rest.y, rest.z}}};
             sum = sum + (force - damping * Of::template velocity<S>(step, step.v_end, i));
-            any += dot(force, force) + dot(first, first) + dot(rest, rest);
         }
         store3(sum, out.data(), 0);
-        dragged = bits_of(any > 0.0);
     }
 };
 
@@ -258,11 +254,9 @@ unsigned gather_air(AirBatch& air, Batch& step, Plant* const* plants, int plant_
     return unsound;
 }
 
-unsigned air_forces(const Batch& step, NumbersInLines& out) {
+void air_forces(const Batch& step, NumbersInLines& out) {
     out.resize(3 * size_t(step.lanes));
-    unsigned dragged = 0;
-    run_of<AddForces>(step, step, out, dragged);
-    return dragged;
+    run_of<AddForces>(step, step, out);
 }
 
 void take_drags(const Batch& step, int lane, std::vector<Drag>& out) {

@@ -20,9 +20,8 @@ struct AirBatch {
 // Returns the plants whose wind was unsound, a bit each.
 unsigned gather_air(AirBatch& air, Batch& step, Plant* const* plants, int plant_count, const Surroundings& surroundings,
                     frond_effects effects, double h);
-// Computes the force of the drags at the end of the step, model frames, three numbers [N]. Returns the lanes in which
-// there are any, a bit each.
-unsigned air_forces(const Batch& step, NumbersInLines& out);
+// Computes the force of the drags at the end of the step, model frames, three numbers [N].
+void air_forces(const Batch& step, NumbersInLines& out);
 // Takes out the drags of one lane, as gather_air() leaves them.
 void take_drags(const Batch& step, int lane, std::vector<Drag>& out);
 

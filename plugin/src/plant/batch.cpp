@@ -137,6 +137,21 @@ void gather_motions(Batch& step, Plant* const* plants, int count, const Surround
     }
 }
 
+void take_loads(Plant& plant, const Batch& step, int lane) {
+    plant.loads.drags.clear();
+    plant.loads.springs.clear();
+    plant.loads.force.resize(0);
+    for (int c = 0; c < 3; c++) plant.loads.gravity[c] = step.gravity[size_t(c * step.lanes + lane)];
+}
+
+// As is_plausible() in step.cpp.
+bool is_plausible(Plant& plant, const Batch& step, int lane, double h) {
+    take_drags(step, lane, plant.loads.drags);
+    const bool keeps = keeps_course(plant, h);
+    plant.loads.drags.clear();
+    return keeps && !is_far_out(plant);
+}
+
 // Leaves in the plant all that solve_plant() leaves of a healthy step. False, with the motion unchanged: the plant has
 // to be stepped alone.
 bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& settings, bool may_be_off, bool may_pull,
@@ -153,7 +168,8 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     }
     motion.x.swap(x);
     motion.v.swap(v);
-    if (is_asked && is_far_out(plant)) {
+    take_loads(plant, step, lane);
+    if (is_asked && !is_plausible(plant, step, lane, h)) {
         motion.x.swap(x);
         motion.v.swap(v);
         return false;
@@ -180,18 +196,10 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     }
     history.h = h;
     if (is_wound) unwind(motion);
-    plant.is_off_course = is_asked && ends_off_course(plant, h);
     plant.lead = 0;
     plant.is_sound = true;
     plant.step_settings = settings;
-    plant.loads.drags.clear();
-    plant.loads.springs.clear();
-    plant.loads.force.resize(0);
-    for (int c = 0; c < 3; c++) {
-        const size_t at = size_t(c * step.lanes + lane);
-        plant.loads.gravity[c] = step.gravity[at];
-        plant.blown[c] = space.forces[at];
-    }
+    for (int c = 0; c < 3; c++) plant.blown[c] = space.forces[size_t(c * step.lanes + lane)];
     return true;
 }
 
@@ -235,8 +243,7 @@ static bool goes_on(const Plant& plant, double h) {
 bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h) {
     return !plant.modal && !plant.own_elements && !plant.workspace && !plant.is_touched && !plant.has_user_force &&
            plant.grabs.empty() && plant.fragments.empty() && plant.pin_springs.empty() && !plant.pins_changed &&
-           plant.recovers_for <= 0 && plant.patience == 1 && plant.max_substeps <= 1 && plant.fibre_give.empty() &&
-           h > 0 && h <= TRUSTED &&
+           plant.recovers_for <= 0 && plant.max_substeps <= 1 && plant.fibre_give.empty() && h > 0 && h <= TRUSTED &&
            frond::may_be_batched(*plant.system, settings_for(plant, plant.effects & surroundings.effects), h) &&
            foresee_method(plant, h);
 }
@@ -281,12 +288,10 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
 
     const double h_before = plants[0]->looks_back ? plants[0]->motion.history.h : 0;
     unsigned alone = step_batch(step, settings, plants[0]->motion.pinned, h, h_before), far_away, off_course;
-    alone |= system.row->batch->not_calm(*system.elements, step.x, step.x_end, 0.5);
     run_in_lanes(step.lanes,
                  LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course});
-    // Plants off course without air are stepped alone, where their energy is checked; so are those with rotations
-    // beyond half a turn, whose course is only checked later.
-    alone |= far_away | ((off_course | step.wound) & ~air_forces(step, space->forces));
+    alone |= far_away;
+    air_forces(step, space->forces);
     const bool has_yields = (effects & FROND_EFFECT_PLASTICITY) && !system.elements->yields.empty();
     const unsigned may_yield = has_yields ? system.row->batch->may_yield(*system.elements, step.x_end) : 0;
     const unsigned taut = find_taut(step, *plants[0], effects);

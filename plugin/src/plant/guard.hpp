@@ -39,9 +39,11 @@ struct EnergyLook {
     // Its energy could not lift it by its size: at the start, or at the end with hardly more than it was given.
     bool is_small = false;
 };
-// Checks a solve over h [s] from x_good and v_good; contacts did `work` [J]. Both are false in air, which may give any
-// energy.
+// Checks a solve over h [s] from x_good and v_good; contacts did `work` [J].
 EnergyLook look_at_energy(const Plant& plant, double h, double work = 0);
+// Sets is_off_course after such a solve, and returns whether the plant may go there: it did not run away, nor gain
+// energy that nothing can have given. What stayed on its course is not asked for its energy.
+bool keeps_course(Plant& plant, double h);
 
 // Translates a plant with its pins, between solves, if they were put farther away than `least` times its size.
 bool jump_with_pins(Plant& plant, double least);

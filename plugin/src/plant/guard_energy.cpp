@@ -7,23 +7,8 @@
 
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
-#include "solve/workspace.hpp"
 
 namespace frond {
-
-// Returns the kinetic energy by nodal masses and the rotary inertia at the start of the step: computing that anew costs
-// as much as all strains do [J].
-static double kinetic_in_step(const Plant& plant, const VecX& v) {
-    const std::vector<Mat3>& inertia = plant.workspace->inertia;
-    const VecX& mass = node_mass_of(*plant.system);
-    double twice = 0;
-    for (int i = 0; i < mass.size(); i++) twice += mass[i] * point(v, i).squaredNorm();
-    for (size_t i = 0; i < inertia.size(); i++) {
-        const Vec3 rate = point(v, int(2 * i + 1));
-        twice += rate.dot(inertia[i] * rate);
-    }
-    return 0.5 * twice;
-}
 
 static double elastic_energy(const Plant& plant, const VecX& x) {
     return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
@@ -36,6 +21,17 @@ static double work_along(const Plant& plant, const VecX& way) {
     for (int i = 0; i < mass.size(); i++) moved += mass[i] * point(way, i);
     const VecX& force = plant.loads.force;
     return (force.size() > 0 ? force.dot(way) : 0) + plant.loads.gravity.dot(moved);
+}
+
+// Returns the work of the air along the step [J].
+static double work_of_air(const Plant& plant, double h) {
+    double work = 0;
+    for (const Drag& drag : plant.loads.drags) {
+        const Vec3 way =
+            attachment_place(drag.attachment, plant.motion.x) - attachment_place(drag.attachment, plant.x_good);
+        work += way.dot(drag.force - drag.damping * way / h);
+    }
+    return work;
 }
 
 // Springs that hold pins are nearly rigid.
@@ -72,28 +68,36 @@ double lifting_energy(const Plant& plant) {
 }
 
 EnergyLook look_at_energy(const Plant& plant, double h, double work) {
-    constexpr double SHARE = 0.05;  // allowed error, of kinetic and elastic energy [-]
-    constexpr double LIFT = 0.01;   // and of the energy that lifts the plant by its size [-]
-    constexpr double CARRIED = 2;   // speed at which moving pins may carry the plant, over their own [-]
+    // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-]. Without
+    // air errors add up; air ends within some steps whatever it or an error began.
+    const double share = plant.loads.drags.empty() ? 0.05 : 1, lift = plant.loads.drags.empty() ? 0.01 : 1;
+    constexpr double CARRIED = 2;  // speed at which moving pins may carry the plant, over their own [-]
     EnergyLook look;
-    if (!plant.loads.drags.empty()) return look;
     const VecX &x = plant.motion.x, &x_good = plant.x_good;
-    const double after = kinetic_in_step(plant, plant.motion.v) + elastic_energy(plant, x);
+    const double after = kinetic_energy(*plant.system, x, plant.motion.v) + elastic_energy(plant, x);
     const double speed = CARRIED * way_of_pins(plant) / h, lifting = lifting_energy(plant);
-    double given = work + work_along(plant, x - x_good) + spring_energy(plant, x_good, Held::BY_GRABS) -
-                   spring_energy(plant, x, Held::BY_GRABS) + 0.5 * node_mass_of(*plant.system).sum() * speed * speed;
+    double given = work + work_along(plant, x - x_good) + work_of_air(plant, h) +
+                   spring_energy(plant, x_good, Held::BY_GRABS) - spring_energy(plant, x, Held::BY_GRABS) +
+                   0.5 * node_mass_of(*plant.system).sum() * speed * speed;
     // The work of moments, which few nodes have, goes along the rotation, not along rotation vectors.
     const VecX& force = plant.loads.force;
     for (int i = 1; plant.follow && i < force.size() / 3; i += 2)
         if (point(force, i) != Vec3::Zero())
             given += point(force, i).dot(turn_of(x, x_good, i) - (point(x, i) - point(x_good, i)));
     // The energy before the step is seldom needed.
-    look.is_small = after < lifting && after <= given + LIFT * lifting;
+    look.is_small = after < lifting && after <= given + lift * lifting;
     if (look.is_small) return look;
-    const double before = kinetic_in_step(plant, plant.v_good) + elastic_energy(plant, x_good);
-    look.comes_from_nowhere = !(after <= before + given + SHARE * before + LIFT * lifting);
+    const double before = kinetic_energy(*plant.system, x_good, plant.v_good) + elastic_energy(plant, x_good);
+    look.comes_from_nowhere = !(after <= before + given + share * before + lift * lifting);
     look.is_small = before < lifting;
     return look;
+}
+
+bool keeps_course(Plant& plant, double h) {
+    plant.is_off_course = ends_off_course(plant, h);
+    const EnergyLook look = plant.is_off_course ? look_at_energy(plant, h) : EnergyLook();
+    plant.is_off_course &= !look.is_small;  // too little energy for damage
+    return !look.comes_from_nowhere && !has_run_away(plant);
 }
 
 }  // namespace frond

@@ -140,7 +140,6 @@ struct Plant {
     bool is_compressed = false;
     bool is_sound = true;        // the solution can be the next state
     bool is_off_course = false;  // something ended the running step off course
-    float patience = 1;          // share of the usual work that searches are granted [-]
     bool may_yield = true;       // the running step may cause yielding, as far as is known
     bool looks_back = false;     // the running step continues from its history, if it can be batched
     // Time left to recover from a state that no admissible load can reach; if negative, time for which the plant has

@@ -63,12 +63,10 @@ static Contacts contacts_of(const Plant& plant) {
 // Returns whether no node ran away, and none left its course with energy that nothing can have given; `work` was done
 // by contacts [J].
 static bool is_plausible(Plant& plant, double h, Contacts contacts, double work = 0) {
+    if (!plant.is_touched) return keeps_course(plant, h);
     plant.is_off_course = ends_off_course(plant, h);
-    // A push that turns a segment of a chain a little moves its end in a straight line and so stretches it, with more
-    // energy than its vibration has. Cages are soft.
-    const bool is_told = plant.is_touched ? contacts == Contacts::DONE && plant.follow : plant.is_off_course;
-    const EnergyLook look = is_told ? look_at_energy(plant, h, work) : EnergyLook();
-    plant.is_off_course &= !look.is_small;  // too little energy for damage
+    const EnergyLook look = contacts == Contacts::DONE && plant.follow ? look_at_energy(plant, h, work) : EnergyLook();
+    plant.is_off_course &= !look.is_small;
     return !look.comes_from_nowhere && !has_run_away(plant);
 }
 
@@ -77,101 +75,45 @@ static bool is_sound(const Plant& plant) {
     return plant.report.ok && are_finite(plant.motion.x) && are_finite(plant.motion.v) && !has_run_away(plant);
 }
 
-// Solves again from the start of the step in equal parts; pinned nodes move evenly.
-static void solve_in_equal_parts(Plant& plant, const SolveSettings& settings, int parts, double h) {
-    Motion& motion = plant.motion;
-    const VecX target = motion.pin_target;
-    motion.x = plant.x_good;
-    motion.v = plant.v_good;
-    motion.history.valid = false;
-    for (int part = 1; part <= parts && (part == 1 || plant.report.ok); part++) {
-        if (part < parts) motion.pin_target = plant.x_good + (target - plant.x_good) * (double(part) / parts);
-        const SolveReport before = plant.report;
-        plant.report = solve_step(*plant.workspace, settings, plant.loads, h / parts, motion);
-        plant.report.add_cost(before);
-        motion.pin_target = target;
-    }
-    motion.history.shaken = true;
-}
-
-// Searches that failed will hardly do better the next time: they are granted less and less work, until a step is calm
-// again.
-static void lose_patience(Plant& plant) {
-    constexpr float LESS = 0.5, LEAST = 0.25;
-    plant.patience = std::max(LEAST, LESS * plant.patience);
-}
-static void gain_patience(Plant& plant) {
-    constexpr float MORE = 1.25;
-    plant.patience = std::min(1.0f, MORE * plant.patience);
-}
-constexpr float WORK = 400;  // about the most that a search needs
-// Returns the work allowed in a stage; 0, with full patience: any.
-static int work_allowed(const Plant& plant) {
-    return plant.patience < 1 ? int(plant.patience * WORK) : 0;
-}
-
-// Solves a free plant with its own integrator until forces balance: one solve may not predict so fast a vibration, yet
-// a damped step would end it. Does nothing in long steps, or with integrators that take forces at the start: those may
-// lead anywhere.
-static bool solve_to_balance(Plant& plant, double h) {
+// Solves again from the start of the step by minimising its potential: no iterate has more than the start, so the first
+// and any later one is a step that can be taken.
+static void minimise(Plant& plant, frond_integrator method, double h) {
     constexpr int ITERATIONS = 30;
-    constexpr double LONGEST = 1.001 / 30;  // [s]
-    const bool is_free = !plant.is_touched && plant.loads.drags.empty() && plant.recovers_for <= 0;
-    if (!is_free || plant.patience < 1 || h > LONGEST || integrator(plant.step_settings.integrator).trusts_start)
-        return false;
+    constexpr int MOST_WORK = 400;  // evaluations of all forces, about the most that a search needs
     SolveSettings settings = plant.step_settings;
-    settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
-    plant.trouble |= FROND_TROUBLE_RETRIED;
-    plant.motion.history.shaken = false;
-    solve_in_equal_parts(plant, settings, 1, h);
-    return plant.report.ok && is_plausible(plant, h, contacts_of(plant)) && are_slack(plant);
-}
-
-// Solves with a line search, which cannot overshoot; if a whole step is too long for that too, in several short ones.
-static void solve_carefully(Plant& plant, double h, Contacts contacts, int most_work) {
-    constexpr int ITERATIONS = 30, PARTS = 4;
-    constexpr float LEAST_FOR_PARTS = 0.5;
-    SolveSettings settings = plant.step_settings;
-    settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
+    settings.integrator = method;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
     // From rest, entangled rods that are bent by their leaves' tips would stay still and never part.
     settings.from_rest = !plant.is_entangled;
-    settings.most_work = most_work;
+    settings.most_work = MOST_WORK;
     plant.trouble |= FROND_TROUBLE_RETRIED;
-    solve_in_equal_parts(plant, settings, 1, h);
-    bool is_good = plant.report.ok && is_plausible(plant, h, contacts);
-    if (!is_good && plant.patience >= LEAST_FOR_PARTS) {
-        settings.most_work /= 2;
-        solve_in_equal_parts(plant, settings, PARTS, h);
-        is_good = plant.report.ok && is_plausible(plant, h, contacts);
+    Motion& motion = plant.motion;
+    motion.x = plant.x_good;
+    motion.v = plant.v_good;
+    const SolveReport before = plant.report;
+    plant.report = solve_step(*plant.workspace, settings, plant.loads, h, motion);
+    plant.report.add_cost(before);
+    motion.history.shaken = true;
+}
+
+// Solves again where one solve gave the plant energy that nothing can have given: by its own integrator, which keeps
+// vibrations, and if that fails too by implicit Euler, which gains no energy.
+static void solve_again(Plant& plant, double h, Contacts contacts, double work = 0) {
+    const frond_integrator own = plant.step_settings.integrator;
+    if (!plant.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
+        minimise(plant, own, h);
+        if (plant.report.ok && is_plausible(plant, h, contacts, work)) return;
     }
-    if (!is_good) lose_patience(plant);
-    plant.report.ok = is_good;
+    plant.motion.history.valid = false;
+    minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h);
 }
 
-// Solves in steps short enough for a recovery within some dozens of them. Contacts are resolved over whole ones.
-static void solve_recovering(Plant& plant, double h) {
-    constexpr double LONGEST = 1.0 / 60;  // [s]
-    constexpr int LEAST = 36;             // least work of a part
-    const int parts = plant.is_touched ? 1 : std::max(1, int(std::ceil(h / LONGEST - 1e-6)));
-    plant.report = {};
-    SolveSettings settings = plant.step_settings;
-    settings.most_work = std::max(int(plant.patience * WORK) / parts, LEAST);
-    solve_in_equal_parts(plant, settings, parts, h);
-}
-
-// Returns whether one solve predicts the displacements well, up to a share of them. An unwound rotation vector has not
-// turned far.
-static bool is_calm_way(const Plant& plant, double share) {
+// Returns whether one solve predicts the displacements well. An unwound rotation vector has not turned far.
+static bool is_calm_way(const Plant& plant) {
     const VecX& from = plant.x_good;
-    const auto is_calm_to = [&](const VecX& to) { return is_calm(*plant.system, from, from + share * (to - from)); };
+    const auto is_calm_to = [&](const VecX& to) { return is_calm(*plant.system, from, to); };
     return is_calm_to(plant.motion.x) || (plant.follow && is_calm_to(wound_as(from, plant.motion.x)));
-}
-
-// Returns whether the air has turned something by more than twice what one solve predicts well.
-static bool is_blown_about(const Plant& plant) {
-    return !plant.loads.drags.empty() && !is_calm_way(plant, 0.5);
 }
 
 // Pulls back stretched fibres; counts as part of the solve.
@@ -183,45 +125,11 @@ static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h
     plant.report.ms_solve += timer.ms();
 }
 
-// Returns into how many parts to divide a step so that the air turns nothing too far in any; at most eight.
-static int parts_to_be_calm(const Plant& plant) {
-    int parts = 2;
-    while (parts < 8 && !is_calm_way(plant, 1.0 / parts)) parts *= 2;
-    return parts;
-}
-
-// Solves again from the start in shorter steps, each in the air at that time: a gale turns a leaf farther in a step
-// than one solve can predict.
-static void solve_in_parts(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
-    constexpr int MOST_WORK = 100;
-    const int parts = parts_to_be_calm(plant);
-    const VecX x_start = plant.x_good, v_start = plant.v_good;
-    plant.trouble |= FROND_TROUBLE_RETRIED;
-    SolveReport spent = plant.report;
-    plant.motion.x = x_start;
-    plant.motion.v = v_start;
-    plant.motion.history.valid = false;
-    for (int part = 0; part < parts && plant.report.ok; part++) {
-        plant.x_good = plant.motion.x;
-        plant.v_good = plant.motion.v;
-        update_chain(plant);
-        gather_air(plant, surroundings, effects, h / parts);
-        plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / parts, plant.motion);
-        if (!plant.report.ok || is_blown_about(plant)) solve_carefully(plant, h / parts, contacts_of(plant), MOST_WORK);
-        hold_what_is_drawn_out(plant, effects, h / parts);
-        plant.report.add_cost(spent);
-        spent = plant.report;
-    }
-    plant.x_good = x_start;
-    plant.v_good = v_start;
-}
-
 SolveSettings settings_for(const Plant& plant, frond_effects effects) {
     SolveSettings settings = plant.settings;
     if (!(effects & FROND_EFFECT_DAMPING))
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
-    settings.most_work = work_allowed(plant);
     // Contacts add their response to the linear solution first.
     settings.retracts = !plant.is_touched;
     return settings;
@@ -251,15 +159,8 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
 
     // Solve.
     motion.history.shaken |= plant.is_touched;
-    if (plant.recovers_for > 0)
-        solve_recovering(plant, h);
-    else
-        plant.report = solve_in_substeps(plant, h);
-    if (plant.report.ok && is_blown_about(plant)) solve_in_parts(plant, surroundings, effects, h);
-    if (plant.report.ok && is_plausible(plant, h, contacts_of(plant)))
-        gain_patience(plant);
-    else if (!solve_to_balance(plant, h))
-        solve_carefully(plant, h, contacts_of(plant), work_allowed(plant));
+    plant.report = solve_in_substeps(plant, h);
+    if (!plant.report.ok || !is_plausible(plant, h, contacts_of(plant))) solve_again(plant, h, contacts_of(plant));
     finish_solving(plant, effects, h);
 }
 
@@ -282,7 +183,7 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
     const double allowed = row.energy(elements, x) + node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
     for (double share = 1; share > LEAST; share /= 2) {
         add_correction(*plant.workspace, share * dv, plant.motion);
-        if (is_calm_way(plant, 1) && row.energy(elements, plant.motion.x) <= allowed) return;
+        if (is_calm_way(plant) && row.energy(elements, plant.motion.x) <= allowed) return;
         plant.motion.x = x;
     }
 }
@@ -294,21 +195,20 @@ void add_contacts(Plant& plant, double h, double lost) {
     const VecX shift = std::move(plant.contact_correction);
     plant.contact_impulse.resize(0);
     plant.contact_correction.resize(0);
-    // Wind turns rods far within a step, which is not due to contacts.
-    const VecX before = plant.follow ? plant.motion.x : plant.x_good;
     VecX dv;
     if (is_pushed && respond(*plant.workspace, plant.settings, impulse, dv))
         add_response(*plant.workspace, dv, plant.motion);
     retract_step(*plant.workspace, plant.motion);
     // Bodies slowed by a push lose more than the plant gains; other plants go along with what they pushed.
     const double work = std::max({0.0, lost, impulse.dot(plant.motion.v)});
-    const bool is_bent = is_pushed && !is_calm(*plant.system, before, plant.motion.x);
+    // Cages are not retracted: what turns in them is inflated.
+    const bool is_bent = is_pushed && !plant.follow && !is_calm(*plant.system, plant.x_good, plant.motion.x);
     if (is_bent || !is_plausible(plant, h, Contacts::DONE, work)) {
         // This is too far for the linear response: the same push is solved as a force, nonlinearly.
         VecX with_push = impulse / h;
         if (plant.loads.force.size() > 0) with_push += plant.loads.force;
         plant.loads.force.swap(with_push);
-        solve_carefully(plant, h, Contacts::DONE, work_allowed(plant));
+        solve_again(plant, h, Contacts::DONE, work);
         plant.loads.force.swap(with_push);
     }
     if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);

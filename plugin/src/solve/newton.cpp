@@ -244,26 +244,25 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
     }
 }
 
-// Goes along dv as far as the residual or the potential decreases; returns false if neither does.
+// Goes along dv as far as the potential decreases enough (Armijo 1966; Nocedal and Wright 2006, section 3.1). Near the
+// solution its changes drown in rounding, and the residual decides (Hager and Zhang 2005). Returns false if neither
+// decreases.
 bool search_line(Newton& n, VecX& rhs, double& norm) {
     constexpr int HALVINGS = 12;
+    constexpr double DESCENT = 1e-4;    // share of the linear decrease that is enough [-]
+    constexpr double ROUNDING = 1e-10;  // relative change of a potential that is none [-]
     Workspace& w = n.w;
     VecX& direction = w.direction;
     direction = w.dv;
-    const double slope = -direction.dot(rhs);
-    double start = 0;
-    bool has_start = false;
+    const double slope = -direction.dot(rhs), start = potential_at(n, w.v), error = ROUNDING * std::abs(start);
     double part = 1;
     for (int trial = 0; trial <= HALVINGS; ++trial, part *= 0.5) {
         w.v_trial = w.v + part * direction;
+        const double potential = potential_at(n, w.v_trial);
+        const bool descends = potential <= start + DESCENT * part * slope;
+        if (!descends && !(potential <= start + error)) continue;
         const double norm_trial = residual_at(n, w.v_trial, w.rhs_trial);
-        bool better = norm_trial < (1 - 1e-4 * part) * norm;
-        if (!better && std::isfinite(norm_trial)) {
-            if (!has_start) start = potential_at(n, w.v);
-            has_start = true;
-            better = potential_at(n, w.v_trial) < start + 1e-4 * part * slope;
-        }
-        if (!better) continue;
+        if (!descends && !(norm_trial < norm)) continue;
         std::swap(w.v, w.v_trial);
         std::swap(rhs, w.rhs_trial);
         norm = norm_trial;

@@ -1,5 +1,6 @@
 // In: the motion of nodes that rotate. Out: the same motion, no rotation vector longer than half a turn: beyond that it
 // changes too fast with the rotation, and at a whole turn its rate is undefined.
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
@@ -8,9 +9,12 @@
 
 namespace frond {
 
-// Replaces a rotation vector by its equivalent a whole turn less; `rates` of it keep their angular velocities.
+// Replaces a rotation vector by its equivalent nearest to zero, or a whole turn less if it is that; `rates` of it keep
+// their angular velocities.
 static void turn_back(VecX& x, int node, std::initializer_list<VecX*> rates) {
-    const Vec3 turn = point(x, node), back = turn * (1 - 2 * M_PI / turn.norm());
+    const Vec3 turn = point(x, node);
+    const double whole = 2 * M_PI, angle = turn.norm();
+    const Vec3 back = turn * (1 - whole * std::max(1.0, std::round(angle / whole)) / angle);
     const Mat3 change = inverse_rate_matrix<double>(back) * rate_matrix<double>(turn);
     for (VecX* rate : rates)
         if (rate->size() == x.size()) point(*rate, node) = change * point(*rate, node);

@@ -54,7 +54,7 @@ struct SavedPlant {
     bool pins_changed, pins_are_own, has_user_force, is_touched, is_entangled;
     VecX user_force;
     int substeps;
-    float patience, recovers_for;
+    float recovers_for;
     std::vector<Vec3> grab_targets;
     std::vector<SavedFragment> fragments;
     // State of its PlantBody.

@@ -73,8 +73,7 @@ static void visit(Archive& a, SavedPlant& plant) {
     a(plant.lead), a(plant.modal), a(plant.has_own_elements), a(plant.plastic), a(plant.fibre_give);
     a(plant.pinned), a(plant.pin_target), a(plant.anchor);
     a(plant.pins_changed), a(plant.pins_are_own), a(plant.has_user_force), a(plant.is_touched), a(plant.is_entangled);
-    a(plant.user_force), a(plant.substeps), a(plant.patience), a(plant.recovers_for), a(plant.grab_targets),
-        a(plant.fragments);
+    a(plant.user_force), a(plant.substeps), a(plant.recovers_for), a(plant.grab_targets), a(plant.fragments);
     a(plant.new_for), a(plant.asleep), a(plant.still), a(plant.places), a(plant.air);
     visit_level(a, plant.level);
     a(plant.grown_in);

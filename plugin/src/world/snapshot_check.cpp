@@ -185,7 +185,6 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
     }
     for (const Vec3& target : saved.grab_targets) check_numbers(target, "grabs", LARGEST_COORDINATE);
     if (saved.substeps < 1 || saved.substeps > plant.max_substeps) damaged("substeps");
-    if (!(saved.patience > 0 && saved.patience <= 1)) damaged("patience");
     if (saved.level.every < 1 || saved.level.every > 64) damaged("detail");
     check_numbers(std::array{saved.lead, double(saved.recovers_for), saved.still, saved.level.pending,
                              double(saved.level.distance), saved.level.touched},

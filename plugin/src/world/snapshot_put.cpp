@@ -89,7 +89,6 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     plant.is_touched = saved.is_touched;
     plant.is_entangled = saved.is_entangled;
     plant.substeps = saved.substeps;
-    plant.patience = saved.patience;
     plant.recovers_for = saved.recovers_for;
     size_t i = 0;
     for (Grab& grab : plant.grabs) grab.target = saved.grab_targets[i++];

@@ -79,7 +79,6 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     saved.is_touched = plant.is_touched;
     saved.is_entangled = plant.is_entangled;
     saved.substeps = plant.substeps;
-    saved.patience = plant.patience;
     saved.recovers_for = plant.recovers_for;
     for (const Grab& grab : plant.grabs) saved.grab_targets.push_back(grab.target);
     for (const Fragment& f : plant.fragments)
