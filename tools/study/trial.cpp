@@ -230,15 +230,20 @@ std::unique_ptr<Trial> settle(const ModelPtr& model, const Setup& setup, int ram
     patient.plant.tuning.newton_tolerance = 1e-9;
     patient.plant.mass_damping = patient.plant.stiffness_damping = patient.plant.material_damping = 0;
     // Converged steps find most shapes; single solves, which re-evaluate follower loads in each step, find the others.
-    // If both overshoot, shorter steps succeed, in which implicit Euler damps vibration within seconds.
+    // If both overshoot, shorter steps succeed, in which implicit Euler damps vibration within seconds. A search for a
+    // step may lead to another shape: one that needed none is better.
+    std::unique_ptr<Trial> searched;
     for (double step : {1.0, 0.1})
         for (int solves : {10, 1}) {
             patient.plant.tuning.newton_iterations = solves;
             const int raised = int(std::lround(ramp / std::sqrt(step)));
-            if (std::unique_ptr<Trial> trial = try_to_settle(model, patient, raised, step, most_steps, load))
-                return trial;
+            std::unique_ptr<Trial> trial = try_to_settle(model, patient, raised, step, most_steps, load);
+            if (!trial) continue;
+            if (!(trial->trouble & FROND_TROUBLE_RETRIED)) return trial;
+            if (!searched) searched = std::move(trial);
         }
-    throw SceneError("no shape at rest was found");
+    if (!searched) throw SceneError("no shape at rest was found");
+    return searched;
 }
 
 double time_steps(Trial& trial, Effort effort, const LoadFunction& load) {

@@ -69,8 +69,9 @@ double lifting_energy(const Plant& plant) {
 
 EnergyLook look_at_energy(const Plant& plant, double h, double work) {
     // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-]. Without
-    // air errors add up; air ends within some steps whatever it or an error began.
-    const double share = plant.loads.drags.empty() ? 0.05 : 1, lift = plant.loads.drags.empty() ? 0.01 : 1;
+    // air errors add up; air ends within some steps whatever an error began, but in cages, which it draws out.
+    const bool is_damped = plant.follow && !plant.loads.drags.empty();
+    const double share = is_damped ? 1 : 0.05, lift = is_damped ? 1 : 0.01;
     constexpr double CARRIED = 2;  // speed at which moving pins may carry the plant, over their own [-]
     EnergyLook look;
     const VecX &x = plant.motion.x, &x_good = plant.x_good;

@@ -103,7 +103,7 @@ static void solve_again(Plant& plant, double h, Contacts contacts, double work =
     const frond_integrator own = plant.step_settings.integrator;
     if (!plant.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
         minimise(plant, own, h);
-        if (plant.report.ok && is_plausible(plant, h, contacts, work)) return;
+        if (plant.report.ok && is_plausible(plant, h, contacts, work) && are_slack(plant)) return;
     }
     plant.motion.history.valid = false;
     minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h);
@@ -230,7 +230,10 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
         if (is_stuck && !jump_with_pins(plant, STUCK_BEHIND)) start_from_modelled(plant);
     } else {
         watch_recovery(plant, h);
-        if (effects & FROND_EFFECT_PLASTICITY && plant.recovers_for <= 0) {
+
+        // Where a search gave up is no place in which the plant stays.
+        const bool is_lost = plant.trouble & FROND_TROUBLE_RETRIED && !plant.report.converged;
+        if (effects & FROND_EFFECT_PLASTICITY && plant.recovers_for <= 0 && !is_lost) {
             const Timer timer;
             keep_sets(plant, h);
             plant.ms_plasticity = timer.ms();

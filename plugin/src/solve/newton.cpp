@@ -244,25 +244,24 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
     }
 }
 
-// Goes along dv as far as the potential decreases enough (Armijo 1966; Nocedal and Wright 2006, section 3.1). Near the
-// solution its changes drown in rounding, and the residual decides (Hager and Zhang 2005). Returns false if neither
-// decreases.
-bool search_line(Newton& n, VecX& rhs, double& norm) {
+// Goes along dv as far as the residual decreases while the potential stays below `most`, or the potential decreases
+// enough (Armijo 1966; Nocedal and Wright 2006, section 3.1). Returns false if neither does.
+bool search_line(Newton& n, double most, VecX& rhs, double& norm) {
     constexpr int HALVINGS = 12;
-    constexpr double DESCENT = 1e-4;    // share of the linear decrease that is enough [-]
-    constexpr double ROUNDING = 1e-10;  // relative change of a potential that is none [-]
+    constexpr double DESCENT = 1e-4;   // share of the linear decrease that is enough [-]
+    constexpr double ROUNDING = 1e-6;  // relative change of a potential that is none [-]
     Workspace& w = n.w;
     VecX& direction = w.direction;
     direction = w.dv;
-    const double slope = -direction.dot(rhs), start = potential_at(n, w.v), error = ROUNDING * std::abs(start);
+    const double slope = -direction.dot(rhs), start = potential_at(n, w.v);
+    const double bound = std::max(most, start + ROUNDING * std::abs(start));
     double part = 1;
     for (int trial = 0; trial <= HALVINGS; ++trial, part *= 0.5) {
         w.v_trial = w.v + part * direction;
         const double potential = potential_at(n, w.v_trial);
-        const bool descends = potential <= start + DESCENT * part * slope;
-        if (!descends && !(potential <= start + error)) continue;
+        if (!(potential <= bound)) continue;
         const double norm_trial = residual_at(n, w.v_trial, w.rhs_trial);
-        if (!descends && !(norm_trial < norm)) continue;
+        if (!(norm_trial < (1 - DESCENT * part) * norm) && !(potential <= start + DESCENT * part * slope)) continue;
         std::swap(w.v, w.v_trial);
         std::swap(rhs, w.rhs_trial);
         norm = norm_trial;
@@ -308,7 +307,6 @@ bool ends_calmly(Newton& n, double part) {
 
 // Does the first solve, the only one with one iteration. Returns the norm of its right-hand side, negative on failure.
 double solve_first(Newton& n) {
-    constexpr double LEAST = 1.0 / 64;  // smallest share to which a solve is shortened for the trust bound [-]
     Timer timer;
     linearize_at_start(n);
     if (n.input.settings.careful || (n.body.needs_search && n.report.inverted > 0)) {
@@ -326,6 +324,7 @@ double solve_first(Newton& n) {
         return solve_first(n);
     }
     if (!ok) return -1;
+    constexpr double LEAST = 1.0 / 64;  // smallest share to which a solve is shortened for the trust bound [-]
     double part = 1;
     while (n.exact && part > LEAST && !ends_calmly(n, part)) part *= 0.5;
     if (n.is_long && !n.exact && !ends_calmly(n, 1)) return skip_first(n);
@@ -349,6 +348,7 @@ bool iterate(Newton& n, double first) {
     VecX& rhs = w.rhs_stage;
     double norm = residual_at(n, w.v, rhs);
     n.report.ms_assembly += timer.lap();
+    const double most = s.careful ? potential_at(n, w.v) : INFINITY;
     Tangent tangent = Tangent::exact;
     bool has_moved = !n.skipped;
     for (int iteration = 1;; ++iteration) {
@@ -357,7 +357,7 @@ bool iterate(Newton& n, double first) {
         if (!find_direction(n, tangent, rhs)) return false;
         timer.lap();
         change = w.dv.cwiseAbs().maxCoeff() * n.stage.step;
-        const bool better = search_line(n, rhs, norm);
+        const bool better = search_line(n, most, rhs, norm);
         n.report.ms_assembly += timer.lap();
         // The exact stiffness may give a direction that does not descend; the positive one's does.
         if (!better && tangent == Tangent::positive) {
