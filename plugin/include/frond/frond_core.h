@@ -46,8 +46,8 @@ enum {
     /* Cause: a tet turned inside out. Effect: none that stays with FROND_MECHANICS_TET_COROTATIONAL. Remedy: smaller
      * steps. */
     FROND_TROUBLE_INVERTED = 1 << 2,
-    /* Cause: a step diverged. Effect: it was solved again by implicit Euler with a line search, which costs several
-     * times as much and damps. Remedy: a shorter time step, or gentler pushes. */
+    /* Cause: a step gained energy that nothing gave. Effect: it was solved again with a line search, which costs many
+     * times as much and may damp. Remedy: a shorter time step, or gentler pushes. */
     FROND_TROUBLE_RETRIED = 1 << 3,
     /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
      * there for the step. Remedy: have the function of frond_world_set_wind_field write every velocity. */

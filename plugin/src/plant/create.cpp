@@ -249,13 +249,15 @@ frond_plant_def def_of(const Plant& plant) {
 void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (which == plant.which) return;
     end_modal(plant);
+    const bool by_modes = smoothly && sways_on_its_roots(plant);
     const VecX places = cage_places(plant), velocities = cage_velocities(plant);
     // A blend-out left from an earlier change is no part of the shape; taken for one, it would never end.
     if (smoothly) plant.blend_out = {};
     plant.cage_stale = true;
     const VecX own = cage_places(plant), own_rate = cage_velocities(plant);
-    if (smoothly && plant.follow) keep_only_modes(plant);
+    if (by_modes && plant.follow) keep_only_modes(plant);
     const VecX smooth = cage_places(plant), smooth_rate = cage_velocities(plant);
+    const StoredEnergy held = stored_energy(plant);
     // Plastic states carry over between mechanics of tets, and between those of the chain.
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
     const std::vector<double> plastic = keeps ? plastic_of(plant) : std::vector<double>();
@@ -263,14 +265,14 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (plant.follow) {
         fit_chain(*plant.follow, *plant.model, own, plant.motion.x);
         fit_velocities(*plant.follow, plant.motion.x, own_rate, plant.motion.v);
-        if (smoothly) keep_only_modes(plant);
+        if (by_modes) keep_only_modes(plant);
     } else {
         plant.motion.x = smooth;
         plant.motion.v = smooth_rate;
-        if (smoothly) relax(plant);
     }
     leave_fragments(plant);
     set_plastic(plant, plastic);
+    relax(plant, held);
     apply_pins(plant);
     moved(plant);
     if (smoothly) begin_blend_out(plant.blend_out, places - cage_places(plant), velocities - cage_velocities(plant));

@@ -137,6 +137,11 @@ void begin_modal(Plant& plant) {
     plant.stepped_by = 0;
 }
 
+bool sways_on_its_roots(const Plant& plant) {
+    return plant.stands_on_roots && !plant.pins_are_own && plant.fragments.empty() && plant.grabs.empty() &&
+           !plant.has_user_force;
+}
+
 void keep_only_modes(Plant& plant) {
     begin_modal(plant);
     plant.modal->blend_out = {};

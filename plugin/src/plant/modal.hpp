@@ -46,6 +46,8 @@ void begin_modal(Plant& plant);
 void end_modal(Plant& plant);
 // Removes what the first two modes cannot represent of the chain's shape and motion.
 void keep_only_modes(Plant& plant);
+// Returns whether a plant is whole and held by its own roots alone, as modes suppose.
+bool sways_on_its_roots(const Plant& plant);
 // Advances time; `ask`: updates the air.
 void step_modal(Plant& plant, const Surroundings& surroundings, double h, bool ask);
 // Puts the chain where its modes are, if it is modal.

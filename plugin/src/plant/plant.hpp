@@ -248,10 +248,15 @@ void apply_pins(Plant& plant);
 // Returns whether the held nodes of a chain are at their targets.
 bool is_where_held(const Motion& motion);
 
-// Relaxes strain that would snap back at once.
-void relax(Plant& plant);
-// Switches to other mechanics with the same shape and motion. `smoothly`: between cage and chain only the modal part is
-// handed over, which strains neither, and the rest of shape and motion blends out.
+// Elastic energy, relative to the modelled shape's, and kinetic energy [J].
+struct StoredEnergy {
+    double elastic, kinetic;
+};
+StoredEnergy stored_energy(const Plant& plant);
+// Relaxes a plant until it stores no more than that.
+void relax(Plant& plant, const StoredEnergy& most);
+// Switches to other mechanics with the same shape and motion. `smoothly`: between cage and chain only the modal part of
+// a plant that sways on its roots is handed over, which strains neither, and the rest of shape and motion blends out.
 void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly = false);
 
 }  // namespace frond

@@ -1,40 +1,61 @@
-// In: a cage that has just taken over a chain's shape and motion. Out: nearly the same, without strain that would snap
-// back at once.
+// In: mechanics that have just taken over a plant's shape and motion. Out: nearly the same, with no more energy than
+// the plant had before.
 //
-// A cage takes a chain's shape with errors that cost little to bend but much to stretch. A few steps of implicit Euler
-// from rest, with the organs' fibres, relax those and leave slow bending unchanged; one solve does the same to
-// velocities: (M + h^2 K) v = M v_given.
+// A cage takes a chain's shape, and a chain a cage's, with errors that cost little to bend but much to stretch. Steps
+// of implicit Euler from rest, with the organs' fibres, relax those first and leave slow bending unchanged; one solve
+// does the same to velocities: (M + h^2 K) v = M v_given.
+#include "plant/guard.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {
 
-void relax(Plant& plant) {
-    constexpr int ROUNDS = 6;
+StoredEnergy stored_energy(const Plant& plant) {
+    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
+    const Elements& elements = elements_of(plant);
+    return {row.energy(elements, plant.motion.x) - row.energy(elements, elements.modelled),
+            kinetic_energy(*plant.system, plant.motion.x, plant.motion.v)};
+}
+
+// Takes velocities over as far as the stiffness at the end of the last step lets them be.
+static void take_velocities(Plant& plant, const SolveSettings& settings, const VecX& given) {
+    VecX momentum = given;
+    const VecX& mass = node_mass_of(*plant.system);
+    for (int i = 0; i < mass.size(); i++) point(momentum, i) *= mass[i];
+    if (!respond(*plant.workspace, settings, momentum, plant.motion.v)) plant.motion.v.setZero();
+}
+
+void relax(Plant& plant, const StoredEnergy& most) {
+    constexpr int ROUNDS = 30, ITERATIONS = 10;
     constexpr double STEP = 1.0 / 60;  // [s]
+    constexpr double SHARE = 0.001;    // of the energy that lifts the plant by its size, which counts as none [-]
     Motion& motion = plant.motion;
-    const VecX given = motion.v;
+    const double none = SHARE * lifting_energy(plant), bound = std::max(0.0, most.elastic) + none;
+    const VecX given = motion.v, start = motion.x;
     SolveSettings settings = plant.settings;
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
+    settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
+    settings.careful = settings.from_rest = true;
     Loads loads;
     if (plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
-    apply_pins(plant);
-    take_workspace(plant);
-    const VecX start = motion.x;
     bool ok = true;
-    for (int round = 0; round < ROUNDS && ok; round++) {
+    int round = 0;
+    for (; round < ROUNDS && ok && !(stored_energy(plant).elastic <= bound); round++) {
+        apply_pins(plant);
+        take_workspace(plant);
         motion.v.setZero();
         plant.report = solve_step(*plant.workspace, settings, loads, STEP, motion);
         ok = plant.report.ok;
         hold_lengths(plant, STEP);
     }
-    VecX momentum = given;
-    const VecX& mass = node_mass_of(*plant.system);
-    for (int i = 0; i < mass.size(); i++) point(momentum, i) *= mass[i];
-    if (!ok || !motion.x.allFinite()) motion.x = start;
-    if (!ok || !respond(*plant.workspace, settings, momentum, motion.v)) motion.v = given;
+    if (round > 0) {
+        if (!ok || !are_finite(motion.x)) motion.x = start;
+        take_velocities(plant, settings, given);
+        return_workspace(plant);
+    }
+    const double kinetic = stored_energy(plant).kinetic;
+    if (!(kinetic <= most.kinetic + none)) motion.v *= std::sqrt(most.kinetic / kinetic);
     motion.history.valid = false;
     motion.history.shaken = true;  // the first step damps the rest
-    return_workspace(plant);
 }
 
 }  // namespace frond

@@ -69,6 +69,7 @@ struct Integrator {
     bool looks_back;    // uses and needs the motion's history
     bool trusts_start;  // takes the change, or half of it, from forces at the step's start
     bool is_explicit;   // stable only for steps below about two over the highest frequency
+    bool has_stages;    // its end, or a stage, lies on a straight line through another
 };
 const Integrator& integrator(frond_integrator which);
 

@@ -64,10 +64,10 @@ void finish_pins(Workspace& workspace, const Motion& motion) {
 }
 
 // Keeps this step as the history of the next one.
-void keep_history(Workspace& workspace, const StepInput& input, Motion& motion) {
+void keep_history(Workspace& workspace, const StepInput& input, bool is_valid, Motion& motion) {
     History& history = motion.history;
     const bool was_valid = history.valid;
-    history.valid = integrator(input.settings.integrator).looks_back;
+    history.valid = is_valid;
     history.shaken = history.valid && !was_valid;
     if (!history.valid) return;
     history.integrator = input.settings.integrator;
@@ -79,6 +79,18 @@ void keep_history(Workspace& workspace, const StepInput& input, Motion& motion) 
     history.v_end = workspace.v;
     std::swap(history.x_rate, workspace.x_rate);
     std::swap(history.v_rate, workspace.v_rate);
+}
+
+// Takes a step; `keeps` says whether that leaves a history. Stages on a straight line stretch rods that turn far: those
+// take a step of implicit Euler, as bdf2's do.
+bool take_step(Workspace& w, const StepInput& input, const Integrator& method, SolveReport& report, bool& keeps) {
+    const VecX& x = input.motion.x;
+    keeps = method.looks_back;
+    if (!method.has_stages || !w.system->row->retract) return method.step(w, input, report);
+    w.x_from = x + input.h * w.v_start;
+    if (is_calm(*w.system, x, w.x_from) && method.step(w, input, report) && is_calm(*w.system, x, w.x)) return true;
+    keeps = false;
+    return step_implicit_euler(w, input, report);
 }
 
 }  // namespace
@@ -139,10 +151,11 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     prepare(workspace, input);
     prepare_damping(workspace, settings);
     motion.history.valid = goes_on;
-    if (!method.step(workspace, input, report)) return report;
+    bool keeps = false;
+    if (!take_step(workspace, input, method, report, keeps)) return report;
     finish_pins(workspace, motion);
     if (!are_finite(workspace.x) || !are_finite(workspace.v)) return report;
-    keep_history(workspace, input, motion);
+    keep_history(workspace, input, keeps, motion);
     motion.x = workspace.x;
     motion.v = workspace.v;
     if (workspace.system->row->moves_chain) unwind(motion);

@@ -16,9 +16,7 @@ namespace {
 
 // Returns whether forces, grabs, bonds, fragments or pins other than the model's roots require a plant to be simulated.
 bool is_used_by_host(const World& world, const PlantBody& body) {
-    const Plant& plant = *body.plant;
-    return plant.has_user_force || !plant.grabs.empty() || !plant.fragments.empty() || plant.pins_are_own ||
-           !plant.stands_on_roots ||
+    return !sways_on_its_roots(*body.plant) ||
            std::any_of(world.bonds.begin(), world.bonds.end(), [&](const Bond& bond) { return bond.plant == &body; });
 }
 
