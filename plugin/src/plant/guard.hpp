@@ -39,8 +39,8 @@ struct EnergyLook {
     // Its energy could not lift it by its size: at the start, or at the end with hardly more than it was given.
     bool is_small = false;
 };
-// Checks a solve over h [s] from x_good and v_good; contacts did `work` [J].
-EnergyLook look_at_energy(const Plant& plant, double h, double work = 0);
+// Checks a solve over h [s] from x_good and v_good; contacts that push did `work` [J].
+EnergyLook look_at_energy(const Plant& plant, double h, bool is_pushed, double work);
 // Sets is_off_course after such a solve, and returns whether the plant may go there: it did not run away, nor gain
 // energy that nothing can have given. What stayed on its course is not asked for its energy.
 bool keeps_course(Plant& plant, double h);

@@ -67,11 +67,12 @@ double lifting_energy(const Plant& plant) {
     return node_mass_of(*plant.system).sum() * GRAVITY * double(plant.size);
 }
 
-EnergyLook look_at_energy(const Plant& plant, double h, double work) {
+EnergyLook look_at_energy(const Plant& plant, double h, bool is_pushed, double work) {
     // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-]. Without
-    // air errors add up; air ends within some steps whatever an error began, but in cages, which it draws out.
-    const bool is_damped = plant.follow && !plant.loads.drags.empty();
-    const double share = is_damped ? 1 : 0.05, lift = is_damped ? 1 : 0.01;
+    // air errors add up; air ends within some steps whatever an error began, but in cages, which it draws out. In cages
+    // the response to a push is soft.
+    const bool is_lax = plant.follow ? !plant.loads.drags.empty() : is_pushed;
+    const double share = is_lax ? 1 : 0.05, lift = is_lax ? 1 : 0.01;
     constexpr double CARRIED = 2;  // speed at which moving pins may carry the plant, over their own [-]
     EnergyLook look;
     const VecX &x = plant.motion.x, &x_good = plant.x_good;
@@ -96,7 +97,7 @@ EnergyLook look_at_energy(const Plant& plant, double h, double work) {
 
 bool keeps_course(Plant& plant, double h) {
     plant.is_off_course = ends_off_course(plant, h);
-    const EnergyLook look = plant.is_off_course ? look_at_energy(plant, h) : EnergyLook();
+    const EnergyLook look = plant.is_off_course ? look_at_energy(plant, h, false, 0) : EnergyLook();
     plant.is_off_course &= !look.is_small;  // too little energy for damage
     return !look.comes_from_nowhere && !has_run_away(plant);
 }

@@ -53,19 +53,19 @@ static void keep_sets(Plant& plant, double h) {
 }
 
 // A pressed plant springs far in a solve without contacts; its energy is meaningless there.
-enum class Contacts { TO_COME, DONE };
+enum class Contacts { TO_COME, NONE, PUSH };
 
 // Returns the contact state of a step that has only been solved so far.
 static Contacts contacts_of(const Plant& plant) {
-    return plant.is_touched ? Contacts::TO_COME : Contacts::DONE;
+    return plant.is_touched ? Contacts::TO_COME : Contacts::NONE;
 }
 
 // Returns whether no node ran away, and none left its course with energy that nothing can have given; `work` was done
 // by contacts [J].
 static bool is_plausible(Plant& plant, double h, Contacts contacts, double work = 0) {
-    if (!plant.is_touched) return keeps_course(plant, h);
+    if (contacts == Contacts::NONE) return keeps_course(plant, h);
     plant.is_off_course = ends_off_course(plant, h);
-    const EnergyLook look = contacts == Contacts::DONE && plant.follow ? look_at_energy(plant, h, work) : EnergyLook();
+    const EnergyLook look = contacts == Contacts::PUSH ? look_at_energy(plant, h, true, work) : EnergyLook();
     plant.is_off_course &= !look.is_small;
     return !look.comes_from_nowhere && !has_run_away(plant);
 }
@@ -203,12 +203,13 @@ void add_contacts(Plant& plant, double h, double lost) {
     const double work = std::max({0.0, lost, impulse.dot(plant.motion.v)});
     // Cages are not retracted: what turns in them is inflated.
     const bool is_bent = is_pushed && !plant.follow && !is_calm(*plant.system, plant.x_good, plant.motion.x);
-    if (is_bent || !is_plausible(plant, h, Contacts::DONE, work)) {
+    const Contacts contacts = is_pushed ? Contacts::PUSH : Contacts::NONE;
+    if (is_bent || !is_plausible(plant, h, contacts, work)) {
         // This is too far for the linear response: the same push is solved as a force, nonlinearly.
         VecX with_push = impulse / h;
         if (plant.loads.force.size() > 0) with_push += plant.loads.force;
         plant.loads.force.swap(with_push);
-        solve_again(plant, h, Contacts::DONE, work);
+        solve_again(plant, h, contacts, work);
         plant.loads.force.swap(with_push);
     }
     if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
