@@ -2,6 +2,8 @@
 // a change of mechanics.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "build/build.hpp"
 #include "plant/plant.hpp"
 #include "support/model_def.hpp"
@@ -59,6 +61,34 @@ TEST(Follow, ChangingMechanicsDoesNotMakeThePlantJump) {
     // The chain cannot take every shape of the cage; it comes within a hundredth of the plant's height.
     EXPECT_LT((cage_places(*plant) - cage).lpNorm<Eigen::Infinity>(), 0.01);
     swing(*plant, 20);
+}
+
+// A plant that swings under a pull to and fro is handed on every few steps, to mechanics in any order.
+TEST(Follow, ChangesOfMechanicsAddNoEnergy) {
+    const frond_mechanics all[] = {FROND_MECHANICS_TET_LINEAR, FROND_MECHANICS_TET_COROTATIONAL,
+                                   FROND_MECHANICS_TET_NEOHOOKEAN, FROND_MECHANICS_ROD, FROND_MECHANICS_SPRING_CHAIN};
+    std::mt19937 random(7);
+    for (const int every : {1, 3, 12}) {
+        const auto plant = make_plant(FROND_MECHANICS_TET_COROTATIONAL);
+        const double weight = node_mass_of(*plant->system).sum() * 9.81, none = 0.002 * weight * double(plant->size);
+        Surroundings surroundings;
+        for (int change = 0; change < 240 / every + 20; change++) {
+            surroundings.gravity = Vec3(change / 10 % 2 ? 6 : -6, -9.81, 2);
+            for (int i = 0; i < every; i++) step_plant(*plant, surroundings, 1.0 / 60);
+            const StoredEnergy before = stored_energy(*plant);
+            const frond_mechanics from = plant->which, to = all[random() % 5];
+            set_mechanics(*plant, to);
+            const StoredEnergy after = stored_energy(*plant);
+            EXPECT_LE(after.elastic, std::max(0.0, before.elastic) + none)
+                << from << " to " << to << ", change " << change;
+            EXPECT_LE(after.kinetic, before.kinetic + none) << from << " to " << to << ", change " << change;
+        }
+        surroundings.gravity = Vec3(0, -9.81, 0);
+        for (int i = 0; i < 600; i++) step_plant(*plant, surroundings, 1.0 / 60);
+        const VecX now = cage_places(*plant);
+        for (size_t n = 0; n < plant->model->cage.nodes.size(); n++)
+            EXPECT_LT((point(now, int(n)) - plant->model->cage.nodes[n]).norm(), 0.02);
+    }
 }
 
 // A chain holds a pinned node by a spring; a cage holds the node itself.

@@ -117,13 +117,13 @@ TEST_P(EveryShape, EnergyOutOfNothingIsTold) {
     plant->x_good = plant->motion.x;
     plant->v_good = plant->motion.v;
     take_workspace(*plant);  // as within a step
-    EXPECT_FALSE(look_at_energy(*plant, H).comes_from_nowhere);
-    EXPECT_TRUE(look_at_energy(*plant, H).is_small);
+    EXPECT_FALSE(look_at_energy(*plant, H, false, 0).comes_from_nowhere);
+    EXPECT_TRUE(look_at_energy(*plant, H, false, 0).is_small);
     plant->motion.v.setConstant(3);
-    EXPECT_TRUE(look_at_energy(*plant, H).comes_from_nowhere);
+    EXPECT_TRUE(look_at_energy(*plant, H, false, 0).comes_from_nowhere);
     plant->motion.v = plant->v_good;
     for (int i = 0; i < plant->motion.x.size() / 3; i += plant->follow ? 2 : 1) point(plant->motion.x, i) *= 1.2;
-    EXPECT_TRUE(look_at_energy(*plant, H).comes_from_nowhere);
+    EXPECT_TRUE(look_at_energy(*plant, H, false, 0).comes_from_nowhere);
 }
 
 // Simulates steps whose searches all failed at the current position.
