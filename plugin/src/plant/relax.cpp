@@ -33,19 +33,27 @@ void relax(Plant& plant, const StoredEnergy& most) {
     const VecX given = motion.v, start = motion.x;
     SolveSettings settings = plant.settings;
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
-    settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
-    settings.careful = settings.from_rest = true;
     Loads loads;
     if (plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
     bool ok = true;
     int round = 0;
-    for (; round < ROUNDS && ok && !(stored_energy(plant).elastic <= bound); round++) {
+    for (double now = stored_energy(plant).elastic; round < ROUNDS && ok && !(now <= bound); round++) {
         apply_pins(plant);
         take_workspace(plant);
+        const VecX before = motion.x;
         motion.v.setZero();
         plant.report = solve_step(*plant.workspace, settings, loads, STEP, motion);
         ok = plant.report.ok;
         hold_lengths(plant, STEP);
+        const double next = stored_energy(plant).elastic;
+        if (!(next < now) && !settings.careful) {
+            // One solve overshoots: a search does not.
+            motion.x = before;
+            settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
+            settings.careful = settings.from_rest = true;
+        } else {
+            now = next;
+        }
     }
     if (round > 0) {
         if (!ok || !are_finite(motion.x)) motion.x = start;
