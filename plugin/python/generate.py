@@ -95,7 +95,7 @@ def fields_of(text):
         fields = []
         for declaration in filter(None, (part.strip() for part in match[2].split(";"))):
             declaration = re.sub(r"\s*\*\s*", "* ", declaration)
-            kind, names = re.match(r"((?:const )?\w+\*? )(.*)", declaration).groups()
+            kind, names = re.match(r"((?:const )?\w+\*?\s+)(.*)", declaration).groups()
             for name in names.split(","):
                 name, _, count = name.strip().partition("[")
                 fields.append((name, kind.strip(), count.rstrip("]")))

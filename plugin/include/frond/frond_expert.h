@@ -109,12 +109,13 @@ typedef struct frond_energy_ledger {
     double bodies;    /* of bodies of the Bullet world in contact */
     double bonds;     /* of bodies to which plants are bonded */
     double fragments; /* went off with what broke off */
-    double calls; /* changes by calls between steps: plants made, destroyed or put elsewhere, states that were set or
-                   * restored, other mechanics, effects or gravity */
-    double
-        dissipated; /* begin + all the above - now: damping, friction, plastic flow, and the errors of the solution */
-    double
-        error; /* estimated error of all work together: half the change of each force in a step, times displacement */
+    /* Changes by calls between steps: plants made, destroyed or put elsewhere, states that were set or restored, other
+     * mechanics, effects or gravity. */
+    double calls;
+    /* begin + all the above - now: damping, friction, plastic flow, and the errors of the solution. */
+    double dissipated;
+    /* Estimated error of all work together: half the change of each force in a step, times displacement. */
+    double error;
 } frond_energy_ledger;
 
 /* Gives a world's energy ledger. Accounting begins with the first call and makes steps take longer from then on, to the
