@@ -57,11 +57,11 @@ def accuracy(mechanics: str = "rod", integrator: str = "bdf2", dt: float = 1 / 6
 
 
 def stiffness(factor: float = 1.0, mechanics: str = "rod") -> Case:
-    """Scales the stem's stiffness: how far a steady wind of 6 m/s bends the tip [m]."""
+    """Scales the stem's stiffness: how far a steady wind of 3 m/s bends the tip [m]."""
     material = material_preset("stem")
     settings = {name: getattr(material, name) for name in type(material).__dataclass_fields__}
     model = Model("corn", organs={"stem": {**settings, "young": material.young * factor}})
-    return bend(model, 6.0, mechanics)
+    return bend(model, 3.0, mechanics)
 
 
 def wind(speed: float = 5.0, mechanics: str = "rod") -> Case:

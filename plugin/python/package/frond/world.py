@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
 
-from ._generated import Effect, EventInfo, Profile, RayHit, Report, Vector
+from ._generated import Effect, EnergyLedger, EventInfo, Profile, RayHit, Report, Vector
 from ._lib import (Array, Error, changes_world, check, check_host, documented, effects_of, ffi, fill, host, integer,
                    lib, make_def, numbers, real, refuse, to_python, vector, wrap_handle)
 from .thing import Wrench
@@ -252,6 +252,13 @@ class World:
         """Counts of the last substep."""
         out = ffi.new("frond_report *")
         check(lib.frond_world_get_report(self._handle, out))
+        return to_python(out[0])
+
+    @property
+    def energy_ledger(self) -> EnergyLedger:
+        """Energy of all plants, and all work done on them since this was first read [J]."""
+        out = ffi.new("frond_energy_ledger *")
+        check(lib.frond_world_get_energy_ledger(self._handle, out))
         return to_python(out[0])
 
     @property
