@@ -1,5 +1,5 @@
 // The plants of models/ as rods in a fresh breeze, all settings at their defaults: segments keep their lengths in every
-// step, and after it.
+// step, and after it, and the drawn surface is not torn.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,6 +31,36 @@ std::vector<Breeze> all_breezes() {
     }
     return all;
 }
+
+// The drawn edges and their lengths in the modelled shape.
+class Edges {
+public:
+    explicit Edges(frond_plant plant) : plant(plant) { modelled = lengths(); }
+
+    // Returns the share of edges that are drawn longer than 1.3 of their length [-].
+    double torn() const {
+        const std::vector<double> now = lengths();
+        int count = 0;
+        for (size_t i = 0; i < now.size(); i++) count += now[i] > 1.3 * modelled[i];
+        return double(count) / double(now.size());
+    }
+
+private:
+    frond_plant plant;
+    std::vector<double> modelled;
+
+    std::vector<double> lengths() const {
+        frond_surface_view view;
+        EXPECT_EQ(frond_plant_get_surface(plant, &view), FROND_OK);
+        std::vector<double> all;
+        for (int i = 0; i < 3 * view.triangle_count; i++) {
+            const float* a = view.positions + 3 * view.indices[i];
+            const float* b = view.positions + 3 * view.indices[i % 3 == 2 ? i - 2 : i + 1];
+            all.push_back(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+        }
+        return all;
+    }
+};
 
 class EveryBreeze : public testing::TestWithParam<Breeze> {};
 INSTANTIATE_TEST_SUITE_P(Models, EveryBreeze, testing::ValuesIn(all_breezes()), [](const auto& info) {
@@ -74,6 +104,8 @@ TEST_P(EveryBreeze, LeavesSegmentsTheirLengthsAndThePlantUpright) {
         for (size_t i = 0; i < now.size(); i++) most = std::max(most, now[i] / modelled[i]);
         return most;
     };
+    const Edges edges(plant);
+    double torn = 0;
     frond_vec3 before, after;
     ASSERT_EQ(frond_plant_get_tip(plant, &before), FROND_OK);
     const int blown = int(BLOWN / breeze.step), calm = int(CALM / breeze.step);
@@ -84,8 +116,12 @@ TEST_P(EveryBreeze, LeavesSegmentsTheirLengthsAndThePlantUpright) {
         }
         ASSERT_EQ(frond_world_step(world, breeze.step), FROND_OK);
         ASSERT_LT(longest(), breeze.most) << "step " << step;
+        if (step % 10 == 0) torn = std::max(torn, edges.torn());
     }
     EXPECT_LT(longest(), 1.005);
+    // Beyond 5 m/s the cucumber's stem comes apart where it is tied to its stake, because a chain has no loops, and
+    // thin parts that are bent sharply within one capsule stretch.
+    EXPECT_LE(torn, breeze.speed <= 5 ? 0 : breeze.speed <= 12 ? 0.003 : 0.01);
     ASSERT_EQ(frond_plant_get_tip(plant, &after), FROND_OK);
     EXPECT_NEAR(after.y, before.y, 0.1 * before.y);
     frond_world_destroy(world);

@@ -187,6 +187,13 @@ FROND_INLINE void store(const FourLanes& value, Quad& to) {
     store(value, to.at);
 }
 
+// Stores the first three lanes.
+FROND_INLINE void store_three(const FourLanes& value, float* to) {
+    using FourFloats = float __attribute__((vector_size(16)));
+    const FourFloats narrow = __builtin_convertvector(value, FourFloats);
+    __builtin_memcpy(to, &narrow, 3 * sizeof(float));
+}
+
 // Shuffles two vectors: lanes 0 to 3 are the first one's, 4 to 7 the second one's.
 template <int A, int B, int C, int D>
 FROND_INLINE FourLanes choose(const FourLanes& v, const FourLanes& w) {

@@ -18,7 +18,11 @@ struct ChainNode {
 struct Chain {
     std::vector<ChainNode> nodes;
     std::vector<int> vertex_node;  // surface vertex -> nearest chain node along the surface
-    double height = 0;             // length of a capsule, as given or chosen [m]
+    // Surface vertex -> chain node at the end of its capsule, and its share of the way along that: 0 where the surface
+    // meets the capsule before, 1 where it meets the next ones. A root without a capsule of its own stands for itself.
+    std::vector<int> vertex_capsule;
+    std::vector<double> vertex_along;
+    double height = 0;  // length of a capsule, as given or chosen [m]
     int root_count() const;
     int fork_count() const;  // nodes with more than one child
     double length() const;   // total of all capsules [m]

@@ -68,8 +68,11 @@ struct Maker {
     const ChainTree& tree;
     Chain chain = {};
     std::vector<int> node_of_piece = {};
+    std::vector<char> owns_node =
+        {};  // whether a node was made for the slab, else it joined the capsule that ends there
     std::vector<Moments> moments = {};
     std::vector<char> is_foot = {};
+    int last_resort = -1;  // node at the end of the only capsule of a chain that had only feet
 
     int add_node(const Vec3& position, int parent, int organ) {
         const double distance = parent < 0 ? 0
@@ -97,6 +100,7 @@ int node_below(const Maker& maker, const Shoot& shoot) {
 void make_nodes(Maker& maker) {
     const Bands& bands = maker.bands;
     maker.node_of_piece.assign(bands.pieces.size(), -1);
+    maker.owns_node.assign(bands.pieces.size(), 0);
     for (int number : maker.tree.order) {
         const Shoot& shoot = maker.tree.shoots[size_t(number)];
         const Piece& piece = bands.pieces[size_t(number)];
@@ -119,6 +123,7 @@ void make_nodes(Maker& maker) {
         }
         const int node = maker.add_node(shoot.end, below, piece.organ);
         maker.node_of_piece[size_t(number)] = node;
+        maker.owns_node[size_t(number)] = 1;
         maker.moments[size_t(node)].add(piece);
     }
 }
@@ -133,7 +138,8 @@ void add_last_resort(Maker& maker) {
         if ((place - foot).squaredNorm() > (farthest - foot).squaredNorm()) farthest = place;
     const Moments all = maker.moments.front();
     const int organ = maker.chain.nodes.front().organ;
-    maker.moments[size_t(maker.add_node(farthest, 0, organ))] = all;
+    maker.last_resort = maker.add_node(farthest, 0, organ);
+    maker.moments[size_t(maker.last_resort)] = all;
 }
 
 void fit_radii(Maker& maker, const std::vector<Organ>& organs, double given) {
@@ -163,12 +169,72 @@ void fit_radii(Maker& maker, const std::vector<Organ>& organs, double given) {
     }
 }
 
-// Assigns each vertex to the nearer end of its own slab's capsule.
+// Returns the place on a capsule nearest to a point, 0 at its begin and 1 at its end.
+double nearest_along(const Chain& chain, int node, const Vec3& place) {
+    const int parent = chain.nodes[size_t(node)].parent;
+    if (parent < 0) return 1;
+    const Vec3 begin = chain.nodes[size_t(parent)].position, axis = chain.nodes[size_t(node)].position - begin;
+    const double square = axis.squaredNorm();
+    return square > 0 ? std::clamp((place - begin).dot(axis) / square, 0.0, 1.0) : 1;
+}
+
+// Returns where slabs begin, as shares of the way along their capsules. A slab that grows across a level line begins
+// with its capsule; others where they are nearest to its begin, because the capsule begins within what they grow from.
+// Slabs that joined a capsule are at one place of it, at its end if something else grows from them.
+std::vector<double> begins_of_slabs(const Maker& maker) {
+    std::vector<double> along(maker.bands.pieces.size(), 1.0);
+    for (int number : maker.tree.order) {
+        const Shoot& shoot = maker.tree.shoots[size_t(number)];
+        const Piece& piece = maker.bands.pieces[size_t(number)];
+        const bool own = maker.owns_node[size_t(number)];
+        if (shoot.parent < 0) {
+            along[size_t(number)] = own ? 0 : 1;
+            continue;
+        }
+        const Contact& contact = maker.tree.contacts[size_t(shoot.contact)];
+        const int node = maker.node_of_piece[size_t(number)];
+        const auto place = [&](const Vec3& p) { return nearest_along(maker.chain, node, p); };
+        double& begin = along[size_t(number)];
+        if (own)
+            begin = contact.level ? 0 : place(shoot.down ? piece.far_end : piece.near_end);
+        else if (shoot.children > 0)
+            begin = 1;
+        else if (contact.level)
+            begin = maker.owns_node[size_t(shoot.parent)] ? 1 : along[size_t(shoot.parent)];
+        else
+            begin = place(contact.middle);
+    }
+    return along;
+}
+
+// Assigns a vertex to its own slab's capsule, and to the nearer end of that. `x` is its distance from the start of its
+// component [m].
+void bind_vertex(Maker& maker, const std::vector<double>& begins, size_t vertex, int number, double x) {
+    Chain& chain = maker.chain;
+    const Shoot& shoot = maker.tree.shoots[size_t(number)];
+    const Piece& piece = maker.bands.pieces[size_t(number)];
+    const int node = maker.node_of_piece[size_t(number)], parent = chain.nodes[size_t(node)].parent;
+    const bool own = maker.owns_node[size_t(number)];
+    const double way = piece.far - piece.near, share = way > 0 ? std::clamp((x - piece.near) / way, 0.0, 1.0) : 1;
+    const double begin = begins[size_t(number)], grown = shoot.down ? 1 - share : share;
+    chain.vertex_capsule[vertex] = node;
+    chain.vertex_along[vertex] = own ? begin + (1 - begin) * grown : begin;
+    const bool goes_on = shoot.parent < 0 || maker.node_of_piece[size_t(shoot.parent)] != node;
+    const bool nearer_to_parent = (x < 0.5 * (piece.near + piece.far)) != shoot.down;
+    chain.vertex_node[vertex] = goes_on && parent >= 0 && nearer_to_parent ? parent : node;
+    if (maker.last_resort < 0) return;
+    chain.vertex_capsule[vertex] = maker.last_resort;
+    chain.vertex_along[vertex] = nearest_along(chain, maker.last_resort, maker.shape.surface.positions[vertex]);
+}
+
 void bind_vertices(Maker& maker) {
     const Surface& surface = maker.shape.surface;
     const Topology& topology = maker.shape.topology;
     const Bands& bands = maker.bands;
     maker.chain.vertex_node.assign(surface.positions.size(), 0);
+    maker.chain.vertex_capsule.assign(surface.positions.size(), 0);
+    maker.chain.vertex_along.assign(surface.positions.size(), 0);
+    const std::vector<double> begins = begins_of_slabs(maker);
     std::vector<char> bound(surface.positions.size(), 0);
     for (size_t t = 0; t < surface.triangles.size(); t++)
         for (size_t k = 0; k < 3; k++) {
@@ -177,15 +243,7 @@ void bind_vertices(Maker& maker) {
             bound[vertex] = 1;
             const double x =
                 bands.distance[size_t(topology.triangles[t][k])] - bands.entry[size_t(topology.triangle_component[t])];
-            const int number = bands.piece_at(int(t), x);
-            int node = maker.node_of_piece[size_t(number)];
-            const Shoot& shoot = maker.tree.shoots[size_t(number)];
-            const Piece& piece = bands.pieces[size_t(number)];
-            const int parent = maker.chain.nodes[size_t(node)].parent;
-            const bool own = shoot.parent < 0 || maker.node_of_piece[size_t(shoot.parent)] != node;
-            const bool nearer_to_parent = (x < 0.5 * (piece.near + piece.far)) != shoot.down;
-            if (own && parent >= 0 && nearer_to_parent) node = parent;
-            maker.chain.vertex_node[vertex] = node;
+            bind_vertex(maker, begins, vertex, bands.piece_at(int(t), x), x);
         }
 }
 

@@ -132,9 +132,11 @@ int begin_of(StemChain& maker, const std::vector<StemPiece>& pieces, const StemP
     return maker.add(piece.begin, node, piece.radius_begin, piece.organ);
 }
 
-// Assigns each vertex to the nearest node of its own segment.
+// Assigns each vertex to the nearest capsule and the nearest node of its own segment.
 void bind_vertices(StemChain& maker, const Surface& surface, const std::vector<StemPiece>& pieces) {
     maker.chain.vertex_node.assign(surface.positions.size(), 0);
+    maker.chain.vertex_capsule.assign(surface.positions.size(), 0);
+    maker.chain.vertex_along.assign(surface.positions.size(), 0);
     for (const Part& part : surface.parts) {
         const StemPiece& piece = pieces[size_t(std::stoi(part.name.substr(5)))];
         for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
@@ -144,6 +146,11 @@ void bind_vertices(StemChain& maker, const Surface& surface, const std::vector<S
                 for (size_t k = 1; k < piece.cuts.size(); k++)
                     if (std::abs(piece.cuts[k] - along) < std::abs(piece.cuts[nearest] - along)) nearest = k;
                 maker.chain.vertex_node[size_t(vertex)] = piece.nodes[nearest];
+                size_t end = 1;
+                while (end + 1 < piece.cuts.size() && piece.cuts[end] < along) ++end;
+                maker.chain.vertex_capsule[size_t(vertex)] = piece.nodes[end];
+                maker.chain.vertex_along[size_t(vertex)] =
+                    (along - piece.cuts[end - 1]) / (piece.cuts[end] - piece.cuts[end - 1]);
             }
     }
 }

@@ -20,8 +20,15 @@ static Vec3 bound_point(const Plant& plant, const Embedding& embedding, size_t i
 
 Vec3 vertex_position(const Plant& plant, int vertex) {
     const Fragment* fragment = fragment_of_vertex(plant, size_t(vertex));
-    const auto bound = [&](const VecX& x) { return bound_point(plant, plant.model->embedding, size_t(vertex), x); };
-    return fragment ? fragment->place(bound(fragment->cage_x)) : plant.to_world(bound(cage_places(plant)));
+    const auto in_cage = [&](const VecX& x) { return bound_point(plant, plant.model->embedding, size_t(vertex), x); };
+    const auto on_chain = [&](const VecX& x) {
+        return attachment_place(skin_attachment(*plant.skin, plant.skin->vertices[size_t(vertex)]), x);
+    };
+    if (fragment) return fragment->place(fragment->x.size() > 0 ? on_chain(fragment->x) : in_cage(fragment->cage_x));
+    if (!plant.follow) return plant.to_world(in_cage(cage_places(plant)));
+    Vec3 place = on_chain(plant.lead > 0 ? VecX(plant.motion.x + plant.lead * plant.motion.v) : plant.motion.x);
+    if (!is_over(plant.blend_out)) place += in_cage(blend_offset(plant, plant.lead));
+    return plant.to_world(place);
 }
 
 int nearest_vertex(const Plant& plant, const Vec3& point) {
@@ -77,18 +84,9 @@ Attachment chain_attachment(const Plant& plant, int node) {
     return plant.system->chain[size_t(node)];
 }
 
-// With a chain, the vertex follows the nearest corner of its tet, on a rigid arm.
 Attachment vertex_attachment(const Plant& plant, int vertex) {
-    const Embedding& embedding = plant.model->embedding;
-    const Tet& tet = plant.model->cage.tets[size_t(embedding.tet[size_t(vertex)])];
-    const std::array<double, 4>& weights = embedding.weights[size_t(vertex)];
-    if (!plant.follow) return tet_attachment(bound_place(plant, embedding, size_t(vertex)));
-    const size_t most = size_t(std::max_element(weights.begin(), weights.end()) - weights.begin());
-    Attachment attachment = plant.follow->attachments[size_t(tet[most])];
-    Vec3 reach = -plant.model->cage.nodes[size_t(tet[most])];
-    for (size_t k = 0; k < 4; k++) reach += weights[k] * plant.model->cage.nodes[size_t(tet[k])];
-    for (size_t k = 0; k < size_t(attachment.count); k++) attachment.arm[k] += attachment.weight[k] * reach;
-    return attachment;
+    if (plant.follow) return skin_attachment(*plant.skin, plant.skin->vertices[size_t(vertex)]);
+    return tet_attachment(bound_place(plant, plant.model->embedding, size_t(vertex)));
 }
 
 }  // namespace frond

@@ -124,9 +124,11 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.fibres = nullptr;
     plant.fibre_give.clear();
     if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = fibres_of(plant);
-    if (mechanics(which).moves_chain)
+    if (mechanics(which).moves_chain) {
         plant.follow = shared_of<Follow>(plant.model, nodes.order,
                                          [&] { return make_follow(*plant.model, nodes, nodes.modelled); });
+        plant.skin = shared_of<Skin>(plant.model, 1, [&] { return make_skin(*plant.model); });
+    }
     const VecX& start = elements_of(*plant.system).modelled;
     plant.motion = {};
     plant.motion.x = plant.motion.pin_target = start;

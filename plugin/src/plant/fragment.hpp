@@ -13,6 +13,7 @@ struct Plant;
 struct Fragment {
     int node;                   // chain node at the end of the capsule that broke
     VecX cage_x;                // all cage nodes at the break, model frame [m]
+    VecX x;                     // with a chain: positions and rotations of all its nodes then; else empty
     std::vector<Vec3> chain_x;  // all chain nodes then, model frame [m]
     // Rigid body, world frame. Its first momentum and angular momentum are those of its nodes.
     double mass = 0;               // [kg]

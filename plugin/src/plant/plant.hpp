@@ -10,6 +10,7 @@
 #include "plant/follow.hpp"
 #include "plant/fragment.hpp"
 #include "plant/modal.hpp"
+#include "plant/skin.hpp"
 #include "solve/solve.hpp"
 
 namespace frond {
@@ -89,6 +90,7 @@ struct Plant {
 
     Motion motion;                         // state of the mechanics' nodes, model frame
     std::shared_ptr<const Follow> follow;  // null if the mechanics move the cage itself
+    std::shared_ptr<const Skin> skin;      // null as long as the mechanics have not moved the chain
     std::unique_ptr<ModalMotion> modal;    // state of a chain in modal motion; else null
     BlendOut blend_out;                    // offset of the cage from where the mechanics have it
     double lead = 0;        // time by which the drawn cage is extrapolated until the plant is stepped again [s]
@@ -233,6 +235,8 @@ Vec3 node_velocity(const Plant& plant, const VecX& v, int node);
 // Returns the positions of the cage nodes, model frame [m]. The reference holds until the plant moves.
 const VecX& cage_places(const Plant& plant);
 VecX cage_velocities(const Plant& plant);  // [m/s]
+// Returns what is left to blend out at the cage's nodes, extrapolated by a time [m]; empty: nothing.
+VecX blend_offset(const Plant& plant, double ahead);
 // Returns the attachment of a vertex, for forces on it.
 Attachment vertex_attachment(const Plant& plant, int vertex);
 // Returns the attachment of a chain node, if the mechanics move tets.

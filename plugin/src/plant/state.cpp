@@ -77,6 +77,14 @@ int node_count_of(const Plant& plant) {
     return plant.nodes->count();
 }
 
+VecX blend_offset(const Plant& plant, double ahead) {
+    if (is_over(plant.blend_out)) return {};
+    VecX offset = VecX::Zero(3 * node_count_of(plant)), rate = offset;
+    add_offset(plant.blend_out, offset);
+    add_rate(plant.blend_out, rate);
+    return offset + ahead * rate;
+}
+
 const VecX& cage_places(const Plant& plant) {
     if (!plant.follow && is_over(plant.blend_out) && plant.lead == 0) return plant.motion.x;
     if (plant.cage_stale) {

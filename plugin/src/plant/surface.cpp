@@ -1,9 +1,10 @@
-// In: positions of a cage. Out: the surface that it carries along, and its normals.
+// In: positions of a chain or a cage. Out: the surface that it carries along, and its normals.
 //
-// A vertex is a weighted sum of its tet's nodes. Normals turn with the cofactor of the deformation gradient F = E M^-1
-// from the modelled shape, M being a tet's edges in it and E the present ones. One matrix per node, the volume-weighted
-// mean over its tets, is interpolated like the positions, so that shading stays smooth across tets and hard edges stay
-// hard. Times the volume det(M) / 6 the cofactor is cof(E) M^T / 6; for quadratic tets it is taken at the node.
+// A chain carries it by its skin. In a cage a vertex is a weighted sum of its tet's nodes. Normals turn with the
+// cofactor of the deformation gradient F = E M^-1 from the modelled shape, M being a tet's edges in it and E the
+// present ones. One matrix per node, the volume-weighted mean over its tets, is interpolated like the positions, so
+// that shading stays smooth across tets and hard edges stay hard. Times the volume det(M) / 6 the cofactor is cof(E)
+// M^T / 6; for quadratic tets it is taken at the node.
 #include <algorithm>
 
 #include "core/lanes.hpp"
@@ -17,7 +18,8 @@ namespace {
 
 // A part that is drawn as one: the plant, or a fragment that came off it.
 struct Drawn {
-    int fragment;  // -1: the plant itself
+    int fragment;   // -1: the plant itself
+    bool on_chain;  // x are the chain's positions and rotations, else the positions of the cage's nodes
     const VecX& x;
     Mat3 turn;
     Vec3 shift;
@@ -30,12 +32,6 @@ bool belongs(const std::vector<int>& of, size_t i, const Drawn& drawn) {
 struct Columns {
     Quad column[3];
 };
-
-FROND_INLINE void put(const FourLanes& value, float* to) {
-    using FourFloats = float __attribute__((vector_size(16)));
-    const FourFloats narrow = __builtin_convertvector(value, FourFloats);
-    __builtin_memcpy(to, &narrow, 3 * sizeof(float));
-}
 
 // Places the nodes of the cage in the world.
 struct PlaceNodes {
@@ -61,24 +57,27 @@ struct PlaceVertices {
     const Drawn& drawn;
     const std::vector<Quad>& nodes;
     float* positions;
+    bool add;  // to what is there
     template <class>
     FROND_INLINE void run() const {
         const Embedding& embedding = plant.model->embedding;
         const std::vector<Tet>& tets = plant.model->cage.tets;
         for (size_t v = 0; v < embedding.tet.size(); v++) {
             if (!belongs(plant.parting->of_vertex, v, drawn)) continue;
+            const float* there = positions + 3 * v;
             FourLanes sum = {};
-            const auto add = [&](int node, double weight) __attribute__((always_inline)) {
+            if (add) sum = FourLanes{there[0], there[1], there[2], 0};
+            const auto add_node = [&](int node, double weight) __attribute__((always_inline)) {
                 sum += weight * load(nodes[size_t(node)]);
             };
             if (plant.nodes->order == 1) {
                 const Tet& tet = tets[size_t(embedding.tet[v])];
-                for (size_t k = 0; k < 4; k++) add(tet[k], embedding.weights[v][k]);
+                for (size_t k = 0; k < 4; k++) add_node(tet[k], embedding.weights[v][k]);
             } else {
                 const TetPlace place = place_in_tet(*plant.nodes, tets, embedding.tet[v], embedding.weights[v]);
-                for (size_t k = 0; k < size_t(place.count); k++) add(place.node[k], place.weight[k]);
+                for (size_t k = 0; k < size_t(place.count); k++) add_node(place.node[k], place.weight[k]);
             }
-            put(sum, positions + 3 * v);
+            store_three(sum, positions + 3 * v);
         }
     }
 };
@@ -210,62 +209,78 @@ struct TurnNormals {
                 const Vec3 turned = drawn.turn * rest.cast<double>();
                 normal = FourLanes{turned[0], turned[1], turned[2], 0};
             }
-            put(normal, normals + 3 * v);
+            store_three(normal, normals + 3 * v);
         }
     }
 };
 
-VecX cage_of(const Plant& plant, const VecX& x) {
-    if (!plant.follow) return x;
-    VecX cage;
-    follow_places(*plant.follow, x, cage);
-    return cage;
+// Returns the state of the mechanics' nodes `back` before the end of the last substep. A plant that is not stepped in
+// each substep continues at its own velocities; one that was placed stands still.
+VecX state_then(const Plant& plant, double back) {
+    const Motion& motion = plant.motion;
+    if (plant.lead > 0 || plant.modal) return motion.x + (plant.lead - back) * motion.v;
+    if (plant.stepped_by == 0 || back == 0) return motion.x;
+    const VecX& before = plant.x_good.size() > 0 ? plant.x_good : motion.history.x_prev;
+    return motion.x - back / plant.stepped_by * (motion.x - (plant.follow ? wound_as(motion.x, before) : before));
 }
 
-// Returns the mean velocity of the cage nodes over the last step [m/s]. A plant that is not stepped in each substep
-// continues at its own velocities; one that was placed stands still.
-VecX way_of(const Plant& plant) {
-    if (plant.lead > 0 || plant.modal) return cage_velocities(plant);
-    const VecX now = cage_of(plant, plant.motion.x);
-    if (plant.stepped_by == 0) return VecX::Zero(now.size());
-    const VecX& before = plant.x_good.size() > 0 ? plant.x_good : plant.motion.history.x_prev;
-    VecX way = (now - cage_of(plant, before)) / plant.stepped_by;
-    add_rate(plant.blend_out, way);
-    return way;
-}
-
-// Draws a fragment where it was `back` before, as a free body moves.
-Drawn draw_fragment(const Fragment& fragment, int number, double back) {
-    if (back == 0) return {number, fragment.cage_x, fragment.turn, fragment.shift};
+// Returns where a fragment was `back` before, as a free body moves.
+Drawn drawn_fragment(const Fragment& fragment, int number, double back) {
+    const bool on_chain = fragment.x.size() > 0;
+    const VecX& x = on_chain ? fragment.x : fragment.cage_x;
+    if (back == 0) return {number, on_chain, x, fragment.turn, fragment.shift};
     const Mat3 turned = rotation_of<double>(Vec3(-back * fragment.angular_velocity));
     const Vec3 centre = fragment.centre - back * fragment.velocity;
-    return {number, fragment.cage_x, turned * fragment.turn, turned * (fragment.shift - fragment.centre) + centre};
+    return {number, on_chain, x, turned * fragment.turn, turned * (fragment.shift - fragment.centre) + centre};
+}
+
+// Writes the vertices of one part, and their normals. `nodes` and `cofactors` are room to work in.
+void draw_in_cage(Plant& plant, const Drawn& drawn, bool with_normals, std::vector<Quad>& nodes,
+                  std::vector<Columns>& cofactors) {
+    nodes.resize(size_t(drawn.x.size() / 3));
+    run_in_lanes(PlaceNodes{drawn, nodes});
+    run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.surface_positions.data(), false});
+    if (!with_normals) return;
+    const Timer timer;
+    cofactors.assign(plant.model->cage.nodes.size(), Columns());
+    run_in_lanes(AddCofactors{plant, drawn, nodes, cofactors});
+    run_in_lanes(TurnNormals{plant, drawn, cofactors, plant.surface_normals.data()});
+    plant.ms_normals += timer.ms();
+}
+
+void draw_on_chain(Plant& plant, const Drawn& drawn, bool with_normals) {
+    draw_skin(*plant.skin,
+              {drawn.x, drawn.turn, drawn.shift, plant.parting->of_vertex, drawn.fragment, plant.model->surface.normals,
+               plant.surface_positions.data(), with_normals ? plant.surface_normals.data() : nullptr});
 }
 
 }  // namespace
 
 void update_surface(Plant& plant, frond_effects effects, double back) {
     const size_t vertex_count = plant.model->surface.positions.size();
-    Timer timer;
+    const Timer timer;
     plant.ms_normals = 0;
     plant.surface_positions.resize(3 * vertex_count);
     plant.surface_normals.resize(3 * vertex_count);
-    const VecX cage_then = back == 0 ? VecX() : VecX(cage_places(plant) - back * way_of(plant));
-    const VecX& cage = back == 0 ? cage_places(plant) : cage_then;
-    std::vector<Drawn> list = {{-1, cage, plant.rotation.toRotationMatrix(), plant.position}};
+    VecX x = state_then(plant, back);
+    const VecX offset = blend_offset(plant, plant.lead - back);
+    if (!plant.follow && offset.size() > 0) x += offset;
+    std::vector<Drawn> list = {{-1, bool(plant.follow), x, plant.rotation.toRotationMatrix(), plant.position}};
     for (const Fragment& fragment : plant.fragments)
-        list.push_back(draw_fragment(fragment, int(list.size()) - 1, back));
-    std::vector<Quad> nodes(size_t(list.front().x.size() / 3));
+        list.push_back(drawn_fragment(fragment, int(list.size()) - 1, back));
+    std::vector<Quad> nodes;
     std::vector<Columns> cofactors;
     for (const Drawn& drawn : list) {
+        if (drawn.on_chain)
+            draw_on_chain(plant, drawn, effects & FROND_EFFECT_NORMALS);
+        else
+            draw_in_cage(plant, drawn, effects & FROND_EFFECT_NORMALS, nodes, cofactors);
+    }
+    if (plant.follow && offset.size() > 0) {
+        const Drawn drawn = {-1, false, offset, list.front().turn, Vec3::Zero()};
+        nodes.resize(size_t(offset.size() / 3));
         run_in_lanes(PlaceNodes{drawn, nodes});
-        run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.surface_positions.data()});
-        if (!(effects & FROND_EFFECT_NORMALS)) continue;
-        const Timer normals_timer;
-        cofactors.assign(plant.model->cage.nodes.size(), Columns());
-        run_in_lanes(AddCofactors{plant, drawn, nodes, cofactors});
-        run_in_lanes(TurnNormals{plant, drawn, cofactors, plant.surface_normals.data()});
-        plant.ms_normals += normals_timer.ms();
+        run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.surface_positions.data(), true});
     }
     plant.surface_stale = false;
     plant.surface_back = float(back);
