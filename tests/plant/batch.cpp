@@ -242,6 +242,12 @@ TEST(PlantBatch, GoOnPastHalfATurn) {
             plant->effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
             plant->motion.x = rolled_up(*plant, FROM);
             plant->motion.v = (rolled_up(*plant, FROM + 1e-4) - rolled_up(*plant, FROM - 1e-4)) * (RATE / 2e-4);
+            // The foot is at rest, to the last bit.
+            for (int i = 0; i < int(plant->motion.pinned.size()); i++) {
+                if (!plant->motion.pinned[size_t(i)]) continue;
+                point(plant->motion.x, i) = point(plant->motion.pin_target, i);
+                point(plant->motion.v, i).setZero();
+            }
             moved(*plant);
         }
     }

@@ -116,14 +116,15 @@ TEST_P(EveryShape, EnergyOutOfNothingIsTold) {
     step_plant(*plant, earth(), H);
     plant->x_good = plant->motion.x;
     plant->v_good = plant->motion.v;
-    take_workspace(*plant);  // as within a step
-    EXPECT_FALSE(look_at_energy(*plant, H, false, 0).comes_from_nowhere);
-    EXPECT_TRUE(look_at_energy(*plant, H, false, 0).is_small);
+    take_workspace(*plant);         // as within a step
+    constexpr double LONG = 2 * H;  // always asked for its energy
+    EXPECT_TRUE(keeps_course(*plant, LONG));
+    EXPECT_FALSE(plant->is_off_course);
     plant->motion.v.setConstant(3);
-    EXPECT_TRUE(look_at_energy(*plant, H, false, 0).comes_from_nowhere);
+    EXPECT_FALSE(keeps_course(*plant, LONG));
     plant->motion.v = plant->v_good;
     for (int i = 0; i < plant->motion.x.size() / 3; i += plant->follow ? 2 : 1) point(plant->motion.x, i) *= 1.2;
-    EXPECT_TRUE(look_at_energy(*plant, H, false, 0).comes_from_nowhere);
+    EXPECT_FALSE(keeps_course(*plant, LONG));
 }
 
 // Simulates steps whose searches all failed at the current position.

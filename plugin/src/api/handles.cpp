@@ -77,6 +77,7 @@ Bond& get(frond_bond bond) {
 Plant& awaken(PlantBody& body) {
     wake(body);
     end_sway(body);
+    disturb(body);
     return *body.plant;
 }
 

@@ -238,7 +238,7 @@ static bool foresee_method(Plant& plant, double h) {
 static bool goes_on(const Plant& plant, double h) {
     const Motion& motion = plant.motion;
     return history_holds(motion, plant.settings.integrator, h) == plant.looks_back &&
-           ((plant.looks_back && motion.history.x_end.size() == 0) || is_where_held(motion));
+           ((plant.looks_back && motion.history.x_end.size() == 0) || !is_carried(motion, motion.x, motion.v));
 }
 
 bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h) {

@@ -33,17 +33,11 @@ double potential_energy(const Plant& plant, const VecX& x);
 // Returns the energy that lifts the plant by its own size [J].
 double lifting_energy(const Plant& plant);
 
-struct EnergyLook {
-    // It has more energy than it had and than forces, springs and moving pins can have given.
-    bool comes_from_nowhere = false;
-    // Its energy could not lift it by its size: at the start, or at the end with hardly more than it was given.
-    bool is_small = false;
-};
-// Checks a solve over h [s] from x_good and v_good; contacts that push did `work` [J].
-EnergyLook look_at_energy(const Plant& plant, double h, bool is_pushed, double work);
-// Sets is_off_course after such a solve, and returns whether the plant may go there: it did not run away, nor gain
-// energy that nothing can have given. What stayed on its course is not asked for its energy.
-bool keeps_course(Plant& plant, double h);
+// Sets is_off_course after a solve over h [s] from x_good and v_good, and returns whether the plant may go there: it
+// did not run away, nor gain energy that forces, springs, moving pins, the air and `work` of contacts [J] cannot have
+// given. What stayed on its course is not asked for its energy; where that could not lift the plant by its size, it
+// cannot be damaged and counts as on its course.
+bool keeps_course(Plant& plant, double h, bool is_pushed = false, double work = 0);
 
 // Translates a plant with its pins, between solves, if they were put farther away than `least` times its size.
 bool jump_with_pins(Plant& plant, double least);

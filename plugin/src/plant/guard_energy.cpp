@@ -67,18 +67,24 @@ double lifting_energy(const Plant& plant) {
     return node_mass_of(*plant.system).sum() * GRAVITY * double(plant.size);
 }
 
-EnergyLook look_at_energy(const Plant& plant, double h, bool is_pushed, double work) {
-    // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-]. Without
-    // air errors add up; air ends within some steps whatever an error began, but in cages, which it draws out. In cages
-    // the response to a push is soft.
-    const bool is_lax = plant.follow ? !plant.loads.drags.empty() : is_pushed;
+struct EnergyLook {
+    // It has more energy than it had and than forces, springs and moving pins can have given.
+    bool comes_from_nowhere = false;
+    // Its energy could not lift it by its size: at the start, or at the end with hardly more than it was given.
+    bool is_small = false;
+};
+static EnergyLook look_at_energy(const Plant& plant, double h, bool is_pushed, double work) {
+    // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-]. In cages
+    // the response to a push is soft. The air's work on a chain that turns is known as well as its order alone.
+    const double by_air = work_of_air(plant, h);
+    const bool is_lax = !plant.follow && is_pushed;
     const double share = is_lax ? 1 : 0.05, lift = is_lax ? 1 : 0.01;
     constexpr double CARRIED = 2;  // speed at which moving pins may carry the plant, over their own [-]
     EnergyLook look;
     const VecX &x = plant.motion.x, &x_good = plant.x_good;
     const double after = kinetic_energy(*plant.system, x, plant.motion.v) + elastic_energy(plant, x);
     const double speed = CARRIED * way_of_pins(plant) / h, lifting = lifting_energy(plant);
-    double given = work + work_along(plant, x - x_good) + work_of_air(plant, h) +
+    double given = work + work_along(plant, x - x_good) + by_air + (plant.follow ? std::abs(by_air) : 0) +
                    spring_energy(plant, x_good, Held::BY_GRABS) - spring_energy(plant, x, Held::BY_GRABS) +
                    0.5 * node_mass_of(*plant.system).sum() * speed * speed;
     // The work of moments, which few nodes have, goes along the rotation, not along rotation vectors.
@@ -95,9 +101,9 @@ EnergyLook look_at_energy(const Plant& plant, double h, bool is_pushed, double w
     return look;
 }
 
-bool keeps_course(Plant& plant, double h) {
-    plant.is_off_course = ends_off_course(plant, h);
-    const EnergyLook look = plant.is_off_course ? look_at_energy(plant, h, false, 0) : EnergyLook();
+bool keeps_course(Plant& plant, double h, bool is_pushed, double work) {
+    plant.is_off_course = ends_off_course(plant, h) || is_carried(plant.motion, plant.x_good, plant.v_good);
+    const EnergyLook look = plant.is_off_course ? look_at_energy(plant, h, is_pushed, work) : EnergyLook();
     plant.is_off_course &= !look.is_small;  // too little energy for damage
     return !look.comes_from_nowhere && !has_run_away(plant);
 }

@@ -109,6 +109,14 @@ bool is_where_held(const Motion& motion) {
     return i == count;
 }
 
+bool is_carried(const Motion& motion, const VecX& x, const VecX& v) {
+    const int count = int(motion.pinned.size());
+    int i = next_pinned(motion, 0);
+    while (i < count && point(motion.pin_target, i) == point(x, i) && point(v, i) == Vec3::Zero())
+        i = next_pinned(motion, i + 1);
+    return i < count;
+}
+
 void apply_pins(Plant& plant) {
     if (plant.follow) {
         if (plant.pins_changed || !is_where_held(plant.motion)) pin_chain(plant);

@@ -251,6 +251,9 @@ void move_pin(Plant& plant, int node, const Vec3& target);
 void apply_pins(Plant& plant);
 // Returns whether the held nodes of a chain are at their targets.
 bool is_where_held(const Motion& motion);
+// Returns whether held nodes are on their way from x to their targets, or have moved before: v is not zero. A foot that
+// starts or stops tears at a plant, however short the way.
+bool is_carried(const Motion& motion, const VecX& x, const VecX& v);
 
 // Elastic energy, relative to the modelled shape's, and kinetic energy [J].
 struct StoredEnergy {

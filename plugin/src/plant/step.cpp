@@ -63,11 +63,11 @@ static Contacts contacts_of(const Plant& plant) {
 // Returns whether no node ran away, and none left its course with energy that nothing can have given; `work` was done
 // by contacts [J].
 static bool is_plausible(Plant& plant, double h, Contacts contacts, double work = 0) {
-    if (contacts == Contacts::NONE) return keeps_course(plant, h);
-    plant.is_off_course = ends_off_course(plant, h);
-    const EnergyLook look = contacts == Contacts::PUSH ? look_at_energy(plant, h, true, work) : EnergyLook();
-    plant.is_off_course &= !look.is_small;
-    return !look.comes_from_nowhere && !has_run_away(plant);
+    if (contacts == Contacts::TO_COME) {
+        plant.is_off_course = ends_off_course(plant, h);
+        return !has_run_away(plant);
+    }
+    return keeps_course(plant, h, contacts == Contacts::PUSH, work);
 }
 
 // Returns whether the solution, as moved since then, can be the next state.

@@ -24,15 +24,13 @@ struct LookBack {
     FROND_INLINE void run() const {
         for (int i = 0; i < a.system->elements->node_count; ++i) {
             const int at = 3 * i;
-            const Lanes3<S> x = load3<S>(a.x.data(), at),
-                            v = pinned[size_t(i)] ? Lanes3<S>{} : load3<S>(a.v.data(), at);
-            Lanes3<S> x_prev = load3<S>(a.x_prev.data(), at), v_prev = load3<S>(a.v_prev.data(), at);
-            if (a.held[size_t(i)]) {
-                x_prev = x - constant<S>(h_before) * v;
-                v_prev = v;
-            }
-            begin(at, v, x + constant<S>(h) * v, x + constant<S>(method.back) * (x - x_prev),
-                  v + constant<S>(method.back) * (v - v_prev));
+            const Lanes3<S> x = load3<S>(a.x.data(), at);
+            Lanes3<S> v = pinned[size_t(i)] ? Lanes3<S>{} : load3<S>(a.v.data(), at);
+            const Lanes3<S> x_prev = load3<S>(a.x_prev.data(), at), v_prev = load3<S>(a.v_prev.data(), at);
+            const Lanes3<S> x_from = x + constant<S>(h) * v, x_base = x + constant<S>(method.back) * (x - x_prev),
+                            v_base = v + constant<S>(method.back) * (v - v_prev);
+            if (a.held[size_t(i)]) v = constant<S>(1 / method.step) * (x_from - x_base);
+            begin(at, v, x_from, x_base, v_base);
         }
     }
     template <class S>

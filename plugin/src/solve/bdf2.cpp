@@ -41,18 +41,13 @@ bool step_bdf2(Workspace& workspace, const StepInput& input, SolveReport& report
     w.x_from = motion.x + input.h * w.v_start;
     if (!is_calm(*w.system, motion.x, w.x_from)) return step_implicit_euler(workspace, input, report);
 
-    // Held nodes move at constant velocity, whatever they did before.
-    w.x_prev = motion.history.x_prev;
-    w.v_prev = motion.history.v_prev;
-    for (size_t i = 0; i < w.held.size(); ++i) {
-        if (!w.held[i]) continue;
-        point(w.x_prev, int(i)) = point(motion.x, int(i)) - motion.history.h * point(w.v_start, int(i));
-        point(w.v_prev, int(i)) = point(w.v_start, int(i));
-    }
-
     const auto [back, step] = bdf2_after(motion.history.h, input.h);
-    w.x_base = motion.x + back * (motion.x - w.x_prev);
-    w.v_base = w.v_start + back * (w.v_start - w.v_prev);
+    w.x_base = motion.x + back * (motion.x - motion.history.x_prev);
+    w.v_base = w.v_start + back * (w.v_start - motion.history.v_prev);
+    // Held nodes get the velocity that the method finds in their positions, as free ones do: otherwise a foot that
+    // stops would tear at a plant that goes on.
+    for (size_t i = 0; i < w.held.size(); ++i)
+        if (w.held[i]) point(w.v_start, int(i)) = 1 / step * (point(w.x_from, int(i)) - point(w.x_base, int(i)));
     return solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from}, report);
 }
 

@@ -27,6 +27,8 @@ void set_detail(World& world, const frond_detail_def* def);
 bool is_still(const World& world, const PlantBody& body);
 // Ends a plant's modal motion: it is simulated until its detail is chosen again.
 void end_sway(PlantBody& body);
+// Notes that a body or the host moves a plant: for a while it is simulated at any distance, in every substep.
+void disturb(PlantBody& body);
 // Gives each plant that is awake its detail. Call it before plants are stepped.
 void choose_details(World& world);
 // Updates the measured times. Call it after a substep.

@@ -112,6 +112,11 @@ void end_sway(PlantBody& body) {
     if (!body.world->detail) give(body, FROND_DETAIL_FULL);
 }
 
+void disturb(PlantBody& body) {
+    constexpr double WHILE = 0.5;  // [s]
+    body.level.disturbed = body.world->time + WHILE;
+}
+
 frond_detail detail_of(const World& world, const PlantBody& body) {
     if (!world.detail || !body.rest.asleep) return body.level.now;
     return wanted_at(world.detail->def, distance_of(world, body), body.level.now);
@@ -139,10 +144,10 @@ void choose_details(World& world) {
         Level& level = body->level;
         frond_detail wanted = wanted_at(def, level.distance, level.now);
         const bool held = is_used_by_host(world, *body);
-        const bool is_touched = world.time < level.touched && wanted == FROND_DETAIL_MODAL;
-        if (held || is_touched) wanted = std::min(wanted, FROND_DETAIL_ROD);
+        const bool is_disturbed = world.time < level.disturbed;
+        if (held || (is_disturbed && wanted == FROND_DETAIL_MODAL)) wanted = std::min(wanted, FROND_DETAIL_ROD);
         const double half_from = def.half_from * (level.every > 1 ? 1 - def.hysteresis : 1);
-        level.every = is_simulated(wanted) && level.distance >= half_from && world.time >= level.touched ? 2 : 1;
+        level.every = is_simulated(wanted) && level.distance >= half_from && !is_disturbed ? 2 : 1;
         if (is_limited && !held) wanted = affordable(detail, *body, wanted, left);
         if (wanted == level.now && is_given(*body, wanted)) continue;
         const bool goes_over = body->plant->which != mechanics_for(*body, wanted);

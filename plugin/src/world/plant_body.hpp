@@ -50,7 +50,7 @@ struct Level {
     bool is_due = true;     // is stepped in the running substep
     float distance = 0;     // distance that counts for detail [m], by size [-]
     double pending = 0;     // time not yet stepped [s]
-    double touched = 0;     // time until which it counts as touched [s]
+    double disturbed = 0;   // time until which it is simulated at any distance [s]
     float ms = 0;           // average time of recent steps [ms]
     float ms_capsules = 0;  // time for the capsules in the last step [ms]
 };

@@ -62,7 +62,7 @@ static void visit_motion(Archive& a, Motion& motion) {
 
 static void visit_level(Archive& a, Level& level) {
     a.one_of(level.now, FROND_DETAIL_COUNT), a.one_of(level.own, FROND_MECHANICS_COUNT), a(level.every),
-        a(level.pending), a(level.is_due), a(level.distance), a(level.touched);
+        a(level.pending), a(level.is_due), a(level.distance), a(level.disturbed);
 }
 
 static void visit(Archive& a, SavedPlant& plant) {

@@ -187,7 +187,7 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
     if (saved.substeps < 1 || saved.substeps > plant.max_substeps) damaged("substeps");
     if (saved.level.every < 1 || saved.level.every > 64) damaged("detail");
     check_numbers(std::array{saved.lead, double(saved.recovers_for), saved.still, saved.level.pending,
-                             double(saved.level.distance), saved.level.touched},
+                             double(saved.level.distance), saved.level.disturbed},
                   "plants");
     check_numbers(saved.air, "plants");
     for (const SavedGrownIn& grown_in : saved.grown_in) {

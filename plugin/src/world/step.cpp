@@ -103,10 +103,10 @@ void find_touches(World& world, double h) {
 
 // Notes plants that moving bodies touch: they are simulated for a while at any distance.
 void note_touches(World& world) {
-    constexpr double WHILE = 0.5, NEAR = 0.02;  // [s], [m]
+    constexpr double NEAR = 0.02;  // [m]
     if (!world.detail) return;
     for (const Contact& contact : world.contacts)
-        if (contact.gap < NEAR && is_moving(*contact.other)) contact.plant->level.touched = world.time + WHILE;
+        if (contact.gap < NEAR && is_moving(*contact.other)) disturb(*contact.plant);
 }
 
 // Drops contacts of modal plants, and of plants whose detail changed after their contacts were found; marks plants that
