@@ -44,6 +44,7 @@ void create_plant(Stage& s) {
     def.position = {0.1 * s.input.below(5), 0, 0.1 * s.input.below(3)};
     def.mechanics = frond_mechanics(s.input.below(FROND_MECHANICS_COUNT));
     def.integrator = frond_integrator(s.input.below(FROND_INTEGRATOR_COUNT));
+    def.collision = frond_collision(s.input.below(FROND_COLLISION_COUNT));
     def.tuning.linear_solver = frond_linear_solver(s.input.below(FROND_LINEAR_SOLVER_COUNT));
     def.starts_asleep = s.input.below(4) == 0;
     if (s.input.below(4) == 0) def.root_height = -1;
@@ -252,8 +253,9 @@ void look_at_model(Stage& s) {
          {frond_result_name(frond_result(number)), frond_effect_name(frond_effects(number)),
           frond_mechanics_name(frond_mechanics(number)), frond_integrator_name(frond_integrator(number)),
           frond_linear_solver_name(frond_linear_solver(number)), frond_mass_name(frond_mass(number)),
-          frond_hash_layout_name(frond_hash_layout(number)), frond_response_name(frond_response(number)),
-          frond_detail_name(frond_detail(number)), frond_shape_name(frond_shape(number)), frond_version_string()})
+          frond_collision_name(frond_collision(number)), frond_hash_layout_name(frond_hash_layout(number)),
+          frond_response_name(frond_response(number)), frond_detail_name(frond_detail(number)),
+          frond_shape_name(frond_shape(number)), frond_version_string()})
         require(name && name[0], "something has no name");
     frond_material material;
     const char kind[] = {char(s.input.byte()), char(s.input.byte()), 0};

@@ -1,6 +1,6 @@
 // placements: counts the pairs of overlapping corn plants that are apart from 2 to 4 s, measured by FCL. Two of the
 // placements are those of the scene corn_pair and of examples/pair.c, the others are random.
-//     placements [COUNT [STEPS_A_SECOND [MECHANICS [AT_LEAST]]]]
+//     placements [COUNT [STEPS_A_SECOND [MECHANICS [AT_LEAST [COLLISION]]]]]
 // Fails if fewer than AT_LEAST of them overlap by less than 1 mm.
 #include <cstdio>
 #include <cstdlib>
@@ -37,9 +37,10 @@ struct Deepest {
 };
 
 // Returns the largest overlap of all steps from 2 to 4 s. Rods do not touch by their cages.
-Deepest play(const Placement& placement, frond_mechanics mechanics, int steps_a_second) {
-    CornPair pair(FROND_RESPONSE_IMPULSE, mechanics, 1.0 / steps_a_second, placement);
-    const bool by_cages = mechanics != FROND_MECHANICS_ROD && mechanics != FROND_MECHANICS_SPRING_CHAIN;
+Deepest play(const Placement& placement, frond_mechanics mechanics, int steps_a_second, frond_collision collision) {
+    CornPair pair(FROND_RESPONSE_IMPULSE, mechanics, 1.0 / steps_a_second, placement, collision);
+    const bool by_cages = collision == FROND_COLLISION_CAGE && mechanics != FROND_MECHANICS_ROD &&
+                          mechanics != FROND_MECHANICS_SPRING_CHAIN;
     Deepest deepest;
     pair.steps(2 * steps_a_second - 1);
     for (int i = 0; i <= 2 * steps_a_second; i++) {
@@ -52,15 +53,15 @@ Deepest play(const Placement& placement, frond_mechanics mechanics, int steps_a_
     return deepest;
 }
 
-int run(int count, int steps_a_second, frond_mechanics mechanics, int at_least) {
+int run(int count, int steps_a_second, frond_mechanics mechanics, int at_least, frond_collision collision) {
     std::mt19937 random(1);
     int apart = 0;
-    std::printf("%s, 1/%d s; deepest from 2 to 4 s [mm]\n%-3s %7s %7s %7s %7s %9s %9s %7s\n",
-                frond_mechanics_name(mechanics), steps_a_second, "", "x", "z", "turn", "turn", "cages", "surfaces",
-                "steps");
+    std::printf("%s by %s, 1/%d s; deepest from 2 to 4 s [mm]\n%-3s %7s %7s %7s %7s %9s %9s %7s\n",
+                frond_mechanics_name(mechanics), frond_collision_name(collision), steps_a_second, "", "x", "z", "turn",
+                "turn", "cages", "surfaces", "steps");
     for (int i = 0; i < count; i++) {
         const Placement placement = i == 0 ? AS_IN_SCENE : i == 1 ? AS_IN_EXAMPLE : draw_placement(random);
-        const Deepest deepest = play(placement, mechanics, steps_a_second);
+        const Deepest deepest = play(placement, mechanics, steps_a_second, collision);
         apart += deepest.late == 0;
         std::printf("%-3d %7.3f %7.3f %7.3f %7.3f %9.2f %9.2f %7d\n", i, placement.place.x, placement.place.z,
                     placement.turns[0], placement.turns[1], 1000 * deepest.cages, 1000 * deepest.surfaces,
@@ -79,7 +80,10 @@ int main(int argc, char** argv) {
     const std::string wanted = argc > 3 ? argv[3] : frond_mechanics_name(FROND_MECHANICS_TET_COROTATIONAL);
     for (int which = 0; which < FROND_MECHANICS_COUNT; which++)
         if (wanted == frond_mechanics_name(frond_mechanics(which)))
-            return frond::test::run(number(1, 30), std::max(1, number(2, 60)), frond_mechanics(which), number(4, 0));
+            return frond::test::run(number(1, 30), std::max(1, number(2, 60)), frond_mechanics(which), number(4, 0),
+                                    argc > 5 && std::string(argv[5]) == frond_collision_name(FROND_COLLISION_CAGE)
+                                        ? FROND_COLLISION_CAGE
+                                        : FROND_COLLISION_ORGANS);
     std::fprintf(stderr, "there are no mechanics %s\n", wanted.c_str());
     return 2;
 }

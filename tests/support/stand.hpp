@@ -130,12 +130,14 @@ constexpr Placement AS_IN_SCENE = {{0.9, 0, 0.03}, {0.1, -0.05}}, AS_IN_EXAMPLE 
 
 struct CornPair : Stand {
     explicit CornPair(frond_response response, frond_mechanics mechanics = FROND_MECHANICS_TET_COROTATIONAL,
-                      double step = H, const Placement& placement = AS_IN_SCENE)
+                      double step = H, const Placement& placement = AS_IN_SCENE,
+                      frond_collision collision = FROND_COLLISION_CAGE)
         : Stand(def_of(response, step)) {
         h = step;
         load_corn();
         frond_plant_def def = plant_def();
         def.mechanics = mechanics;
+        def.collision = collision;
         const frond_vec3& at = placement.place;
         add(def, {-0.45, 0, 0}, placement.turns[0]);
         add(def, {at.x - 0.45, at.y, at.z}, placement.turns[1]);

@@ -77,6 +77,24 @@ TEST(CornPair, StaysApartWhereTheExamplePutsIt) {
     expect_stays_apart(FROND_MECHANICS_TET_COROTATIONAL, H, frond::test::AS_IN_EXAMPLE);
 }
 
+// By its organs, which are apart where cages overlap: only surfaces count. Other turns than the example's, since there
+// organs hardly touch.
+TEST(CornPair, OfCagesStaysApartByItsOrgans) {
+    if (SANITIZED) GTEST_SKIP() << "a figure";
+    double before = 0;
+    for (const double turn : {0.1, 1.3, 2.9, 4.4}) {
+        CornPair pair(FROND_RESPONSE_IMPULSE, FROND_MECHANICS_TET_COROTATIONAL, H, {{0.8, 0, 0.03}, {turn, -turn}},
+                      FROND_COLLISION_ORGANS);
+        before = std::max(before, pair.surface_depth());
+        pair.steps(120);
+        for (int i = 0; i < 60; i++) {
+            pair.steps(1);
+            EXPECT_LT(pair.surface_depth(), 0.001) << turn << ", step " << i;
+        }
+    }
+    EXPECT_GT(before, 0.005);
+}
+
 TEST(CornPair, SpringsPartItToo) {
     if (SANITIZED) GTEST_SKIP() << "a figure";
     for (const frond_mechanics mechanics : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD}) {

@@ -155,7 +155,8 @@ struct Leaning {
     }
 };
 
-// Tests both halves of a plant step. A plant that missed one continues a sixtieth of a second behind.
+// Tests both halves of a plant step. A plant that missed one continues a sixtieth of a second behind, and with friction
+// comes to rest a little elsewhere.
 TEST(Threads, ThatFailBreakOffOneStepAndNoMore) {
     constexpr int STEPS = 240;
     PoorTeam rich = {0};
@@ -176,7 +177,7 @@ TEST(Threads, ThatFailBreakOffOneStepAndNoMore) {
         EXPECT_NEAR(broken.height(), whole.height(), 1e-9);
         for (size_t k = 0; k < whole.plants.size(); k++) {
             const std::vector<double> a = whole.places(whole.plants[k]), b = broken.places(broken.plants[k]);
-            for (size_t i = 0; i < a.size(); i++) ASSERT_NEAR(a[i], b[i], 5e-3) << fails_in << ", plant " << k;
+            for (size_t i = 0; i < a.size(); i++) ASSERT_NEAR(a[i], b[i], 0.01) << fails_in << ", plant " << k;
         }
     }
 }

@@ -156,6 +156,8 @@ const std::vector<Key>& keys() {
              s.model.rest = value == "as_modelled" ? FROND_REST_STANDS_AS_MODELLED : FROND_REST_WITHOUT_GRAVITY;
          }},
         count("element_order", "of the tets, 1 or 2", &Settings::plant, &frond_plant_def::element_order),
+        choice("collision", "organs or cage", FROND_COLLISION_COUNT, frond_collision_name, &Settings::plant,
+               &frond_plant_def::collision),
         choice("integrator", "row of the table", FROND_INTEGRATOR_COUNT, frond_integrator_name, &Settings::plant,
                &frond_plant_def::integrator),
         choice("linear_solver", "row of the table", FROND_LINEAR_SOLVER_COUNT, frond_linear_solver_name,

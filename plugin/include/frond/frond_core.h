@@ -385,6 +385,9 @@ typedef struct frond_plant_def {
     double root_height;      /* cage nodes lower than this above the plant's foot are pinned [m]; 0 (default) chooses
                               * from the shape; negative pins none. A node on an edge is pinned if both its ends are. */
     frond_effects effects;   /* default FROND_EFFECT_DEFAULT */
+    /* Default FROND_COLLISION_ORGANS. Chain mechanics have no other; the caller's own tets always touch by their cage,
+     * which is their true shape. */
+    frond_collision collision;
     /* Starts asleep, as modelled, as if it had come to rest so: a field of thousands then costs no steps until
      * something moves them. Default false. */
     bool starts_asleep;

@@ -230,6 +230,14 @@ typedef enum frond_wind_profile {
     FROND_WIND_PROFILE_COUNT
 } frond_wind_profile;
 
+/* The shape by which a plant touches other plants and itself. */
+#define FROND_COLLISIONS(X)                                                            \
+    X(ORGANS, "organs") /* its organs: blades as strips, the rest as thick as it is */ \
+    X(CAGE, "cage")     /* the tets of its cage, as in the paper: some centimetres fatter, and dearer by far */
+#define FROND_COLLISION_ENUM(code, text) FROND_COLLISION_##code,
+typedef enum frond_collision { FROND_COLLISIONS(FROND_COLLISION_ENUM) FROND_COLLISION_COUNT } frond_collision;
+#undef FROND_COLLISION_ENUM
+
 /* Returns the short lower-case name of an effect's bit, "wind"; "?" of any other number. */
 FROND_API const char* frond_effect_name(frond_effects effect);
 /* Returns the short lower-case name of a mechanical model, "rod"; "?" when it is out of range. */
@@ -240,6 +248,8 @@ FROND_API const char* frond_integrator_name(frond_integrator integrator);
 FROND_API const char* frond_response_name(frond_response response);
 /* Returns the short lower-case name of a detail, "modal"; "?" when it is out of range. */
 FROND_API const char* frond_detail_name(frond_detail detail);
+/* Returns the short lower-case name of a shape by which plants touch, "organs"; "?" when it is out of range. */
+FROND_API const char* frond_collision_name(frond_collision collision);
 /* Returns the short lower-case name of an event, "woke"; "?" when it is out of range. */
 FROND_API const char* frond_event_name(frond_event event);
 /* Returns the short lower-case name of a rigid body's shape, "sphere"; "?" when it is out of range. */

@@ -26,6 +26,7 @@ static void check_plant_def(const frond_plant_def* def) {
     check_rotation(Quat(def->rotation.w, def->rotation.x, def->rotation.y, def->rotation.z), "def.rotation");
     check_row(number_of(def->mechanics), FROND_MECHANICS_COUNT, "def.mechanics");
     check_row(number_of(def->integrator), FROND_INTEGRATOR_COUNT, "def.integrator");
+    check_row(number_of(def->collision), FROND_COLLISION_COUNT, "def.collision");
     check_row(number_of(def->tuning.linear_solver), FROND_LINEAR_SOLVER_COUNT, "def.tuning.linear_solver");
     check_row(number_of(def->tuning.mass), FROND_MASS_COUNT, "def.tuning.mass");
     check_range(def->element_order, 1, HIGHEST_ORDER, "def.element_order");

@@ -29,6 +29,7 @@ static const char* const MECHANICS_NAMES[] = {FROND_MECHANICS(ROW_TEXT)};
 static const char* const INTEGRATOR_NAMES[] = {FROND_INTEGRATORS(ROW_TEXT)};
 static const char* const LINEAR_SOLVER_NAMES[] = {FROND_LINEAR_SOLVERS(ROW_TEXT)};
 static const char* const MASS_NAMES[] = {FROND_MASSES(ROW_TEXT)};
+static const char* const COLLISION_NAMES[] = {FROND_COLLISIONS(ROW_TEXT)};
 static const char* const HASH_LAYOUT_NAMES[] = {FROND_HASH_LAYOUTS(ROW_TEXT)};
 static const char* const RESPONSE_NAMES[] = {FROND_RESPONSES(ROW_TEXT)};
 static const char* const SHAPE_NAMES[] = {FROND_SHAPES(ROW_TEXT)};
@@ -68,6 +69,9 @@ const char* frond_shape_name(frond_shape shape) {
 }
 const char* frond_mass_name(frond_mass mass) {
     return row_name(MASS_NAMES, number_of(mass), "?");
+}
+const char* frond_collision_name(frond_collision collision) {
+    return row_name(COLLISION_NAMES, number_of(collision), "?");
 }
 const char* frond_hash_layout_name(frond_hash_layout layout) {
     return row_name(HASH_LAYOUT_NAMES, number_of(layout), "?");

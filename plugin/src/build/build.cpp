@@ -112,6 +112,7 @@ std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def
     const Timer total;
     auto model = std::make_shared<Model>();
     take_tets(std::move(mesh), import_options(def), model->surface, model->cage, model->embedding);
+    model->has_own_tets = true;
     model->ms_import = total.ms();
     find_organs(*model, def);
     find_chain(*model, def);

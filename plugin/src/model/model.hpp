@@ -49,6 +49,7 @@ struct Model {
     bool stands_as_modelled = false;    // under GRAVITY; else the modelled shape is the rest shape
     std::vector<std::array<int, 2>> capsules;  // chain nodes at the two ends; a root alone is both ends
     Cage cage;
+    bool has_own_tets = false;        // the cage are the caller's own tets, the plant's true shape
     Embedding embedding;              // surface vertices in the cage
     Embedding chain_embedding;        // chain nodes in the cage
     std::vector<double> tet_density;  // densities of the cage's tets, so that each organ has its proper mass [kg/m^3]

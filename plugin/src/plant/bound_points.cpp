@@ -21,12 +21,14 @@ static Vec3 bound_point(const Plant& plant, const Embedding& embedding, size_t i
 Vec3 vertex_position(const Plant& plant, int vertex) {
     const Fragment* fragment = fragment_of_vertex(plant, size_t(vertex));
     const auto in_cage = [&](const VecX& x) { return bound_point(plant, plant.model->embedding, size_t(vertex), x); };
-    const auto on_chain = [&](const VecX& x) {
-        return attachment_place(skin_attachment(*plant.skin, plant.skin->vertices[size_t(vertex)]), x);
+    const auto on_chain = [&](const Follow& follow, const VecX& x) {
+        return attachment_place(skin_attachment(follow.skin, follow.skin.vertices[size_t(vertex)]), x);
     };
-    if (fragment) return fragment->place(fragment->x.size() > 0 ? on_chain(fragment->x) : in_cage(fragment->cage_x));
+    if (fragment)
+        return fragment->place(fragment->follow ? on_chain(*fragment->follow, fragment->x) : in_cage(fragment->cage_x));
     if (!plant.follow) return plant.to_world(in_cage(cage_places(plant)));
-    Vec3 place = on_chain(plant.lead > 0 ? VecX(plant.motion.x + plant.lead * plant.motion.v) : plant.motion.x);
+    Vec3 place =
+        on_chain(*plant.follow, plant.lead > 0 ? VecX(plant.motion.x + plant.lead * plant.motion.v) : plant.motion.x);
     if (!is_over(plant.blend_out)) place += in_cage(blend_offset(plant, plant.lead));
     return plant.to_world(place);
 }
@@ -85,7 +87,7 @@ Attachment chain_attachment(const Plant& plant, int node) {
 }
 
 Attachment vertex_attachment(const Plant& plant, int vertex) {
-    if (plant.follow) return skin_attachment(*plant.skin, plant.skin->vertices[size_t(vertex)]);
+    if (plant.follow) return skin_attachment(plant.follow->skin, plant.follow->skin.vertices[size_t(vertex)]);
     return tet_attachment(bound_place(plant, plant.model->embedding, size_t(vertex)));
 }
 

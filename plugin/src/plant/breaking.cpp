@@ -172,6 +172,7 @@ const Fragment& break_off(Plant& plant, int node) {
     fragment.node = node;
     fragment.cage_x = cage_places(plant);
     if (plant.follow) fragment.x = plant.motion.x;
+    fragment.follow = plant.follow;
     fragment.chain_x = plant.chain_positions;
     fragment.turn = plant.rotation.toRotationMatrix();
     fragment.shift = plant.position;

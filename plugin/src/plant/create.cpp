@@ -80,6 +80,11 @@ std::shared_ptr<const Sheath> sheath_of(const Plant& plant) {
     return shared_of<Sheath>(plant.model, 1, [&] { return make_sheath(*plant.model); });
 }
 
+std::shared_ptr<const SheathInCage> sheath_in_cage_of(const Plant& plant) {
+    return shared_of<SheathInCage>(plant.model, plant.nodes->order,
+                                   [&] { return make_sheath_in_cage(*plant.model, *plant.nodes); });
+}
+
 std::shared_ptr<const AirPieces> air_pieces_of(const Plant& plant) {
     return shared_of<AirPieces>(plant.model, plant.nodes->order, [&] { return make_air_pieces(*plant.model); });
 }
@@ -124,11 +129,9 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.fibres = nullptr;
     plant.fibre_give.clear();
     if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = fibres_of(plant);
-    if (mechanics(which).moves_chain) {
+    if (mechanics(which).moves_chain)
         plant.follow = shared_of<Follow>(plant.model, nodes.order,
                                          [&] { return make_follow(*plant.model, nodes, nodes.modelled); });
-        plant.skin = shared_of<Skin>(plant.model, 1, [&] { return make_skin(*plant.model); });
-    }
     const VecX& start = elements_of(*plant.system).modelled;
     plant.motion = {};
     plant.motion.x = plant.motion.pin_target = start;
@@ -205,6 +208,7 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     plant->max_substeps = def.tuning.max_substeps;
     plant->substep_tolerance = def.tuning.substep_tolerance;
     plant->effects = def.effects;
+    plant->collision = plant->model->has_own_tets ? FROND_COLLISION_CAGE : def.collision;
     plant->position = Vec3(def.position.x, def.position.y, def.position.z);
     plant->rotation = Quat(def.rotation.w, def.rotation.x, def.rotation.y, def.rotation.z).normalized();
     plant->user = def.user;
@@ -235,6 +239,7 @@ frond_plant_def def_of(const Plant& plant) {
     def.material_damping = plant.material_damping;
     def.root_height = plant.foot->root_height;
     def.effects = plant.effects;
+    def.collision = plant.collision;
     def.user = plant.user;
     def.tuning.linear_solver = plant.settings.linear_solver;
     def.tuning.linear_iterations = plant.settings.max_iterations;

@@ -80,6 +80,7 @@ Follow make_follow(const Model& model, const TetNodes& nodes, const VecX& modell
 
     Follow follow;
     follow.modelled = modelled;
+    follow.skin = make_skin(model);
     for (size_t n = 0; n < organs.size(); n++) {
         const Vec3 p = point(modelled, int(n));
         Place best;

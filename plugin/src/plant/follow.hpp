@@ -1,4 +1,5 @@
-// Follow: how the cage is attached to the chain, for mechanics that move the chain. Shared by all plants of a model.
+// Follow: how cage and surface are attached to the chain, for mechanics that move the chain. Shared by all plants of a
+// model.
 #pragma once
 
 #include <vector>
@@ -6,6 +7,7 @@
 #include "mechanics/attachment.hpp"
 #include "mechanics/tet_nodes.hpp"
 #include "model/model.hpp"
+#include "plant/skin.hpp"
 
 namespace frond {
 
@@ -13,6 +15,7 @@ struct Follow {
     std::vector<Attachment> attachments;  // one per cage node
     std::vector<int> nearest;             // chain node to which each cage node is attached most
     VecX modelled;                        // positions of the cage nodes in the modelled shape [m]
+    Skin skin;                            // how the surface follows
 };
 
 // Attaches each cage node to the nearest capsule of its own organs: to a cubic centre line through the capsule's two

@@ -8,12 +8,15 @@
 
 namespace frond {
 
+struct Follow;
 struct Plant;
 
 struct Fragment {
-    int node;                   // chain node at the end of the capsule that broke
-    VecX cage_x;                // all cage nodes at the break, model frame [m]
-    VecX x;                     // with a chain: positions and rotations of all its nodes then; else empty
+    int node;     // chain node at the end of the capsule that broke
+    VecX cage_x;  // all cage nodes at the break, model frame [m]
+    // With a chain: positions and rotations of all its nodes then, and what follows them; else empty and null.
+    VecX x;
+    std::shared_ptr<const Follow> follow;
     std::vector<Vec3> chain_x;  // all chain nodes then, model frame [m]
     // Rigid body, world frame. Its first momentum and angular momentum are those of its nodes.
     double mass = 0;               // [kg]

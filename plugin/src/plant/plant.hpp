@@ -10,7 +10,6 @@
 #include "plant/follow.hpp"
 #include "plant/fragment.hpp"
 #include "plant/modal.hpp"
-#include "plant/skin.hpp"
 #include "solve/solve.hpp"
 
 namespace frond {
@@ -90,7 +89,6 @@ struct Plant {
 
     Motion motion;                         // state of the mechanics' nodes, model frame
     std::shared_ptr<const Follow> follow;  // null if the mechanics move the cage itself
-    std::shared_ptr<const Skin> skin;      // null as long as the mechanics have not moved the chain
     std::unique_ptr<ModalMotion> modal;    // state of a chain in modal motion; else null
     BlendOut blend_out;                    // offset of the cage from where the mechanics have it
     double lead = 0;        // time by which the drawn cage is extrapolated until the plant is stepped again [s]
@@ -126,6 +124,7 @@ struct Plant {
 
     // Small members side by side: fields have thousands of plants.
     frond_effects effects;
+    frond_collision collision = FROND_COLLISION_ORGANS;
     uint32_t trouble = 0;  // of the last step
     int max_substeps;
     int substeps = 1;           // of the next step

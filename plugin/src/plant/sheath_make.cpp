@@ -1,4 +1,4 @@
-// In: a model's chain and sections. Out: rings of four nodes around the chain's nodes, and tets between two rings.
+// In: a model's chain and sections. Out: rings of nodes around the chain's nodes, and tets between two rings.
 //
 // A blade is at least as thick as the depth that others reach within a step: thinner ones would be passed through
 // undetected. A push beside a blade's midrib has a lever across the blade, which turns with the chain's nodes.
@@ -23,6 +23,7 @@ struct Ring {
 
 struct Maker {
     const Model& model;
+    int strips;                   // side by side in a blade
     std::vector<Flat> flats;      // one per capsule
     std::vector<int> capsule_of;  // capsule that ends at each chain node; -1: none
     Sheath sheath;
@@ -46,11 +47,17 @@ Ring ring_of(const Maker& maker, int capsule) {
     return ring;
 }
 
-// Adds the four corners of a ring around a chain node; returns the first.
-int add_ring(Maker& maker, int chain_node, const Ring& ring) {
+int strips_of(const Maker& maker, const Ring& ring) {
+    return ring.is_flat ? maker.strips : 1;
+}
+
+// Adds the corners of a ring around a chain node, two for each edge of a strip; returns the first.
+int add_ring(Maker& maker, int chain_node, int capsule, const Ring& ring) {
     const Vec3& middle = maker.model.chain.nodes[size_t(chain_node)].position;
     const int first = int(maker.sheath.modelled.size());
-    for (const double across : {-ring.half_width, ring.half_width})
+    const int strips = strips_of(maker, ring);
+    for (int edge = 0; edge <= strips; edge++) {
+        const double across = (2.0 * edge / strips - 1) * ring.half_width;
         for (const double through : {-ring.half_thickness, ring.half_thickness}) {
             Attachment attachment;
             attachment.turns = true;
@@ -61,17 +68,19 @@ int add_ring(Maker& maker, int chain_node, const Ring& ring) {
             maker.sheath.modelled.push_back(middle + attachment.arm[0]);
             maker.sheath.follow.attachments.push_back(attachment);
             maker.sheath.follow.nearest.push_back(chain_node);
+            maker.sheath.capsules.push_back(capsule);
             attachment.arm[0] = ring.is_flat ? Vec3(across * ring.wide) : Vec3(Vec3::Zero());
             maker.sheath.holds.push_back(attachment);
         }
+    }
     return first;
 }
 
 // Adds six tets around the diagonal from the first corner to the last (Kuhn 1960), so that two boxes in a row share the
 // faces between them.
-void add_box(Maker& maker, int below, int above, int capsule) {
+void add_box(Maker& maker, int below, int above, int strip, int capsule) {
     constexpr int WAYS[6][3] = {{4, 2, 1}, {4, 1, 2}, {2, 4, 1}, {2, 1, 4}, {1, 4, 2}, {1, 2, 4}};
-    const auto node = [&](int corner) { return (corner & 4 ? above : below) + (corner & 3); };
+    const auto node = [&](int corner) { return (corner & 4 ? above : below) + 2 * strip + (corner & 3); };
     const int end = maker.model.capsules[size_t(capsule)][1];
     for (const auto& way : WAYS) {
         Tet tet = {node(0), node(way[0]), node(way[0] | way[1]), node(7)};
@@ -96,16 +105,17 @@ void add_capsule(Maker& maker, int capsule, std::vector<int>& last_ring, std::ve
         ring.wide = -ring.wide;
         ring.thin = -ring.thin;
     }
-    const int below = goes_on ? last_ring[size_t(before)] : add_ring(maker, begin, ring);
-    last_ring[size_t(capsule)] = add_ring(maker, end, ring);
+    const int below = goes_on ? last_ring[size_t(before)] : add_ring(maker, begin, capsule, ring);
+    last_ring[size_t(capsule)] = add_ring(maker, end, capsule, ring);
     rings[size_t(capsule)] = ring;
-    add_box(maker, below, last_ring[size_t(capsule)], capsule);
+    for (int strip = 0; strip < strips_of(maker, ring); strip++)
+        add_box(maker, below, last_ring[size_t(capsule)], strip, capsule);
 }
 
 }  // namespace
 
-Sheath make_sheath(const Model& model) {
-    Maker maker = {model, make_flats(model), std::vector<int>(model.chain.nodes.size(), -1), {}, {}, {}, {}};
+Sheath make_sheath(const Model& model, int strips) {
+    Maker maker = {model, strips, make_flats(model), std::vector<int>(model.chain.nodes.size(), -1), {}, {}, {}, {}};
     for (size_t i = 0; i < model.capsules.size(); i++)
         if (model.capsules[i][0] != model.capsules[i][1]) maker.capsule_of[size_t(model.capsules[i][1])] = int(i);
     // Nodes come after their parents, and so do the capsules that end there.

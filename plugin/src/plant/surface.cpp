@@ -18,8 +18,8 @@ namespace {
 
 // A part that is drawn as one: the plant, or a fragment that came off it.
 struct Drawn {
-    int fragment;   // -1: the plant itself
-    bool on_chain;  // x are the chain's positions and rotations, else the positions of the cage's nodes
+    int fragment;          // -1: the plant itself
+    const Follow* follow;  // x are the chain's positions and rotations; null: the positions of the cage's nodes
     const VecX& x;
     Mat3 turn;
     Vec3 shift;
@@ -226,12 +226,12 @@ VecX state_then(const Plant& plant, double back) {
 
 // Returns where a fragment was `back` before, as a free body moves.
 Drawn drawn_fragment(const Fragment& fragment, int number, double back) {
-    const bool on_chain = fragment.x.size() > 0;
-    const VecX& x = on_chain ? fragment.x : fragment.cage_x;
-    if (back == 0) return {number, on_chain, x, fragment.turn, fragment.shift};
+    const Follow* follow = fragment.follow.get();
+    const VecX& x = follow ? fragment.x : fragment.cage_x;
+    if (back == 0) return {number, follow, x, fragment.turn, fragment.shift};
     const Mat3 turned = rotation_of<double>(Vec3(-back * fragment.angular_velocity));
     const Vec3 centre = fragment.centre - back * fragment.velocity;
-    return {number, on_chain, x, turned * fragment.turn, turned * (fragment.shift - fragment.centre) + centre};
+    return {number, follow, x, turned * fragment.turn, turned * (fragment.shift - fragment.centre) + centre};
 }
 
 // Writes the vertices of one part, and their normals. `nodes` and `cofactors` are room to work in.
@@ -249,7 +249,7 @@ void draw_in_cage(Plant& plant, const Drawn& drawn, bool with_normals, std::vect
 }
 
 void draw_on_chain(Plant& plant, const Drawn& drawn, bool with_normals) {
-    draw_skin(*plant.skin,
+    draw_skin(drawn.follow->skin,
               {drawn.x, drawn.turn, drawn.shift, plant.parting->of_vertex, drawn.fragment, plant.model->surface.normals,
                plant.surface_positions.data(), with_normals ? plant.surface_normals.data() : nullptr});
 }
@@ -265,19 +265,19 @@ void update_surface(Plant& plant, frond_effects effects, double back) {
     VecX x = state_then(plant, back);
     const VecX offset = blend_offset(plant, plant.lead - back);
     if (!plant.follow && offset.size() > 0) x += offset;
-    std::vector<Drawn> list = {{-1, bool(plant.follow), x, plant.rotation.toRotationMatrix(), plant.position}};
+    std::vector<Drawn> list = {{-1, plant.follow.get(), x, plant.rotation.toRotationMatrix(), plant.position}};
     for (const Fragment& fragment : plant.fragments)
         list.push_back(drawn_fragment(fragment, int(list.size()) - 1, back));
     std::vector<Quad> nodes;
     std::vector<Columns> cofactors;
     for (const Drawn& drawn : list) {
-        if (drawn.on_chain)
+        if (drawn.follow)
             draw_on_chain(plant, drawn, effects & FROND_EFFECT_NORMALS);
         else
             draw_in_cage(plant, drawn, effects & FROND_EFFECT_NORMALS, nodes, cofactors);
     }
     if (plant.follow && offset.size() > 0) {
-        const Drawn drawn = {-1, false, offset, list.front().turn, Vec3::Zero()};
+        const Drawn drawn = {-1, nullptr, offset, list.front().turn, Vec3::Zero()};
         nodes.resize(size_t(offset.size() / 3));
         run_in_lanes(PlaceNodes{drawn, nodes});
         run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.surface_positions.data(), true});

@@ -9,8 +9,13 @@ namespace frond {
 
 // Returns the collider of the plant's cage, shared by all plants of the model as long as one of them keeps it.
 std::shared_ptr<const Collider> collider_of(const Plant& plant);
-// Returns what collides of a plant whose mechanics move the chain, shared likewise.
+// Returns the sheath on its chain, and the one in its cage, shared likewise.
 std::shared_ptr<const Sheath> sheath_of(const Plant& plant);
+std::shared_ptr<const SheathInCage> sheath_in_cage_of(const Plant& plant);
+// Returns whether a plant touches others by its sheath, else by its cage.
+inline bool touches_by_sheath(const Plant& plant) {
+    return plant.follow || plant.collision == FROND_COLLISION_ORGANS;
+}
 
 // Returns the point of a capsule's axis at `along` of its length from its first node to its second, 0..1. A push on the
 // capsule's side is applied there: with a lever it would spin hairs by radians in a step, which no linear response can

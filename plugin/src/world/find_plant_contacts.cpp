@@ -57,8 +57,19 @@ void place_nodes(const PlantBody& body, double h, VecX& now, VecX& then) {
         follow_places(body.sheath->follow, plant.motion.x + h * plant.motion.v, then);
         return;
     }
-    now = cage_places(plant);
-    then = now + h * cage_velocities(plant);
+    const VecX &cage = cage_places(plant), cage_then = cage + h * cage_velocities(plant);
+    if (!touches_by_sheath(plant)) {
+        now = cage;
+        then = cage_then;
+        return;
+    }
+    const std::vector<Attachment>& attachments = body.in_cage->attachments;
+    now.resize(3 * Eigen::Index(attachments.size()));
+    then.resize(now.size());
+    for (size_t n = 0; n < attachments.size(); n++) {
+        point(now, int(n)) = attachment_place(attachments[n], cage);
+        point(then, int(n)) = attachment_place(attachments[n], cage_then);
+    }
 }
 
 // Places a plant's shape where it will be at the end of the step if nothing touches it, so that contacts are found
@@ -106,7 +117,8 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     contact.friction = 1;
     for (size_t k = 0; k < 2; k++) {
         contact.plants[k] = island[size_t(contact.sides[k].body)];
-        contact.by_sheath[k] = contact.plants[k]->plant->follow != nullptr;
+        contact.by_sheath[k] = touches_by_sheath(*contact.plants[k]->plant);
+        contact.on_chain[k] = contact.plants[k]->plant->follow != nullptr;
         contact.friction *= friction_of(*contact.plants[k], contact.sides[k].organ);
     }
     // Back from the predicted to the present places.
@@ -168,7 +180,7 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
         const Collider* collider = &island[i]->touched_collider();
         covered.push_back({collider, &memory.shapes[i].covers, with_itself});
         bodies.push_back(
-            {collider, memory.shapes[i].places.data(), {}, with_itself, island[i]->plant->follow != nullptr});
+            {collider, memory.shapes[i].places.data(), {}, with_itself, touches_by_sheath(*island[i]->plant)});
     }
     std::vector<std::vector<uint8_t>> pieces = find_meeting_pieces(covered, 0);
     bool meet = false;
@@ -208,18 +220,24 @@ std::vector<std::vector<const PlantContact*>> sort_by_island(const World& world,
 }  // namespace
 
 bool is_by_the_same(const PlantContact& contact) {
-    for (size_t k = 0; k < 2; k++)
-        if (contact.by_sheath[k] != (contact.plants[k]->plant->follow != nullptr)) return false;
+    for (size_t k = 0; k < 2; k++) {
+        const Plant& plant = *contact.plants[k]->plant;
+        if (contact.on_chain[k] != (plant.follow != nullptr) || contact.by_sheath[k] != touches_by_sheath(plant))
+            return false;
+    }
     return true;
 }
 
 void take_attachments(PlantContact& contact) {
     std::array<Vec3, 2> places;
     for (size_t k = 0; k < 2; k++) {
-        const Plant& plant = *contact.plants[k]->plant;
+        const PlantBody& body = *contact.plants[k];
+        const Plant& plant = *body.plant;
         const ContactSide& side = contact.sides[k];
-        contact.attachments[k] =
-            plant.follow ? sheath_attachment(*contact.plants[k]->sheath, side) : cage_attachment(side);
+        contact.attachments[k] = plant.follow ? sheath_attachment(*body.sheath, side)
+                                 : touches_by_sheath(plant)
+                                     ? sheath_attachment(*body.in_cage, *plant.model, *plant.nodes, side)
+                                     : cage_attachment(side);
         places[k] = plant.to_world(attachment_place(contact.attachments[k], plant.motion.x));
     }
     contact.between = places[0] - places[1];

@@ -234,15 +234,20 @@ static double wider_than_capsules(const PlantBody& body, const Collider& collide
 }
 
 void take_collider(PlantBody& body) {
-    const bool by_sheath = body.plant->follow != nullptr;
-    if (by_sheath ? body.sheath != nullptr : body.collider != nullptr) return;
+    const Plant& plant = *body.plant;
+    const bool by_sheath = touches_by_sheath(plant);
+    if (plant.follow ? body.sheath != nullptr : by_sheath ? body.in_cage != nullptr : body.collider != nullptr) return;
+    if (plant.follow)
+        body.sheath = sheath_of(plant);
+    else if (by_sheath)
+        body.in_cage = sheath_in_cage_of(plant);
+    else
+        body.collider = collider_of(plant);
     Hull& hull = *body.hull;
     double& wider = by_sheath ? hull.wider_by_sheath : hull.wider_by_cage;
-    if (by_sheath)
-        body.sheath = sheath_of(*body.plant);
-    else
-        body.collider = collider_of(*body.plant);
-    const std::vector<Vec3>& modelled = by_sheath ? body.sheath->modelled : body.plant->model->cage.nodes;
+    const std::vector<Vec3>& modelled = plant.follow ? body.sheath->modelled
+                                        : by_sheath  ? body.in_cage->sheath.modelled
+                                                     : plant.model->cage.nodes;
     if (wider == 0) wider = wider_than_capsules(body, body.touched_collider(), modelled.data());
     for (btCompoundShape* shape : {body.compound(), hull.rest.get()})
         shape->setMargin(btScalar(std::max(hull.wider_by_cage, hull.wider_by_sheath)));

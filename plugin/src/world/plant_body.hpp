@@ -76,9 +76,11 @@ struct PlantBody : btSoftBody {
     int place = 0;                          // index in its contact island
     Level level;
     std::shared_ptr<Hull> hull;
-    std::shared_ptr<const Collider> collider;  // its cage's; null until other plants, or it itself, may touch it
-    std::shared_ptr<const Sheath> sheath;      // likewise, where the mechanics move the chain
-    std::vector<Rigid*> fragment_bodies;       // the world's, one for each of plant->fragments
+    // What other plants, or it itself, touch; null until they may: its cage, or its sheath on the chain or in the cage.
+    std::shared_ptr<const Collider> collider;
+    std::shared_ptr<const Sheath> sheath;
+    std::shared_ptr<const SheathInCage> in_cage;
+    std::vector<Rigid*> fragment_bodies;  // the world's, one for each of plant->fragments
 
     PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Plant> plant);
     ~PlantBody() override;
@@ -86,7 +88,9 @@ struct PlantBody : btSoftBody {
     const std::vector<std::unique_ptr<btCapsuleShape>>& capsules() const { return hull->capsules; }
     btCompoundShape* compound() { return static_cast<btCompoundShape*>(getCollisionShape()); }
     // The cage's or the sheath's, whichever is active for contact.
-    const Collider& touched_collider() const { return plant->follow ? sheath->collider : *collider; }
+    const Collider& touched_collider() const {
+        return plant->follow ? sheath->collider : in_cage ? in_cage->sheath.collider : *collider;
+    }
     // Excludes other plants, and infinite planes in a step, from Bullet's narrow phase; its broad phase still pairs
     // them.
     bool checkCollideWithOverride(const btCollisionObject* other) const override;

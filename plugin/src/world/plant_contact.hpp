@@ -1,5 +1,4 @@
-// PlantContact: a contact of two plants, or of a plant with itself, between their cages, or their sheaths where the
-// mechanics move their chains.
+// PlantContact: a contact of two plants, or of a plant with itself, between their sheaths or their cages.
 #pragma once
 
 #include "collide/cage_contact.hpp"
@@ -10,21 +9,21 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 struct PlantContact {
-    std::array<PlantBody*, 2> plants;  // the same one twice where it touches itself
-    std::array<ContactSide, 2> sides;  // points of cages or sheaths
-    std::array<bool, 2> by_sheath = {};
-    std::array<Attachment, 2> attachments;  // attachments of those points
-    Vec3 between;                           // place of the first attachment less that of the second, world frame [m]
-    Vec3 point;                             // point on the first, world frame [m]
-    Vec3 normal;                            // exit direction of the first from the second
-    double depth;                           // depth of the overlap [m]; below zero they are apart
-    double friction;                        // combined coefficient of both [-]
-    int missed = 0;                         // substeps since the search last found it
-    Vec3 impulse = Vec3::Zero();            // impulse on the first; the last substep's until this one's is known [N s]
+    std::array<PlantBody*, 2> plants;                   // the same one twice where it touches itself
+    std::array<ContactSide, 2> sides;                   // points of cages or sheaths
+    std::array<bool, 2> by_sheath = {}, on_chain = {};  // what touched, and whether the mechanics moved the chain
+    std::array<Attachment, 2> attachments;              // attachments of those points
+    Vec3 between;                 // place of the first attachment less that of the second, world frame [m]
+    Vec3 point;                   // point on the first, world frame [m]
+    Vec3 normal;                  // exit direction of the first from the second
+    double depth;                 // depth of the overlap [m]; below zero they are apart
+    double friction;              // combined coefficient of both [-]
+    int missed = 0;               // substeps since the search last found it
+    Vec3 impulse = Vec3::Zero();  // impulse on the first; the last substep's until this one's is known [N s]
 };
 
-// Returns whether both sides still touch by cage or sheath as when the contact was found: its attachments are those of
-// the mechanics at that time.
+// Returns whether the mechanics of both sides still move what they moved when the contact was found: its attachments
+// are of that time.
 bool is_by_the_same(const PlantContact& contact);
 // Sets the attachments of the points on both sides, by their present mechanics.
 void take_attachments(PlantContact& contact);

@@ -83,8 +83,9 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
             const Plant& plant = *world.bodies[size_t(saved.plants[k])]->plant;
             const ContactSide& side = c.sides[k];
             if (side.node_count < 1 || side.node_count > 4) damaged("contacts of plants");
-            const size_t nodes =
-                c.by_sheath[k] ? size_t(sheath_of(plant)->collider.node_count) : plant.model->cage.nodes.size();
+            const size_t nodes = c.on_chain[k]    ? size_t(sheath_of(plant)->collider.node_count)
+                                 : c.by_sheath[k] ? size_t(sheath_in_cage_of(plant)->sheath.collider.node_count)
+                                                  : plant.model->cage.nodes.size();
             for (int i = 0; i < side.node_count; i++) check_index(side.nodes[size_t(i)], nodes, "contacts of plants");
             check_index(side.piece, plant.model->capsules.size(), "contacts of plants");
             const frond_mechanics which = snapshot.plants[size_t(saved.plants[k])].which;

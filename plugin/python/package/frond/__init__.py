@@ -56,7 +56,7 @@ def name_of(choice: Any) -> str:
     names = {"Effect": lib.frond_effect_name, "Mechanics": lib.frond_mechanics_name,
              "Integrator": lib.frond_integrator_name, "Response": lib.frond_response_name,
              "Detail": lib.frond_detail_name, "Event": lib.frond_event_name, "Shape": lib.frond_shape_name,
-             "LinearSolver": lib.frond_linear_solver_name, "Mass": lib.frond_mass_name,
+             "LinearSolver": lib.frond_linear_solver_name, "Mass": lib.frond_mass_name, "Collision": lib.frond_collision_name,
              "HashLayout": lib.frond_hash_layout_name, "Joint": lib.frond_joint_name, "Result": lib.frond_result_name}
     return text_of(names[type(choice).__name__](choice.value))
 
