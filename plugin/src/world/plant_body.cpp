@@ -172,8 +172,10 @@ PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Pl
 }
 
 bool PlantBody::checkCollideWithOverride(const btCollisionObject* other) const {
-    return !(is_plane(*other) && is_for_step(*world->bullet)) && !of(other) &&
-           btSoftBody::checkCollideWithOverride(other);
+    const bool is_step = is_for_step(*world->bullet);
+    if ((is_step && is_plane(*other)) || of(other) || !btSoftBody::checkCollideWithOverride(other)) return false;
+    if (is_step) leave_near_children(const_cast<PlantBody&>(*this), *other);
+    return true;
 }
 
 // btSoftBody would delete the shape, but a shared one is the hull's.

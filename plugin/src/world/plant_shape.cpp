@@ -203,10 +203,9 @@ void make_room(PlantShape& shape, size_t child, const btVector3& from, const btV
         lower[c] = std::max(std::min(lower[c], below), from[c] - NEAR);
         upper[c] = std::min(std::max(upper[c], above), to[c] + NEAR);
     }
-    const btDbvtVolume volume =
-        btDbvtVolume::FromMM(btVector3(lower[0], lower[1], lower[2]), btVector3(upper[0], upper[1], upper[2]));
+    shape.put_back(child);
     btDbvtNode& node = *shape.getChildList()[child].m_node;
-    node.volume = volume;
+    const btDbvtVolume volume = node.volume;
     for (btDbvtNode* over = node.parent; over && !over->volume.Contain(volume); over = over->parent)
         Merge(over->volume, volume, over->volume);
     shape.growths++;
@@ -362,6 +361,16 @@ void PlantShape::getAabb(const btTransform& frame, btVector3& lower, btVector3& 
 void PlantShape::set_box(const btVector3& lower, const btVector3& upper) {
     m_localAabbMin = lower;
     m_localAabbMax = upper;
+}
+
+PlantShape::~PlantShape() {
+    if (world.lacking.shape == this) world.lacking = {};
+}
+
+void PlantShape::put_back(size_t child) {
+    const btScalar *lower = &room[ROOM * child], *upper = lower + UPPER;
+    getChildList()[child].m_node->volume =
+        btDbvtVolume::FromMM(btVector3(lower[0], lower[1], lower[2]), btVector3(upper[0], upper[1], upper[2]));
 }
 
 void place_pieces(PlantShape& shape, const Hull& hull, const PiecesNow& now) {

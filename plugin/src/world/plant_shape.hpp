@@ -33,7 +33,10 @@ struct PlantShape : btCompoundShape {
     // Boxes of the children in that tree, somewhat wider than they are: lower x, y, z and padding, then upper likewise.
     std::vector<btScalar> room;
 
+    ~PlantShape() override;
     void set_box(const btVector3& lower, const btVector3& upper);
+    // Gives a child's box in the tree back, which was taken out.
+    void put_back(size_t child);
 };
 
 // Present places of a plant's segments.

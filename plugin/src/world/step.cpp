@@ -351,6 +351,7 @@ void break_off_step(World& world) {
 
 void World::updateAction(btCollisionWorld* collision_world, btScalar step) {
     const double h = double(step);
+    put_back_children(lacking);
     if (!(h > 0) || !std::isfinite(h)) return;
     BT_PROFILE("frond");
     is_stepping = true;

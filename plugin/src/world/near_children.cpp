@@ -1,0 +1,163 @@
+// In: a plant's children and a body's convex pieces, at their places. Out: the children that Bullet is to look at.
+//
+// A child, a segment or rectangle with a radius, is far from a piece's bounding box, which turns with the piece, if a
+// direction separates them by more than the distance at which Bullet makes contact points: one of the box's axes, of
+// the child's or of their cross products (Gottschalk, Lin, Manocha 1996).
+#include "world/near_children.hpp"
+
+#include <algorithm>
+#include <typeinfo>
+
+#include "world/plant_body.hpp"
+#include "world/plant_shape.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+// Box of a convex shape, in the plant's frame.
+struct Piece {
+    btTransform frame;  // its centre and axes
+    btVector3 half;     // [m]
+};
+
+// A capsule's or plate's core: a centre and one or two half lengths.
+struct Core {
+    btVector3 centre, half[2];
+    int count;
+    btScalar radius;
+};
+
+constexpr size_t MOST_PIECES = 32;
+
+// Lists the boxes of a shape's convex parts. Returns false if it has others, or too many.
+bool list_pieces(const btCollisionShape& shape, const btTransform& frame, std::vector<Piece>& pieces, bool& has_hull) {
+    if (shape.isCompound()) {
+        const auto& compound = static_cast<const btCompoundShape&>(shape);
+        for (int i = 0; i < compound.getNumChildShapes(); i++)
+            if (!list_pieces(*compound.getChildShape(i), frame * compound.getChildTransform(i), pieces, has_hull))
+                return false;
+        return true;
+    }
+    if (!shape.isConvex() || shape.isInfinite() || pieces.size() == MOST_PIECES) return false;
+    has_hull |= shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE;
+    btVector3 lower, upper;
+    shape.getAabb(btTransform::getIdentity(), lower, upper);
+    Piece piece = {frame, btScalar(0.5) * (upper - lower)};
+    piece.frame.setOrigin(frame * (btScalar(0.5) * (upper + lower)));
+    pieces.push_back(piece);
+    return true;
+}
+
+Core core_of(const PlantShape& shape, const Hull& hull, size_t child) {
+    const btTransform& frame = shape.getChildTransform(int(child));
+    const size_t capsules = hull.capsules.size();
+    Core core;
+    core.centre = frame.getOrigin();
+    const btVector3 along = frame.getBasis().getColumn(1);
+    if (child < capsules) {
+        core.count = 1;
+        core.half[0] = btScalar(hull.capsule_halves[child]) * along;
+        core.radius = btScalar(hull.capsule_radii[child]);
+        return core;
+    }
+    const size_t plate = child - capsules;
+    core.count = 2;
+    core.half[0] = btScalar(hull.plate_halves[1][plate]) * along;
+    core.half[1] = btScalar(hull.plate_halves[0][plate]) * frame.getBasis().getColumn(0);
+    core.radius = btScalar(hull.plate_margins[plate]);
+    return core;
+}
+
+// Returns whether a direction, of any length, separates a core from a box around the origin by more than `distance`.
+bool separates(const btVector3& way, const Core& core, const btVector3& half, btScalar distance) {
+    btScalar reach = half.dot(way.absolute());
+    for (int k = 0; k < core.count; k++) reach += btFabs(core.half[k].dot(way));
+    const btScalar gap = btFabs(core.centre.dot(way)) - reach;
+    return gap > 0 && gap * gap > distance * distance * way.length2();
+}
+
+bool is_far(const Core& from, const Piece& piece, btScalar distance) {
+    const btMatrix3x3& axes = piece.frame.getBasis();
+    Core core = from;
+    core.centre = (from.centre - piece.frame.getOrigin()) * axes;
+    for (int k = 0; k < core.count; k++) core.half[k] = from.half[k] * axes;
+    const btScalar least = distance + core.radius;
+    const auto parts = [&](const btVector3& way) { return separates(way, core, piece.half, least); };
+    const btVector3 unit[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (const btVector3& axis : unit)
+        if (parts(axis)) return true;
+    for (int k = 0; k < core.count; k++) {
+        if (parts(core.half[k])) return true;
+        for (const btVector3& axis : unit)
+            if (parts(axis.cross(core.half[k]))) return true;
+    }
+    return core.count == 2 && parts(core.half[0].cross(core.half[1]));
+}
+
+// Distance from which on Bullet makes no contact points [m].
+btScalar farthest_contact(const btCollisionDispatcher& dispatcher, const btCollisionShape& a,
+                          const btCollisionShape& b) {
+    const btScalar most = gContactBreakingThreshold;
+    if (!(dispatcher.getDispatcherFlags() & btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD))
+        return most;
+    return std::min(a.getContactBreakingThreshold(most), b.getContactBreakingThreshold(most));
+}
+
+// Takes the children that it meets out of the tree if they are far.
+struct TakeOut : btDbvt::ICollide {
+    PlantShape& shape;
+    const Hull& hull;
+    const std::vector<Piece>& pieces;
+    const btScalar distance;
+    std::vector<int>& out;
+    TakeOut(PlantShape& shape, const Hull& hull, const std::vector<Piece>& pieces, btScalar distance,
+            std::vector<int>& out)
+        : shape(shape), hull(hull), pieces(pieces), distance(distance), out(out) {}
+
+    void Process(const btDbvtNode* leaf) override {
+        const btVector3 nowhere(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
+        const size_t child = size_t(leaf->dataAsInt);
+        const bool is_covered = child < hull.capsules.size() && hull.flats[child].half_width > 0;
+        if (!is_covered) {
+            const Core core = core_of(shape, hull, child);
+            const auto is_far_from = [&](const Piece& piece) { return is_far(core, piece, distance); };
+            if (!std::all_of(pieces.begin(), pieces.end(), is_far_from)) return;
+        }
+        shape.getChildList()[child].m_node->volume = btDbvtVolume::FromMM(nowhere, nowhere);
+        out.push_back(int(child));
+    }
+};
+
+}  // namespace
+
+void leave_near_children(PlantBody& body, const btCollisionObject& other) {
+    World& world = *body.world;
+    LackingShape& lacking = world.lacking;
+    put_back_children(lacking);
+    auto* dispatcher = static_cast<btCollisionDispatcher*>(world.bullet->getDispatcher());
+    if (typeid(*dispatcher) != typeid(btCollisionDispatcher)) return;
+    const btCollisionShape& with = *other.getCollisionShape();
+    const btTransform frame = body.getWorldTransform().inverseTimes(other.getWorldTransform());
+    std::vector<Piece> pieces;
+    bool has_hull = false;
+    if (!list_pieces(with, frame, pieces, has_hull) || !has_hull) return;
+    auto& shape = static_cast<PlantShape&>(*body.compound());
+    btVector3 lower, upper;
+    with.getAabb(frame, lower, upper);
+    TakeOut take_out(shape, *body.hull, pieces, farthest_contact(*dispatcher, shape, with), lacking.children);
+    lacking.shape = &shape;
+    btDbvt& tree = *shape.getDynamicAabbTree();
+    tree.collideTV(tree.m_root, btDbvtVolume::FromMM(lower, upper), take_out);
+}
+
+void put_back_children(LackingShape& lacking) {
+    for (const int child : lacking.children) lacking.shape->put_back(size_t(child));
+    lacking.children.clear();
+    lacking.shape = nullptr;
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
