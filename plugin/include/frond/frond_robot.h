@@ -115,9 +115,9 @@ FROND_API frond_result frond_robot_bond(frond_plant plant, frond_vec3 point, fro
 
 /* Writes a model's chain as a URDF file that other programs read: a link with a <visual>, a <collision> and an
  * <inertial> for each capsule, hung on each other by fixed joints, +z up, and in <frond> what Frond needs to make the
- * same plant of it again: organ, material, and the stiffness and mass of the section. Materials are written by kind, so
- * that the caller's own count only by the stiffness that they gave the sections. FILE_NOT_FOUND if the file cannot be
- * written. */
+ * same plant of it again: organ, material, and the stiffness and mass of the section, so that all links together weigh
+ * what the plant does. Materials are written by kind, so that the caller's own count only by the stiffness that they
+ * gave the sections. FILE_NOT_FOUND if the file cannot be written. */
 FROND_API frond_result frond_model_write_urdf(frond_model model, const char* path);
 
 /* Computes the force that holds a plant, of the ground on its pinned nodes, in the world's frame [N], and its moment

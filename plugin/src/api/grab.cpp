@@ -15,7 +15,7 @@ frond_result frond_grab_create(frond_plant plant, frond_vec3 near_point, double 
         check_range(stiffness, 1e-9, 1e12, "stiffness [N/m]");
         Plant& p = awaken(body);
         const int vertex = nearest_vertex(p, to_vec(near_point));
-        p.grabs.push_back({vertex, vertex_position(p, vertex), stiffness, 0});
+        p.grabs.push_back({vertex, grab_place(p, vertex), stiffness, 0});
         p.grabs.back().handle = grab_slots().insert({&body, &p.grabs.back()});
         if (!p.grabs.back().handle) {
             p.grabs.pop_back();
@@ -40,9 +40,10 @@ frond_result frond_grab_get(frond_grab grab, frond_vec3* held_point, frond_vec3*
         for (frond_vec3* out : {held_point, target, force})
             if (out) *out = {};
         const GrabEntry entry = get(grab);
-        if (held_point) *held_point = from_vec(vertex_position(*look_at(*entry.body).plant, entry.grab->vertex));
+        const Plant& plant = *look_at(*entry.body).plant;
+        if (held_point) *held_point = from_vec(grab_place(plant, entry.grab->vertex));
         if (target) *target = from_vec(entry.grab->target);
-        if (force) *force = from_vec(grab_force(*look_at(*entry.body).plant, *entry.grab));
+        if (force) *force = from_vec(grab_force(plant, *entry.grab));
     });
 }
 

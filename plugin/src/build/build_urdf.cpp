@@ -36,6 +36,15 @@ static void take_sections(const UrdfTree& tree, const std::vector<int>& link_of_
     }
 }
 
+// Returns which stems the file describes as one capsule, with its section; none if the caller gives capsules' length.
+static std::vector<uint8_t> find_capsules(const UrdfTree& tree, const std::vector<UrdfPiece>& pieces,
+                                          const frond_model_def& def) {
+    std::vector<uint8_t> are_capsules;
+    for (const UrdfPiece& piece : pieces)
+        are_capsules.push_back(def.capsule_height <= 0 && tree.links[size_t(piece.link)].section_mass > 0);
+    return are_capsules;
+}
+
 // Parts are named by the number of their stem until the chain is made of them, and then after their links.
 static void build_stems(const UrdfTree& tree, const std::vector<UrdfPiece>& pieces, const Quat& turn,
                         const frond_model_def& def, Model& model) {
@@ -55,7 +64,8 @@ static void build_stems(const UrdfTree& tree, const std::vector<UrdfPiece>& piec
     }
     find_organs_of_links(tree, links, def, model);
     model.chain = make_chain_of_stems(stems.data(), int(stems.size()), model.surface, placement_of(made, model.surface),
-                                      model.organs, {def.capsule_height, def.capsule_radius}, model.sections);
+                                      model.organs, {def.capsule_height, def.capsule_radius}, model.sections,
+                                      find_capsules(tree, pieces, def));
     model.exact_sections = true;
     take_sections(tree, links, turn, model);
     merge_organs(tree, links, model.surface, model.chain, model.organs);

@@ -18,6 +18,7 @@ struct StemPiece {
     Vec3 begin, end;
     double radius_begin, radius_end, length;
     int organ;
+    bool is_capsule;           // is cut only where others grow out
     std::vector<double> cuts;  // positions of chain nodes, 0 .. 1, ascending
     std::vector<int> nodes;    // chain nodes, one per cut
     double radius(double share) const { return radius_begin + share * (radius_end - radius_begin); }
@@ -29,7 +30,7 @@ struct StemPiece {
 
 // Places the stems as the surface was, by the same rotation, scale and translation.
 std::vector<StemPiece> place_stems(const frond_stem* stems, int count, const Surface& surface,
-                                   const StemPlacement& placed) {
+                                   const StemPlacement& placed, const std::vector<uint8_t>& are_capsules) {
     std::vector<StemPiece> pieces;
     for (int i = 0; i < count; i++) {
         const frond_stem& stem = stems[i];
@@ -40,6 +41,7 @@ std::vector<StemPiece> place_stems(const frond_stem* stems, int count, const Sur
         piece.radius_begin = stem.radius_begin * surface.scale;
         piece.radius_end = stem.radius_end * surface.scale;
         piece.length = (piece.end - piece.begin).norm();
+        piece.is_capsule = !are_capsules.empty() && are_capsules[size_t(i)];
         pieces.push_back(piece);
     }
     for (const Part& part : surface.parts) pieces[size_t(std::stoi(part.name.substr(5)))].organ = part.organ;
@@ -65,7 +67,8 @@ void cut_pieces(std::vector<StemPiece>& pieces, double height) {
             joints[size_t(piece.parent)].push_back(pieces[size_t(piece.parent)].nearest(piece.begin));
     for (size_t i = 0; i < pieces.size(); i++) {
         StemPiece& piece = pieces[i];
-        const int count = std::clamp(int(std::lround(piece.length / height)), LEAST_COUNT, MOST_COUNT);
+        const int count =
+            piece.is_capsule ? 1 : std::clamp(int(std::lround(piece.length / height)), LEAST_COUNT, MOST_COUNT);
         std::vector<double> fixed = joints[i];
         fixed.insert(fixed.end(), {0.0, 1.0});
         std::sort(fixed.begin(), fixed.end());
@@ -158,9 +161,9 @@ void bind_vertices(StemChain& maker, const Surface& surface, const std::vector<S
 }  // namespace
 
 Chain make_chain_of_stems(const frond_stem* stems, int stem_count, const Surface& surface, const StemPlacement& placed,
-                          const std::vector<Organ>& organs, const ChainOptions& options,
-                          std::vector<Section>& sections) {
-    std::vector<StemPiece> pieces = place_stems(stems, stem_count, surface, placed);
+                          const std::vector<Organ>& organs, const ChainOptions& options, std::vector<Section>& sections,
+                          const std::vector<uint8_t>& are_capsules) {
+    std::vector<StemPiece> pieces = place_stems(stems, stem_count, surface, placed, are_capsules);
     const double height = options.height > 0 ? options.height : longest_way(pieces) / USUAL_STEM_COUNT;
     cut_pieces(pieces, height);
     StemChain maker = {organs, options.radius};

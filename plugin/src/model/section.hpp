@@ -65,9 +65,10 @@ struct StemPlacement {
 };
 
 // Makes the chain of a tree of stems, whose capsules lie on the stems' axes from end to end, and its sections. The
-// surface is that of surface_from_stems(), placed and with organs; its parts are named "stem_<index>".
+// surface is that of surface_from_stems(), placed and with organs; its parts are named "stem_<index>". Stems of which
+// are_capsules is true are one capsule each, others two at least; empty: none is.
 Chain make_chain_of_stems(const frond_stem* stems, int stem_count, const Surface& surface, const StemPlacement& placed,
-                          const std::vector<Organ>& organs, const ChainOptions& options,
-                          std::vector<Section>& sections);
+                          const std::vector<Organ>& organs, const ChainOptions& options, std::vector<Section>& sections,
+                          const std::vector<uint8_t>& are_capsules = {});
 
 }  // namespace frond

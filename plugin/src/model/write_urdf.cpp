@@ -1,5 +1,6 @@
 // Chain -> URDF: a link with a cylinder for each capsule, from its parent's end to its own along the link's z axis. The
-// cylinder has the section's area, and so the capsule's mass; <frond> gives the stiffness.
+// cylinder has the section's area; <frond> gives the stiffness, and the mass that the capsule has in the plant, whose
+// organs weigh what their cage does.
 #include "model/write_urdf.hpp"
 
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "core/decompose.hpp"
 #include "core/error.hpp"
+#include "model/tet_geometry.hpp"
 
 namespace frond {
 
@@ -43,10 +45,33 @@ std::string roll_pitch_yaw(const Quat& q) {
     return numbers({roll, pitch, yaw});
 }
 
-std::string link_text(const Model& model, size_t node, const std::string& name) {
+// Returns what each organ weighs in the plant over the mass of its sections [-]: what its tets do, or its sections if
+// it has none, and all together what the plant does.
+std::vector<double> mass_factors(const Model& model) {
+    std::vector<double> weights(model.organs.size(), 0.0), of_sections = weights;
+    for (size_t e = 0; e < model.cage.tets.size(); e++)
+        weights[size_t(model.cage.tet_organ[e])] +=
+            model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
+    for (size_t i = 0; i < model.sections.size(); i++)
+        if (model.chain.nodes[i].parent >= 0)
+            of_sections[size_t(std::max(model.chain.nodes[i].organ, 0))] +=
+                model.sections[i].mass() * model.sections[i].length;
+    double sum = 0;
+    for (size_t i = 0; i < weights.size(); i++) {
+        if (!(weights[i] > 0) || !(of_sections[i] > 0)) weights[i] = of_sections[i];
+        sum += weights[i];
+    }
+    std::vector<double> factors(weights.size(), 1.0);
+    for (size_t i = 0; i < factors.size(); i++)
+        if (of_sections[i] > 0) factors[i] = weights[i] / of_sections[i] * model.mass() / sum;
+    return factors;
+}
+
+std::string link_text(const Model& model, size_t node, const std::string& name, double mass_factor) {
     const Section& section = model.sections[node];
     const Organ& organ = model.organs[size_t(std::max(model.chain.nodes[node].organ, 0))];
-    const double length = section.length, radius = std::sqrt(section.area / M_PI), mass = section.mass() * length;
+    const double length = section.length, radius = std::sqrt(section.area / M_PI);
+    const double mass_per_length = mass_factor * section.mass(), mass = mass_per_length * length;
     const std::string half = numbers({0, 0, 0.5 * length});
     const std::string geometry =
         text_of("      <origin xyz=\"%s\"/>\n      <geometry><cylinder radius=\"%.9g\" length=\"%.9g\"/></geometry>\n",
@@ -64,7 +89,7 @@ std::string link_text(const Model& model, size_t node, const std::string& name) 
     text += text_of(
         "    <frond organ=\"%s\" material=\"%s%s\" name=\"%s\" mass=\"%.9g\" stretching=\"%.9g\" bending=\"%.9g %.9g\" "
         "twisting=\"%.9g\"/>\n",
-        organ.kind.c_str(), is_grass ? "grass_" : "", organ.kind.c_str(), escaped(organ.name).c_str(), section.mass(),
+        organ.kind.c_str(), is_grass ? "grass_" : "", organ.kind.c_str(), escaped(organ.name).c_str(), mass_per_length,
         section.stretching(), section.bending_thin(), section.bending_wide(), section.twisting());
     return text + "  </link>\n";
 }
@@ -90,6 +115,7 @@ std::string urdf_of(const Model& model, const std::string& name) {
     const Quat upright = turn_between(Vec3::UnitY(), Vec3::UnitZ());
     const std::vector<ChainNode>& nodes = model.chain.nodes;
     std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(name) + "\">\n  <link name=\"ground\"/>\n";
+    const std::vector<double> factors = mass_factors(model);
     std::vector<std::string> link(nodes.size(), "ground");
     std::vector<Frame> frames(nodes.size());  // frame of the link that ends in a node; at a root, the ground's
     for (size_t i = 0; i < nodes.size(); ++i) {
@@ -99,7 +125,7 @@ std::string urdf_of(const Model& model, const std::string& name) {
         frames[i] = {upright * nodes[size_t(parent)].position, (upright * turn_of(model.sections[i])).normalized()};
         const Frame& above = frames[size_t(parent)];
         const Quat back = above.turn.conjugate();
-        text += link_text(model, i, link[i]);
+        text += link_text(model, i, link[i], factors[size_t(std::max(nodes[i].organ, 0))]);
         text += joint_text(link[size_t(parent)], link[i],
                            {back * (frames[i].origin - above.origin), back * frames[i].turn});
     }

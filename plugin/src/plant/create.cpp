@@ -128,6 +128,7 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.lead = plant.stepped_by = 0;
     plant.fibres = nullptr;
     plant.fibre_give.clear();
+    plant.fibre_force.resize(0);
     if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = fibres_of(plant);
     if (mechanics(which).moves_chain)
         plant.follow = shared_of<Follow>(plant.model, nodes.order,

@@ -159,12 +159,17 @@ Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
     return W;
 }
 
-// Finds the change of the plant's velocities by pulls. False if it has no solution.
-bool velocity_by(Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls, VecX& dv) {
+// Returns the impulses of pulls on all nodes.
+VecX spread(const Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls) {
     VecX impulse = VecX::Zero(plant.motion.v.size());
     for (size_t i = 0; i < stretches.size(); i++)
         for (const NodePull& pull : stretches[i].pull) point(impulse, pull.node) += pulls[Eigen::Index(i)] * pull.along;
-    return respond(*plant.workspace, plant.settings, impulse, dv);
+    return impulse;
+}
+
+// Finds the change of the plant's velocities by pulls. False if it has no solution.
+bool velocity_by(Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls, VecX& dv) {
+    return respond(*plant.workspace, plant.settings, spread(plant, stretches, pulls), dv);
 }
 
 // Stops the lengthening of rows that pull.
@@ -259,6 +264,7 @@ void hold_lengths(Plant& plant, double h) {
         }
         if (wrong < CLOSE) break;
     }
+    plant.fibre_force = spread(plant, stretches, pulls) / reach;
     stop_lengthening(plant, stretches, W, pulls);
     go_on_from_here(plant.motion, was_shaken);
 }

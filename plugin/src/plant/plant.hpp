@@ -96,6 +96,7 @@ struct Plant {
     std::shared_ptr<const Fibres> fibres;  // null if none can pull
     std::vector<double>
         fibre_give;               // lengths at which they pull, over their own, after an entanglement; else empty [-]
+    VecX fibre_force;             // of taut fibres on the nodes in the last step, model frame [N]; empty: all are slack
     std::vector<uint8_t> pinned;  // one per cage node
     VecX pin_target;              // targets of pinned cage nodes, model frame [m]
     std::vector<int> anchor;      // chain node that holds each cage node if it is pinned
@@ -208,8 +209,13 @@ void update_surface(Plant& plant, frond_effects effects, double back = 0);
 frond_energy energy_of(const Plant& plant, const Vec3& gravity);
 // Returns the surface vertex nearest to a point of the world.
 int nearest_vertex(const Plant& plant, const Vec3& point);
-Vec3 vertex_position(const Plant& plant, int vertex);   // world frame [m]
-Vec3 grab_force(const Plant& plant, const Grab& grab);  // on the plant, world frame [N]
+Vec3 vertex_position(const Plant& plant, int vertex);  // world frame [m]
+// Spring that pulls at a grabbed vertex, as it is solved; the vertex is not on a fragment.
+Spring grab_spring(const Plant& plant, const Grab& grab);
+// Where a grab holds the plant [m], and its force on the plant [N]; world frame. Mechanics that move the chain are held
+// at a point that follows one capsule, within millimetres of the drawn vertex.
+Vec3 grab_place(const Plant& plant, int vertex);
+Vec3 grab_force(const Plant& plant, const Grab& grab);
 // Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave positions or velocities
 // unchanged.
 void set_state(Plant& plant, const double* positions, const double* velocities);

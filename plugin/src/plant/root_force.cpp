@@ -1,6 +1,6 @@
-// A pinned node does not accelerate: the force that holds it is opposite to all others on it, elastic forces and
-// weight. If the mechanics move the chain, nodes are pairs of a position and a rotation, and a held rotation is held by
-// a moment.
+// A pinned node does not accelerate: the force that holds it is opposite to all others on it, elastic forces, those of
+// taut fibres and weight. If the mechanics move the chain, nodes are pairs of a position and a rotation, and a held
+// rotation is held by a moment.
 #include "plant/root_force.hpp"
 
 #include "mechanics/rotation.hpp"
@@ -14,6 +14,7 @@ Wrench root_force(const Plant& plant, const Vec3& gravity, const Vec3& about) {
     const Vec3 centre = plant.to_model(about), weight = plant.rotation.conjugate() * gravity;
     VecX pull = VecX::Zero(x.size());
     row.add_force(elements_of(plant), x, pull);
+    if (plant.fibre_force.size() == pull.size()) pull += plant.fibre_force;
     Wrench held;
     const auto hold = [&](const Vec3& force, const Vec3& place) {
         held.force += force;

@@ -13,8 +13,17 @@ frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
     return energy;
 }
 
+Spring grab_spring(const Plant& plant, const Grab& grab) {
+    return {vertex_attachment(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness};
+}
+
+Vec3 grab_place(const Plant& plant, int vertex) {
+    if (fragment_of_vertex(plant, size_t(vertex))) return vertex_position(plant, vertex);
+    return plant.to_world(attachment_place(vertex_attachment(plant, vertex), plant.motion.x));
+}
+
 Vec3 grab_force(const Plant& plant, const Grab& grab) {
-    return grab.stiffness * (grab.target - vertex_position(plant, grab.vertex));
+    return grab.stiffness * (grab.target - grab_place(plant, grab.vertex));
 }
 
 void set_state(Plant& plant, const double* positions, const double* velocities) {
@@ -41,6 +50,7 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
     motion.history.valid = motion.history.shaken = false;
     plant.blend_out = {};
     plant.lead = plant.stepped_by = 0;
+    plant.fibre_force.resize(0);
     plant.pins_changed = true;
     apply_pins(plant);
     moved(plant);

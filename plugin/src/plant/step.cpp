@@ -35,9 +35,7 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
         }
     }
     for (const Grab& grab : plant.grabs)
-        if (!fragment_of_vertex(plant, size_t(grab.vertex)))
-            loads.springs.push_back(
-                {vertex_attachment(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness});
+        if (!fragment_of_vertex(plant, size_t(grab.vertex))) loads.springs.push_back(grab_spring(plant, grab));
 }
 
 // Makes a part of what is strained beyond its yield plastic.
@@ -91,6 +89,7 @@ static void minimise(Plant& plant, frond_integrator method, double h) {
     Motion& motion = plant.motion;
     motion.x = plant.x_good;
     motion.v = plant.v_good;
+    plant.fibre_force.resize(0);
     const SolveReport before = plant.report;
     plant.report = solve_step(*plant.workspace, settings, plant.loads, h, motion);
     plant.report.add_cost(before);
@@ -118,6 +117,7 @@ static bool is_calm_way(const Plant& plant) {
 
 // Pulls back stretched fibres; counts as part of the solve.
 static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h) {
+    plant.fibre_force.resize(0);
     if (!(effects & FROND_EFFECT_FIBRES)) return;
     const Timer timer;
     hold_lengths(plant, h);

@@ -106,28 +106,32 @@ btScalar farthest_contact(const btCollisionDispatcher& dispatcher, const btColli
     return std::min(a.getContactBreakingThreshold(most), b.getContactBreakingThreshold(most));
 }
 
-// Takes the children that it meets out of the tree if they are far.
-struct TakeOut : btDbvt::ICollide {
-    PlantShape& shape;
+// Takes nodes without near children out of the tree.
+struct TakeOut {
+    const PlantShape& shape;
     const Hull& hull;
     const std::vector<Piece>& pieces;
-    const btScalar distance;
-    std::vector<int>& out;
-    TakeOut(PlantShape& shape, const Hull& hull, const std::vector<Piece>& pieces, btScalar distance,
-            std::vector<int>& out)
-        : shape(shape), hull(hull), pieces(pieces), distance(distance), out(out) {}
+    const btScalar distance;  // [m]
+    const btDbvtVolume box;   // of all pieces, wider by that
+    LackingShape& lacking;
 
-    void Process(const btDbvtNode* leaf) override {
-        const btVector3 nowhere(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
-        const size_t child = size_t(leaf->dataAsInt);
+    bool is_near(size_t child) const {
         const bool is_covered = child < hull.capsules.size() && hull.flats[child].half_width > 0;
-        if (!is_covered) {
-            const Core core = core_of(shape, hull, child);
-            const auto is_far_from = [&](const Piece& piece) { return is_far(core, piece, distance); };
-            if (!std::all_of(pieces.begin(), pieces.end(), is_far_from)) return;
-        }
-        shape.getChildList()[child].m_node->volume = btDbvtVolume::FromMM(nowhere, nowhere);
-        out.push_back(int(child));
+        if (is_covered) return false;
+        const Core core = core_of(shape, hull, child);
+        const auto is_far_from = [&](const Piece& piece) { return is_far(core, piece, distance); };
+        return !std::all_of(pieces.begin(), pieces.end(), is_far_from);
+    }
+    // Returns whether a near child is left under the node.
+    bool visit(btDbvtNode& node) const {
+        if (!Intersect(node.volume, box)) return false;
+        const bool left = node.isleaf() ? is_near(size_t(node.dataAsInt))
+                                        : int(visit(*node.childs[0])) + int(visit(*node.childs[1])) > 0;
+        if (left) return true;
+        lacking.nodes.emplace_back(&node, node.volume);
+        const btVector3 nowhere(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
+        node.volume = btDbvtVolume::FromMM(nowhere, nowhere);
+        return false;
     }
 };
 
@@ -137,25 +141,28 @@ void leave_near_children(PlantBody& body, const btCollisionObject& other) {
     World& world = *body.world;
     LackingShape& lacking = world.lacking;
     put_back_children(lacking);
-    auto* dispatcher = static_cast<btCollisionDispatcher*>(world.bullet->getDispatcher());
-    if (typeid(*dispatcher) != typeid(btCollisionDispatcher)) return;
+    const btDispatcher& any = *world.bullet->getDispatcher();
+    if (typeid(any) != typeid(btCollisionDispatcher)) return;
+    const auto& dispatcher = static_cast<const btCollisionDispatcher&>(any);
     const btCollisionShape& with = *other.getCollisionShape();
     const btTransform frame = body.getWorldTransform().inverseTimes(other.getWorldTransform());
     std::vector<Piece> pieces;
     bool has_hull = false;
     if (!list_pieces(with, frame, pieces, has_hull) || !has_hull) return;
-    auto& shape = static_cast<PlantShape&>(*body.compound());
+    const auto& shape = static_cast<const PlantShape&>(*body.compound());
+    const btScalar distance = farthest_contact(dispatcher, shape, with);
     btVector3 lower, upper;
     with.getAabb(frame, lower, upper);
-    TakeOut take_out(shape, *body.hull, pieces, farthest_contact(*dispatcher, shape, with), lacking.children);
+    btDbvtVolume box = btDbvtVolume::FromMM(lower, upper);
+    box.Expand(btVector3(distance, distance, distance));
     lacking.shape = &shape;
-    btDbvt& tree = *shape.getDynamicAabbTree();
-    tree.collideTV(tree.m_root, btDbvtVolume::FromMM(lower, upper), take_out);
+    const TakeOut take_out = {shape, *body.hull, pieces, distance, box, lacking};
+    take_out.visit(*shape.getDynamicAabbTree()->m_root);
 }
 
 void put_back_children(LackingShape& lacking) {
-    for (const int child : lacking.children) lacking.shape->put_back(size_t(child));
-    lacking.children.clear();
+    for (const auto& [node, volume] : lacking.nodes) node->volume = volume;
+    lacking.nodes.clear();
     lacking.shape = nullptr;
 }
 

@@ -7,6 +7,9 @@
 // pair.
 #pragma once
 
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+
+#include <utility>
 #include <vector>
 
 #include "frond/frond_bullet.hpp"
@@ -17,10 +20,10 @@ inline namespace FROND_BULLET_PRECISION {
 struct PlantBody;
 struct PlantShape;
 
-// The compound that lacks children now, and which of them; a world has one.
+// The compound whose tree lacks nodes now, and the boxes of these; a world has one.
 struct LackingShape {
-    PlantShape* shape = nullptr;
-    std::vector<int> children;
+    const PlantShape* shape = nullptr;
+    std::vector<std::pair<btDbvtNode*, btDbvtVolume>> nodes;
 };
 
 // Takes children that cannot touch `other` out of the plant's tree; call it before Bullet looks at this pair in a step.

@@ -203,9 +203,10 @@ void make_room(PlantShape& shape, size_t child, const btVector3& from, const btV
         lower[c] = std::max(std::min(lower[c], below), from[c] - NEAR);
         upper[c] = std::min(std::max(upper[c], above), to[c] + NEAR);
     }
-    shape.put_back(child);
+    const btDbvtVolume volume =
+        btDbvtVolume::FromMM(btVector3(lower[0], lower[1], lower[2]), btVector3(upper[0], upper[1], upper[2]));
     btDbvtNode& node = *shape.getChildList()[child].m_node;
-    const btDbvtVolume volume = node.volume;
+    node.volume = volume;
     for (btDbvtNode* over = node.parent; over && !over->volume.Contain(volume); over = over->parent)
         Merge(over->volume, volume, over->volume);
     shape.growths++;
@@ -365,12 +366,6 @@ void PlantShape::set_box(const btVector3& lower, const btVector3& upper) {
 
 PlantShape::~PlantShape() {
     if (world.lacking.shape == this) world.lacking = {};
-}
-
-void PlantShape::put_back(size_t child) {
-    const btScalar *lower = &room[ROOM * child], *upper = lower + UPPER;
-    getChildList()[child].m_node->volume =
-        btDbvtVolume::FromMM(btVector3(lower[0], lower[1], lower[2]), btVector3(upper[0], upper[1], upper[2]));
 }
 
 void place_pieces(PlantShape& shape, const Hull& hull, const PiecesNow& now) {

@@ -35,8 +35,6 @@ struct PlantShape : btCompoundShape {
 
     ~PlantShape() override;
     void set_box(const btVector3& lower, const btVector3& upper);
-    // Gives a child's box in the tree back, which was taken out.
-    void put_back(size_t child);
 };
 
 // Present places of a plant's segments.

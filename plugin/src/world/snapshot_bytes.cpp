@@ -72,6 +72,7 @@ static void visit(Archive& a, SavedPlant& plant) {
     a(plant.trend.v_end), a(plant.trend.rate);
     visit_blend_out(a, plant.blend_out);
     a(plant.lead), a(plant.modal), a(plant.has_own_elements), a(plant.plastic), a(plant.fibre_give);
+    a(plant.fibre_force);
     a(plant.pinned), a(plant.pin_target), a(plant.anchor);
     a(plant.pins_changed), a(plant.pins_are_own), a(plant.has_user_force), a(plant.is_touched), a(plant.is_entangled);
     a(plant.user_force), a(plant.substeps), a(plant.recovers_for), a(plant.grab_targets), a(plant.fragments);

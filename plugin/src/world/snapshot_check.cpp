@@ -177,6 +177,7 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
     check_pins(saved, plant);
     check_blend_out(saved.blend_out, 3 * Eigen::Index(node_count_of(plant)));
     check_numbers(saved.fibre_give, "fibres");
+    check_size(saved.fibre_force, become.numbers, "fibres", true);
     if (saved.modal.size() > 1 || (!saved.modal.empty() && !mechanics(saved.which, plant.nodes->order).moves_chain))
         damaged("sway");
     for (const SavedModal& modal : saved.modal) {

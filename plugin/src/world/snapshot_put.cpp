@@ -84,6 +84,7 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     plant.fibre_give = saved.fibre_give.size() == fibres ? std::move(saved.fibre_give) : std::vector<double>();
     plant.pins_changed = saved.pins_changed;
     plant.pins_are_own = saved.pins_are_own;
+    plant.fibre_force = std::move(saved.fibre_force);
     plant.has_user_force = saved.has_user_force;
     plant.user_force = std::move(saved.user_force);
     plant.is_touched = saved.is_touched;

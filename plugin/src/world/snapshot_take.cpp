@@ -69,6 +69,7 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     saved.has_own_elements = plant.own_elements != nullptr;
     saved.plastic = plastic_of(plant);
     saved.fibre_give = plant.fibre_give;
+    saved.fibre_force = plant.fibre_force;
     saved.pinned = plant.pinned;
     saved.pin_target = plant.pin_target;
     saved.anchor = plant.anchor;
