@@ -35,8 +35,8 @@ FROND_API frond_result frond_host_bond(frond_plant plant, frond_vec3 point, cons
 FROND_API const void* frond_host_get_object(frond_plant plant);
 /* Keeps PyBullet's window from drawing a plant's capsules, which it would not move. */
 FROND_API void frond_host_hide(frond_plant plant);
-/* Returns the plant of a collision object, null if it is none. */
-FROND_API frond_plant frond_host_get_plant(const void* object);
+/* Returns the plant of a collision object of the world's; null for any other address. */
+FROND_API frond_plant frond_host_get_plant(frond_world world, const void* object);
 /* Returns the address of the Bullet world, of a robot's multi-body, and of the motor of its joint; null for an invalid
  * handle, and for a joint that is fixed. */
 FROND_API const void* frond_host_get_world(frond_world world);

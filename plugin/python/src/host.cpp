@@ -168,8 +168,13 @@ const void* frond_host_get_object(frond_plant plant) {
 void frond_host_hide(frond_plant plant) {
     if (btCollisionObject* object = frond::bullet_object(plant)) object->setUserIndex(std::numeric_limits<int>::max());
 }
-frond_plant frond_host_get_plant(const void* object) {
-    return frond::plant_of(static_cast<const btCollisionObject*>(object));
+frond_plant frond_host_get_plant(frond_world world, const void* object) {
+    const std::shared_ptr<Host> host = host_of(world);
+    if (!host) return {};
+    const btCollisionObjectArray& objects = host->bullet->getCollisionObjectArray();
+    for (int i = 0; i < objects.size(); i++)
+        if (objects[i] == object) return frond::plant_of(objects[i]);
+    return {};
 }
 const void* frond_host_get_world(frond_world world) {
     return frond::bullet_world(world);

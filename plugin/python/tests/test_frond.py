@@ -45,7 +45,9 @@ def test_models_come_from_all_sources(corn, tmp_path):
         assert model.info.mass > 0 and len(model.organs) == model.info.organ_count
         assert len(model.capsule_organs) == model.info.capsule_count == (model.chain.parents >= 0).sum()
     corn.write_urdf(tmp_path / "corn.urdf")
-    assert frond.Model(tmp_path / "corn.urdf").info.chain_length == pytest.approx(corn.info.chain_length)
+    again = frond.Model(tmp_path / "corn.urdf").info
+    assert again.chain_length == pytest.approx(corn.info.chain_length)
+    assert again.mass == pytest.approx(corn.info.mass, rel=0.01) and again.capsule_count == corn.info.capsule_count
     assert len(corn.textures) == corn.info.texture_count and corn.textures[0].bytes[:4] == b"\x89PNG"
     assert {part.kind for part in corn.parts} >= {"stem", "blade"}
 
@@ -140,6 +142,21 @@ def test_bonds_grabs_events_rays_and_breaking(stem):
     world.step(0.1)
     assert frond.Event.BROKE in {event.event for event in world.take_events()}
     assert frond.plant_at(world, plant.bullet_object) == plant and world.bullet_world
+
+
+@pytest.mark.parametrize("mechanics", ["rod", "tet_corotational"])
+def test_the_force_of_a_grab_is_what_the_root_holds(corn, mechanics):
+    world = frond.World(sleep_distance=0)
+    plant = world.add_plant(corn, mechanics=mechanics, mass_damping=3)
+    grab = plant.grab((0, 1, 0), 200)
+    start = grab.point
+    assert np.allclose(grab.force, 0)
+    for step in range(400):
+        grab.move(start + [0.2 * min(1, step / 120), 0, 0])
+        world.step(1 / 60)
+    total = plant.root_force().force + grab.force - [0, corn.info.mass * 9.81, 0]
+    assert np.linalg.norm(grab.force) > 5 and np.linalg.norm(total) < 0.01 * np.linalg.norm(grab.force)
+    assert np.allclose(grab.force, 200 * (grab.target - grab.point))
 
 
 def test_wind_fields_and_what_they_raise(stem):

@@ -230,6 +230,42 @@ def test_the_plugin_may_be_unloaded_for_good(client, corn):
     p.stepSimulation()
 
 
+@pytest.mark.parametrize("end", ["reset", "remove", "disconnect"])
+@pytest.mark.parametrize("shape", ["cloth", "solid"])
+def test_soft_bodies_share_the_world(client, corn, tmp_path, shape, end):
+    p.resetSimulation(p.RESET_USE_DEFORMABLE_WORLD)
+    p.setGravity(0, 0, -9.81)
+    world = frond.pybullet.attach(client)
+    plants = [world.add_plant(corn, mechanics=mechanics, position=(x, 0, 0))
+              for x, mechanics in ((0, "rod"), (2, "tet_corotational"))]
+    if shape == "cloth":
+        body = p.loadSoftBody("cloth_z_up.obj", basePosition=(0, 0, 2.4), scale=0.3, mass=0.1, useMassSpring=1,
+                              springElasticStiffness=40, springDampingStiffness=0.1, collisionMargin=0.02)
+    else:
+        body = p.loadSoftBody("cube.obj", basePosition=(0, 0, 2.4), scale=0.1, mass=0.3, useMassSpring=1)
+    ball = p.createMultiBody(0.3, p.createCollisionShape(p.GEOM_SPHERE, radius=0.05), basePosition=(0.25, 0, 0.8))
+    p.resetBaseVelocity(ball, (-3, 0, 1))
+    push = np.zeros(3)
+    for _ in range(90):
+        p.stepSimulation()
+        push += world.wrench_on(ball).force / 240
+    height = np.array(p.getMeshData(body)[1])[:, 2].mean()
+    assert height < 2.2 and np.isfinite(height) and push[0] > 0.5
+    assert all(np.isfinite(plant.get_state()).all() for plant in plants)
+    if end == "reset":
+        p.resetSimulation(p.RESET_USE_DEFORMABLE_WORLD)
+    elif end == "remove":
+        p.removeBody(body)
+        p.stepSimulation()
+        plants.pop().destroy()
+        p.stepSimulation()
+        world.destroy()
+        p.stepSimulation()
+    else:
+        p.disconnect()
+    assert not any(plant.is_valid for plant in plants)
+
+
 @pytest.mark.parametrize("gravity", [(0, 0, -9.81), (0, -9.81, 0), (0, 0, 0), (0, 9.81, 0)])
 def test_plants_stand_against_gravity(client, corn, gravity):
     p.setGravity(*gravity)

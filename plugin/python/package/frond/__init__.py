@@ -20,7 +20,7 @@ from typing import Any, Callable
 
 from ._generated import *  # noqa: F403
 from ._generated import ENUMS, RESULTS
-from ._lib import Error, ffi, lib, text_of
+from ._lib import Error, ffi, lib, refuse, text_of
 from .model import (MODELS, Cage, Chain, Model, Texture, default_material, find_model, material_preset)
 from .hold import Bond, Grab
 from .plant import Plant, Surface, plant_at
@@ -37,6 +37,8 @@ _log: Any = None
 def set_log(log: Callable[[str], None] | None) -> None:
     """Sets where warnings go, log(text); None silences them. By default they are written to stderr."""
     global _log
+    if log is not None and not callable(log):
+        raise refuse(f"log is {log!r}; pass a function or None")
 
     def call(message: Any, _: Any) -> None:
         try:
@@ -58,6 +60,8 @@ def name_of(choice: Any) -> str:
              "Detail": lib.frond_detail_name, "Event": lib.frond_event_name, "Shape": lib.frond_shape_name,
              "LinearSolver": lib.frond_linear_solver_name, "Mass": lib.frond_mass_name, "Collision": lib.frond_collision_name,
              "HashLayout": lib.frond_hash_layout_name, "Joint": lib.frond_joint_name, "Result": lib.frond_result_name}
+    if type(choice) not in ENUMS.values() or type(choice).__name__ not in names:
+        raise refuse(f"choice is {choice!r}; pass a member of an enum of Frond's: {', '.join(names)}")
     return text_of(names[type(choice).__name__](choice.value))
 
 

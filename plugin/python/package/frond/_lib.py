@@ -67,8 +67,10 @@ def numbers(value: Any, name: str, shape: tuple[int, ...], dtype: Any = np.float
         array = np.asarray(value)
         if array.dtype.kind not in "buif" or (np.dtype(dtype).kind == "i" and array.dtype.kind == "f"):
             raise TypeError(f"it has elements of type {array.dtype}")
-        converted = np.ascontiguousarray(array, dtype=dtype)
-        if np.dtype(dtype).kind == "i" and not np.array_equal(converted, array):
+        with np.errstate(over="ignore", invalid="ignore"):
+            converted = np.ascontiguousarray(array, dtype=dtype)
+        is_float = np.dtype(dtype).kind == "f"
+        if (np.isfinite(array) & ~np.isfinite(converted)).any() if is_float else not np.array_equal(converted, array):
             raise ValueError("it has numbers that are too large")
     except (TypeError, ValueError, OverflowError) as error:
         raise refuse(f"{name} is not an array of numbers: {error}") from None
@@ -90,19 +92,43 @@ def integer(value: Any, name: str) -> int:
     return int(value)
 
 
-def effects_of(value: Any) -> int:
-    """Returns a mask of effects."""
-    mask = integer(value, "effects")
+def address_of(value: Any, name: str) -> int:
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or not 0 <= value < 2**64:
+        raise refuse(f"{name} is {value!r}; pass the address of an object")
+    return int(value)
+
+
+def mask_of(value: Any, name: str) -> int:
+    """Returns a mask of flags."""
+    mask = integer(value, name)
     if mask < 0:
-        raise refuse(f"effects is {mask}; combine members of Effect by |, &")
+        raise refuse(f"{name} is {mask}; combine members of its enum by |, &")
     return mask
 
 
 def real(value: Any, name: str) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise refuse(f"{name} is {value!r}; pass a number") from None
+    if not isinstance(value, (str, bytes, bool, np.bool_)) and np.ndim(value) == 0:
+        try:
+            return float(value)
+        except (TypeError, ValueError, OverflowError):
+            pass
+    raise refuse(f"{name} is {value!r}; pass a number")
+
+
+def flag(value: Any, name: str) -> bool:
+    if isinstance(value, (bool, np.bool_)) or (isinstance(value, (int, np.integer)) and value in (0, 1)):
+        return bool(value)
+    raise refuse(f"{name} is {value!r}; pass True or False")
+
+
+Kind = TypeVar("Kind")
+
+
+def need(value: Any, kind: type[Kind], name: str) -> Kind:
+    """Returns a value that has to be of a class."""
+    if not isinstance(value, kind):
+        raise refuse(f"{name} is {value!r}; pass a {kind.__name__}")
+    return value
 
 
 def address(pointer: Any) -> int:
@@ -112,14 +138,15 @@ def address(pointer: Any) -> int:
 def row_of(value: Any, c_type: str, name: str) -> int:
     """Returns the number of an enum's member, which may be given by its name in lower case."""
     members = ENUMS[c_type]
+    known = {member.name.lower(): member.value for member in members}
     if isinstance(value, str):
-        try:
-            return members[value.upper()].value
-        except KeyError:
-            raise refuse(f"{name} is {value!r}; it is one of {', '.join(m.name.lower() for m in members)}") from None
-    if isinstance(value, IntEnum) and not isinstance(value, members):
-        raise refuse(f"{name} is {value!r}; pass a {members.__name__} or its name")
-    return integer(value, name)
+        if value.lower() in known:
+            return known[value.lower()]
+    elif isinstance(value, members):
+        return value.value
+    elif not isinstance(value, IntEnum) and integer(value, name) in known.values():
+        return integer(value, name)
+    raise refuse(f"{name} is {value!r}; pass a {members.__name__} or one of its names, {', '.join(known)}")
 
 
 def path_of(path: Any, name: str = "path") -> bytes:
@@ -160,12 +187,14 @@ def fill(struct: Any, options: Mapping[str, object], what: str) -> Any:
 def put_number(struct: Any, name: str, c_name: str, value: Any) -> None:
     try:
         if c_name == "_Bool":
-            setattr(struct, name, bool(value))
+            setattr(struct, name, flag(value, name))
         elif c_name in ("double", "float"):
             setattr(struct, name, real(value, name))
+        elif isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
+            raise refuse(f"{name} is {value!r}; pass an integer")
         else:
             setattr(struct, name, int(value))
-    except (TypeError, ValueError, OverflowError) as error:
+    except OverflowError as error:
         raise refuse(f"{name} is {value!r}: {error}") from None
 
 

@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 import pybullet as p
 
-from .picture import Picture, camera_of_matrices
+from ._lib import integer, refuse
+from .picture import LARGEST, Picture, camera_of_matrices
 
 if TYPE_CHECKING:
     from .pybullet import PyBulletWorld
@@ -41,6 +42,12 @@ def camera_image(world: PyBulletWorld, width: int, height: int, view: Sequence[f
                  **options: Any) -> Image:
     """Takes a picture by PyBullet's view and projection matrices; other keyword arguments are those of
     pybullet.getCameraImage. The projection is one of computeProjectionMatrixFOV."""
+    for name, size in (("width", width), ("height", height)):
+        if not 1 <= integer(size, name) <= LARGEST:
+            raise refuse(f"{name} is {size}; pass 1 to {LARGEST} pixels")
+    from .pybullet import living
+
+    living(world)
     camera = camera_of_matrices(view, projection)
     matrix = np.asarray(projection, float).reshape(4, 4).T
     near, far = matrix[2, 3] / (matrix[2, 2] - 1), matrix[2, 3] / (matrix[2, 2] + 1)

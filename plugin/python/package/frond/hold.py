@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ._lib import Array, changes_world, check, check_host, documented, ffi, host, lib, to_python, vector
+from ._lib import Array, changes_world, check, check_host, documented, ffi, flag, host, lib, to_python, vector
 from .thing import OfWorld
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ class Bond(OfWorld):
         """Returns the force on the plant [N] in the last substep; or the mean over the last call of step or
         stepSimulation, recorded from the first such request on."""
         out = ffi.new("frond_vec3 *")
-        if mean:
+        if flag(mean, "mean"):
             check_host(host.frond_host_get_bond_force(self.world._handle, self._handle, out))
         else:
             check(lib.frond_bond_get(self._handle, ffi.NULL, out))

@@ -100,6 +100,8 @@ class Model:
     def from_stems(cls, stems: Sequence[StemOptions], organs: Mapping[str, Material | dict | str] | None = None,
                    **options: Unpack[ModelDefOptions]) -> Model:
         """Makes a model from tapered segments: dicts of parent, begin, end [m], radius_begin, radius_end [m]."""
+        if not isinstance(stems, (list, tuple)):
+            raise refuse(f"stems is {stems!r}; pass a list of dicts of parent, begin, end, radius_begin, radius_end")
         array = ffi.new("frond_stem[]", max(len(stems), 1))
         for i, stem in enumerate(stems):
             if not isinstance(stem, dict) or set(stem) != {"parent", "begin", "end", "radius_begin", "radius_end"}:

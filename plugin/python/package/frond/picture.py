@@ -16,17 +16,18 @@ import numpy as np
 import numpy.typing as npt
 
 from ._generated import PictureCamera, PicturePlatform, PictureWhat
-from ._lib import documented, ffi, fill, integer, numbers, path_of, picture_library, real, refuse, row_of
-from ._lib import text_of, to_python, vector
+from ._lib import (documented, ffi, fill, integer, mask_of, need, numbers, path_of, picture_library, real, refuse,
+                   row_of, text_of, to_python, vector)
 from .film import TOLERANCE, Film, check, compare, compare_file, read_png, write_png
+from .hold import Grab
+from .plant import Plant
+from .rigid import Rigid
+from .robot import Robot
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._generated import PictureDefOptions, PictureSceneOptions, Vector
-    from .plant import Grab, Plant
-    from .rigid import Rigid
-    from .robot import Robot
 
 LARGEST = 8192
 """Largest width and height of a picture [pixel]."""
@@ -47,6 +48,8 @@ def color_of(color: Color) -> tuple[float, ...]:
 def camera_struct(camera: Any) -> Any:
     scene = picture_library().frond_default_picture_scene()  # kept, since its camera is a part of it
     struct = ffi.new("frond_picture_camera *", scene.camera)
+    if not isinstance(camera, (dict, PictureCamera)):
+        raise refuse(f"camera is {camera!r}; pass a PictureCamera or a dict of its fields")
     options = camera if isinstance(camera, dict) else {n: getattr(camera, n) for n in PictureCamera.__annotations__}
     return fill(struct[0], options, "a camera")
 
@@ -62,7 +65,7 @@ def camera_of_box(lower: Vector, upper: Vector, up: Vector = (0, 1, 0), azimuth:
 def camera_on(plant: Plant, up: Vector = (0, 1, 0), azimuth: float = 0.5, elevation: float = 0.25,
               aspect: float = 4 / 3) -> PictureCamera:
     """Returns a camera that sees a whole plant."""
-    points = plant.surface.positions
+    points = need(plant, Plant, "plant").surface.positions
     return camera_of_box(points.min(axis=0), points.max(axis=0), up, azimuth, elevation, aspect)
 
 
@@ -174,13 +177,14 @@ class Picture:
 
     def present(self, framebuffer: int, width: int, height: int) -> None:
         """Copies the last frame to a framebuffer of the caller's own context, of PicturePlatform.CURRENT."""
-        check(picture_library().frond_picture_present(self._picture, integer(framebuffer, "framebuffer"),
+        check(picture_library().frond_picture_present(self._picture, mask_of(framebuffer, "framebuffer"),
                                                       integer(width, "width"), integer(height, "height")))
 
     # ---- surfaces
 
     def add_texture(self, image: bytes) -> int:
         """Adds the bytes of an image file. Returns the number by which parts name it."""
+        need(image, bytes, "image")
         out = ffi.new("int *")
         check(picture_library().frond_picture_add_texture(self._picture, image, len(image), out))
         return out[0]
@@ -213,6 +217,8 @@ class Picture:
         if color is not None:
             parts = [{"first_triangle": 0, "triangle_count": mesh.triangle_count, "color": color_of(color),
                       "gloss": 0.2, "texture": -1}]
+        if not isinstance(parts, (list, tuple)) or not all(isinstance(part, dict) for part in parts):
+            raise refuse(f"parts is {parts!r}; pass a list of dicts of the fields of PicturePart")
         array = ffi.new("frond_picture_part[]", max(len(parts), 1))
         for i, part in enumerate(parts):
             fill(array[i], {"texture": -1, **part}, "a part")
@@ -265,12 +271,13 @@ class Picture:
 
     def draw_plant(self, plant: Plant, what: PictureWhat | int = PictureWhat.SURFACE) -> None:
         """Draws a plant as it is now."""
-        check(picture_library().frond_picture_draw_plant(self._picture, plant._handle, plant.model._handle,
-                                                         integer(what, "what")))
+        check(picture_library().frond_picture_draw_plant(self._picture, need(plant, Plant, "plant")._handle,
+                                                         plant.model._handle, mask_of(what, "what")))
 
     def draw_organs(self, plant: Plant, first_id: int = 0) -> None:
         """Draws a plant's surface with a number for each organ, first_id and its index in Model.organs."""
-        model, surface = plant.model, plant.surface
+        first_id = integer(first_id, "first_id")
+        model, surface = need(plant, Plant, "plant").model, plant.surface
         if model not in self._textures:
             self._textures[model] = [self.add_texture(texture.bytes) if texture.bytes else -1
                                      for texture in model.textures]
@@ -289,15 +296,16 @@ class Picture:
         from ._lib import make_def
 
         check(picture_library().frond_picture_draw_rigid(self._picture, make_def("rigid", "R", definition),
-                                                         rigid._handle, color_of(color)))
+                                                         need(rigid, Rigid, "rigid")._handle, color_of(color)))
 
     def draw_robot(self, robot: Robot, color: Color) -> None:
         """Draws the collision shapes of a robot of Frond's."""
-        check(picture_library().frond_picture_draw_robot(self._picture, robot._handle, color_of(color)))
+        check(picture_library().frond_picture_draw_robot(self._picture, need(robot, Robot, "robot")._handle,
+                                                           color_of(color)))
 
     def draw_grab(self, grab: Grab) -> None:
         """Draws an arrow from the held point to its target."""
-        check(picture_library().frond_picture_draw_grab(self._picture, grab._handle))
+        check(picture_library().frond_picture_draw_grab(self._picture, need(grab, Grab, "grab")._handle))
 
 
 def platform(name: PicturePlatform | str) -> PicturePlatform:

@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ._generated import (Capsule, Contact, Detail, Effect, Energy, Fragment, Integrator, Mechanics, PlantDef, Vector)
-from ._lib import (Array, array_out, changes_world, check, check_host, documented, effects_of, ffi, host, integer,
-                   lib, numbers, real, refuse, row_of, to_python, vector, wrap_handle)
+from ._lib import (Array, address_of, array_out, changes_world, check, check_host, documented, ffi, flag, host,
+                   integer, lib, mask_of, need, numbers, real, refuse, row_of, to_python, vector, wrap_handle)
 from .hold import Bond, Grab
 from .thing import OfWorld, Wrench
 
@@ -111,7 +111,7 @@ class Plant(OfWorld):
 
     def set_effects(self, effects: Effect | int) -> None:
         """Switches what acts on it."""
-        check(lib.frond_plant_set_effects(self._handle, effects_of(effects)))
+        check(lib.frond_plant_set_effects(self._handle, mask_of(effects, "effects")))
 
     def set_mechanics(self, mechanics: Mechanics | str) -> None:
         """Switches to other mechanics, from the same shape and velocities."""
@@ -239,7 +239,7 @@ class Plant(OfWorld):
         call of step or stepSimulation, recorded from the first such request on."""
         force, moment = ffi.new("frond_vec3 *"), ffi.new("frond_vec3 *")
         point = vector(about, "about")
-        if not mean:
+        if not flag(mean, "mean"):
             check(lib.frond_plant_get_root_force(self._handle, point, force, moment))
             return Wrench(to_python(force[0]), to_python(moment[0]))
         check_host(host.frond_host_record(self.world._handle))
@@ -322,7 +322,10 @@ class Plant(OfWorld):
 
 def plant_at(world: Any, object_: int) -> Plant | None:
     """Returns the plant whose collision object is at this address, None if it is not one's."""
-    handle = host.frond_host_get_plant(ffi.cast("void *", object_))
+    from .world import World
+
+    handle = host.frond_host_get_plant(need(world, World, "world")._handle,
+                                       ffi.cast("void *", address_of(object_, "object_")))
     return Plant(handle, world) if handle.id else None
 
 

@@ -18,7 +18,8 @@ import numpy as np
 import pybullet as p
 
 from ._generated import Result
-from ._lib import HOST_PATH, Error, changes_world, check_host, documented, ffi, host, integer, make_def, refuse
+from ._lib import (HOST_PATH, Error, changes_world, check_host, documented, ffi, host, integer, make_def, need, real,
+                   refuse)
 from .thing import Held
 from .world import World
 
@@ -134,7 +135,7 @@ def attach(client: int = 0, **options: Unpack[WorldDefOptions]) -> PyBulletWorld
 
 def detach(client: int = 0) -> None:
     """Destroys the plants of a client; its world goes on without them."""
-    world = _worlds.pop(client, None)
+    world = _worlds.pop(integer(client, "client"), None)
     if world is not None:
         world.destroy()
 
@@ -146,9 +147,16 @@ class Saved(NamedTuple):
     plants: bytes
 
 
+def living(world: PyBulletWorld) -> PyBulletWorld:
+    """Returns a world that exists; refuses others."""
+    if not need(world, PyBulletWorld, "world").is_valid:
+        raise Error(Result.BAD_HANDLE, "the world is stale: PyBullet was reset or disconnected; attach again")
+    return world
+
+
 def save(world: PyBulletWorld) -> Saved:
     """Saves robots and all else of PyBullet's in memory by its saveState, and the plants by a snapshot."""
-    plants = world.save()
+    plants = living(world).save()
     return Saved(p.saveState(physicsClientId=world.client), plants)
 
 
@@ -156,20 +164,34 @@ def restore(world: PyBulletWorld, saved: Saved) -> None:
     """Goes back to what save gave. Plants and a ball that hits them repeat to the bit; Bullet starts its solver for
     multi-bodies and its contacts anew, so that a robot's joints among plants repeat to some 1e-5 rad after half a
     second."""
-    p.restoreState(stateId=saved.state, physicsClientId=world.client)
-    world.restore(saved.plants)
+    client, state = living(world).client, need(saved, Saved, "saved").state
+    before = p.saveState(physicsClientId=client)
+    try:
+        p.restoreState(stateId=state, physicsClientId=client)
+        world.restore(saved.plants)
+    except p.error:
+        raise refuse("PyBullet does not have this state; it was removed, is of before a reset, or bodies were added or "
+                     "removed since") from None
+    except Error:
+        p.restoreState(stateId=before, physicsClientId=client)
+        raise
+    finally:
+        p.removeState(before, physicsClientId=client)
 
 
 def remove_saved(world: PyBulletWorld, saved: Saved) -> None:
     """Frees what save keeps in PyBullet."""
-    p.removeState(saved.state, physicsClientId=world.client)
+    p.removeState(need(saved, Saved, "saved").state, physicsClientId=living(world).client)
 
 
 class Drawing:
     """Plants in PyBullet's window: the points of their surfaces, moved by each update."""
 
     def __init__(self, world: PyBulletWorld, point_size: float = 3, most: int = 6000) -> None:
-        self.world, self.point_size, self.most = world, point_size, most
+        self.world = living(world)
+        self.point_size, self.most = real(point_size, "point_size"), integer(most, "most")
+        if self.point_size <= 0 or self.most < 1:
+            raise refuse("point_size and most have to be above zero")
         self.items: dict[int, int] = {}  # by plant
 
     def update(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple
 
-from ._lib import Array, ffi, host
+from ._lib import Array, ffi, host, refuse
 
 if TYPE_CHECKING:
     from .world import World
@@ -37,6 +37,8 @@ class OfWorld:
     world: World
 
     def __init__(self, handle: Any, world: World) -> None:
+        if not isinstance(handle, ffi.CData):
+            raise refuse("it is made by a method of World or Plant: add_plant, add_rigid, add_robot, grab, bond")
         self._handle = ffi.new(ffi.getctype(ffi.typeof(handle), "*"), handle)[0]
         self.world = world
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Callable
 import numpy as np
 
 from ._generated import Effect, EnergyLedger, EventInfo, Profile, RayHit, Report, Vector
-from ._lib import (Array, Error, changes_world, check, check_host, documented, effects_of, ffi, fill, host, integer,
-                   lib, make_def, numbers, real, refuse, to_python, vector, wrap_handle)
+from ._lib import (Array, Error, changes_world, check, check_host, documented, ffi, fill, flag, host,
+                   integer, lib, make_def, mask_of, need, numbers, real, refuse, to_python, vector, wrap_handle)
 from .thing import Wrench
 
 if TYPE_CHECKING:
@@ -163,7 +163,7 @@ class World:
 
     def set_effects(self, effects: Effect | int) -> None:
         """Sets a mask over every plant's effects."""
-        check(lib.frond_world_set_effects(self._handle, effects_of(effects)))
+        check(lib.frond_world_set_effects(self._handle, mask_of(effects, "effects")))
 
     def set_interpolation(self, fraction: float) -> None:
         """Sets which moment surfaces show: 0 the begin of the last substep, 1 its end; or AS_MOTION_STATES."""
@@ -296,10 +296,13 @@ class World:
         """Returns the table of contact forces, rows of FORCE_TYPE: means over the last call of step or stepSimulation,
         or mean=False of its last substep; of one plant, body and link of PyBullet's, if given. Recorded from the first
         call of this method on, in a world of PyBullet's from attach on."""
+        from .plant import Plant
+
+        mean = flag(mean, "mean")
         check_host(host.frond_host_record(self._handle))
-        count = host.frond_host_get_force_count(self._handle, bool(mean))
+        count = host.frond_host_get_force_count(self._handle, mean)
         out = ffi.new("frond_force[]", max(count, 1))
-        check_host(host.frond_host_get_forces(self._handle, bool(mean), out, count))
+        check_host(host.frond_host_get_forces(self._handle, mean, out, count))
         rows = np.frombuffer(ffi.buffer(out, ffi.sizeof("frond_force") * count), FORCE_ROW)
         table = np.zeros(count, FORCE_TYPE)
         for name in set(FORCE_ROW.names or ()) & set(FORCE_TYPE.names or ()):
@@ -312,11 +315,11 @@ class World:
                 table["organ"][its] = organs[rows["capsule"][its]]
         keep = np.ones(count, bool)
         if plant is not None:
-            keep &= table["plant"] == plant.id
+            keep &= table["plant"] == need(plant, Plant, "plant").id
         if body is not None:
-            keep &= (table["body"] == body) & (table["other"] == 0)
+            keep &= (table["body"] == integer(body, "body")) & (table["other"] == 0)
         if link is not None:
-            keep &= table["link"] == link
+            keep &= table["link"] == integer(link, "link")
         return table[keep]
 
     def wrench_on(self, body: int, link: int = -1, about: Vector = (0, 0, 0), mean: bool = True) -> Wrench:
@@ -339,10 +342,9 @@ class World:
 
     def restore(self, snapshot: bytes) -> None:
         """Restores what save gave, in a world with the same things made in the same order."""
-        try:
-            data = bytes(snapshot)
-        except (TypeError, ValueError):
-            raise refuse(f"snapshot is {type(snapshot).__name__}; pass the bytes of save") from None
+        if not isinstance(snapshot, (bytes, bytearray, memoryview)):
+            raise refuse(f"snapshot is {type(snapshot).__name__}; pass the bytes of save")
+        data = bytes(snapshot)
         check(lib.frond_world_restore(self._handle, data, len(data)))
 
 
