@@ -75,7 +75,7 @@ inline Pixel at(const std::vector<uint8_t>& pixels, double x, double y) {
 struct Sheet {
     std::vector<float> positions, normals, uvs = {0, 1, 1, 1, 1, 0, 0, 0};
     std::vector<int32_t> indices = {0, 1, 2, 0, 2, 3};
-    frond_picture_part part{0, 2, {0.2f, 0.5f, 0.1f, 1}, -1, 0, 0};
+    frond_picture_part part{0, 2, {0.2f, 0.5f, 0.1f, 1}, -1, 0, 0, false};
     Sheet(float x, float y, float size, float z = 0)
         : positions{x, y, z, x + size, y, z, x + size, y + size, z, x, y + size, z}, normals{0, 0, 1, 0, 0, 1,
                                                                                              0, 0, 1, 0, 0, 1} {}

@@ -180,7 +180,7 @@ TEST(PictureDraw, VertexColoursAndPartsShow) {
     canvas.begin(front_scene());
     frond_picture_mesh mesh = sheet.mesh();
     mesh.colors = colors.data();
-    const frond_picture_part second = {1, 1, {0, 0, 0, 1}, -1, 0, 0};
+    const frond_picture_part second = {1, 1, {0, 0, 0, 1}, -1, 0, 0, false};
     const frond_picture_part parts[2] = {{0, 1, {1, 1, 1, 1}, -1, 0, 0}, second};
     mesh.parts = parts, mesh.part_count = 2;
     ASSERT_TRUE(frond_picture_draw_mesh(canvas.picture, &mesh));

@@ -43,8 +43,8 @@ void append_mesh(Frame& frame, const frond_picture_mesh& mesh, int texture_count
     frame.vertices.resize(offset + size_t(mesh.vertex_count));
     for (int i = 0; i < mesh.vertex_count; i++) good[i] = make_vertex(frame, mesh, i, frame.vertices[offset + i]);
 
-    const frond_picture_part everything = {0, mesh.triangle_count, {0.25f, 0.42f, 0.12f, 1}, -1, 0.35f, 0.3f};
-    const frond_picture_part plain = {0, mesh.triangle_count, {1, 1, 1, 1}, -1, 0.35f, 0.3f};
+    const frond_picture_part everything = {0, mesh.triangle_count, {0.25f, 0.42f, 0.12f, 1}, -1, 0.35f, 0.3f, false};
+    const frond_picture_part plain = {0, mesh.triangle_count, {1, 1, 1, 1}, -1, 0.35f, 0.3f, false};
     const frond_picture_part* parts = mesh.parts ? mesh.parts : mesh.colors ? &plain : &everything;
     const int part_count = mesh.parts ? mesh.part_count : 1;
     for (int k = 0; k < part_count; k++) {
@@ -61,7 +61,7 @@ void append_mesh(Frame& frame, const frond_picture_mesh& mesh, int texture_count
             for (int c = 0; c < 3; c++) {
                 const float* p = frame.vertices[offset + corner[c]].position;
                 frame.indices.push_back(offset + uint32_t(corner[c]));
-                frame.solid_box.add({p[0], p[1], p[2]});
+                (part.is_floor ? frame.box : frame.solid_box).add({p[0], p[1], p[2]});
             }
         }
         run.index_count = frame.indices.size() - run.first_index;
@@ -71,6 +71,7 @@ void append_mesh(Frame& frame, const frond_picture_mesh& mesh, int texture_count
         run.texture = mesh.uvs && part.texture >= 0 && part.texture < texture_count ? part.texture : -1;
         run.translucency = clamped(part.translucency, 0, 1);
         run.gloss = clamped(part.gloss, 0, 1);
+        run.is_floor = part.is_floor;
         run.id = frame.id;
         frame.solid.push_back(run);
     }

@@ -37,7 +37,8 @@ void draw_surface(frond_picture* picture, frond_plant plant, frond_model model, 
                          {part.color[0], part.color[1], part.color[2], part.color[3]},
                          texture,
                          thin ? 0.35f : 0.0f,
-                         thin ? 0.3f : 0.2f});
+                         thin ? 0.3f : 0.2f,
+                         false});
     }
     frond_picture_mesh mesh{};
     mesh.positions = view.positions, mesh.normals = view.normals, mesh.uvs = view.uvs, mesh.colors = view.colors;
@@ -102,7 +103,7 @@ bool frond_picture_draw_robot(frond_picture* picture, frond_robot robot, frond_c
         require(frond_picture_get_size(picture, &width, nullptr));
         frond_surface_view view;
         require(frond_robot_get_surface(robot, &view), "the robot's surface");
-        const frond_picture_part part = {0, view.triangle_count, color, -1, 0, 0.2f};
+        const frond_picture_part part = {0, view.triangle_count, color, -1, 0, 0.2f, false};
         frond_picture_mesh mesh{};
         mesh.positions = view.positions, mesh.indices = view.indices;
         mesh.vertex_count = view.vertex_count, mesh.triangle_count = view.triangle_count;

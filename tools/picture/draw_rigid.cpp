@@ -41,7 +41,7 @@ bool draw_round(frond_picture* picture, const frond_rigid_state& state, double r
         const int32_t b = (a + 1) % SIDES, c = SIDES + a, d = SIDES + b;
         for (int32_t i : {a, c, b, b, c, d, a, b, 2 * SIDES, c, 2 * SIDES + 1, d}) indices.push_back(i);
     }
-    const frond_picture_part part = {0, int(indices.size() / 3), color, -1, 0, 0.2f};
+    const frond_picture_part part = {0, int(indices.size() / 3), color, -1, 0, 0.2f, false};
     frond_picture_mesh mesh{};
     mesh.positions = positions.data();
     mesh.indices = indices.data();

@@ -23,7 +23,7 @@ void draw_runs(Renderer& renderer, const Frame& frame, bool cut) {
     };
     for (const MeshRun& run : frame.solid) {
         const bool run_cut = run.texture >= 0 && renderer.textures[size_t(run.texture)].cut;
-        if (run_cut != cut) continue;
+        if (run_cut != cut || run.is_floor) continue;
         if (cut || first + count != run.first_index) {
             flush();
             first = run.first_index;

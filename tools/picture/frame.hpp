@@ -23,6 +23,7 @@ struct MeshRun {
     frond_color color{1, 1, 1, 1};
     int texture = -1;
     float translucency = 0, gloss = 0;
+    bool is_floor = false;  // casts no shadow
     int32_t id = 0;
 };
 

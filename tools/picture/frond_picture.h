@@ -126,6 +126,7 @@ typedef struct frond_picture_part {
     int texture;        /* -1: none */
     float translucency; /* share of light that passes a thin sheet, 0..1; 0.35 for a leaf, 0 for wood */
     float gloss;        /* 0..1; 0.3 for a leaf */
+    bool is_floor;      /* casts no shadow; of a wide floor, which would take all of the shadow maps */
 } frond_picture_part;
 
 /* All sheets are two-sided. Triangles outside all parts are not drawn; without parts all are drawn as a leaf. */

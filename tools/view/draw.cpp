@@ -18,7 +18,7 @@ void draw_strained(frond_picture* picture, frond_plant plant, const Shades& shad
         const std::array<uint8_t, 4> color = strain_color(strains[size_t(capsule)]);
         colors.insert(colors.end(), color.begin(), color.end());
     }
-    const frond_picture_part part = {0, view.triangle_count, {1, 1, 1, 1}, -1, 0.2f, 0};
+    const frond_picture_part part = {0, view.triangle_count, {1, 1, 1, 1}, -1, 0.2f, 0, false};
     frond_picture_mesh mesh{};
     mesh.positions = view.positions, mesh.normals = view.normals, mesh.indices = view.indices;
     mesh.colors = colors.data();

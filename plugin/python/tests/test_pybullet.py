@@ -206,6 +206,37 @@ def test_the_camera_sees_bodies_plants_and_organs(client, corn):
         frond.pybullet.camera_image(world, 10, 10, view, [1] * 16)
 
 
+def test_frond_draws_bodies_where_pybullet_does(client, corn):
+    p.loadURDF("plane.urdf")
+    bodies = [p.loadURDF("franka_panda/panda.urdf", (-0.5, 0, 0), useFixedBase=True),
+              p.loadURDF("husky/husky.urdf", (0.7, -0.9, 0.2)), p.loadURDF("r2d2.urdf", (1.3, 1.2, 0.5)),
+              p.loadURDF("duck_vhacd.urdf", (0, -1.2, 0), globalScaling=5),
+              p.createMultiBody(0, p.createCollisionShape(p.GEOM_CAPSULE, radius=0.1, height=0.5),
+                                basePosition=(-1.2, 0.3, 0.5), baseOrientation=(0.5, 0.5, 0.5, 0.5))]
+    world = frond.pybullet.attach(client)
+    world.add_plant(corn, position=(0, 0.3, 0))
+    camera = (400, 300, p.computeViewMatrix((1.9, -2.6, 1.7), (0, 0.2, 0.7), (0, 0, 1)),
+              p.computeProjectionMatrixFOV(55, 4 / 3, 0.1, 20))
+    ours = frond.pybullet.camera_image(world, *camera)
+    theirs = frond.pybullet.camera_image(world, *camera, draw_bodies=False)
+    for body in bodies:
+        both, either = (ours.bodies == body) & (theirs.bodies == body), (ours.bodies == body) | (theirs.bodies == body)
+        assert both.sum() > 0.8 * either.sum() > 80, body  # PyBullet draws round shapes with corners
+        assert np.abs(ours.distance - theirs.distance)[both].mean() < 0.02, body
+    assert (ours.plants == theirs.plants).mean() > 0.995
+    linked = frond.pybullet.camera_image(world, *camera, flags=p.ER_SEGMENTATION_MASK_OBJECT_AND_LINKINDEX).bodies
+    is_arm = ours.bodies == bodies[0]
+    assert (linked[is_arm] & 0xffffff == bodies[0]).all() and len(np.unique(linked[is_arm] >> 24)) > 5
+
+    # PyBullet tells no triangles of this one.
+    sheet = p.createMultiBody(0, -1, p.createVisualShape(
+        p.GEOM_MESH, vertices=[(-1, 0, 0), (1, 0, 0), (0, 0, 2)], indices=[0, 1, 2, 0, 2, 1]),
+        basePosition=(0, -0.5, 0))
+    image = frond.pybullet.camera_image(world, *camera)
+    assert (image.bodies == sheet).sum() > 1000 and (image.bodies == bodies[1]).sum() > 1000
+    assert (image.plants >= 0).sum() < 0.8 * (ours.plants >= 0).sum()  # it stands before the plant
+
+
 def test_wrong_use_is_refused_with_a_remedy(client, corn):
     for call in (lambda: frond.pybullet.attach(77), lambda: frond.pybullet.attach("client"),
                  lambda: frond.pybullet.PyBulletWorld(), lambda: frond.pybullet.attach(client, nothing=3)):

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -93,7 +93,7 @@ class Picture:
         out = ffi.new("frond_picture **")
         check(library.frond_picture_create(struct, out))
         self._picture = ffi.gc(out[0], library.frond_picture_destroy)
-        self._textures: dict[Any, list[int]] = {}
+        self._textures: dict[int, tuple[Any, list[int]]] = {}
 
     def _world_guard(self, function: Any) -> None:
         return None
@@ -189,6 +189,13 @@ class Picture:
         check(picture_library().frond_picture_add_texture(self._picture, image, len(image), out))
         return out[0]
 
+    def textures_of(self, key: Any, images: Callable[[], Sequence[bytes | None]]) -> list[int]:
+        """Adds images once for each key that is the same object. Returns their numbers, -1 for empty ones."""
+        if id(key) not in self._textures:
+            # The key is kept, or another one may have its id later.
+            self._textures[id(key)] = (key, [self.add_texture(image) if image else -1 for image in images()])
+        return self._textures[id(key)][1]
+
     def draw_mesh(self, positions: npt.ArrayLike, triangles: npt.ArrayLike, normals: npt.ArrayLike | None = None,
                   uvs: npt.ArrayLike | None = None, colors: npt.ArrayLike | None = None,
                   parts: Sequence[dict[str, Any]] = (), color: Color | None = None) -> None:
@@ -278,9 +285,7 @@ class Picture:
         """Draws a plant's surface with a number for each organ, first_id and its index in Model.organs."""
         first_id = integer(first_id, "first_id")
         model, surface = need(plant, Plant, "plant").model, plant.surface
-        if model not in self._textures:
-            self._textures[model] = [self.add_texture(texture.bytes) if texture.bytes else -1
-                                     for texture in model.textures]
+        textures = self.textures_of(model, lambda: [texture.bytes for texture in model.textures])
         organs = {organ.name: i for i, organ in enumerate(model.organs)}
         for part in model.parts:
             is_thin = part.kind in ("blade", "crown", "flower", "tendril")
@@ -288,7 +293,7 @@ class Picture:
             used = surface.triangles[part.first_triangle:part.first_triangle + part.triangle_count]
             self.draw_mesh(surface.positions, used, surface.normals, surface.uvs, surface.colors,
                            [{"first_triangle": 0, "triangle_count": len(used), "color": part.color,
-                             "texture": self._textures[model][part.texture] if part.texture >= 0 else -1,
+                             "texture": textures[part.texture] if part.texture >= 0 else -1,
                              "translucency": 0.35 if is_thin else 0.0, "gloss": 0.3 if is_thin else 0.2}])
 
     def draw_rigid(self, rigid: Rigid, color: Color, **definition: Any) -> None:
