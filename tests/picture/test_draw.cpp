@@ -172,6 +172,24 @@ TEST(PictureDraw, LeafGlowsWithTheSunBehindIt) {
     EXPECT_GT(leaf.g - leaf.b, wood.g - wood.b);
 }
 
+TEST(PictureDraw, AWideFloorLeavesShadowsSharp) {
+    const auto contrast = [](bool is_floor) {
+        Sheet floor(-100, -100, 200);
+        floor.part.is_floor = is_floor;
+        floor.part.color = {0.5f, 0.5f, 0.5f, 1};
+        Canvas canvas;
+        canvas.begin(front_scene());
+        const frond_picture_mesh mesh = floor.mesh();
+        EXPECT_TRUE(frond_picture_draw_mesh(canvas.picture, &mesh));
+        EXPECT_TRUE(frond_picture_draw_sphere(canvas.picture, {-0.3, 0.3, 0.3}, 0.15, {1, 0, 0, 1}));
+        const std::vector<uint8_t> pixels = canvas.end();
+        EXPECT_TRUE(same_color(at(pixels, -0.7, -0.7), at(pixels, 0.7, 0.7), 12));
+        return at(pixels, 0.7, 0.7).sum() - at(pixels, 0.2, 0).sum();  // lit, and in the sphere's shadow
+    };
+    EXPECT_GT(contrast(true), 90);
+    EXPECT_LT(contrast(false), contrast(true) / 2);  // a texel of the map is as wide as the sphere
+}
+
 TEST(PictureDraw, VertexColoursAndPartsShow) {
     Sheet sheet(-0.8f, -0.8f, 1.6f);
     sheet.part.color = {1, 1, 1, 1};
@@ -181,7 +199,7 @@ TEST(PictureDraw, VertexColoursAndPartsShow) {
     frond_picture_mesh mesh = sheet.mesh();
     mesh.colors = colors.data();
     const frond_picture_part second = {1, 1, {0, 0, 0, 1}, -1, 0, 0, false};
-    const frond_picture_part parts[2] = {{0, 1, {1, 1, 1, 1}, -1, 0, 0}, second};
+    const frond_picture_part parts[2] = {{0, 1, {1, 1, 1, 1}, -1, 0, 0, false}, second};
     mesh.parts = parts, mesh.part_count = 2;
     ASSERT_TRUE(frond_picture_draw_mesh(canvas.picture, &mesh));
     const std::vector<uint8_t> pixels = canvas.end();
@@ -356,7 +374,8 @@ TEST(PictureDraw, RandomMeshesDoNoHarm) {
         for (uint8_t& color : colors) color = uint8_t(random());
         frond_picture_part parts[3];
         for (frond_picture_part& part : parts) {
-            part = {int(random() % 50) - 5, int(random() % 60) - 5, {1, 1, 1, 1}, int(random() % 5) - 2, 0.5f, 0.5f};
+            part = {
+                int(random() % 50) - 5, int(random() % 60) - 5, {1, 1, 1, 1}, int(random() % 5) - 2, 0.5f, 0.5f, false};
             if (random() % 4 == 0) part.color.r = part.gloss = part.translucency = std::nanf("");
             if (random() % 4 == 0) part.first_triangle = INT32_MAX, part.triangle_count = INT32_MAX;
         }
