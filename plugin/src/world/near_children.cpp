@@ -2,7 +2,8 @@
 //
 // A child, a segment or rectangle with a radius, is far from a piece's bounding box, which turns with the piece, if a
 // direction separates them by more than the distance at which Bullet makes contact points: one of the box's axes, of
-// the child's or of their cross products (Gottschalk, Lin, Manocha 1996).
+// the child's or of their cross products (Gottschalk, Lin, Manocha 1996). Corners of the box that a hull leaves empty
+// are found by one more direction, in which the hull's own extent counts.
 #include "world/near_children.hpp"
 
 #include <algorithm>
@@ -19,8 +20,9 @@ namespace {
 
 // Box of a convex shape, in the plant's frame.
 struct Piece {
-    btTransform frame;  // its centre and axes
-    btVector3 half;     // [m]
+    const btConvexShape* shape;
+    btTransform frame;       // its centre and axes
+    btVector3 half, centre;  // in the shape's own frame [m]
 };
 
 // A capsule's or plate's core: a centre and one or two half lengths.
@@ -45,9 +47,9 @@ bool list_pieces(const btCollisionShape& shape, const btTransform& frame, std::v
     has_hull |= shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE;
     btVector3 lower, upper;
     shape.getAabb(btTransform::getIdentity(), lower, upper);
-    Piece piece = {frame, btScalar(0.5) * (upper - lower)};
-    piece.frame.setOrigin(frame * (btScalar(0.5) * (upper + lower)));
-    pieces.push_back(piece);
+    const btVector3 half = btScalar(0.5) * (upper - lower), centre = btScalar(0.5) * (upper + lower);
+    pieces.push_back(
+        {static_cast<const btConvexShape*>(&shape), btTransform(frame.getBasis(), frame * centre), half, centre});
     return true;
 }
 
@@ -79,6 +81,39 @@ bool separates(const btVector3& way, const Core& core, const btVector3& half, bt
     return gap > 0 && gap * gap > distance * distance * way.length2();
 }
 
+// Returns the point of a core that is nearest to p.
+btVector3 nearest_on(const Core& core, const btVector3& p) {
+    btVector3 point = core.centre;
+    for (int k = 0; k < core.count; k++) {
+        const btScalar share = (p - core.centre).dot(core.half[k]) / std::max(core.half[k].length2(), SIMD_EPSILON);
+        point += btClamped(share, btScalar(-1), btScalar(1)) * core.half[k];
+    }
+    return point;
+}
+
+// Returns whether a hull ends before a core, in the direction between the two: from the hull's middle, a box as much
+// smaller than its own as that is thick, to the core. `core` is relative to the box.
+bool is_beside_hull(const Core& core, const Piece& piece, btScalar distance) {
+    if (piece.shape->getShapeType() != CONVEX_HULL_SHAPE_PROXYTYPE) return false;
+    const btScalar thickness = std::min({piece.half.x(), piece.half.y(), piece.half.z()});
+    const btVector3 inner = piece.half - btVector3(thickness, thickness, thickness);
+    btVector3 middle(0, 0, 0), way;
+    for (int round = 0; round < 2; round++) {
+        const btVector3 near = nearest_on(core, middle);
+        middle = near;
+        middle.setMin(inner);
+        middle.setMax(-inner);
+        way = near - middle;
+    }
+    const btScalar length = way.length();
+    if (!(length > SIMD_EPSILON)) return false;
+    way /= length;
+    const btVector3 farthest = piece.shape->localGetSupportingVertexWithoutMargin(way) - piece.centre;
+    btScalar begin = core.centre.dot(way);
+    for (int k = 0; k < core.count; k++) begin -= btFabs(core.half[k].dot(way));
+    return begin - farthest.dot(way) - piece.shape->getMargin() > distance;
+}
+
 bool is_far(const Core& from, const Piece& piece, btScalar distance) {
     const btMatrix3x3& axes = piece.frame.getBasis();
     Core core = from;
@@ -94,7 +129,8 @@ bool is_far(const Core& from, const Piece& piece, btScalar distance) {
         for (const btVector3& axis : unit)
             if (parts(axis.cross(core.half[k]))) return true;
     }
-    return core.count == 2 && parts(core.half[0].cross(core.half[1]));
+    if (core.count == 2 && parts(core.half[0].cross(core.half[1]))) return true;
+    return is_beside_hull(core, piece, least);
 }
 
 // Distance from which on Bullet makes no contact points [m].

@@ -106,7 +106,7 @@ static void visit_all(Archive& a, Snapshot& s) {
 namespace {
 
 constexpr char MAGIC[8] = {'F', 'R', 'O', 'N', 'D', 'S', 'N', 'P'};
-constexpr uint32_t LAYOUT = 2;  // to be raised with every change above
+constexpr uint32_t LAYOUT = 3;  // to be raised with every change above
 
 struct Head {
     char magic[8];
