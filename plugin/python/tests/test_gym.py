@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 gymnasium = pytest.importorskip("gymnasium")
+import frond  # noqa: E402
 import frond.gym  # noqa: E402
 
 
@@ -76,3 +77,26 @@ def test_it_is_vectorised_by_processes():
         assert seen.shape == (2, 25) and np.array_equal(seen[0], seen[1])
     finally:
         envs.close()
+
+
+def test_wrong_use_is_refused_with_a_remedy():
+    for options in ({"mechanics": "glue"}, {"speed": float("nan")}, {"speed": "fast"}, {"steps": 0}, {"limit": 1.5},
+                    {"render_mode": "human"}):
+        with pytest.raises(frond.Error, match="pass"):
+            frond.gym.ReachThroughLeaves(**options)
+    env = frond.gym.ReachThroughLeaves()
+    with pytest.raises(frond.Error, match="reset"):
+        env.step(np.zeros(7))
+    env.reset(seed=1)
+    for action in (None, np.zeros(6), [np.nan] * 7, "left", {}):
+        with pytest.raises(frond.Error, match="action"):
+            env.step(action)
+    for target in ((1, 2), "there", (0, 0, np.inf)):
+        with pytest.raises(frond.Error, match="target"):
+            env.reset(options={"target": target})
+    with pytest.raises(frond.Error, match="save"):
+        env.restore(None)
+    env.close()
+    for call in (env.reset, lambda: env.step(np.zeros(7)), lambda: env.restore(None)):
+        with pytest.raises(frond.Error, match="closed"):
+            call()

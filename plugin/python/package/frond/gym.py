@@ -25,11 +25,18 @@ import pybullet_data
 
 from . import pybullet as frond_pybullet
 from ._generated import Effect
+from ._lib import integer, numbers, real, refuse, row_of
 from .model import Model
 
 HAND = 6
 JOINTS = 7
 READY = (0.0, -0.4, 0.0, -1.7, 0.0, 1.0, 0.0)
+
+
+def finite(array: np.ndarray, name: str) -> np.ndarray:
+    if not np.isfinite(array).all():
+        raise refuse(f"{name} is {array}; pass finite numbers")
+    return array
 
 
 class ReachThroughLeaves(gymnasium.Env):
@@ -39,8 +46,17 @@ class ReachThroughLeaves(gymnasium.Env):
 
     def __init__(self, mechanics: str = "rod", speed: float = 1.0, steps: int = 12, limit: int = 200,
                  render_mode: str | None = None) -> None:
+        row_of(mechanics, "frond_mechanics", "mechanics")
+        if not 0 < real(speed, "speed") < np.inf:
+            raise refuse(f"speed is {speed}; pass one above zero [rad/s]")
+        for name, count in (("steps", steps), ("limit", limit)):
+            if integer(count, name) < 1:
+                raise refuse(f"{name} is {count}; pass one at least")
+        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
+            raise refuse(f"render_mode is {render_mode!r}; pass None or 'rgb_array'")
         self.mechanics, self.speed, self.steps, self.limit = mechanics, speed, steps, limit
         self.render_mode = render_mode
+        self.decisions = -1  # until the first reset
         reach = np.array([4.0] * 7 + [20.0] * 7 + [2.0] * 6 + [1000.0] * 4 + [10.0], np.float32)
         self.reach = reach
         self.observation_space = gymnasium.spaces.Box(-reach, reach, dtype=np.float32)
@@ -65,6 +81,10 @@ class ReachThroughLeaves(gymnasium.Env):
                        for x, y in ((0.0, -0.3), (0.05, 0.0), (0.0, 0.3))]
         self.at_rest = [np.nan_to_num(plant.strains) for plant in self.plants]
         self.target = np.zeros(3)
+
+    def _check_open(self) -> None:
+        if not p.isConnected(self.client):
+            raise refuse("the environment is closed; make another one")
 
     # ---- the arm
 
@@ -91,20 +111,27 @@ class ReachThroughLeaves(gymnasium.Env):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[np.ndarray, dict]:
         """Begins an episode: plants whole and at rest, the arm folded, a target drawn from `seed`; or
         options={"target": xyz}."""
+        self._check_open()
+        target = (options or {}).get("target")
+        if target is not None:
+            target = finite(numbers(target, "target", (3,)), "target")
         super().reset(seed=seed)
         self._build()
         for joint, position in enumerate(READY):
             p.resetJointState(self.arm, joint, position, physicsClientId=self.client)
         self.wanted = np.array(READY)
         drawn = self.np_random.uniform((0.05, -0.25, 0.5), (0.2, 0.25, 0.9))
-        self.target = np.array((options or {}).get("target", drawn), float)
+        self.target = drawn if target is None else target
         self.decisions = 0
         self.distance = float(np.linalg.norm(self.target - self._state()[2]))
         return self._observe(), {}
 
     def step(self, action: Any) -> tuple[np.ndarray, float, bool, bool, dict]:
         """Moves the joints' targets and steps PyBullet and the plants."""
-        change = np.clip(np.asarray(action, float).reshape(JOINTS), -1, 1)
+        self._check_open()
+        if self.decisions < 0:
+            raise refuse("no episode has begun; call reset first")
+        change = np.clip(finite(numbers(action, "action", (JOINTS,)), "action"), -1, 1)
         self.wanted = np.clip(self.wanted + change * self.speed * self.steps / 240, -2.9, 2.9)
         p.setJointMotorControlArray(self.arm, range(JOINTS), p.POSITION_CONTROL, targetPositions=self.wanted.tolist(),
                                     forces=[200.0] * JOINTS, physicsClientId=self.client)
@@ -134,6 +161,9 @@ class ReachThroughLeaves(gymnasium.Env):
 
     def restore(self, saved: tuple[Any, ...]) -> None:
         """Goes back to a state of save. Plants that have broken since cannot go back: reset them."""
+        self._check_open()
+        if not isinstance(saved, tuple) or len(saved) != 5:
+            raise refuse(f"saved is {saved!r}; pass what save gave")
         frond_pybullet.restore(self.world, saved[0])
         self.wanted, self.target, self.decisions, self.distance = saved[1].copy(), saved[2].copy(), *saved[3:]
 

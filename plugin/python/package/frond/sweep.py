@@ -21,7 +21,7 @@ from typing import Any, Callable, Iterable, Sequence
 import numpy as np
 
 from ._generated import Result
-from ._lib import Error
+from ._lib import Error, integer, refuse
 from .model import Model, material_preset
 from .world import World
 
@@ -133,10 +133,20 @@ def start(address: str | None) -> Any:
     return ray
 
 
+def check_cases(cases: Any, workers: Any) -> None:
+    if not isinstance(cases, (list, tuple)) or not all(isinstance(case, dict) for case in cases):
+        raise refuse(f"cases is {cases!r}; pass a list of dicts of keyword arguments")
+    if workers is not None and integer(workers, "workers") < 0:
+        raise refuse(f"workers is {workers}; pass none below zero")
+
+
 def run(function: Callable[..., Case], cases: Sequence[Case], address: str | None = None,
         workers: int | None = None) -> list[Case]:
     """Returns function(**case) of each case, in their order: as Ray tasks on this machine or the cluster of an address,
     or with workers=0 in this process. A task whose worker dies is done again, up to RETRIES times."""
+    check_cases(cases, workers)
+    if not callable(function):
+        raise refuse(f"function is {function!r}; pass one that takes a case's items as keyword arguments")
     if workers == 0:
         return [function(**case) for case in cases]
     ray = start(address)
@@ -166,6 +176,7 @@ def players(count: int, address: str | None = None) -> list[Any]:
 def play(cases: Sequence[Case], address: str | None = None, workers: int | None = None,
          actors: list[Any] | None = None) -> list[Case]:
     """Returns rollout(**case) of each case, in their order, shared out among actors; workers=0: in this process."""
+    check_cases(cases, workers)
     if workers == 0:
         return [rollout(**case) for case in cases]
     ray = start(address)
@@ -180,6 +191,8 @@ def play(cases: Sequence[Case], address: str | None = None, workers: int | None 
 def write(cases: Iterable[Case], results: Iterable[Case], file: Any = None) -> None:
     """Writes cases and their results as CSV."""
     rows = [{**case, **result} for case, result in zip(cases, results)]
+    if not rows:
+        raise refuse("there are no cases to write")
     writer = csv.DictWriter(file or sys.stdout, list(rows[0]), lineterminator="\n")
     writer.writeheader()
     writer.writerows(rows)
