@@ -1,4 +1,5 @@
-// Bullet looks only at those of a plant's children that a body of hulls can touch: contacts are the same as without that.
+// Bullet looks only at those of a plant's children that a body of hulls can touch: contacts are the same as without
+// that.
 #include <algorithm>
 #include <cmath>
 #include <tuple>

@@ -564,9 +564,9 @@ FROND_API frond_result frond_plant_break(frond_plant plant, int capsule);
 FROND_API frond_result frond_grab_create(frond_plant plant, frond_vec3 point, double stiffness, frond_grab* out);
 /* Moves the target [m], to which the spring pulls, in the world. */
 FROND_API frond_result frond_grab_move(frond_grab grab, frond_vec3 target);
-/* Gives the point of the plant that is held now, the target [m], and the force on the plant, which is the stiffness times
- * the way from one to the other [N]. Any may be null. For a moment after a change of mechanics the vertex is drawn
- * elsewhere than it is held. */
+/* Gives the point of the plant that is held now, the target [m], and the force on the plant, which is the stiffness
+ * times the way from one to the other [N]. Any may be null. For a moment after a change of mechanics the vertex is
+ * drawn elsewhere than it is held. */
 FROND_API frond_result frond_grab_get(frond_grab grab, frond_vec3* point, frond_vec3* target, frond_vec3* force);
 /* Lets go. Null and stale handles are ignored. */
 FROND_API void frond_grab_destroy(frond_grab grab);

@@ -42,7 +42,7 @@ struct World final : btActionInterface {
     frond_response response;
     ResponseSettings response_settings;
     std::unique_ptr<Wind> wind;  // null: there is no air
-    LackingShape lacking;    // before `bodies`, whose shapes forget themselves there
+    LackingShape lacking;        // before `bodies`, whose shapes forget themselves there
     std::map<const Model*, std::weak_ptr<Hull>> hulls;
     std::vector<std::unique_ptr<PlantBody>> bodies;
     std::vector<PlantBody*> awake;        // by index, except those that woke since the last substep

@@ -45,7 +45,7 @@ def normals_of(vertices: Array, faces: Array) -> Array:
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     normals = np.zeros_like(vertices)
     for k in range(3):
-        np.add.at(normals, faces[:, k], np.cross(b - a, c - a))
+        np.add.at(normals, faces[:, k].astype(np.int64), np.cross(b - a, c - a))
     return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
 
 
@@ -65,8 +65,8 @@ def piece_of(mesh: Any, is_flat: bool) -> Piece:
 @functools.lru_cache(maxsize=256)
 def load_mesh(path: str, _: float) -> tuple[Piece, ...]:
     """Loads a file of a mesh; the second argument is the time at which it was written."""
-    loaded = trimesh.load(path)
-    meshes = loaded.dump() if isinstance(loaded, trimesh.Scene) else [loaded]
+    loaded: Any = trimesh.load(path)
+    meshes: Any = loaded.dump() if isinstance(loaded, trimesh.Scene) else [loaded]
     # A facet of an .stl has its own normal.
     return tuple(piece_of(mesh, path.lower().endswith(".stl")) for mesh in meshes if len(mesh.faces))
 
@@ -130,7 +130,7 @@ def draw_bodies(picture: Picture, client: int, first_id: int) -> Iterator[tuple[
 
 def draw_pieces(picture: Picture, pieces: tuple[Piece, ...], scale: Array, turn: Array, place: Any,
                 tint: Any) -> None:
-    textures = picture.textures_of(pieces, lambda: [piece.texture for piece in pieces])
+    textures = picture._textures_of(pieces, lambda: [piece.texture for piece in pieces])
     for piece, texture in zip(pieces, textures):
         color = np.asarray(tint[:3])
         if piece.color is not None and tuple(tint[:3]) == (1, 1, 1):

@@ -89,7 +89,8 @@ def picture_of_frond(world: PyBulletWorld, width: int, height: int, camera: Any,
 
 def nearer(front: Image, back: Image, shows: npt.NDArray[np.bool_]) -> Image:
     """Returns the back image with what `shows` of the front one."""
-    return Image(*(np.where(shows[:, :, None] if a.ndim == 3 else shows, a, b) for a, b in zip(front, back)))
+    pairs: Any = zip(front, back)
+    return Image(*(np.where(shows[:, :, None] if a.ndim == 3 else shows, a, b) for a, b in pairs))
 
 
 def camera_image(world: PyBulletWorld, width: int, height: int, view: Sequence[float], projection: Sequence[float],

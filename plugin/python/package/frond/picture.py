@@ -189,7 +189,7 @@ class Picture:
         check(picture_library().frond_picture_add_texture(self._picture, image, len(image), out))
         return out[0]
 
-    def textures_of(self, key: Any, images: Callable[[], Sequence[bytes | None]]) -> list[int]:
+    def _textures_of(self, key: Any, images: Callable[[], Sequence[bytes | None]]) -> list[int]:
         """Adds images once for each key that is the same object. Returns their numbers, -1 for empty ones."""
         if id(key) not in self._textures:
             # The key is kept, or another one may have its id later.
@@ -285,7 +285,7 @@ class Picture:
         """Draws a plant's surface with a number for each organ, first_id and its index in Model.organs."""
         first_id = integer(first_id, "first_id")
         model, surface = need(plant, Plant, "plant").model, plant.surface
-        textures = self.textures_of(model, lambda: [texture.bytes for texture in model.textures])
+        textures = self._textures_of(model, lambda: [texture.bytes for texture in model.textures])
         organs = {organ.name: i for i, organ in enumerate(model.organs)}
         for part in model.parts:
             is_thin = part.kind in ("blade", "crown", "flower", "tendril")
