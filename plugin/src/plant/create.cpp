@@ -72,15 +72,14 @@ static std::shared_ptr<const Value> shared_of(const std::shared_ptr<const Model>
     return std::shared_ptr<const Value>(shared, &shared->value);
 }
 
-std::shared_ptr<const Collider> collider_of(const Plant& plant) {
-    return shared_of<Collider>(plant.model, 1, [&] { return make_collider(*plant.model); });
-}
-
 std::shared_ptr<const Sheath> sheath_of(const Plant& plant) {
     return shared_of<Sheath>(plant.model, 1, [&] { return make_sheath(*plant.model); });
 }
 
 std::shared_ptr<const SheathInCage> sheath_in_cage_of(const Plant& plant) {
+    constexpr int CAGE_ITSELF = 0;  // among orders
+    if (!touches_by_sheath(plant))
+        return shared_of<SheathInCage>(plant.model, CAGE_ITSELF, [&] { return cage_as_sheath(*plant.model); });
     return shared_of<SheathInCage>(plant.model, plant.nodes->order,
                                    [&] { return make_sheath_in_cage(*plant.model, *plant.nodes); });
 }

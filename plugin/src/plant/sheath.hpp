@@ -28,6 +28,8 @@ struct SheathInCage {
 // Makes a sheath of blades that are that many strips wide: a chain's are rigid across, a cage's are not.
 Sheath make_sheath(const Model& model, int strips = 1);
 SheathInCage make_sheath_in_cage(const Model& model, const TetNodes& nodes);
+// Returns the cage itself as a sheath, whose nodes are the cage's own.
+SheathInCage cage_as_sheath(const Model& model);
 // Returns the attachment of a point of the sheath, for pushes there.
 Attachment sheath_attachment(const Sheath& sheath, const ContactSide& side);
 Attachment sheath_attachment(const SheathInCage& in_cage, const Model& model, const TetNodes& nodes,

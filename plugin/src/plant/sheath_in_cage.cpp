@@ -50,6 +50,13 @@ SheathInCage make_sheath_in_cage(const Model& model, const TetNodes& nodes) {
     return in_cage;
 }
 
+SheathInCage cage_as_sheath(const Model& model) {
+    SheathInCage in_cage;
+    in_cage.sheath.collider = make_collider(model);
+    in_cage.sheath.modelled = model.cage.nodes;
+    return in_cage;
+}
+
 Attachment sheath_attachment(const SheathInCage& in_cage, const Model& model, const TetNodes& nodes,
                              const ContactSide& side) {
     Vec3 place = Vec3::Zero();

@@ -7,9 +7,8 @@
 
 namespace frond {
 
-// Returns the collider of the plant's cage, shared by all plants of the model as long as one of them keeps it.
-std::shared_ptr<const Collider> collider_of(const Plant& plant);
-// Returns the sheath on its chain, and the one in its cage, shared likewise.
+// Return what touches others where the mechanics move the chain, and where they move the cage, shared by all plants of
+// the model as long as one of them keeps it.
 std::shared_ptr<const Sheath> sheath_of(const Plant& plant);
 std::shared_ptr<const SheathInCage> sheath_in_cage_of(const Plant& plant);
 // Returns whether a plant touches others by its sheath, else by its cage.

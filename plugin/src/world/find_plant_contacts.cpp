@@ -87,7 +87,7 @@ void place_shape(const PlantBody& body, size_t number, double h, PlantSearch::Sh
     VecX now, then;
     place_nodes(body, h, now, then);
     const Mat3 turn = plant.rotation.toRotationMatrix();
-    const Collider& collider = body.touched_collider();
+    const Collider& collider = body.touched().collider;
     shape.places.resize(size_t(collider.node_count));
     shape.ways.resize(shape.places.size());
     for (size_t n = 0; n < shape.places.size(); n++) {
@@ -177,7 +177,7 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
     for (size_t i = 0; i < island.size(); i++) {
         place_shape(*island[i], i, h, memory.shapes[i]);
         const bool with_itself = has(world, *island[i], FROND_EFFECT_SELF_CONTACT);
-        const Collider* collider = &island[i]->touched_collider();
+        const Collider* collider = &island[i]->touched().collider;
         covered.push_back({collider, &memory.shapes[i].covers, with_itself});
         bodies.push_back(
             {collider, memory.shapes[i].places.data(), {}, with_itself, touches_by_sheath(*island[i]->plant)});

@@ -237,20 +237,14 @@ static double wider_than_capsules(const PlantBody& body, const Collider& collide
 
 void take_collider(PlantBody& body) {
     const Plant& plant = *body.plant;
-    const bool by_sheath = touches_by_sheath(plant);
-    if (plant.follow ? body.sheath != nullptr : by_sheath ? body.in_cage != nullptr : body.collider != nullptr) return;
+    if (plant.follow ? body.sheath != nullptr : body.in_cage != nullptr) return;
     if (plant.follow)
         body.sheath = sheath_of(plant);
-    else if (by_sheath)
-        body.in_cage = sheath_in_cage_of(plant);
     else
-        body.collider = collider_of(plant);
+        body.in_cage = sheath_in_cage_of(plant);
     Hull& hull = *body.hull;
-    double& wider = by_sheath ? hull.wider_by_sheath : hull.wider_by_cage;
-    const std::vector<Vec3>& modelled = plant.follow ? body.sheath->modelled
-                                        : by_sheath  ? body.in_cage->sheath.modelled
-                                                     : plant.model->cage.nodes;
-    if (wider == 0) wider = wider_than_capsules(body, body.touched_collider(), modelled.data());
+    double& wider = touches_by_sheath(plant) ? hull.wider_by_sheath : hull.wider_by_cage;
+    if (wider == 0) wider = wider_than_capsules(body, body.touched().collider, body.touched().modelled.data());
     for (btCompoundShape* shape : {body.compound(), hull.rest.get()})
         shape->setMargin(btScalar(std::max(hull.wider_by_cage, hull.wider_by_sheath)));
 }

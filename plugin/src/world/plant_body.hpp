@@ -76,8 +76,7 @@ struct PlantBody : btSoftBody {
     int place = 0;                          // index in its contact island
     Level level;
     std::shared_ptr<Hull> hull;
-    // What other plants, or it itself, touch; null until they may: its cage, or its sheath on the chain or in the cage.
-    std::shared_ptr<const Collider> collider;
+    // What other plants, or it itself, touch; null until they may, and by the mechanics.
     std::shared_ptr<const Sheath> sheath;
     std::shared_ptr<const SheathInCage> in_cage;
     std::vector<Rigid*> fragment_bodies;  // the world's, one for each of plant->fragments
@@ -87,10 +86,7 @@ struct PlantBody : btSoftBody {
     btCollisionShape*& shape() { return m_collisionShape; }
     const std::vector<std::unique_ptr<btCapsuleShape>>& capsules() const { return hull->capsules; }
     btCompoundShape* compound() { return static_cast<btCompoundShape*>(getCollisionShape()); }
-    // The cage's or the sheath's, whichever is active for contact.
-    const Collider& touched_collider() const {
-        return plant->follow ? sheath->collider : in_cage ? in_cage->sheath.collider : *collider;
-    }
+    const Sheath& touched() const { return plant->follow ? *sheath : in_cage->sheath; }
     // Excludes other plants, and infinite planes in a step, from Bullet's narrow phase; its broad phase still pairs
     // them.
     bool checkCollideWithOverride(const btCollisionObject* other) const override;

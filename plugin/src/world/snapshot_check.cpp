@@ -83,10 +83,10 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
             const Plant& plant = *world.bodies[size_t(saved.plants[k])]->plant;
             const ContactSide& side = c.sides[k];
             if (side.node_count < 1 || side.node_count > 4) damaged("contacts of plants");
-            const size_t nodes = c.on_chain[k]    ? size_t(sheath_of(plant)->collider.node_count)
-                                 : c.by_sheath[k] ? size_t(sheath_in_cage_of(plant)->sheath.collider.node_count)
-                                                  : plant.model->cage.nodes.size();
-            for (int i = 0; i < side.node_count; i++) check_index(side.nodes[size_t(i)], nodes, "contacts of plants");
+            const int nodes = c.on_chain[k] ? sheath_of(plant)->collider.node_count
+                                            : sheath_in_cage_of(plant)->sheath.collider.node_count;
+            for (int i = 0; i < side.node_count; i++)
+                check_index(side.nodes[size_t(i)], size_t(nodes), "contacts of plants");
             check_index(side.piece, plant.model->capsules.size(), "contacts of plants");
             const frond_mechanics which = snapshot.plants[size_t(saved.plants[k])].which;
             if (!is_sound(c.attachments[k], int(becomes(plant, which).numbers / 3))) damaged("contacts of plants");
