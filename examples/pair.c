@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     snprintf(path, sizeof path, "%s/pair_b.png", folder);
     with = play(model, FROND_RESPONSE_IMPULSE, picture, &scene, path);
     printf(
-        "after 2 s the cages are %.1f mm deep in each other without response, %.2f mm with it; pictures are in %s/\n",
+        "after 2 s the plants are %.1f mm deep in each other without response, %.2f mm with it; pictures are in %s/\n",
         1000 * without, 1000 * with, folder);
 
     frond_picture_destroy(picture);
