@@ -29,9 +29,11 @@ struct Scene {
     frond_world plants = {};
     frond_plant plant = {};
 
-    explicit Scene(double gravity = -9.81) {
+    explicit Scene(double gravity = -9.81, frond_response response = FROND_RESPONSE_IMPULSE) {
         world.setGravity(btVector3(0, btScalar(gravity), 0));
-        EXPECT_EQ(frond::attach(&world, nullptr, &plants), FROND_OK) << frond_last_error();
+        frond_world_def def = frond_default_world_def();
+        def.response = response;
+        EXPECT_EQ(frond::attach(&world, &def, &plants), FROND_OK) << frond_last_error();
     }
     ~Scene() {
         frond_world_destroy(plants);
@@ -330,6 +332,28 @@ TEST(ContactEffects, OffMeansThatNothingTouches) {
     scene.steps(60);
     EXPECT_NEAR(double(ball.getLinearVelocity().x()), 2, 1e-6);
     EXPECT_LT(scene.tip().x, 0.01);
+}
+
+// Contacts that do not push are no reason to step a plant in another way, nor to leave out a check of its step.
+TEST_P(EveryBody, ThatOnlyReportsContactsStepsAsWithoutThem) {
+    const auto tip = [](bool on_ground) {
+        Scene scene(-9.81, FROND_RESPONSE_NONE);
+        scene.add_stem({0, 0, 0}, {0, 0.1, 0}, 0.002, 1e8, GetParam());
+        if (on_ground) scene.add(new btStaticPlaneShape(btVector3(0, 1, 0), 0), 0, btVector3(0, 0, 0));
+        scene.steps(1);
+        EXPECT_EQ(scene.report().contact_count > 0, on_ground);
+        const int count = frond_plant_get_node_count(scene.plant);
+        std::vector<double> x(3 * size_t(count)), v(3 * size_t(count));
+        EXPECT_EQ(frond_plant_get_state(scene.plant, x.data(), v.data(), count), FROND_OK);
+        for (int i = 0; i < count; i++) v[3 * size_t(i)] += 40 * x[3 * size_t(i) + 1];
+        EXPECT_EQ(frond_plant_set_state(scene.plant, nullptr, v.data(), count), FROND_OK);
+        scene.steps(3);
+        return scene.tip();
+    };
+    const frond_vec3 with = tip(true), without = tip(false);
+    EXPECT_EQ(with.x, without.x);
+    EXPECT_EQ(with.y, without.y);
+    EXPECT_EQ(with.z, without.z);
 }
 
 TEST(ContactEffects, OneWayPushesThePlantOnly) {

@@ -109,8 +109,22 @@ void note_touches(World& world) {
         if (contact.gap < NEAR && is_moving(*contact.other)) disturb(*contact.plant);
 }
 
+void mark_touches(World& world) {
+    for (const Contact& contact : world.contacts) {
+        contact.plant->plant->is_touched = true;
+        contact.plant->plant->is_pressed |= !contact.other->isStaticObject();
+    }
+    for (const PlantContact& contact : world.plant_contacts)
+        for (PlantBody* body : contact.plants) {
+            body->plant->is_touched = true;
+            body->plant->is_pressed |= contact.plants[0] != contact.plants[1];
+            body->plant->is_entangled |= contact.depth > ENTANGLED;
+        }
+    for (const Bond& bond : world.bonds) bond.plant->plant->is_touched = bond.plant->plant->is_pressed = true;
+}
+
 // Drops contacts of modal plants, and of plants whose detail changed after their contacts were found; marks plants that
-// have others, which are stepped now.
+// others push, which are stepped now.
 void mark_touched(World& world) {
     const auto sways = [](const PlantBody* body) { return body->plant->modal != nullptr; };
     world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(),
@@ -125,17 +139,7 @@ void mark_touched(World& world) {
         body->plant->is_touched = body->plant->is_pressed = body->plant->is_entangled = false;
         body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;
     }
-    for (const Contact& contact : world.contacts) {
-        contact.plant->plant->is_touched = true;
-        contact.plant->plant->is_pressed |= !contact.other->isStaticObject();
-    }
-    for (const PlantContact& contact : world.plant_contacts)
-        for (PlantBody* body : contact.plants) {
-            body->plant->is_touched = true;
-            body->plant->is_pressed |= contact.plants[0] != contact.plants[1];
-            body->plant->is_entangled |= contact.depth > ENTANGLED;
-        }
-    for (const Bond& bond : world.bonds) bond.plant->plant->is_touched = bond.plant->plant->is_pressed = true;
+    if (response_row(world.response).find) mark_touches(world);
     for (PlantBody* body : world.awake)
         if (body->plant->is_touched || body->plant->has_user_force) body->level.is_due = true;
 }
