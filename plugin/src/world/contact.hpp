@@ -15,19 +15,28 @@ struct Contact {
     double along;   // position along the capsule, 0..1 [-]
     double across;  // distance from a plate's axis towards its wide side [m]; 0 for capsules
     btCollisionObject* other;
-    Vec3 on_plant, on_other;      // world frame [m]
-    Vec3 normal;                  // direction from the other body to the plant
-    double gap;                   // distance of the two along the normal; below zero they overlap [m]
-    double friction;              // combined coefficient of both [-]
+    Vec3 on_plant, on_other;  // world frame [m]
+    Vec3 normal;              // direction from the other body to the plant
+    double gap;               // distance of the two along the normal when the step begins; below zero they overlap [m]
+    double friction;          // combined coefficient of both [-]
     Vec3 impulse = Vec3::Zero();  // impulse on the plant, once it is known [N s]
 };
 
 // Returns the attachment of the touched point of the plant.
 Attachment attachment_of(const Contact& contact);
 
-// Finds contacts from Bullet's manifolds, by sweeps of bodies so fast that they would tunnel before Bullet detects
-// them, and with planes.
-std::vector<Contact> find_contacts(World& world, double h);
+// Finds contacts from Bullet's manifolds, with planes, and of whatever moves so fast that it would pass through before
+// Bullet detects it. `last`: those of the last step.
+std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& last, double h);
+
+// Adds the contacts of bodies and plants that would pass through each other in the step, and drops those that would
+// push them on. Puts a free body that has passed a plant back to where they met.
+void add_swept_contacts(World& world, const std::vector<Contact>& last, double h, std::vector<Contact>& contacts);
+
+// Returns the velocity of a rigid body at a point; zero for other objects [m/s].
+Vec3 velocity_at(const btCollisionObject& object, const Vec3& p);
+// Returns whether a child of a plant's compound is a capsule that a plate replaces in contact.
+bool is_covered(const PlantBody& body, int child);
 
 // Returns whether an object pushes plants: triggers and the like do not, characters do.
 bool pushes(const btCollisionObject& object);

@@ -24,6 +24,16 @@ bool takes_part(const World& world, const PlantBody* body) {
     return body && body->world == &world && (world.effects & body->plant->effects & FROND_EFFECT_RIGID_CONTACT);
 }
 
+Vec3 velocity_at(const btCollisionObject& object, const Vec3& p) {
+    const btRigidBody* rigid = btRigidBody::upcast(&object);
+    if (!rigid) return Vec3::Zero();
+    return from_bullet(rigid->getVelocityInLocalPoint(to_bullet(p) - rigid->getCenterOfMassPosition()));
+}
+
+bool is_covered(const PlantBody& body, int child) {
+    return child >= 0 && size_t(child) < body.capsules().size() && body.hull->flats[size_t(child)].half_width > 0;
+}
+
 bool is_plane(const btCollisionObject& object) {
     return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
@@ -69,20 +79,18 @@ Contact contact_at(PlantBody& body, int capsule, btCollisionObject& other, const
     return contact;
 }
 
+// The gap counts at the start of the step: from there kinematic bodies have moved already.
 void add_contact(PlantBody& body, int capsule, btCollisionObject& other, const Vec3& on_other, const Vec3& towards,
-                 std::vector<Contact>& contacts) {
+                 double h, std::vector<Contact>& contacts) {
     constexpr double FAR = 0.05;  // [m]
-    const Contact contact = contact_at(body, capsule, other, on_other, towards);
-    if (contact.gap < FAR) contacts.push_back(contact);
-}
-
-// Returns whether a child is a capsule that a plate replaces in contact.
-bool is_covered(const PlantBody& body, int child) {
-    return child >= 0 && size_t(child) < body.capsules().size() && body.hull->flats[size_t(child)].half_width > 0;
+    Contact contact = contact_at(body, capsule, other, on_other, towards);
+    if (!(contact.gap < FAR)) return;
+    if (other.isKinematicObject()) contact.gap += h * contact.normal.dot(velocity_at(other, on_other));
+    contacts.push_back(contact);
 }
 
 // Adds a manifold's contacts. Manifolds of planes are skipped: they were made for queries between steps.
-void add_manifold(World& world, const btPersistentManifold& manifold, std::vector<Contact>& contacts) {
+void add_manifold(World& world, const btPersistentManifold& manifold, double h, std::vector<Contact>& contacts) {
     auto* first = const_cast<btCollisionObject*>(manifold.getBody0());
     auto* second = const_cast<btCollisionObject*>(manifold.getBody1());
     PlantBody* body = PlantBody::of(first);
@@ -102,76 +110,17 @@ void add_manifold(World& world, const btPersistentManifold& manifold, std::vecto
         const int capsule = child < 0 ? nearest_capsule(*body, from_bullet(on_other)) : body->hull->capsule_of(child);
         if (capsule < 0 || is_apart(*body, capsule, *other)) continue;
         const Vec3 towards = (plant_first ? 1.0 : -1.0) * from_bullet(p.m_normalWorldOnB);
-        add_contact(*body, capsule, *other, from_bullet(on_other), towards, contacts);
+        add_contact(*body, capsule, *other, from_bullet(on_other), towards, h, contacts);
         const bool is_flat = body->hull->flats[size_t(capsule)].half_width > 0;
         if (!is_flat || std::find(plates.begin(), plates.end(), capsule) != plates.end()) continue;
         plates.push_back(capsule);
         for (const Vec3& point : points_over_plate(*body, capsule, *other, towards))
-            add_contact(*body, capsule, *other, point, towards, contacts);
+            add_contact(*body, capsule, *other, point, towards, h, contacts);
     }
 }
 
-// Adds contacts of all segments of this world's plants that a moving shape hits.
-struct Sweep : btCollisionWorld::ConvexResultCallback {
-    World& world;
-    btCollisionObject& other;
-    Vec3 way;
-    std::vector<Contact>& contacts;
-    Sweep(World& world, btCollisionObject& other, const Vec3& way, std::vector<Contact>& contacts)
-        : world(world), other(other), way(way), contacts(contacts) {}
-
-    bool needsCollision(btBroadphaseProxy* proxy) const override {
-        const PlantBody* body = PlantBody::of(static_cast<btCollisionObject*>(proxy->m_clientObject));
-        return takes_part(world, body) && !body->plant->modal &&
-               btCollisionWorld::ConvexResultCallback::needsCollision(proxy);
-    }
-    btScalar addSingleResult(btCollisionWorld::LocalConvexResult& hit, bool normal_in_world) override {
-        auto* body = PlantBody::of(const_cast<btCollisionObject*>(hit.m_hitCollisionObject));
-        const int child = hit.m_localShapeInfo ? hit.m_localShapeInfo->m_triangleIndex : -1;
-        if (is_covered(*body, child)) return 1;
-        const int capsule = body->hull->capsule_of(child);
-        const bool known = std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
-            return c.plant == body && c.capsule == capsule && c.other == &other;
-        });
-        if (known || capsule < 0) return 1;
-        if (is_apart(*body, capsule, other)) return 1;
-        look_at(*body);
-        btVector3 normal = hit.m_hitNormalLocal;
-        if (!normal_in_world) normal = body->getWorldTransform().getBasis() * normal;
-        const Vec3 passed = double(hit.m_hitFraction) * way, on_plant = from_bullet(hit.m_hitPointLocal);
-        Contact contact = contact_at(*body, capsule, other, on_plant - passed, -from_bullet(normal));
-        contact.normal = -from_bullet(normal);
-        contact.on_plant = on_plant;
-        const OnCore core = nearest_on_core(*body, capsule, on_plant);
-        contact.along = core.along;
-        contact.across = core.across;
-        contact.gap = std::max(0.0, passed.dot(contact.normal));
-        contacts.push_back(contact);
-        return 1;  // continue: every segment that is hit counts
-    }
-};
-
-void sweep_shape(World& world, btCollisionObject& object, const btCollisionShape& shape, const btTransform& from,
-                 const btVector3& way, std::vector<Contact>& contacts) {
-    if (shape.isCompound()) {
-        const auto& compound = static_cast<const btCompoundShape&>(shape);
-        for (int i = 0; i < compound.getNumChildShapes(); i++)
-            sweep_shape(world, object, *compound.getChildShape(i), from * compound.getChildTransform(i), way, contacts);
-        return;
-    }
-    if (!shape.isConvex()) return;
-    Sweep sweep(world, object, from_bullet(way), contacts);
-    sweep.m_collisionFilterGroup = object.getBroadphaseHandle()->m_collisionFilterGroup;
-    sweep.m_collisionFilterMask = object.getBroadphaseHandle()->m_collisionFilterMask;
-    btTransform to = from;
-    to.setOrigin(from.getOrigin() + way);
-    world.bullet->convexSweepTest(static_cast<const btConvexShape*>(&shape), from, to, sweep);
-}
-
-// Adds contacts that Bullet's narrow phase misses: of bodies that move farther in a step than a stem is thick, and of
-// planes.
-void add_fast_bodies_and_planes(World& world, double h, std::vector<Contact>& contacts) {
-    constexpr double FAR = 0.005;  // displacement in a step beyond which a body is swept [m]
+// Adds the contacts of planes, and shows sleepers to kinematic bodies that come near.
+void look_at_objects(World& world, double h, std::vector<Contact>& contacts) {
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     std::vector<const btCollisionObject*>& plants = world.plants_at;
     plants.resize(size_t(objects.size()));
@@ -182,20 +131,9 @@ void add_fast_bodies_and_planes(World& world, double h, std::vector<Contact>& co
             continue;
         }
         btCollisionObject& object = *objects[i];
-        if (object.isKinematicObject() && pushes(object) && is_moving(object)) show_sleepers_to(world, object, h);
-        if (is_plane(object) && pushes(object)) add_plane_contacts(world, object, h, contacts);
-        if (object.isStaticObject() || !object.isActive() || !pushes(object) || !object.getBroadphaseHandle()) continue;
-        btVector3 velocity;
-        if (const btRigidBody* rigid = btRigidBody::upcast(&object))
-            velocity = rigid->getLinearVelocity();
-        else if (const auto* link = btMultiBodyLinkCollider::upcast(&object))
-            velocity = link->m_link < 0 ? link->m_multiBody->getBaseVel()
-                                        : link->m_multiBody->getLink(link->m_link).m_absFrameTotVelocity.m_bottomVec;
-        else
-            continue;
-        const btVector3 way = velocity * btScalar(h);
-        if (!(double(way.length2()) > FAR * FAR) || !std::isfinite(double(way.length2()))) continue;
-        sweep_shape(world, object, *object.getCollisionShape(), object.getWorldTransform(), way, contacts);
+        if (!pushes(object)) continue;
+        if (object.isKinematicObject() && is_moving(object)) show_sleepers_to(world, object, h);
+        if (is_plane(object)) add_plane_contacts(world, object, h, contacts);
     }
 }
 
@@ -282,14 +220,15 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
 
 }  // namespace
 
-std::vector<Contact> find_contacts(World& world, double h) {
+std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& last, double h) {
     std::vector<Contact> contacts;
     btDispatcher* dispatcher = world.bullet->getDispatcher();
     for (int i = 0; i < dispatcher->getNumManifolds(); i++) {
         const btPersistentManifold* manifold = dispatcher->getManifoldByIndexInternal(i);
-        if (manifold->getNumContacts() > 0) add_manifold(world, *manifold, contacts);
+        if (manifold->getNumContacts() > 0) add_manifold(world, *manifold, h, contacts);
     }
-    add_fast_bodies_and_planes(world, h, contacts);
+    look_at_objects(world, h, contacts);
+    add_swept_contacts(world, last, h, contacts);
     discount_grown_in(contacts);
     drop_what_draws_out(contacts);
     for (PlantBody* body : world.awake) body->new_for = int16_t(std::max(body->new_for - 1, 0));

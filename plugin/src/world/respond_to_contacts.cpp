@@ -55,8 +55,11 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
     row.contact_body = make_contact_body(*contact.other, contact.on_other, h);
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
-    row.touch.bias_velocity =
-        contact.gap >= 0 ? -contact.gap / h : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
+    // What a kinematic body has moved against in this step is to get out of its way at once.
+    const double lag = contact.other->isKinematicObject() ? row.contact_body.velocity.norm() : 0;
+    row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
+                              : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST + lag)
+                                               : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;
     row.impulse = &contact.impulse;

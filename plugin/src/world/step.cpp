@@ -79,11 +79,12 @@ void find_touches(World& world, double h) {
     BT_PROFILE("frond collide");
     const Timer find_timer;
     wake_by_world(world);
+    const std::vector<Contact> last = std::move(world.contacts);
     world.contacts.clear();
     if (world.effects & FROND_EFFECT_RIGID_CONTACT &&
         (world.awake.size() < world.bodies.size() || any_wants(world, FROND_EFFECT_RIGID_CONTACT))) {
         const Timer timer;
-        world.contacts = find_contacts(world, h);
+        world.contacts = find_contacts(world, last, h);
         add_effect(world, FROND_EFFECT_RIGID_CONTACT, timer.ms());
     }
     const frond_effects among = FROND_EFFECT_PLANT_CONTACT | FROND_EFFECT_SELF_CONTACT;
