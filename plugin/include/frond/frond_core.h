@@ -246,8 +246,10 @@ FROND_API frond_result frond_material_preset(const char* kind, frond_material* o
 
 typedef struct frond_model_def {
     uint32_t cookie;        /* do not set */
-    double scale;           /* metres per file unit; 0 (default) trusts the file unless the plant would be shorter than
-                             * 2 cm or taller than 50 m, then takes the unit that makes sense and warns */
+    double scale;           /* metres per file unit; 0 (default) takes the file's own unit (glTF, FBX, DAE, OBJ with a
+                             * comment that names it). Other files are in metres unless the plant would be shorter than
+                             * 2 cm or taller than 120 m, as a herb than 6 m: then the unit that makes sense is taken,
+                             * with a warning */
     frond_vec3 up;          /* the file's; (0,0,0) (default) takes what the file declares, else guesses +y or +z */
     double capsule_height;  /* h of the paper [m]; 0 chooses from the shape */
     double capsule_radius;  /* r of the paper [m]; 0 fits the shape */

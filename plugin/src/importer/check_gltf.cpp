@@ -14,9 +14,7 @@ static bool is_supported(const std::string& extension) {
                                         "EXT_texture_webp",
                                         "KHR_texture_basisu",
                                         "KHR_lights_punctual",
-#ifdef FROND_MESHOPT
                                         "EXT_meshopt_compression",
-#endif
                                         "MSFT_texture_dds",
                                         "KHR_xmp",
                                         "KHR_xmp_json_ld"};

@@ -4,13 +4,13 @@
 #include <dirent.h>
 #include <limits.h>
 #include <stdlib.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <iterator>
+#include <map>
 
 #include "core/log.hpp"
 #include "importer/importer.hpp"
@@ -30,11 +30,21 @@ static bool is_regular_file(const std::string& path) {
     return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
 }
 
-// Searches a folder and its subfolders for a file name; links to folders are not followed.
-static std::string search_folder(const std::string& folder, const std::string& name, int depth, int& entries) {
+// Files of a folder and its subfolders, in the order in which they were listed.
+struct Listing {
+    std::vector<std::string> paths;
+    std::map<std::string, std::vector<size_t>> by_name;  // name in lower case -> paths
+};
+
+static std::string lower(std::string text) {
+    for (char& letter : text) letter = char(tolower(uint8_t(letter)));
+    return text;
+}
+
+// Lists a folder before its subfolders; links to folders are not followed.
+static void list_folder(const std::string& folder, int depth, int& entries, Listing& listing) {
     DIR* directory = opendir(folder.c_str());
-    if (!directory) return "";
-    std::string found;
+    if (!directory) return;
     std::vector<std::string> below;
     while (dirent* entry = readdir(directory)) {
         if (++entries > MOST_ENTRIES) break;
@@ -42,13 +52,27 @@ static std::string search_folder(const std::string& folder, const std::string& n
         struct stat status;
         if (entry->d_name[0] == '.' || lstat(path.c_str(), &status) != 0) continue;
         if (S_ISDIR(status.st_mode)) below.push_back(path);
-        if (S_ISREG(status.st_mode) && strcasecmp(entry->d_name, name.c_str()) == 0) found = path;
-        if (!found.empty() && name == entry->d_name) break;
+        if (!S_ISREG(status.st_mode)) continue;
+        listing.by_name[lower(entry->d_name)].push_back(listing.paths.size());
+        listing.paths.push_back(path);
     }
     closedir(directory);
-    for (size_t i = 0; found.empty() && depth < DEEPEST_FOLDER && i < below.size(); ++i)
-        found = search_folder(below[i], name, depth + 1, entries);
-    return found;
+    for (size_t i = 0; depth < DEEPEST_FOLDER && i < below.size(); ++i)
+        list_folder(below[i], depth + 1, entries, listing);
+}
+
+// Searches a folder, down to a depth, for a file name; one of the same case comes first. Each folder is listed once.
+static std::string search_folder(const std::string& folder, const std::string& name, int depth) {
+    static std::map<std::pair<std::string, int>, Listing> known;
+    const auto [at, is_new] = known.try_emplace({folder, depth});
+    int entries = 0;
+    if (is_new) list_folder(folder, depth, entries, at->second);
+    const auto found = at->second.by_name.find(lower(name));
+    if (found == at->second.by_name.end()) return "";
+    const std::vector<std::string>& paths = at->second.paths;
+    for (size_t i : found->second)
+        if (paths[i].compare(paths[i].size() - name.size(), name.size(), name) == 0) return paths[i];
+    return paths[found->second.front()];
 }
 
 // "a%20b" -> "a b"
@@ -80,8 +104,7 @@ static std::string find_exactly(const std::string& folder, std::string reference
     // Else by the bare file name.
     const std::string name = reference.substr(reference.rfind('/') + 1);
     if (name.empty() || name == "." || name == "..") return "";
-    int entries = 0;
-    return search_folder(root, name, 0, entries);
+    return search_folder(root, name, 0);
 }
 
 std::string find_beside(const std::string& folder, const std::string& reference) {
@@ -119,9 +142,13 @@ static bool is_picture(const std::string& ending) {
     return is_drawable(ending);
 }
 
-// Lists the drawable pictures in the model's folder and in the texture folders in and beside it, nearest first.
-static std::vector<std::string> list_pictures(const std::string& folder) {
-    std::vector<std::string> pictures, folders = {""};
+// Lists the drawable pictures in the model's folder and in the texture folders in and beside it, nearest first; once.
+static const std::vector<std::string>& list_pictures(const std::string& folder) {
+    static std::map<std::string, std::vector<std::string>> known;
+    const auto [at, is_new] = known.try_emplace(folder);
+    std::vector<std::string>& pictures = at->second;
+    if (!is_new) return pictures;
+    std::vector<std::string> folders = {""};
     folders.insert(folders.end(), std::begin(PICTURE_FOLDERS), std::end(PICTURE_FOLDERS));
     int entries = 0;
     for (const std::string& near : folders) {
@@ -152,9 +179,8 @@ static std::string find_picture(const std::string& folder, const std::string& re
     const std::string stem = stem_of(name, ending), root = real_path(folder);
     std::string found = find_beside(folder, reference);
     if (root.empty() || !is_picture(ending) || (!found.empty() && is_drawable(ending))) return found;
-    int entries = 0;
     for (const char* near : PICTURE_FOLDERS)
-        if (found.empty()) found = search_folder(root + near, name, DEEPEST_FOLDER, entries);
+        if (found.empty()) found = search_folder(root + near, name, DEEPEST_FOLDER);
     if (!found.empty() && is_drawable(ending)) return found;
     for (const std::string& picture : list_pictures(root))
         if (stem_of(picture, other) == stem) return picture;
@@ -184,7 +210,7 @@ int guess_texture(Surface& surface, const MeshFile& file, const std::string& mat
     if (root.empty()) return -1;
     std::string ending, whole = squeeze(material), base = whole;
     while (!base.empty() && isdigit(uint8_t(base.back()))) base.pop_back();  // "Bark_001" counts as "Bark"
-    const std::vector<std::string> pictures = list_pictures(root);
+    const std::vector<std::string>& pictures = list_pictures(root);
     for (const std::string& name : {whole, base, squeeze(stem_of(file.name, ending))})
         for (const std::string& picture : pictures) {
             if (!is_named_after(squeeze(stem_of(picture, ending)), name)) continue;

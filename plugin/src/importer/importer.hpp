@@ -12,6 +12,9 @@ namespace frond {
 Surface read_ply(const MeshFile& file);
 // Reads the file through assimp.
 Surface read_scene(const MeshFile& file);
+// Stores what the file declares in Surface::scale, scale_declared, up and up_declared. Returns the transform that
+// assimp has not applied yet, to metres.
+Eigen::Matrix4d take_frame(const aiScene& scene, const MeshFile& file, Surface& surface);
 Surface take_scene(const aiScene& scene, const MeshFile& file);
 
 // Rewrites glTF that assimp cannot read as it is: quantized attributes become floats, WebP textures plain ones. Returns
@@ -44,7 +47,8 @@ float srgb_of(float linear);
 
 // Vertices as read, before equal ones are merged. An empty array: the file has no such values.
 struct Corners {
-    std::vector<Vec3f> positions, normals;
+    std::vector<Vec3> positions;  // in double: map coordinates are too large for float
+    std::vector<Vec3f> normals;
     std::vector<Vec2f> uvs;
     std::vector<Color> colors;
     std::vector<Triangle> triangles;

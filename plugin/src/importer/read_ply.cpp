@@ -272,7 +272,7 @@ static void read_vertices(PlyCursor& cursor, const PlyElement& element, Corners&
                 if (slots[k] >= 0) values[slots[k]] = value;
             }
         }
-        corners.positions.push_back(Vec3f(float(values[X]), float(values[Y]), float(values[Z])));
+        corners.positions.push_back(Vec3(values[X], values[Y], values[Z]));
         if (has_normals) corners.normals.push_back(Vec3f(float(values[NX]), float(values[NY]), float(values[NZ])));
         if (has[U] && has[V]) corners.uvs.push_back(Vec2f(float(values[U]), 1 - float(values[V])));
         if (has_colors)

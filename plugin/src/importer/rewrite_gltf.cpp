@@ -1,12 +1,10 @@
 // Rewrites glTF for assimp 5.2: quantized attributes and texture transforms become plain floats, compressed buffer
 // views plain ones, WebP textures plain textures. A document without any of these is not changed.
+#include <meshoptimizer.h>
+
 #include <cmath>
 #include <cstring>
 #include <map>
-
-#ifdef FROND_MESHOPT
-#include <meshoptimizer.h>
-#endif
 
 #include "core/log.hpp"
 #include "importer/gltf.hpp"
@@ -36,7 +34,6 @@ static size_t add_view(Rewriting& work, const std::string& bytes) {
 
 // ---- meshopt ----
 
-#ifdef FROND_MESHOPT
 static std::string decode_view(const std::string& source, const Json& extension, size_t index) {
     const size_t count = size_t(number_of(extension, "count", 0)),
                  stride = size_t(number_of(extension, "byteStride", 0));
@@ -72,8 +69,9 @@ static void unpack_views(Rewriting& work) {
         const Json& extension = view["extensions"]["EXT_meshopt_compression"];
         const long long buffer = number_of(extension, "buffer", -1), offset = number_of(extension, "byteOffset", 0),
                         length = number_of(extension, "byteLength", 0);
-        if (buffer < 0 || buffer >= (long long)work.document.buffers.size() ||
-            offset + length > (long long)work.document.buffers[size_t(buffer)].size())
+        const bool has_buffer = buffer >= 0 && buffer < (long long)work.document.buffers.size();
+        const long long size = has_buffer ? (long long)work.document.buffers[size_t(buffer)].size() : 0;
+        if (!has_buffer || offset < 0 || length < 0 || offset > size || length > size - offset)
             fail(FROND_RESULT_FILE_FORMAT, "the compressed buffer view %zu is outside its buffer", i);
         const std::string unpacked =
             decode_view(work.document.buffers[size_t(buffer)].substr(size_t(offset), size_t(length)), extension, i);
@@ -84,9 +82,6 @@ static void unpack_views(Rewriting& work) {
         json["bufferViews"][i] = plain;
     }
 }
-#else
-static void unpack_views(Rewriting&) {}
-#endif
 
 // ---- attributes ----
 

@@ -157,6 +157,31 @@ static bool wants_colors(const aiMesh& mesh, const MeshFile& file, const Part& p
     return is_gltf || part.texture < 0;
 }
 
+// Returns the rounding of a mesh's coordinates in single precision, in which it was read [file units].
+static double rounding_of(const Corners& corners) {
+    constexpr double ROUNDING = 6e-8, LARGEST = 1e18;  // of a coordinate; larger ones are no places
+    double far = 0;
+    for (const Vec3& place : corners.positions) {
+        const double distance = place.cwiseAbs().maxCoeff();
+        if (distance < LARGEST) far = std::max(far, distance);
+    }
+    return ROUNDING * far;
+}
+
+// Refuses a surface that lay so far from its origin that rounding has merged its details.
+static void check_precision(const Surface& surface, double rounding) {
+    constexpr double COARSE = 1e-3, LARGEST = 1e18;  // of the surface's size
+    Eigen::AlignedBox3d box;
+    for (const Vec3& place : surface.positions)
+        if (place.cwiseAbs().maxCoeff() < LARGEST) box.extend(place);
+    const double size = box.isEmpty() ? 0 : box.diagonal().norm();
+    if (size > 0 && rounding > COARSE * size)
+        fail(FROND_RESULT_BAD_GEOMETRY,
+             "the plant is %.3g m large and so far from its origin that single precision rounds its places to %.3g m; "
+             "move it to the origin and export it again, or as .obj or .ply in double precision",
+             size, rounding);
+}
+
 static Corners take_corners(const aiMesh& mesh, const MeshFile& file, bool with_colors, size_t& dropped_lines,
                             int& dropped_triangles) {
     const bool is_gltf = file.format == FileFormat::GLTF || file.format == FileFormat::GLB;
@@ -167,7 +192,7 @@ static Corners take_corners(const aiMesh& mesh, const MeshFile& file, bool with_
              MAX_TRIANGLES);
     for (size_t i = 0; i < count; ++i) {
         const aiVector3D& at = mesh.mVertices[i];
-        corners.positions.push_back(Vec3f(at.x, at.y, at.z));
+        corners.positions.push_back(Vec3(double(at.x), double(at.y), double(at.z)));
         // STL has one normal per facet, which adds nothing to the triangle.
         if (mesh.mNormals && file.format != FileFormat::STL)
             corners.normals.push_back(Vec3f(mesh.mNormals[i].x, mesh.mNormals[i].y, mesh.mNormals[i].z));
@@ -215,8 +240,7 @@ static std::vector<Mat4> pose_of(const aiMesh& mesh, const Mat4& transform,
 }
 
 static void move_vertex(Corners& corners, size_t i, const Mat4& matrix, const Mat3& cofactor) {
-    const Vec3 moved = (matrix * corners.positions[i].cast<double>().homogeneous()).head<3>();
-    corners.positions[i] = moved.cast<float>();
+    corners.positions[i] = (matrix * corners.positions[i].homogeneous()).head<3>();
     if (corners.normals.empty()) return;
     const Vec3 normal = (cofactor * corners.normals[i].cast<double>()).normalized();
     corners.normals[i] = normal.cast<float>();
@@ -250,61 +274,16 @@ static void move_corners(Corners& corners, const aiMesh& mesh, const Mat4& trans
         for (Triangle& triangle : corners.triangles) std::swap(triangle[1], triangle[2]);
 }
 
-// ---- units and axes ----
-
-static double double_of(const aiMetadata* data, const char* key, double missing) {
-    double value;
-    float small;
-    if (data && data->Get(key, value)) return value;
-    if (data && data->Get(key, small)) return double(small);
-    return missing;
-}
-
-static int int_of(const aiMetadata* data, const char* key, int missing) {
-    int32_t value;
-    return data && data->Get(key, value) ? int(value) : missing;
-}
-
-// Returns the number in <unit meter="0.01"/>.
-static double unit_of_dae(const std::string& bytes) {
-    const size_t unit = bytes.find("<unit"), end = bytes.find('>', unit == std::string::npos ? 0 : unit);
-    if (unit == std::string::npos || end == std::string::npos) return 1;
-    const size_t meter = bytes.find("meter=", unit);
-    if (meter == std::string::npos || meter > end) return 1;
-    const double value = strtod(bytes.c_str() + meter + 7, nullptr);
-    return value > 1e-20 && value < 1e20 ? value : 1;
-}
-
-// Stores the file's declarations in Surface::scale, up and up_declared. Returns the transform that assimp has not
-// applied yet.
-static Mat4 frame_of(const aiScene& scene, const MeshFile& file, Surface& surface) {
-    Mat4 frame = Mat4::Identity();
-    surface.up_declared = true;
-    if (file.format == FileFormat::FBX) {
-        const double unit = double_of(scene.mMetaData, "UnitScaleFactor", 1) * 0.01;
-        surface.scale = unit > 1e-20 && unit < 1e20 ? unit : 0.01;
-        const int axis = int_of(scene.mMetaData, "UpAxis", 1), sign = int_of(scene.mMetaData, "UpAxisSign", 1);
-        if (axis >= 0 && axis < 3) surface.up = Vec3::Unit(axis) * (sign < 0 ? -1 : 1);
-        frame.topLeftCorner<3, 3>() = surface.scale * turn_between(surface.up, Vec3::UnitY()).toRotationMatrix();
-    } else if (file.format == FileFormat::DAE) {
-        surface.scale = unit_of_dae(file.bytes);
-        if (file.bytes.find("<up_axis>Z_UP") != std::string::npos) surface.up = Vec3::UnitZ();
-        if (file.bytes.find("<up_axis>X_UP") != std::string::npos) surface.up = Vec3::UnitX();
-    } else if (file.format != FileFormat::GLTF && file.format != FileFormat::GLB) {
-        surface.up_declared = false;
-    }
-    return frame;
-}
-
 Surface take_scene(const aiScene& scene, const MeshFile& file) {
     Surface surface;
-    const Mat4 frame = frame_of(scene, file, surface);
+    const Mat4 frame = take_frame(scene, file, surface);
     const std::vector<SceneNode> nodes = list_nodes(scene);
     const std::vector<char> coarse = find_coarse_copies(nodes);
     std::map<std::string, Mat4> by_name;
     for (const SceneNode& node : nodes) by_name.emplace(node.node->mName.C_Str(), frame * node.transform);
 
     size_t dropped_lines = 0, dropped_copies = 0;
+    double rounding = 0;
     std::map<std::string, Part> looks;  // by material index
     for (size_t n = 0; n < nodes.size(); ++n)
         for (unsigned m = 0; m < nodes[n].node->mNumMeshes; ++m) {
@@ -325,6 +304,8 @@ Surface take_scene(const aiScene& scene, const MeshFile& file) {
             const bool is_tinted = file.format == FileFormat::GLTF || file.format == FileFormat::GLB;
             if (with_colors && (!is_tinted || part.color == Part().color)) part.color = {1, 1, 1, 1};
             Corners corners = take_corners(mesh, file, with_colors, dropped_lines, surface.dropped_triangles);
+            const double scale = std::cbrt(std::abs((frame * nodes[n].transform).topLeftCorner<3, 3>().determinant()));
+            rounding = std::max(rounding, scale * rounding_of(corners));
             if (mesh.mNumBones == 0) weld_corners(corners);
             move_corners(corners, mesh, frame * nodes[n].transform, by_name);
             if (mesh.mNumBones > 0) weld_corners(corners);
@@ -335,6 +316,7 @@ Surface take_scene(const aiScene& scene, const MeshFile& file) {
     if (dropped_copies > 0) warn("%zu coarser copies (LOD1 and up) are left out", dropped_copies);
     if (dropped_lines > 0) warn("%zu lines and points are left out", dropped_lines);
     if (surface.triangles.empty()) fail(FROND_RESULT_FILE_FORMAT, "there are no triangles in the file");
+    check_precision(surface, rounding);
     return surface;
 }
 

@@ -7,11 +7,12 @@
 
 namespace frond {
 
-static void mix(uint64_t& hash, const float* values, int count) {
+template <typename Number>
+static void mix(uint64_t& hash, const Number* values, int count) {
     for (int i = 0; i < count; ++i) {
-        const float value = values[i] + 0.0f;  // -0 becomes 0
-        uint32_t bits;
-        std::memcpy(&bits, &value, sizeof bits);
+        const Number value = values[i] + Number(0);  // -0 becomes 0
+        uint64_t bits = 0;
+        std::memcpy(&bits, &value, sizeof value);
         hash = (hash ^ bits) * 0x9E3779B97F4A7C15ull;
         hash ^= hash >> 30;
     }
@@ -88,7 +89,7 @@ void append_part(Surface& surface, const Corners& corners, const Part& part) {
         before + count > size_t(3) * MAX_TRIANGLES)
         fail(FROND_RESULT_BAD_GEOMETRY, "the file has more than the %d triangles that are allowed; simplify it",
              MAX_TRIANGLES);
-    for (const Vec3f& position : corners.positions) surface.positions.push_back(position.cast<double>());
+    surface.positions.insert(surface.positions.end(), corners.positions.begin(), corners.positions.end());
     append_values(surface.normals, before, corners.normals, count, Vec3f(0, 0, 0));
     append_values(surface.uvs, before, corners.uvs, count, Vec2f(0, 0));
     append_values(surface.colors, before, corners.colors, count, Color{255, 255, 255, 255});

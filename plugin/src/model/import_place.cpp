@@ -8,11 +8,12 @@
 #include "core/log.hpp"
 #include "model/import.hpp"
 #include "model/organ_clues.hpp"
+#include "model/surface_scenery.hpp"
 
 namespace frond {
 
 // Plausible heights [m], and the range in which a guess must lie.
-static constexpr double SMALLEST_PLANT = 0.02, TALLEST_PLANT = 50;
+static constexpr double SMALLEST_PLANT = 0.02, TALLEST_PLANT = 120;
 static constexpr double TALLEST_HERB = 6;  // sunflowers, tree ferns; a plant in a pot
 static constexpr double GUESS_LOWER = 0.1, GUESS_UPPER = 3;
 // z must score this much more than y to be taken as up.
@@ -144,7 +145,10 @@ static void scale_surface(Surface& surface, const ImportOptions& options) {
         const Eigen::AlignedBox3d box = box_of(surface.positions);
         const double size = box.isEmpty() ? 0 : box.diagonal().norm();
         const double height = size > 0 && box.sizes().y() < 0.05 * size ? size : box.sizes().y();
-        if (size > 0 && (height < SMALLEST_PLANT || height > tallest_of(surface, options.name))) {
+        const bool is_absurd = height < SMALLEST_PLANT || height > tallest_of(surface, options.name);
+        if (size > 0 && is_absurd && surface.scale_declared) {
+            warn("the plant is %.3g m tall by its file's own unit; set the scale if that is wrong", height);
+        } else if (size > 0 && is_absurd) {
             factor = guess_scale(height);
             warn(
                 "the plant would be %.3g m tall; taking one file unit as %.3g m, so that it is %.3g m; set the scale "
@@ -178,6 +182,10 @@ void place_surface(Surface& surface, const ImportOptions& options) {
         turn_surface(surface, guess_up(surface));
     scale_surface(surface, options);
     clean_surface(surface);
+    if (leave_out_scenery(surface)) {
+        scale_surface(surface, options);
+        clean_surface(surface);
+    }
     fetch_surface(surface);
     surface.placed = true;
 }

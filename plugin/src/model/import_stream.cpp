@@ -7,7 +7,7 @@
 namespace frond {
 
 static constexpr char MAGIC[] = "frond-import";
-static constexpr uint32_t VERSION = 2;
+static constexpr uint32_t VERSION = 3;
 static constexpr uint32_t MAX_PARTS = 1000000, MAX_TEXTURES = 10000, MAX_WARNINGS = 1000;
 
 std::string import_greeting() {
@@ -53,6 +53,7 @@ static void put_surface(std::string& out, const Surface& surface) {
     put(out, surface.scale);
     for (int axis = 0; axis < 3; ++axis) put(out, double(surface.up[axis]));
     put(out, uint8_t(surface.up_declared));
+    put(out, uint8_t(surface.scale_declared));
     put(out, int32_t(surface.dropped_triangles));
 }
 
@@ -103,6 +104,7 @@ static void take_surface(StreamReader& in, Surface& surface) {
     surface.scale = take<double>(in);
     for (int axis = 0; axis < 3; ++axis) surface.up[axis] = take<double>(in);
     surface.up_declared = take<uint8_t>(in) != 0;
+    surface.scale_declared = take<uint8_t>(in) != 0;
     surface.dropped_triangles = take<int32_t>(in);
 }
 

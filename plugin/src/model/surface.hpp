@@ -37,8 +37,9 @@ struct Surface {
     int dropped_triangles = 0, repaired_vertices = 0;
     double scale = 1;         // metres per file unit
     Vec3 up = Vec3::UnitY();  // file axis that became +y
-    // For place_surface(): the file states its up axis; scale and up are final, so that placing again changes nothing.
-    bool up_declared = false, placed = false;
+    // For place_surface(): the file states its up axis, its unit; scale and up are final, so that placing again changes
+    // nothing.
+    bool up_declared = false, scale_declared = false, placed = false;
 
     Vec3 lower() const;
     Vec3 upper() const;
