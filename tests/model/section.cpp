@@ -203,12 +203,42 @@ TEST(Section, OfAStripHasItsOwnWidthAndThickness) {
     }
 }
 
-TEST(Section, OfAThickLeafIsAsThickAsItIsDrawn) {
-    const double w = 0.04, t = 4e-3;
-    const Sample sample(prism(rectangle(w, t), true), "blade", wood(5e-4));
-    for (const Section& section : sample.inner()) {
-        EXPECT_NEAR(section.thickness / (w * t / (w + t)), 1, 0.01);
-        EXPECT_NEAR(section.area / (w * t), 1, 0.02);
+// A leaf drawn with two faces is the box that they bound, whatever its kind.
+TEST(Section, OfAThickLeafIsTheBoxThatIsDrawn) {
+    const double w = 0.04;
+    for (double t : {4e-3, 8e-3}) {
+        const double area = w * t;
+        const Sample sample(prism(rectangle(w, t), true), "blade", wood(5e-4));
+        for (const Section& section : sample.inner()) {
+            EXPECT_NEAR(section.thickness / t, 1, 1e-3);
+            EXPECT_NEAR(section.area / area, 1, 0.01);
+            EXPECT_NEAR(section.inertia_thin / (area * t * t / 12), 1, 0.02);
+            EXPECT_NEAR(section.inertia_wide / (area * w * w / 12), 1, 0.03);
+            EXPECT_NEAR(section.torsion / strip_torsion_constant(w, t), 1, 0.02);
+        }
+    }
+}
+
+// Faces that bow together: the sheet between them stiffens as the one-faced sheet in their middle does.
+TEST(Section, OfABowedLeafIsThatOfItsMiddleSurface) {
+    const double w = 0.04, t = 1e-3, radius = 0.03;
+    constexpr int SIDES = 16;
+    const auto arc = [&](double r, int k) {
+        const double angle = w / radius * (double(k) / SIDES - 0.5);
+        return Vec3(r * std::sin(angle), 0, r * std::cos(angle));
+    };
+    std::vector<Vec3> middle, faces;
+    for (int k = 0; k <= SIDES; k++) middle.push_back(arc(radius, k));
+    for (int k = 0; k <= SIDES; k++) faces.push_back(arc(radius + t / 2, k));
+    for (int k = SIDES; k >= 0; k--) faces.push_back(arc(radius - t / 2, k));
+    const std::vector<Section> one = Sample(prism(middle, false), "blade", wood(t)).inner();
+    const std::vector<Section> two = Sample(prism(faces, true), "blade", wood(5e-4)).inner();
+    ASSERT_EQ(one.size(), two.size());
+    for (size_t i = 0; i < one.size(); i++) {
+        EXPECT_NEAR(two[i].thickness / t, 1, 0.01);
+        EXPECT_NEAR(two[i].area / one[i].area, 1, 0.02);
+        EXPECT_NEAR(two[i].inertia_thin / one[i].inertia_thin, 1, 0.05);
+        EXPECT_NEAR(two[i].inertia_wide / one[i].inertia_wide, 1, 0.05);
     }
 }
 

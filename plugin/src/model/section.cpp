@@ -32,14 +32,29 @@ std::vector<CapsuleFrame> make_frames(const Chain& chain) {
     return frames;
 }
 
+void take_outline(const Outline& outline, Section& section) {
+    section.thin = outline.thin;
+    section.area = outline.area;
+    section.inertia_thin = outline.inertia_thin;
+    section.inertia_wide = outline.inertia_wide;
+}
+
+// A blade has a midrib that its sheet does not show: at least a round rib whose diameter is a twentieth of the width
+// (maize: 4 mm of 80 mm).
+void add_rib(double width, Section& section) {
+    const double rib = width / 40;
+    section.inertia_thin = std::max(section.inertia_thin, M_PI * std::pow(rib, 4) / 4);
+    section.inertia_wide = std::max(section.inertia_wide, section.inertia_thin);
+}
+
 // Fills a sheet of width w and thickness t: area w t, inertia from the spread of its middle surface and its own
-// thickness. A blade has a midrib that its sheet does not show: at least a round rib whose diameter is a twentieth of
-// the width (maize: 4 mm of 80 mm).
+// thickness.
 void fill_sheet(const Spread& spread, double width, double thickness, Section& section) {
-    const double own = thickness * thickness / 12, rib = width / 40;
+    const double own = thickness * thickness / 12;
     section.area = width * thickness;
-    section.inertia_thin = std::max(section.area * (spread.small + own), M_PI * std::pow(rib, 4) / 4);
-    section.inertia_wide = std::max(section.area * (spread.large + own), section.inertia_thin);
+    section.inertia_thin = section.area * (spread.small + own);
+    section.inertia_wide = section.area * (spread.large + own);
+    add_rib(width, section);
 }
 
 // Fills a solid from the ring that its surface forms: with variances a and b it encloses 2 pi sqrt(a b), and its
@@ -61,19 +76,21 @@ bool fill_outline(const ChainNode& node, const Organ& organ, const Spread& sprea
     const double drawn = spread.area / section.length;
     section.thickness = organ.material.thickness;
     if (is_sheet(organ) && spread.area > 0) {
-        // A sheet drawn with two faces is as thick as they are apart, unless that is close to zero.
-        const double width = outline.doubled ? drawn / 2 : drawn;
-        if (outline.gap > 0.5 * section.thickness) section.thickness = outline.gap;
-        section.thin = spread.thin;
-        fill_sheet(spread, width, section.thickness, section);
-        return false;
+        // Two faces bound the sheet, unless they are so close that they are its middle surface, drawn twice.
+        const bool bounded = outline.found && outline.doubled && outline.gap > 0.5 * section.thickness;
+        if (bounded) {
+            section.thickness = outline.gap;
+            take_outline(outline, section);
+            add_rib(section.area / section.thickness, section);
+        } else {
+            section.thin = spread.thin;
+            fill_sheet(spread, outline.doubled ? drawn / 2 : drawn, section.thickness, section);
+        }
+        return bounded;
     }
     const double ring = 2 * M_PI * std::sqrt(spread.small * spread.large);
     if (!is_sheet(organ) && outline.found && outline.area > TOO_SMALL * ring) {
-        section.thin = outline.thin;
-        section.area = outline.area;
-        section.inertia_thin = outline.inertia_thin;
-        section.inertia_wide = outline.inertia_wide;
+        take_outline(outline, section);
         return true;
     }
     if (spread.area > 0) {
@@ -161,7 +178,7 @@ std::vector<Section> measure_sections(const Surface& surface, const Topology& to
                                       const std::vector<Organ>& organs, const Chain& chain) {
     const std::vector<CapsuleFrame> frames = make_frames(chain);
     const std::vector<Spread> spreads = measure_spreads(surface, chain, frames);
-    const std::vector<Outline> outlines = cut_outlines(surface, topology, chain, frames);
+    const std::vector<Outline> outlines = cut_outlines(surface, topology, organs, chain, frames);
     std::vector<Section> sections(chain.nodes.size());
     std::vector<char> exact(chain.nodes.size());
     const auto organ_of = [&](size_t i) -> const Organ& { return organs[size_t(std::max(chain.nodes[i].organ, 0))]; };

@@ -98,17 +98,14 @@ std::vector<std::vector<int>> triangles_by_capsule(const Surface& surface, const
     return lists;
 }
 
-// Returns the second moments about the centroid if the sums are those of one compact outline, else zero.
-Matrix2d compact_moments(const Sums& sums) {
+// Returns the second moments about the centroid, zero if they are none.
+Matrix2d central_moments(const Sums& sums) {
     const double sign = sums.area < 0 ? -1 : 1;
     const Matrix2d moments = sign * (sums.second - sums.first * sums.first.transpose() / sums.area);
-    const double determinant = moments.determinant();
-    if (!(determinant > 0 && moments.trace() > 0)) return Matrix2d::Zero();
-    if (sums.area * sums.area < COMPACT * std::sqrt(determinant)) return Matrix2d::Zero();
-    return moments;
+    return moments.determinant() > 0 && moments.trace() > 0 ? moments : Matrix2d(Matrix2d::Zero());
 }
 
-// The one compact outline that a plane cuts; none if its area is zero.
+// What a plane cuts: the one compact outline of a solid, or all of a sheet; none if its area is zero.
 struct PlaneCut {
     double area = 0;
     Matrix2d moments = Matrix2d::Zero();
@@ -117,10 +114,18 @@ struct PlaneCut {
 PlaneCut main_outline(const std::map<int, Sums>& components, double perimeter) {
     for (const auto& [component, sums] : components) {
         if (sums.perimeter < MAIN * perimeter || !sums.closed()) continue;
-        const Matrix2d moments = compact_moments(sums);
-        if (moments.trace() > 0) return {std::abs(sums.area), moments};
+        const Matrix2d moments = central_moments(sums);
+        const bool compact = sums.area * sums.area >= COMPACT * std::sqrt(moments.determinant());
+        if (moments.trace() > 0 && compact) return {std::abs(sums.area), moments};
     }
     return {};
+}
+
+// A sheet drawn with two faces may bow, so that its outline need not be compact.
+PlaneCut sheet_outline(const Sums& all) {
+    if (!all.closed()) return {};
+    const Matrix2d moments = central_moments(all);
+    return {moments.trace() > 0 ? std::abs(all.area) : 0, moments};
 }
 
 // Drops cuts through a pointed end within a capsule, as it does not represent the rest.
@@ -164,9 +169,10 @@ void average(const std::array<PlaneCut, 3>& cuts, const CapsuleFrame& frame, Out
 }
 
 Outline cut_capsule(const Surface& surface, const Topology& topology, const std::vector<int>& triangles,
-                    const CapsuleFrame& frame, bool foot, bool tip) {
+                    const CapsuleFrame& frame, bool sheet, bool foot, bool tip) {
     std::array<PlaneCut, 3> cuts;
     double area = 0, perimeter = 0;
+    int count = 0;  // planes that cut the surface
     bool doubled = true;
     for (size_t plane = 0; plane < cuts.size(); plane++) {
         std::map<int, Sums> components;
@@ -181,14 +187,19 @@ Outline cut_capsule(const Surface& surface, const Topology& topology, const std:
             components[topology.triangle_component[size_t(t)]].add(p, q);
             all.add(p, q);
         }
+        if (!(all.perimeter > 0)) continue;
+        count++;
         doubled = doubled && all.closed();
         area += std::abs(all.area);
         perimeter += all.perimeter;
-        cuts[plane] = main_outline(components, all.perimeter);
+        cuts[plane] = sheet ? sheet_outline(all) : main_outline(components, all.perimeter);
     }
     Outline outline;
+    doubled = doubled && count > 0;
     outline.doubled = doubled;
-    outline.gap = doubled ? 2 * area / perimeter : 0;
+    // The thickness of the rectangle with this area and perimeter.
+    const double half = perimeter / 2;
+    if (doubled) outline.gap = (half - std::sqrt(std::max(half * half - 4 * area * count, 0.0))) / 2 / count;
     drop_points(cuts);
     repair_ends(foot, tip, cuts);
     average(cuts, frame, outline);
@@ -197,8 +208,8 @@ Outline cut_capsule(const Surface& surface, const Topology& topology, const std:
 
 }  // namespace
 
-std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topology, const Chain& chain,
-                                  const std::vector<CapsuleFrame>& frames) {
+std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
+                                  const Chain& chain, const std::vector<CapsuleFrame>& frames) {
     const std::vector<std::vector<int>> triangles = triangles_by_capsule(surface, chain);
     std::vector<char> is_tip(chain.nodes.size(), 1);
     for (const ChainNode& node : chain.nodes)
@@ -208,7 +219,8 @@ std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topolo
         const int parent = chain.nodes[i].parent;
         if (parent < 0 || triangles[i].empty()) continue;
         const bool foot = chain.nodes[size_t(parent)].parent < 0;
-        outlines[i] = cut_capsule(surface, topology, triangles[i], frames[i], foot, is_tip[i]);
+        const bool sheet = is_sheet(organs[size_t(std::max(chain.nodes[i].organ, 0))]);
+        outlines[i] = cut_capsule(surface, topology, triangles[i], frames[i], sheet, foot, is_tip[i]);
     }
     return outlines;
 }

@@ -20,11 +20,12 @@ struct Spread {
 
 // The cuts of planes across a capsule with the surface, averaged over the planes.
 struct Outline {
-    bool found = false;                 // at least one plane cuts one closed, compact outline
+    bool found = false;                 // a plane cuts one closed, compact outline, or both faces of a sheet
     double area;                        // enclosed area [m^2]
     double inertia_thin, inertia_wide;  // [m^4]
     Vec3 thin;
-    // For sheets: whether they are drawn with two faces, and the mean distance of the faces [m].
+    // For sheets: whether they are drawn with two faces, and their distance, by the rectangle of equal
+    // area and perimeter [m].
     bool doubled = false;
     double gap = 0;
 };
@@ -32,8 +33,8 @@ struct Outline {
 // Return one result per chain node. A capsule without surface of its own has a spread of zero area.
 std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
                                     const std::vector<CapsuleFrame>& frames);
-std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topology, const Chain& chain,
-                                  const std::vector<CapsuleFrame>& frames);
+std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
+                                  const Chain& chain, const std::vector<CapsuleFrame>& frames);
 
 // Returns 0 for an ellipse and a polygon like one, 1 for a rectangle.
 double squareness(double area, double inertia_thin, double inertia_wide);
