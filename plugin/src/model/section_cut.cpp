@@ -172,7 +172,6 @@ Outline cut_capsule(const Surface& surface, const Topology& topology, const std:
                     const CapsuleFrame& frame, bool sheet, bool foot, bool tip) {
     std::array<PlaneCut, 3> cuts;
     double area = 0, perimeter = 0;
-    int count = 0;  // planes that cut the surface
     bool doubled = true;
     for (size_t plane = 0; plane < cuts.size(); plane++) {
         std::map<int, Sums> components;
@@ -187,19 +186,16 @@ Outline cut_capsule(const Surface& surface, const Topology& topology, const std:
             components[topology.triangle_component[size_t(t)]].add(p, q);
             all.add(p, q);
         }
-        if (!(all.perimeter > 0)) continue;
-        count++;
         doubled = doubled && all.closed();
         area += std::abs(all.area);
         perimeter += all.perimeter;
         cuts[plane] = sheet ? sheet_outline(all) : main_outline(components, all.perimeter);
     }
     Outline outline;
-    doubled = doubled && count > 0;
     outline.doubled = doubled;
-    // The thickness of the rectangle with this area and perimeter.
-    const double half = perimeter / 2;
-    if (doubled) outline.gap = (half - std::sqrt(std::max(half * half - 4 * area * count, 0.0))) / 2 / count;
+    // The thickness of the rectangle with the mean area and perimeter.
+    const double half = perimeter / 2 / PLANES.size(), mean = area / PLANES.size();
+    if (doubled) outline.gap = (half - std::sqrt(std::max(half * half - 4 * mean, 0.0))) / 2;
     drop_points(cuts);
     repair_ends(foot, tip, cuts);
     average(cuts, frame, outline);
