@@ -2,21 +2,16 @@
 //
 // Kinematic bodies have come to their places within this step, and plants are to meet them there. Free bodies have
 // moved as well, but their motion still answers to impulses, so that the step ahead of them counts.
-#include <BulletCollision/CollisionShapes/btConcaveShape.h>
-#include <BulletCollision/CollisionShapes/btTriangleShape.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
-#include <LinearMath/btAabbUtil2.h>
 #include <LinearMath/btTransformUtil.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
 #include "world/piece.hpp"
-#include "world/shape_impact.hpp"
 #include "world/show.hpp"
+#include "world/sweep.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -24,193 +19,12 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-constexpr double FAR = 0.001;  // displacement in the step from which on something is swept [m]
-
-// Where an object begins, and how far it moves.
-struct ObjectMotion {
-    btTransform from;
-    Vec3 way = Vec3::Zero(), turn = Vec3::Zero();  // [m], [rad]
-    bool is_far() const { return way.norm() > FAR || turn.norm() > FAR; }
-};
-
-ObjectMotion motion_of(const btCollisionObject& object, double h) {
-    ObjectMotion motion;
-    motion.from = object.getWorldTransform();
-    if (object.isStaticObject() || !object.isActive()) return motion;
-    if (const btRigidBody* rigid = btRigidBody::upcast(&object)) {
-        motion.way = h * from_bullet(rigid->getLinearVelocity());
-        motion.turn = h * from_bullet(rigid->getAngularVelocity());
-    } else if (const auto* link = btMultiBodyLinkCollider::upcast(&object)) {
-        const btMultiBody& body = *link->m_multiBody;
-        motion.way = h * from_bullet(link->m_link < 0 ? body.getBaseVel()
-                                                      : body.getLink(link->m_link).m_absFrameTotVelocity.m_bottomVec);
-    }
-    if (!motion.way.allFinite() || !motion.turn.allFinite()) return {object.getWorldTransform()};
-    return motion;
-}
-
-// The same motion, ending where the object is.
-ObjectMotion backwards(ObjectMotion motion) {
-    btTransformUtil::integrateTransform(btTransform(motion.from), to_bullet(-motion.way), to_bullet(-motion.turn), 1,
-                                        motion.from);
-    return motion;
-}
-
-// Displacements of a plant's chain nodes in the step if nothing touches it, world frame [m].
-struct PlantMotion {
-    std::vector<Vec3> ways;
-    double farthest = 0;
-};
-
-PlantMotion motion_of(const PlantBody& body, double h) {
-    const Plant& plant = *body.plant;
-    PlantMotion motion;
-    motion.ways.assign(plant.chain_positions.size(), Vec3::Zero());
-    if (body.rest.asleep) return motion;
-    for (size_t n = 0; n < motion.ways.size(); n++) {
-        const Vec3 velocity =
-            plant.follow ? Vec3(point(plant.motion.v, 2 * int(n)))
-                         : attachment_velocity(chain_attachment(plant, int(n)), plant.motion.x, plant.motion.v);
-        motion.ways[n] = h * (plant.rotation * velocity);
-        motion.farthest = std::max(motion.farthest, motion.ways[n].norm());
-    }
-    return motion;
-}
-
 // Returns the greatest speed of a node [m/s].
 double fastest_node(const Plant& plant) {
     double most = 0;
     for (int i = 0; i < plant.motion.v.size() / 3; i += plant.follow ? 2 : 1)
         most = std::max(most, point(plant.motion.v, i).squaredNorm());
     return std::sqrt(most);
-}
-
-// Returns the motion of a plant's capsule or plate.
-MovingShape moving_piece(const PlantBody& body, const PlantMotion& motion, int child, int capsule) {
-    const Plant& plant = *body.plant;
-    const auto* compound = static_cast<const btCompoundShape*>(body.getCollisionShape());
-    MovingShape piece = {static_cast<const btConvexShape&>(*compound->getChildShape(child)),
-                         body.getWorldTransform() * compound->getChildTransform(child)};
-    const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
-    const Vec3 &first = motion.ways[size_t(begin)], &second = motion.ways[size_t(end)];
-    const Vec3 axis = plant.rotation * (plant.chain_positions[size_t(end)] - plant.chain_positions[size_t(begin)]);
-    piece.way = 0.5 * (first + second);
-    if (axis.squaredNorm() > 0) piece.turn = axis.cross(second - first) / axis.squaredNorm();
-    return piece;
-}
-
-struct Box {
-    btVector3 lower, upper;
-    void widen(double by) {
-        const btVector3 all = to_bullet(Vec3::Constant(by));
-        lower -= all;
-        upper += all;
-    }
-};
-
-// Returns the box of a shape over all its motion.
-Box box_of(const btCollisionShape& shape, const ObjectMotion& motion) {
-    Box box, end;
-    shape.getAabb(motion.from, box.lower, box.upper);
-    end = {box.lower + to_bullet(motion.way), box.upper + to_bullet(motion.way)};
-    box.lower.setMin(end.lower);
-    box.upper.setMax(end.upper);
-    if (motion.turn.isZero(0)) return box;
-    btVector3 centre;
-    btScalar radius;
-    shape.getBoundingSphere(centre, radius);
-    box.widen(std::min(1.0, motion.turn.norm()) * double(centre.length() + radius));
-    return box;
-}
-
-Box in_frame(const Box& box, const btTransform& frame) {
-    Box local;
-    btTransformAabb(btScalar(0.5) * (box.upper - box.lower), 0,
-                    frame.inverse() * btTransform(btMatrix3x3::getIdentity(), btScalar(0.5) * (box.lower + box.upper)),
-                    local.lower, local.upper);
-    return local;
-}
-
-// Calls `take` for the convex parts of a shape, triangles of meshes among them, that may come into a box.
-void for_each_convex(const btCollisionShape& shape, const ObjectMotion& motion, const Box& box,
-                     const std::function<void(const MovingShape&)>& take) {
-    if (shape.isCompound()) {
-        const auto& compound = static_cast<const btCompoundShape&>(shape);
-        for (int i = 0; i < compound.getNumChildShapes(); i++) {
-            ObjectMotion of_child = motion;
-            of_child.from = motion.from * compound.getChildTransform(i);
-            of_child.way += motion.turn.cross(from_bullet(of_child.from.getOrigin() - motion.from.getOrigin()));
-            for_each_convex(*compound.getChildShape(i), of_child, box, take);
-        }
-    } else if (shape.isConvex()) {
-        take({static_cast<const btConvexShape&>(shape), motion.from, motion.way, motion.turn});
-    } else if (shape.isConcave() && !shape.isInfinite()) {
-        struct TakeTriangle : btTriangleCallback {
-            const ObjectMotion& motion;
-            const std::function<void(const MovingShape&)>& take;
-            double margin;
-            TakeTriangle(const ObjectMotion& motion, const std::function<void(const MovingShape&)>& take, double margin)
-                : motion(motion), take(take), margin(margin) {}
-            void processTriangle(btVector3* corners, int, int) override {
-                btTriangleShape triangle(corners[0], corners[1], corners[2]);
-                triangle.setMargin(btScalar(margin));
-                take({triangle, motion.from, motion.way, motion.turn});
-            }
-        } take_triangle(motion, take, double(shape.getMargin()));
-        Box local = in_frame(box, motion.from);
-        local.widen(motion.way.norm());
-        static_cast<const btConcaveShape&>(shape).processAllTriangles(&take_triangle, local.lower, local.upper);
-    }
-}
-
-// Calls `take` for the children of a plant whose boxes overlap one in the world's frame.
-void for_each_child(PlantBody& body, const Box& box, const std::function<void(int child, int capsule)>& take) {
-    struct TakeLeaf : btDbvt::ICollide {
-        const std::function<void(int)>& take;
-        explicit TakeLeaf(const std::function<void(int)>& take) : take(take) {}
-        void Process(const btDbvtNode* leaf) override { take(leaf->dataAsInt); }
-    };
-    const std::function<void(int)> take_child = [&](int child) {
-        const int capsule = body.hull->capsule_of(child);
-        if (capsule >= 0 && !is_covered(body, child)) take(child, capsule);
-    };
-    TakeLeaf take_leaf(take_child);
-    const Box local = in_frame(box, body.getWorldTransform());
-    const btDbvt* tree = body.compound()->getDynamicAabbTree();
-    if (tree && tree->m_root) tree->collideTV(tree->m_root, btDbvtVolume::FromMM(local.lower, local.upper), take_leaf);
-}
-
-// A piece of a plant that a body's shape touches first at impact.time.
-struct Hit {
-    int capsule;
-    const MovingShape& piece;
-    const MovingShape& shape;
-    ShapeImpact impact;
-};
-
-// Calls `take` for all impacts of an object with a plant.
-void find_hits(PlantBody& body, const PlantMotion& of_plant, const btCollisionObject& object,
-               const ObjectMotion& of_object, const std::function<void(const Hit&)>& take) {
-    Box plant_box;
-    body.compound()->getAabb(body.getWorldTransform(), plant_box.lower, plant_box.upper);
-    plant_box.widen(of_plant.farthest);
-    for_each_convex(*object.getCollisionShape(), of_object, plant_box, [&](const MovingShape& shape) {
-        Box box = box_of(shape.shape, {shape.from, shape.way, shape.turn});
-        box.widen(of_plant.farthest);
-        for_each_child(body, box, [&](int child, int capsule) {
-            constexpr double SLOW = 0.5;  // displacement that Bullet's own detection sees, over the radius [-]
-            if (is_apart(body, capsule, object)) return;
-            const MovingShape piece = moving_piece(body, of_plant, child, capsule);
-            const double turned = shape.turn.norm() + piece.turn.norm();
-            if ((shape.way - piece.way).norm() + turned < SLOW * radius_of(body, capsule)) return;
-            // The plant may go on, or be held back.
-            const MovingShape still = {piece.shape, piece.from};
-            if (const auto impact = first_impact(shape, piece))
-                take({capsule, piece, shape, *impact});
-            else if (const auto other = first_impact(shape, still))
-                take({capsule, still, shape, *other});
-        });
-    });
 }
 
 Contact contact_of(PlantBody& body, btCollisionObject& other, const Hit& hit) {
@@ -297,14 +111,12 @@ std::vector<PlantBody*> plants_near(Search& search, const btCollisionObject& obj
                                     const ObjectMotion& past) {
     const bool moves = motion.is_far();
     Box box = box_of(*object.getCollisionShape(), motion);
-    const Box before = box_of(*object.getCollisionShape(), past);
-    box.lower.setMin(before.lower);
-    box.upper.setMax(before.upper);
+    box.add(box_of(*object.getCollisionShape(), past));
     box.widen(search.fastest);
     std::vector<PlantBody*> plants;
     for (PlantBody* body : plants_in(search.world, box.lower, box.upper)) {
         if (!takes_part(search.world, body) || body->plant->modal || !may_meet(*body, object)) continue;
-        if (!moves && (body->rest.asleep || motion_in(search, *body).farthest < FAR)) continue;
+        if (!moves && (body->rest.asleep || motion_in(search, *body).farthest < FAR_FOR_SWEEP)) continue;
         plants.push_back(&look_at(*body));
     }
     std::sort(plants.begin(), plants.end(), [](const PlantBody* a, const PlantBody* b) { return a->index < b->index; });
@@ -390,7 +202,7 @@ void sweep(Search& search, btCollisionObject& object, bool is_new) {
     // Bullet takes a new kinematic body for one that has come from the world's origin.
     if (is_new && object.isKinematicObject()) motion = {motion.from};
     const bool moves = motion.is_far();
-    if (!moves && search.fastest < FAR) return;
+    if (!moves && search.fastest < FAR_FOR_SWEEP) return;
     const ObjectMotion past = backwards(motion);
     if (object.isKinematicObject()) motion = past;
     const std::vector<PlantBody*> plants = plants_near(search, object, motion, past);

@@ -1,0 +1,61 @@
+// Sweeps: how far bodies and pieces of plants move in a step, and which of them meet.
+#pragma once
+
+#include <functional>
+
+#include "world/plant_body.hpp"
+#include "world/shape_impact.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+// Displacement in a step from which on something is swept; less is seen where it ends [m], or rotation [rad].
+constexpr double FAR_FOR_SWEEP = 0.001;
+
+// Where an object begins, and how far it moves.
+struct ObjectMotion {
+    btTransform from;
+    Vec3 way = Vec3::Zero(), turn = Vec3::Zero();  // [m], [rad]
+    bool is_far() const { return way.norm() > FAR_FOR_SWEEP || turn.norm() > FAR_FOR_SWEEP; }
+};
+// Returns the motion in h [s] from where the object is, at its present velocity; none for static and sleeping ones.
+ObjectMotion motion_of(const btCollisionObject& object, double h);
+// Returns the same motion, ending where the object is.
+ObjectMotion backwards(ObjectMotion motion);
+
+// Displacements of a plant's chain nodes in a step if nothing touches it, world frame [m].
+struct PlantMotion {
+    std::vector<Vec3> ways;
+    double farthest = 0;
+};
+PlantMotion motion_of(const PlantBody& body, double h);
+// Returns the motion of a plant's capsule or plate.
+MovingShape moving_piece(const PlantBody& body, const PlantMotion& motion, int child, int capsule);
+
+struct Box {
+    btVector3 lower, upper;
+    void widen(double by);
+    void add(const Box& other);
+};
+// Returns the box of a shape over all its motion.
+Box box_of(const btCollisionShape& shape, const ObjectMotion& motion);
+
+// Calls `take` for the convex parts of a shape, triangles of meshes among them, that may come into a box.
+void for_each_convex(const btCollisionShape& shape, const ObjectMotion& motion, const Box& box,
+                     const std::function<void(const MovingShape&)>& take);
+// Calls `take` for the children of a plant whose boxes overlap one in the world's frame, but for covered ones.
+void for_each_child(PlantBody& body, const Box& box, const std::function<void(int child, int capsule)>& take);
+
+// A piece of a plant that a body's shape touches first at impact.time.
+struct Hit {
+    int capsule;
+    const MovingShape& piece;
+    const MovingShape& shape;
+    ShapeImpact impact;
+};
+// Calls `take` for all impacts of an object with a plant that goes on as it moves, or else stays where it is.
+void find_hits(PlantBody& body, const PlantMotion& of_plant, const btCollisionObject& object,
+               const ObjectMotion& of_object, const std::function<void(const Hit&)>& take);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
