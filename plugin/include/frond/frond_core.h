@@ -49,8 +49,8 @@ enum {
     /* Cause: a step gained energy that nothing gave. Effect: it was solved again with a line search, which costs many
      * times as much and may damp. Remedy: a shorter time step, or gentler pushes. */
     FROND_TROUBLE_RETRIED = 1 << 3,
-    /* Cause: a kinematic body moved against a plant by more than half of its size in one step. Effect: it passes through
-     * the plant. Remedy: shorter steps. */
+    /* Cause: a kinematic body moved against a plant by more than half of its size in one step. Effect: it passes
+     * through the plant. Remedy: shorter steps. */
     FROND_TROUBLE_PASSED = 1 << 4,
     /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
      * there for the step. Remedy: have the function of frond_world_set_wind_field write every velocity. */

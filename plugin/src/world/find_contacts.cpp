@@ -4,6 +4,7 @@
 // compound. So only the point on the other body is used; its distance from the capsule is computed anew.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "world/contact_body.hpp"
 #include "world/convert.hpp"
@@ -231,6 +232,11 @@ std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& las
     add_swept_contacts(world, last, h, contacts);
     discount_grown_in(contacts);
     drop_what_draws_out(contacts);
+    // The response depends on their order a little, and Bullet's is the dispatcher's.
+    std::stable_sort(contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) {
+        return std::tie(a.plant->index, a.capsule, a.along, a.across) <
+               std::tie(b.plant->index, b.capsule, b.along, b.across);
+    });
     for (PlantBody* body : world.awake) body->new_for = int16_t(std::max(body->new_for - 1, 0));
     return contacts;
 }

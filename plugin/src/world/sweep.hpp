@@ -9,14 +9,12 @@
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// Displacement in a step from which on something is swept; less is seen where it ends [m], or rotation [rad].
-constexpr double FAR_FOR_SWEEP = 0.001;
-
 // Where an object begins, and how far it moves.
 struct ObjectMotion {
     btTransform from;
     Vec3 way = Vec3::Zero(), turn = Vec3::Zero();  // [m], [rad]
-    bool is_far() const { return way.norm() > FAR_FOR_SWEEP || turn.norm() > FAR_FOR_SWEEP; }
+    // Returns whether it moves by more than `far` [m], or turns by more than that [rad].
+    bool is_far(double far) const { return way.norm() > far || turn.norm() > far; }
 };
 // Returns the motion in h [s] from where the object is, at its present velocity; none for static and sleeping ones.
 ObjectMotion motion_of(const btCollisionObject& object, double h);

@@ -64,19 +64,22 @@ bool are_in_line(const Plant& plant, int capsule, int other) {
     return axis(a).dot(axis(b)) > STRAIGHT;
 }
 
-// Adds a contact unless one like it is known. Contacts of the same two that push the other way go: they were found when
-// one had passed the other.
+// Adds a contact unless one like it is known. A kinematic body's contacts that push a piece in line the other way go:
+// they were found when one had passed the other. Free bodies are put back instead.
 void add(const Contact& contact, std::vector<Contact>& contacts) {
     constexpr double LIKE = 0.5;  // cosine
     const auto is_of_both = [&](const Contact& c) {
         return c.plant == contact.plant && c.capsule == contact.capsule && c.other == contact.other;
     };
-    const auto is_like = [&](const Contact& c) { return is_of_both(c) && c.normal.dot(contact.normal) > LIKE; };
+    const bool pushes_on = contact.other->isKinematicObject();
+    const auto is_like = [&](const Contact& c) {
+        return is_of_both(c) && (!pushes_on || c.normal.dot(contact.normal) > LIKE);
+    };
     const auto is_against = [&](const Contact& c) {
         return c.plant == contact.plant && c.other == contact.other && c.normal.dot(contact.normal) < 0 &&
                are_in_line(*contact.plant->plant, contact.capsule, c.capsule);
     };
-    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_against), contacts.end());
+    if (pushes_on) contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_against), contacts.end());
     if (std::none_of(contacts.begin(), contacts.end(), is_like)) contacts.push_back(contact);
 }
 
@@ -106,17 +109,24 @@ const PlantMotion& motion_in(Search& search, const PlantBody& body) {
     return *motion;
 }
 
+// Returns the displacement in a step from which on something is swept: less is seen where it ends. What lies on leaves
+// moves by less, and comes to rest better by Bullet's own contacts [m].
+double far_for(const btCollisionObject& object) {
+    return object.isKinematicObject() ? 0.001 : 0.005;
+}
+
 // Returns the plants that an object may meet within its step and the one before.
 std::vector<PlantBody*> plants_near(Search& search, const btCollisionObject& object, const ObjectMotion& motion,
                                     const ObjectMotion& past) {
-    const bool moves = motion.is_far();
+    const double far = far_for(object);
+    const bool moves = motion.is_far(far);
     Box box = box_of(*object.getCollisionShape(), motion);
     box.add(box_of(*object.getCollisionShape(), past));
     box.widen(search.fastest);
     std::vector<PlantBody*> plants;
     for (PlantBody* body : plants_in(search.world, box.lower, box.upper)) {
         if (!takes_part(search.world, body) || body->plant->modal || !may_meet(*body, object)) continue;
-        if (!moves && (body->rest.asleep || motion_in(search, *body).farthest < FAR_FOR_SWEEP)) continue;
+        if (!moves && (body->rest.asleep || motion_in(search, *body).farthest < far)) continue;
         plants.push_back(&look_at(*body));
     }
     std::sort(plants.begin(), plants.end(), [](const PlantBody* a, const PlantBody* b) { return a->index < b->index; });
@@ -135,7 +145,8 @@ void put_back_if_passed(const Search& search, const std::vector<PlantBody*>& pla
         still.ways.assign(body->plant->chain_positions.size(), Vec3::Zero());
         find_hits(*body, still, rigid, past, [&](const Hit& hit) {
             const double passed = -(1 - hit.impact.time) * hit.impact.normal.dot(hit.shape.way);
-            if (passed > PASSED) met = std::min(met, hit.impact.time);
+            // A body that was there when the step began has not come through.
+            if (passed > PASSED && hit.impact.time > 0) met = std::min(met, hit.impact.time);
         });
     }
     if (met == 1) return;
@@ -166,12 +177,14 @@ void keep_sides(Search& search, PlantBody& body, btCollisionObject& object, cons
         shape.shape.getAabb(shape.from, box.lower, box.upper);
         box.widen(reach);
         for_each_child(body, box, [&](int child, int capsule) {
-            const auto by = std::find_if(pushed.begin(), pushed.end(), [&](const Contact* c) {
-                return c->capsule == capsule || are_joined(*body.plant, c->capsule, capsule);
-            });
-            if (by == pushed.end() || is_apart(body, capsule, object)) return;
+            const Contact* by = nullptr;  // that which pushed it hardest
+            for (const Contact* c : pushed)
+                if ((c->capsule == capsule || are_joined(*body.plant, c->capsule, capsule)) &&
+                    (!by || c->impulse.squaredNorm() > by->impulse.squaredNorm()))
+                    by = c;
+            if (!by || is_apart(body, capsule, object)) return;
             MovingShape piece = moving_piece(body, motion_in(search, body), child, capsule);
-            const btVector3 away = to_bullet(reach * (*by)->normal);
+            const btVector3 away = to_bullet(reach * by->normal);
             piece.from.setOrigin(piece.from.getOrigin() + away);
             piece.way = -from_bullet(away);
             piece.turn.setZero();
@@ -179,7 +192,7 @@ void keep_sides(Search& search, PlantBody& body, btCollisionObject& object, cons
             if (!impact || impact->time == 0) return;
             Contact contact = contact_of(body, object, {capsule, piece, shape, *impact});
             contact.on_plant -= from_bullet(away);
-            contact.gap = -(1 - impact->time) * reach * contact.normal.dot((*by)->normal);
+            contact.gap = -(1 - impact->time) * reach * contact.normal.dot(by->normal);
             if (contact.gap < 0) add(contact, search.contacts);
         });
     });
@@ -189,7 +202,6 @@ void add_hits(Search& search, PlantBody& body, btCollisionObject& object, const 
     constexpr double LIMIT = 0.5;  // displacement that no step can give a plant, over its size [-]
     find_hits(body, motion_in(search, body), object, motion, [&](const Hit& hit) {
         const Contact contact = contact_of(body, object, hit);
-        if (is_between_pieces(body, hit.capsule, contact.normal)) return;
         if (object.isKinematicObject() && contact.normal.dot(motion.way) > LIMIT * double(body.plant->size))
             search.world.report.trouble |= FROND_TROUBLE_PASSED;
         else
@@ -201,8 +213,8 @@ void sweep(Search& search, btCollisionObject& object, bool is_new) {
     ObjectMotion motion = motion_of(object, search.h);
     // Bullet takes a new kinematic body for one that has come from the world's origin.
     if (is_new && object.isKinematicObject()) motion = {motion.from};
-    const bool moves = motion.is_far();
-    if (!moves && search.fastest < FAR_FOR_SWEEP) return;
+    const bool moves = motion.is_far(far_for(object));
+    if (!moves && search.fastest < far_for(object)) return;
     const ObjectMotion past = backwards(motion);
     if (object.isKinematicObject()) motion = past;
     const std::vector<PlantBody*> plants = plants_near(search, object, motion, past);
