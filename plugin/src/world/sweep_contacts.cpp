@@ -201,7 +201,9 @@ void keep_sides(Search& search, PlantBody& body, btCollisionObject& object, cons
 void add_hits(Search& search, PlantBody& body, btCollisionObject& object, const ObjectMotion& motion) {
     constexpr double LIMIT = 0.5;  // displacement that no step can give a plant, over its size [-]
     find_hits(body, motion_in(search, body), object, motion, [&](const Hit& hit) {
-        const Contact contact = contact_of(body, object, hit);
+        Contact contact = contact_of(body, object, hit);
+        // Overlaps with free bodies are for Bullet's own contacts to end.
+        if (!object.isKinematicObject()) contact.gap = std::max(0.0, contact.gap);
         if (object.isKinematicObject() && contact.normal.dot(motion.way) > LIMIT * double(body.plant->size))
             search.world.report.trouble |= FROND_TROUBLE_PASSED;
         else
