@@ -167,7 +167,8 @@ void keep_sides(Search& search, PlantBody& body, btCollisionObject& object, cons
             pushed.push_back(&contact);
             reach = std::max(reach, motion.way.norm() + MARGIN - std::min(contact.gap, 0.0));
         }
-    if (pushed.empty()) return;
+    // A single triangle of a mesh is met from both of its sides.
+    if (pushed.empty() || object.getCollisionShape()->isConcave()) return;
     Box around;
     body.compound()->getAabb(body.getWorldTransform(), around.lower, around.upper);
     around.widen(reach);
