@@ -1,16 +1,16 @@
-// A small plant through the C API: a stem of 0.6 m with a side branch. It is modelled without gravity, so that it is at
-// rest in free fall, unless it is to stand as modelled.
+// Plants of stems through the C API, in metres and y up.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include "frond/frond.h"
 
-inline frond_model make_small_model(double young = 0, frond_rest rest = FROND_REST_WITHOUT_GRAVITY) {
-    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.3, 0}, 0.02, 0.015},
-                                {0, {0, 0.3, 0}, {0, 0.6, 0}, 0.015, 0.01},
-                                {0, {0, 0.3, 0}, {0.2, 0.45, 0}, 0.01, 0.005}};
+// Makes a model of stems of one material; young: 0 takes the preset's [Pa].
+inline frond_model make_stems(const frond_stem* stems, int count, double young,
+                              frond_rest rest = frond_default_model_def().rest) {
     frond_model_def def = frond_default_model_def();
+    def.scale = 1;
+    def.up = {0, 1, 0};
     def.rest = rest;
     frond_organ_material organ = {"stem", {}};
     EXPECT_EQ(frond_material_preset("stem", &organ.material), FROND_OK) << frond_last_error();
@@ -20,8 +20,17 @@ inline frond_model make_small_model(double young = 0, frond_rest rest = FROND_RE
         def.organ_count = 1;
     }
     frond_model model = {};
-    EXPECT_EQ(frond_model_from_stems(stems, 3, &def, &model), FROND_OK) << frond_last_error();
+    EXPECT_EQ(frond_model_from_stems(stems, count, &def, &model), FROND_OK) << frond_last_error();
     return model;
+}
+
+// A stem of 0.6 m with a side branch. It is modelled without gravity, so that it is at rest in free fall, unless it is
+// to stand as modelled.
+inline frond_model make_small_model(double young = 0, frond_rest rest = FROND_REST_WITHOUT_GRAVITY) {
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.3, 0}, 0.02, 0.015},
+                                {0, {0, 0.3, 0}, {0, 0.6, 0}, 0.015, 0.01},
+                                {0, {0, 0.3, 0}, {0.2, 0.45, 0}, 0.01, 0.005}};
+    return make_stems(stems, 3, young, rest);
 }
 
 struct SmallWorld {

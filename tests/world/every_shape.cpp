@@ -5,7 +5,6 @@
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <BulletDynamics/Character/btKinematicCharacterController.h>
-#include <btBulletDynamicsCommon.h>
 
 #include <iterator>
 #include <memory>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "frond/frond_bullet.hpp"
+#include "support/bullet_world.hpp"
 #include "support/stems.hpp"
 
 namespace every_shape_tests {
@@ -21,12 +21,7 @@ namespace every_shape_tests {
 constexpr double STEM_AT = 0.5, REACH = 0.6, RADIUS = 0.01;  // the stem's height, length and radius [m]
 
 // A stem that grows out of a wall along x, in a host's world without gravity.
-struct Scene {
-    btDefaultCollisionConfiguration configuration;
-    btCollisionDispatcher dispatcher{&configuration};
-    btDbvtBroadphase broadphase;
-    btSequentialImpulseConstraintSolver solver;
-    btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+struct Scene : BulletWorld {
     frond_world plants = {};
     frond_model model = {};
     frond_plant plant = {};
@@ -36,16 +31,7 @@ struct Scene {
         world.setGravity(btVector3(0, 0, 0));
         EXPECT_EQ(frond::attach(&world, nullptr, &plants), FROND_OK) << frond_last_error();
         const frond_stem stem = {-1, {0, STEM_AT, 0}, {REACH, STEM_AT, 0}, RADIUS, RADIUS};
-        frond_model_def def = frond_default_model_def();
-        frond_organ_material organ = {"stem", {}};
-        EXPECT_EQ(frond_material_preset("stem", &organ.material), FROND_OK);
-        organ.material.young = 1e8;
-        def.organs = &organ;
-        def.organ_count = 1;
-        def.scale = 1;
-        def.up = {0, 1, 0};
-        def.rest = FROND_REST_WITHOUT_GRAVITY;
-        EXPECT_EQ(frond_model_from_stems(&stem, 1, &def, &model), FROND_OK) << frond_last_error();
+        model = make_stems(&stem, 1, 1e8, FROND_REST_WITHOUT_GRAVITY);
         frond_plant_def plant_def = frond_default_plant_def();
         plant_def.mechanics = mechanics;
         plant_def.root_height = -1;

@@ -323,16 +323,7 @@ TEST_P(HostWorld, ABodyAtRestOnAPlantHasNoVelocity) {
                                 {0, {0, 0.5, 0}, {-0.15, 0.6, 0}, 0.012, 0.012},
                                 {0, {0, 0.5, 0}, {0, 0.6, 0.15}, 0.012, 0.012},
                                 {0, {0, 0.5, 0}, {0, 0.6, -0.15}, 0.012, 0.012}};
-    frond_model_def def = frond_default_model_def();
-    frond_organ_material organ = {"stem", {}};
-    ASSERT_EQ(frond_material_preset("stem", &organ.material), FROND_OK);
-    organ.material.young = 1e9;
-    def.organs = &organ;
-    def.organ_count = 1;
-    def.scale = 1;
-    def.up = {0, 1, 0};
-    frond_model model;
-    ASSERT_EQ(frond_model_from_stems(stems, 5, &def, &model), FROND_OK) << frond_last_error();
+    const frond_model model = make_stems(stems, 5, 1e9);
     frond_plant_def plant_def = frond_default_plant_def();
     plant_def.mechanics = FROND_MECHANICS_ROD;
     frond_plant plant;

@@ -1,12 +1,11 @@
 // Fast bodies and stems: whatever moves farther in a step than the other is thick still meets it.
-#include <btBulletDynamicsCommon.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include "frond/frond_bullet.hpp"
+#include "support/bullet_world.hpp"
 #include "support/sanitized.hpp"
 #include "support/stems.hpp"
 
@@ -15,12 +14,7 @@ namespace sweep_tests {
 constexpr double RADIUS = 0.005, HEIGHT = 0.5;  // of the stem, and at which bodies meet it [m]
 
 // A stem of 1 m, and a body that comes from the left.
-struct Scene {
-    btDefaultCollisionConfiguration configuration;
-    btCollisionDispatcher dispatcher{&configuration};
-    btDbvtBroadphase broadphase;
-    btSequentialImpulseConstraintSolver solver;
-    btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+struct Scene : BulletWorld {
     std::unique_ptr<btCollisionShape> shape;
     std::unique_ptr<btRigidBody> body;
     frond_world plants = {};
@@ -29,16 +23,7 @@ struct Scene {
     explicit Scene(frond_mechanics mechanics) {
         EXPECT_EQ(frond::attach(&world, nullptr, &plants), FROND_OK) << frond_last_error();
         const frond_stem stem = {-1, {0, 0, 0}, {0, 1, 0}, RADIUS, RADIUS};
-        frond_model_def def = frond_default_model_def();
-        frond_organ_material organ = {"stem", {}};
-        EXPECT_EQ(frond_material_preset("stem", &organ.material), FROND_OK);
-        organ.material.young = 1e9;
-        def.organs = &organ;
-        def.organ_count = 1;
-        def.scale = 1;
-        def.up = {0, 1, 0};
-        frond_model model;
-        EXPECT_EQ(frond_model_from_stems(&stem, 1, &def, &model), FROND_OK) << frond_last_error();
+        const frond_model model = make_stems(&stem, 1, 1e9);
         frond_plant_def plant_def = frond_default_plant_def();
         plant_def.mechanics = mechanics;
         EXPECT_EQ(frond_plant_create(plants, model, &plant_def, &plant), FROND_OK) << frond_last_error();

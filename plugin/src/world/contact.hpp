@@ -29,19 +29,22 @@ Attachment attachment_of(const Contact& contact);
 // Bullet detects it. `last`: those of the last step.
 std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& last, double h);
 
+// A body that may be swept against plants, no plane; `is_new`: it was not there in the last substep.
+struct Sweeper {
+    btCollisionObject* object;
+    bool is_new;
+};
 // Adds the contacts of bodies and plants that would pass through each other in the step, and drops those that would
 // push them on. Puts a free body that has passed a plant back to where they met.
-void add_swept_contacts(World& world, const std::vector<Contact>& last, double h, std::vector<Contact>& contacts);
-
-// Returns the velocity of a rigid body at a point; zero for other objects [m/s].
-Vec3 velocity_at(const btCollisionObject& object, const Vec3& p);
-// Returns whether a child of a plant's compound is a capsule that a plate replaces in contact.
-bool is_covered(const PlantBody& body, int child);
+void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const std::vector<Contact>& last, double h,
+                        std::vector<Contact>& contacts);
 
 // Returns whether an object pushes plants: triggers and the like do not, characters do.
 bool pushes(const btCollisionObject& object);
 // Returns whether bodies may push the plant; false for null.
 bool takes_part(const World& world, const PlantBody* body);
+// Returns whether neither side ignores the other, apart from their groups and PlantBody's own exclusions.
+bool may_collide(const PlantBody& body, const btCollisionObject& object);
 // Returns whether the object is an infinite plane.
 bool is_plane(const btCollisionObject& object);
 // Adds the contacts of an infinite plane with the plants that Bullet's broad phase pairs with it; its narrow phase

@@ -38,6 +38,12 @@ void wake(btCollisionObject& object, const Vec3& normal, const Vec3& plant_veloc
     if (plant_velocity.dot(normal) < -SLOW) object.activate();
 }
 
+Vec3 velocity_at(const btCollisionObject& object, const Vec3& p) {
+    const btRigidBody* rigid = btRigidBody::upcast(&object);
+    if (!rigid) return Vec3::Zero();
+    return from_bullet(rigid->getVelocityInLocalPoint(to_bullet(p) - rigid->getCenterOfMassPosition()));
+}
+
 ContactBody make_contact_body(btCollisionObject& object, const Vec3& point, double h) {
     ContactBody contact_body;
     contact_body.object = &object;
@@ -51,8 +57,7 @@ ContactBody make_contact_body(btCollisionObject& object, const Vec3& point, doub
     }
     btRigidBody* rigid = btRigidBody::upcast(&object);
     if (!rigid) return contact_body;
-    contact_body.velocity =
-        from_bullet(rigid->getVelocityInLocalPoint(to_bullet(point) - rigid->getCenterOfMassPosition()));
+    contact_body.velocity = velocity_at(object, point);
     // A sleeping body acts as a static one until it is woken.
     if (rigid->isStaticOrKinematicObject() || !rigid->isActive()) return contact_body;
     contact_body.rigid = rigid;

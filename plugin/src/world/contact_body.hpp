@@ -24,6 +24,8 @@ struct ContactBody {
 
 // Wakes a sleeping body if the plant moves towards it; `normal` points to the plant.
 void wake(btCollisionObject& object, const Vec3& normal, const Vec3& plant_velocity);
+// Returns the velocity of a rigid body at a point; zero for other objects [m/s].
+Vec3 velocity_at(const btCollisionObject& object, const Vec3& p);
 // Makes a contact body at a point. A free body's velocity includes what gravity adds in its next step of h [s].
 ContactBody make_contact_body(btCollisionObject& object, const Vec3& point, double h);
 // Returns the velocity at `at` by a unit impulse at `by` [1/kg]; zero unless both are on the same movable body.

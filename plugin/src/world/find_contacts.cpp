@@ -25,14 +25,8 @@ bool takes_part(const World& world, const PlantBody* body) {
     return body && body->world == &world && (world.effects & body->plant->effects & FROND_EFFECT_RIGID_CONTACT);
 }
 
-Vec3 velocity_at(const btCollisionObject& object, const Vec3& p) {
-    const btRigidBody* rigid = btRigidBody::upcast(&object);
-    if (!rigid) return Vec3::Zero();
-    return from_bullet(rigid->getVelocityInLocalPoint(to_bullet(p) - rigid->getCenterOfMassPosition()));
-}
-
-bool is_covered(const PlantBody& body, int child) {
-    return child >= 0 && size_t(child) < body.capsules().size() && body.hull->flats[size_t(child)].half_width > 0;
+bool may_collide(const PlantBody& body, const btCollisionObject& object) {
+    return body.btSoftBody::checkCollideWithOverride(&object) && object.checkCollideWith(&body);
 }
 
 bool is_plane(const btCollisionObject& object) {
@@ -120,11 +114,13 @@ void add_manifold(World& world, const btPersistentManifold& manifold, double h, 
     }
 }
 
-// Adds the contacts of planes, and shows sleepers to kinematic bodies that come near.
-void look_at_objects(World& world, double h, std::vector<Contact>& contacts) {
+// Adds the contacts of planes, and shows sleepers to kinematic bodies that come near. Returns the other bodies.
+std::vector<Sweeper> look_at_objects(World& world, double h, std::vector<Contact>& contacts) {
+    std::vector<Sweeper> others;
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     std::vector<const btCollisionObject*>& plants = world.plants_at;
     plants.resize(size_t(objects.size()));
+    world.others_at.resize(size_t(objects.size()));
     for (int i = 0; i < objects.size(); i++) {
         if (plants[size_t(i)] == objects[i]) continue;
         if (PlantBody::of(objects[i])) {
@@ -134,8 +130,14 @@ void look_at_objects(World& world, double h, std::vector<Contact>& contacts) {
         btCollisionObject& object = *objects[i];
         if (!pushes(object)) continue;
         if (object.isKinematicObject() && is_moving(object)) show_sleepers_to(world, object, h);
-        if (is_plane(object)) add_plane_contacts(world, object, h, contacts);
+        if (is_plane(object)) {
+            add_plane_contacts(world, object, h, contacts);
+        } else if (object.getBroadphaseHandle()) {
+            others.push_back({&object, world.others_at[size_t(i)] != &object});
+            world.others_at[size_t(i)] = &object;
+        }
     }
+    return others;
 }
 
 // Subtracts from overlaps with bodies at rest the depth that they had when the plant was new. Capsules whose axis was
@@ -228,8 +230,8 @@ std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& las
         const btPersistentManifold* manifold = dispatcher->getManifoldByIndexInternal(i);
         if (manifold->getNumContacts() > 0) add_manifold(world, *manifold, h, contacts);
     }
-    look_at_objects(world, h, contacts);
-    add_swept_contacts(world, last, h, contacts);
+    const std::vector<Sweeper> others = look_at_objects(world, h, contacts);
+    add_swept_contacts(world, others, last, h, contacts);
     discount_grown_in(contacts);
     drop_what_draws_out(contacts);
     // The response depends on their order a little, and Bullet's is the dispatcher's.

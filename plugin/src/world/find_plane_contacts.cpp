@@ -41,8 +41,7 @@ Plane plane_for(const Plant& plant, btCollisionObject& object, bool moves) {
 bool may_meet(const World& world, const PlantBody& body, const btCollisionObject& plane) {
     btBroadphaseProxy *of_body = const_cast<btBroadphaseProxy*>(body.getBroadphaseHandle()),
                       *of_plane = const_cast<btBroadphaseProxy*>(plane.getBroadphaseHandle());
-    return of_body && of_plane && world.bullet->getPairCache()->findPair(of_body, of_plane) &&
-           body.btSoftBody::checkCollideWithOverride(&plane) && plane.checkCollideWith(&body);
+    return of_body && of_plane && world.bullet->getPairCache()->findPair(of_body, of_plane) && may_collide(body, plane);
 }
 
 // Returns whether a node is held and so cannot be pushed.

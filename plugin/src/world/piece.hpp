@@ -16,6 +16,8 @@ struct OnCore {
 };
 OnCore nearest_on_core(const PlantBody& body, int capsule, const Vec3& p);
 
+// Returns whether a child of the plant's compound is a capsule that a plate replaces in contact.
+bool is_covered(const PlantBody& body, int child);
 double piece_friction(const PlantBody& body, int capsule);  // [-]
 // Returns whether a body would push a plate at its end where the blade continues with the next one. `normal` points
 // away from the body.

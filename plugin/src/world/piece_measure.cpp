@@ -30,6 +30,10 @@ OnCore nearest_on_core(const PlantBody& body, int capsule, const Vec3& p) {
     return core;
 }
 
+bool is_covered(const PlantBody& body, int child) {
+    return child >= 0 && size_t(child) < body.capsules().size() && body.hull->flats[size_t(child)].half_width > 0;
+}
+
 double piece_friction(const PlantBody& body, int capsule) {
     const Model& model = *body.plant->model;
     const int organ = model.chain.nodes[size_t(model.capsules[size_t(capsule)][1])].organ;

@@ -110,7 +110,8 @@ void note_touches(World& world) {
         if (contact.gap < NEAR && is_moving(*contact.other)) disturb(*contact.plant);
 }
 
-void mark_touches(World& world) {
+// Marks the plants that contacts and bonds push.
+void mark_pushed(World& world) {
     for (const Contact& contact : world.contacts) {
         contact.plant->plant->is_touched = true;
         contact.plant->plant->is_pressed |= !contact.other->isStaticObject();
@@ -140,7 +141,7 @@ void mark_touched(World& world) {
         body->plant->is_touched = body->plant->is_pressed = body->plant->is_entangled = false;
         body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;
     }
-    if (response_row(world.response).find) mark_touches(world);
+    if (response_row(world.response).find) mark_pushed(world);
     for (PlantBody* body : world.awake)
         if (body->plant->is_touched || body->plant->has_user_force) body->level.is_due = true;
 }

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/contact.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
 #include "world/piece.hpp"

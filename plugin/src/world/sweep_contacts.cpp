@@ -89,7 +89,7 @@ bool may_meet(const PlantBody& body, const btCollisionObject& object) {
     const int group = body.is_hidden ? body.filter_group : of_body->m_collisionFilterGroup,
               mask = body.is_hidden ? body.filter_mask : of_body->m_collisionFilterMask;
     return (group & of_object->m_collisionFilterMask) && (of_object->m_collisionFilterGroup & mask) &&
-           body.btSoftBody::checkCollideWithOverride(&object) && object.checkCollideWith(&body);
+           may_collide(body, object);
 }
 
 // Contacts that are to be found, and what is known for that.
@@ -174,8 +174,7 @@ void keep_sides(Search& search, PlantBody& body, btCollisionObject& object, cons
     around.widen(reach);
     const ObjectMotion rests = {motion.from};
     for_each_convex(*object.getCollisionShape(), rests, around, [&](const MovingShape& shape) {
-        Box box = box_of(shape.shape, rests);
-        shape.shape.getAabb(shape.from, box.lower, box.upper);
+        Box box = box_of(shape.shape, {shape.from});
         box.widen(reach);
         for_each_child(body, box, [&](int child, int capsule) {
             const Contact* by = nullptr;  // that which pushed it hardest
@@ -234,21 +233,13 @@ void sweep(Search& search, btCollisionObject& object, bool is_new) {
 
 }  // namespace
 
-void add_swept_contacts(World& world, const std::vector<Contact>& last, double h, std::vector<Contact>& contacts) {
+void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const std::vector<Contact>& last, double h,
+                        std::vector<Contact>& contacts) {
+    if (bodies.empty()) return;
     Search search = {world, h, last, contacts};
     for (const PlantBody* body : world.awake)
         if (!body->plant->modal) search.fastest = std::max(search.fastest, h * fastest_node(*body->plant));
-    const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
-    std::vector<const btCollisionObject*>& known = world.others_at;
-    known.resize(size_t(objects.size()));
-    for (int i = 0; i < objects.size(); i++) {
-        btCollisionObject& object = *objects[i];
-        if (world.plants_at[size_t(i)] == &object || !pushes(object) || is_plane(object)) continue;
-        if (!object.getBroadphaseHandle()) continue;
-        const bool is_new = known[size_t(i)] != &object;
-        known[size_t(i)] = &object;
-        sweep(search, object, is_new);
-    }
+    for (const Sweeper& body : bodies) sweep(search, *body.object, body.is_new);
 }
 
 }  // namespace FROND_BULLET_PRECISION
