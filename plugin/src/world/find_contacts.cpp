@@ -120,7 +120,7 @@ std::vector<Sweeper> look_at_objects(World& world, double h, std::vector<Contact
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     std::vector<const btCollisionObject*>& plants = world.plants_at;
     plants.resize(size_t(objects.size()));
-    world.others_at.resize(size_t(objects.size()));
+    std::vector<const btCollisionObject*>& before = world.others_before;
     for (int i = 0; i < objects.size(); i++) {
         if (plants[size_t(i)] == objects[i]) continue;
         if (PlantBody::of(objects[i])) {
@@ -133,10 +133,12 @@ std::vector<Sweeper> look_at_objects(World& world, double h, std::vector<Contact
         if (is_plane(object)) {
             add_plane_contacts(world, object, h, contacts);
         } else if (object.getBroadphaseHandle()) {
-            others.push_back({&object, world.others_at[size_t(i)] != &object});
-            world.others_at[size_t(i)] = &object;
+            others.push_back({&object, !std::binary_search(before.begin(), before.end(), &object, std::less<>())});
         }
     }
+    before.clear();
+    for (const Sweeper& other : others) before.push_back(other.object);
+    std::sort(before.begin(), before.end(), std::less<>());
     return others;
 }
 

@@ -50,8 +50,8 @@ struct World final : btActionInterface {
     std::vector<PlantBody*> looked_at;    // asleep, but decompressed since the last substep
     // Bullet's objects that are plants, at their indices among all objects, so that thousands need not be checked anew.
     std::vector<const btCollisionObject*> plants_at;
-    std::vector<const btCollisionObject*> others_at;  // likewise the others that were there in the last substep
-    frond_parallel_for_fn* parallel_for;              // null: the host provides no threads
+    std::vector<const btCollisionObject*> others_before;  // the others of the last substep, by address
+    frond_parallel_for_fn* parallel_for;                  // null: the host provides no threads
     void* parallel_user;
     std::vector<std::unique_ptr<Rigid>> rigids;  // rigid bodies made by Frond
     std::vector<std::unique_ptr<Robot>> robots;  // likewise
