@@ -119,7 +119,6 @@ TEST_P(EveryShape, EnergyOutOfNothingIsTold) {
     take_workspace(*plant);         // as within a step
     constexpr double LONG = 2 * H;  // always asked for its energy
     EXPECT_TRUE(keeps_course(*plant, LONG));
-    EXPECT_FALSE(plant->is_off_course);
     plant->motion.v.setConstant(3);
     EXPECT_FALSE(keeps_course(*plant, LONG));
     plant->motion.v = plant->v_good;
@@ -188,7 +187,8 @@ TEST_P(EveryShape, GoesAlongWithAFootThatIsPutElsewhere) {
 
 // Under a pull of 1e5 times its weight searches end where their work is done, and the plant comes back from there.
 TEST_P(EveryShape, StepsThatNothingBearsTakeLimitedWork) {
-    constexpr int MOST = 900;  // of a step: two searches and what the last iteration of each takes [force evaluations]
+    constexpr int MOST =
+        1300;  // of a step: three searches and what the last iteration of each takes [force evaluations]
     const auto plant = stem(GetParam());
     Surroundings surroundings;
     surroundings.gravity = {0, -1e5 * GRAVITY, 1e5 * GRAVITY};

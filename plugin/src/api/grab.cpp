@@ -52,7 +52,9 @@ void frond_grab_destroy(frond_grab grab) {
         const GrabEntry entry = grab_slots().erase(grab.id);
         if (!entry.body) return;
         wake(*entry.body);
-        entry.body->plant->grabs.remove_if([&](const Grab& other) { return &other == entry.grab; });
+        Plant& plant = *entry.body->plant;
+        plant.grabs.remove_if([&](const Grab& other) { return &other == entry.grab; });
+        plant.motion.history.valid = false;  // its force ends at once
     });
 }
 

@@ -24,20 +24,20 @@ bool has_run_away(const Plant& plant);
 constexpr double FARTHEST_WAY = 4;  // displacement over the plant's size that is not questioned [-]
 // Returns whether the plant is stretched to many times its size.
 bool is_far_out(const Plant& plant);
-// Returns the rotation of a chain node from `from` to `x`; unlike the difference of rotation vectors it does not jump
-// by 2 pi where they are unwound at pi [rad].
-Vec3 turn_of(const VecX& x, const VecX& from, int node);
-
 // Returns the potential energy [J]: elastic, and of the running step's weight, forces and springs, also of pins.
 double potential_energy(const Plant& plant, const VecX& x);
 // Returns the energy that lifts the plant by its own size [J].
 double lifting_energy(const Plant& plant);
 
+// What contacts do to a plant in a step.
+struct Push {
+    VecX impulse;     // on its nodes [N s]; empty: none
+    double work = 0;  // the most that they can have given [J]
+};
 // Sets is_off_course after a solve over h [s] from x_good and v_good, and returns whether the plant may go there: it
-// did not run away, nor gain energy that forces, springs, moving pins, the air and `work` of contacts [J] cannot have
-// given. What stayed on its course is not asked for its energy; where that could not lift the plant by its size, it
-// cannot be damaged and counts as on its course.
-bool keeps_course(Plant& plant, double h, bool is_pushed = false, double work = 0);
+// did not run away, nor gain energy that the loads and the push cannot have given. What stayed on its course is not
+// asked for its energy, unless pins or contacts push it.
+bool keeps_course(Plant& plant, double h, const Push& push = {});
 
 // Translates a plant with its pins, between solves, if they were put farther away than `least` times its size.
 bool jump_with_pins(Plant& plant, double least);

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/lanes.hpp"
-#include "mechanics/rotation.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
 
@@ -96,11 +95,6 @@ double reach_at_start(const Plant& plant) {
 
 }  // namespace
 
-Vec3 turn_of(const VecX& x, const VecX& from, int node) {
-    return rotation_vector<double>(rotation_of<double>(point(x, node)) *
-                                   rotation_of<double>(point(from, node)).transpose());
-}
-
 double farthest_way(const Plant& plant) {
     return farthest(plant, plant.motion.x, plant.x_good);
 }
@@ -113,8 +107,9 @@ bool ends_off_course(const Plant& plant, double h) {
     const auto is_off = [&](int i) {
         const double off = (point(x, i) - point(x_good, i) - h * point(v_good, i)).squaredNorm();
         if (off < (i % 2 ? turned_far : far)) return false;
-        const bool turns = plant.follow && i % 2;
-        return !turns || !((turn_of(x, x_good, i) - h * point(v_good, i)).squaredNorm() < turned_far);
+        const Vec3 end = wound_as(Vec3(point(x_good, i)), Vec3(point(x, i)));
+        return !plant.follow || i % 2 == 0 ||
+               !((end - point(x_good, i) - h * point(v_good, i)).squaredNorm() < turned_far);
     };
     return has_node(OffCourse{x, x_good, v_good, h}, int(x.size() / 3), far, turned_far, is_off);
 }

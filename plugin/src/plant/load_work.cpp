@@ -34,8 +34,9 @@ void add_air(const Plant& plant, LoadWork& work) {
         const Vec3 after = attachment_velocity(drag.attachment, plant.motion.x, plant.motion.v);
         const Vec3 way = displacement(drag.attachment, plant);
         work.air += (drag.force - drag.damping * after).dot(way);
-        work.error += 0.5 * std::abs((drag.damping * (after - before)).dot(way));
+        work.air_error += 0.5 * std::abs((drag.damping * (after - before)).dot(way));
     }
+    work.error += work.air_error;
 }
 
 // Returns the springs of grabs, which follow those that hold pinned nodes.
@@ -162,13 +163,12 @@ void add_forces(const Plant& plant, const VecX& way, LoadWork& work) {
         work.error += 0.5 * point(force, i).norm() * point(way, i).squaredNorm();
 }
 
-// Returns the displacement in the step, rotation vectors by the shorter way [m], [rad].
+}  // namespace
+
 VecX way_of_step(const Plant& plant) {
     const VecX& end = plant.motion.x;
     return (plant.follow ? wound_as(plant.x_good, end) : end) - plant.x_good;
 }
-
-}  // namespace
 
 LoadWork work_of_loads(const Plant& plant, double h, const Vec3& impulse) {
     LoadWork work;

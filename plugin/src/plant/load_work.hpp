@@ -8,8 +8,11 @@ namespace frond {
 // All [J].
 struct LoadWork {
     double forces = 0, grabs = 0, air = 0, pins = 0;
-    double error = 0;  // estimate of the error of their sum
+    double error = 0, air_error = 0;  // estimates of the errors of their sum and of the air's part of it
 };
+
+// Returns the displacement of all nodes in the running step, rotation vectors by the shorter way [m], [rad].
+VecX way_of_step(const Plant& plant);
 
 // Computes the work of the loads in a step of h [s] that the plant has just completed: each load's force at the step's
 // end times the displacement of what it acts on, as implicit Euler counts it. The estimated error is half the change of

@@ -182,8 +182,8 @@ SolveReport solve_in_substeps(Plant& plant, double h);
 Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effects effects);
 SolveSettings settings_for(const Plant& plant, frond_effects effects);
 // Adds contact_impulse and contact_correction, if there are any, to the solved step of a plant in contact: only then
-// does its energy show whether the step went wrong. `lost`: energy that bodies which push it lost [J].
-void add_contacts(Plant& plant, double h, double lost);
+// does its energy show whether the step went wrong.
+void add_contacts(Plant& plant, double h);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Replaces the second half if the step was broken off: puts the plant back to where it was before the first one.
 void drop_step(Plant& plant);

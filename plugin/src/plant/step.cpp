@@ -4,6 +4,7 @@
 
 #include "core/timer.hpp"
 #include "plant/guard.hpp"
+#include "plant/load_work.hpp"
 #include "plant/plant.hpp"
 #include "solve/integrator.hpp"
 
@@ -38,6 +39,12 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
         if (!fragment_of_vertex(plant, size_t(grab.vertex))) loads.springs.push_back(grab_spring(plant, grab));
 }
 
+// Starts methods with history anew where the host's forces begin and end: bdf2 would give half a step too little or too
+// much of their momentum.
+static void look_back_over_no_force(Plant& plant) {
+    if (plant.has_user_force) plant.motion.history.valid = plant.motion.history.shaken = false;
+}
+
 // Makes a part of what is strained beyond its yield plastic.
 static void keep_sets(Plant& plant, double h) {
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
@@ -50,22 +57,12 @@ static void keep_sets(Plant& plant, double h) {
     row.flow(*plant.own_elements, plant.motion.x, h);
 }
 
-// A pressed plant springs far in a solve without contacts; its energy is meaningless there.
-enum class Contacts { TO_COME, NONE, PUSH };
-
-// Returns the contact state of a step that has only been solved so far.
-static Contacts contacts_of(const Plant& plant) {
-    return plant.is_touched ? Contacts::TO_COME : Contacts::NONE;
-}
-
-// Returns whether no node ran away, and none left its course with energy that nothing can have given; `work` was done
-// by contacts [J].
-static bool is_plausible(Plant& plant, double h, Contacts contacts, double work = 0) {
-    if (contacts == Contacts::TO_COME) {
-        plant.is_off_course = ends_off_course(plant, h);
-        return !has_run_away(plant);
-    }
-    return keeps_course(plant, h, contacts == Contacts::PUSH, work);
+// Returns whether no node ran away, and none left its course with energy that nothing can have given. A pressed plant
+// springs far in a solve without contacts, and its energy is meaningless there; `push`: null until they are known.
+static bool is_plausible(Plant& plant, double h, const Push* push) {
+    if (push || !plant.is_touched) return keeps_course(plant, h, push ? *push : Push());
+    plant.is_off_course = ends_off_course(plant, h);
+    return !has_run_away(plant);
 }
 
 // Returns whether the solution, as moved since then, can be the next state.
@@ -73,39 +70,63 @@ static bool is_sound(const Plant& plant) {
     return plant.report.ok && are_finite(plant.motion.x) && are_finite(plant.motion.v) && !has_run_away(plant);
 }
 
-// Solves again from the start of the step by minimising its potential: no iterate has more than the start, so the first
-// and any later one is a step that can be taken.
-static void minimise(Plant& plant, frond_integrator method, double h) {
+// Solves again from the start of the step by minimising its potential, in which a share of a push is a force: no
+// iterate has more than the start, so the first and any later one is a step that can be taken.
+static void minimise(Plant& plant, frond_integrator method, double h, const Push* push, double share = 1) {
     constexpr int ITERATIONS = 30;
-    constexpr int MOST_WORK = 400;  // evaluations of all forces, about the most that a search needs
     SolveSettings settings = plant.step_settings;
     settings.integrator = method;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
     // From rest, entangled rods that are bent by their leaves' tips would stay still and never part.
-    settings.from_rest = !plant.is_entangled;
-    settings.most_work = MOST_WORK;
+    settings.from_rest = share < 1 || !plant.is_entangled;
     plant.trouble |= FROND_TROUBLE_RETRIED;
     Motion& motion = plant.motion;
     motion.x = plant.x_good;
     motion.v = plant.v_good;
     plant.fibre_force.resize(0);
+    const VecX force = plant.loads.force;
+    if (push && push->impulse.size() > 0) {
+        plant.loads.force = share / h * push->impulse;
+        if (force.size() > 0) plant.loads.force += force;
+    }
     const SolveReport before = plant.report;
     plant.report = solve_step(*plant.workspace, settings, plant.loads, h, motion);
     plant.report.add_cost(before);
+    plant.loads.force = force;
     motion.history.shaken = true;
 }
 
+// Goes only as far along the step as the plant gains no energy that nothing can have given.
+static void hold_back(Plant& plant, double h, const Push* push) {
+    constexpr double LEAST = 0.01;  // share of the step from which on it is rewound [-]
+    Motion& motion = plant.motion;
+    const VecX way = way_of_step(plant), v = motion.v;
+    for (double share = 1; share > LEAST; share /= 2) {
+        motion.x = plant.x_good + share * way;
+        motion.v = share * v;
+        if (is_plausible(plant, h, push)) return;
+    }
+    plant.report.ok = false;
+}
+
 // Solves again where one solve gave the plant energy that nothing can have given: by its own integrator, which keeps
-// vibrations, and if that fails too by implicit Euler, which gains no energy.
-static void solve_again(Plant& plant, double h, Contacts contacts, double work = 0) {
+// vibrations, and if that fails too by implicit Euler. That gains no energy but by a push which no longer points where
+// it was to push, for the plant has turned: then it pushes less.
+static void solve_again(Plant& plant, double h, const Push* push) {
     const frond_integrator own = plant.step_settings.integrator;
     if (!plant.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
-        minimise(plant, own, h);
-        if (plant.report.ok && is_plausible(plant, h, contacts, work) && are_slack(plant)) return;
+        minimise(plant, own, h, push);
+        if (plant.report.ok && is_plausible(plant, h, push) && are_slack(plant)) return;
     }
     plant.motion.history.valid = false;
-    minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h);
+    minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push);
+    const bool is_pushed = push && push->impulse.size() > 0;
+    for (const double share : {0.25, 0.05, 0.0}) {
+        if (!is_pushed || !plant.report.ok || is_plausible(plant, h, push)) break;
+        minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, share);
+    }
+    if (plant.report.ok && !is_plausible(plant, h, push)) hold_back(plant, h, push);
 }
 
 // Returns whether one solve predicts the displacements well. An unwound rotation vector has not turned far.
@@ -126,7 +147,9 @@ static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h
 }
 
 SolveSettings settings_for(const Plant& plant, frond_effects effects) {
+    constexpr int MOST_WORK = 400;  // evaluations of all forces, about the most that a search needs
     SolveSettings settings = plant.settings;
+    settings.most_work = MOST_WORK;
     if (!(effects & FROND_EFFECT_DAMPING))
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
@@ -159,8 +182,9 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
 
     // Solve.
     motion.history.shaken |= plant.is_touched;
+    look_back_over_no_force(plant);
     plant.report = solve_in_substeps(plant, h);
-    if (!plant.report.ok || !is_plausible(plant, h, contacts_of(plant))) solve_again(plant, h, contacts_of(plant));
+    if (!plant.report.ok || !is_plausible(plant, h, nullptr)) solve_again(plant, h, nullptr);
     finish_solving(plant, effects, h);
 }
 
@@ -188,30 +212,25 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
     }
 }
 
-void add_contacts(Plant& plant, double h, double lost) {
+void add_contacts(Plant& plant, double h) {
     if (!plant.is_sound) return;
-    const bool is_pushed = plant.contact_impulse.size() > 0;
-    const VecX impulse = is_pushed ? std::move(plant.contact_impulse) : VecX(VecX::Zero(plant.motion.v.size()));
+    Push push = {std::move(plant.contact_impulse)};
     const VecX shift = std::move(plant.contact_correction);
     plant.contact_impulse.resize(0);
     plant.contact_correction.resize(0);
     VecX dv;
-    if (is_pushed && respond(*plant.workspace, plant.settings, impulse, dv))
+    const bool is_pushed = push.impulse.size() > 0;
+    if (is_pushed && respond(*plant.workspace, plant.settings, push.impulse, dv))
         add_response(*plant.workspace, dv, plant.motion);
+    const double by_velocity = is_pushed ? push.impulse.dot(plant.motion.v) : 0;
     retract_step(*plant.workspace, plant.motion);
-    // Bodies slowed by a push lose more than the plant gains; other plants go along with what they pushed.
-    const double work = std::max({0.0, lost, impulse.dot(plant.motion.v)});
+    // What is pushed goes along with what pushes it, as far as the response is linear.
+    const double by_way = is_pushed ? push.impulse.dot(way_of_step(plant)) / h : 0;
+    push.work = std::max(0.0, std::min(by_velocity, by_way));
     // Cages are not retracted: what turns in them is inflated.
     const bool is_bent = is_pushed && !plant.follow && !is_calm(*plant.system, plant.x_good, plant.motion.x);
-    const Contacts contacts = is_pushed ? Contacts::PUSH : Contacts::NONE;
-    if (is_bent || !is_plausible(plant, h, contacts, work)) {
-        // This is too far for the linear response: the same push is solved as a force, nonlinearly.
-        VecX with_push = impulse / h;
-        if (plant.loads.force.size() > 0) with_push += plant.loads.force;
-        plant.loads.force.swap(with_push);
-        solve_again(plant, h, contacts, work);
-        plant.loads.force.swap(with_push);
-    }
+    // Where this is too far for the linear response, the same push is solved as a force, nonlinearly.
+    if (is_bent || !is_plausible(plant, h, &push)) solve_again(plant, h, &push);
     if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
     plant.is_sound = is_sound(plant) && !is_far_out(plant);
 }
@@ -240,6 +259,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
             plant.ms_plasticity = timer.ms();
         }
     }
+    look_back_over_no_force(plant);
     plant.stepped_by = h;
     carry_stumps(plant);
     pass_time(plant.blend_out, h);

@@ -144,8 +144,9 @@ bool make_compliance(Workspace& workspace, const SolveSettings& settings, const 
 // Replaces rotation vectors beyond half a turn by those of the same rotation the other way round, in the motion and its
 // history, and converts their rates.
 void unwind(Motion& motion);
-// Does the inverse: returns `to` with each rotation vector replaced by the one of the same rotation that is nearest to
-// that in `from`.
+// Does the inverse: returns the rotation vector of the same rotation as `to` that is nearest to `from`; likewise those
+// of all nodes that rotate.
+Vec3 wound_as(const Vec3& from, const Vec3& to);
 VecX wound_as(const VecX& from, VecX to);
 // Returns the kinetic energy with the system's mass matrix [J].
 double kinetic_energy(const System& system, const VecX& x, const VecX& v);

@@ -43,14 +43,16 @@ void unwind(Motion& motion) {
     }
 }
 
+Vec3 wound_as(const Vec3& from, const Vec3& to) {
+    const double way = (to - from).squaredNorm();
+    if (!(way > M_PI * M_PI)) return to;
+    const Vec3 other = to * (1 - 2 * M_PI / to.norm());
+    return (other - from).squaredNorm() < way ? other : to;
+}
+
 VecX wound_as(const VecX& from, VecX to) {
-    for (int node = 1; node < to.size() / 3; node += 2) {
-        const Vec3 turn = point(to, node), start = point(from, node);
-        const double way = (turn - start).squaredNorm();
-        if (!(way > M_PI * M_PI)) continue;
-        const Vec3 other = turn * (1 - 2 * M_PI / turn.norm());
-        if ((other - start).squaredNorm() < way) point(to, node) = other;
-    }
+    for (int node = 1; node < to.size() / 3; node += 2)
+        point(to, node) = wound_as(Vec3(point(from, node)), Vec3(point(to, node)));
     return to;
 }
 

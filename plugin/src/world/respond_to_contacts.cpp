@@ -244,25 +244,10 @@ const std::vector<Coupling>& couple(Coupler& coupler, int by) {
     return row;
 }
 
-// Returns for each plant the energy that bodies lose by pushing it [J].
-std::vector<double> losses_of_bodies(size_t plant_count, const std::vector<Row>& rows,
-                                     const std::vector<Vec3>& impulses) {
-    std::vector<double> losses(plant_count, 0);
-    for (size_t i = 0; i < rows.size(); i++) {
-        if (rows[i].plants[1] || impulses[i].isZero(0)) continue;
-        Vec3 change = Vec3::Zero();
-        for (size_t k = 0; k < rows.size(); k++)
-            if (are_one_body(rows[i], rows[k]))
-                change -= compliance_between(rows[i].contact_body, rows[k].contact_body) * impulses[k];
-        losses[size_t(rows[i].plants[0]->place)] += impulses[i].dot(rows[i].contact_body.velocity + 0.5 * change);
-    }
-    return losses;
-}
-
 // Adds contacts to the steps of all plants, also of those that nothing pushes: their solution without contacts then
-// stands. `losses`: of bodies, one per plant [J].
-void end_steps(const ContactIsland& island, const std::vector<double>& losses) {
-    for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending, losses[size_t(body->place)]);
+// stands.
+void end_steps(const ContactIsland& island) {
+    for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending);
 }
 
 // Applies the rows' impulses to both sides. Returns the rigid bodies that were pushed.
@@ -279,7 +264,7 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
                   [](Plant& p, const PlantTouch& touch, const Vec3& impulse) { take_impulse(p, touch, impulse); });
         if (!pushes.corrections.empty()) to_plants(rows[i], pushes.corrections[i], take_correction);
     }
-    end_steps(island, losses_of_bodies(island.plants.size(), rows, pushes.impulses));
+    end_steps(island);
     std::vector<btRigidBody*> pushed;
     // A plant whose step fails is rewound, and then pushes nothing.
     for (size_t i = 0; i < rows.size(); i++) {
@@ -302,7 +287,7 @@ std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& resp
     for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
     for (Bond* bond : island.bonds) add_row(*bond, h, rows);
     if (all_wait(rows, h)) {
-        end_steps(island, std::vector<double>(island.plants.size(), 0));
+        end_steps(island);
         return {};
     }
     find_compliances(rows);
