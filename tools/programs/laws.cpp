@@ -109,9 +109,11 @@ void Laws::check_finite(const Standing& plant) {
         throw Breach(Law::FINITE, "a plant is not finite");
 }
 
-// A rooted plant is where its foot is. Another one may have gone as fast as anything could make it go.
+// A rooted plant is where its foot is. Another one may have gone as fast as anything could make it go. The linear law
+// knows no end of bending: a force carries a leaf any number of its lengths away.
 void Laws::check_places(const Standing& plant, const Loads& loads) {
     constexpr double REACH = 2, FAST = 30;  // [sizes], [m/s]
+    if (plant.def.mechanics == FROND_MECHANICS_TET_LINEAR && loads.force > 0) return;
     const Places now = places_of(plant.handle);
     const bool is_rooted =
         plant.def.root_height >= 0 && !plant.is_changed && frond_plant_get_fragment_count(plant.handle) == 0;

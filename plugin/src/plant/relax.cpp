@@ -60,8 +60,10 @@ void relax(Plant& plant, const StoredEnergy& most) {
         take_velocities(plant, settings, given);
         return_workspace(plant);
     }
-    const double kinetic = stored_energy(plant).kinetic;
-    if (!(kinetic <= most.kinetic + none)) motion.v *= std::sqrt(most.kinetic / kinetic);
+    // What could not be relaxed is taken from the motion.
+    const StoredEnergy now = stored_energy(plant);
+    const double kinetic = std::max(0.0, most.kinetic + std::min(0.0, bound - now.elastic));
+    if (!(now.kinetic <= kinetic + none)) motion.v *= std::sqrt(kinetic / now.kinetic);
     motion.history.valid = false;
     motion.history.shaken = true;  // the first step damps the rest
 }
