@@ -26,6 +26,7 @@ struct FourPoints {
     FROND_INLINE int count_tets(const Mask& mask) const {
         return any(mask);
     }
+    FROND_INLINE double sum(const S& of_each) const { return (of_each[0] + of_each[1]) + (of_each[2] + of_each[3]); }
     FROND_INLINE TetShareLanes<S> share() const {
         const auto at = [&](int i) __attribute__((always_inline)) {
             return gather<S>([&](int q) { return rest_inverse(elements, tet, q, 4).data()[i]; });

@@ -31,6 +31,11 @@ struct FourTets {
         for (int l = 0; l < count; ++l) sum += mask[l] != 0;
         return sum;
     }
+    FROND_INLINE double sum(const S& of_each) const {
+        double sum = 0;
+        for (int l = 0; l < count; ++l) sum += of_each[l];
+        return sum;
+    }
     FROND_INLINE Lanes33<S> at_rest() const {
         const double* inverse[TETS];
         for (size_t l = 0; l < TETS; ++l) inverse[l] = rest_inverse(elements, tet[l], 0, 1).data();

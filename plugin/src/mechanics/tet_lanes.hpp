@@ -19,6 +19,7 @@ struct TetPass {
     const TetElements& elements;
     const VecX& x;
     int& inverted;  // number of inverted tets
+    double* energy = nullptr;
     VecX* f = nullptr;
     BlockMatrix* K = nullptr;
     Tangent tangent = Tangent::positive;
@@ -37,6 +38,8 @@ struct TetPass {
             const TetShareLanes<S> share = tets.share();
             const auto strain = Law::strain(tets.edges(x.data()) * share.rest_inverse);
             inverted += tets.count_tets(Law::inverted(strain));
+            if (energy) *energy += tets.sum(share.volume * Law::energy(share, strain));
+            if (!f && !K) continue;
             S by = constant<S>(scale), damped = constant<S>(0);
             if (damping) damped = tets.of_tets(*damping);
             if (ahead) {
@@ -59,6 +62,14 @@ struct TetPass {
 
 template <class Law, class Group>
 struct TetRowInLanes {
+    static double energy(const Elements& body, const VecX& x) {
+        double energy = 0;
+        int inverted = 0;
+        TetPass<Law, Group> pass = {as_tets(body), x, inverted};
+        pass.energy = &energy;
+        run_in_lanes(pass);
+        return energy;
+    }
     static int add_force(const Elements& body, const VecX& x, VecX& f) {
         int inverted = 0;
         TetPass<Law, Group> pass = {as_tets(body), x, inverted};
@@ -112,7 +123,7 @@ Mechanics tet_row(const char* name, int order, bool needs_search) {
         return Mechanics{name,
                          make,
                          tet_masses,
-                         rows.energy,
+                         lanes.energy,
                          lanes.add_force,
                          lanes.add_stiffness,
                          lanes.add_both,

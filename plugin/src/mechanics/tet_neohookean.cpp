@@ -141,10 +141,13 @@ struct Neohookean {
     }
 
     // The values at rest are subtracted term by term, so that little is lost to rounding near rest.
-    static double energy(const TetShareLanes<double>& tet, const Strain<double>& s) {
-        const Slopes<double> of = slopes(tet, s);
-        const double stretch = s.I - 3, swell = s.J - 1;
-        return 0.5 * of.m * (stretch - std::log1p(stretch / 4)) + 0.5 * of.l * swell * swell - 0.75 * of.m * swell;
+    template <class S>
+    FROND_INLINE static S energy(const TetShareLanes<S>& tet, const Strain<S>& s) {
+        const Slopes<S> of = slopes(tet, s);
+        const S stretch = s.I - 3.0, swell = s.J - 1.0;
+        S bend = stretch;
+        for (int l = 0; l < LANES<S>; ++l) set_lane(bend, l, std::log1p(lane_of(stretch, l) / 4));
+        return 0.5 * of.m * (stretch - bend) + 0.5 * of.l * swell * swell - 0.75 * of.m * swell;
     }
 
     template <class S>

@@ -14,19 +14,6 @@ namespace frond {
 
 template <class Law, class Element>
 struct TetRow {
-    static double energy(const Elements& body, const VecX& x) {
-        const TetElements& elements = as_tets(body);
-        double energy = 0;
-        for (size_t e = 0; e < elements.tets.size(); ++e) {
-            const auto places = Element::places(elements, e, x);
-            for (int q = 0; q < Element::POINTS; ++q) {
-                const TetShare share = Element::share(elements, e, q);
-                energy += share.volume * Law::energy(share, Law::strain(share, Element::gradient(share, places, q)));
-            }
-        }
-        return energy;
-    }
-
     // Makes the strain beyond yield plastic, or only a part of it where F_p would go too far.
     static void let_flow(const Yield& yield, const TetShare& share, const Mat3& F, const Strained& now, double h,
                          const Mat3& rest_inverse, TetPlastic& plastic) {
