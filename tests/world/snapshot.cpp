@@ -216,6 +216,27 @@ TEST(Snapshot, GoesBackWithWhatBrokeOff) {
     EXPECT_EQ(garden.restore(bytes), FROND_RESULT_BAD_ARGUMENT);
 }
 
+TEST(Snapshot, MakesWholeWhatBrokeSince) {
+    Garden garden(3);
+    garden.run(5);
+    const std::vector<char> bytes = garden.save();
+    const std::vector<uint64_t> first = garden.run(20);
+    ASSERT_EQ(garden.restore(bytes), FROND_OK) << frond_last_error();
+    for (const int plant : {0, 2}) {
+        const frond_plant broken = garden.plants[size_t(plant)];
+        ASSERT_EQ(frond_plant_break(broken, frond_plant_get_capsule_count(broken) - 2), FROND_OK) << frond_last_error();
+        garden.run(7);
+    }
+    ASSERT_EQ(garden.restore(bytes), FROND_OK) << frond_last_error();
+    EXPECT_EQ(frond_plant_get_fragment_count(garden.plants[0]), 0);
+    EXPECT_EQ(garden.run(20), first);
+
+    // What was made since the plant broke would change its place among Bullet's objects.
+    ASSERT_EQ(frond_plant_break(garden.plants[0], frond_plant_get_capsule_count(garden.plants[0]) - 2), FROND_OK);
+    garden.add(FROND_SHAPE_BOX, {2, 0.5, 0}, 0, {});
+    EXPECT_EQ(garden.restore(bytes), FROND_RESULT_BAD_ARGUMENT);
+}
+
 // For every kind of wrong bytes: a code, a text, and an unchanged world.
 struct Refused : testing::Test {
     Garden garden{2};

@@ -98,6 +98,12 @@ struct Snapshot {
     SavedTouches touches;
 };
 
+// Returns whether a body is a fragment of a plant that was whole in the snapshot, so that it goes when that is
+// restored.
+inline bool is_to_go(const Snapshot& snapshot, const Rigid& rigid) {
+    return rigid.grown_on && snapshot.plants[size_t(rigid.grown_on->index)].fragments.empty();
+}
+
 // Describes the world as it is now. Sleeping plants are decompressed meanwhile.
 Snapshot take_snapshot(World& world);
 // Throws BAD_ARGUMENT or FILE_FORMAT, with nothing changed, if the snapshot does not fit the world.

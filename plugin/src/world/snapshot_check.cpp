@@ -66,12 +66,30 @@ Becomes becomes(const Plant& plant, frond_mechanics which) {
     return {system, &mechanics(which, plant.nodes->order), 3 * Eigen::Index(elements_of(*system).node_count)};
 }
 
-void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& touches) {
+// Returns the number of Bullet's objects that stay; those that go have to be the last ones, or the others would change
+// places.
+int count_staying(const World& world, const Snapshot& snapshot) {
+    const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
+    int count = objects.size();
+    const auto goes = [&](const btCollisionObject* object) {
+        return std::any_of(world.rigids.begin(), world.rigids.end(), [&](const std::unique_ptr<Rigid>& rigid) {
+            return rigid->body.get() == object && is_to_go(snapshot, *rigid);
+        });
+    };
+    while (count > 0 && goes(objects[count - 1])) count--;
+    for (int i = 0; i < count; i++)
+        if (goes(objects[i]))
+            fail(FROND_RESULT_BAD_ARGUMENT,
+                 "a plant broke, and something was made after that; call frond_plant_reset first");
+    return count;
+}
+
+void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& touches, size_t object_count) {
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     for (const SavedContact& c : touches.with_bodies) {
         check_index(c.plant, world.bodies.size(), "contacts");
         check_index(c.capsule, world.bodies[size_t(c.plant)]->capsules().size(), "contacts");
-        check_index(c.other, size_t(objects.size()), "contacts");
+        check_index(c.other, object_count, "contacts");
         if (PlantBody::of(objects[c.other])) damaged("contacts");
         for (const Vec3& v : {c.on_plant, c.on_other, c.normal, c.impulse}) check_numbers(v, "contacts");
         check_numbers(std::array{c.along, c.across, c.gap, c.friction}, "contacts");
@@ -128,6 +146,7 @@ void check_blend_out(const BlendOut& blend_out, Eigen::Index numbers) {
 
 void check_fragments(const SavedPlant& saved, const PlantBody& body) {
     const Plant& plant = *body.plant;
+    if (saved.fragments.empty()) return;  // a plant that broke since is whole again
     bool alike = saved.fragments.size() == plant.fragments.size();
     for (size_t i = 0; alike && i < saved.fragments.size(); i++)
         alike = saved.fragments[i].node == plant.fragments[i].node;
@@ -140,7 +159,7 @@ void check_fragments(const SavedPlant& saved, const PlantBody& body) {
         check_numbers(f.turn.reshaped(), "fragments");
         for (const Vec3& v : {f.shift, f.centre, f.velocity, f.angular_velocity}) check_numbers(v, "fragments");
     }
-    if (!plant.fragments.empty() && (saved.which != plant.which || !saved.modal.empty()))
+    if (saved.which != plant.which || !saved.modal.empty())
         fail(FROND_RESULT_BAD_ARGUMENT,
              "plant %d is broken and had other mechanics; call frond_plant_set_mechanics first", body.index);
 }
@@ -161,9 +180,8 @@ void check_pins(const SavedPlant& saved, const Plant& plant) {
     check_size(saved.user_force, 3 * Eigen::Index(nodes), "forces", !saved.has_user_force);
 }
 
-void check_plant(const World& world, const SavedPlant& saved, const PlantBody& body) {
+void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_count) {
     const Plant& plant = *body.plant;
-    const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     if (saved.kind != kind_of(plant))
         fail(FROND_RESULT_BAD_ARGUMENT,
              "plant %d is of another model, place or setting than in the snapshot; make the same plants in "
@@ -194,7 +212,7 @@ void check_plant(const World& world, const SavedPlant& saved, const PlantBody& b
     check_numbers(saved.air, "plants");
     for (const SavedGrownIn& grown_in : saved.grown_in) {
         check_index(grown_in.capsule, body.capsules().size(), "ground");
-        check_index(grown_in.other, size_t(objects.size()), "ground");
+        check_index(grown_in.other, object_count, "ground");
         if (!(grown_in.depth >= 0)) damaged("ground");
     }
 }
@@ -216,17 +234,21 @@ void check_rigid(const SavedRigid& saved, const Rigid& own) {
 
 void check_snapshot(World& world, const Snapshot& snapshot) {
     check_count(snapshot.plants.size(), world.bodies.size(), "plants");
-    check_count(snapshot.rigids.size(), world.rigids.size(), "rigid bodies");
+    std::vector<const Rigid*> staying;
+    for (const std::unique_ptr<Rigid>& rigid : world.rigids)
+        if (!is_to_go(snapshot, *rigid)) staying.push_back(rigid.get());
+    check_count(snapshot.rigids.size(), staying.size(), "rigid bodies");
+    const size_t object_count = size_t(count_staying(world, snapshot));
     check_count(snapshot.bonds.size(), world.bonds.size(), "bonds");
     check_numbers(std::array{snapshot.time, snapshot.travelled}, "time");
     check_numbers(snapshot.gravity_before, "time");
     for (size_t i = 0; i < snapshot.plants.size(); i++) {
-        check_plant(world, snapshot.plants[i], look_at(*world.bodies[i]));
-        check_touches(world, snapshot, snapshot.plants[i].asleep_with);
+        check_plant(snapshot.plants[i], look_at(*world.bodies[i]), object_count);
+        check_touches(world, snapshot, snapshot.plants[i].asleep_with, object_count);
     }
     compress_looked_at(world);
-    check_touches(world, snapshot, snapshot.touches);
-    for (size_t i = 0; i < snapshot.rigids.size(); i++) check_rigid(snapshot.rigids[i], *world.rigids[i]);
+    check_touches(world, snapshot, snapshot.touches, object_count);
+    for (size_t i = 0; i < snapshot.rigids.size(); i++) check_rigid(snapshot.rigids[i], *staying[i]);
     size_t i = 0;
     for (const Bond& bond : world.bonds) {
         const SavedBond& saved = snapshot.bonds[i++];
@@ -238,7 +260,7 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
     }
     const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
     for (const SavedAhead& ahead : snapshot.ahead) {
-        check_index(ahead.body, size_t(objects.size()), "gravity");
+        check_index(ahead.body, object_count, "gravity");
         if (!btRigidBody::upcast(objects[ahead.body])) damaged("gravity");
         check_numbers(ahead.force, "gravity");
     }

@@ -150,6 +150,9 @@ void put_rigid(const SavedRigid& saved, Rigid& rigid) {
 
 void put_snapshot(World& world, Snapshot snapshot) {
     world.gravity_ahead = {};  // no gravity is left to be cancelled
+    for (size_t i = 0; i < snapshot.plants.size(); i++)
+        if (snapshot.plants[i].fragments.empty() && !world.bodies[i]->plant->fragments.empty())
+            reset_plant(*world.bodies[i]);
     for (const auto& body : world.bodies) wake(*body);
     world.time = snapshot.time;
     if (world.wind) world.wind->travelled = snapshot.travelled;
