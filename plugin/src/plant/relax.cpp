@@ -11,8 +11,8 @@ namespace frond {
 
 StoredEnergy stored_energy(const Plant& plant) {
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
-    const Elements& elements = elements_of(plant);
-    return {row.energy(elements, plant.motion.x) - row.energy(elements, elements.modelled),
+    const Elements& new_ones = elements_of(*plant.system);  // plastic strain leaves the modelled shape strained
+    return {row.energy(elements_of(plant), plant.motion.x) - row.energy(new_ones, new_ones.modelled),
             kinetic_energy(*plant.system, plant.motion.x, plant.motion.v)};
 }
 
