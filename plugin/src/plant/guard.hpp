@@ -31,8 +31,8 @@ double lifting_energy(const Plant& plant);
 
 // What contacts do to a plant in a step.
 struct Push {
-    VecX impulse;     // on its nodes [N s]; empty: none
-    double work = 0;  // the most that they can have given [J]
+    VecX impulse;          // on its nodes [N s]; empty: none
+    double most_work = 0;  // the most that they can have given [J]
 };
 // Sets is_off_course after a solve over h [s] from x_good and v_good, and returns whether the plant may go there: it
 // did not run away, nor gain energy that the loads and the push cannot have given. What stayed on its course is not

@@ -70,24 +70,23 @@ static bool is_sound(const Plant& plant) {
     return plant.report.ok && are_finite(plant.motion.x) && are_finite(plant.motion.v) && !has_run_away(plant);
 }
 
-// Solves again from the start of the step by minimising its potential, in which a share of a push is a force: no
-// iterate has more than the start, so the first and any later one is a step that can be taken.
-static void minimise(Plant& plant, frond_integrator method, double h, const Push* push, double share = 1) {
+// Solves again from the start of the step by minimising its potential, in which a push is a force: no iterate has more
+// than the start, so the first and any later one is a step that can be taken.
+static void minimise(Plant& plant, frond_integrator method, double h, const Push& push, bool from_rest) {
     constexpr int ITERATIONS = 30;
     SolveSettings settings = plant.step_settings;
     settings.integrator = method;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
-    // From rest, entangled rods that are bent by their leaves' tips would stay still and never part.
-    settings.from_rest = share < 1 || !plant.is_entangled;
+    settings.from_rest = from_rest;
     plant.trouble |= FROND_TROUBLE_RETRIED;
     Motion& motion = plant.motion;
     motion.x = plant.x_good;
     motion.v = plant.v_good;
     plant.fibre_force.resize(0);
     const VecX force = plant.loads.force;
-    if (push && push->impulse.size() > 0) {
-        plant.loads.force = share / h * push->impulse;
+    if (push.impulse.size() > 0) {
+        plant.loads.force = push.impulse / h;
         if (force.size() > 0) plant.loads.force += force;
     }
     const SolveReport before = plant.report;
@@ -113,20 +112,25 @@ static void hold_back(Plant& plant, double h, const Push* push) {
 // Solves again where one solve gave the plant energy that nothing can have given: by its own integrator, which keeps
 // vibrations, and if that fails too by implicit Euler. That gains no energy but by a push which no longer points where
 // it was to push, for the plant has turned: then it pushes less.
-static void solve_again(Plant& plant, double h, const Push* push) {
+static void solve_again(Plant& plant, double h, const Push* known) {
     const frond_integrator own = plant.step_settings.integrator;
+    // From rest, entangled rods that are bent by their leaves' tips would stay still and never part.
+    const bool from_rest = !plant.is_entangled;
+    Push push = known ? *known : Push();
     if (!plant.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
-        minimise(plant, own, h, push);
-        if (plant.report.ok && is_plausible(plant, h, push) && are_slack(plant)) return;
+        minimise(plant, own, h, push, from_rest);
+        if (plant.report.ok && is_plausible(plant, h, known) && are_slack(plant)) return;
     }
+    const auto has_ended = [&] { return !plant.report.ok || is_plausible(plant, h, known ? &push : nullptr); };
     plant.motion.history.valid = false;
-    minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push);
-    const bool is_pushed = push && push->impulse.size() > 0;
+    minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, from_rest);
+    const bool is_pushed = push.impulse.size() > 0;
     for (const double share : {0.25, 0.05, 0.0}) {
-        if (!is_pushed || !plant.report.ok || is_plausible(plant, h, push)) break;
-        minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, share);
+        if (!is_pushed || has_ended()) break;
+        push.impulse = share * known->impulse;
+        minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, true);
     }
-    if (plant.report.ok && !is_plausible(plant, h, push)) hold_back(plant, h, push);
+    if (!has_ended()) hold_back(plant, h, known ? &push : nullptr);
 }
 
 // Returns whether one solve predicts the displacements well. An unwound rotation vector has not turned far.
@@ -222,11 +226,10 @@ void add_contacts(Plant& plant, double h) {
     const bool is_pushed = push.impulse.size() > 0;
     if (is_pushed && respond(*plant.workspace, plant.settings, push.impulse, dv))
         add_response(*plant.workspace, dv, plant.motion);
-    const double by_velocity = is_pushed ? push.impulse.dot(plant.motion.v) : 0;
-    retract_step(*plant.workspace, plant.motion);
     // What is pushed goes along with what pushes it, as far as the response is linear.
-    const double by_way = is_pushed ? push.impulse.dot(way_of_step(plant)) / h : 0;
-    push.work = std::max(0.0, std::min(by_velocity, by_way));
+    if (is_pushed) push.most_work = std::max(0.0, push.impulse.dot(plant.motion.v));
+    retract_step(*plant.workspace, plant.motion);
+    if (is_pushed) push.most_work = std::min(push.most_work, std::max(0.0, push.impulse.dot(way_of_step(plant)) / h));
     // Cages are not retracted: what turns in them is inflated.
     const bool is_bent = is_pushed && !plant.follow && !is_calm(*plant.system, plant.x_good, plant.motion.x);
     // Where this is too far for the linear response, the same push is solved as a force, nonlinearly.
