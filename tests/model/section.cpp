@@ -132,7 +132,8 @@ TEST(Section, OfATaperIsThatOfItsPlace) {
         const auto radius = [&](double y) { return r0 + (r1 - r0) * y / LENGTH; };
         const double mean =
             (std::pow(radius(end), -3) - std::pow(radius(begin), -3)) / (3 * (radius(begin) - radius(end)));
-        EXPECT_NEAR(sample.sections[i].inertia_thin * mean / (M_PI / 4), 1, 3e-3) << i;
+        EXPECT_NEAR(sample.sections[i].bending_thin() / 1e9 * mean / (M_PI / 4), 1, 3e-3) << i;
+        EXPECT_NEAR(sample.sections[i].taper, (radius(end) - radius(begin)) / (radius(end) + radius(begin)), 1e-3) << i;
     }
 }
 

@@ -23,12 +23,14 @@ size_t organ_of(const Model& model, size_t node) {
 // full cylinder with a factor on bending alone: a blade's factor, far below one, would let it stretch like rubber.
 void take_section(const Model& model, size_t node, RodSegment& rod) {
     const Section& section = model.sections[node];
-    const double stiffer = model.organ_stiffer[organ_of(model, node)], over = 12 / (rod.length * rod.length);
+    const double stiffer = model.organ_stiffer[organ_of(model, node)];
+    const double over = section.tilting_per_bending();
     const double thin = stiffer * section.bending_thin(), wide = stiffer * section.bending_wide();
     rod.reach_thin = 0.5 * section.thickness;
     rod.reach_wide = 0.5 * section.width;
     rod.stretch = Vec3(stiffer * section.stretching(), over * thin, over * wide);
     rod.bend = Vec3(stiffer * section.twisting(), wide, thin);
+    rod.centre = (section.elastic_centre() - 0.5) * rod.length;
     rod.warping = section.stretching() * std::pow(section.width, 4) / (720 * section.twisting());
 }
 void take_cylinder(const Model& model, size_t node, double radius, double stiffer, RodSegment& rod) {
@@ -74,16 +76,17 @@ void let_stand(RodElements& elements) {
         RodSegment& rod = elements.segments[s];
         const size_t a = size_t(rod.a), b = size_t(rod.b);
         const Vec3 chord = point(elements.modelled, 2 * rod.b) - point(elements.modelled, 2 * rod.a);
-        const Vec3 half = 0.5 * force[b].cross(chord);
-        const Vec3 couple = -half - moment[b];  // moment by the segment on its second node
+        const Vec3 from_end = force[b].cross(chord);
+        // Moment by the segment's end on its second node, at the elastic centre.
+        const Vec3 couple = (rod.centre / rod.length - 0.5) * from_end - moment[b];
         rod.rest_strain -= (rod.frame.transpose() * force[b]).cwiseQuotient(rod.stretch);
         rod.rest_curvature -= (rod.frame.transpose() * couple).cwiseQuotient(rod.bend);
         force[a] += force[b];
-        moment[a] += half - couple;
+        moment[a] += from_end + moment[b];
     }
 }
 
-// Adds half of each segment's rotary inertia, by its section, to either end; nodes have at least that of a small ball.
+// Adds each segment's rotary inertia, by its section, to its ends; nodes have at least that of a small ball.
 void set_inertia(const Model& model, RodElements& elements) {
     const size_t count = elements.mass.size();
     for (size_t i = 0; i < count; ++i) {
@@ -92,9 +95,26 @@ void set_inertia(const Model& model, RodElements& elements) {
     }
     for (const RodSegment& rod : elements.segments) {
         const Section& section = model.sections[size_t(rod.b)];
-        const Mat3 half =
-            rod.frame * Vec3(0.5 * rod.length * section.rotary_inertia()).asDiagonal() * rod.frame.transpose();
-        for (int end : {rod.a, rod.b}) elements.inertia[size_t(end)] += half;
+        const Mat3 whole = rod.frame * Vec3(rod.length * section.rotary_inertia()).asDiagonal() * rod.frame.transpose();
+        elements.inertia[size_t(rod.a)] += (1 - section.inertia_at_end()) * whole;
+        elements.inertia[size_t(rod.b)] += section.inertia_at_end() * whole;
+    }
+}
+
+// Sets the mass between the ends of each segment, half of that by linear shape functions. A node's mass is that of its
+// segments by their sections; what it carries beyond, by the segment's other end, stays with it.
+void share_mass(const Model& model, RodElements& elements) {
+    std::vector<double> by_sections(elements.mass.size(), 0.0);
+    const auto at_end = [&](const RodSegment& rod) { return model.sections[size_t(rod.b)].mass_at_end(); };
+    const auto whole = [&](const RodSegment& rod) { return model.sections[size_t(rod.b)].mass() * rod.length; };
+    for (const RodSegment& rod : elements.segments) {
+        by_sections[size_t(rod.a)] += (1 - at_end(rod)) * whole(rod);
+        by_sections[size_t(rod.b)] += at_end(rod) * whole(rod);
+    }
+    for (RodSegment& rod : elements.segments) {
+        const size_t a = size_t(rod.a), b = size_t(rod.b);
+        const double factor = std::min(elements.mass[a] / by_sections[a], elements.mass[b] / by_sections[b]);
+        rod.shared_mass = (1 - at_end(rod)) * at_end(rod) * factor * whole(rod) / 3;
     }
 }
 
@@ -135,6 +155,7 @@ RodElements make_elements(const Model& model, Take&& take) {
     for (double m : model.chain_mass) total += m;
     for (double m : model.chain_mass) out.mass.push_back(std::max(m, 1e-6 * total / double(nodes.size())));
     set_inertia(model, out);
+    share_mass(model, out);
     find_roots(out);
     if (model.stands_as_modelled) let_stand(out);
     return out;
@@ -173,8 +194,7 @@ std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics wh
 
 // Lumped: each node's own mass. Consistent: the mean of that and of linear shape functions (Goudreau, Taylor 1972),
 // 5/12 of a segment's mass at each end and 1/12 between them, since their errors are opposite: the third mode of ten
-// segments is 2.5 % too slow with the one, 3.7 % too fast with the other and 0.4 % too fast with their mean. Mass that
-// nodes carry beyond their segments' stays with them.
+// segments is 2.5 % too slow with the one, 3.7 % too fast with the other and 0.4 % too fast with their mean.
 Masses rod_masses(const Elements& body, frond_mass mass) {
     const RodElements& elements = as_rods(body);
     Masses masses;
@@ -186,18 +206,10 @@ Masses rod_masses(const Elements& body, frond_mass mass) {
         masses.slot[size_t(elements.pattern.slot(int(2 * i), int(2 * i)))] = elements.mass[i];
     }
     if (masses.lumped) return masses;
-    std::vector<int> pieces(elements.mass.size(), 0);
     for (const RodSegment& rod : elements.segments) {
-        pieces[size_t(rod.a)]++;
-        pieces[size_t(rod.b)]++;
-    }
-    for (const RodSegment& rod : elements.segments) {
-        const double shared = std::min(elements.mass[size_t(rod.a)] / pieces[size_t(rod.a)],
-                                       elements.mass[size_t(rod.b)] / pieces[size_t(rod.b)]) /
-                              6;
-        masses.slot[size_t(rod.slots[0])] -= shared;
-        masses.slot[size_t(rod.slots[10])] -= shared;
-        masses.slot[size_t(rod.slots[8])] += shared;
+        masses.slot[size_t(rod.slots[0])] -= rod.shared_mass;
+        masses.slot[size_t(rod.slots[10])] -= rod.shared_mass;
+        masses.slot[size_t(rod.slots[8])] += rod.shared_mass;
     }
     return masses;
 }

@@ -37,6 +37,7 @@ void take_outline(const Outline& outline, Section& section) {
     section.area = outline.area;
     section.inertia_thin = outline.inertia_thin;
     section.inertia_wide = outline.inertia_wide;
+    section.taper = outline.taper;
 }
 
 // A blade has a midrib that its sheet does not show: at least a round rib whose diameter is a twentieth of the width

@@ -18,11 +18,13 @@ struct Spread {
     Vec3 thin;
 };
 
-// The cuts of planes across a capsule with the surface, averaged over the planes.
+// The cuts of planes across a capsule with the surface, as those in its middle that together with the taper stand for
+// all of them.
 struct Outline {
     bool found = false;                 // a plane cuts one closed, compact outline, or both faces of a sheet
     double area;                        // enclosed area [m^2]
     double inertia_thin, inertia_wide;  // [m^4]
+    double taper;                       // see Section
     Vec3 thin;
     // For sheets: whether they are drawn with two faces, and their distance, by the rectangle of equal
     // area and perimeter [m].
