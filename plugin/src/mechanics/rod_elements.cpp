@@ -6,10 +6,12 @@
 #include "mechanics/rod_elements.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "core/error.hpp"
 #include "mechanics/rows.hpp"
 #include "mechanics/sections.hpp"
+#include "model/union_find.hpp"
 
 namespace frond {
 
@@ -59,6 +61,50 @@ RodSegment make_segment(const Model& model, size_t node) {
     return rod;
 }
 
+// Returns for each root of the chain the first root of the same body, or -1: itself. Where the cage is connected,
+// organs are one body although their chains begin apart.
+std::vector<int> find_ties(const Model& model) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    std::vector<int> tie(nodes.size(), -1);
+    if (model.chain_embedding.tet.size() != nodes.size()) return tie;
+    UnionFind bodies(model.cage.nodes.size());
+    for (const Tet& tet : model.cage.tets)
+        for (int corner : tet) bodies.join(tet[0], corner);
+    std::map<int, int> first;  // by body
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].parent >= 0) continue;
+        const int body = bodies.find(model.cage.tets[size_t(model.chain_embedding.tet[i])][0]);
+        const auto [known, is_new] = first.insert({body, int(i)});
+        if (!is_new) tie[i] = known->second;
+    }
+    return tie;
+}
+
+// Makes a segment between two roots of one body, as stiff as the stiffest one that begins there and without fibres that
+// could yield or break. Where the ground holds both it does nothing.
+RodSegment make_tie(const Model& model, int root, int other, const std::vector<RodSegment>& segments) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    const Vec3 way = nodes[size_t(other)].position - nodes[size_t(root)].position;
+    double stiff = 0, stretch = 0;
+    for (const RodSegment& rod : segments) {
+        if (rod.a != root && rod.a != other) continue;
+        stiff = std::max(stiff, rod.bend.maxCoeff());
+        stretch = std::max(stretch, rod.stretch[0]);
+    }
+    RodSegment tie = {};
+    tie.a = root;
+    tie.b = other;
+    tie.length = way.norm();
+    tie.frame.col(0) = way / tie.length;
+    tie.frame.col(1) = Vec3(tie.frame.col(0)).unitOrthogonal();
+    tie.frame.col(2) = tie.frame.col(0).cross(tie.frame.col(1));
+    tie.rest_strain = Vec3::UnitX();
+    const double over = 12 * stiff / (tie.length * tie.length);
+    tie.stretch = Vec3(stretch, over, over);
+    tie.bend = Vec3::Constant(stiff);
+    return tie;
+}
+
 void check_segment(const RodSegment& rod) {
     if (!rod.frame.allFinite() || !(rod.stretch.minCoeff() > 0) || !(rod.bend.minCoeff() > 0) ||
         !rod.stretch.allFinite() || !rod.bend.allFinite())
@@ -86,6 +132,10 @@ void let_stand(RodElements& elements) {
     }
 }
 
+bool is_tie(const Model& model, const RodSegment& rod) {
+    return model.chain.nodes[size_t(rod.b)].parent < 0;
+}
+
 // Adds each segment's rotary inertia, by its section, to its ends; nodes have at least that of a small ball.
 void set_inertia(const Model& model, RodElements& elements) {
     const size_t count = elements.mass.size();
@@ -94,6 +144,7 @@ void set_inertia(const Model& model, RodElements& elements) {
         elements.inertia.push_back(0.01 * elements.mass[i] * r * r * Mat3::Identity());
     }
     for (const RodSegment& rod : elements.segments) {
+        if (is_tie(model, rod)) continue;
         const Section& section = model.sections[size_t(rod.b)];
         const Mat3 whole = rod.frame * Vec3(rod.length * section.rotary_inertia()).asDiagonal() * rod.frame.transpose();
         elements.inertia[size_t(rod.a)] += (1 - section.inertia_at_end()) * whole;
@@ -108,10 +159,12 @@ void share_mass(const Model& model, RodElements& elements) {
     const auto at_end = [&](const RodSegment& rod) { return model.sections[size_t(rod.b)].mass_at_end(); };
     const auto whole = [&](const RodSegment& rod) { return model.sections[size_t(rod.b)].mass() * rod.length; };
     for (const RodSegment& rod : elements.segments) {
+        if (is_tie(model, rod)) continue;
         by_sections[size_t(rod.a)] += (1 - at_end(rod)) * whole(rod);
         by_sections[size_t(rod.b)] += at_end(rod) * whole(rod);
     }
     for (RodSegment& rod : elements.segments) {
+        if (is_tie(model, rod)) continue;
         const size_t a = size_t(rod.a), b = size_t(rod.b);
         const double factor = std::min(elements.mass[a] / by_sections[a], elements.mass[b] / by_sections[b]);
         rod.shared_mass = (1 - at_end(rod)) * at_end(rod) * factor * whole(rod) / 3;
@@ -132,16 +185,24 @@ RodElements make_elements(const Model& model, Take&& take) {
     for (size_t i = 0; i < nodes.size(); ++i) point(out.modelled, int(2 * i)) = nodes[i].position;
     out.rest_positions = out.modelled;
 
+    const std::vector<int> ties = find_ties(model);
     std::vector<Tet> pairs;
     for (size_t i = 0; i < nodes.size(); ++i) {
-        const int a = nodes[i].parent, b = int(i);
-        pairs.push_back(a < 0 ? Tet{2 * b, 2 * b + 1, 2 * b, 2 * b + 1} : Tet{2 * a, 2 * a + 1, 2 * b, 2 * b + 1});
-        if (a < 0) continue;
-        out.segments.push_back(make_segment(model, i));
-        take(i, out.segments.back());
-        check_segment(out.segments.back());
-        out.damping_ratio.push_back(model.organs[organ_of(model, i)].material.damping_ratio);
-        out.section.push_back(b);
+        const int b = int(i);
+        if (nodes[i].parent >= 0) {
+            out.segments.push_back(make_segment(model, i));
+            take(i, out.segments.back());
+            check_segment(out.segments.back());
+        }
+        pairs.push_back({2 * b, 2 * b + 1, 2 * b, 2 * b + 1});
+    }
+    for (size_t i = 0; i < nodes.size(); ++i)
+        if (ties[i] >= 0) out.segments.push_back(make_tie(model, ties[i], int(i), out.segments));
+    std::sort(out.segments.begin(), out.segments.end(), [](const auto& p, const auto& q) { return p.b < q.b; });
+    for (const RodSegment& rod : out.segments) {
+        pairs.push_back({2 * rod.a, 2 * rod.a + 1, 2 * rod.b, 2 * rod.b + 1});
+        out.damping_ratio.push_back(model.organs[organ_of(model, size_t(rod.b))].material.damping_ratio);
+        out.section.push_back(rod.b);
     }
     out.pattern = make_block_pattern(out.node_count, pairs);
     for (RodSegment& rod : out.segments) {

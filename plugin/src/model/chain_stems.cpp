@@ -12,6 +12,7 @@ namespace {
 constexpr int USUAL_STEM_COUNT = 20;  // capsules along the longest path
 constexpr int LEAST_COUNT = 2;        // capsules per segment
 constexpr int MOST_COUNT = 2000;
+constexpr double ONE_ROOT = 1e-3;  // of a stem's length: roots no farther apart are one
 
 struct StemPiece {
     int parent;
@@ -128,9 +129,16 @@ struct StemChain {
     }
 };
 
-// Returns the node from which a segment grows: its parent's nearest, or a new one with a capsule across the gap.
+// Returns the node from which a segment grows: its parent's nearest, or a new one with a capsule across the gap. Stems
+// that stand at one place have one root.
 int begin_of(StemChain& maker, const std::vector<StemPiece>& pieces, const StemPiece& piece) {
-    if (piece.parent < 0) return maker.add(piece.begin, -1, piece.radius_begin, piece.organ);
+    if (piece.parent < 0) {
+        const std::vector<ChainNode>& nodes = maker.chain.nodes;
+        for (size_t i = 0; i < nodes.size(); i++)
+            if (nodes[i].parent < 0 && (nodes[i].position - piece.begin).norm() <= ONE_ROOT * piece.length)
+                return int(i);
+        return maker.add(piece.begin, -1, piece.radius_begin, piece.organ);
+    }
     const StemPiece& parent = pieces[size_t(piece.parent)];
     const double joint = parent.nearest(piece.begin);
     size_t nearest = 0;

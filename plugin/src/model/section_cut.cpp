@@ -136,30 +136,29 @@ void drop_points(std::array<PlaneCut, 3>& cuts) {
         if (cut.area < POINT * most) cut = {};
 }
 
-// Drops cuts through the caps at a plant's foot and tips: the section that ends there is continued from the others. The
-// foot ends in a face or a cap, which the ground holds. Towards a sheet's tip the load vanishes faster than the
-// section, so that the middle cut represents the whole capsule.
-void drop_caps(bool sheet, bool foot, bool tip, std::array<PlaneCut, 3>& cuts) {
-    if (!(cuts[1].area > 0)) return;
-    if (tip && sheet) cuts[0] = {};
-    if (tip && (sheet || cuts[0].area > 0)) cuts[2] = {};
-    if (foot && !tip && cuts[2].area > 0 && cuts[0].area < cuts[1].area) cuts[0] = {};
+// Returns the taper if the sizes of all cuts, which grow with the root of the area, are those of one cone; else zero.
+double taper_of(const std::array<PlaneCut, 3>& cuts) {
+    constexpr double STRAIGHT = 0.02;
+    const double a = std::sqrt(cuts[0].area), b = std::sqrt(cuts[1].area), c = std::sqrt(cuts[2].area);
+    if (!(a > 0 && b > 0 && c > 0) || std::abs(a + c - 2 * b) > STRAIGHT * b) return 0;
+    return std::clamp((c - a) / ((a + c) * (PLANES[2] - PLANES[0])), -LARGEST_TAPER, LARGEST_TAPER);
 }
 
-// Returns the taper by the sizes of the first and last cut, which grow with the root of the area; zero if there is but
-// one.
-double taper_of(const std::array<PlaneCut, 3>& cuts) {
-    const size_t first = cuts[0].area > 0 ? 0 : 1, last = cuts[2].area > 0 ? 2 : 1;
-    if (first == last || !(cuts[first].area > 0 && cuts[last].area > 0)) return 0;
-    const double a = std::sqrt(cuts[first].area), b = std::sqrt(cuts[last].area);
-    const double along_a = 2 * PLANES[first] - 1, along_b = 2 * PLANES[last] - 1;
-    return std::clamp((b - a) / (a * along_b - b * along_a), -LARGEST_TAPER, LARGEST_TAPER);
+// Corrects the cuts at a plant's foot and tips. The foot ends in a face or a cap, which the ground holds: its section
+// is continued from above. Towards a tip the load vanishes faster than the section, so that the middle cut represents
+// the whole capsule.
+void repair_ends(bool foot, bool tip, std::array<PlaneCut, 3>& cuts) {
+    if (tip && cuts[1].area > 0) cuts[0] = cuts[2] = cuts[1];
+    if (!foot || tip || !(cuts[1].area > 0 && cuts[2].area > 0) || cuts[0].area >= cuts[1].area) return;
+    cuts[0] = cuts[1];
+    if (cuts[1].area <= cuts[2].area) return;
+    cuts[0].area += cuts[1].area - cuts[2].area;
+    cuts[0].moments += cuts[1].moments - cuts[2].moments;
 }
 
 // Averages the areas and the inverse second moments, since in bending it is compliances that add up, each over what the
-// taper alone makes of it. A sheet's thickness does not change with its width, so it has no taper.
-void average(bool sheet, const std::array<PlaneCut, 3>& cuts, const CapsuleFrame& frame, Outline& outline) {
-    outline.taper = sheet ? 0 : taper_of(cuts);
+// taper alone makes of it.
+void average(const std::array<PlaneCut, 3>& cuts, const CapsuleFrame& frame, Outline& outline) {
     double area = 0, squares = 0, fourths = 0;
     Matrix2d inverse = Matrix2d::Zero();
     for (size_t plane = 0; plane < cuts.size(); plane++) {
@@ -209,8 +208,10 @@ Outline cut_capsule(const Surface& surface, const Topology& topology, const std:
     const double half = perimeter / 2 / PLANES.size(), mean = area / PLANES.size();
     if (doubled) outline.gap = (half - std::sqrt(std::max(half * half - 4 * mean, 0.0))) / 2;
     drop_points(cuts);
-    drop_caps(sheet, foot, tip, cuts);
-    average(sheet, cuts, frame, outline);
+    // A sheet's thickness does not change with its width, so it has no taper.
+    outline.taper = sheet ? 0 : taper_of(cuts);
+    if (outline.taper == 0) repair_ends(foot, tip, cuts);
+    average(cuts, frame, outline);
     return outline;
 }
 
