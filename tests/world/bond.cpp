@@ -146,7 +146,7 @@ TEST(Bond, HoldsAllOrgansOfOneBody) {
         ASSERT_EQ(frond_bond_create(plant, place, hand, &bond), FROND_OK) << frond_last_error();
     }
     const int count = frond_plant_get_capsule_count(plant);
-    std::vector<frond_capsule> before(size_t(count)), after(size_t(count));
+    std::vector<frond_capsule> before(static_cast<size_t>(count)), after = before;
     ASSERT_EQ(frond_plant_get_capsules(plant, before.data(), count), FROND_OK);
     step(world, 60);
     ASSERT_EQ(frond_plant_get_capsules(plant, after.data(), count), FROND_OK);

@@ -40,22 +40,22 @@ void take_outline(const Outline& outline, Section& section) {
     section.taper = outline.taper;
 }
 
-// A blade has a midrib that its sheet does not show: at least a round rib whose diameter is a twentieth of the width
-// (maize: 4 mm of 80 mm).
-void add_rib(double width, Section& section) {
-    const double rib = width / 40;
+// A blade may have a round midrib that its sheet does not show.
+void add_rib(double width, double midrib, Section& section) {
+    const double rib = width * midrib / 2;
     section.inertia_thin = std::max(section.inertia_thin, M_PI * std::pow(rib, 4) / 4);
     section.inertia_wide = std::max(section.inertia_wide, section.inertia_thin);
 }
 
 // Fills a sheet of width w and thickness t: area w t, inertia from the spread of its middle surface and its own
 // thickness.
-void fill_sheet(const Spread& spread, double width, double thickness, Section& section) {
+void fill_sheet(const Spread& spread, double width, const Material& material, Section& section) {
+    const double thickness = material.thickness;
     const double own = thickness * thickness / 12;
     section.area = width * thickness;
     section.inertia_thin = section.area * (spread.small + own);
     section.inertia_wide = section.area * (spread.large + own);
-    add_rib(width, section);
+    add_rib(width, material.midrib, section);
 }
 
 // Fills a solid from the ring that its surface forms: with variances a and b it encloses 2 pi sqrt(a b), and its
@@ -82,10 +82,10 @@ bool fill_outline(const ChainNode& node, const Organ& organ, const Spread& sprea
         if (bounded) {
             section.thickness = outline.gap;
             take_outline(outline, section);
-            add_rib(section.area / section.thickness, section);
+            add_rib(section.area / section.thickness, organ.material.midrib, section);
         } else {
             section.thin = spread.thin;
-            fill_sheet(spread, outline.doubled ? drawn / 2 : drawn, section.thickness, section);
+            fill_sheet(spread, outline.doubled ? drawn / 2 : drawn, organ.material, section);
         }
         return bounded;
     }
@@ -151,7 +151,7 @@ void finish_section(const Organ& organ, Section& section) {
     const Material& material = organ.material;
     if (is_sheet(organ)) {
         section.width = section.area / section.thickness;
-        const double rib = M_PI * std::pow(section.width / 40, 4) / 2;
+        const double rib = M_PI * std::pow(section.width * material.midrib / 2, 4) / 2;
         section.torsion = strip_torsion_constant(section.width, section.thickness) + rib;
     } else {
         // An ellipse of thickness t has I = A t^2 / 16, a rectangle A t^2 / 12.
