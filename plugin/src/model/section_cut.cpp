@@ -1,6 +1,6 @@
 // Surface and chain -> outlines. Planes across a capsule cut its triangles in line segments, directed so that they run
 // around what they enclose; Green's theorem then gives area and second moments of the outline, exactly for a mesh that
-// is closed there and oriented. Where segments do not form a closed loop (open sheets, forks, soups) there is no
+// is closed there. Where segments do not form a closed loop (open sheets, forks, soups) there is no
 // outline.
 #include <Eigen/Dense>
 #include <algorithm>
@@ -43,7 +43,7 @@ struct Sums {
 };
 
 // Finds the segment in which a plane across the axis cuts a triangle, directed by the triangle's normal.
-bool cut_triangle(const std::array<Vec3, 3>& corners, const CapsuleFrame& frame, double along, Vector2d& p,
+bool cut_triangle(const std::array<Vec3, 3>& corners, bool turned, const CapsuleFrame& frame, double along, Vector2d& p,
                   Vector2d& q) {
     std::array<double, 3> side;
     for (size_t k = 0; k < 3; k++) side[k] = (corners[k] - frame.begin).dot(frame.axis) - along;
@@ -56,7 +56,7 @@ bool cut_triangle(const std::array<Vec3, 3>& corners, const CapsuleFrame& frame,
     }
     if (count < 2) return false;
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    if ((ends[1] - ends[0]).dot(frame.axis.cross(normal)) < 0) std::swap(ends[0], ends[1]);
+    if (((ends[1] - ends[0]).dot(frame.axis.cross(normal)) < 0) != turned) std::swap(ends[0], ends[1]);
     const auto flatten = [&](const Vec3& x) {
         return Vector2d((x - frame.begin).dot(frame.across), (x - frame.begin).dot(frame.other));
     };
@@ -193,7 +193,8 @@ Outline cut_capsule(const Surface& surface, const Topology& topology, const std:
                                                  surface.positions[size_t(triangle[1])],
                                                  surface.positions[size_t(triangle[2])]};
             Vector2d p, q;
-            if (!cut_triangle(corners, frame, PLANES[plane] * frame.length, p, q)) continue;
+            if (!cut_triangle(corners, topology.turned[size_t(t)] != 0, frame, PLANES[plane] * frame.length, p, q))
+                continue;
             components[topology.triangle_component[size_t(t)]].add(p, q);
             all.add(p, q);
         }
