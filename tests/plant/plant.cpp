@@ -157,10 +157,10 @@ TEST(Root, OfEveryChainIsHeldBelowTheRootHeight) {
     model.organs = &material;
     model.organ_count = 1;
     const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.6, 0}, 0.03, 0.03},
-                                {-1, {0.05, 0.015, 0}, {0.4, 0.4, 0}, 0.004, 0.004}};
+                                {-1, {0.035, 0.01, 0}, {0.4, 0.4, 0}, 0.002, 0.002}};
     frond_plant_def def = plant_def();
     def.mechanics = FROND_MECHANICS_ROD;
-    for (const double root_height : {0.0, 0.02, 0.05, 0.1}) {
+    for (const double root_height : {0.0, 0.005, 0.01, 0.02, 0.1}) {
         def.root_height = root_height;
         const auto plant = create_plant(build_from_stems(stems, 2, model), def);
         const std::vector<Vec3> before = plant->chain_positions;

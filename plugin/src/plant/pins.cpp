@@ -53,10 +53,12 @@ static double pin_stiffness(const Plant& plant) {
 struct PinGroup {
     std::vector<int> nodes;
     std::vector<Vec3> from, to;  // modelled and target positions [m]
+    bool stands = false;         // the ground holds some of them
 };
 
 static void add_to_group(const Plant& plant, int node, PinGroup& group) {
     group.nodes.push_back(node);
+    group.stands |= plant.foot->pinned[size_t(node)] != 0;
     group.from.push_back(point(plant.follow->modelled, node));
     group.to.push_back(point(plant.pin_target, node));
 }
@@ -97,7 +99,8 @@ static void pin_chain(Plant& plant) {
             if (is_root(i)) groups[int(i)];
     for (const auto& [chain_node, group] : groups) {
         if (hold_chain_node(plant, chain_node, group)) continue;
-        if (is_root(size_t(chain_node)) && hold_chain_node(plant, chain_node, ground)) continue;
+        const bool stands = nodes[size_t(chain_node)].parent < 0 && (group.stands || group.nodes.empty());
+        if (stands && hold_chain_node(plant, chain_node, ground)) continue;
         for (size_t k = 0; k < group.nodes.size(); k++)
             plant.pin_springs.push_back(
                 {plant.follow->attachments[size_t(group.nodes[k])], group.to[k], pin_stiffness(plant)});
