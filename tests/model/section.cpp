@@ -230,6 +230,51 @@ TEST(Section, OfAStripHasItsOwnWidthAndThickness) {
     }
 }
 
+// A rib that is drawn as a tube of its own along a blade is one beam with it: moduli count, and so do the places.
+TEST(Section, OfABladeWithItsRibIsTheSumOfBoth) {
+    const double w = 0.06, t = 4e-4, r = 2e-3;
+    constexpr int SIDES = 24;
+    for (const double below : {0.0, r}) {
+        Surface surface = prism({{-w / 2, 0, 0}, {0, 0, 0}, {w / 2, 0, 0}}, false);
+        std::vector<Vec3> circle;
+        for (int k = 0; k < SIDES; k++) {
+            const double angle = 2 * M_PI * k / SIDES;
+            circle.push_back({r * std::sin(angle), 0, r * std::cos(angle) - below});
+        }
+        const Surface tube = prism(circle, true);
+        const int first = int(surface.positions.size());
+        Part part = surface.parts.front();
+        part.first_triangle = part.triangle_count;
+        part.triangle_count = int(tube.triangles.size());
+        surface.parts.push_back(part);
+        for (const Vec3& place : tube.positions) surface.positions.push_back(place);
+        for (const Triangle& triangle : tube.triangles)
+            surface.triangles.push_back({triangle[0] + first, triangle[1] + first, triangle[2] + first});
+        std::vector<Organ> organs = {{"leaf", "blade", wood(t)}, {"rib", "midrib", wood()}};
+        organs[0].material.midrib = 0.05;
+        organs[1].material.young *= 3;
+        organs[1].material.density *= 2;
+        surface.parts[0].organ = 0;
+        surface.parts[1].organ = 1;
+        const Topology topology = make_topology(surface);
+        const Chain chain = make_chain(surface, topology, organs, {0.1, 0});
+        const std::vector<Section> sections = measure_sections(surface, topology, organs, chain);
+        EXPECT_EQ(chain.root_count(), 1);
+        EXPECT_NEAR(chain.length(), LENGTH, 0.05);
+        SCOPED_TRACE(testing::Message() << "below " << below);
+        const double sheet = w * t, rib = M_PI * r * r, inertia = rib * r * r / 4;
+        const double apart = sheet * 3 * rib / (sheet + 3 * rib) * below * below;
+        for (size_t i = 2; i + 1 < sections.size(); i++) {
+            EXPECT_EQ(chain.nodes[i].organ, 0);
+            EXPECT_NEAR(sections[i].stretching() / (1e9 * (sheet + 3 * rib)), 1, 0.02);
+            EXPECT_NEAR(sections[i].bending_thin() / (1e9 * (sheet * t * t / 12 + 3 * inertia + apart)), 1, 0.03);
+            EXPECT_NEAR(sections[i].bending_wide() / (1e9 * (sheet * w * w / 12 + 3 * inertia)), 1, 0.03);
+            EXPECT_NEAR(sections[i].twisting() / (0.4e9 * (w * t * t * t / 3 + 3 * 2 * inertia)), 1, 0.03);
+            EXPECT_NEAR(sections[i].mass() / (800 * (sheet + 2 * rib)), 1, 0.02);
+        }
+    }
+}
+
 // A leaf drawn with two faces is the box that they bound, whatever its kind.
 TEST(Section, OfAThickLeafIsTheBoxThatIsDrawn) {
     const double w = 0.04;

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "model/chain.hpp"
+#include "model/chain_ribs.hpp"
 #include "model/chain_tree.hpp"
 
 namespace frond {
@@ -269,6 +270,7 @@ Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, dou
         add_last_resort(maker);
         fit_radii(maker, organs, radius);
         bind_vertices(maker);
+        join_ribs(shape.surface, organs, maker.chain);
         maker.chain.height = height;
         return std::move(maker.chain);
     }

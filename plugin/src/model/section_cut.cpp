@@ -39,6 +39,13 @@ struct Sums {
         first += cross / 6 * (p + q);
         second += cross / 24 * (2 * p * p.transpose() + 2 * q * q.transpose() + p * q.transpose() + q * p.transpose());
     }
+    void add(const Sums& other) {
+        perimeter += other.perimeter;
+        area += other.area;
+        end += other.end;
+        first += other.first;
+        second += other.second;
+    }
     bool closed() const { return perimeter > 0 && end.norm() < CLOSED * perimeter && area != 0; }
 };
 
@@ -65,22 +72,26 @@ bool cut_triangle(const std::array<Vec3, 3>& corners, bool turned, const Capsule
     return true;
 }
 
-// Lists for each chain node the triangles of its own organ with a corner assigned to it.
-std::vector<std::vector<int>> triangles_by_node(const Surface& surface, const Chain& chain) {
+// Lists for each chain node the triangles of its own organ, or of that organ's ribs, with a corner assigned to it.
+std::vector<std::vector<int>> triangles_by_node(const Surface& surface, const Chain& chain, bool of_ribs) {
     std::vector<std::vector<int>> lists(chain.nodes.size());
+    const auto organ_of = [&](const Part& part) {
+        if (!of_ribs) return part.organ;
+        return part.organ < 0 || chain.rib_of.empty() ? -1 : chain.rib_of[size_t(part.organ)];
+    };
     for (const Part& part : surface.parts)
         for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
             for (int corner : surface.triangles[size_t(t)]) {
                 const size_t node = size_t(chain.vertex_node[size_t(corner)]);
-                if (chain.nodes[node].organ != part.organ) continue;
+                if (chain.nodes[node].organ != organ_of(part) || (of_ribs && organ_of(part) < 0)) continue;
                 if (lists[node].empty() || lists[node].back() != t) lists[node].push_back(t);
             }
     return lists;
 }
 
 // Lists the triangles that a plane through a capsule may cut: its own and those of the capsules before and after it.
-std::vector<std::vector<int>> triangles_by_capsule(const Surface& surface, const Chain& chain) {
-    const std::vector<std::vector<int>> own = triangles_by_node(surface, chain);
+std::vector<std::vector<int>> triangles_by_capsule(const Surface& surface, const Chain& chain, bool of_ribs = false) {
+    const std::vector<std::vector<int>> own = triangles_by_node(surface, chain, of_ribs);
     std::vector<std::vector<int>> lists = own;
     const auto append = [&](size_t to, size_t from) {
         lists[to].insert(lists[to].end(), own[from].begin(), own[from].end());
@@ -179,25 +190,31 @@ void average(const std::array<PlaneCut, 3>& cuts, const CapsuleFrame& frame, Out
     outline.thin = (direction.x() * frame.across + direction.y() * frame.other).normalized();
 }
 
+// Cuts triangles with the plane across a capsule and adds up the segments by component.
+std::map<int, Sums> cut_with_plane(const Surface& surface, const Topology& topology, const std::vector<int>& triangles,
+                                   const CapsuleFrame& frame, double share) {
+    std::map<int, Sums> components;
+    for (int t : triangles) {
+        const Triangle& triangle = surface.triangles[size_t(t)];
+        const std::array<Vec3, 3> corners = {surface.positions[size_t(triangle[0])],
+                                             surface.positions[size_t(triangle[1])],
+                                             surface.positions[size_t(triangle[2])]};
+        Vector2d p, q;
+        if (cut_triangle(corners, topology.turned[size_t(t)] != 0, frame, share * frame.length, p, q))
+            components[topology.triangle_component[size_t(t)]].add(p, q);
+    }
+    return components;
+}
+
 Outline cut_capsule(const Surface& surface, const Topology& topology, const std::vector<int>& triangles,
                     const CapsuleFrame& frame, bool sheet, bool foot, bool tip) {
     std::array<PlaneCut, 3> cuts;
     double area = 0, perimeter = 0;
     bool doubled = true;
     for (size_t plane = 0; plane < cuts.size(); plane++) {
-        std::map<int, Sums> components;
+        const std::map<int, Sums> components = cut_with_plane(surface, topology, triangles, frame, PLANES[plane]);
         Sums all;
-        for (int t : triangles) {
-            const Triangle& triangle = surface.triangles[size_t(t)];
-            const std::array<Vec3, 3> corners = {surface.positions[size_t(triangle[0])],
-                                                 surface.positions[size_t(triangle[1])],
-                                                 surface.positions[size_t(triangle[2])]};
-            Vector2d p, q;
-            if (!cut_triangle(corners, topology.turned[size_t(t)] != 0, frame, PLANES[plane] * frame.length, p, q))
-                continue;
-            components[topology.triangle_component[size_t(t)]].add(p, q);
-            all.add(p, q);
-        }
+        for (const auto& [component, sums] : components) all.add(sums);
         doubled = doubled && all.closed();
         area += std::abs(all.area);
         perimeter += all.perimeter;
@@ -233,6 +250,36 @@ std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topolo
         outlines[i] = cut_capsule(surface, topology, triangles[i], frames[i], sheet, foot, is_tip[i]);
     }
     return outlines;
+}
+
+std::vector<RibCut> cut_ribs(const Surface& surface, const Topology& topology, const Chain& chain,
+                             const std::vector<CapsuleFrame>& frames) {
+    std::vector<RibCut> cuts(chain.nodes.size());
+    if (std::all_of(chain.rib_of.begin(), chain.rib_of.end(), [](int blade) { return blade < 0; })) return cuts;
+    const std::vector<std::vector<int>> triangles = triangles_by_capsule(surface, chain, true);
+    std::vector<int> organ(surface.triangles.size(), -1);
+    for (const Part& part : surface.parts)
+        std::fill_n(organ.begin() + part.first_triangle, part.triangle_count, part.organ);
+    for (size_t i = 0; i < cuts.size(); i++) {
+        RibCut& rib = cuts[i];
+        double weight = 0;
+        for (size_t plane = 0; plane < PLANES.size() && !triangles[i].empty(); plane++) {
+            Sums all;
+            for (const auto& [component, sums] :
+                 cut_with_plane(surface, topology, triangles[i], frames[i], PLANES[plane]))
+                if (sums.closed()) all.add(sums);
+            if (!(std::abs(all.area) > 0)) continue;
+            weight += WEIGHTS[plane];
+            rib.area += WEIGHTS[plane] * std::abs(all.area);
+            rib.middle += WEIGHTS[plane] * all.first / all.area;
+            rib.moments += WEIGHTS[plane] * central_moments(all);
+        }
+        if (!(weight > 0)) continue;
+        // A rib that ends within the capsule counts by what there is of it.
+        rib.middle /= weight;
+        rib.organ = organ[size_t(triangles[i].front())];
+    }
+    return cuts;
 }
 
 }  // namespace frond
