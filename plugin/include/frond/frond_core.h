@@ -317,9 +317,9 @@ typedef struct frond_texture_view {
     size_t byte_count;
 } frond_texture_view;
 /* An organ, and the ranges of its sections, one per capsule of the chain. Sections are the organ's own, of a rod or a
- * strip, not those of the cage around it, and their EI and GJ those by which a tapering capsule yields. A small organ can
- * lie within another one's capsules, and a rib drawn along a blade is one beam with it, counted in the blade's sections;
- * all fields from capsule_count on are then 0. */
+ * strip, not those of the cage around it, and their EI and GJ those by which a tapering capsule yields. A small organ
+ * can lie within another one's capsules, and a rib drawn along a blade is one beam with it, counted in the blade's
+ * sections; all fields from capsule_count on are then 0. */
 typedef struct frond_organ {
     const char* name;        /* "leaf_3"; no two organs of a model share one */
     const char* kind;        /* "stem", "blade" ... */
