@@ -113,7 +113,7 @@ VecX squares_of_cone(double end) {
 }
 
 TEST(Rod, OfAConeHasItsFirstThreeFrequencies) {
-    for (const double end : {FOOT, 0.1 * FOOT}) {
+    for (const double end : {FOOT, 0.5 * FOOT, 0.45 * FOOT, 0.1 * FOOT}) {
         const VecX exact = squares_of_cone(end);
         for (const frond_mass mass : {FROND_MASS_LUMPED, FROND_MASS_CONSISTENT}) {
             const Cone cone(end, 20, false, mass);

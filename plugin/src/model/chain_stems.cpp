@@ -24,8 +24,11 @@ struct StemPiece {
     std::vector<int> nodes;    // chain nodes, one per cut
     double radius(double share) const { return radius_begin + share * (radius_end - radius_begin); }
     // Returns the place of an even cut. Pieces are shorter where a stem is thin, by their radius to the power of 2/3,
-    // since waves are (by its root) and a thin piece's mass is lumped the more coarsely.
+    // since waves are (by its root) and a thin piece's mass is lumped the more coarsely; where a stem narrows by half
+    // at most, that is no matter.
     double even_cut(double share) const {
+        constexpr double MILD = 2;
+        if (std::max(radius_begin, radius_end) <= MILD * std::min(radius_begin, radius_end)) return share;
         const double a = std::cbrt(radius_begin), b = std::cbrt(radius_end), way = share * (b - a);
         return share * ((3 * a * (a + way) + way * way) / (a * (a + b) + b * b));
     }
