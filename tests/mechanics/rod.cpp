@@ -12,7 +12,7 @@
 namespace frond::test {
 namespace rod_tests {
 
-// Returns a forked chain of flat and round segments in many directions.
+// Returns a forked chain of flat, round and tapered segments in many directions.
 Model chain_model(bool stands = false) {
     Model model;
     Organ organ;
@@ -35,6 +35,7 @@ Model chain_model(bool stands = false) {
         section.area = 2e-4;
         section.inertia_thin = 2e-9;
         section.inertia_wide = i % 2 ? 2e-9 : 5e-8;
+        section.taper = i % 3 == 0 ? 0 : 0.25 * double(i) - 0.7;
         finish_section(organ, section);
         model.sections.push_back(section);
         model.chain_mass.push_back(0.05 + 0.01 * double(i));

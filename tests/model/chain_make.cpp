@@ -87,6 +87,26 @@ TEST(Chain, HasTheMidlineOfABladeAndItsSpreadAsRadius) {
     }
 }
 
+// A plant that lies level begins at the end that is nearer to the origin.
+TEST(Chain, OfWhatLiesLevelRunsAlongIt) {
+    for (const double rise : {0.0, 1e-4, 0.02})
+        for (const bool tube : {false, true})
+            for (const double from : {0.0, 0.5}) {
+                SCOPED_TRACE(testing::Message() << "rise " << rise << ", tube " << tube << ", from " << from);
+                Sketch sketch;
+                const Vec3 begin(from, 0.03, 0), end(from + 0.4, 0.03 + rise, 0.3);
+                if (tube)
+                    sketch.tube(line(begin, end, 20), 0.01, 8);
+                else
+                    sketch.strip(line(begin, end, 20), 0.08, Vec3(-0.6, 0, 0.8));
+                const Grown grown = grow(sketch, {0.05, 0});
+                expect_forest(grown);
+                EXPECT_EQ(grown.chain.root_count(), 1);
+                EXPECT_NEAR(grown.chain.length(), 0.5, 0.03);
+                EXPECT_LT((grown.chain.nodes.front().position - begin).norm(), 0.02);
+            }
+}
+
 TEST(Chain, OfAYHasOneForkOnItsMiddle) {
     Sketch sketch;
     sketch.begin_part("stem");

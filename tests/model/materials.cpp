@@ -40,7 +40,8 @@ const Field FIELDS[] = {{"density", &Material::density, 1, 2e4, false},
                         {"yield_strain", &Material::yield_strain, 1e-6, 10, true},
                         {"creep_rate", &Material::creep_rate, 0, 1e6, true},
                         {"strength", &Material::strength, 1, 1e12, true},
-                        {"drag", &Material::drag, 0.01, 10, true}};
+                        {"drag", &Material::drag, 0.01, 10, true},
+                        {"midrib", &Material::midrib, 0, 0.5, true}};
 
 TEST(Materials, ArePresetForEveryKindAndInRange) {
     for (const char* kind : KINDS) {
@@ -83,6 +84,9 @@ TEST(Materials, PresetsAreInPhysicalOrder) {
     }
     EXPECT_EQ(material_preset("blade")->twist_to_bend, 0);
     EXPECT_EQ(material_preset("grass_blade")->twist_to_bend, 0);
+    for (const char* kind : KINDS)
+        EXPECT_EQ(material_preset(kind)->midrib, std::string(kind).find("blade") == std::string::npos ? 0 : 0.05)
+            << kind;
 }
 
 // A material consists of its numbers only, and all of them are checked.

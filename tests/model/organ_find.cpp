@@ -180,8 +180,13 @@ TEST(Organs, OfALargeRoundShapeThatIsHeldUpAreFoliage) {
     EXPECT_EQ(grown.organs[1].kind, "crown");
     // A crown that encloses no volume is a heap of leaves.
     Sketch heap = ball_tree();
-    for (size_t i = 0; i < heap.surface.triangles.size(); i += 2)
-        std::swap(heap.surface.triangles[i][0], heap.surface.triangles[i][1]);
+    // Its triangles share no edge and face both ways.
+    for (size_t i = 0; i < heap.surface.triangles.size(); i++) {
+        Triangle& triangle = heap.surface.triangles[i];
+        const Vec3 place = heap.surface.positions[size_t(triangle[2])];
+        triangle[2] = heap.add(place + Vec3(1e-3, 1e-3, 0) * double(i % 7 + 1));
+        if (i % 2) std::swap(triangle[0], triangle[1]);
+    }
     EXPECT_EQ(grow(heap).organs[1].kind, "blade");
     // Stems that fill the same box with little surface are no crown.
     Sketch bare;

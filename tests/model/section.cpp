@@ -132,7 +132,8 @@ TEST(Section, OfATaperIsThatOfItsPlace) {
         const auto radius = [&](double y) { return r0 + (r1 - r0) * y / LENGTH; };
         const double mean =
             (std::pow(radius(end), -3) - std::pow(radius(begin), -3)) / (3 * (radius(begin) - radius(end)));
-        EXPECT_NEAR(sample.sections[i].inertia_thin * mean / (M_PI / 4), 1, 3e-3) << i;
+        EXPECT_NEAR(sample.sections[i].bending_thin() / 1e9 * mean / (M_PI / 4), 1, 3e-3) << i;
+        EXPECT_NEAR(sample.sections[i].taper, (radius(end) - radius(begin)) / (radius(end) + radius(begin)), 1e-3) << i;
     }
 }
 
@@ -169,11 +170,31 @@ TEST(Section, DoesNotCareWhichWayTheTrianglesRun) {
     for (const Section& section : sample.inner()) EXPECT_NEAR(section.area / 6e-4, 1, 1e-4);
 }
 
-// Triangles with random orientation: the outline is unknown, but the spread of the surface still gives the stem.
+// Nor whether all run the same way.
+TEST(Section, DoesNotCareWhetherTrianglesRunAlike) {
+    for (const char* kind : {"stem", "blade"}) {
+        Surface mixed = prism(rectangle(0.04, 0.004), true);
+        for (size_t t = 0; t < mixed.triangles.size(); t += 3) std::swap(mixed.triangles[t][0], mixed.triangles[t][1]);
+        const Sample sample(std::move(mixed), kind, wood());
+        for (const Section& section : sample.inner()) {
+            EXPECT_NEAR(section.area / 1.6e-4, 1, 1e-3) << kind;
+            EXPECT_NEAR(section.inertia_thin / (1.6e-4 * 1.6e-5 / 12), 1, 1e-3) << kind;
+        }
+    }
+}
+
+// Triangles that share no points: the outline is unknown, but the spread of the surface still gives the stem.
 TEST(Section, OfASoupIsNearTheStem) {
     const double r = 0.01, area = M_PI * r * r, inertia = area * r * r / 4;
     Surface soup = stem(r, r);
-    for (size_t t = 0; t < soup.triangles.size(); t += 3) std::swap(soup.triangles[t][0], soup.triangles[t][1]);
+    for (size_t t = 0; t < soup.triangles.size(); t += 2) {
+        const Vec3 out = 1e-4 * Vec3(soup.positions[size_t(soup.triangles[t][0])].x(), 0, 0);
+        for (int& corner : soup.triangles[t]) {
+            soup.positions.push_back(soup.positions[size_t(corner)] + out);
+            corner = int(soup.positions.size()) - 1;
+        }
+        if (t % 3 == 0) std::swap(soup.triangles[t][0], soup.triangles[t][1]);
+    }
     const Sample sample(std::move(soup), "stem", wood());
     for (const Section& section : sample.inner()) {
         EXPECT_NEAR(section.area / area, 1, 0.05);
@@ -188,17 +209,68 @@ TEST(Section, OfAStripHasItsOwnWidthAndThickness) {
         // With two faces 0.01 mm apart it is drawn twice, but is no thicker than its material.
         const Surface surface =
             doubled ? prism(rectangle(w, 1e-5), true) : prism({{-w / 2, 0, 0}, {0, 0, 0}, {w / 2, 0, 0}}, false);
-        const Sample sample(surface, "blade", wood(t));
+        Material material = wood(t);
+        for (const Section& section : Sample(surface, "blade", material).inner()) {
+            EXPECT_NEAR(section.inertia_thin / (area * t * t / 12), 1, 0.05) << doubled;
+            EXPECT_NEAR(section.torsion / (w * t * t * t / 3), 1, 0.05) << doubled;
+        }
+        material.midrib = 0.05;
+        const Sample sample(surface, "blade", material);
         for (const Section& section : sample.inner()) {
             EXPECT_NEAR(section.thickness, t, 1e-12) << doubled;
             EXPECT_NEAR(section.width / w, 1, 0.01) << doubled;
             EXPECT_NEAR(section.area / area, 1, 0.01) << doubled;
             EXPECT_NEAR(section.inertia_wide / (area * w * w / 12), 1, 0.03) << doubled;
             EXPECT_NEAR(std::abs(section.thin.z()), 1, 1e-3) << doubled;
-            // A blade is never softer than its round midrib, which its sheet does not show.
+            // It is never softer than its round midrib.
             const double rib = std::pow(w / 40, 4) * M_PI / 4;
             EXPECT_NEAR(section.inertia_thin / rib, 1, 0.05) << doubled;
             EXPECT_NEAR(section.torsion / (w * t * t * t / 3 + 2 * rib), 1, 0.05) << doubled;
+        }
+    }
+}
+
+// A rib that is drawn as a tube of its own along a blade is one beam with it: moduli count, and so do the places.
+TEST(Section, OfABladeWithItsRibIsTheSumOfBoth) {
+    const double w = 0.06, t = 4e-4, r = 2e-3;
+    constexpr int SIDES = 24;
+    for (const double below : {0.0, r}) {
+        Surface surface = prism({{-w / 2, 0, 0}, {0, 0, 0}, {w / 2, 0, 0}}, false);
+        std::vector<Vec3> circle;
+        for (int k = 0; k < SIDES; k++) {
+            const double angle = 2 * M_PI * k / SIDES;
+            circle.push_back({r * std::sin(angle), 0, r * std::cos(angle) - below});
+        }
+        const Surface tube = prism(circle, true);
+        const int first = int(surface.positions.size());
+        Part part = surface.parts.front();
+        part.first_triangle = part.triangle_count;
+        part.triangle_count = int(tube.triangles.size());
+        surface.parts.push_back(part);
+        for (const Vec3& place : tube.positions) surface.positions.push_back(place);
+        for (const Triangle& triangle : tube.triangles)
+            surface.triangles.push_back({triangle[0] + first, triangle[1] + first, triangle[2] + first});
+        std::vector<Organ> organs = {{"leaf", "blade", wood(t)}, {"rib", "midrib", wood()}};
+        organs[0].material.midrib = 0.05;
+        organs[1].material.young *= 3;
+        organs[1].material.density *= 2;
+        surface.parts[0].organ = 0;
+        surface.parts[1].organ = 1;
+        const Topology topology = make_topology(surface);
+        const Chain chain = make_chain(surface, topology, organs, {0.1, 0});
+        const std::vector<Section> sections = measure_sections(surface, topology, organs, chain);
+        EXPECT_EQ(chain.root_count(), 1);
+        EXPECT_NEAR(chain.length(), LENGTH, 0.05);
+        SCOPED_TRACE(testing::Message() << "below " << below);
+        const double sheet = w * t, rib = M_PI * r * r, inertia = rib * r * r / 4;
+        const double apart = sheet * 3 * rib / (sheet + 3 * rib) * below * below;
+        for (size_t i = 2; i + 1 < sections.size(); i++) {
+            EXPECT_EQ(chain.nodes[i].organ, 0);
+            EXPECT_NEAR(sections[i].stretching() / (1e9 * (sheet + 3 * rib)), 1, 0.02);
+            EXPECT_NEAR(sections[i].bending_thin() / (1e9 * (sheet * t * t / 12 + 3 * inertia + apart)), 1, 0.03);
+            EXPECT_NEAR(sections[i].bending_wide() / (1e9 * (sheet * w * w / 12 + 3 * inertia)), 1, 0.03);
+            EXPECT_NEAR(sections[i].twisting() / (0.4e9 * (w * t * t * t / 3 + 3 * 2 * inertia)), 1, 0.03);
+            EXPECT_NEAR(sections[i].mass() / (800 * (sheet + 2 * rib)), 1, 0.02);
         }
     }
 }

@@ -15,12 +15,13 @@ namespace fibres_tests {
 
 constexpr double LENGTH = 0.5, WIDTH = 0.05, H = 1.0 / 60;
 
-// Returns an upright blade with its normal along x.
+// Returns an upright blade with its normal along x, and the midrib that presets have.
 std::shared_ptr<const Model> blade(double young, double thickness) {
     Surface surface;
     add_sheet(surface, 2, 30, [](double s, double t) { return Vec3(0, t * LENGTH, (s - 0.5) * WIDTH); });
     surface.parts[0].name = "blade";
-    const frond_organ_material organ = {"blade", plain_material(900, young, 0.3, thickness)};
+    frond_organ_material organ = {"blade", plain_material(900, young, 0.3, thickness)};
+    organ.material.midrib = 0.05;
     frond_model_def def = model_def();
     def.cage_size = WIDTH / 2;
     def.rest = FROND_REST_WITHOUT_GRAVITY;

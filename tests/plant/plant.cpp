@@ -6,6 +6,7 @@
 #include <set>
 
 #include "build/build.hpp"
+#include "support/materials.hpp"
 #include "support/model_def.hpp"
 
 using namespace frond;
@@ -147,6 +148,29 @@ TEST(Root, IsHeldAtTheFootAndNowhereElse) {
     for (size_t i = 0; i < half->motion.pinned.size(); i++)
         EXPECT_EQ(bool(half->motion.pinned[i]),
                   half->model->cage.nodes[i].y() < half->model->surface.lower().y() + 0.4);
+}
+
+// All nodes that the ground holds are nearer to one root than to the other.
+TEST(Root, OfEveryChainIsHeldBelowTheRootHeight) {
+    frond_organ_material material = {"stem", plain_material(800, 1e9, 0.3, 1e-3)};
+    frond_model_def model = test::model_def();
+    model.organs = &material;
+    model.organ_count = 1;
+    const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.6, 0}, 0.03, 0.03},
+                                {-1, {0.035, 0.01, 0}, {0.4, 0.4, 0}, 0.002, 0.002}};
+    frond_plant_def def = plant_def();
+    def.mechanics = FROND_MECHANICS_ROD;
+    for (const double root_height : {0.0, 0.01, 0.02, 0.1}) {
+        def.root_height = root_height;
+        const auto plant = create_plant(build_from_stems(stems, 2, model), def);
+        const std::vector<Vec3> before = plant->chain_positions;
+        Surroundings surroundings;
+        surroundings.gravity = {0, -GRAVITY, 0};
+        for (int i = 0; i < 120; i++) step_plant(*plant, surroundings, 1.0 / 60);
+        for (size_t i = 0; i < before.size(); i++)
+            EXPECT_LT((plant->chain_positions[i] - before[i]).norm(), 0.01)
+                << "root height " << root_height << ", node " << i;
+    }
 }
 
 TEST(Plants, OfOneModelShareTheirSystem) {

@@ -126,6 +126,38 @@ TEST_P(EveryBond, KeepsMomentum) {
     EXPECT_NEAR(momentum.z + MASS * state.velocity.z, 0.5 * MASS, 1e-6);
 }
 
+// The roots of a corn plant are organs of their own, which begin beside its stem.
+TEST(Bond, HoldsAllOrgansOfOneBody) {
+    const frond_world_def world_def = frond_default_world_def();
+    frond_world world = {};
+    ASSERT_EQ(frond_world_create(&world_def, &world), FROND_OK);
+    const frond_model_def model_def = frond_default_model_def();
+    frond_model model = {};
+    ASSERT_EQ(frond_model_load(FROND_SOURCE_DIR "/models/corn/corn.obj", &model_def, &model), FROND_OK);
+    frond_plant_def def = frond_default_plant_def();
+    def.mechanics = FROND_MECHANICS_ROD;
+    def.root_height = -1;
+    def.effects &= ~uint32_t(FROND_EFFECT_RIGID_CONTACT);
+    frond_plant plant = {};
+    ASSERT_EQ(frond_plant_create(world, model, &def, &plant), FROND_OK) << frond_last_error();
+    const frond_rigid hand = add_body(world, 0, {0, 0.3, 0});
+    for (const frond_vec3& place : {frond_vec3{0, 0.2, 0}, frond_vec3{0.02, 0.3, 0}, frond_vec3{-0.02, 0.4, 0}}) {
+        frond_bond bond = {};
+        ASSERT_EQ(frond_bond_create(plant, place, hand, &bond), FROND_OK) << frond_last_error();
+    }
+    const int count = frond_plant_get_capsule_count(plant);
+    std::vector<frond_capsule> before(static_cast<size_t>(count)), after = before;
+    ASSERT_EQ(frond_plant_get_capsules(plant, before.data(), count), FROND_OK);
+    step(world, 60);
+    ASSERT_EQ(frond_plant_get_capsules(plant, after.data(), count), FROND_OK);
+    double sunk = 0;
+    for (size_t i = 0; i < before.size(); i++)
+        if (before[i].begin.y < 0.05) sunk = std::max(sunk, before[i].begin.y - after[i].begin.y);
+    EXPECT_LT(sunk, 0.02);
+    frond_world_destroy(world);
+    frond_model_destroy(model);
+}
+
 TEST(Bond, LetsGoWhenEitherSideIsGone) {
     SmallWorld small;
     const frond_rigid body = add_body(small.world, 0, {0, 0.63, 0});

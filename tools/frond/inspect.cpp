@@ -30,7 +30,9 @@ nlohmann::ordered_json describe_material(const frond_material& material) {
             {"friction", material.friction},
             {"yield_strain", material.yield_strain},
             {"creep_rate", material.creep_rate},
-            {"strength", material.strength}};
+            {"strength", material.strength},
+            {"drag", material.drag},
+            {"midrib", material.midrib}};
 }
 
 nlohmann::ordered_json describe_organ(const frond_organ& organ) {

@@ -201,7 +201,9 @@ const struct {
                        {"friction", &frond_material::friction},
                        {"yield_strain", &frond_material::yield_strain},
                        {"creep_rate", &frond_material::creep_rate},
-                       {"strength", &frond_material::strength}};
+                       {"strength", &frond_material::strength},
+                       {"drag", &frond_material::drag},
+                       {"midrib", &frond_material::midrib}};
 
 std::string material_key() {
     std::string names;

@@ -230,6 +230,10 @@ typedef struct frond_material {
      * flowers are then flat plates of the organ's aspect, fruits spheres, crowns 0.4 and everything else a long
      * cylinder, both by Reynolds number (sources: plugin/src/plant/air_pieces.cpp). The skin's friction is added. */
     double drag;
+    /* Diameter of a blade's round midrib over the blade's width [-], 0 (none) .. 0.5: a leaf drawn as a bare sheet is
+     * carried by a rib that the file does not show. The presets of blades have 1/20 (maize: 4 mm of 80 mm). Blades and
+     * flowers bend at least as stiffly as the rib, and twist by the sum of both; it adds no mass. */
+    double midrib;
 } frond_material;
 /* A material for the organs of one kind or name: see frond_model_def.organs. */
 typedef struct frond_organ_material {
@@ -313,8 +317,9 @@ typedef struct frond_texture_view {
     size_t byte_count;
 } frond_texture_view;
 /* An organ, and the ranges of its sections, one per capsule of the chain. Sections are the organ's own, of a rod or a
- * strip, not those of the cage around it. A small organ can lie within another one's capsules; all fields from
- * capsule_count on are then 0. */
+ * strip, not those of the cage around it, and their EI and GJ those by which a tapering capsule yields. A small organ
+ * can lie within another one's capsules, and a rib drawn along a blade is one beam with it, counted in the blade's
+ * sections; all fields from capsule_count on are then 0. */
 typedef struct frond_organ {
     const char* name;        /* "leaf_3"; no two organs of a model share one */
     const char* kind;        /* "stem", "blade" ... */

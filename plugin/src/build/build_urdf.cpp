@@ -33,6 +33,7 @@ static void take_sections(const UrdfTree& tree, const std::vector<int>& link_of_
         section.inertia_thin = link.bending_x / section.young;
         section.inertia_wide = link.bending_y / section.young;
         section.torsion = link.twisting / section.shear;
+        section.taper = link.taper;
     }
 }
 

@@ -1,6 +1,7 @@
 // In: an organ's chain and sections. Out: the compliance of its rods. A tree of rods is statically determinate, so
 // forces and moments follow from the loads, summed from the tip down; their products for two loads, over the stiffness,
-// are the compliance (the theorem of virtual forces). Moments vary linearly along a segment.
+// are the compliance (the theorem of virtual forces). Moments vary linearly along a segment, and count by their value
+// at its elastic centre and by their change.
 #include "build/compliance.hpp"
 
 #include <cmath>
@@ -92,24 +93,25 @@ std::vector<Compliance> rod_compliances(const Model& plant, int organ, const Loa
         if (nodes[i].organ != organ || nodes[i].parent < 0) continue;
         const size_t parent = size_t(nodes[i].parent);
         const Section& section = plant.sections[i];
-        const Vec3 middle = 0.5 * (nodes[i].position + nodes[parent].position);
         const Vec3 chord = nodes[i].position - nodes[parent].position;
+        const Vec3 centre = nodes[parent].position + section.elastic_centre() * chord;
         Mat3 frame;  // thin, wide, axis
         frame << section.thin, section.wide(), section.axis;
         const LoadColumns& force = loads[i].force;
-        LoadColumns moment, change;  // in the middle, and from end to end
+        LoadColumns moment, change;  // at the centre, and from end to end
         for (int l = 0; l < LOAD_COUNT; l++) {
-            moment.col(l) = loads[i].moment.col(l) - middle.cross(Vec3(force.col(l)));
+            moment.col(l) = loads[i].moment.col(l) - centre.cross(Vec3(force.col(l)));
             change.col(l) = chord.cross(Vec3(force.col(l)));
         }
         // Moments about wide bend towards thin.
         const double over = section.length / plant.organ_stiffer[size_t(organ)];
+        const double by_change = 1 / (section.tilting_per_bending() * section.length * section.length);
         const Vec3 soft = over * Vec3(1 / section.bending_wide(), 1 / section.bending_thin(), 1 / section.twisting());
         moment = (frame.transpose() * moment).eval();
         change = (frame.transpose() * change).eval();
         const Eigen::Matrix<double, 1, LOAD_COUNT> pull = section.axis.transpose() * force;
         shares[i] = moment.transpose() * soft.asDiagonal() * moment +
-                    change.transpose() * soft.asDiagonal() * change / 12 +
+                    change.transpose() * soft.asDiagonal() * change * by_change +
                     over / section.stretching() * pull.transpose() * pull;
         loads[parent].force += force;
         loads[parent].moment += loads[i].moment;

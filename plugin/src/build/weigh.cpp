@@ -64,7 +64,7 @@ Weights weigh(const Model& model, const std::vector<int>& hangs) {
     return weights;
 }
 
-// Returns the mass of each organ by its sections [kg]; sets that of each chain node, half of a capsule to either end.
+// Returns the mass of each organ by its sections [kg]; sets that of each chain node, by the capsules' centres of mass.
 static std::vector<double> weigh_sections(Model& model) {
     std::vector<double> organs(model.organs.size(), 0.0);
     model.chain_mass.assign(model.chain.nodes.size(), 0.0);
@@ -73,8 +73,9 @@ static std::vector<double> weigh_sections(Model& model) {
         if (node.parent < 0) continue;
         const double mass = model.sections[i].mass() * model.sections[i].length;
         organs[size_t(node.organ)] += mass;
-        model.chain_mass[i] += mass / 2;
-        model.chain_mass[size_t(node.parent)] += mass / 2;
+        const double share = model.sections[i].mass_at_end();
+        model.chain_mass[i] += share * mass;
+        model.chain_mass[size_t(node.parent)] += (1 - share) * mass;
     }
     return organs;
 }

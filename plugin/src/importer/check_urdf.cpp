@@ -8,6 +8,7 @@
 #include <set>
 
 #include "importer/urdf.hpp"
+#include "model/section.hpp"
 
 namespace frond {
 
@@ -64,6 +65,10 @@ static void take_frond(const XMLElement& element, UrdfLink& link) {
     take_numbers(element, "stretching", {&link.stretching});
     take_numbers(element, "bending", {&link.bending_x, &link.bending_y});
     take_numbers(element, "twisting", {&link.twisting});
+    if (element.Attribute("taper") && (element.QueryDoubleAttribute("taper", &link.taper) != tinyxml2::XML_SUCCESS ||
+                                       !(std::abs(link.taper) <= LARGEST_TAPER)))
+        fail(FROND_RESULT_FILE_FORMAT, "line %d: taper=\"%.64s\" is to be a number from %g to %g", element.GetLineNum(),
+             element.Attribute("taper"), -LARGEST_TAPER, LARGEST_TAPER);
     const double numbers[] = {link.section_mass, link.stretching, link.bending_x, link.twisting};
     const auto given = std::count_if(std::begin(numbers), std::end(numbers), [](double value) { return value > 0; });
     if (given != 0 && given != 4)

@@ -103,6 +103,7 @@ struct AddExactStiffness {
     FROND_INLINE void differentiate(const RodSegment& rod, double (&slopes)[COUNT][COUNT]) const {
         RodPiece<Dual<S>> piece;
         piece.length = rod.length;
+        piece.centre = rod.centre;
         piece.warping = rod.warping;
         for (int r = 0; r < 3; ++r) piece.frame.r[r] = constants<S>(rod.frame.row(r));
         piece.stretch = constants<S>(rod.stretch);

@@ -6,10 +6,12 @@
 #include "mechanics/rod_elements.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "core/error.hpp"
 #include "mechanics/rows.hpp"
 #include "mechanics/sections.hpp"
+#include "model/union_find.hpp"
 
 namespace frond {
 
@@ -23,12 +25,14 @@ size_t organ_of(const Model& model, size_t node) {
 // full cylinder with a factor on bending alone: a blade's factor, far below one, would let it stretch like rubber.
 void take_section(const Model& model, size_t node, RodSegment& rod) {
     const Section& section = model.sections[node];
-    const double stiffer = model.organ_stiffer[organ_of(model, node)], over = 12 / (rod.length * rod.length);
+    const double stiffer = model.organ_stiffer[organ_of(model, node)];
+    const double over = section.tilting_per_bending();
     const double thin = stiffer * section.bending_thin(), wide = stiffer * section.bending_wide();
     rod.reach_thin = 0.5 * section.thickness;
     rod.reach_wide = 0.5 * section.width;
     rod.stretch = Vec3(stiffer * section.stretching(), over * thin, over * wide);
     rod.bend = Vec3(stiffer * section.twisting(), wide, thin);
+    rod.centre = (section.elastic_centre() - 0.5) * rod.length;
     rod.warping = section.stretching() * std::pow(section.width, 4) / (720 * section.twisting());
 }
 void take_cylinder(const Model& model, size_t node, double radius, double stiffer, RodSegment& rod) {
@@ -57,6 +61,50 @@ RodSegment make_segment(const Model& model, size_t node) {
     return rod;
 }
 
+// Returns for each root of the chain the first root of the same body, or -1: itself. Where the cage is connected,
+// organs are one body although their chains begin apart.
+std::vector<int> find_ties(const Model& model) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    std::vector<int> tie(nodes.size(), -1);
+    if (model.chain_embedding.tet.size() != nodes.size()) return tie;
+    UnionFind bodies(model.cage.nodes.size());
+    for (const Tet& tet : model.cage.tets)
+        for (int corner : tet) bodies.join(tet[0], corner);
+    std::map<int, int> first;  // by body
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].parent >= 0) continue;
+        const int body = bodies.find(model.cage.tets[size_t(model.chain_embedding.tet[i])][0]);
+        const auto [known, is_new] = first.insert({body, int(i)});
+        if (!is_new) tie[i] = known->second;
+    }
+    return tie;
+}
+
+// Makes a segment between two roots of one body, as stiff as the stiffest one that begins there and without fibres that
+// could yield or break. Where the ground holds both it does nothing.
+RodSegment make_tie(const Model& model, int root, int other, const std::vector<RodSegment>& segments) {
+    const std::vector<ChainNode>& nodes = model.chain.nodes;
+    const Vec3 way = nodes[size_t(other)].position - nodes[size_t(root)].position;
+    double stiff = 0, stretch = 0;
+    for (const RodSegment& rod : segments) {
+        if (rod.a != root && rod.a != other) continue;
+        stiff = std::max(stiff, rod.bend.maxCoeff());
+        stretch = std::max(stretch, rod.stretch[0]);
+    }
+    RodSegment tie = {};
+    tie.a = root;
+    tie.b = other;
+    tie.length = way.norm();
+    tie.frame.col(0) = way / tie.length;
+    tie.frame.col(1) = Vec3(tie.frame.col(0)).unitOrthogonal();
+    tie.frame.col(2) = tie.frame.col(0).cross(tie.frame.col(1));
+    tie.rest_strain = Vec3::UnitX();
+    const double over = 12 * stiff / (tie.length * tie.length);
+    tie.stretch = Vec3(stretch, over, over);
+    tie.bend = Vec3::Constant(stiff);
+    return tie;
+}
+
 void check_segment(const RodSegment& rod) {
     if (!rod.frame.allFinite() || !(rod.stretch.minCoeff() > 0) || !(rod.bend.minCoeff() > 0) ||
         !rod.stretch.allFinite() || !rod.bend.allFinite())
@@ -74,16 +122,21 @@ void let_stand(RodElements& elements) {
         RodSegment& rod = elements.segments[s];
         const size_t a = size_t(rod.a), b = size_t(rod.b);
         const Vec3 chord = point(elements.modelled, 2 * rod.b) - point(elements.modelled, 2 * rod.a);
-        const Vec3 half = 0.5 * force[b].cross(chord);
-        const Vec3 couple = -half - moment[b];  // moment by the segment on its second node
+        const Vec3 from_end = force[b].cross(chord);
+        // Moment by the segment's end on its second node, at the elastic centre.
+        const Vec3 couple = (rod.centre / rod.length - 0.5) * from_end - moment[b];
         rod.rest_strain -= (rod.frame.transpose() * force[b]).cwiseQuotient(rod.stretch);
         rod.rest_curvature -= (rod.frame.transpose() * couple).cwiseQuotient(rod.bend);
         force[a] += force[b];
-        moment[a] += half - couple;
+        moment[a] += from_end + moment[b];
     }
 }
 
-// Adds half of each segment's rotary inertia, by its section, to either end; nodes have at least that of a small ball.
+bool is_tie(const Model& model, const RodSegment& rod) {
+    return model.chain.nodes[size_t(rod.b)].parent < 0;
+}
+
+// Adds each segment's rotary inertia, by its section, to its ends; nodes have at least that of a small ball.
 void set_inertia(const Model& model, RodElements& elements) {
     const size_t count = elements.mass.size();
     for (size_t i = 0; i < count; ++i) {
@@ -91,10 +144,30 @@ void set_inertia(const Model& model, RodElements& elements) {
         elements.inertia.push_back(0.01 * elements.mass[i] * r * r * Mat3::Identity());
     }
     for (const RodSegment& rod : elements.segments) {
+        if (is_tie(model, rod)) continue;
         const Section& section = model.sections[size_t(rod.b)];
-        const Mat3 half =
-            rod.frame * Vec3(0.5 * rod.length * section.rotary_inertia()).asDiagonal() * rod.frame.transpose();
-        for (int end : {rod.a, rod.b}) elements.inertia[size_t(end)] += half;
+        const Mat3 whole = rod.frame * Vec3(rod.length * section.rotary_inertia()).asDiagonal() * rod.frame.transpose();
+        elements.inertia[size_t(rod.a)] += (1 - section.inertia_at_end()) * whole;
+        elements.inertia[size_t(rod.b)] += section.inertia_at_end() * whole;
+    }
+}
+
+// Sets the mass between the ends of each segment, half of that by linear shape functions. A node's mass is that of its
+// segments by their sections; what it carries beyond, by the segment's other end, stays with it.
+void share_mass(const Model& model, RodElements& elements) {
+    std::vector<double> by_sections(elements.mass.size(), 0.0);
+    const auto at_end = [&](const RodSegment& rod) { return model.sections[size_t(rod.b)].mass_at_end(); };
+    const auto whole = [&](const RodSegment& rod) { return model.sections[size_t(rod.b)].mass() * rod.length; };
+    for (const RodSegment& rod : elements.segments) {
+        if (is_tie(model, rod)) continue;
+        by_sections[size_t(rod.a)] += (1 - at_end(rod)) * whole(rod);
+        by_sections[size_t(rod.b)] += at_end(rod) * whole(rod);
+    }
+    for (RodSegment& rod : elements.segments) {
+        if (is_tie(model, rod)) continue;
+        const size_t a = size_t(rod.a), b = size_t(rod.b);
+        const double factor = std::min(elements.mass[a] / by_sections[a], elements.mass[b] / by_sections[b]);
+        rod.shared_mass = (1 - at_end(rod)) * at_end(rod) * factor * whole(rod) / 3;
     }
 }
 
@@ -112,16 +185,24 @@ RodElements make_elements(const Model& model, Take&& take) {
     for (size_t i = 0; i < nodes.size(); ++i) point(out.modelled, int(2 * i)) = nodes[i].position;
     out.rest_positions = out.modelled;
 
+    const std::vector<int> ties = find_ties(model);
     std::vector<Tet> pairs;
     for (size_t i = 0; i < nodes.size(); ++i) {
-        const int a = nodes[i].parent, b = int(i);
-        pairs.push_back(a < 0 ? Tet{2 * b, 2 * b + 1, 2 * b, 2 * b + 1} : Tet{2 * a, 2 * a + 1, 2 * b, 2 * b + 1});
-        if (a < 0) continue;
-        out.segments.push_back(make_segment(model, i));
-        take(i, out.segments.back());
-        check_segment(out.segments.back());
-        out.damping_ratio.push_back(model.organs[organ_of(model, i)].material.damping_ratio);
-        out.section.push_back(b);
+        const int b = int(i);
+        if (nodes[i].parent >= 0) {
+            out.segments.push_back(make_segment(model, i));
+            take(i, out.segments.back());
+            check_segment(out.segments.back());
+        }
+        pairs.push_back({2 * b, 2 * b + 1, 2 * b, 2 * b + 1});
+    }
+    for (size_t i = 0; i < nodes.size(); ++i)
+        if (ties[i] >= 0) out.segments.push_back(make_tie(model, ties[i], int(i), out.segments));
+    std::sort(out.segments.begin(), out.segments.end(), [](const auto& p, const auto& q) { return p.b < q.b; });
+    for (const RodSegment& rod : out.segments) {
+        pairs.push_back({2 * rod.a, 2 * rod.a + 1, 2 * rod.b, 2 * rod.b + 1});
+        out.damping_ratio.push_back(model.organs[organ_of(model, size_t(rod.b))].material.damping_ratio);
+        out.section.push_back(rod.b);
     }
     out.pattern = make_block_pattern(out.node_count, pairs);
     for (RodSegment& rod : out.segments) {
@@ -135,6 +216,7 @@ RodElements make_elements(const Model& model, Take&& take) {
     for (double m : model.chain_mass) total += m;
     for (double m : model.chain_mass) out.mass.push_back(std::max(m, 1e-6 * total / double(nodes.size())));
     set_inertia(model, out);
+    share_mass(model, out);
     find_roots(out);
     if (model.stands_as_modelled) let_stand(out);
     return out;
@@ -173,8 +255,7 @@ std::unique_ptr<const Elements> make_rods(const Model& model, frond_mechanics wh
 
 // Lumped: each node's own mass. Consistent: the mean of that and of linear shape functions (Goudreau, Taylor 1972),
 // 5/12 of a segment's mass at each end and 1/12 between them, since their errors are opposite: the third mode of ten
-// segments is 2.5 % too slow with the one, 3.7 % too fast with the other and 0.4 % too fast with their mean. Mass that
-// nodes carry beyond their segments' stays with them.
+// segments is 2.5 % too slow with the one, 3.7 % too fast with the other and 0.4 % too fast with their mean.
 Masses rod_masses(const Elements& body, frond_mass mass) {
     const RodElements& elements = as_rods(body);
     Masses masses;
@@ -186,18 +267,10 @@ Masses rod_masses(const Elements& body, frond_mass mass) {
         masses.slot[size_t(elements.pattern.slot(int(2 * i), int(2 * i)))] = elements.mass[i];
     }
     if (masses.lumped) return masses;
-    std::vector<int> pieces(elements.mass.size(), 0);
     for (const RodSegment& rod : elements.segments) {
-        pieces[size_t(rod.a)]++;
-        pieces[size_t(rod.b)]++;
-    }
-    for (const RodSegment& rod : elements.segments) {
-        const double shared = std::min(elements.mass[size_t(rod.a)] / pieces[size_t(rod.a)],
-                                       elements.mass[size_t(rod.b)] / pieces[size_t(rod.b)]) /
-                              6;
-        masses.slot[size_t(rod.slots[0])] -= shared;
-        masses.slot[size_t(rod.slots[10])] -= shared;
-        masses.slot[size_t(rod.slots[8])] += shared;
+        masses.slot[size_t(rod.slots[0])] -= rod.shared_mass;
+        masses.slot[size_t(rod.slots[10])] -= rod.shared_mass;
+        masses.slot[size_t(rod.slots[8])] += rod.shared_mass;
     }
     return masses;
 }

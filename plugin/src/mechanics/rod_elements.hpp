@@ -13,9 +13,11 @@ struct RodSegment {
     Mat3 frame;           // axis, thin and wide in the modelled shape
     Vec3 stretch;         // stiffness against stretch and against shear towards thin and wide [N]
     Vec3 bend;            // stiffness against twist and against bending about thin and wide [N m^2]
+    double centre;        // elastic centre from the middle towards b [m]; only taper moves it
     double warping;       // growth of twist stiffness by the square of twist, see measure_twist() [m^2]
     Vec3 rest_strain;     // stretch and tilt without load; (1, 0, 0) for a straight segment at its own length [-]
     Vec3 rest_curvature;  // twist and curvature without load, relative to the modelled shape [1/m]
+    double shared_mass;   // mass between its nodes, taken from either [kg]
     double reach_thin, reach_wide;  // distances of the outermost fibres from the axis, towards thin and wide [m]
     std::array<int, 16> slots;      // blocks of the nodes 2a, 2a+1, 2b, 2b+1 in a BlockMatrix of the pattern
 };

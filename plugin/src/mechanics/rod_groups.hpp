@@ -148,6 +148,7 @@ template <class Pieces, class S = LanesOf<Pieces>>
 FROND_INLINE RodPiece<S> piece_of(const Pieces& pieces) {
     RodPiece<S> out;
     out.length = pieces.number(&RodSegment::length);
+    out.centre = pieces.number(&RodSegment::centre);
     out.warping = pieces.number(&RodSegment::warping);
     for (int r = 0; r < 3; ++r) out.frame.r[r] = {pieces.element(r, 0), pieces.element(r, 1), pieces.element(r, 2)};
     out.stretch = pieces.vector(&RodSegment::stretch);

@@ -12,7 +12,7 @@ namespace frond {
 // A segment at rest; see RodSegment.
 template <class S>
 struct RodPiece {
-    S length, warping;
+    S length, centre, warping;
     Lanes33<S> frame;
     Lanes3<S> stretch, bend, rest_strain, rest_curvature;
 };
@@ -97,6 +97,7 @@ struct RodBent {
     Lanes3<S> strain, curvature;  // relative to rest
     Lanes3<S> along;              // direction of the chord in the frame `middle`
     S twist_slope;                // derivative of the measure of twist by twist
+    S tilt_thin, tilt_wide;       // of the chord from the midway frame
     S tilt_scale;                 // derivative of tilt by the chord's component across, for a straight chord
 };
 
@@ -108,7 +109,9 @@ FROND_INLINE void measure_chord(const Lanes3<S>& chord, RodBent<S>& out) {
     const S length = sqrt(SHORT * SHORT + dot(chord, chord)), sum = length + chord.x;
     out.along = (1.0 / length) * chord;
     out.tilt_scale = 2.0 / select(sum < LEAST, constant<S>(LEAST), sum);
-    out.strain = {length, out.tilt_scale * chord.y, out.tilt_scale * chord.z};
+    out.tilt_thin = out.tilt_scale * chord.y;
+    out.tilt_wide = out.tilt_scale * chord.z;
+    out.strain = {length, out.tilt_thin, out.tilt_wide};
 }
 
 // Returns the chord, as above, of a strain that is not relative to rest.
@@ -120,18 +123,33 @@ FROND_INLINE Lanes3<S> chord_of_strain(const Lanes3<S>& strain) {
 
 // Returns the derivative of the strain by the chord, as above, times a matrix.
 template <class S>
-FROND_INLINE Lanes33<S> strain_change(const RodPiece<S>& rod, const RodBent<S>& bent, const Lanes33<S>& m) {
+FROND_INLINE Lanes33<S> strain_change(const RodBent<S>& bent, const Lanes33<S>& m) {
     const Lanes3<S> stretch = transposed_times(m, bent.along);
     const Lanes3<S> turned = (0.5 * bent.tilt_scale) * (stretch + m.r[0]);
-    return {{stretch, bent.tilt_scale * m.r[1] - (bent.strain.y + rod.rest_strain.y) * turned,
-             bent.tilt_scale * m.r[2] - (bent.strain.z + rod.rest_strain.z) * turned}};
+    return {{stretch, bent.tilt_scale * m.r[1] - bent.tilt_thin * turned,
+             bent.tilt_scale * m.r[2] - bent.tilt_wide * turned}};
 }
 // Returns its transposed times a vector.
 template <class S>
-FROND_INLINE Lanes3<S> strain_change_transposed(const RodPiece<S>& rod, const RodBent<S>& bent, const Lanes3<S>& f) {
-    const S turned =
-        0.5 * bent.tilt_scale * ((bent.strain.y + rod.rest_strain.y) * f.y + (bent.strain.z + rod.rest_strain.z) * f.z);
+FROND_INLINE Lanes3<S> strain_change_transposed(const RodBent<S>& bent, const Lanes3<S>& f) {
+    const S turned = 0.5 * bent.tilt_scale * (bent.tilt_thin * f.y + bent.tilt_wide * f.z);
     return (f.x - turned) * bent.along + Lanes3<S>{-turned, bent.tilt_scale * f.y, bent.tilt_scale * f.z};
+}
+
+// A tapered segment bends as if most of its bending were at its elastic centre, so that its chord follows the farther
+// end more. Returns a strain with the tilt that this leaves, for one with the tilt from the midway axis, by the
+// curvature; `way` -1: the other way round. Then tilt and bending store energy apart from each other.
+template <class S>
+FROND_INLINE Lanes3<S> tilt_at_centre(const RodPiece<S>& rod, const Lanes3<S>& strain, const Lanes3<S>& curvature,
+                                      const S& way) {
+    const S by = way * rod.centre;
+    return {strain.x, strain.y + by * curvature.z, strain.z - by * curvature.y};
+}
+// Adds the curvature's part, as above, to the derivative of the strain by an end.
+template <class S>
+FROND_INLINE void add_tilt_at_centre(const RodPiece<S>& rod, const Lanes33<S>& bend, Lanes33<S>& strain) {
+    strain.r[1] = strain.r[1] + rod.centre * bend.r[2];
+    strain.r[2] = strain.r[2] - rod.centre * bend.r[1];
 }
 
 // Measures a segment's twist [1/m] so that half its stiffness times the square is the energy per length. A section that
@@ -174,8 +192,8 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
     out.middle = rotation_of(w_middle, p_middle) * rod.frame;
     const S per_length = 1.0 / rod.length;
     measure_chord(per_length * transposed_times(out.middle, out.chord), out);
-    out.strain = out.strain - rod.rest_strain;
     out.curvature = per_length * transposed_times(rod.frame, out.fold * out.turn);
+    out.strain = tilt_at_centre(rod, out.strain, out.curvature, constant<S>(1)) - rod.rest_strain;
     measure_twist(rod, out);
     out.curvature = out.curvature - rod.rest_curvature;
     return out;
@@ -203,10 +221,11 @@ struct RodGradient {
 template <class S>
 FROND_INLINE RodGradient<S> gradient_of(const RodPiece<S>& rod, const Lanes33<S>& rotation_a, const Lanes33<S>& rate_a,
                                         const Lanes33<S>& rate_b, const RodBent<S>& bent) {
-    const Lanes3<S> force = bent.middle * strain_change_transposed(rod, bent, scaled(rod.stretch, bent.strain));
+    const Lanes3<S> pull = scaled(rod.stretch, bent.strain);
+    const Lanes3<S> force = bent.middle * strain_change_transposed(bent, pull);
     const Lanes3<S> middle_moment = cross(force, bent.chord);
     Lanes3<S> moment = scaled(rod.bend, bent.curvature);
-    moment.x = bent.twist_slope * moment.x;
+    moment = {bent.twist_slope * moment.x, moment.y - rod.centre * pull.z, moment.z + rod.centre * pull.y};
     const Lanes3<S> by_fold = rod.frame * moment;
     const Lanes3<S> couple = bent.fold * by_fold + dot(bent.turn, by_fold) * bent.fold_slope;
     const Lanes3<S> turned = cross(bent.turn, couple);
@@ -246,8 +265,11 @@ FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& ro
         folding.r[i] = folding.r[i] + (i == 0 ? bent.turn.x : i == 1 ? bent.turn.y : bent.turn.z) * grown;
     Lanes33<S> turning_by = transposed_times(rod.frame, folding) * transposed(rotation_a);
     turning_by.r[0] = bent.twist_slope * turning_by.r[0];
-    return {strain_change(rod, bent, transposed(bent.middle)), strain_change(rod, bent, (seen - by_share) * rate_a),
-            strain_change(rod, bent, by_share * rate_b), turning_by * rate_a, turning_by * rate_b};
+    RodChange<S> out = {strain_change(bent, transposed(bent.middle)), strain_change(bent, (seen - by_share) * rate_a),
+                        strain_change(bent, by_share * rate_b), turning_by * rate_a, turning_by * rate_b};
+    add_tilt_at_centre(rod, -out.bend_a, out.strain_a);
+    add_tilt_at_centre(rod, out.bend_b, out.strain_b);
+    return out;
 }
 
 // Computes the lower blocks (r, c), c <= r, at [r (r + 1) / 2 + c], of the stiffness's positive semi-definite part.

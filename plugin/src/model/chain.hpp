@@ -22,7 +22,8 @@ struct Chain {
     // meets the capsule before, 1 where it meets the next ones. A root without a capsule of its own stands for itself.
     std::vector<int> vertex_capsule;
     std::vector<double> vertex_along;
-    double height = 0;  // length of a capsule, as given or chosen [m]
+    std::vector<int> rib_of;  // organ -> the blade that it runs along as a rib, or -1; empty: there are no ribs
+    double height = 0;        // length of a capsule, as given or chosen [m]
     int root_count() const;
     int fork_count() const;  // nodes with more than one child
     double length() const;   // total of all capsules [m]

@@ -15,8 +15,9 @@ ChainLoads weigh_chain(const Model& model, int axis) {
     for (size_t i = nodes.size(); i-- > 0;) {
         if (nodes[i].parent < 0) continue;
         const size_t parent = size_t(nodes[i].parent);
-        const Vec3 middle = 0.5 * (nodes[i].position + nodes[parent].position);
-        loads.moment[i] = moment[i] - middle.cross(loads.force[i]);
+        const Vec3 centre =
+            nodes[parent].position + model.sections[i].elastic_centre() * (nodes[i].position - nodes[parent].position);
+        loads.moment[i] = moment[i] - centre.cross(loads.force[i]);
         loads.force[parent] += loads.force[i];
         moment[parent] += moment[i];
     }

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "model/chain.hpp"
+#include "model/chain_ribs.hpp"
 #include "model/chain_tree.hpp"
 
 namespace frond {
@@ -23,6 +24,7 @@ constexpr double MOST_FRAGMENTS = 2e7;
 constexpr std::array<double, 3> LOOSE = {0.5, 1, 2};  // in bands: smaller loose parts are dropped; the first is usual
 constexpr double SHORT_TIP = 0.2;                     // in bands: a shorter slab at a tip gets no capsule
 constexpr double SHORT_PIECE = 0.15;                  // in bands: nor does a shorter one in between
+constexpr double SAME_PLACE = 0.01;                   // in bands: roots no farther apart are one
 
 // Returns the group of a kind. Sheets, fruits and supports are cut apart from tubes, so that a leaf does not displace
 // the stem's node.
@@ -74,6 +76,13 @@ struct Maker {
     std::vector<char> is_foot = {};
     int last_resort = -1;  // node at the end of the only capsule of a chain that had only feet
 
+    // Returns the root at a place, a new one unless there is one already.
+    int root_at(const Vec3& position, int organ) {
+        for (size_t i = 0; i < chain.nodes.size(); i++)
+            if (is_foot[i] && (chain.nodes[i].position - position).norm() <= SAME_PLACE * bands.height) return int(i);
+        return add_node(position, -1, organ);
+    }
+
     int add_node(const Vec3& position, int parent, int organ) {
         const double distance = parent < 0 ? 0
                                            : chain.nodes[size_t(parent)].distance +
@@ -104,8 +113,8 @@ void make_nodes(Maker& maker) {
     for (int number : maker.tree.order) {
         const Shoot& shoot = maker.tree.shoots[size_t(number)];
         const Piece& piece = bands.pieces[size_t(number)];
-        const int below = shoot.parent < 0 ? maker.add_node(maker.tree.foot[size_t(number)], -1, piece.organ)
-                                           : node_below(maker, shoot);
+        const int below =
+            shoot.parent < 0 ? maker.root_at(maker.tree.foot[size_t(number)], piece.organ) : node_below(maker, shoot);
         const double step = (shoot.end - maker.chain.nodes[size_t(below)].position).norm();
         const bool tip = shoot.children == 0;
         const bool same = shoot.parent >= 0 && bands.pieces[size_t(shoot.parent)].component == piece.component &&
@@ -261,6 +270,7 @@ Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, dou
         add_last_resort(maker);
         fit_radii(maker, organs, radius);
         bind_vertices(maker);
+        join_ribs(shape.surface, organs, maker.chain);
         maker.chain.height = height;
         return std::move(maker.chain);
     }

@@ -1,10 +1,11 @@
 // Chain root. In: a surface with organs. Out: the points at its foot.
 // Organs that can stand on the ground come first (stems, branches, roots; pots and stakes on their own); leaves only if
 // there is nothing else. A component is rooted if it reaches down to the ground of its class and does not stand on
-// another one.
+// another one. A plant that lies has no foot below it: it is rooted at one end.
 #include <algorithm>
 #include <cmath>
 
+#include "core/decompose.hpp"
 #include "model/chain.hpp"
 
 namespace frond {
@@ -20,6 +21,7 @@ constexpr double HANGS = 0.3;       // a component hangs from joints above this 
 constexpr double GROUND = 0.03;     // tolerance for feet on uneven ground
 constexpr double STANDS_ON = 0.05;  // a component stands on joints no higher than this above its foot
 constexpr double GAP = 0.01;        // a joint across a wider gap carries nothing
+constexpr double LIES = 0.1;        // a plant lower than this share of its size, and on its feet over half of it, lies
 constexpr double TOO_HIGH = 0.5;    // a plant does not stand on a stem that begins above this
 
 struct Feet {
@@ -106,6 +108,38 @@ std::vector<int> find_holds(const Surface& surface, const Topology& topology, co
     return holds;
 }
 
+// Moves the roots of a plant that lies, such as a leaf drawn level, to one end of its longest axis: that which is
+// nearer to the file's origin.
+void root_at_end(const Surface& surface, const Topology& topology, RootPoints& roots) {
+    if (surface.height() > LIES * surface.size()) return;
+    Eigen::AlignedBox3d feet;
+    for (int p : roots.points) feet.extend(topology.points[size_t(p)]);
+    if (feet.sizes().norm() < 0.5 * surface.size()) return;
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& point : topology.points) middle += point / double(topology.points.size());
+    Mat3 spread = Mat3::Zero();
+    for (const Vec3& point : topology.points) spread += (point - middle) * (point - middle).transpose();
+    Vec3 along = symmetric_parts(spread).vectors.col(2);
+    const auto extent = [&] {
+        std::array<double, 2> ends = {INFINITY, -INFINITY};
+        for (const Vec3& point : topology.points)
+            ends = {std::min(ends[0], along.dot(point)), std::max(ends[1], along.dot(point))};
+        return ends;
+    };
+    std::array<double, 2> ends = extent();
+    if (std::abs(ends[1]) < std::abs(ends[0])) {
+        along = -along;
+        ends = extent();
+    }
+    roots = {};
+    for (size_t i = 0; i < topology.points.size(); i++) {
+        const double way = along.dot(topology.points[i]) - ends[0];
+        if (way > FOOT * (ends[1] - ends[0])) continue;
+        roots.points.push_back(int(i));
+        roots.heights.push_back(way);
+    }
+}
+
 }  // namespace
 
 RootPoints find_root_points(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs) {
@@ -141,6 +175,7 @@ RootPoints find_root_points(const Surface& surface, const Topology& topology, co
             roots.points.push_back(int(i));
             roots.heights.push_back(above[i]);
         }
+    root_at_end(surface, topology, roots);
     return roots;
 }
 

@@ -12,6 +12,7 @@ namespace {
 constexpr int USUAL_STEM_COUNT = 20;  // capsules along the longest path
 constexpr int LEAST_COUNT = 2;        // capsules per segment
 constexpr int MOST_COUNT = 2000;
+constexpr double ONE_ROOT = 1e-3;  // of a stem's length: roots no farther apart are one
 
 struct StemPiece {
     int parent;
@@ -22,6 +23,15 @@ struct StemPiece {
     std::vector<double> cuts;  // positions of chain nodes, 0 .. 1, ascending
     std::vector<int> nodes;    // chain nodes, one per cut
     double radius(double share) const { return radius_begin + share * (radius_end - radius_begin); }
+    // Returns the place of an even cut. Pieces are shorter where a stem is thin, by their radius to the power of 2/3,
+    // since waves are (by its root) and a thin piece's mass is lumped the more coarsely; where a stem narrows by half
+    // at most, that is no matter.
+    double even_cut(double share) const {
+        constexpr double MILD = 2;
+        if (std::max(radius_begin, radius_end) <= MILD * std::min(radius_begin, radius_end)) return share;
+        const double a = std::cbrt(radius_begin), b = std::cbrt(radius_end), way = share * (b - a);
+        return share * ((3 * a * (a + way) + way * way) / (a * (a + b) + b * b));
+    }
     Vec3 place(double share) const { return begin + share * (end - begin); }
     double nearest(const Vec3& p) const {
         return std::min(std::max((p - begin).dot(end - begin) / (length * length), 0.0), 1.0);
@@ -59,7 +69,7 @@ double longest_way(const std::vector<StemPiece>& pieces) {
     return longest;
 }
 
-// Cuts each segment evenly and where a child grows out; even cuts too close to the others are left out.
+// Cuts each segment evenly for its waves and where a child grows out; even cuts too close to the others are left out.
 void cut_pieces(std::vector<StemPiece>& pieces, double height) {
     std::vector<std::vector<double>> joints(pieces.size());
     for (const StemPiece& piece : pieces)
@@ -76,7 +86,7 @@ void cut_pieces(std::vector<StemPiece>& pieces, double height) {
             if (piece.cuts.empty() || cut - piece.cuts.back() > 1e-6) piece.cuts.push_back(cut);
         const std::vector<double> kept = piece.cuts;
         for (int k = 1; k < count; k++) {
-            const double cut = double(k) / count;
+            const double cut = piece.even_cut(double(k) / count);
             const bool free = std::all_of(kept.begin(), kept.end(),
                                           [&](double other) { return std::abs(other - cut) > 0.3 / count; });
             if (free) piece.cuts.push_back(cut);
@@ -85,7 +95,7 @@ void cut_pieces(std::vector<StemPiece>& pieces, double height) {
     }
 }
 
-Section round_section(const Vec3& along, double radius, const Organ& organ) {
+Section round_section(const Vec3& along, double radius, double taper, const Organ& organ) {
     Section section = {};
     section.length = along.norm();
     section.axis = along / section.length;
@@ -93,6 +103,7 @@ Section round_section(const Vec3& along, double radius, const Organ& organ) {
     section.area = M_PI * radius * radius;
     section.inertia_thin = section.inertia_wide = section.area * radius * radius / 4;
     section.thickness = 2 * radius;
+    section.taper = std::clamp(taper, -LARGEST_TAPER, LARGEST_TAPER);
     finish_section(organ, section);
     return section;
 }
@@ -103,7 +114,7 @@ struct StemChain {
     Chain chain = {};
     std::vector<Section> sections = {};
 
-    int add(const Vec3& position, int parent, double radius, int organ) {
+    int add(const Vec3& position, int parent, double radius, int organ, double taper = 0) {
         ChainNode node = {};
         node.position = position;
         node.fitted_radius = radius;
@@ -116,14 +127,21 @@ struct StemChain {
             node.distance = chain.nodes[size_t(parent)].distance + along.norm();
         }
         chain.nodes.push_back(node);
-        sections.push_back(round_section(along, radius, organs[size_t(organ)]));
+        sections.push_back(round_section(along, radius, taper, organs[size_t(organ)]));
         return int(chain.nodes.size()) - 1;
     }
 };
 
-// Returns the node from which a segment grows: its parent's nearest, or a new one with a capsule across the gap.
+// Returns the node from which a segment grows: its parent's nearest, or a new one with a capsule across the gap. Stems
+// that stand at one place have one root.
 int begin_of(StemChain& maker, const std::vector<StemPiece>& pieces, const StemPiece& piece) {
-    if (piece.parent < 0) return maker.add(piece.begin, -1, piece.radius_begin, piece.organ);
+    if (piece.parent < 0) {
+        const std::vector<ChainNode>& nodes = maker.chain.nodes;
+        for (size_t i = 0; i < nodes.size(); i++)
+            if (nodes[i].parent < 0 && (nodes[i].position - piece.begin).norm() <= ONE_ROOT * piece.length)
+                return int(i);
+        return maker.add(piece.begin, -1, piece.radius_begin, piece.organ);
+    }
     const StemPiece& parent = pieces[size_t(piece.parent)];
     const double joint = parent.nearest(piece.begin);
     size_t nearest = 0;
@@ -169,9 +187,11 @@ Chain make_chain_of_stems(const frond_stem* stems, int stem_count, const Surface
     StemChain maker = {organs, options.radius};
     for (StemPiece& piece : pieces) {
         piece.nodes.push_back(begin_of(maker, pieces, piece));
-        for (size_t k = 1; k < piece.cuts.size(); k++)
-            piece.nodes.push_back(maker.add(piece.place(piece.cuts[k]), piece.nodes.back(),
-                                            piece.radius(0.5 * (piece.cuts[k - 1] + piece.cuts[k])), piece.organ));
+        for (size_t k = 1; k < piece.cuts.size(); k++) {
+            const double begin = piece.radius(piece.cuts[k - 1]), end = piece.radius(piece.cuts[k]);
+            piece.nodes.push_back(maker.add(piece.place(piece.cuts[k]), piece.nodes.back(), 0.5 * (begin + end),
+                                            piece.organ, (end - begin) / (end + begin)));
+        }
     }
     maker.chain.height = height;
     bind_vertices(maker, surface, pieces);

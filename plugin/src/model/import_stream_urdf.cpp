@@ -39,7 +39,7 @@ void put_tree(std::string& out, const UrdfTree& tree) {
         put_frame(out, link.frame);
         put_vec(out, link.axis);
         for (double value : {link.lower, link.upper, link.effort, link.speed, link.mass, link.section_mass,
-                             link.stretching, link.twisting, link.bending_x, link.bending_y})
+                             link.stretching, link.twisting, link.bending_x, link.bending_y, link.taper})
             put(out, value);
         put(out, uint8_t(link.has_inertia));
         put_frame(out, link.centre);
@@ -102,7 +102,7 @@ static void take_link(StreamReader& in, UrdfLink& link) {
     link.frame = take_frame(in);
     link.axis = take_vec(in);
     for (double* value : {&link.lower, &link.upper, &link.effort, &link.speed, &link.mass, &link.section_mass,
-                          &link.stretching, &link.twisting, &link.bending_x, &link.bending_y})
+                          &link.stretching, &link.twisting, &link.bending_x, &link.bending_y, &link.taper})
         *value = take<double>(in);
     link.has_inertia = take<uint8_t>(in) != 0;
     link.centre = take_frame(in);

@@ -125,6 +125,7 @@ static std::vector<std::string> split_parts(Surface& surface, Topology& topology
     reorder(surface.triangles, order);
     reorder(topology.triangles, order);
     reorder(topology.triangle_component, order);
+    reorder(topology.turned, order);
     std::vector<int> place(order.size());
     for (size_t i = 0; i < order.size(); i++) place[size_t(order[i])] = int(i);
     for (Joint& joint : topology.joints) {

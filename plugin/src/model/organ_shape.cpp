@@ -112,7 +112,8 @@ static std::vector<Lump> measure_lumps(const Topology& topology) {
         if (lump.box.isEmpty()) origin[component] = a;
         lump.box.extend(a).extend(b).extend(c);
         lump.area += 0.5 * (b - a).cross(c - a).norm();
-        lump.volume += (a - origin[component]).dot((b - origin[component]).cross(c - origin[component])) / 6;
+        lump.volume += (topology.turned[t] ? -1 : 1) *
+                       (a - origin[component]).dot((b - origin[component]).cross(c - origin[component])) / 6;
     }
     return lumps;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/decompose.hpp"
 #include "model/section_parts.hpp"
 
 namespace frond {
@@ -37,24 +38,25 @@ void take_outline(const Outline& outline, Section& section) {
     section.area = outline.area;
     section.inertia_thin = outline.inertia_thin;
     section.inertia_wide = outline.inertia_wide;
+    section.taper = outline.taper;
 }
 
-// A blade has a midrib that its sheet does not show: at least a round rib whose diameter is a twentieth of the width
-// (maize: 4 mm of 80 mm).
-void add_rib(double width, Section& section) {
-    const double rib = width / 40;
+// A blade may have a round midrib that its sheet does not show.
+void add_rib(double width, double midrib, Section& section) {
+    const double rib = width * midrib / 2;
     section.inertia_thin = std::max(section.inertia_thin, M_PI * std::pow(rib, 4) / 4);
     section.inertia_wide = std::max(section.inertia_wide, section.inertia_thin);
 }
 
 // Fills a sheet of width w and thickness t: area w t, inertia from the spread of its middle surface and its own
 // thickness.
-void fill_sheet(const Spread& spread, double width, double thickness, Section& section) {
+void fill_sheet(const Spread& spread, double width, const Material& material, Section& section) {
+    const double thickness = material.thickness;
     const double own = thickness * thickness / 12;
     section.area = width * thickness;
     section.inertia_thin = section.area * (spread.small + own);
     section.inertia_wide = section.area * (spread.large + own);
-    add_rib(width, section);
+    add_rib(width, material.midrib, section);
 }
 
 // Fills a solid from the ring that its surface forms: with variances a and b it encloses 2 pi sqrt(a b), and its
@@ -81,10 +83,10 @@ bool fill_outline(const ChainNode& node, const Organ& organ, const Spread& sprea
         if (bounded) {
             section.thickness = outline.gap;
             take_outline(outline, section);
-            add_rib(section.area / section.thickness, section);
+            add_rib(section.area / section.thickness, organ.material.midrib, section);
         } else {
             section.thin = spread.thin;
-            fill_sheet(spread, outline.doubled ? drawn / 2 : drawn, section.thickness, section);
+            fill_sheet(spread, outline.doubled ? drawn / 2 : drawn, organ.material, section);
         }
         return bounded;
     }
@@ -150,7 +152,7 @@ void finish_section(const Organ& organ, Section& section) {
     const Material& material = organ.material;
     if (is_sheet(organ)) {
         section.width = section.area / section.thickness;
-        const double rib = M_PI * std::pow(section.width / 40, 4) / 2;
+        const double rib = M_PI * std::pow(section.width * material.midrib / 2, 4) / 2;
         section.torsion = strip_torsion_constant(section.width, section.thickness) + rib;
     } else {
         // An ellipse of thickness t has I = A t^2 / 16, a rectangle A t^2 / 12.
@@ -170,6 +172,36 @@ void finish_section(const Organ& organ, Section& section) {
                         (material.twist_to_bend * section.torsion);
 }
 
+// Adds a sheet's rib: one beam of two materials, whose section counts the rib's tissue by its modulus over the sheet's.
+static void add_drawn_rib(const RibCut& rib, const Organ& organ, const CapsuleFrame& frame,
+                          const Eigen::Vector2d& middle, Section& section) {
+    const auto flat = [&](const Vec3& v) { return Eigen::Vector2d(v.dot(frame.across), v.dot(frame.other)); };
+    const auto moments_of = [&](const Section& s) {
+        const Eigen::Vector2d thin = flat(s.thin), wide = flat(s.wide());
+        return Eigen::Matrix2d(s.inertia_thin * thin * thin.transpose() + s.inertia_wide * wide * wide.transpose());
+    };
+    const auto take_axes = [&](const Eigen::Matrix2d& moments, Section& s) {
+        const SymmetricParts2 parts = symmetric_parts_2(moments);
+        s.inertia_thin = parts.values[0];
+        s.inertia_wide = parts.values[1];
+        s.thin = (parts.vectors(0, 0) * frame.across + parts.vectors(1, 0) * frame.other).normalized();
+    };
+    Section own = {};
+    own.axis = section.axis;
+    own.length = section.length;
+    own.area = rib.area;
+    take_axes(rib.moments, own);
+    finish_section(organ, own);
+    const double by = own.young / section.young, area = section.area + by * own.area;
+    const Eigen::Vector2d apart = rib.middle - middle;
+    section.density = (section.mass() + own.mass()) / area;
+    take_axes(
+        moments_of(section) + by * moments_of(own) + section.area * by * own.area / area * apart * apart.transpose(),
+        section);
+    section.area = area;
+    section.torsion += own.twisting() / section.shear;
+}
+
 double hole_share(const Organ& organ) {
     return is_sheet(organ) ? 0 : organ.material.hollow * organ.material.hollow;
 }
@@ -179,16 +211,25 @@ std::vector<Section> measure_sections(const Surface& surface, const Topology& to
     const std::vector<CapsuleFrame> frames = make_frames(chain);
     const std::vector<Spread> spreads = measure_spreads(surface, chain, frames);
     const std::vector<Outline> outlines = cut_outlines(surface, topology, organs, chain, frames);
+    const std::vector<RibCut> ribs = cut_ribs(surface, topology, chain, frames);
     std::vector<Section> sections(chain.nodes.size());
     std::vector<char> exact(chain.nodes.size());
-    const auto organ_of = [&](size_t i) -> const Organ& { return organs[size_t(std::max(chain.nodes[i].organ, 0))]; };
+    // A blade with a rib of its own hides none.
+    std::vector<Organ> bare = organs;
+    for (int blade : chain.rib_of)
+        if (blade >= 0) bare[size_t(blade)].material.midrib = 0;
+    const auto organ_of = [&](size_t i) -> const Organ& { return bare[size_t(std::max(chain.nodes[i].organ, 0))]; };
     for (size_t i = 0; i < sections.size(); i++) {
         sections[i].axis = frames[i].axis;
         sections[i].length = frames[i].length;
         exact[i] = fill_outline(chain.nodes[i], organ_of(i), spreads[i], outlines[i], sections, sections[i]);
     }
     smooth_sections(chain, exact, sections);
-    for (size_t i = 0; i < sections.size(); i++) finish_section(organ_of(i), sections[i]);
+    for (size_t i = 0; i < sections.size(); i++) {
+        finish_section(organ_of(i), sections[i]);
+        if (ribs[i].organ >= 0)
+            add_drawn_rib(ribs[i], organs[size_t(ribs[i].organ)], frames[i], spreads[i].middle, sections[i]);
+    }
     return sections;
 }
 

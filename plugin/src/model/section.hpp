@@ -1,6 +1,8 @@
 // Section: cross-section of a capsule of the chain, and the stiffness and mass that follow from it.
 #pragma once
 
+#include <cmath>
+
 #include "model/chain.hpp"
 
 namespace frond {
@@ -10,6 +12,8 @@ namespace frond {
 //   curvature k         -> moment  bending_thin() k      about wide(): the axis bends towards thin
 //   curvature k         -> moment  bending_wide() k      about thin: the axis bends towards wide()
 //   twist by a per metre -> moment twisting() a          about axis
+// A section may taper: its sizes change linearly along the capsule. Its numbers are those in the middle, and the
+// stiffnesses those by which the whole capsule yields, as integrals of 1/EA, 1/EI and 1/GJ along it.
 struct Section {
     Vec3 axis;            // along the capsule, unit length
     Vec3 thin;            // across it, where it is thinnest, unit length
@@ -23,16 +27,41 @@ struct Section {
     double density;       // density of the tissue [kg/m^3]
     double young;         // Young's modulus along the axis [Pa]
     double shear;         // shear modulus G that goes with `torsion` [Pa]
+    double taper = 0;     // sizes at the capsule's begin and end are 1 - taper and 1 + taper times those above [-]
 
     Vec3 wide() const { return axis.cross(thin); }
-    double stretching() const { return young * area; }            // EA [N]
-    double bending_thin() const { return young * inertia_thin; }  // EI [N m^2]
-    double bending_wide() const { return young * inertia_wide; }  // EI [N m^2]
-    double twisting() const { return shear * torsion; }           // GJ [N m^2]
-    double mass() const { return density * area; }                // per length [kg/m]
-    // Returns the rotary inertia per length about axis, thin and wide() [kg m].
-    Vec3 rotary_inertia() const { return density * Vec3(inertia_thin + inertia_wide, inertia_wide, inertia_thin); }
+    double stretching() const { return young * area * narrowing(); }             // EA [N]
+    double bending_thin() const { return young * inertia_thin * resistance(); }  // EI [N m^2]
+    double bending_wide() const { return young * inertia_wide * resistance(); }  // EI [N m^2]
+    double twisting() const { return shear * torsion * resistance(); }           // GJ [N m^2]
+    // Returns the stiffness against tilt that bends the capsule like an S, over bending_*() [1/m^2].
+    double tilting_per_bending() const { return 12 / (length * length) * std::pow(filling() / narrowing(), 2); }
+    // Returns where a force across does not turn the ends against each other, as a share of the length from the begin.
+    double elastic_centre() const { return 0.5 - 2 * taper / (3 + taper * taper); }
+    double mass() const { return density * area * filling(); }  // per length, the mean [kg/m]
+    // Returns the shares of mass() and of rotary_inertia() that belong to the end, so that their centres are right.
+    double mass_at_end() const { return 0.5 + taper / (3 * filling()); }
+    // Returns the mean squared distance of its mass from their centre along the capsule, over the length's square.
+    double mass_spread() const {
+        return (1.0 / 12 + taper * taper / 20) / filling() - std::pow(mass_at_end() - 0.5, 2);
+    }
+    double inertia_at_end() const { return 0.5 + taper * (2.0 / 3 + 0.4 * taper * taper) / fourth_power(); }
+    // Returns the mean rotary inertia per length about axis, thin and wide() [kg m].
+    Vec3 rotary_inertia() const {
+        return density * fourth_power() * Vec3(inertia_thin + inertia_wide, inertia_wide, inertia_thin);
+    }
+
+private:
+    // Means along the capsule of powers of its size over that in the middle: 2, 4, and the inverses of -2 and -4.
+    double filling() const { return 1 + taper * taper / 3; }
+    double fourth_power() const { return 1 + taper * taper * (2 + taper * taper / 5); }
+    double narrowing() const { return 1 - taper * taper; }
+    double resistance() const { return std::pow(narrowing(), 3) / filling(); }
 };
+
+// Largest taper of a section: a pointed end counts as one of a nineteenth of the other end's size, as a point would
+// bend without resistance.
+constexpr double LARGEST_TAPER = 0.9;
 
 // Measures the section of the capsule between each chain node and its parent, from the surface that belongs to it.
 // Blades and flowers are sheets of their material's thickness, or as thick as their two faces are apart, and may be
@@ -40,7 +69,8 @@ struct Section {
 std::vector<Section> measure_sections(const Surface& surface, const Topology& topology,
                                       const std::vector<Organ>& organs, const Chain& chain);
 
-// Completes a section from its outline (axis to inertia_wide): sizes, the hole, torsion and the material's constants.
+// Completes a section from its outline (axis to inertia_wide, taper): sizes, the hole, torsion and the material's
+// constants.
 void finish_section(const Organ& organ, Section& section);
 
 // Returns whether an organ is a sheet: a blade or a flower.

@@ -16,13 +16,16 @@ struct Spread {
     double area;          // area of the surface [m^2]
     double small, large;  // variances [m^2]
     Vec3 thin;
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();  // mean offset from the axis [m]
 };
 
-// The cuts of planes across a capsule with the surface, averaged over the planes.
+// The cuts of planes across a capsule with the surface, as those in its middle that together with the taper stand for
+// all of them.
 struct Outline {
     bool found = false;                 // a plane cuts one closed, compact outline, or both faces of a sheet
     double area;                        // enclosed area [m^2]
     double inertia_thin, inertia_wide;  // [m^4]
+    double taper;                       // see Section
     Vec3 thin;
     // For sheets: whether they are drawn with two faces, and their distance, by the rectangle of equal
     // area and perimeter [m].
@@ -30,11 +33,23 @@ struct Outline {
     double gap = 0;
 };
 
+// The cut of the ribs of a sheet, across and other as coordinates.
+struct RibCut {
+    double area = 0;                                    // [m^2]; 0: there is none
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();   // [m]
+    Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();  // second moments about the middle [m^4]
+    int organ = -1;
+};
+
 // Return one result per chain node. A capsule without surface of its own has a spread of zero area.
 std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
                                     const std::vector<CapsuleFrame>& frames);
 std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
                                   const Chain& chain, const std::vector<CapsuleFrame>& frames);
+
+// Returns the ribs of each capsule, by Chain::rib_of.
+std::vector<RibCut> cut_ribs(const Surface& surface, const Topology& topology, const Chain& chain,
+                             const std::vector<CapsuleFrame>& frames);
 
 // Returns 0 for an ellipse and a polygon like one, 1 for a rectangle.
 double squareness(double area, double inertia_thin, double inertia_wide);

@@ -130,7 +130,8 @@ Spread measure_spread(const std::vector<Tile>& patches, const CapsuleFrame& fram
     const SymmetricParts2 parts = symmetric_parts_2(covariance);
     const Eigen::Vector2d direction = parts.vectors.col(0);
     return {total, std::max(parts.values[0], 0.0), std::max(parts.values[1], 0.0),
-            (direction[0] * frame.across + direction[1] * frame.other).normalized()};
+            (direction[0] * frame.across + direction[1] * frame.other).normalized(),
+            (bow.row(0) + bow.row(1) / 2 + bow.row(2) / 3).transpose()};
 }
 
 }  // namespace
@@ -138,7 +139,7 @@ Spread measure_spread(const std::vector<Tile>& patches, const CapsuleFrame& fram
 std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
                                     const std::vector<CapsuleFrame>& frames) {
     const std::vector<std::vector<Tile>> patches = collect_patches(surface, chain);
-    std::vector<Spread> spreads(patches.size(), {0, 0, 0, Vec3::UnitX()});
+    std::vector<Spread> spreads(patches.size(), {0, 0, 0, Vec3::UnitX(), Eigen::Vector2d::Zero()});
     for (size_t i = 0; i < patches.size(); i++)
         if (!patches[i].empty()) spreads[i] = measure_spread(patches[i], frames[i]);
     return spreads;

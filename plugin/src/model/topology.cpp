@@ -1,5 +1,6 @@
 // From a triangle soup to its topology: vertices at nearly the same position become one point (a hash table of small
-// cells), triangles that share points become one component, and joints tie the components together.
+// cells), triangles that share points become one component, neighbours that are drawn the other way round are found,
+// and joints tie the components together.
 #include "model/topology.hpp"
 
 #include <algorithm>
@@ -119,6 +120,73 @@ static void find_components(Topology& topology) {
     }
 }
 
+// Lists pairs of triangles that are the only two at an edge, with whether they run along it the same way.
+struct Neighbours {
+    int a, b;
+    bool alike;
+};
+static std::vector<Neighbours> find_neighbours(const std::vector<Triangle>& triangles) {
+    struct Half {
+        std::array<int, 2> ends;  // the smaller point first
+        int triangle;
+        bool up;
+    };
+    std::vector<Half> halves;
+    halves.reserve(3 * triangles.size());
+    for (size_t t = 0; t < triangles.size(); ++t)
+        for (size_t k = 0; k < 3; ++k) {
+            const int from = triangles[t][k], to = triangles[t][(k + 1) % 3];
+            if (from != to) halves.push_back({{std::min(from, to), std::max(from, to)}, int(t), from < to});
+        }
+    std::sort(halves.begin(), halves.end(), [](const Half& p, const Half& q) {
+        return p.ends != q.ends ? p.ends < q.ends : p.triangle < q.triangle;
+    });
+    std::vector<Neighbours> pairs;
+    for (size_t i = 0; i < halves.size();) {
+        size_t end = i + 1;
+        while (end < halves.size() && halves[end].ends == halves[i].ends) ++end;
+        const Half &a = halves[i], &b = halves[end - 1];
+        if (end - i == 2 && a.triangle != b.triangle) pairs.push_back({a.triangle, b.triangle, a.up == b.up});
+        i = end;
+    }
+    return pairs;
+}
+
+// Turns neighbours to one side, patch by patch; the side that most of a patch's area is drawn with stays.
+static void orient(Topology& topology) {
+    const size_t count = topology.triangles.size();
+    topology.turned.assign(count, 0);
+    const std::vector<Neighbours> pairs = find_neighbours(topology.triangles);
+    std::vector<std::vector<std::pair<int, bool>>> next(count);
+    for (const Neighbours& pair : pairs) {
+        next[size_t(pair.a)].push_back({pair.b, pair.alike});
+        next[size_t(pair.b)].push_back({pair.a, pair.alike});
+    }
+    std::vector<char> seen(count, 0);
+    std::vector<int> patch;
+    for (size_t first = 0; first < count; ++first) {
+        if (seen[first]) continue;
+        patch.assign(1, int(first));
+        seen[first] = 1;
+        std::array<double, 2> area = {0, 0};
+        for (size_t i = 0; i < patch.size(); ++i) {
+            const size_t t = size_t(patch[i]);
+            const Triangle& corner = topology.triangles[t];
+            const Vec3& a = topology.points[size_t(corner[0])];
+            area[size_t(topology.turned[t])] +=
+                (topology.points[size_t(corner[1])] - a).cross(topology.points[size_t(corner[2])] - a).norm();
+            for (const auto& [other, alike] : next[t]) {
+                if (seen[size_t(other)]) continue;
+                seen[size_t(other)] = 1;
+                topology.turned[size_t(other)] = char(topology.turned[t] ^ char(alike));
+                patch.push_back(other);
+            }
+        }
+        if (area[1] > area[0])
+            for (int t : patch) topology.turned[size_t(t)] ^= 1;
+    }
+}
+
 Topology make_topology(const Surface& surface) {
     // Later stages require a shape that has a size.
     if (surface.triangles.empty())
@@ -144,6 +212,7 @@ Topology make_topology(const Surface& surface) {
                                       topology.vertex_point[size_t(triangle[1])],
                                       topology.vertex_point[size_t(triangle[2])]});
     find_components(topology);
+    orient(topology);
     join_components(topology);
     return topology;
 }

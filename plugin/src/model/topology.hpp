@@ -18,6 +18,7 @@ struct Topology {
     std::vector<int> vertex_point;    // surface vertex -> point
     std::vector<Triangle> triangles;  // surface triangles by point (a corner may repeat after welding)
     std::vector<int> triangle_component;
+    std::vector<char> turned;  // for each triangle whether it is drawn the other way round than most of its neighbours
     int component_count = 0;
     std::vector<Joint> joints;  // a spanning tree over the components, roots (lowest parts) tied last
 };

@@ -51,12 +51,13 @@ struct UrdfLink {
     UrdfFrame centre;
     Mat3 inertia = Mat3::Zero();  // [kg m^2]
     std::vector<UrdfShape> visuals, collisions;
-    // Values of <frond organ="" name="" material="" mass="" stretching="" bending="" twisting=""/>; the numbers
-    // describe a section of the link, all zero if there are none.
+    // Values of <frond organ="" name="" material="" mass="" stretching="" bending="" twisting="" taper=""/>; the
+    // numbers describe a section in the middle of the link, all zero if there are none.
     std::string organ, organ_name, organ_material;
     double section_mass = 0;              // [kg/m]
     double stretching = 0, twisting = 0;  // EA [N], GJ [N m^2]
     double bending_x = 0, bending_y = 0;  // EI against bending towards the link's x and y axis [N m^2]
+    double taper = 0;                     // see Section
 };
 
 // Triangles of a mesh file, as they are.

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "model/section.hpp"
 #include "model/urdf.hpp"
 
 namespace frond {
@@ -62,6 +63,8 @@ static std::string what_is_wrong_with(const UrdfLink& link) {
         return text_of("link \"%.64s\": its mass is %g kg; give one of 0 .. 1e6", name, link.mass);
     for (double value : {link.section_mass, link.stretching, link.twisting, link.bending_x, link.bending_y})
         if (!(value >= 0 && value < 1e15)) return text_of("link \"%.64s\": its section has the number %g", name, value);
+    if (!(std::abs(link.taper) <= LARGEST_TAPER))
+        return text_of("link \"%.64s\": its section has a taper of %g", name, link.taper);
     if (!is_usable(link.centre))
         return text_of("link \"%.64s\": its centre of mass is not finite or too far off", name);
     for (int axis = 0; axis < 3; ++axis)

@@ -71,26 +71,30 @@ std::string link_text(const Model& model, size_t node, const std::string& name, 
     const Section& section = model.sections[node];
     const Organ& organ = model.organs[size_t(std::max(model.chain.nodes[node].organ, 0))];
     const double length = section.length, radius = std::sqrt(section.area / M_PI);
-    const double mass_per_length = mass_factor * section.mass(), mass = mass_per_length * length;
+    const double mass = mass_factor * section.mass() * length;
     const std::string half = numbers({0, 0, 0.5 * length});
+    const std::string centre = numbers({0, 0, section.mass_at_end() * length});
     const std::string geometry =
         text_of("      <origin xyz=\"%s\"/>\n      <geometry><cylinder radius=\"%.9g\" length=\"%.9g\"/></geometry>\n",
                 half.c_str(), radius, length);
-    const double across = mass * (radius * radius / 4 + length * length / 12), along = mass * radius * radius / 2;
+    const double around = mass * radius * radius / 2;
+    const double across = around / 2 + mass * length * length * section.mass_spread();
     std::string text = "  <link name=\"" + name + "\">\n";
     text += "    <visual>\n" + geometry + "      <material name=\"" + escaped(organ.kind) + "\"/>\n    </visual>\n";
     text += "    <collision>\n" + geometry + "    </collision>\n";
     text += text_of(
         "    <inertial>\n      <origin xyz=\"%s\"/>\n      <mass value=\"%.9g\"/>\n      <inertia ixx=\"%.9g\" "
         "ixy=\"0\" ixz=\"0\" iyy=\"%.9g\" iyz=\"0\" izz=\"%.9g\"/>\n    </inertial>\n",
-        half.c_str(), mass, across, across, along);
+        centre.c_str(), mass, across, across, around);
     const Material* grass = material_preset("grass_" + organ.kind);
     const bool is_grass = grass && std::memcmp(grass, &organ.material, sizeof *grass) == 0;
     text += text_of(
         "    <frond organ=\"%s\" material=\"%s%s\" name=\"%s\" mass=\"%.9g\" stretching=\"%.9g\" bending=\"%.9g %.9g\" "
-        "twisting=\"%.9g\"/>\n",
-        organ.kind.c_str(), is_grass ? "grass_" : "", organ.kind.c_str(), escaped(organ.name).c_str(), mass_per_length,
-        section.stretching(), section.bending_thin(), section.bending_wide(), section.twisting());
+        "twisting=\"%.9g\" taper=\"%.9g\"/>\n",
+        organ.kind.c_str(), is_grass ? "grass_" : "", organ.kind.c_str(), escaped(organ.name).c_str(),
+        mass_factor * section.density * section.area, section.young * section.area,
+        section.young * section.inertia_thin, section.young * section.inertia_wide, section.shear * section.torsion,
+        section.taper);
     return text + "  </link>\n";
 }
 

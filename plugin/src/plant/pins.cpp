@@ -53,10 +53,12 @@ static double pin_stiffness(const Plant& plant) {
 struct PinGroup {
     std::vector<int> nodes;
     std::vector<Vec3> from, to;  // modelled and target positions [m]
+    bool stands = false;         // the ground holds some of them
 };
 
 static void add_to_group(const Plant& plant, int node, PinGroup& group) {
     group.nodes.push_back(node);
+    group.stands |= plant.foot->pinned[size_t(node)] != 0;
     group.from.push_back(point(plant.follow->modelled, node));
     group.to.push_back(point(plant.pin_target, node));
 }
@@ -79,22 +81,26 @@ static void pin_chain(Plant& plant) {
     std::fill(plant.motion.pinned.begin(), plant.motion.pinned.end(), uint8_t(0));
     plant.pin_springs.clear();
     std::map<int, PinGroup> groups;  // by chain node
-    PinGroup ground;                 // all nodes that the model stands on
+    PinGroup ground;                 // all nodes that the plant stands on
     for (size_t n = 0; n < plant.pinned.size(); n++) {
         if (!plant.pinned[n]) continue;
         // A node that the ground does not hold may have been pinned while tets moved, and then has no anchor.
         add_to_group(plant, int(n), groups[plant.foot->pinned[n] ? plant.anchor[n] : plant.follow->nearest[n]]);
-        if (n < plant.model->root.size() && plant.model->root[n]) add_to_group(plant, int(n), ground);
+        if (plant.foot->pinned[n]) add_to_group(plant, int(n), ground);
     }
     // A root with too few pinned nodes stands as the ground does.
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
-    if (plant.stands_on_roots && !ground.nodes.empty())
+    const double top = plant.model->surface.lower().y() + plant.foot->root_height;
+    const auto is_root = [&](size_t i) {
+        return nodes[i].parent < 0 && (plant.stands_on_roots || nodes[i].position.y() < top);
+    };
+    if (!ground.nodes.empty())
         for (size_t i = 0; i < nodes.size(); i++)
-            if (nodes[i].parent < 0) groups[int(i)];
+            if (is_root(i)) groups[int(i)];
     for (const auto& [chain_node, group] : groups) {
         if (hold_chain_node(plant, chain_node, group)) continue;
-        const bool is_root = plant.stands_on_roots && nodes[size_t(chain_node)].parent < 0;
-        if (is_root && hold_chain_node(plant, chain_node, ground)) continue;
+        const bool stands = nodes[size_t(chain_node)].parent < 0 && (group.stands || group.nodes.empty());
+        if (stands && hold_chain_node(plant, chain_node, ground)) continue;
         for (size_t k = 0; k < group.nodes.size(); k++)
             plant.pin_springs.push_back(
                 {plant.follow->attachments[size_t(group.nodes[k])], group.to[k], pin_stiffness(plant)});
