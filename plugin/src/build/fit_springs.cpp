@@ -32,7 +32,7 @@ static std::vector<double> organ_factors(const Model& model) {
             const Section& section = model.sections[i];
             const Vec3& M = loads.moment[i];
             const double about_wide = std::pow(M.dot(section.wide()), 2), about_thin = std::pow(M.dot(section.thin), 2);
-            const double inertia = 0.25 * M_PI * std::pow(model.chain.nodes[i].fitted_radius, 4);
+            const double inertia = 0.25 * PI * std::pow(model.chain.nodes[i].fitted_radius, 4);
             rods[organ] += section.length * (about_wide / section.bending_thin() + about_thin / section.bending_wide());
             springs[organ] +=
                 section.length * (about_wide + about_thin) / (model.organs[organ].material.young * inertia);

@@ -34,7 +34,7 @@ FROND_INLINE S logarithm(const S& x) {
                                  1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21};
     const BitsOf<S> bits = BitsOf<S>(x);
     const S above = S((bits & FRACTION) | OF_ONE), power = number_of<S>(bits >> 52) - 1023.0;
-    const auto is_large = above > M_SQRT2;
+    const auto is_large = above > SQRT2;
     const S m = select(is_large, S(0.5 * above), above), whole = select(is_large, S(power + 1.0), power);
     const S s = (m - 1.0) / (m + 1.0);
     return whole * LN2_ABOVE + (whole * LN2_BELOW + 2.0 * s * polynomial(SERIES, S(s * s)));

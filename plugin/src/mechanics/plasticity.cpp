@@ -11,7 +11,7 @@ namespace frond {
 static double round_limit(double k) {
     if (k <= 1) return k;
     const double c = 1 / k;
-    return 2 / (3 * M_PI) * ((5 - 2 * c * c) * std::sqrt(1 - c * c) + 3 * k * std::asin(c));
+    return 2 / (3 * PI) * ((5 - 2 * c * c) * std::sqrt(1 - c * c) + 3 * k * std::asin(c));
 }
 
 double section_limit(const Yield& yield, double k) {

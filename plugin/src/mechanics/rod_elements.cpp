@@ -35,7 +35,7 @@ void take_cylinder(const Model& model, size_t node, double radius, double stiffe
     const size_t organ = organ_of(model, node);
     const Material& material = model.organs[organ].material;
     const double E = material.young * model.organ_stiffer[organ], over = 12 / (rod.length * rod.length);
-    const double area = M_PI * radius * radius, inertia = stiffer * area * radius * radius / 4;
+    const double area = PI * radius * radius, inertia = stiffer * area * radius * radius / 4;
     rod.reach_thin = rod.reach_wide = radius;
     rod.stretch = E * Vec3(area, over * inertia, over * inertia);
     rod.bend = E * Vec3(inertia / (1 + material.poisson), inertia, inertia);

@@ -90,7 +90,7 @@ Section round_section(const Vec3& along, double radius, const Organ& organ) {
     section.length = along.norm();
     section.axis = along / section.length;
     section.thin = section.axis.unitOrthogonal();
-    section.area = M_PI * radius * radius;
+    section.area = PI * radius * radius;
     section.inertia_thin = section.inertia_wide = section.area * radius * radius / 4;
     section.thickness = 2 * radius;
     finish_section(organ, section);

@@ -142,7 +142,7 @@ std::vector<char> find_crowns(const Topology& topology, bool on_ground) {
     std::vector<char> crown = find_round(lumps, on_ground);
     for (size_t i = 0; i < lumps.size(); i++)
         crown[i] = crown[i] && std::abs(lumps[i].volume) > FULL * lumps[i].box.volume() &&
-                   36 * M_PI * std::pow(lumps[i].volume, 2) > COMPACT * std::pow(lumps[i].area, 3);
+                   36 * PI * std::pow(lumps[i].volume, 2) > COMPACT * std::pow(lumps[i].area, 3);
     std::vector<char> found(topology.triangles.size());
     for (size_t t = 0; t < found.size(); t++) found[t] = crown[size_t(topology.triangle_component[t])];
     return found;

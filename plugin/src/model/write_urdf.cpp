@@ -70,7 +70,7 @@ std::vector<double> mass_factors(const Model& model) {
 std::string link_text(const Model& model, size_t node, const std::string& name, double mass_factor) {
     const Section& section = model.sections[node];
     const Organ& organ = model.organs[size_t(std::max(model.chain.nodes[node].organ, 0))];
-    const double length = section.length, radius = std::sqrt(section.area / M_PI);
+    const double length = section.length, radius = std::sqrt(section.area / PI);
     const double mass_per_length = mass_factor * section.mass(), mass = mass_per_length * length;
     const std::string half = numbers({0, 0, 0.5 * length});
     const std::string geometry =

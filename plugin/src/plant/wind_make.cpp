@@ -42,7 +42,7 @@ double frequency_of_energy(double energy) {
 
 // Returns the spread of wave vectors across the wind, from the coherence [1/m].
 double spread_of(double along, double length) {
-    return 12 / (2 * M_PI) * std::hypot(along, 0.12 / length);
+    return 12 / (2 * PI) * std::hypot(along, 0.12 / length);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ std::unique_ptr<Wind> make_wind(const frond_wind_def& def) {
             Gust gust;
             const double along = frequency_of_energy(energy) / length;
             gust.size = sigma * std::sqrt(2 * (above - below));
-            const double share = 1 - FARTHEST * numbers.next(), angle = 2 * M_PI * numbers.next();
+            const double share = 1 - FARTHEST * numbers.next(), angle = 2 * PI * numbers.next();
             const double across = spread_of(along, def.length_scale) * std::sqrt(1 / (share * share) - 1);
             gust.waves = Vec3(along, across * std::cos(angle), across * std::sin(angle));
             gust.phase = numbers.next();
