@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "mechanics/rows.hpp"
 #include "mechanics/sections.hpp"
@@ -29,7 +30,7 @@ void take_section(const Model& model, size_t node, RodSegment& rod) {
     rod.reach_wide = 0.5 * section.width;
     rod.stretch = Vec3(stiffer * section.stretching(), over * thin, over * wide);
     rod.bend = Vec3(stiffer * section.twisting(), wide, thin);
-    rod.warping = section.stretching() * std::pow(section.width, 4) / (720 * section.twisting());
+    rod.warping = section.stretching() * frond::pow(section.width, 4) / (720 * section.twisting());
 }
 void take_cylinder(const Model& model, size_t node, double radius, double stiffer, RodSegment& rod) {
     const size_t organ = organ_of(model, node);

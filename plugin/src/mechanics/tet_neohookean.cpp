@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/decompose.hpp"
+#include "core/elementary.hpp"
 #include "mechanics/tet_lanes.hpp"
 
 namespace frond {
@@ -142,7 +143,7 @@ struct Neohookean {
     static double energy(const TetShareLanes<double>& tet, const Strain<double>& s) {
         const Slopes<double> of = slopes(tet, s);
         const double stretch = s.I - 3, swell = s.J - 1;
-        return 0.5 * of.m * (stretch - std::log1p(stretch / 4)) + 0.5 * of.l * swell * swell - 0.75 * of.m * swell;
+        return 0.5 * of.m * (stretch - frond::log1p(stretch / 4)) + 0.5 * of.l * swell * swell - 0.75 * of.m * swell;
     }
 
     template <class S>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "model/section_parts.hpp"
 
 namespace frond {
@@ -43,7 +44,7 @@ void take_outline(const Outline& outline, Section& section) {
 // (maize: 4 mm of 80 mm).
 void add_rib(double width, Section& section) {
     const double rib = width / 40;
-    section.inertia_thin = std::max(section.inertia_thin, PI * std::pow(rib, 4) / 4);
+    section.inertia_thin = std::max(section.inertia_thin, PI * frond::pow(rib, 4) / 4);
     section.inertia_wide = std::max(section.inertia_wide, section.inertia_thin);
 }
 
@@ -150,7 +151,7 @@ void finish_section(const Organ& organ, Section& section) {
     const Material& material = organ.material;
     if (is_sheet(organ)) {
         section.width = section.area / section.thickness;
-        const double rib = PI * std::pow(section.width / 40, 4) / 2;
+        const double rib = PI * frond::pow(section.width / 40, 4) / 2;
         section.torsion = strip_torsion_constant(section.width, section.thickness) + rib;
     } else {
         // An ellipse of thickness t has I = A t^2 / 16, a rectangle A t^2 / 12.
