@@ -85,9 +85,7 @@ FROND_INLINE S constant(double value) {
 // Selects lane by lane.
 template <class Mask, class S>
 FROND_INLINE S select(const Mask& mask, const S& yes, const S& no) {
-    S chosen = mask ? yes : no;
-    keep_apart(chosen);
-    return chosen;
+    return kept_apart<S>(mask ? yes : no);
 }
 FROND_INLINE bool any(int mask) {
     return mask != 0;

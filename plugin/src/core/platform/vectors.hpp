@@ -47,14 +47,14 @@ inline int lanes_of_processor() {
 #endif
 }
 
-// Keeps GCC from merging selects in eight lanes into one mask, which it would evaluate lane by lane.
+// Returns the value. Keeps GCC from merging selects in eight lanes into one mask, which it would evaluate lane by lane.
 template <class S>
-FROND_INLINE void keep_apart(S& value) {
+FROND_INLINE S kept_apart(const S& value) {
+    S kept = value;
 #if defined(__x86_64__) && !defined(__clang__)
-    if constexpr (sizeof(S) == sizeof(EightLanes)) asm("" : "+v"(value));
-#else
-    (void)value;
+    if constexpr (sizeof(S) == sizeof(EightLanes)) asm("" : "+v"(kept));
 #endif
+    return kept;
 }
 
 FROND_INLINE TwoLanes sqrt(const TwoLanes& a) {
