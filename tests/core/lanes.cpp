@@ -27,6 +27,7 @@ struct Functions {
                              select(x < 0.0, S(-x), x),
                              logarithm<S>(x * x + 1e-3),
                              over_cube_root<S>(x * x + 1e-9),
+                             exponential<S>(0.5 * x),
                              select(x > -1.0, select(x < 1.0, x, constant<S>(1)), constant<S>(-1)),
                              magnitude(x)};
             for (int lane = 0; lane < LANES<S>; ++lane)
@@ -59,7 +60,7 @@ TEST(Lanes, HaveTheFunctionsThatTheyAreNamedFor) {
     std::vector<double> out;
     run_in_lanes(Functions{numbers, out});
     for (size_t i = 0; i < numbers.size(); ++i) {
-        const double x = numbers[i], *f = out.data() + 9 * i;
+        const double x = numbers[i], *f = out.data() + 10 * i;
         const double near = 4e-16 * std::max(1.0, std::abs(x));
         EXPECT_NEAR(f[0], std::sin(x), near) << x;
         EXPECT_NEAR(f[1], std::cos(x), near) << x;
@@ -68,8 +69,9 @@ TEST(Lanes, HaveTheFunctionsThatTheyAreNamedFor) {
         EXPECT_EQ(f[4], std::abs(x)) << x;
         EXPECT_NEAR(f[5], std::log(x * x + 1e-3), 3e-16 * std::max(1.0, std::abs(f[5]))) << x;
         EXPECT_NEAR(f[6] * std::cbrt(x * x + 1e-9), 1, 1e-15) << x;
-        EXPECT_EQ(f[7], std::min(std::max(x, -1.0), 1.0)) << x;
-        EXPECT_EQ(f[8], std::abs(x)) << x;
+        EXPECT_NEAR(f[7] * std::exp(-0.5 * x), 1, 4e-16 * std::max(1.0, std::abs(x))) << x;
+        EXPECT_EQ(f[8], std::min(std::max(x, -1.0), 1.0)) << x;
+        EXPECT_EQ(f[9], std::abs(x)) << x;
     }
 }
 

@@ -26,7 +26,8 @@ typedef struct frond_profile {
 
 /* Reports how long the last substep took. */
 FROND_API frond_result frond_world_get_profile(frond_world world, frond_profile* out);
-/* Computes a number that is equal for two worlds that simulated identically with the same binary. */
+/* Computes a number that is equal for two worlds that simulated identically: on any processor, by any compiler, with
+ * Bullet in the same precision. */
 FROND_API frond_result frond_world_get_state_hash(frond_world world, uint64_t* out);
 
 /* ---- cage and chain of a model ----------------------------------------------------------------------------------- */

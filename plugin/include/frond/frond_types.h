@@ -9,7 +9,9 @@
 #include <stdint.h>
 
 #ifndef FROND_API
-#if defined(__GNUC__)
+#if defined(_WIN32) && defined(FROND_BUILDS)
+#define FROND_API __declspec(dllexport)
+#elif defined(__GNUC__) && !defined(_WIN32)
 #define FROND_API __attribute__((visibility("default")))
 #else
 #define FROND_API

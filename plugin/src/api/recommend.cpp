@@ -6,6 +6,7 @@
 #include "api/call.hpp"
 #include "api/handles.hpp"
 #include "build/sway_frequency.hpp"
+#include "core/elementary.hpp"
 #include "mechanics/mechanics.hpp"
 
 using namespace frond;
@@ -39,8 +40,8 @@ double count_of(const Model& model, bool chain, double length) {
     if (chain) return std::max(1.0, model.chain.length() / length);
     constexpr double TETS_A_CELL = 6, POWER = 1.5;
     const double tets = double(model.cage.tets.size());
-    const double cell = std::cbrt(TETS_A_CELL * model.cage_report.volume / tets);
-    return tets * std::pow(cell / length, POWER);
+    const double cell = frond::cbrt(TETS_A_CELL * model.cage_report.volume / tets);
+    return tets * frond::pow(cell / length, POWER);
 }
 
 frond_advice advise(const Model& model, double frequency, const Measured& row) {

@@ -7,6 +7,7 @@
 #include "build/calibrate_together.hpp"
 #include "build/fit_moduli.hpp"
 #include "build/weigh.hpp"
+#include "core/elementary.hpp"
 
 namespace frond {
 
@@ -27,8 +28,8 @@ void take_materials(Model& model) {
 static void take_moduli(Model& model, const LoneOrgan& lone) {
     double sum = 0;
     for (size_t e = 0; e < lone.tets.size(); e++)
-        sum += std::log(lone.model.tet_young[e] / model.tet_young[lone.tets[e]]);
-    const double mean = std::exp(sum / double(lone.tets.size()));
+        sum += frond::log(lone.model.tet_young[e] / model.tet_young[lone.tets[e]]);
+    const double mean = frond::exp(sum / double(lone.tets.size()));
     for (size_t e = 0; e < model.tet_young.size(); e++)
         if (model.cage.tet_organ[e] == lone.organ) model.tet_young[e] *= mean;
     for (size_t e = 0; e < lone.tets.size(); e++) model.tet_young[lone.tets[e]] = lone.model.tet_young[e];

@@ -12,6 +12,7 @@
 
 #include "build/compliance.hpp"
 #include "build/least_change.hpp"
+#include "core/elementary.hpp"
 
 namespace frond {
 namespace {
@@ -44,7 +45,7 @@ struct Bench {
 // where the organ fills little of the tet.
 double first_modulus(const Section& section, double stiffer, double edge, double fill) {
     const double thickness = section.thickness + edge, width = section.width + edge;
-    return stiffer * 12 * section.bending_thin() / (std::pow(thickness, 3) * width) * std::pow(fill, 0.25);
+    return stiffer * 12 * section.bending_thin() / (frond::pow(thickness, 3) * width) * frond::pow(fill, 0.25);
 }
 
 // ---- slab by slab ---------------------------------------------------------------------------------------------------
@@ -178,7 +179,7 @@ Errors errors_of(const std::vector<Compliance>& shares, const Compliance& rods, 
         const auto [i, j] = pairs[size_t(k)];
         const double size = std::sqrt(is[i] * is[j]), alike = cage(i, j) / size;
         const double error =
-            i == j ? std::log(is[i] / wanted[i]) : alike - rods(i, j) / std::sqrt(wanted[i] * wanted[j]);
+            i == j ? frond::log(is[i] / wanted[i]) : alike - rods(i, j) / std::sqrt(wanted[i] * wanted[j]);
         const double counts = std::sqrt(weight_of(i, aim) * weight_of(j, aim) / (1 + error * error / (LARGE * LARGE)));
         errors.value[k] = counts * error;
         for (size_t e = 0; e < shares.size(); e++) {
@@ -202,7 +203,7 @@ WorstErrors worst_errors(const std::vector<Compliance>& shares, const Compliance
         const double least = FLOOR * rods.diagonal().segment<3>(first).maxCoeff();
         for (int i = first; i < first + 3; i++) {
             if (rods(i, i) <= least) continue;
-            const double error = std::abs(std::log(cage(i, i) / rods(i, i)));
+            const double error = std::abs(frond::log(cage(i, i) / rods(i, i)));
             worst.all = std::max(worst.all, error);
             if (!is_along(i)) worst.across = std::max(worst.across, error);
         }
@@ -219,7 +220,7 @@ struct Progress {
 
 void move_to(Bench& bench, Progress& progress, const VecX& change) {
     for (size_t e = 0; e < bench.lone.tets.size(); e++)
-        bench.scale(e, std::exp(change[Eigen::Index(e)] - progress.change[Eigen::Index(e)]));
+        bench.scale(e, frond::exp(change[Eigen::Index(e)] - progress.change[Eigen::Index(e)]));
     progress.change = change;
 }
 
@@ -228,7 +229,7 @@ bool fit_rounds(Bench& bench, Aim aim, int rounds, Progress& progress) {
     constexpr double LARGEST_STEP = 1;              // of a logarithm [-]
     constexpr double RIGID = 0.01;                  // weight of a change relative to an error [-]
     constexpr double CLOSE = 2e-3;                  // error that counts as none [-]
-    const double softest = std::log(SOFTEST), stiffest = std::log(STIFFEST);
+    const double softest = frond::log(SOFTEST), stiffest = frond::log(STIFFEST);
     for (int round = 0; round < rounds; round++) {
         const std::vector<Compliance> shares = bench.measure();
         if (shares.empty()) return false;

@@ -12,6 +12,7 @@
 
 #include "build/fit_sway.hpp"
 #include "build/strengthen.hpp"
+#include "core/elementary.hpp"
 #include "mechanics/rod_elements.hpp"
 #include "model/chain_loads.hpp"
 
@@ -31,8 +32,8 @@ static std::vector<double> organ_factors(const Model& model) {
             const size_t organ = organ_of(model, i);
             const Section& section = model.sections[i];
             const Vec3& M = loads.moment[i];
-            const double about_wide = std::pow(M.dot(section.wide()), 2), about_thin = std::pow(M.dot(section.thin), 2);
-            const double inertia = 0.25 * M_PI * std::pow(model.chain.nodes[i].fitted_radius, 4);
+            const double about_wide = squared(M.dot(section.wide())), about_thin = squared(M.dot(section.thin));
+            const double inertia = 0.25 * PI * frond::pow(model.chain.nodes[i].fitted_radius, 4);
             rods[organ] += section.length * (about_wide / section.bending_thin() + about_thin / section.bending_wide());
             springs[organ] +=
                 section.length * (about_wide + about_thin) / (model.organs[organ].material.young * inertia);
@@ -53,7 +54,7 @@ static Gap find_gap(const RodSways& rods, const RodSways& springs) {
     double error = 0, slope = 0;
     for (size_t i = 0; i < rods.square.size(); i++) {
         if (!(rods.square[i] > 0) || !(springs.square[i] > 0)) return {};
-        error += 0.5 * std::log(rods.square[i] / springs.square[i]);
+        error += 0.5 * frond::log(rods.square[i] / springs.square[i]);
         for (size_t o = 0; o < rods.carries.size(); o++)
             if (rods.carries[o]) slope += 0.5 * springs.energies[i][Eigen::Index(o)] / springs.square[i];
     }
@@ -78,7 +79,7 @@ std::vector<double> fit_springs(const Model& model) {
     for (int round = 0; round < ROUNDS && share > LEAST_SHARE && std::abs(gap.error) > CLOSE; round++) {
         const std::vector<double> before = factors;
         for (size_t o = 0; o < factors.size(); o++)
-            if (rods.carries[o]) factors[o] *= std::exp(share * gap.step);
+            if (rods.carries[o]) factors[o] *= frond::exp(share * gap.step);
         const Gap next = find();
         if (std::abs(next.error) < std::abs(gap.error)) {
             gap = next;

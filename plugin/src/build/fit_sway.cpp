@@ -12,6 +12,7 @@
 
 #include "build/least_change.hpp"
 #include "build/static_stiffness.hpp"
+#include "core/elementary.hpp"
 #include "mechanics/polar.hpp"
 #include "mechanics/rod_elements.hpp"
 #include "mechanics/tet_element.hpp"
@@ -99,7 +100,7 @@ SwayGap find_gap(const Model& model, const TetElements& elements, frond_mechanic
     for (size_t i = 0; i < sways.size(); i++) {
         const Sway& sway = sways[i];
         if (!(rods.square[i] > 0) || sway.shape.size() == 0) continue;
-        errors[Eigen::Index(i)] = std::log(rods.square[i] / sway.square);
+        errors[Eigen::Index(i)] = frond::log(rods.square[i] / sway.square);
         slope.row(Eigen::Index(i)) = energies_of(elements, which, x, sway.shape).transpose() / sway.square;
     }
     for (size_t e = 0; e < elements.tets.size(); e++)

@@ -12,6 +12,7 @@
 #include "build/rest_system.hpp"
 #include "build/static_stiffness.hpp"
 #include "build/toppling.hpp"
+#include "core/elementary.hpp"
 #include "mechanics/rod_elements.hpp"
 #include "mechanics/tet_element.hpp"
 
@@ -80,7 +81,7 @@ struct Search {
     // Scales each tet's moduli by the exponential of `change`.
     void stiffen(const VecX& change) {
         for (size_t e = 0; e < elements.tets.size(); e++) {
-            const double factor = std::exp(change[Eigen::Index(e)]);
+            const double factor = frond::exp(change[Eigen::Index(e)]);
             elements.mu[e] *= factor;
             elements.lambda[e] *= factor;
         }
@@ -330,7 +331,7 @@ WeakOrgan find_rest_shape(Model& model, int order) {
     if (outcome.rest.size() > 0) {
         const VecX change =
             fit_sway(*search, find_sways(model, make_rod_elements(model, FROND_MECHANICS_ROD), FROND_MECHANICS_ROD));
-        for (size_t e = 0; e < model.tet_young.size(); e++) model.tet_young[e] *= std::exp(change[Eigen::Index(e)]);
+        for (size_t e = 0; e < model.tet_young.size(); e++) model.tet_young[e] *= frond::exp(change[Eigen::Index(e)]);
         model.rest_shapes->positions[size_t(order - 1)][FROND_MECHANICS_TET_COROTATIONAL] = search->rest;
     }
     model.rest_shapes->known[size_t(order - 1)][FROND_MECHANICS_TET_COROTATIONAL] = true;
@@ -366,7 +367,7 @@ void ensure_rest_shape(const Model& model, frond_mechanics which, int order) {
     const VecX change =
         fit_sway(search, find_sways(model, make_rod_elements(model, FROND_MECHANICS_ROD), FROND_MECHANICS_ROD));
     std::vector<double>& stiffer = shapes.stiffer[row][size_t(which)];
-    for (size_t e = 0; e < model.tet_young.size(); e++) stiffer.push_back(std::exp(change[Eigen::Index(e)]));
+    for (size_t e = 0; e < model.tet_young.size(); e++) stiffer.push_back(frond::exp(change[Eigen::Index(e)]));
     shapes.positions[row][size_t(which)] = search.rest;
 }
 

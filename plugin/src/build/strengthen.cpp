@@ -9,6 +9,7 @@
 #include "build/sway.hpp"
 #include "build/toppling.hpp"
 #include "build/weigh.hpp"
+#include "core/elementary.hpp"
 #include "mechanics/rod_elements.hpp"
 
 namespace frond {
@@ -41,7 +42,7 @@ std::vector<double> organ_turns(const Model& model) {
             const size_t parent = size_t(nodes[i].parent);
             const Section& section = model.sections[i];
             const Vec3 M = moment[i] - (0.5 * (nodes[i].position + nodes[parent].position)).cross(force[i]);
-            curvature[i] = std::hypot(M.dot(section.wide()) / section.bending_thin(),
+            curvature[i] = frond::hypot(M.dot(section.wide()) / section.bending_thin(),
                                       M.dot(section.thin) / section.bending_wide());
             force[parent] += force[i];
             moment[parent] += moment[i];

@@ -10,6 +10,7 @@
 
 #include "build/firm_tets.hpp"
 #include "build/sway.hpp"
+#include "core/elementary.hpp"
 
 namespace frond {
 
@@ -71,7 +72,7 @@ static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std:
     // A mode's part in the static displacement is its part in the push over the square of its frequency.
     const Eigen::ArrayXd push = modes.eigenvectors().row(0).transpose().array(), inverse = modes.eigenvalues().array();
     const auto near = [&](Eigen::Index j) -> Eigen::ArrayXd {
-        return (-((inverse / inverse[j]).max(1e-9).log() / CLOSE).square()).exp();
+        return (-((inverse / inverse[j]).max(1e-9).unaryExpr(&frond::log) / CLOSE).square()).unaryExpr(&frond::exp);
     };
     Eigen::Index best = 0;
     double largest = 0;
@@ -99,8 +100,8 @@ std::array<Sway, 2> first_sways(BlockFactor& stiffness, const VecX& node_mass, c
     VecX move_x, move_z;
     solve(stiffness, load_x, move_x);
     solve(stiffness, load_z, move_z);
-    const double angle = 0.5 * std::atan2(2 * load_x.dot(move_z), load_x.dot(move_x) - load_z.dot(move_z));
-    const Vec3 softest(std::cos(angle), 0, std::sin(angle));
+    const double angle = 0.5 * frond::atan2(2 * load_x.dot(move_z), load_x.dot(move_x) - load_z.dot(move_z));
+    const Vec3 softest(frond::cos(angle), 0, frond::sin(angle));
     std::array<Sway, 2> sways = {first_sway(stiffness, node_mass, still, softest),
                                  first_sway(stiffness, node_mass, still, softest.cross(Vec3::UnitY()))};
     if (sways[1].square < sways[0].square) std::swap(sways[0], sways[1]);

@@ -48,7 +48,7 @@ double sway_frequency(const std::shared_ptr<const Model>& model) {
     const Bent sway = find_sway(*system, stiffness, still);
     if (sway.mass == 0)
         fail(FROND_RESULT_BAD_GEOMETRY, "the plant has no part that could sway: its chain is a root alone");
-    return std::sqrt(sway.square()) / (2 * M_PI);
+    return std::sqrt(sway.square()) / (2 * PI);
 }
 
 double full_damping(const System& system, frond_mechanics which, int order) {

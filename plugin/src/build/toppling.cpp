@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
+
 namespace frond {
 
 void take_by_weight(const Elements& elements, const Mechanics& row, const VecX& x, BlockMatrix& taken) {
@@ -26,7 +28,7 @@ Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, con
     for (double shift = 0;;) {
         // Begin with the shape into which forces in all directions bend the body.
         VecX mode(size);
-        for (Eigen::Index i = 0; i < size; i++) product[i] = std::sin(double(i + 1));
+        for (Eigen::Index i = 0; i < size; i++) product[i] = frond::sin(double(i + 1));
         hold(held, product);
         solve(resisting.factor, product, mode);
         double value = 0, before = INFINITY;
@@ -70,7 +72,7 @@ std::vector<double> stiffer_by(const std::vector<double>& shares, double overloa
     double together = 0;
     for (double share : shares)
         if (share >= least) together += share;
-    const double factor = std::min(std::pow(MARGIN * std::max(overload, 1.0), 1 / together), LARGEST);
+    const double factor = std::min(frond::pow(MARGIN * std::max(overload, 1.0), 1 / together), LARGEST);
     std::vector<double> stiffer;
     for (double share : shares) stiffer.push_back(share >= least ? factor : 1.0);
     return stiffer;

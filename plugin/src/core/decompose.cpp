@@ -2,7 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
+
+#include "core/elementary.hpp"
 
 namespace frond {
 
@@ -15,10 +18,13 @@ Vec3 symmetric_values(const Mat3& A) {
     return Eigen::SelfAdjointEigenSolver<Mat3>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-Vec3 symmetric_values_direct(const Mat3& A) {
-    Eigen::SelfAdjointEigenSolver<Mat3> solver;
-    solver.computeDirect(A, Eigen::EigenvaluesOnly);
-    return solver.eigenvalues();
+double largest_symmetric_value(const Mat3& A) {
+    const double middle = A.trace() / 3;
+    const Mat3 rest = A - middle * Mat3::Identity();
+    const double spread = std::sqrt(rest.squaredNorm() / 6);
+    if (spread == 0) return middle;
+    const double cosine = std::clamp((rest / spread).determinant() / 2, -1.0, 1.0);
+    return middle + 2 * spread * frond::cos(frond::acos(cosine) / 3);
 }
 
 SymmetricParts2 symmetric_parts_2(const Eigen::Matrix2d& A) {

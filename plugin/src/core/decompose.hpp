@@ -14,8 +14,9 @@ struct SymmetricParts {
 SymmetricParts symmetric_parts(const Mat3& A);
 // Returns the eigenvalues alone.
 Vec3 symmetric_values(const Mat3& A);
-// Returns the eigenvalues by a closed form, faster and with fewer digits (Eigen's computeDirect).
-Vec3 symmetric_values_direct(const Mat3& A);
+// Returns the largest eigenvalue by a closed form, faster and with fewer digits: Smith, "Eigenvalues of a symmetric 3x3
+// matrix", 1961.
+double largest_symmetric_value(const Mat3& A);
 
 // The same for 2x2 matrices.
 struct SymmetricParts2 {

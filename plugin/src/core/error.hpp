@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/platform/compiler.hpp"
 #include "frond/frond.h"
 
 namespace frond {
@@ -14,8 +15,8 @@ struct Error : std::runtime_error {
 };
 
 // Throws an Error with a printf-style text that says what was wrong, then what to do.
-[[noreturn]] void fail(frond_result code, const char* format, ...) __attribute__((format(printf, 2, 3)));
+[[noreturn]] void fail(frond_result code, const char* format, ...) FROND_PRINTF(2, 3);
 // Returns a printf-style text.
-std::string text_of(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string text_of(const char* format, ...) FROND_PRINTF(1, 2);
 
 }  // namespace frond

@@ -34,10 +34,23 @@ FROND_INLINE S logarithm(const S& x) {
                                  1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21};
     const BitsOf<S> bits = BitsOf<S>(x);
     const S above = S((bits & FRACTION) | OF_ONE), power = number_of<S>(bits >> 52) - 1023.0;
-    const auto is_large = above > M_SQRT2;
+    const auto is_large = above > SQRT2;
     const S m = select(is_large, S(0.5 * above), above), whole = select(is_large, S(power + 1.0), power);
     const S s = (m - 1.0) / (m + 1.0);
     return whole * LN2_ABOVE + (whole * LN2_BELOW + 2.0 * s * polynomial(SERIES, S(s * s)));
+}
+
+// Returns the exponential of numbers from -700 to 700, with a relative error within 4e-16.
+template <class S>
+FROND_INLINE S exponential(const S& x) {
+    constexpr double LN2_ABOVE = 0.693147180369123816490, LN2_BELOW = 1.90821492927058770002e-10,
+                     OVER_LN2 = 1 / (LN2_ABOVE + LN2_BELOW);
+    constexpr double BIAS = 4503599627370496.0 + 1023;  // 2^52, whose mantissa takes the exponent
+    constexpr double SERIES[] = {
+        1,          1,           1.0 / 2,      1.0 / 6,       1.0 / 24,       1.0 / 120,       1.0 / 720,
+        1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800};
+    const S power = whole<S>(x * OVER_LN2), rest = (x - power * LN2_ABOVE) - power * LN2_BELOW;
+    return polynomial(SERIES, rest) * S(BitsOf<S>(power + BIAS) << 52);
 }
 
 // Returns one over the cube root of positive normal numbers, with a relative error within 1e-15: a guess from the

@@ -2,66 +2,46 @@
 // single number, to the last bit and in any width: square roots are the processor's own and no products are fused.
 #pragma once
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <type_traits>
 
-// GCC warns that the ABI of vector arguments depends on the target; none are passed, since all functions are inlined.
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "core/constants.hpp"
+#include "core/platform/vectors.hpp"
 
 namespace frond {
 
-// Code for lanes must be inlined into the function that is compiled for a width.
-#define FROND_INLINE [[gnu::always_inline]] inline
-
-using TwoLanes = double __attribute__((vector_size(16)));
-using FourLanes = double __attribute__((vector_size(32)));
-using EightLanes = double __attribute__((vector_size(64)));
 template <class S>
 constexpr int LANES = int(sizeof(S) / sizeof(double));
 
 constexpr int MOST_LANES = 8;  // on any processor
 
-// Runs job.run<S>() in lanes of a width that this processor has; run() has to be FROND_INLINE. AVX-512 includes fused
-// products, so code that runs in eight lanes has to be compiled with -ffp-contract=off.
-#if defined(__x86_64__)
+// Runs job.run<S>() in lanes of a width that this processor has; run() has to be FROND_INLINE.
+#if defined(FROND_HAS_WIDE_LANES)
 template <class Job>
-[[gnu::target("avx512f")]] void run_in_eight_lanes(const Job& job) {
+FROND_FOR_EIGHT_LANES void run_in_eight_lanes(const Job& job) {
     job.template run<EightLanes>();
 }
 template <class Job>
-[[gnu::target("avx2")]] void run_in_four_lanes(const Job& job) {
+FROND_FOR_FOUR_LANES void run_in_four_lanes(const Job& job) {
     job.template run<FourLanes>();
 }
 #endif
-// On x86-64 two lanes serve only processors from before 2013, so the compiler spends little time on them.
-#if defined(__x86_64__) && !defined(__clang__)
-#define FROND_SPARE_THE_COMPILER [[gnu::optimize("O1")]]
-#else
-#define FROND_SPARE_THE_COMPILER
-#endif
 template <class Job>
-FROND_SPARE_THE_COMPILER void run_in_two_lanes(const Job& job) {
+FROND_FOR_TWO_LANES void run_in_two_lanes(const Job& job) {
     job.template run<TwoLanes>();
 }
 // Returns the largest number of lanes on this processor: 2, 4 or 8; tests lower it.
 inline int& most_lanes() {
-#if defined(__x86_64__)
-    static int most = __builtin_cpu_supports("avx512f") ? 8 : __builtin_cpu_supports("avx2") ? 4 : 2;
-#else
-    static int most = 2;
-#endif
+    static int most = lanes_of_processor();
     return most;
 }
 // Runs a job on elements of one plant, in four lanes at most: eight elements are seldom alike, and writing results lane
 // by lane gains nothing from the width.
 template <class Job>
 void run_in_lanes(const Job& job) {
-#if defined(__x86_64__)
+#if defined(FROND_HAS_WIDE_LANES)
     if (most_lanes() >= 4) return run_in_four_lanes(job);
 #endif
     run_in_two_lanes(job);
@@ -69,10 +49,11 @@ void run_in_lanes(const Job& job) {
 // Runs a job in that many lanes, at most most_lanes().
 template <class Job>
 void run_in_lanes(int lanes, const Job& job) {
-#if defined(__x86_64__)
+#if defined(FROND_HAS_WIDE_LANES)
     if (lanes == 8) return run_in_eight_lanes(job);
     if (lanes == 4) return run_in_four_lanes(job);
 #endif
+    (void)lanes;
     run_in_two_lanes(job);
 }
 
@@ -101,18 +82,10 @@ template <class S>
 FROND_INLINE S constant(double value) {
     return S{} + value;
 }
-// Selects lane by lane. GCC merges nested selects into one mask and, in eight lanes, evaluates it lane by lane; the
-// empty asm prevents that.
+// Selects lane by lane.
 template <class Mask, class S>
 FROND_INLINE S select(const Mask& mask, const S& yes, const S& no) {
-#if defined(__x86_64__) && !defined(__clang__)
-    if constexpr (sizeof(S) == sizeof(EightLanes)) {
-        S chosen = mask ? yes : no;
-        asm("" : "+v"(chosen));
-        return chosen;
-    }
-#endif
-    return mask ? yes : no;
+    return kept_apart<S>(mask ? yes : no);
 }
 FROND_INLINE bool any(int mask) {
     return mask != 0;
@@ -147,13 +120,6 @@ FROND_INLINE S gather(const Value& value) {
 FROND_INLINE double sqrt(double a) {
     return std::sqrt(a);
 }
-FROND_INLINE TwoLanes sqrt(const TwoLanes& a) {
-#if defined(__SSE2__)
-    return _mm_sqrt_pd(a);
-#else
-    return TwoLanes{std::sqrt(a[0]), std::sqrt(a[1])};
-#endif
-}
 FROND_INLINE FourLanes sqrt(const FourLanes& a) {
     const TwoLanes low = sqrt(TwoLanes{a[0], a[1]}), high = sqrt(TwoLanes{a[2], a[3]});
     return FourLanes{low[0], low[1], high[0], high[1]};
@@ -168,12 +134,12 @@ FROND_INLINE EightLanes sqrt(const EightLanes& a) {
 template <class S>
 FROND_INLINE S load(const double* from) {
     S out;
-    __builtin_memcpy(&out, from, sizeof(S));
+    std::memcpy(&out, from, sizeof(S));
     return out;
 }
 template <class S>
 FROND_INLINE void store(const S& value, double* to) {
-    __builtin_memcpy(to, &value, sizeof(S));
+    std::memcpy(to, &value, sizeof(S));
 }
 
 // Four numbers, aligned for a single load or store.
@@ -189,20 +155,8 @@ FROND_INLINE void store(const FourLanes& value, Quad& to) {
 
 // Stores the first three lanes.
 FROND_INLINE void store_three(const FourLanes& value, float* to) {
-    using FourFloats = float __attribute__((vector_size(16)));
-    const FourFloats narrow = __builtin_convertvector(value, FourFloats);
-    __builtin_memcpy(to, &narrow, 3 * sizeof(float));
-}
-
-// Shuffles two vectors: lanes 0 to 3 are the first one's, 4 to 7 the second one's.
-template <int A, int B, int C, int D>
-FROND_INLINE FourLanes choose(const FourLanes& v, const FourLanes& w) {
-#ifdef __clang__
-    return __builtin_shufflevector(v, w, A, B, C, D);
-#else
-    using Places = long long __attribute__((vector_size(32)));
-    return __builtin_shuffle(v, w, Places{A, B, C, D});
-#endif
+    const auto narrow = convert_lanes<VectorOf<float, 4>::Type>(value);
+    std::memcpy(to, &narrow, 3 * sizeof(float));
 }
 
 // Transposes a 4x4 matrix.
@@ -235,7 +189,7 @@ FROND_INLINE S polynomial(const double (&c)[N], const S& x) {
 // half turns, halves the rest and sums its series.
 template <class S>
 FROND_INLINE void sine_cosine(const S& angle, S& sine, S& cosine) {
-    constexpr double PI_BELOW = 1.2246467991473532e-16;  // pi - M_PI
+    constexpr double PI_BELOW = 1.2246467991473532e-16;  // pi - PI, the double
     constexpr double SINE[] = {
         1, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000};
     constexpr double COSINE[] = {1,
@@ -247,8 +201,8 @@ FROND_INLINE void sine_cosine(const S& angle, S& sine, S& cosine) {
                                  1.0 / 479001600,
                                  -1.0 / 87178291200,
                                  1.0 / 20922789888000};
-    const S turns = whole<S>(angle * (1 / M_PI));
-    const S half = ((angle - turns * M_PI) - turns * PI_BELOW) * 0.5, square = half * half;
+    const S turns = whole<S>(angle * (1 / PI));
+    const S half = ((angle - turns * PI) - turns * PI_BELOW) * 0.5, square = half * half;
     const S odd = turns - 2.0 * whole<S>(turns * 0.5);
     const S sign = 1.0 - 2.0 * odd * odd;
     const S s = half * polynomial(SINE, square), c = polynomial(COSINE, square);

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <vector>
 
+#include "core/constants.hpp"
+
 namespace frond {
 
 using Vec2f = Eigen::Vector2f;
@@ -19,8 +21,6 @@ using VecX = Eigen::VectorXd;
 using Triangle = std::array<int, 3>;
 using Tet = std::array<int, 4>;
 using Color = std::array<uint8_t, 4>;  // RGBA, sRGB
-
-constexpr double PI = 3.14159265358979323846;
 
 // Returns the i-th point of a vector that holds x y z x y z ...
 inline auto point(VecX& x, int i) {

@@ -1,18 +1,11 @@
 // Finds the mesh files that a URDF file names.
-#include <sys/stat.h>
-
-#include <cstdlib>
-
+#include "core/platform/files.hpp"
+#include "core/platform/process.hpp"
 #include "importer/urdf.hpp"
 
 namespace frond {
 
 static constexpr int MOST_ABOVE = 8;  // folders searched for packages, from the file's own upwards
-
-static bool is_file(const std::string& path) {
-    struct stat status;
-    return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
-}
 
 static bool starts_with(const std::string& text, const std::string& start) {
     return text.compare(0, start.size(), start) == 0;
@@ -22,10 +15,9 @@ static bool starts_with(const std::string& text, const std::string& start) {
 static std::vector<std::string> package_folders(const std::string& folder) {
     std::vector<std::string> folders;
     for (const char* variable : {"FROND_PACKAGE_PATH", "ROS_PACKAGE_PATH"}) {
-        const char* value = std::getenv(variable);
-        std::string rest = value ? value : "";
+        std::string rest = environment(variable);
         while (!rest.empty()) {
-            const size_t colon = rest.find(':');
+            const size_t colon = rest.find(BETWEEN_PATHS);
             if (colon != 0) folders.push_back(rest.substr(0, colon));
             rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
         }
@@ -37,9 +29,9 @@ static std::vector<std::string> package_folders(const std::string& folder) {
 
 static std::string find_in_package(const std::string& folder, const std::string& package, const std::string& path) {
     for (const std::string& above : package_folders(folder)) {
-        if (is_file(above + "/" + package + "/" + path)) return above + "/" + package + "/" + path;
+        if (is_regular_file(above + "/" + package + "/" + path)) return above + "/" + package + "/" + path;
         // The folder may itself be the package, under any name.
-        if (is_file(above + "/package.xml") && is_file(above + "/" + path)) return above + "/" + path;
+        if (is_regular_file(above + "/package.xml") && is_regular_file(above + "/" + path)) return above + "/" + path;
     }
     fail(
         FROND_RESULT_FILE_NOT_FOUND,
@@ -59,8 +51,8 @@ std::string find_mesh(const std::string& folder, const std::string& reference) {
         return find_in_package(folder, rest.substr(0, slash), rest.substr(slash + 1));
     }
     const std::string path = starts_with(reference, "file://") ? reference.substr(7) : reference;
-    const std::string found = starts_with(path, "/") ? path : folder + "/" + path;
-    if (!is_file(found))
+    const std::string found = is_absolute(path) ? path : folder + "/" + path;
+    if (!is_regular_file(found))
         fail(FROND_RESULT_FILE_NOT_FOUND, "the mesh %.256s was not found; paths are taken from the URDF file's folder",
              reference.c_str());
     return found;

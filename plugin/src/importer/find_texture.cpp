@@ -1,34 +1,20 @@
 // Finds and reads the files that a model refers to. Only files in the model's folder are opened, and pictures in the
 // texture folders beside it. For a path that leads elsewhere, the bare file name is searched for instead: artists'
 // files are full of paths from other machines.
-#include <dirent.h>
-#include <limits.h>
-#include <stdlib.h>
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <map>
 
 #include "core/log.hpp"
+#include "core/platform/files.hpp"
 #include "importer/importer.hpp"
 
 namespace frond {
 
 static constexpr size_t LARGEST_TEXTURE = size_t(128) << 20, ALL_TEXTURES = size_t(768) << 20;  // [byte]
 static constexpr int DEEPEST_FOLDER = 4, MOST_ENTRIES = 20000;
-
-static std::string real_path(const std::string& path) {
-    char resolved[PATH_MAX];
-    return path.find('\0') == std::string::npos && realpath(path.c_str(), resolved) ? resolved : "";
-}
-
-static bool is_regular_file(const std::string& path) {
-    struct stat status;
-    return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
-}
 
 // Files of a folder and its subfolders, in the order in which they were listed.
 struct Listing {
@@ -43,20 +29,17 @@ static std::string lower(std::string text) {
 
 // Lists a folder before its subfolders; links to folders are not followed.
 static void list_folder(const std::string& folder, int depth, int& entries, Listing& listing) {
-    DIR* directory = opendir(folder.c_str());
-    if (!directory) return;
     std::vector<std::string> below;
-    while (dirent* entry = readdir(directory)) {
-        if (++entries > MOST_ENTRIES) break;
-        const std::string path = folder + "/" + entry->d_name;
-        struct stat status;
-        if (entry->d_name[0] == '.' || lstat(path.c_str(), &status) != 0) continue;
-        if (S_ISDIR(status.st_mode)) below.push_back(path);
-        if (!S_ISREG(status.st_mode)) continue;
-        listing.by_name[lower(entry->d_name)].push_back(listing.paths.size());
+    const std::vector<FolderEntry> found = entries_of(folder, size_t(MOST_ENTRIES - entries));
+    entries += int(found.size());
+    for (const FolderEntry& entry : found) {
+        const std::string path = folder + "/" + entry.name;
+        if (entry.name[0] == '.') continue;
+        if (entry.is_folder) below.push_back(path);
+        if (!entry.is_regular) continue;
+        listing.by_name[lower(entry.name)].push_back(listing.paths.size());
         listing.paths.push_back(path);
     }
-    closedir(directory);
     for (size_t i = 0; depth < DEEPEST_FOLDER && i < below.size(); ++i)
         list_folder(below[i], depth + 1, entries, listing);
 }
@@ -97,7 +80,7 @@ static std::string find_exactly(const std::string& folder, std::string reference
     if (root.empty() || reference.empty()) return "";
 
     // The path as written, if it stays inside the folder.
-    const std::string path = real_path(reference[0] == '/' ? reference : root + "/" + reference);
+    const std::string path = real_path(is_absolute(reference) ? reference : root + "/" + reference);
     const std::string inside = root == "/" ? root : root + "/";
     if (path.compare(0, inside.size(), inside) == 0 && is_regular_file(path)) return path;
 
@@ -153,18 +136,13 @@ static const std::vector<std::string>& list_pictures(const std::string& folder) 
     int entries = 0;
     for (const std::string& near : folders) {
         const size_t first = pictures.size();
-        DIR* directory = opendir((folder + near).c_str());
-        if (!directory) continue;
-        while (dirent* entry = readdir(directory)) {
-            if (++entries > MOST_ENTRIES) break;
+        const std::vector<FolderEntry> found = entries_of(folder + near, size_t(MOST_ENTRIES - entries));
+        entries += int(found.size());
+        for (const FolderEntry& entry : found) {
             std::string ending;
-            stem_of(entry->d_name, ending);
-            const std::string path = folder + near + "/" + entry->d_name;
-            struct stat status;
-            if (is_drawable(ending) && lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode))
-                pictures.push_back(path);
+            stem_of(entry.name, ending);
+            if (entry.is_regular && is_drawable(ending)) pictures.push_back(folder + near + "/" + entry.name);
         }
-        closedir(directory);
         std::sort(pictures.begin() + long(first), pictures.end());
     }
     return pictures;
@@ -246,16 +224,11 @@ int take_texture_file(Surface& surface, const MeshFile& file, const std::string&
     }
     for (size_t i = 0; i < surface.textures.size(); ++i)
         if (surface.textures[i].name == reference) return int(i);
-    struct stat status;
-    FILE* stream = fopen(path.c_str(), "rb");
-    if (!stream || fstat(fileno(stream), &status) != 0 || size_t(status.st_size) > LARGEST_TEXTURE) {
-        if (stream) fclose(stream);
+    std::string bytes, error;
+    if (status_of(path).size > LARGEST_TEXTURE || !read_file(path, LARGEST_TEXTURE, bytes, error)) {
         warn("the texture %s is too large or cannot be read", reference.c_str());
         return -1;
     }
-    std::string bytes(size_t(status.st_size), '\0');
-    bytes.resize(fread(&bytes[0], 1, bytes.size(), stream));
-    fclose(stream);
     if (bytes.empty()) {
         warn("the texture %s is empty", reference.c_str());
         return -1;

@@ -1,6 +1,7 @@
 // Reads a glTF document. In: bytes. Out: JSON and buffers. Every length is checked.
 #include <cstring>
 
+#include "core/platform/files.hpp"
 #include "importer/gltf.hpp"
 #include "importer/importer.hpp"
 
@@ -95,15 +96,10 @@ static std::string load_buffer(const GltfDocument& document, const Json& buffer,
         return comma == std::string::npos ? "" : decode_base64(uri, comma + 1);
     }
     const std::string path = find_beside(file.folder, uri);
-    FILE* stream = path.empty() ? nullptr : fopen(path.c_str(), "rb");
-    if (!stream)
+    std::string bytes, error;
+    if (path.empty() || !read_file(path, size_t(1) << 30, bytes, error))
         fail(FROND_RESULT_FILE_FORMAT, "the file %.200s, which holds its geometry, is not in the model's folder",
              uri.c_str());
-    std::string bytes;
-    char block[65536];
-    for (size_t count; bytes.size() < (size_t(1) << 30) && (count = fread(block, 1, sizeof block, stream)) > 0;)
-        bytes.append(block, count);
-    fclose(stream);
     return bytes;
 }
 

@@ -1,31 +1,24 @@
 // Opens a mesh file. In: a path. Out: bytes and format. The format follows from the name's ending; the content must
 // agree.
-#include <strings.h>
-#include <sys/stat.h>
-
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 
+#include "core/platform/files.hpp"
 #include "importer/check.hpp"
 
 namespace frond {
 
-static constexpr long long LARGEST_FILE = 1ll << 30;  // [byte]
+static constexpr uint64_t LARGEST_FILE = 1ull << 30;  // [byte]
 
 static std::string read_bytes(const std::string& path) {
-    struct stat status;
-    if (stat(path.c_str(), &status) != 0) fail(FROND_RESULT_FILE_NOT_FOUND, "%s", strerror(errno));
-    if (!S_ISREG(status.st_mode)) fail(FROND_RESULT_FILE_NOT_FOUND, "not a regular file");
-    if (status.st_size == 0) fail(FROND_RESULT_FILE_FORMAT, "the file is empty");
-    if (status.st_size > LARGEST_FILE) fail(FROND_RESULT_FILE_FORMAT, "the file is larger than 1 GiB");
-    FILE* file = fopen(path.c_str(), "rb");
-    if (!file) fail(FROND_RESULT_FILE_NOT_FOUND, "%s", strerror(errno));
-    std::string bytes(size_t(status.st_size), '\0');
-    const size_t count = fread(&bytes[0], 1, bytes.size(), file);
-    fclose(file);
-    if (count != bytes.size())
-        fail(FROND_RESULT_FILE_NOT_FOUND, "only %zu of %zu bytes could be read", count, bytes.size());
+    const FileStatus status = status_of(path);
+    if (!status.exists) fail(FROND_RESULT_FILE_NOT_FOUND, "%s", status.error.c_str());
+    if (!status.is_regular) fail(FROND_RESULT_FILE_NOT_FOUND, "not a regular file");
+    if (status.size == 0) fail(FROND_RESULT_FILE_FORMAT, "the file is empty");
+    if (status.size > LARGEST_FILE) fail(FROND_RESULT_FILE_FORMAT, "the file is larger than 1 GiB");
+    std::string bytes, error;
+    if (!read_file(path, status.size, bytes, error)) fail(FROND_RESULT_FILE_NOT_FOUND, "%s", error.c_str());
+    if (bytes.size() != status.size)
+        fail(FROND_RESULT_FILE_NOT_FOUND, "only %zu of %zu bytes could be read", bytes.size(), size_t(status.size));
     return bytes;
 }
 
@@ -36,10 +29,10 @@ static FileFormat format_by_name(const std::string& name) {
     } ROWS[] = {{".obj", FileFormat::OBJ}, {".ply", FileFormat::PLY},  {".gltf", FileFormat::GLTF},
                 {".glb", FileFormat::GLB}, {".fbx", FileFormat::FBX},  {".dae", FileFormat::DAE},
                 {".stl", FileFormat::STL}, {".urdf", FileFormat::URDF}};
+    for (const auto& row : ROWS)
+        if (has_ending(name, row.ending)) return row.format;
     const size_t dot = name.rfind('.');
     const std::string ending = dot == std::string::npos ? "" : name.substr(dot);
-    for (const auto& row : ROWS)
-        if (strcasecmp(row.ending, ending.c_str()) == 0) return row.format;
     fail(FROND_RESULT_FILE_FORMAT,
          "the name ends in \"%s\"; meshes are read from .obj .ply .gltf .glb .fbx .dae .stl, trees of links from .urdf",
          ending.c_str());
@@ -71,9 +64,8 @@ static const char* name_of(FileFormat format) {
 MeshFile open_file(const std::string& path) {
     MeshFile file;
     file.path = path;
-    const size_t slash = path.rfind('/');
-    file.name = path.substr(slash + 1);
-    file.folder = slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+    file.name = file_name(path);
+    file.folder = folder_of(path);
     file.format = format_by_name(file.name);
     file.bytes = read_bytes(path);
 

@@ -1,12 +1,12 @@
 // Reads PLY, text and binary of either byte order. In: bytes. Out: a surface of one part. Does not use assimp, whose
 // PLY reader crashes, aborts or hangs on truncated files. Reads vertices with normals, colours and texture coordinates;
 // faces with any number of corners, texture coordinates per corner, triangle strips; skips other elements.
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <sstream>
 
 #include "core/log.hpp"
+#include "core/platform/number_text.hpp"
 #include "importer/importer.hpp"
 
 namespace frond {
@@ -149,7 +149,7 @@ static double read_text_value(PlyCursor& cursor, const PlyElement& element, size
     const char *begin = bytes.data() + cursor.at, *end = bytes.data() + bytes.size();
     if (*begin == '+') ++begin;
     double value = 0;
-    const auto result = std::from_chars(begin, end, value);
+    const auto result = read_number(begin, end, value);
     const bool is_whole = result.ptr == end || uint8_t(*result.ptr) <= 32;
     if (result.ec == std::errc::invalid_argument || !is_whole)
         fail(FROND_RESULT_FILE_FORMAT, "line %ld: \"%.20s\" is not a number", cursor.line,

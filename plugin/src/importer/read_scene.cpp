@@ -7,9 +7,9 @@
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <cstdio>
 #include <cstring>
 
+#include "core/platform/files.hpp"
 #include "importer/importer.hpp"
 
 namespace frond {
@@ -50,13 +50,8 @@ public:
         if (!std::strchr(mode, 'r')) return nullptr;
         if (path == file.path) return new MemoryFile(bytes);
         const std::string found = find(path);
-        FILE* stream = found.empty() ? nullptr : fopen(found.c_str(), "rb");
-        if (!stream) return nullptr;
-        std::string content;
-        char buffer[65536];
-        for (size_t count; content.size() < LARGEST && (count = fread(buffer, 1, sizeof buffer, stream)) > 0;)
-            content.append(buffer, count);
-        fclose(stream);
+        std::string content, error;
+        if (found.empty() || !read_file(found, LARGEST, content, error)) return nullptr;
         return new MemoryFile(std::move(content));
     }
     void Close(Assimp::IOStream* stream) override { delete stream; }

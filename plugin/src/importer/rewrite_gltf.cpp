@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 
+#include "core/elementary.hpp"
 #include "core/log.hpp"
 #include "importer/gltf.hpp"
 #include "importer/importer.hpp"
@@ -172,7 +173,7 @@ static size_t convert_accessor(Rewriting& work, size_t index, int wanted, const 
     if (!transform.is_identity && wanted == 2)
         for (size_t i = 0; i + 1 < values.size(); i += 2) {
             const double u = double(values[i]) * transform.scale[0], v = double(values[i + 1]) * transform.scale[1];
-            const double c = std::cos(transform.rotation), s = std::sin(transform.rotation);
+            const double c = frond::cos(transform.rotation), s = frond::sin(transform.rotation);
             values[i] = float(c * u + s * v + transform.offset[0]);
             values[i + 1] = float(-s * u + c * v + transform.offset[1]);
         }

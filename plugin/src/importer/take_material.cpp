@@ -11,17 +11,18 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "core/elementary.hpp"
 #include "core/log.hpp"
 #include "importer/importer.hpp"
 
 namespace frond {
 
 float linear_of(float srgb) {
-    return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+    return srgb <= 0.04045f ? srgb / 12.92f : float(frond::pow((srgb + 0.055) / 1.055, 2.4));
 }
 
 float srgb_of(float linear) {
-    return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+    return linear <= 0.0031308f ? linear * 12.92f : float(1.055 * frond::pow(linear, 1 / 2.4) - 0.055);
 }
 
 static float in_range(float value) {

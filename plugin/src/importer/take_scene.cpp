@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/decompose.hpp"
+#include "core/elementary.hpp"
 #include "core/log.hpp"
 #include "importer/importer.hpp"
 
@@ -304,7 +305,8 @@ Surface take_scene(const aiScene& scene, const MeshFile& file) {
             const bool is_tinted = file.format == FileFormat::GLTF || file.format == FileFormat::GLB;
             if (with_colors && (!is_tinted || part.color == Part().color)) part.color = {1, 1, 1, 1};
             Corners corners = take_corners(mesh, file, with_colors, dropped_lines, surface.dropped_triangles);
-            const double scale = std::cbrt(std::abs((frame * nodes[n].transform).topLeftCorner<3, 3>().determinant()));
+            const double scale =
+                frond::cbrt(std::abs((frame * nodes[n].transform).topLeftCorner<3, 3>().determinant()));
             rounding = std::max(rounding, scale * rounding_of(corners));
             if (mesh.mNumBones == 0) weld_corners(corners);
             move_corners(corners, mesh, frame * nodes[n].transform, by_name);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "core/lanes.hpp"
 
 namespace frond {
@@ -76,7 +77,7 @@ FROND_INLINE Dual<S> sqrt(const Dual<S>& a) {
 }
 template <class S>
 FROND_INLINE void sine_cosine(const Dual<S>& a, Dual<S>& sine, Dual<S>& cosine) {
-    const double s = std::sin(a.value), c = std::cos(a.value);
+    const double s = frond::sin(a.value), c = frond::cos(a.value);
     sine = function_of(a, s, c);
     cosine = function_of(a, c, -s);
 }

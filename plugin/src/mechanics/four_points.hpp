@@ -28,7 +28,7 @@ struct FourPoints {
     }
     FROND_INLINE double sum(const S& of_each) const { return (of_each[0] + of_each[1]) + (of_each[2] + of_each[3]); }
     FROND_INLINE TetShareLanes<S> share() const {
-        const auto at = [&](int i) __attribute__((always_inline)) {
+        const auto at = [&](int i) FROND_INLINED {
             return gather<S>([&](int q) { return rest_inverse(elements, tet, q, 4).data()[i]; });
         };
         const S volume = gather<S>([&](int q) { return elements.point_volume[4 * tet + size_t(q)]; });
@@ -60,7 +60,7 @@ struct FourPoints {
     FROND_INLINE void add_force(const TetShareLanes<S>& share, const Lanes33<S>& P, VecX& f) const {
         const QuadraticTet& nodes = elements.nodes.of_tet[tet];
         const Lanes33<S> forces = -((share.volume * share.rest_inverse) * transposed(P));  // one row a corner
-        const auto add = [&](int r, const S& f1, const S& f2, const S& f3) __attribute__((always_inline)) {
+        const auto add = [&](int r, const S& f1, const S& f2, const S& f3) FROND_INLINED {
             const S corner[4] = {-(f1 + f2 + f3), f1, f2, f3};
             double total[4];
             for (int c = 0; c < 4; ++c) total[c] = (corner[c][0] + corner[c][1]) + (corner[c][2] + corner[c][3]);
@@ -99,9 +99,7 @@ struct FourPoints {
                 if (i != j) of[j][i] = Between(transposed(*below[n]));
             }
         const int* slot = elements.quadratic_slots[tet].data();
-        const auto add = [&](const Nine& block) __attribute__((always_inline)) {
-            add_to(K.values.data() + 9 * size_t(*slot++), block);
-        };
+        const auto add = [&](const Nine& block) FROND_INLINED { add_to(K.values.data() + 9 * size_t(*slot++), block); };
 #pragma GCC unroll 1
         for (int a = 0; a < 4; ++a)
 #pragma GCC unroll 1

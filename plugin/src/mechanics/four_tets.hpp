@@ -39,9 +39,7 @@ struct FourTets {
     FROND_INLINE Lanes33<S> at_rest() const {
         const double* inverse[TETS];
         for (size_t l = 0; l < TETS; ++l) inverse[l] = rest_inverse(elements, tet[l], 0, 1).data();
-        const auto at = [&](int i) __attribute__((always_inline)) {
-            return gather<S>([&](int l) { return inverse[l][i]; });
-        };
+        const auto at = [&](int i) FROND_INLINED { return gather<S>([&](int l) { return inverse[l][i]; }); };
         return {{{at(0), at(3), at(6)}, {at(1), at(4), at(7)}, {at(2), at(5), at(8)}}};
     }
     FROND_INLINE TetShareLanes<S> share() const {
@@ -51,7 +49,7 @@ struct FourTets {
     FROND_INLINE Lanes33<S> edges(const double* x) const {
         Lanes33<S> out;
         for (int r = 0; r < 3; ++r) {
-            const auto corner = [&](size_t a) __attribute__((always_inline)) {
+            const auto corner = [&](size_t a) FROND_INLINED {
                 return gather<S>([&](int l) { return x[3 * elements.ordered[tet[l]][a] + r]; });
             };
             const S first = corner(0);
@@ -65,7 +63,7 @@ struct FourTets {
         const Lanes3<S> first = forces.r[0] + forces.r[1] + forces.r[2];
         for (int l = 0; l < count; ++l) {
             const Tet& nodes = elements.ordered[tet[l]];
-            const auto add = [&](size_t a, const Lanes3<S>& force, double sign) __attribute__((always_inline)) {
+            const auto add = [&](size_t a, const Lanes3<S>& force, double sign) FROND_INLINED {
                 double* to = f.data() + 3 * nodes[a];
                 to[0] += sign * force.x[l], to[1] += sign * force.y[l], to[2] += sign * force.z[l];
             };

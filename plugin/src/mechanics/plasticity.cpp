@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "model/model.hpp"
 
 namespace frond {
@@ -11,7 +12,7 @@ namespace frond {
 static double round_limit(double k) {
     if (k <= 1) return k;
     const double c = 1 / k;
-    return 2 / (3 * M_PI) * ((5 - 2 * c * c) * std::sqrt(1 - c * c) + 3 * k * std::asin(c));
+    return 2 / (3 * PI) * ((5 - 2 * c * c) * std::sqrt(1 - c * c) + 3 * k * frond::asin(c));
 }
 
 double section_limit(const Yield& yield, double k) {
@@ -29,7 +30,7 @@ double elastic_share(const Yield& yield, double strain, double h, double& harden
     // Bent monotonically from the start, it would now be at k = elastic + plastic strain, both over the yield strain.
     const double limit = section_limit(yield, trial + hardening);
     double elastic = std::min(trial, limit);
-    elastic = 1 + (elastic - 1) * std::exp(-yield.creep * h);
+    elastic = 1 + (elastic - 1) * frond::exp(-yield.creep * h);
     hardening += trial - elastic;
     return elastic / trial;
 }

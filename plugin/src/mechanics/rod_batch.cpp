@@ -39,9 +39,8 @@ struct FindWild {
     template <class S>
     FROND_INLINE void run() const {
         S calm = constant<S>(1);
-        const auto look = [&](const Lanes3<S>& change, double most) {
-            calm = select(dot(change, change) < most * most * NEARLY, calm, S{});
-        };
+        const auto look = [&](const Lanes3<S>& change, double most)
+                              FROND_INLINED { calm = select(dot(change, change) < most * most * NEARLY, calm, S{}); };
         for (int i = 3; i < 3 * elements.node_count; i += 6) look(way<S>(i), LARGEST_TURN);
         for (const RodSegment& rod : elements.segments)
             look(way<S>(6 * rod.b) - way<S>(6 * rod.a), LARGEST_STRETCH * rod.length);

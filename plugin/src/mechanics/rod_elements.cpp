@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "mechanics/rows.hpp"
 #include "mechanics/sections.hpp"
@@ -33,13 +34,13 @@ void take_section(const Model& model, size_t node, RodSegment& rod) {
     rod.stretch = Vec3(stiffer * section.stretching(), over * thin, over * wide);
     rod.bend = Vec3(stiffer * section.twisting(), wide, thin);
     rod.centre = (section.elastic_centre() - 0.5) * rod.length;
-    rod.warping = section.stretching() * std::pow(section.width, 4) / (720 * section.twisting());
+    rod.warping = section.stretching() * frond::pow(section.width, 4) / (720 * section.twisting());
 }
 void take_cylinder(const Model& model, size_t node, double radius, double stiffer, RodSegment& rod) {
     const size_t organ = organ_of(model, node);
     const Material& material = model.organs[organ].material;
     const double E = material.young * model.organ_stiffer[organ], over = 12 / (rod.length * rod.length);
-    const double area = M_PI * radius * radius, inertia = stiffer * area * radius * radius / 4;
+    const double area = PI * radius * radius, inertia = stiffer * area * radius * radius / 4;
     rod.reach_thin = rod.reach_wide = radius;
     rod.stretch = E * Vec3(area, over * inertia, over * inertia);
     rod.bend = E * Vec3(inertia / (1 + material.poisson), inertia, inertia);

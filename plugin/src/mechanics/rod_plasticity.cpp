@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "mechanics/rod_elements.hpp"
 #include "mechanics/rows.hpp"
@@ -22,7 +23,7 @@ constexpr size_t NUMBERS_OF_PIECE = 3;  // the two curvatures, hardening
 }  // namespace
 
 FibreStrain fibre_strain(const RodSegment& rod, const RodStrain& s) {
-    return {std::abs(s.strain[0]), std::hypot(rod.reach_wide * s.curvature[1], rod.reach_thin * s.curvature[2])};
+    return {std::abs(s.strain[0]), frond::hypot(rod.reach_wide * s.curvature[1], rod.reach_thin * s.curvature[2])};
 }
 
 void let_rods_yield(const Model& model, RodElements& elements) {

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "core/elementary.hpp"
+
 namespace frond {
 
 template <class S>
@@ -32,8 +34,8 @@ Mat3of<S> rotation_series(const Vec3of<S>& v, const S& a, const S& b) {
 // Returns the rotation matrix of a rotation vector: Rodrigues' formula.
 template <class S>
 Mat3of<S> rotation_of(const Vec3of<S>& v) {
-    using std::cos;
-    using std::sin;
+    using frond::cos;
+    using frond::sin;
     using std::sqrt;
     const S square = v.squaredNorm();
     if (square < 1e-8) return rotation_series<S>(v, S(1) - square / 6., S(0.5) - square / 24.);
@@ -44,7 +46,7 @@ Mat3of<S> rotation_of(const Vec3of<S>& v) {
 // Returns T(v), which gives the angular velocity in the spatial frame by the rate of the vector: w = T(v) dv/dt.
 template <class S>
 Mat3of<S> rate_matrix(const Vec3of<S>& v) {
-    using std::sin;
+    using frond::sin;
     using std::sqrt;
     const S square = v.squaredNorm();
     if (square < 1e-8) return rotation_series<S>(v, S(0.5) - square / 24., S(1. / 6) - square / 120.);
@@ -55,8 +57,8 @@ Mat3of<S> rate_matrix(const Vec3of<S>& v) {
 // Returns the inverse of rate_matrix(), from angular velocity to the vector's rate; unbounded as the angle nears 2 pi.
 template <class S>
 Mat3of<S> inverse_rate_matrix(const Vec3of<S>& v) {
+    using frond::tan;
     using std::sqrt;
-    using std::tan;
     const S square = v.squaredNorm();
     if (square < 1e-8) return rotation_series<S>(v, S(-0.5), S(1. / 12) + square / 720.);
     const S half = 0.5 * sqrt(square);
@@ -66,7 +68,7 @@ Mat3of<S> inverse_rate_matrix(const Vec3of<S>& v) {
 // Returns the vector of a rotation matrix, of an angle up to pi: through the quaternion, well conditioned everywhere.
 template <class S>
 Vec3of<S> rotation_vector(const Mat3of<S>& R) {
-    using std::atan2;
+    using frond::atan2;
     using std::sqrt;
     // The largest of the four squares decides from which row to start (Shepperd 1978).
     S w;

@@ -64,7 +64,7 @@ struct Corotational {
         Lanes33<S> turned[3];
         for (int b = 0; b < 3; ++b)
             for (int r = 0; r < 3; ++r) turned[b].r[r] = cross(T.r[r], G.r[b]);
-        const auto block = [&](int a, int b) __attribute__((always_inline)) {
+        const auto block = [&](int a, int b) FROND_INLINED {
             // [g_a]^T m = m x g_a for each column m.
             const Lanes33<S>& m = turned[b];
             const Lanes3<S>& g = G.r[a];

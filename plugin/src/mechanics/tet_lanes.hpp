@@ -46,7 +46,7 @@ struct TetPass {
                 damped += ahead->damping;
                 by = ahead->step * (ahead->step + damped);
             }
-            const auto stress = [&]() __attribute__((always_inline)) {
+            const auto stress = [&]() FROND_INLINED {
                 if constexpr (Law::GOES_AHEAD)
                     if (ahead) return stress_ahead<Law>(tets, share, strain, *ahead, damped);
                 return Law::stress(share, strain);

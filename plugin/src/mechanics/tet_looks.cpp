@@ -57,9 +57,7 @@ struct LookForStrained {
         for (size_t first = 0; first < elements.tets.size(); first += Tets::TETS) {
             const Tets tets(elements, first);
             const Lanes33<S> F = tets.edges(x) * tets.at_rest(), C = transposed_times(F, F);
-            const auto green = [&](const S& c) __attribute__((always_inline)) {
-                return S(0.5 * c);
-            };
+            const auto green = [&](const S& c) FROND_INLINED { return S(0.5 * c); };
             const S xx = green(C.r[0].x), yy = green(C.r[1].y), zz = green(C.r[2].z), xy = green(C.r[0].y),
                     yz = green(C.r[1].z), zx = green(C.r[2].x);
             const S mean = (xx + yy + zz) * (1.0 / 3), a = xx - mean, b = yy - mean, c = zz - mean;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/decompose.hpp"
+#include "core/elementary.hpp"
 #include "mechanics/tet_lanes.hpp"
 
 namespace frond {
@@ -87,9 +88,7 @@ FROND_INLINE Frame<S> principal_frame(const Lanes33<S>& F) {
             set_lane(out.U, lane, U.transpose());
             set_lane(out.V, lane, V.transpose());
         }
-    const auto along = [&](int i) __attribute__((always_inline)) {
-        return S(dot(out.U.r[i], F * out.V.r[i]));
-    };
+    const auto along = [&](int i) FROND_INLINED { return S(dot(out.U.r[i], F * out.V.r[i])); };
     out.stretch = {along(0), along(1), along(2)};
     return out;
 }
@@ -146,7 +145,7 @@ struct Neohookean {
         const Slopes<S> of = slopes(tet, s);
         const S stretch = s.I - 3.0, swell = s.J - 1.0;
         S bend = stretch;
-        for (int l = 0; l < LANES<S>; ++l) set_lane(bend, l, std::log1p(lane_of(stretch, l) / 4));
+        for (int l = 0; l < LANES<S>; ++l) set_lane(bend, l, frond::log1p(lane_of(stretch, l) / 4));
         return 0.5 * of.m * (stretch - bend) + 0.5 * of.l * swell * swell - 0.75 * of.m * swell;
     }
 
@@ -165,7 +164,7 @@ struct Neohookean {
         const Lanes33<S>& B = tet.rest_inverse;
         const S V = scale * tet.volume;
         const Lanes33<S> FB = B * transposed(s.F), CB = B * transposed(s.cofactor);  // one row a corner
-        const auto block = [&](int a, int b) __attribute__((always_inline)) {
+        const auto block = [&](int a, int b) FROND_INLINED {
             Lanes33<S> k = outer(FB.r[a], S(V * of.bend) * FB.r[b]) + outer(CB.r[a], S(V * of.l) * CB.r[b]);
             add_to_diagonal(S(V * of.pull * dot(B.r[a], B.r[b])), k);
             if (a == b) return k;
@@ -197,19 +196,11 @@ struct Neohookean {
         A.r[1].z += squeezed.x, A.r[2].y += squeezed.x;
         A.r[0].z += squeezed.y, A.r[2].x += squeezed.y;
         take_negative_part_out(A);
-        const auto positive = [](const S& a) __attribute__((always_inline)) {
-            return select(a < 0.0, constant<S>(0), a);
-        };
-        const auto shear = [&](const S& by) __attribute__((always_inline)) {
-            return positive(of.pull - by);
-        };
-        const auto turn = [&](const S& by) __attribute__((always_inline)) {
-            return positive((of.pull + by) - FREE_TURN * of.m);
-        };
-        const auto planes = [&](double sign) __attribute__((always_inline)) {
-            const auto of_plane = [&](const S& by) __attribute__((always_inline)) {
-                return S(0.5 * (shear(by) + sign * turn(by)));
-            };
+        const auto positive = [](const S& a) FROND_INLINED { return select(a < 0.0, constant<S>(0), a); };
+        const auto shear = [&](const S& by) FROND_INLINED { return positive(of.pull - by); };
+        const auto turn = [&](const S& by) FROND_INLINED { return positive((of.pull + by) - FREE_TURN * of.m); };
+        const auto planes = [&](double sign) FROND_INLINED {
+            const auto of_plane = [&](const S& by) FROND_INLINED { return S(0.5 * (shear(by) + sign * turn(by))); };
             const S xy = of_plane(squeezed.z), yz = of_plane(squeezed.x), zx = of_plane(squeezed.y);
             const S none = constant<S>(0);
             return Lanes33<S>{{{none, xy, zx}, {xy, none, yz}, {zx, yz, none}}};
@@ -219,7 +210,7 @@ struct Neohookean {
         // With b in that frame: K_ij = A_ij b_i b'_j + crossed_ij b_j b'_i, and straight_ij b_j b'_j on the diagonal.
         const Lanes33<S> G = tet.rest_inverse * transposed(frame.V);  // one row a corner
         const S V = scale * tet.volume;
-        const auto block = [&](int a, int b) __attribute__((always_inline)) {
+        const auto block = [&](int a, int b) FROND_INLINED {
             const Lanes33<S> outside = outer(G.r[a], V * G.r[b]), across = transposed(outside);
             const Lanes3<S> diagonal = straight * Lanes3<S>{outside.r[0].x, outside.r[1].y, outside.r[2].z};
             Lanes33<S> k;

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "core/decompose.hpp"
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "mechanics/polar.hpp"
 #include "mechanics/sections.hpp"
@@ -64,7 +65,7 @@ Strained strained_at(const TetShare& share, const Mat3& F) {
     Strained out = {0.5 * (S + S.transpose()), 0};
     const Vec3 stretch = symmetric_values(out.S);
     if (!(stretch[0] > FLATTEST)) return out;
-    const Eigen::Array3d strain = stretch.array().log();
+    const Eigen::Array3d strain = stretch.array().unaryExpr(&frond::log);
     out.strain = as_pulled(share, (strain - strain.mean()).matrix().norm());
     return out;
 }
@@ -85,8 +86,8 @@ bool exceeds(const TetShare& share, const Mat3& F, double most, Strained& out) {
 
 Mat3 flow_of(const Mat3& S, double elastic) {
     const SymmetricParts parts = symmetric_parts(S);
-    const Eigen::Array3d strain = parts.values.array().log();
-    const Eigen::Array3d change = ((elastic - 1) * (strain - strain.mean())).exp();
+    const Eigen::Array3d strain = parts.values.array().unaryExpr(&frond::log);
+    const Eigen::Array3d change = ((elastic - 1) * (strain - strain.mean())).unaryExpr(&frond::exp);
     return parts.vectors * change.matrix().asDiagonal() * parts.vectors.transpose();
 }
 

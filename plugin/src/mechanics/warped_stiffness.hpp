@@ -10,7 +10,7 @@ FROND_INLINE TetStiffnessLanes<S> warped_stiffness(const TetShareLanes<S>& tet, 
     const Lanes33<S>& B = tet.rest_inverse;
     const S mu = scale * tet.volume * tet.mu, lambda = scale * tet.volume * tet.lambda;
     const Lanes33<S> G = B * transposed(R);  // rows: the rest gradients, rotated
-    const auto block = [&](int a, int b) __attribute__((always_inline)) {
+    const auto block = [&](int a, int b) FROND_INLINED {
         Lanes33<S> k = outer(G.r[a], lambda * G.r[b]) + outer(G.r[b], mu * G.r[a]);
         add_to_diagonal(S(mu * dot(B.r[a], B.r[b])), k);
         return k;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/elementary.hpp"
 #include "model/cage_parts.hpp"
 
 namespace frond {
@@ -39,8 +40,8 @@ CageReport measure_cage(const Surface& surface, const Cage& cage, const Embeddin
         double of_smallest = 1, of_largest = -1;
         dihedral_cosines(corners, of_smallest, of_largest);
         const double degrees = 180 / PI;
-        report.min_dihedral = std::min(report.min_dihedral, degrees * std::acos(std::clamp(of_smallest, -1.0, 1.0)));
-        report.max_dihedral = std::max(report.max_dihedral, degrees * std::acos(std::clamp(of_largest, -1.0, 1.0)));
+        report.min_dihedral = std::min(report.min_dihedral, degrees * frond::acos(std::clamp(of_smallest, -1.0, 1.0)));
+        report.max_dihedral = std::max(report.max_dihedral, degrees * frond::acos(std::clamp(of_largest, -1.0, 1.0)));
     }
     if (cage.tets.empty()) report.min_volume = report.min_dihedral = 0;
     size_t contained = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "model/cage_parts.hpp"
 #include "model/triangle_distance.hpp"
 
@@ -100,8 +101,8 @@ static std::vector<Vec3> find_nearest_places(const Smoother& smoother) {
 
 // Returns whether the tets around a node are well shaped; sets their frames.
 static bool are_sound(Smoother& smoother, int node) {
-    static const double LARGEST_COSINE = std::cos(SMALLEST_ANGLE * PI / 180);
-    static const double SMALLEST_COSINE = std::cos(LARGEST_ANGLE * PI / 180);
+    static const double LARGEST_COSINE = frond::cos(SMALLEST_ANGLE * PI / 180);
+    static const double SMALLEST_COSINE = frond::cos(LARGEST_ANGLE * PI / 180);
     const Cage& cage = smoother.draft.cage;
     smoother.frames.clear();
     for (int e : smoother.node_tets[size_t(node)]) {

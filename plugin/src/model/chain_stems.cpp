@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "model/section.hpp"
 
 namespace frond {
@@ -29,7 +30,7 @@ struct StemPiece {
     double even_cut(double share) const {
         constexpr double MILD = 2;
         if (std::max(radius_begin, radius_end) <= MILD * std::min(radius_begin, radius_end)) return share;
-        const double a = std::cbrt(radius_begin), b = std::cbrt(radius_end), way = share * (b - a);
+        const double a = frond::cbrt(radius_begin), b = frond::cbrt(radius_end), way = share * (b - a);
         return share * ((3 * a * (a + way) + way * way) / (a * (a + b) + b * b));
     }
     Vec3 place(double share) const { return begin + share * (end - begin); }
@@ -100,7 +101,7 @@ Section round_section(const Vec3& along, double radius, double taper, const Orga
     section.length = along.norm();
     section.axis = along / section.length;
     section.thin = section.axis.unitOrthogonal();
-    section.area = M_PI * radius * radius;
+    section.area = PI * radius * radius;
     section.inertia_thin = section.inertia_wide = section.area * radius * radius / 4;
     section.thickness = 2 * radius;
     section.taper = std::clamp(taper, -LARGEST_TAPER, LARGEST_TAPER);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/decompose.hpp"
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "model/import.hpp"
@@ -56,10 +57,10 @@ static double score_foot(const std::vector<Vec3>& positions, int axis) {
     const Eigen::Vector2d foot = sum / count;
     const Eigen::Vector2d middle(box.center()[side], box.center()[depth]);
     const double spread = std::sqrt(std::max(0.0, squares / count - (foot - middle).squaredNorm()));
-    const double at_zero = std::exp(-10 * std::abs(box.min()[axis]) / size);
-    const double on_origin = std::exp(-5 * foot.norm() / size);
-    const double below_middle = std::exp(-5 * (foot - middle).norm() / size);
-    const double compact = std::exp(-5 * spread / size);
+    const double at_zero = frond::exp(-10 * std::abs(box.min()[axis]) / size);
+    const double on_origin = frond::exp(-5 * foot.norm() / size);
+    const double below_middle = frond::exp(-5 * (foot - middle).norm() / size);
+    const double compact = frond::exp(-5 * spread / size);
     return at_zero + on_origin + below_middle + compact;
 }
 
@@ -91,7 +92,7 @@ static Vec3 guess_up(const Surface& surface) {
 
 // Returns the shortest rotation that takes an axis to +y.
 static Mat3 turn_to_y(const Vec3& up) {
-    if (up.y() < -1 + 1e-12) return Eigen::AngleAxisd(PI, Vec3::UnitX()).toRotationMatrix();
+    if (up.y() < -1 + 1e-12) return Vec3(1, -1, -1).asDiagonal();
     return turn_between(up, Vec3::UnitY()).toRotationMatrix();
 }
 
@@ -99,9 +100,9 @@ static Mat3 turn_to_y(const Vec3& up) {
 static double guess_scale(double height) {
     double best = 1, best_distance = 1e300;
     for (int power = -300; power <= 300; ++power) {
-        const double scale = std::pow(10.0, power), scaled = height * scale;
+        const double scale = frond::pow(10.0, power), scaled = height * scale;
         if (!(scaled >= GUESS_LOWER && scaled <= GUESS_UPPER)) continue;
-        const double distance = std::abs(std::log10(scaled));
+        const double distance = std::abs(frond::log10(scaled));
         if (distance < best_distance) {
             best = scale;
             best_distance = distance;

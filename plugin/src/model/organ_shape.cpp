@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/decompose.hpp"
+#include "core/elementary.hpp"
 #include "model/bands.hpp"
 #include "model/organ_clues.hpp"
 
@@ -76,7 +77,7 @@ static std::vector<double> measure_flatness(const Topology& topology, const Band
     for (size_t i = 0; i < spread.size(); i++) {
         const double whole = spread[i].trace();
         if (!(whole > 0)) continue;
-        flat[i] = symmetric_values_direct(spread[i] / whole)[2];
+        flat[i] = largest_symmetric_value(spread[i] / whole);
     }
     return flat;
 }
@@ -143,7 +144,7 @@ std::vector<char> find_crowns(const Topology& topology, bool on_ground) {
     std::vector<char> crown = find_round(lumps, on_ground);
     for (size_t i = 0; i < lumps.size(); i++)
         crown[i] = crown[i] && std::abs(lumps[i].volume) > FULL * lumps[i].box.volume() &&
-                   36 * M_PI * std::pow(lumps[i].volume, 2) > COMPACT * std::pow(lumps[i].area, 3);
+                   36 * PI * squared(lumps[i].volume) > COMPACT * frond::pow(lumps[i].area, 3);
     std::vector<char> found(topology.triangles.size());
     for (size_t t = 0; t < found.size(); t++) found[t] = crown[size_t(topology.triangle_component[t])];
     return found;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/decompose.hpp"
+#include "core/elementary.hpp"
 #include "model/section_parts.hpp"
 
 namespace frond {
@@ -44,7 +45,7 @@ void take_outline(const Outline& outline, Section& section) {
 // A blade may have a round midrib that its sheet does not show.
 void add_rib(double width, double midrib, Section& section) {
     const double rib = width * midrib / 2;
-    section.inertia_thin = std::max(section.inertia_thin, M_PI * std::pow(rib, 4) / 4);
+    section.inertia_thin = std::max(section.inertia_thin, PI * frond::pow(rib, 4) / 4);
     section.inertia_wide = std::max(section.inertia_wide, section.inertia_thin);
 }
 
@@ -64,7 +65,7 @@ void fill_sheet(const Spread& spread, double width, const Material& material, Se
 // surface.
 void fill_ring(const Spread& spread, double width, double thickness, Section& section) {
     const double own = thickness * thickness / 12, sheet = width * thickness;
-    const double solid = 2 * M_PI * std::sqrt(spread.small * spread.large);
+    const double solid = 2 * PI * std::sqrt(spread.small * spread.large);
     section.area = std::max(sheet, solid);
     section.inertia_thin = std::max(sheet * (spread.small + own), solid * spread.small / 2);
     section.inertia_wide = std::max(sheet * (spread.large + own), solid * spread.large / 2);
@@ -90,7 +91,7 @@ bool fill_outline(const ChainNode& node, const Organ& organ, const Spread& sprea
         }
         return bounded;
     }
-    const double ring = 2 * M_PI * std::sqrt(spread.small * spread.large);
+    const double ring = 2 * PI * std::sqrt(spread.small * spread.large);
     if (!is_sheet(organ) && outline.found && outline.area > TOO_SMALL * ring) {
         take_outline(outline, section);
         return true;
@@ -111,7 +112,7 @@ bool fill_outline(const ChainNode& node, const Organ& organ, const Spread& sprea
         return false;
     }
     section.thin = section.axis.unitOrthogonal();
-    section.area = M_PI * node.radius * node.radius;
+    section.area = PI * node.radius * node.radius;
     section.inertia_thin = section.inertia_wide = section.area * node.radius * node.radius / 4;
     return false;
 }
@@ -152,7 +153,7 @@ void finish_section(const Organ& organ, Section& section) {
     const Material& material = organ.material;
     if (is_sheet(organ)) {
         section.width = section.area / section.thickness;
-        const double rib = M_PI * std::pow(section.width * material.midrib / 2, 4) / 2;
+        const double rib = PI * frond::pow(section.width * material.midrib / 2, 4) / 2;
         section.torsion = strip_torsion_constant(section.width, section.thickness) + rib;
     } else {
         // An ellipse of thickness t has I = A t^2 / 16, a rectangle A t^2 / 12.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "model/chain.hpp"
 
 namespace frond {
@@ -35,7 +36,7 @@ struct Section {
     double bending_wide() const { return young * inertia_wide * resistance(); }  // EI [N m^2]
     double twisting() const { return shear * torsion * resistance(); }           // GJ [N m^2]
     // Returns the stiffness against tilt that bends the capsule like an S, over bending_*() [1/m^2].
-    double tilting_per_bending() const { return 12 / (length * length) * std::pow(filling() / narrowing(), 2); }
+    double tilting_per_bending() const { return 12 / (length * length) * frond::pow(filling() / narrowing(), 2); }
     // Returns where a force across does not turn the ends against each other, as a share of the length from the begin.
     double elastic_centre() const { return 0.5 - 2 * taper / (3 + taper * taper); }
     double mass() const { return density * area * filling(); }  // per length, the mean [kg/m]
@@ -43,7 +44,7 @@ struct Section {
     double mass_at_end() const { return 0.5 + taper / (3 * filling()); }
     // Returns the mean squared distance of its mass from their centre along the capsule, over the length's square.
     double mass_spread() const {
-        return (1.0 / 12 + taper * taper / 20) / filling() - std::pow(mass_at_end() - 0.5, 2);
+        return (1.0 / 12 + taper * taper / 20) / filling() - frond::pow(mass_at_end() - 0.5, 2);
     }
     double inertia_at_end() const { return 0.5 + taper * (2.0 / 3 + 0.4 * taper * taper) / fourth_power(); }
     // Returns the mean rotary inertia per length about axis, thin and wide() [kg m].
@@ -56,7 +57,7 @@ private:
     double filling() const { return 1 + taper * taper / 3; }
     double fourth_power() const { return 1 + taper * taper * (2 + taper * taper / 5); }
     double narrowing() const { return 1 - taper * taper; }
-    double resistance() const { return std::pow(narrowing(), 3) / filling(); }
+    double resistance() const { return frond::pow(narrowing(), 3) / filling(); }
 };
 
 // Largest taper of a section: a pointed end counts as one of a nineteenth of the other end's size, as a point would

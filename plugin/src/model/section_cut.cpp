@@ -176,9 +176,9 @@ void average(const std::array<PlaneCut, 3>& cuts, const CapsuleFrame& frame, Out
         if (!(cuts[plane].area > 0 && cuts[plane].moments.determinant() > 0)) continue;
         const double size = 1 + outline.taper * (2 * PLANES[plane] - 1);
         area += WEIGHTS[plane] * cuts[plane].area;
-        squares += WEIGHTS[plane] * std::pow(size, 2);
+        squares += WEIGHTS[plane] * frond::pow(size, 2);
         inverse += WEIGHTS[plane] * cuts[plane].moments.inverse();
-        fourths += WEIGHTS[plane] * std::pow(size, -4);
+        fourths += WEIGHTS[plane] * frond::pow(size, -4);
     }
     if (!(area > 0)) return;
     const SymmetricParts2 parts = symmetric_parts_2(Matrix2d((inverse / fourths).inverse()));

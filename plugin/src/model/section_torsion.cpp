@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "model/section_parts.hpp"
 
 namespace frond {
 
 static double saint_venant(double area, double polar) {
-    return std::pow(area, 4) / (4 * M_PI * M_PI * polar);
+    return frond::pow(area, 4) / (4 * PI * PI * polar);
 }
 
 double squareness(double area, double inertia_thin, double inertia_wide) {
@@ -23,8 +24,8 @@ double squareness(double area, double inertia_thin, double inertia_wide) {
 double strip_torsion_constant(double width, double thickness) {
     const double t = std::min(width, thickness), w = std::max(width, thickness);
     double sum = 0;
-    for (int n = 1; n <= 7; n += 2) sum += std::tanh(n * M_PI * w / (2 * t)) / std::pow(n, 5);
-    return w * t * t * t * (1.0 / 3 - 64 / std::pow(M_PI, 5) * t / w * sum);
+    for (int n = 1; n <= 7; n += 2) sum += frond::tanh(n * PI * w / (2 * t)) / frond::pow(n, 5);
+    return w * t * t * t * (1.0 / 3 - 64 / frond::pow(PI, 5) * t / w * sum);
 }
 
 double torsion_constant(double area, double inertia_thin, double inertia_wide) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/convert.hpp"
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "model/import.hpp"
@@ -64,7 +65,7 @@ static std::vector<Ring> rings_of(const frond_stem& stem, double length) {
     std::vector<Ring> rings;
     for (int k = CAP_RINGS - 1; k > 0; --k) {
         const double angle = 0.5 * PI * k / CAP_RINGS;
-        rings.push_back({-stem.radius_begin * std::sin(angle), stem.radius_begin * std::cos(angle)});
+        rings.push_back({-stem.radius_begin * frond::sin(angle), stem.radius_begin * frond::cos(angle)});
     }
     const double wide = std::max(stem.radius_begin, stem.radius_end);
     const int pieces = std::clamp(int(std::ceil(length / (2 * wide))), 1, MOST_RINGS);
@@ -74,7 +75,7 @@ static std::vector<Ring> rings_of(const frond_stem& stem, double length) {
     }
     for (int k = 1; k < CAP_RINGS; ++k) {
         const double angle = 0.5 * PI * k / CAP_RINGS;
-        rings.push_back({length + stem.radius_end * std::sin(angle), stem.radius_end * std::cos(angle)});
+        rings.push_back({length + stem.radius_end * frond::sin(angle), stem.radius_end * frond::cos(angle)});
     }
     return rings;
 }
@@ -82,7 +83,7 @@ static std::vector<Ring> rings_of(const frond_stem& stem, double length) {
 // Returns the corner radius of a prism of SIDES sides that bends as the round stem does: its corners lie a little
 // outside the circle, so that the mean squared distance of its faces from the axis is the circle's.
 static double corner_radius(double radius) {
-    const double sine = std::sin(PI / SIDES);
+    const double sine = frond::sin(PI / SIDES);
     return radius / std::sqrt(1 - 2.0 / 3 * sine * sine);
 }
 
@@ -104,7 +105,7 @@ static void add_stem(Surface& surface, const frond_stem& stem, int index) {
             const double angle = 2 * PI * k / SIDES;
             surface.positions.push_back(begin + axis * ring.along +
                                         corner_radius(ring.radius) *
-                                            (std::cos(angle) * side + std::sin(angle) * depth));
+                                            (frond::cos(angle) * side + frond::sin(angle) * depth));
         }
     surface.positions.push_back(end + axis * stem.radius_end);
 

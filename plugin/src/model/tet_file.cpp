@@ -2,25 +2,16 @@
 // readers are our own and trust nothing.
 #include "model/tet_file.hpp"
 
-#include <strings.h>
-#include <sys/stat.h>
-
-#include <cerrno>
-#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/platform/files.hpp"
+#include "core/platform/number_text.hpp"
 
 namespace frond {
 
-static constexpr long long LARGEST_TET_FILE = 1ll << 30;  // [byte]
-
-static bool has_ending(const std::string& path, const char* ending) {
-    const size_t length = strlen(ending);
-    return path.size() > length && strcasecmp(path.c_str() + path.size() - length, ending) == 0;
-}
+static constexpr uint64_t LARGEST_TET_FILE = 1ull << 30;  // [byte]
 
 bool is_tet_file(const std::string& path) {
     return has_ending(path, ".msh") || has_ending(path, ".vtk");
@@ -67,7 +58,7 @@ static Value text_value(TetFile& file) {
     const std::string word = read_word(file);
     const char *begin = word.data() + (word[0] == '+' ? 1 : 0), *end = word.data() + word.size();
     Value value{};
-    const auto result = std::from_chars(begin, end, value);
+    const auto result = read_number(begin, end, value);
     // A number that is too small for a double is zero, one that is too large infinite.
     if (result.ec == std::errc::result_out_of_range && result.ptr == end && std::is_floating_point<Value>::value)
         return word.find("e-") != std::string::npos || word.find("E-") != std::string::npos ? Value(0)
@@ -123,26 +114,23 @@ int region_index(TetMesh& mesh, const std::string& name) {
 
 static TetFile open_tet_file(const std::string& path) {
     TetFile file;
-    file.name = path.substr(path.rfind('/') + 1);
-    struct stat status;
+    file.name = file_name(path);
+    const FileStatus status = status_of(path);
+    std::string error;
     if (path.find('\0') != std::string::npos) fail(FROND_RESULT_FILE_NOT_FOUND, "the path has a zero byte");
-    if (stat(path.c_str(), &status) != 0) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
-    if (!S_ISREG(status.st_mode)) fail(FROND_RESULT_FILE_NOT_FOUND, "%s is not a regular file", path.c_str());
-    if (status.st_size == 0) fail(FROND_RESULT_FILE_FORMAT, "%s: the file is empty", file.name.c_str());
-    if (status.st_size > LARGEST_TET_FILE)
+    if (!status.exists) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), status.error.c_str());
+    if (!status.is_regular) fail(FROND_RESULT_FILE_NOT_FOUND, "%s is not a regular file", path.c_str());
+    if (status.size == 0) fail(FROND_RESULT_FILE_FORMAT, "%s: the file is empty", file.name.c_str());
+    if (status.size > LARGEST_TET_FILE)
         fail(FROND_RESULT_FILE_FORMAT, "%s: the file is larger than 1 GiB", file.name.c_str());
-    FILE* stream = fopen(path.c_str(), "rb");
-    if (!stream) fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), strerror(errno));
-    file.bytes.resize(size_t(status.st_size));
-    file.bytes.resize(fread(&file.bytes[0], 1, file.bytes.size(), stream));
-    fclose(stream);
+    if (!read_file(path, status.size, file.bytes, error))
+        fail(FROND_RESULT_FILE_NOT_FOUND, "%s: %s", path.c_str(), error.c_str());
     return file;
 }
 
 TetMesh import_tets(const std::string& path) {
     if (!is_tet_file(path))
-        fail(FROND_RESULT_FILE_FORMAT, "%s: tets are read from .msh and .vtk files",
-             path.substr(path.rfind('/') + 1).c_str());
+        fail(FROND_RESULT_FILE_FORMAT, "%s: tets are read from .msh and .vtk files", file_name(path).c_str());
     TetFile file = open_tet_file(path);
     TetMesh mesh = has_ending(path, ".msh") ? read_gmsh(file) : read_vtk(file);
     if (mesh.tets.empty())

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "model/urdf_pieces.hpp"
 
@@ -23,14 +24,14 @@ static std::vector<UrdfRing> rings_of(const UrdfShape& shape) {
     if (!is_flat)
         for (int k = URDF_CAP_RINGS - 1; k > 0; --k) {
             const double angle = 0.5 * PI * k / URDF_CAP_RINGS;
-            rings.push_back({-half - radius * std::sin(angle), radius * std::cos(angle)});
+            rings.push_back({-half - radius * frond::sin(angle), radius * frond::cos(angle)});
         }
     const int pieces = is_sphere ? 0 : std::clamp(int(std::ceil(half / radius)), 1, MOST_URDF_RINGS);
     for (int k = 0; k <= pieces; ++k) rings.push_back({pieces ? half * (2.0 * k / pieces - 1) : 0, radius});
     if (!is_flat)
         for (int k = 1; k < URDF_CAP_RINGS; ++k) {
             const double angle = 0.5 * PI * k / URDF_CAP_RINGS;
-            rings.push_back({half + radius * std::sin(angle), radius * std::cos(angle)});
+            rings.push_back({half + radius * frond::sin(angle), radius * frond::cos(angle)});
         }
     return rings;
 }
@@ -46,8 +47,8 @@ static void add_round(Surface& surface, const UrdfPiece& piece) {
     for (const UrdfRing& ring : rings)
         for (int k = 0; k < URDF_SIDES; ++k) {
             const double angle = 2 * PI * k / URDF_SIDES;
-            surface.positions.push_back(piece.frame *
-                                        Vec3(ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.along));
+            surface.positions.push_back(
+                piece.frame * Vec3(ring.radius * frond::cos(angle), ring.radius * frond::sin(angle), ring.along));
         }
     surface.positions.push_back(piece.frame * Vec3(0, 0, reach));
     const auto at = [first](int ring, int k) { return first + 1 + ring * URDF_SIDES + k % URDF_SIDES; };

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/decompose.hpp"
+#include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "model/tet_geometry.hpp"
 
@@ -38,10 +39,10 @@ std::string numbers(const Vec3& v) {
 // Returns rotations about the fixed axes x, y, z, as URDF defines them.
 std::string roll_pitch_yaw(const Quat& q) {
     const Mat3 R = q.toRotationMatrix();
-    const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
-    const bool is_upright = std::hypot(R(0, 0), R(1, 0)) < 1e-9;
-    const double roll = is_upright ? std::atan2(-R(1, 2), R(1, 1)) : std::atan2(R(2, 1), R(2, 2));
-    const double yaw = is_upright ? 0 : std::atan2(R(1, 0), R(0, 0));
+    const double pitch = frond::atan2(-R(2, 0), frond::hypot(R(0, 0), R(1, 0)));
+    const bool is_upright = frond::hypot(R(0, 0), R(1, 0)) < 1e-9;
+    const double roll = is_upright ? frond::atan2(-R(1, 2), R(1, 1)) : frond::atan2(R(2, 1), R(2, 2));
+    const double yaw = is_upright ? 0 : frond::atan2(R(1, 0), R(0, 0));
     return numbers({roll, pitch, yaw});
 }
 
@@ -70,7 +71,7 @@ std::vector<double> mass_factors(const Model& model) {
 std::string link_text(const Model& model, size_t node, const std::string& name, double mass_factor) {
     const Section& section = model.sections[node];
     const Organ& organ = model.organs[size_t(std::max(model.chain.nodes[node].organ, 0))];
-    const double length = section.length, radius = std::sqrt(section.area / M_PI);
+    const double length = section.length, radius = std::sqrt(section.area / PI);
     const double mass = mass_factor * section.mass() * length;
     const std::string half = numbers({0, 0, 0.5 * length});
     const std::string centre = numbers({0, 0, section.mass_at_end() * length});

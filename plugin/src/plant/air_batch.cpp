@@ -160,9 +160,7 @@ struct GatherPiecesOfBatch {
     }
     template <class S>
     FROND_INLINE void add_of(const AirPiece& of, const Lanes3<S>& wide) const {
-        const auto place = [&](int i) __attribute__((always_inline)) {
-            return Of::template place<S>(air, step, i);
-        };
+        const auto place = [&](int i) FROND_INLINED { return Of::template place<S>(air, step, i); };
         const AirLanes<S> piece([&](int) -> const AirPiece& { return of; });
         const Lanes33<S> frame = air_frame<S>(place(of.node) - place(of.parent), wide);
         add_at(of.parent, of, piece, frame);

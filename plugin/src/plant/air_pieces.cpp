@@ -35,7 +35,7 @@ std::vector<OrganSize> organ_sizes(const Model& model) {
         OrganSize& size = sizes[organ_of(model, i)];
         size.length += section.length;
         size.sheet += section.width * section.length;
-        size.section = std::max(size.section, M_PI / 4 * section.width * section.thickness);
+        size.section = std::max(size.section, PI / 4 * section.width * section.thickness);
     }
     return sizes;
 }
@@ -77,7 +77,7 @@ AirPieces make_air_pieces(const Model& model) {
         const double rim =
             piece.shape == AirShape::SHEET
                 ? 2 * section.width
-                : M_PI * std::sqrt((section.width * section.width + section.thickness * section.thickness) / 2);
+                : PI * std::sqrt((section.width * section.width + section.thickness * section.thickness) / 2);
         piece.skin = rim * section.length;
         piece.chord_along = size.length;
         piece.chord_across = section.width;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "core/lanes.hpp"
 #include "core/lanes_of_plants.hpp"
 #include "core/timer.hpp"
@@ -62,7 +63,7 @@ struct LookAtWays {
     template <class S>
     FROND_INLINE void run() const {
         constexpr double NEARLY = 1 - 1e-9;
-        const double far = std::pow(OFF_COURSE * size, 2) * NEARLY;
+        const double far = squared(OFF_COURSE * size) * NEARLY;
         const double turned = TURNED_OFF_COURSE * TURNED_OFF_COURSE * NEARLY;
         S near = constant<S>(1), on_course = near;
         for (int i = 0; i < step.system->elements->node_count; i++) {
@@ -70,7 +71,7 @@ struct LookAtWays {
             const Lanes3<S> off = way - constant<S>(h) * load3<S>(step.v.data(), 3 * i);
             const bool is_turn = turns && i % 2;
             on_course = select(dot(off, off) < (is_turn ? turned : far), on_course, S{});
-            if (!is_turn) near = select(dot(way, way) < std::pow(FARTHEST_WAY * size, 2) * NEARLY, near, S{});
+            if (!is_turn) near = select(dot(way, way) < squared(FARTHEST_WAY * size) * NEARLY, near, S{});
         }
         far_away = bits_of(near == 0.0);
         off_course = bits_of(on_course == 0.0);

@@ -1,5 +1,6 @@
 // (offset + rate t) exp(-SPEED t): shape and velocity continue without a jump, and nothing oscillates.
 #include "plant/blend_out.hpp"
+#include "core/elementary.hpp"
 
 #include <cmath>
 
@@ -20,17 +21,17 @@ void pass_time(BlendOut& blend_out, double h) {
     blend_out.time += h;
     const double most =
         blend_out.offset.lpNorm<Eigen::Infinity>() + blend_out.time * blend_out.rate.lpNorm<Eigen::Infinity>();
-    if (most * std::exp(-SPEED * blend_out.time) < UNSEEN) blend_out = {};
+    if (most * frond::exp(-SPEED * blend_out.time) < UNSEEN) blend_out = {};
 }
 
 void add_offset(const BlendOut& blend_out, VecX& x) {
     if (!is_over(blend_out))
-        x += std::exp(-SPEED * blend_out.time) * (blend_out.offset + blend_out.time * blend_out.rate);
+        x += frond::exp(-SPEED * blend_out.time) * (blend_out.offset + blend_out.time * blend_out.rate);
 }
 
 void add_rate(const BlendOut& blend_out, VecX& v) {
     if (is_over(blend_out)) return;
-    v += std::exp(-SPEED * blend_out.time) *
+    v += frond::exp(-SPEED * blend_out.time) *
          (blend_out.rate - SPEED * (blend_out.offset + blend_out.time * blend_out.rate));
 }
 

@@ -55,7 +55,7 @@ bool found_no_way(const Plant& plant, double h) {
 void damp_recovering(const Plant& plant, SolveSettings& settings) {
     if (plant.recovers_for <= 0) return;
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
-    settings.mass_damping += 2 * M_PI / plant.rest_time;
+    settings.mass_damping += 2 * PI / plant.rest_time;
 }
 
 void watch_recovery(Plant& plant, double h) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "core/lanes.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
@@ -102,7 +103,7 @@ double farthest_way(const Plant& plant) {
 bool ends_off_course(const Plant& plant, double h) {
     if (h > TRUSTED) return true;
     const VecX &x = plant.motion.x, &x_good = plant.x_good, &v_good = plant.v_good;
-    const double far = std::pow(OFF_COURSE * double(plant.size), 2);
+    const double far = squared(OFF_COURSE * double(plant.size));
     const double turned_far = plant.follow ? TURNED_OFF_COURSE * TURNED_OFF_COURSE : far;
     const auto is_off = [&](int i) {
         const double off = (point(x, i) - point(x_good, i) - h * point(v_good, i)).squaredNorm();

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "mechanics/rotation.hpp"
 #include "plant/plant.hpp"
 
@@ -23,15 +24,15 @@ struct State {
 State after(const State& start, double rest, double c, double k, double t) {
     const double a = 0.5 * c, d = k - a * a, x = start.place - rest;
     double cosine, sine_over;  // cos(sqrt(d) t), and sin(sqrt(d) t) over sqrt(d)
-    double fall = std::exp(-a * t);
+    double fall = frond::exp(-a * t);
     if (d > 1e-9 * k) {
         const double omega = std::sqrt(d);
-        cosine = std::cos(omega * t);
-        sine_over = std::sin(omega * t) / omega;
+        cosine = frond::cos(omega * t);
+        sine_over = frond::sin(omega * t) / omega;
     } else if (d < -1e-9 * k) {
         const double omega = std::sqrt(-d);
         // With strong damping cosh overflows and the decay underflows, so both are taken together.
-        const double slow = std::exp(-k / (omega + a) * t), quick = std::exp(-(omega + a) * t);
+        const double slow = frond::exp(-k / (omega + a) * t), quick = frond::exp(-(omega + a) * t);
         cosine = 0.5 * (slow + quick);
         sine_over = 0.5 * (slow - quick) / omega;
         fall = 1;

@@ -38,7 +38,7 @@ static Vec3 nearest_vector(const Mat3& R, const Vec3& now) {
     const Vec3 turn = rotation_vector<double>(R);
     const double angle = turn.norm();
     if (angle < 1e-6) return turn;
-    const Vec3 other = turn * (1 - 2 * M_PI / angle);
+    const Vec3 other = turn * (1 - 2 * PI / angle);
     return (other - now).squaredNorm() < (turn - now).squaredNorm() ? other : turn;
 }
 

@@ -73,7 +73,7 @@ struct DrawVertices {
         FourLanes gradient_of_place[3];
         for (int c = 0; c < 3; ++c)
             gradient_of_place[c] = (1 - w) * load(a.column[c]) + w * load(b.column[c]) + gradient[c] * by_s;
-        const auto image = [&](const Vec3& u) __attribute__((always_inline)) {
+        const auto image = [&](const Vec3& u) FROND_INLINED {
             return FourLanes(gradient_of_place[0] * u[0] + gradient_of_place[1] * u[1] + gradient_of_place[2] * u[2]);
         };
         // Two tangents of the surface with u x v along the normal (Duff and others 2017, "Building an orthonormal

@@ -39,9 +39,7 @@ struct PlaceNodes {
     std::vector<Quad>& nodes;
     template <class>
     FROND_INLINE void run() const {
-        const auto lanes = [](const auto& v) __attribute__((always_inline)) {
-            return FourLanes{v[0], v[1], v[2], 0};
-        };
+        const auto lanes = [](const auto& v) FROND_INLINED { return FourLanes{v[0], v[1], v[2], 0}; };
         const FourLanes x = lanes(drawn.turn.col(0)), y = lanes(drawn.turn.col(1)), z = lanes(drawn.turn.col(2));
         const FourLanes shift = lanes(drawn.shift);
         const double* from = drawn.x.data();
@@ -67,9 +65,8 @@ struct PlaceVertices {
             const float* there = positions + 3 * v;
             FourLanes sum = {};
             if (add) sum = FourLanes{there[0], there[1], there[2], 0};
-            const auto add_node = [&](int node, double weight) __attribute__((always_inline)) {
-                sum += weight * load(nodes[size_t(node)]);
-            };
+            const auto add_node = [&](int node, double weight)
+                                      FROND_INLINED { sum += weight * load(nodes[size_t(node)]); };
             if (plant.nodes->order == 1) {
                 const Tet& tet = tets[size_t(embedding.tet[v])];
                 for (size_t k = 0; k < 4; k++) add_node(tet[k], embedding.weights[v][k]);
@@ -128,15 +125,14 @@ struct AddCofactors {
     // Adds four tets at once; lanes beyond the last one repeat a tet and are not added.
     FROND_INLINE void add_linear(const int (&tet)[4], int count) const {
         const std::vector<Tet>& tets = plant.model->cage.tets;
-        const auto edge = [&](const auto& place) __attribute__((always_inline)) {
-            return [&, place ](int lane, int a) __attribute__((always_inline)) {
+        const auto edge = [&](const auto& place) FROND_INLINED {
+            return [&, place](int lane, int a) FROND_INLINED {
                 const Tet& corners = tets[size_t(tet[lane])];
                 return FourLanes(place(corners[size_t(a) + 1]) - place(corners[0]));
             };
         };
-        const Lanes33<FourLanes> weighted =
-            weighted_cofactors(edge([&](int n) __attribute__((always_inline)) { return now(n); }),
-                               edge([&](int n) __attribute__((always_inline)) { return modelled(n); }));
+        const Lanes33<FourLanes> weighted = weighted_cofactors(edge([&](int n) FROND_INLINED { return now(n); }),
+                                                               edge([&](int n) FROND_INLINED { return modelled(n); }));
         for (size_t k = 0; k < 4; k++) {
             const auto corner = [&](int lane) { return tets[size_t(tet[lane])][k]; };
             add(weighted, {corner(0), corner(1), corner(2), corner(3)}, count);
@@ -147,17 +143,14 @@ struct AddCofactors {
     // (mechanics/tet_element.hpp).
     FROND_INLINE void add_quadratic(size_t e) const {
         const QuadraticTet& tet = plant.nodes->of_tet[e];
-        const auto seen = [&](int k, int from) __attribute__((always_inline)) {
+        const auto seen = [&](int k, int from) FROND_INLINED {
             const FourLanes own = now(tet[size_t(k)]);
             if (k == from) return FourLanes(3.0 * own);
             return FourLanes(4.0 * now(tet[size_t(TET_BETWEEN[k][from])]) - own);
         };
         add(weighted_cofactors(
-                [&](int lane, int a)
-                    __attribute__((always_inline)) { return FourLanes(seen(a + 1, lane) - seen(0, lane)); },
-                [&](int, int a) __attribute__((always_inline)) {
-                    return FourLanes(modelled(tet[size_t(a) + 1]) - modelled(tet[0]));
-                }),
+                [&](int lane, int a) FROND_INLINED { return FourLanes(seen(a + 1, lane) - seen(0, lane)); },
+                [&](int, int a) FROND_INLINED { return FourLanes(modelled(tet[size_t(a) + 1]) - modelled(tet[0])); }),
             {tet[0], tet[1], tet[2], tet[3]}, 4);
     }
 

@@ -31,14 +31,16 @@ FROND_INLINE S cosine_of_turns(const S& x) {
     return y * polynomial(SINE, S(y * y));
 }
 
+constexpr double LOWEST = 1e-100;  // with wind [m]
 // Returns mean wind and gusts at heights over those at the reference height [-].
 template <class S>
 FROND_INLINE S wind_profile(const frond_wind_def& def, const S& height) {
     if (def.profile == FROND_WIND_PROFILE_UNIFORM) return constant<S>(1);
-    if (def.profile == FROND_WIND_PROFILE_POWER)
-        return gather<S>([&](int lane) {
-            return height[lane] > 0 ? std::pow(height[lane] / def.reference_height, def.exponent) : 0;
-        });
+    if (def.profile == FROND_WIND_PROFILE_POWER) {
+        const auto is_above = height > LOWEST;
+        const S over = select(is_above, S(height / def.reference_height), constant<S>(1));
+        return select(is_above, exponential<S>(def.exponent * logarithm(over)), S{});
+    }
     const auto is_above = height > def.roughness;
     const S over = select(is_above, S(height / def.roughness), constant<S>(1));
     return logarithm(over) / logarithm(constant<S>(def.reference_height / def.roughness));

@@ -9,6 +9,7 @@
 // (sums of waves: Shinozuka, Deodatis 1991).
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "plant/wind.hpp"
 
 namespace frond {
@@ -34,15 +35,15 @@ struct Component {
 constexpr Component COMPONENTS[3] = {{20, 1, 1}, {12, 0.8, 2.7 / 8.1}, {10, 0.5, 0.66 / 8.1}};
 
 double energy_below(double n) {
-    return 1 - std::pow(1 + 6 * n, -2.0 / 3);
+    return 1 - frond::pow(1 + 6 * n, -2.0 / 3);
 }
 double frequency_of_energy(double energy) {
-    return (std::pow(1 - energy, -1.5) - 1) / 6;
+    return (frond::pow(1 - energy, -1.5) - 1) / 6;
 }
 
 // Returns the spread of wave vectors across the wind, from the coherence [1/m].
 double spread_of(double along, double length) {
-    return 12 / (2 * M_PI) * std::hypot(along, 0.12 / length);
+    return 12 / (2 * PI) * frond::hypot(along, 0.12 / length);
 }
 
 }  // namespace
@@ -61,16 +62,16 @@ std::unique_ptr<Wind> make_wind(const frond_wind_def& def) {
         double below = 0;
         for (int i = 0; i < component.count; i++) {
             const bool last = i + 1 == component.count;
-            const double end = LEAST * std::pow(MOST / LEAST, double(i) / (component.count - 2));
+            const double end = LEAST * frond::pow(MOST / LEAST, double(i) / (component.count - 2));
             const double above = last ? 1 : energy_below(end);
             // The last band has no upper end: its wave is drawn from the slower half of its energy.
             const double energy = below + (above - below) * numbers.next() * (last ? 0.5 : 1);
             Gust gust;
             const double along = frequency_of_energy(energy) / length;
             gust.size = sigma * std::sqrt(2 * (above - below));
-            const double share = 1 - FARTHEST * numbers.next(), angle = 2 * M_PI * numbers.next();
+            const double share = 1 - FARTHEST * numbers.next(), angle = 2 * PI * numbers.next();
             const double across = spread_of(along, def.length_scale) * std::sqrt(1 / (share * share) - 1);
-            gust.waves = Vec3(along, across * std::cos(angle), across * std::sin(angle));
+            gust.waves = Vec3(along, across * frond::cos(angle), across * frond::sin(angle));
             gust.phase = numbers.next();
             wind->gusts[c].push_back(gust);
             below = above;

@@ -238,7 +238,7 @@ struct Finish {
             const Lanes3<S> x = load3<S>(a.x_end.data(), 3 * i), v = load3<S>(a.v_end.data(), 3 * i);
             const S far = dot(x, x);
             sound = select(far + dot(v, v) <= 1e300, sound, S{});
-            if (turns && i % 2) within = select(far <= M_PI * M_PI * NEARLY, within, S{});
+            if (turns && i % 2) within = select(far <= PI * PI * NEARLY, within, S{});
         }
         lost |= bits_of(sound == 0.0);
         a.wound = bits_of(within == 0.0);

@@ -111,7 +111,7 @@ struct FactorizeFrontBatch {
     template <class S>
     FROND_INLINE void begin(const Front& front, double* columns, double* update) const {
         const size_t stride = size_t(stride_of(front)), update_stride = size_t(padded(front.rows));
-        const auto clear = [](double* of, size_t length, size_t column) __attribute__((always_inline)) {
+        const auto clear = [](double* of, size_t length, size_t column) FROND_INLINED {
             const size_t first = column / 3 * 3 / PARTS * PARTS;
             std::fill_n(of + LANES<S> * (column * length + first), LANES<S> * (length - first), 0.0);
         };
@@ -271,9 +271,7 @@ struct SolveFrontBatch {
 #pragma GCC unroll 3
                     for (size_t c = 0; c < 3; ++c) sum[c][part] += get<S>(column, c * stride + i + part) * x;
                 }
-            const auto scaled = [&](size_t i) __attribute__((always_inline)) {
-                return S(get<S>(mine, k + i) * get<S>(inverse, k + i));
-            };
+            const auto scaled = [&](size_t i) FROND_INLINED { return S(get<S>(mine, k + i) * get<S>(inverse, k + i)); };
             const S x2 = scaled(2) - total(sum[2]);
             const S x1 = (scaled(1) - total(sum[1])) - get<S>(column, stride + k + 2) * x2;
             const S x0 = ((scaled(0) - total(sum[0])) - get<S>(column, k + 1) * x1) - get<S>(column, k + 2) * x2;

@@ -13,7 +13,7 @@ namespace frond {
 // their angular velocities.
 static void turn_back(VecX& x, int node, std::initializer_list<VecX*> rates) {
     const Vec3 turn = point(x, node);
-    const double whole = 2 * M_PI, angle = turn.norm();
+    const double whole = 2 * PI, angle = turn.norm();
     const Vec3 back = turn * (1 - whole * std::max(1.0, std::round(angle / whole)) / angle);
     const Mat3 change = inverse_rate_matrix<double>(back) * rate_matrix<double>(turn);
     for (VecX* rate : rates)
@@ -22,11 +22,11 @@ static void turn_back(VecX& x, int node, std::initializer_list<VecX*> rates) {
 }
 
 void unwind(Motion& motion) {
-    constexpr double NEAR = M_PI / 2;  // what a history may look back over [rad]
+    constexpr double NEAR = PI / 2;  // what a history may look back over [rad]
     History& history = motion.history;
     for (int node = 1; node < motion.x.size() / 3; node += 2) {
         const double angle = point(motion.x, node).norm();
-        if (angle <= M_PI || !std::isfinite(angle)) continue;
+        if (angle <= PI || !std::isfinite(angle)) continue;
         turn_back(motion.x, node, {&motion.v});
         if (!history.valid) continue;
         // The past goes along, though it was within half a turn: differences from it are velocities. Where that does
@@ -45,8 +45,8 @@ void unwind(Motion& motion) {
 
 Vec3 wound_as(const Vec3& from, const Vec3& to) {
     const double way = (to - from).squaredNorm();
-    if (!(way > M_PI * M_PI)) return to;
-    const Vec3 other = to * (1 - 2 * M_PI / to.norm());
+    if (!(way > PI * PI)) return to;
+    const Vec3 other = to * (1 - 2 * PI / to.norm());
     return (other - from).squaredNorm() < way ? other : to;
 }
 

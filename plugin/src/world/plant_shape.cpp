@@ -58,7 +58,7 @@ FROND_INLINE Lanes3<S> absolute(const Lanes3<S>& v) {
 }
 
 // Four of Bullet's numbers.
-using FourScalars = btScalar __attribute__((vector_size(4 * sizeof(btScalar))));
+using FourScalars = VectorOf<btScalar, 4>::Type;
 // Loads three numbers per lane from at(lane), where a fourth is readable.
 template <class S, class At>
 FROND_INLINE Lanes3<S> take_in(const At& at) {
@@ -66,8 +66,8 @@ FROND_INLINE Lanes3<S> take_in(const At& at) {
         FourLanes from[4], turned[4];
         for (int lane = 0; lane < 4; lane++) {
             FourScalars four;
-            __builtin_memcpy(&four, at(lane), sizeof four);
-            from[lane] = __builtin_convertvector(four, FourLanes);
+            std::memcpy(&four, at(lane), sizeof four);
+            from[lane] = convert_lanes<FourLanes>(four);
         }
         turn_over(from[0], from[1], from[2], from[3], turned);
         return {turned[0], turned[1], turned[2]};
@@ -91,8 +91,8 @@ FROND_INLINE void hand_out(const Lanes3<FourLanes>& v, int count, const To& to) 
     FourLanes turned[4];
     turn_over(v.x, v.y, v.z, FourLanes{}, turned);
     for (int lane = 0; lane < count; lane++) {
-        const FourScalars four = __builtin_convertvector(turned[lane], FourScalars);
-        __builtin_memcpy(to(lane).m_floats, &four, sizeof four);
+        const FourScalars four = convert_lanes<FourScalars>(turned[lane]);
+        std::memcpy(to(lane).m_floats, &four, sizeof four);
     }
 }
 

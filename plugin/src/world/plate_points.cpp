@@ -2,6 +2,7 @@
 // side that faces the plate, clipped by the plate (Sutherland, Hodgman 1974, "Reentrant polygon clipping").
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "world/convert.hpp"
 #include "world/plate.hpp"
 
@@ -67,8 +68,8 @@ std::vector<Vec3> points_over_plate(const PlantBody& body, int capsule, const bt
         // The body's outermost points in directions around the plate's normal.
         Outline outline;
         for (int k = 0; k < DIRECTIONS; k++) {
-            const double turn = 2 * M_PI * k / DIRECTIONS;
-            const Vec3 aside = tilt * (std::cos(turn) * frame.col(0) + std::sin(turn) * frame.col(1));
+            const double turn = 2 * PI * k / DIRECTIONS;
+            const Vec3 aside = tilt * (frond::cos(turn) * frame.col(0) + frond::sin(turn) * frame.col(1));
             const btVector3 way = to_bullet(Vec3(std::copysign(1.0, facing) * frame.col(2) + aside));
             const btVector3 point = place * shape.localGetSupportingVertex(way * place.getBasis());
             outline.push_back(frame.transpose() * (from_bullet(point) - middle));

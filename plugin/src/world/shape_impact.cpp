@@ -8,7 +8,6 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
-#include <LinearMath/btTransformUtil.h>
 
 #include "world/convert.hpp"
 
@@ -16,9 +15,7 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 btTransform MovingShape::at(double time) const {
-    btTransform frame;
-    btTransformUtil::integrateTransform(from, to_bullet(way), to_bullet(turn), btScalar(time), frame);
-    return frame;
+    return moved(from, way, turn, time);
 }
 
 static double reach_of(const btConvexShape& shape) {

@@ -5,7 +5,6 @@
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <LinearMath/btAabbUtil2.h>
-#include <LinearMath/btTransformUtil.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +33,7 @@ ObjectMotion motion_of(const btCollisionObject& object, double h) {
 }
 
 ObjectMotion backwards(ObjectMotion motion) {
-    btTransformUtil::integrateTransform(btTransform(motion.from), to_bullet(-motion.way), to_bullet(-motion.turn), 1,
-                                        motion.from);
+    motion.from = moved(motion.from, -motion.way, -motion.turn, 1);
     return motion;
 }
 

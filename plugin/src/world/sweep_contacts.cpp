@@ -2,8 +2,6 @@
 //
 // Kinematic bodies have come to their places within this step, and plants are to meet them there. Free bodies have
 // moved as well, but their motion still answers to impulses, so that the step ahead of them counts.
-#include <LinearMath/btTransformUtil.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -150,9 +148,7 @@ void put_back_if_passed(const Search& search, const std::vector<PlantBody*>& pla
         });
     }
     if (met == 1) return;
-    btTransform frame;
-    btTransformUtil::integrateTransform(past.from, to_bullet(past.way), to_bullet(past.turn), btScalar(met), frame);
-    rigid.proceedToTransform(frame);
+    rigid.proceedToTransform(moved(past.from, past.way, past.turn, met));
     search.world.bullet->updateSingleAabb(&rigid);
 }
 

@@ -1,0 +1,11 @@
+cmake_minimum_required(VERSION 3.21)
+# The library takes from the C library's mathematics only what IEEE 754 determines to the last bit.
+set(inexact "sin|cos|tan|asin|acos|atan|atan2|sincos|sinh|cosh|tanh|asinh|acosh|atanh|exp|exp2|exp10|expm1|log|log2|log10|log1p|pow|cbrt|hypot|erf|erfc|tgamma|lgamma|fma")
+execute_process(COMMAND ${NM} -D --undefined-only ${LIBRARY} OUTPUT_VARIABLE said RESULT_VARIABLE result)
+if(result OR NOT said MATCHES "U floor[@\n]|U sqrt[@\n]")
+    message(FATAL_ERROR "${NM} did not list what ${LIBRARY} needs:\n${said}")
+endif()
+string(REGEX MATCHALL "U (_*(${inexact})[fl]?(_finite)?)[@\n]" found "${said}")
+if(found)
+    message(FATAL_ERROR "core/elementary.hpp has these, with the same bits everywhere: ${found}")
+endif()

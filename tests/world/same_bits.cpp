@@ -1,0 +1,104 @@
+// Plants give the same bits on every processor and by any compiler: state hashes after ten seconds, recorded once.
+// Where results are changed on purpose, take the numbers that a failure reports.
+#include <LinearMath/btScalar.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "frond/frond.h"
+
+namespace same_bits_tests {
+
+constexpr double H = 1.0 / 60;
+constexpr int STEPS = 600;
+
+void must(frond_result result) {
+    ASSERT_EQ(result, FROND_OK) << frond_last_error();
+}
+
+struct Row {
+    const char* name;
+    const char* file;  // corn or a URDF tree of links
+    frond_mechanics mechanics;
+    int plants;
+    double apart;  // [m]
+    bool has_ball;
+    frond_wind_profile profile;
+    double wind;                    // [m/s]
+    uint64_t hash, hash_in_double;  // with Bullet in single and in double precision
+};
+const Row ROWS[] = {
+    {"tets", "corn/corn.obj", FROND_MECHANICS_TET_COROTATIONAL, 1, 0, false, FROND_WIND_PROFILE_LOG, 6,
+     0x373b6cd58773bdce, 0xd97451a63224a434},
+    {"rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_POWER, 6, 0x06505a0f31f41a0c,
+     0x22dc842f072265e4},
+    {"neo_hookean", "wheat/wheat.obj", FROND_MECHANICS_TET_NEOHOOKEAN, 1, 0, false, FROND_WIND_PROFILE_LOG, 3,
+     0x98b6266a208a388d, 0x0b8051c04cec4c83},
+    {"twig", "urdf/sapling.urdf", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_LOG, 9, 0xcbe27b0a27182a22,
+     0x54d70b6f9c0f9006},
+    {"ball_on_tets", "corn/corn.obj", FROND_MECHANICS_TET_COROTATIONAL, 1, 0, true, FROND_WIND_PROFILE_LOG, 0,
+     0x081dacd0888eed13, 0x26c1730bb4e73d39},
+    {"ball_on_rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, true, FROND_WIND_PROFILE_LOG, 0, 0xd2b6d2e7258abffb,
+     0xa2027757b04fdf3a},
+    {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0x19106aadccfae3d9,
+     0x568edd73996c9693},
+    {"field", "wheat/wheat.obj", FROND_MECHANICS_ROD, 9, 1.5, false, FROND_WIND_PROFILE_UNIFORM, 4, 0xec1f0b33daef1b29,
+     0x652ef3cf47ae8657},
+};
+
+class SameBits : public ::testing::TestWithParam<Row> {};
+
+TEST_P(SameBits, AreThereAfterTenSeconds) {
+    const Row& row = GetParam();
+    const frond_world_def world_def = frond_default_world_def();
+    const frond_model_def model_def = frond_default_model_def();
+    frond_world world = {};
+    frond_model model = {};
+    must(frond_world_create(&world_def, &world));
+    must(frond_model_load((std::string(FROND_SOURCE_DIR "/models/") + row.file).c_str(), &model_def, &model));
+    for (int i = 0; i < row.plants; i++) {
+        frond_plant_def def = frond_default_plant_def();
+        def.mechanics = row.mechanics;
+        def.position = {row.apart * (i % 3), 0, row.apart * (i / 3)};
+        frond_plant plant = {};
+        must(frond_plant_create(world, model, &def, &plant));
+    }
+    if (row.has_ball) {
+        frond_rigid_def ground = frond_default_rigid_def(), ball = frond_default_rigid_def();
+        frond_rigid rigid = {};
+        ground.shape = FROND_SHAPE_PLANE;
+        must(frond_rigid_create(world, &ground, &rigid));
+        ball.size.x = 0.11;
+        ball.mass = 0.43;
+        ball.state.position = {-1.7, 1.0, 0.03};
+        ball.state.velocity = {7, 1.2, 0};
+        must(frond_rigid_create(world, &ball, &rigid));
+    }
+    frond_wind_def wind = frond_default_wind_def();
+    wind.profile = row.profile;
+    wind.velocity = {row.wind, 0, 0};
+    must(frond_world_set_wind(world, &wind));
+
+    int contacts = 0;
+    for (int step = 0; step < STEPS; step++) {
+        must(frond_world_step(world, H));
+        frond_report report = {};
+        must(frond_world_get_report(world, &report));
+        contacts += report.contact_count + report.plant_contact_count;
+    }
+    uint64_t hash = 0;
+    must(frond_world_get_state_hash(world, &hash));
+    EXPECT_EQ(contacts > 0, row.has_ball || row.plants == 2);
+    char both[64];
+    std::snprintf(both, sizeof both, "now 0x%016llx", (unsigned long long)hash);
+    EXPECT_EQ(hash, sizeof(btScalar) == sizeof(double) ? row.hash_in_double : row.hash) << both;
+    frond_world_destroy(world);
+    frond_model_destroy(model);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SameBits, ::testing::ValuesIn(ROWS),
+                         [](const ::testing::TestParamInfo<Row>& info) { return std::string(info.param.name); });
+
+}  // namespace same_bits_tests
