@@ -16,6 +16,9 @@ struct Limit {
 constexpr Limit LIMITS[] = {
     {"stiffness_ratio", FROND_MECHANICS_TET_LINEAR, ANY,
      "soft tets that share cells with stiff ones turn far, and what turns far grows"},
+    {"soft", FROND_MECHANICS_SPRING_CHAIN, ANY,
+     "what its weight crushes falls into its own segments at full speed, on its course, and is not asked for its "
+     "energy"},
     {"dropped", FROND_MECHANICS_TET_LINEAR, ANY,
      "a plant that turns as a whole is strained by turning: linear mechanics know no rotation"},
     {"above_buckling", FROND_MECHANICS_TET_LINEAR, ANY,

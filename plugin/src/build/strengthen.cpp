@@ -43,7 +43,7 @@ std::vector<double> organ_turns(const Model& model) {
             const Section& section = model.sections[i];
             const Vec3 M = moment[i] - (0.5 * (nodes[i].position + nodes[parent].position)).cross(force[i]);
             curvature[i] = frond::hypot(M.dot(section.wide()) / section.bending_thin(),
-                                      M.dot(section.thin) / section.bending_wide());
+                                        M.dot(section.thin) / section.bending_wide());
             force[parent] += force[i];
             moment[parent] += moment[i];
         }

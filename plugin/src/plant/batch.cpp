@@ -170,7 +170,7 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     motion.x.swap(x);
     motion.v.swap(v);
     take_loads(plant, step, lane);
-    plant.is_off_course = false;
+    plant.is_off_course = plant.starts_anew = false;
     if (is_asked && !is_plausible(plant, step, lane, h)) {
         motion.x.swap(x);
         motion.v.swap(v);

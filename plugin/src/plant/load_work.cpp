@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/rotation.hpp"
 #include "solve/drags.hpp"
 #include "solve/integrator.hpp"
 #include "solve/springs.hpp"
@@ -153,14 +154,25 @@ bool any_moves(const std::vector<uint8_t>& held, const VecX& way) {
     return false;
 }
 
-// A constant force works along any way, but rotation vectors do not add up: moments along great turns count with the
-// error of that.
+// Returns the rotation of a chain node in the step [rad]; unlike the difference of rotation vectors it is one about an
+// axis in space.
+Vec3 rotation_in_step(const Plant& plant, int node) {
+    return rotation_vector<double>(rotation_of<double>(point(plant.motion.x, node)) *
+                                   rotation_of<double>(point(plant.x_good, node)).transpose());
+}
+
+// A constant force works along any way, a constant moment along a turn about one axis. Turns about several do not add
+// up, which is an error of third order.
 void add_forces(const Plant& plant, const VecX& way, LoadWork& work) {
     const VecX& force = plant.loads.force;
     if (force.size() == 0) return;
     work.forces = force.dot(way);
-    for (int i = 1; plant.follow && i < way.size() / 3; i += 2)
-        work.error += 0.5 * point(force, i).norm() * point(way, i).squaredNorm();
+    for (int i = 1; plant.follow && i < way.size() / 3; i += 2) {
+        if (point(force, i) == Vec3::Zero()) continue;
+        const Vec3 turn = rotation_in_step(plant, i);
+        work.forces += point(force, i).dot(turn - point(way, i));
+        work.error += point(force, i).norm() * turn.norm() * turn.squaredNorm() / 6;
+    }
 }
 
 }  // namespace

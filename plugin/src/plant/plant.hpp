@@ -143,6 +143,7 @@ struct Plant {
     bool is_sound = true;        // the solution can be the next state
     bool is_off_course = false;  // something ended the running step off course
     bool may_yield = true;       // the running step may cause yielding, as far as is known
+    bool starts_anew = false;    // the running step has no past, since the host changed something
     bool looks_back = false;     // the running step continues from its history, if it can be batched
     // Time left to recover from a state that no admissible load can reach; if negative, time for which the plant has
     // been caught where searches find no solution [s].

@@ -74,7 +74,9 @@ static bool is_sound(const Plant& plant) {
 // than the start, so the first and any later one is a step that can be taken.
 static void minimise(Plant& plant, frond_integrator method, double h, const Push& push, bool from_rest) {
     constexpr int ITERATIONS = 30;
+    constexpr int MOST_WORK = 400;  // evaluations of all forces, about the most that a search needs
     SolveSettings settings = plant.step_settings;
+    settings.most_work = MOST_WORK;
     settings.integrator = method;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
@@ -117,6 +119,7 @@ static void solve_again(Plant& plant, double h, const Push* known) {
     // From rest, entangled rods that are bent by their leaves' tips would stay still and never part.
     const bool from_rest = !plant.is_entangled;
     Push push = known ? *known : Push();
+    const VecX x_once = plant.motion.x, v_once = plant.motion.v;
     if (!plant.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
         minimise(plant, own, h, push, from_rest);
         if (plant.report.ok && is_plausible(plant, h, known) && are_slack(plant)) return;
@@ -129,6 +132,11 @@ static void solve_again(Plant& plant, double h, const Push* known) {
         if (!is_pushed || has_ended()) break;
         push.impulse = share * known->impulse;
         minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, true);
+    }
+    if (plant.report.ok && !plant.report.converged && way_of_step(plant).isZero(0)) {
+        // The search found no way at all, and would find none in the next step: a part of what one solve gave is one.
+        plant.motion.x = x_once;
+        plant.motion.v = v_once;
     }
     if (!has_ended()) hold_back(plant, h, known ? &push : nullptr);
 }
@@ -151,9 +159,7 @@ static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h
 }
 
 SolveSettings settings_for(const Plant& plant, frond_effects effects) {
-    constexpr int MOST_WORK = 400;  // evaluations of all forces, about the most that a search needs
     SolveSettings settings = plant.settings;
-    settings.most_work = MOST_WORK;
     if (!(effects & FROND_EFFECT_DAMPING))
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
@@ -185,8 +191,10 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.ms_fibres = plant.ms_plasticity = 0;
 
     // Solve.
-    motion.history.shaken |= plant.is_touched;
     look_back_over_no_force(plant);
+    motion.history.shaken |= plant.is_touched;
+    plant.starts_anew =
+        integrator(plant.settings.integrator).looks_back && !motion.history.valid && !motion.history.shaken;
     plant.report = solve_in_substeps(plant, h);
     if (!plant.report.ok || !is_plausible(plant, h, nullptr)) solve_again(plant, h, nullptr);
     finish_solving(plant, effects, h);
