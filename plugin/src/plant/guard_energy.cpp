@@ -44,11 +44,11 @@ static bool has_energy_from_nowhere(const Plant& plant, double h, const Push& pu
     Vec3 impulse = Vec3::Zero();
     for (int i = 0; i < push.impulse.size() / 3; i += plant.follow ? 2 : 1) impulse += point(push.impulse, i);
     const LoadWork work = work_of_loads(plant, h, impulse);
-    double by_push = 0;
-    if (push.impulse.size() > 0) by_push = std::min(push.most_work, push.impulse.dot(way_of_step(plant)) / h);
+    const VecX way = way_of_step(plant);
+    const double by_push = push.impulse.size() > 0 ? std::min(push.most_work, push.impulse.dot(way) / h) : 0;
     const VecX &x = plant.motion.x, &x_good = plant.x_good;
-    const double given = by_push + work.forces + work.grabs + work.air + work.pins + work.error - work.air_error +
-                         (plant.follow ? std::abs(work.air) : 0) + work_of_weight(plant, x - x_good) +
+    const double given = by_push + work.forces + work.grabs + work.air + work.pins + work.error +
+                         (plant.follow ? std::abs(work.air) : 0) + work_of_weight(plant, way) +
                          LIFT * lifting_energy(plant);
     const double after = kinetic_energy(*plant.system, x, plant.motion.v) + elastic_energy(plant, x);
     // The energy before the step is seldom needed.

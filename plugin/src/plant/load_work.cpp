@@ -37,7 +37,6 @@ void add_air(const Plant& plant, LoadWork& work) {
         work.air += (drag.force - drag.damping * after).dot(way);
         work.air_error += 0.5 * std::abs((drag.damping * (after - before)).dot(way));
     }
-    work.error += work.air_error;
 }
 
 // Returns the springs of grabs, which follow those that hold pinned nodes.

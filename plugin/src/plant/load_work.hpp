@@ -8,7 +8,7 @@ namespace frond {
 // All [J].
 struct LoadWork {
     double forces = 0, grabs = 0, air = 0, pins = 0;
-    double error = 0, air_error = 0;  // estimates of the errors of their sum and of the air's part of it
+    double error = 0, air_error = 0;  // estimates of the errors of their sum without the air, and of the air's
 };
 
 // Returns the displacement of all nodes in the running step, rotation vectors by the shorter way [m], [rad].

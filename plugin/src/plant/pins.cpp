@@ -33,15 +33,6 @@ void move_pin(Plant& plant, int node, const Vec3& target) {
     plant.pins_changed = plant.pins_are_own = true;
 }
 
-// Returns the rotation vector of R on the same side of the half turn as the node's present one.
-static Vec3 nearest_vector(const Mat3& R, const Vec3& now) {
-    const Vec3 turn = rotation_vector<double>(R);
-    const double angle = turn.norm();
-    if (angle < 1e-6) return turn;
-    const Vec3 other = turn * (1 - 2 * PI / angle);
-    return (other - now).squaredNorm() < (turn - now).squaredNorm() ? other : turn;
-}
-
 // Returns a spring's stiffness, STRONG times the plant's weight over a millimetre: with it a plant counts as rigidly
 // held.
 static double pin_stiffness(const Plant& plant) {
@@ -73,7 +64,7 @@ static bool hold_chain_node(Plant& plant, int chain_node, const PinGroup& group)
     const int place = 2 * chain_node, turn = place + 1;
     motion.pinned[size_t(place)] = motion.pinned[size_t(turn)] = 1;
     point(motion.pin_target, place) = image;
-    point(motion.pin_target, turn) = nearest_vector(rotation, point(motion.x, turn));
+    point(motion.pin_target, turn) = wound_as(Vec3(point(motion.x, turn)), rotation_vector<double>(rotation));
     return true;
 }
 

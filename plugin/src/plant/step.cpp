@@ -39,10 +39,10 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
         if (!fragment_of_vertex(plant, size_t(grab.vertex))) loads.springs.push_back(grab_spring(plant, grab));
 }
 
-// Starts methods with history anew where the host's forces begin and end: bdf2 would give half a step too little or too
-// much of their momentum.
-static void look_back_over_no_force(Plant& plant) {
-    if (plant.has_user_force) plant.motion.history.valid = plant.motion.history.shaken = false;
+// Has steps with forces of the host, and those that follow, look back on none: where a force begins or ends, bdf2 would
+// give half a step too little or too much of its momentum.
+static void drop_history_at_forces(Plant& plant) {
+    if (plant.loads.force.size() > 0) plant.motion.history.valid = plant.motion.history.shaken = false;
 }
 
 // Makes a part of what is strained beyond its yield plastic.
@@ -103,33 +103,31 @@ static void hold_back(Plant& plant, double h, const Push* push) {
     constexpr double LEAST = 0.01;  // share of the step from which on it is rewound [-]
     Motion& motion = plant.motion;
     const VecX way = way_of_step(plant), v = motion.v;
-    for (double share = 1; share > LEAST; share /= 2) {
+    for (double share = 0.5; plant.report.ok && !is_plausible(plant, h, push); share /= 2) {
+        plant.report.ok = share > LEAST;
         motion.x = plant.x_good + share * way;
         motion.v = share * v;
-        if (is_plausible(plant, h, push)) return;
     }
-    plant.report.ok = false;
 }
 
 // Solves again where one solve gave the plant energy that nothing can have given: by its own integrator, which keeps
 // vibrations, and if that fails too by implicit Euler. That gains no energy but by a push which no longer points where
-// it was to push, for the plant has turned: then it pushes less.
+// it was to push, for the plant has turned: then it pushes less. `known`: null until contacts are known.
 static void solve_again(Plant& plant, double h, const Push* known) {
     const frond_integrator own = plant.step_settings.integrator;
     // From rest, entangled rods that are bent by their leaves' tips would stay still and never part.
     const bool from_rest = !plant.is_entangled;
     Push push = known ? *known : Push();
+    const Push* const pushes = known ? &push : nullptr;
     const VecX x_once = plant.motion.x, v_once = plant.motion.v;
     if (!plant.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
         minimise(plant, own, h, push, from_rest);
-        if (plant.report.ok && is_plausible(plant, h, known) && are_slack(plant)) return;
+        if (plant.report.ok && is_plausible(plant, h, pushes) && are_slack(plant)) return;
     }
-    const auto has_ended = [&] { return !plant.report.ok || is_plausible(plant, h, known ? &push : nullptr); };
     plant.motion.history.valid = false;
     minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, from_rest);
-    const bool is_pushed = push.impulse.size() > 0;
     for (const double share : {0.25, 0.05, 0.0}) {
-        if (!is_pushed || has_ended()) break;
+        if (push.impulse.size() == 0 || !plant.report.ok || is_plausible(plant, h, pushes)) break;
         push.impulse = share * known->impulse;
         minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, true);
     }
@@ -138,7 +136,7 @@ static void solve_again(Plant& plant, double h, const Push* known) {
         plant.motion.x = x_once;
         plant.motion.v = v_once;
     }
-    if (!has_ended()) hold_back(plant, h, known ? &push : nullptr);
+    hold_back(plant, h, pushes);
 }
 
 // Returns whether one solve predicts the displacements well. An unwound rotation vector has not turned far.
@@ -191,7 +189,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.ms_fibres = plant.ms_plasticity = 0;
 
     // Solve.
-    look_back_over_no_force(plant);
+    drop_history_at_forces(plant);
     motion.history.shaken |= plant.is_touched;
     plant.starts_anew =
         integrator(plant.settings.integrator).looks_back && !motion.history.valid && !motion.history.shaken;
@@ -270,7 +268,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
             plant.ms_plasticity = timer.ms();
         }
     }
-    look_back_over_no_force(plant);
+    drop_history_at_forces(plant);
     plant.stepped_by = h;
     carry_stumps(plant);
     pass_time(plant.blend_out, h);

@@ -121,7 +121,7 @@ void count_work(World& world) {
         sums.grabs += work.grabs;
         sums.air += work.air;
         sums.pins += work.pins;
-        sums.error += work.error;
+        sums.error += work.error + work.air_error;
         add_jump(plant, entry.x, sums.pins);
         recount(world, *body, entry);
     }

@@ -68,20 +68,13 @@ Becomes becomes(const Plant& plant, frond_mechanics which) {
 
 // Returns the number of Bullet's objects that stay; those that go have to be the last ones, or the others would change
 // places.
-int count_staying(const World& world, const Snapshot& snapshot) {
-    const btCollisionObjectArray& objects = world.bullet->getCollisionObjectArray();
-    int count = objects.size();
-    const auto goes = [&](const btCollisionObject* object) {
-        return std::any_of(world.rigids.begin(), world.rigids.end(), [&](const std::unique_ptr<Rigid>& rigid) {
-            return rigid->body.get() == object && is_to_go(snapshot, *rigid);
-        });
-    };
-    while (count > 0 && goes(objects[count - 1])) count--;
-    for (int i = 0; i < count; i++)
-        if (goes(objects[i]))
+size_t count_staying(const World& world, const std::vector<const Rigid*>& going) {
+    const int count = world.bullet->getCollisionObjectArray().size() - int(going.size());
+    for (const Rigid* rigid : going)
+        if (rigid->body->getWorldArrayIndex() < count)
             fail(FROND_RESULT_BAD_ARGUMENT,
                  "a plant broke, and something was made after that; call frond_plant_reset first");
-    return count;
+    return size_t(count);
 }
 
 void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& touches, size_t object_count) {
@@ -234,11 +227,11 @@ void check_rigid(const SavedRigid& saved, const Rigid& own) {
 
 void check_snapshot(World& world, const Snapshot& snapshot) {
     check_count(snapshot.plants.size(), world.bodies.size(), "plants");
-    std::vector<const Rigid*> staying;
+    std::vector<const Rigid*> staying, going;
     for (const std::unique_ptr<Rigid>& rigid : world.rigids)
-        if (!is_to_go(snapshot, *rigid)) staying.push_back(rigid.get());
+        (is_to_go(snapshot, *rigid) ? going : staying).push_back(rigid.get());
     check_count(snapshot.rigids.size(), staying.size(), "rigid bodies");
-    const size_t object_count = size_t(count_staying(world, snapshot));
+    const size_t object_count = count_staying(world, going);
     check_count(snapshot.bonds.size(), world.bonds.size(), "bonds");
     check_numbers(std::array{snapshot.time, snapshot.travelled}, "time");
     check_numbers(snapshot.gravity_before, "time");
