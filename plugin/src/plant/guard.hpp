@@ -36,7 +36,7 @@ struct Push {
 };
 // Sets is_off_course after a solve over h [s] from x_good and v_good, and returns whether the plant may go there: it
 // did not run away, nor gain energy that the loads and the push cannot have given. What stayed on its course is not
-// asked for its energy, unless pins, contacts, forces or grabs push it, or it starts anew.
+// asked for its energy, unless pins or contacts push it, or it starts anew, as with forces of the host.
 bool keeps_course(Plant& plant, double h, const Push& push = {});
 
 // Translates a plant with its pins, between solves, if they were put farther away than `least` times its size.

@@ -59,10 +59,8 @@ static bool has_energy_from_nowhere(const Plant& plant, double h, const Push& pu
 
 bool keeps_course(Plant& plant, double h, const Push& push) {
     plant.is_off_course = ends_off_course(plant, h);
-    const bool is_handled = plant.loads.force.size() > 0 || plant.loads.springs.size() > plant.pin_springs.size(),
-               is_carried_off = is_carried(plant.motion, plant.x_good, plant.v_good);
-    const bool is_asked =
-        plant.is_off_course || plant.starts_anew || is_handled || is_carried_off || push.impulse.size() > 0;
+    const bool is_asked = plant.is_off_course || plant.starts_anew || push.impulse.size() > 0 ||
+                          is_carried(plant.motion, plant.x_good, plant.v_good);
     return !(is_asked && has_energy_from_nowhere(plant, h, push)) && !has_run_away(plant);
 }
 
