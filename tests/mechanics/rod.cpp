@@ -117,6 +117,31 @@ TEST_P(EveryRod, PositiveStiffnessIsNeverNegativeAndExactWithoutLoad) {
     EXPECT_LT((at_rest - stiffness(elements, elements.modelled, Tangent::exact)).norm(), 1e-9 * at_rest.norm());
 }
 
+// A plastic bend leaves a segment at rest far from its modelled shape: what counts is how far it turns from there.
+TEST(Rod, BendsFromItsRestShapeBeyondHalfATurn) {
+    constexpr double REST = 2.5;  // [rad]
+    RodElements elements = make_rod_elements(chain_model(), FROND_MECHANICS_ROD);
+    elements.segments.resize(1);
+    RodSegment& rod = elements.segments[0];
+    rod.centre = 0;
+    for (int c = 0; c < 3; ++c) {
+        set_rest_curvature(rod, REST / rod.length * Vec3::Unit(c));
+        for (double angle = 0.6; angle < 4.45; angle += 0.1) {
+            VecX x = elements.modelled;
+            const Vec3 axis = rod.frame.col(c);
+            const Mat3 half = rotation_of<double>(0.5 * angle * axis);
+            point(x, 2 * rod.a + 1).setZero();
+            point(x, 2 * rod.b + 1) = rotation_vector<double>(half * half);
+            point(x, 2 * rod.b) = point(x, 2 * rod.a) + half * rod.frame * rod.rest_strain * rod.length;
+            const double off = (angle - REST) / rod.length;
+            const double grown = c == 0 ? 1 + rod.warping * off * off : 1;
+            EXPECT_NEAR(mechanics(FROND_MECHANICS_ROD).energy(elements, x),
+                        0.5 * rod.length * rod.bend[c] * grown * off * off, 1e-9 * rod.bend[c] / rod.length)
+                << angle << " rad about " << c;
+        }
+    }
+}
+
 // Also with fewer segments than lanes.
 TEST_P(EveryRod, ForceAndStiffnessAheadAreThoseOfTheirParts) {
     Dice dice(7);

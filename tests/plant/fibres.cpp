@@ -165,6 +165,32 @@ TEST(Fibres, AreForCagesThatLackThem) {
     EXPECT_TRUE(make_fibres(tet, 1).list.empty());
 }
 
+// What holds one end of a falling blade stops the rest through its fibres: the plant's momentum is what weight and hand
+// gave it, also where a step is divided.
+TEST(Fibres, CarryWhatHangsOnThem) {
+    for (const int substeps : {1, 4}) {
+        frond_plant_def def = plant_def(FROND_MECHANICS_TET_COROTATIONAL);
+        def.root_height = -1;
+        def.tuning.max_substeps = substeps;
+        const std::unique_ptr<Plant> plant = create_plant(blade(1e8, 0.3e-3), def);
+        const int vertex = nearest_vertex(*plant, plant->position + Vec3(0, LENGTH, WIDTH / 2));
+        plant->grabs.push_back({vertex, vertex_position(*plant, vertex), 300, 1});
+        Surroundings surroundings;
+        surroundings.gravity = {0, -9.81, 0};
+        const VecX& mass = node_mass_of(*plant->system);
+        double given = 0, momentum = 0;
+        bool is_taut = false;
+        for (int i = 0; i < 20; i++) {
+            step_plant(*plant, surroundings, H);
+            given += H * (grab_force(*plant, plant->grabs.back()).y() - 9.81 * mass.sum());
+            is_taut |= plant->fibre_force.size() > 0;
+        }
+        for (int i = 0; i < mass.size(); i++) momentum += mass[i] * point(plant->motion.v, i).y();
+        EXPECT_TRUE(is_taut);
+        EXPECT_NEAR(momentum, given, 0.05 * 9.81 * mass.sum() * 20 * H) << substeps << " substeps";
+    }
+}
+
 }  // namespace fibres_tests
 
 }  // namespace frond::test

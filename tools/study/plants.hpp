@@ -13,5 +13,7 @@ struct PlantCase {
 extern const PlantCase CORN, CUCUMBER;
 
 ModelPtr load_plant(const PlantCase& plant, frond_model_def def);
+// Returns the plant with as many cells or capsules as the setup asks for; the session keeps it.
+ModelPtr plant_model(const PlantCase& plant, const Setup& setup, frond_rest rest, Session& session);
 
 }  // namespace frond::study

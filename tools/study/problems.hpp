@@ -38,7 +38,11 @@ Outcome run_release(const Setup& setup, Session& session);
 
 Outcome run_twig(const Setup& setup, Session& session);
 
+Setup breeze_baseline();  // a plant of rods from a file, with default settings
+
 Outcome run_reconfiguration(const Setup& setup, Session& session);
+
+Outcome run_breeze(const Setup& setup, Session& session);
 
 Outcome run_agree(const Setup& setup, Session& session);
 

@@ -23,15 +23,6 @@ ModelPtr load_plant(const PlantCase& plant, frond_model_def def) {
     return std::make_shared<const Model>(handle);
 }
 
-namespace {
-
-const LoadFunction WEIGHT = [](Trial& trial, double share) { trial.set_gravity({0, -G * share, 0}); };
-
-// Plants of linear tets, which grow as they rotate, may never come to rest.
-int steps_to_rest(const Session& session) {
-    return session.effort == Effort::FULL ? 300 : 40;
-}
-
 ModelPtr plant_model(const PlantCase& plant, const Setup& setup, frond_rest rest, Session& session) {
     const bool chain = moves_chain(setup.plant.mechanics);
     const std::string key = std::string(plant.name) + (chain ? " chain " : " cage ") +
@@ -46,6 +37,15 @@ ModelPtr plant_model(const PlantCase& plant, const Setup& setup, frond_rest rest
         model = load_plant(plant, def);
     }
     return model;
+}
+
+namespace {
+
+const LoadFunction WEIGHT = [](Trial& trial, double share) { trial.set_gravity({0, -G * share, 0}); };
+
+// Plants of linear tets, which grow as they rotate, may never come to rest.
+int steps_to_rest(const Session& session) {
+    return session.effort == Effort::FULL ? 300 : 40;
 }
 
 double height_of(const Model& model) {

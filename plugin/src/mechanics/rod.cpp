@@ -1,12 +1,13 @@
 // In: rods at rest and their nodes' positions and rotations. Out: energy, force and stiffness.
 //
 // Geometrically exact rods (Simo 1985; Simo, Vu-Quoc 1986) with two nodes and one integration point a segment:
-//   c = F^T R^T (x2 - x1) / L,  strain G = (|c|, tilt of c from the axis),  k = F^T log(R1^T R2) / L,
-//   U = L/2 (G - G0) . C (G - G0) + L/2 (m(k) - k0) . B (m(k) - k0),
-// F the segment's frame in the modelled shape, R = R1 exp(log(R1^T R2) / 2) the midway rotation, m the measures of
-// bending and twist (rod_piece.hpp). The shear stiffness is the residual bending flexibility, 12 EI / L^2 (MacNeal
-// 1978): for small rotations the segment then is the Euler-Bernoulli beam with cubic shape functions, exact at its
-// ends.
+//   c = F^T R^T (x2 - x1) / L,  strain G = (|c|, tilt of c from the axis),  k = F^T log(R1'^T R2') / L,
+//   U = L/2 (G - G0) . C (G - G0) + L/2 m(k) . B m(k),
+// F the segment's frame in the modelled shape, R1' = R1 exp(L F k0 / 2) and R2' = R2 exp(-L F k0 / 2) the rotations of
+// its ends, which are equal without load, R = R1' exp(log(R1'^T R2') / 2) the midway rotation, m the measures of
+// bending and twist (rod_piece.hpp). U has no jump where a segment turns by half a turn from its rest shape, since
+// m(-k) = -m(k). The shear stiffness is the residual bending flexibility, 12 EI / L^2 (MacNeal 1978): for small
+// rotations the segment then is the Euler-Bernoulli beam with cubic shape functions, exact at its ends.
 #include <algorithm>
 
 #include "mechanics/dual.hpp"
@@ -110,6 +111,8 @@ struct AddExactStiffness {
         piece.bend = constants<S>(rod.bend);
         piece.rest_strain = constants<S>(rod.rest_strain);
         piece.rest_curvature = constants<S>(rod.rest_curvature);
+        piece.rest_w = rod.rest_w;
+        piece.rest_p = constants<S>(rod.rest_p);
         Lanes3<Dual<S>> v[4];
         for (int n = 0; n < 4; ++n) {
             const double* from = x.data() + 3 * (2 * (n < 2 ? rod.a : rod.b) + n % 2);
@@ -117,8 +120,7 @@ struct AddExactStiffness {
                     Dual<S>::variable(from[2], 3 * n + 2)};
         }
         const RodEnd<Dual<S>> a = rod_end(v[0], v[1]), b = rod_end(v[2], v[3]);
-        const RodGradient<Dual<S>> gradient =
-            gradient_of(piece, rotation_of(a.w, a.p), rate_of(a), rate_of(b), bend_between(piece, a, b));
+        const RodGradient<Dual<S>> gradient = gradient_of(piece, rate_of(a), rate_of(b), bend_between(piece, a, b));
         const auto put = [&](const Lanes3<Dual<S>>& part, int row) {
             for (int i = 0; i < Dual<S>::GROUPS; ++i) {
                 frond::store(part.x.slope[i], slopes[row] + LANES<S> * i);

@@ -48,14 +48,14 @@ struct Assemble {
             const Placed<S> at = last.place(pieces, x);
             Lanes33<S> rate_a = last.rate;
             if (!pieces.begins_at(last.node)) rate_a = rate_of(at.a);
-            const Lanes33<S> rotation_a = rotation_of(at.a.w, at.a.p), rate_b = rate_of(at.b);
+            const Lanes33<S> rate_b = rate_of(at.b);
             last.go_on(pieces, at);
             last.rate = rate_b;
             RodGradient<S> g;
-            if (f) g = gradient_of(at.piece, rotation_a, rate_a, rate_b, at.bent);
+            if (f) g = gradient_of(at.piece, rate_a, rate_b, at.bent);
             if (K) {
                 const S c = damping ? pieces.own(*damping) : S{};
-                const RodChange<S> change = change_of(at.piece, rotation_a, rate_a, rate_b, at.bent);
+                const RodChange<S> change = change_of(at.piece, rate_a, rate_b, at.bent);
                 Lanes33<S> blocks[10];
                 positive_stiffness(at.piece, change, blocks);
                 const double step = ahead ? ahead->step : 1;

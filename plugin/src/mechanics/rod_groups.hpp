@@ -155,6 +155,8 @@ FROND_INLINE RodPiece<S> piece_of(const Pieces& pieces) {
     out.bend = pieces.vector(&RodSegment::bend);
     out.rest_strain = pieces.vector(&RodSegment::rest_strain);
     out.rest_curvature = pieces.vector(&RodSegment::rest_curvature);
+    out.rest_w = pieces.number(&RodSegment::rest_w);
+    out.rest_p = pieces.vector(&RodSegment::rest_p);
     return out;
 }
 

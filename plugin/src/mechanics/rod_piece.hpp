@@ -15,6 +15,8 @@ struct RodPiece {
     S length, centre, warping;
     Lanes33<S> frame;
     Lanes3<S> stretch, bend, rest_strain, rest_curvature;
+    S rest_w;
+    Lanes3<S> rest_p;
 };
 
 template <class S>
@@ -88,7 +90,8 @@ FROND_INLINE void fold_up(const Lanes3<S>& quarter, const S& square, const Lanes
 template <class S>
 struct RodBent {
     Lanes3<S> chord;              // [m]
-    Lanes3<S> turn;               // rotation vector of the second end relative to the first
+    Lanes33<S> first;             // rotation of the first end, as if at rest both had the same
+    Lanes3<S> turn;               // rotation vector of the second end relative to the first, without that at rest
     Lanes3<S> quarter;            // its axis times tan(angle/4)
     S cotangent;                  // angle/2 cot(angle/2)
     S fold;                       // curvature is by fold * turn
@@ -173,8 +176,13 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
                               -0.050351024039430294125, 0.037965256099576568431,  -0.017805395704537507381};
     RodBent<S> out;
     out.chord = b.place - a.place;
-    S w = a.w * b.w + dot(a.p, b.p);
-    Lanes3<S> u = a.w * b.p - b.w * a.p - cross(a.p, b.p);
+    // Each end meets the other half way along the rotation at rest.
+    const S a_w = a.w * rod.rest_w - dot(a.p, rod.rest_p), b_w = b.w * rod.rest_w + dot(b.p, rod.rest_p);
+    const Lanes3<S> a_p = a.w * rod.rest_p + rod.rest_w * a.p + cross(a.p, rod.rest_p);
+    const Lanes3<S> b_p = rod.rest_w * b.p - b.w * rod.rest_p - cross(b.p, rod.rest_p);
+    out.first = rotation_of(a_w, a_p);
+    S w = a_w * b_w + dot(a_p, b_p);
+    Lanes3<S> u = a_w * b_p - b_w * a_p - cross(a_p, b_p);
     const S sign = select(w < 0.0, constant<S>(-1), constant<S>(1));
     w = w * sign;
     const S over = 1.0 / (1.0 + w);
@@ -187,15 +195,14 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
     fold_up(out.quarter, square, out.quarter - dot(axis, out.quarter) * axis, S(1.0 / angle_over), out.fold,
             out.fold_slope);
     const S shrink = 1.0 / secant;
-    const S w_middle = (a.w - dot(a.p, out.quarter)) * shrink;
-    const Lanes3<S> p_middle = shrink * (a.p + a.w * out.quarter + cross(a.p, out.quarter));
+    const S w_middle = (a_w - dot(a_p, out.quarter)) * shrink;
+    const Lanes3<S> p_middle = shrink * (a_p + a_w * out.quarter + cross(a_p, out.quarter));
     out.middle = rotation_of(w_middle, p_middle) * rod.frame;
     const S per_length = 1.0 / rod.length;
     measure_chord(per_length * transposed_times(out.middle, out.chord), out);
     out.curvature = per_length * transposed_times(rod.frame, out.fold * out.turn);
-    out.strain = tilt_at_centre(rod, out.strain, out.curvature, constant<S>(1)) - rod.rest_strain;
+    out.strain = tilt_at_centre(rod, out.strain, out.curvature + rod.rest_curvature, constant<S>(1)) - rod.rest_strain;
     measure_twist(rod, out);
-    out.curvature = out.curvature - rod.rest_curvature;
     return out;
 }
 
@@ -219,8 +226,8 @@ struct RodGradient {
 };
 
 template <class S>
-FROND_INLINE RodGradient<S> gradient_of(const RodPiece<S>& rod, const Lanes33<S>& rotation_a, const Lanes33<S>& rate_a,
-                                        const Lanes33<S>& rate_b, const RodBent<S>& bent) {
+FROND_INLINE RodGradient<S> gradient_of(const RodPiece<S>& rod, const Lanes33<S>& rate_a, const Lanes33<S>& rate_b,
+                                        const RodBent<S>& bent) {
     const Lanes3<S> pull = scaled(rod.stretch, bent.strain);
     const Lanes3<S> force = bent.middle * strain_change_transposed(bent, pull);
     const Lanes3<S> middle_moment = cross(force, bent.chord);
@@ -230,10 +237,10 @@ FROND_INLINE RodGradient<S> gradient_of(const RodPiece<S>& rod, const Lanes33<S>
     const Lanes3<S> couple = bent.fold * by_fold + dot(bent.turn, by_fold) * bent.fold_slope;
     const Lanes3<S> turned = cross(bent.turn, couple);
     const Lanes3<S> end_moment =
-        rotation_a * (couple + constant<S>(0.5) * turned + inverse_rate_second(bent) * cross(bent.turn, turned));
+        bent.first * (couple + constant<S>(0.5) * turned + inverse_rate_second(bent) * cross(bent.turn, turned));
     // The midway rotation follows the second end's by (1 - [R1 quarter]) / 2.
     const Lanes3<S> second =
-        constant<S>(0.5) * (middle_moment + cross(rotation_a * bent.quarter, middle_moment)) + end_moment;
+        constant<S>(0.5) * (middle_moment + cross(bent.first * bent.quarter, middle_moment)) + end_moment;
     return {-force, transposed_times(rate_a, middle_moment - second), force, transposed_times(rate_b, second)};
 }
 
@@ -245,10 +252,10 @@ struct RodChange {
 };
 
 template <class S>
-FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& rotation_a, const Lanes33<S>& rate_a,
-                                    const Lanes33<S>& rate_b, const RodBent<S>& bent) {
+FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& rate_a, const Lanes33<S>& rate_b,
+                                    const RodBent<S>& bent) {
     const Lanes3<S>& c = bent.chord;
-    const Lanes3<S> share = rotation_a * bent.quarter;
+    const Lanes3<S> share = bent.first * bent.quarter;
     Lanes33<S> seen, by_share;
     for (int i = 0; i < 3; ++i) {
         // Rows of middle^T [chord], and of its product with the second end's share of the midway rotation.
@@ -263,7 +270,7 @@ FROND_INLINE RodChange<S> change_of(const RodPiece<S>& rod, const Lanes33<S>& ro
     const Lanes3<S> grown = transposed_times(inverse_rate, bent.fold_slope);
     for (int i = 0; i < 3; ++i)
         folding.r[i] = folding.r[i] + (i == 0 ? bent.turn.x : i == 1 ? bent.turn.y : bent.turn.z) * grown;
-    Lanes33<S> turning_by = transposed_times(rod.frame, folding) * transposed(rotation_a);
+    Lanes33<S> turning_by = transposed_times(rod.frame, folding) * transposed(bent.first);
     turning_by.r[0] = bent.twist_slope * turning_by.r[0];
     RodChange<S> out = {strain_change(bent, transposed(bent.middle)), strain_change(bent, (seen - by_share) * rate_a),
                         strain_change(bent, by_share * rate_b), turning_by * rate_a, turning_by * rate_b};

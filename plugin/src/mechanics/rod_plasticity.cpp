@@ -15,7 +15,7 @@ namespace frond {
 namespace {
 
 void apply(const RodPlastic& plastic, RodSegment& rod) {
-    rod.rest_curvature = plastic.rest_curvature + Vec3(0, plastic.bend_wide, plastic.bend_thin);
+    set_rest_curvature(rod, plastic.rest_curvature + Vec3(0, plastic.bend_wide, plastic.bend_thin));
 }
 
 constexpr size_t NUMBERS_OF_PIECE = 3;  // the two curvatures, hardening

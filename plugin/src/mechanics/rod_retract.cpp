@@ -17,7 +17,7 @@ namespace {
 // Returns the chord of segments, from the first to the second end, after the displacement between two states [m].
 template <class S>
 FROND_INLINE Lanes3<S> chord_after(const Placed<S>& at, const Placed<S>& after) {
-    const RodChange<S> change = change_of(at.piece, rotation_of(at.a.w, at.a.p), rate_of(at.a), rate_of(at.b), at.bent);
+    const RodChange<S> change = change_of(at.piece, rate_of(at.a), rate_of(at.b), at.bent);
     const S per_length = 1.0 / at.piece.length;
     const Lanes3<S> by_chord = change.strain_chord * (after.bent.chord - at.bent.chord);
     const Lanes3<S> by_turns =

@@ -221,7 +221,8 @@ void take_factors(const Batch& step, Plant* const* plants, unsigned which) {
 void pull(Plant& plant, const Batch& step, int lane, frond_effects effects, double h) {
     plant.blown.setZero();
     take_drags(step, lane, plant.loads.drags);
-    finish_solving(plant, effects, h);
+    plant.has_fibres = effects & FROND_EFFECT_FIBRES;
+    finish_solving(plant, h);
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ Fibres make_fibres(const Model& model, int order);
 // Returns whether no fibre would pull at the plant's present position; updates chain_positions.
 bool are_slack(Plant& plant);
 
-// Pulls back what is stretched, after a solve over h [s]; does nothing if all fibres are slack.
+// Ends a solve over h [s], or a part of a step: pulls back what it stretched; does nothing if all fibres are slack. A
+// step in parts needs it after each: what all of them stretched is too much for the impulses of the last.
 void hold_lengths(Plant& plant, double h);
 
 }  // namespace frond

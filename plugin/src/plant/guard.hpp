@@ -26,6 +26,8 @@ constexpr double FARTHEST_WAY = 4;  // displacement over the plant's size that i
 bool is_far_out(const Plant& plant);
 // Returns the potential energy [J]: elastic, and of the running step's weight, forces and springs, also of pins.
 double potential_energy(const Plant& plant, const VecX& x);
+// Returns the work of weight along a displacement of all nodes [J].
+double work_of_weight(const Plant& plant, const VecX& way);
 // Returns the energy that lifts the plant by its own size [J].
 double lifting_energy(const Plant& plant);
 
@@ -36,7 +38,8 @@ struct Push {
 };
 // Sets is_off_course after a solve over h [s] from x_good and v_good, and returns whether the plant may go there: it
 // did not run away, nor gain energy that the loads and the push cannot have given. What stayed on its course is not
-// asked for its energy, unless pins or contacts push it, or it starts anew, as with forces of the host.
+// asked for its energy, unless pins or contacts push it, it starts anew, as with forces of the host, or the step has
+// stages, of which one need not damp what another strained.
 bool keeps_course(Plant& plant, double h, const Push& push = {});
 
 // Translates a plant with its pins, between solves, if they were put farther away than `least` times its size.
@@ -57,5 +60,8 @@ bool is_inside_out(const Plant& plant);
 bool is_caught_inside_out(const Plant& plant, double h);
 // Puts the plant into its modelled shape, at rest, if that has less potential energy; false if not.
 bool start_from_modelled(Plant& plant);
+// Moves the plant towards its modelled shape, as little as leaves it an elastic energy and a work against its weight of
+// `most` together [J]; drops its plastic strain if even the modelled shape has more.
+void approach_modelled(Plant& plant, double most);
 
 }  // namespace frond

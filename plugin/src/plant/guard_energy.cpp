@@ -8,6 +8,7 @@
 #include "plant/guard.hpp"
 #include "plant/load_work.hpp"
 #include "plant/plant.hpp"
+#include "solve/integrator.hpp"
 
 namespace frond {
 
@@ -15,8 +16,7 @@ static double elastic_energy(const Plant& plant, const VecX& x) {
     return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
 }
 
-// Returns the work of weight along a displacement [J].
-static double work_of_weight(const Plant& plant, const VecX& way) {
+double work_of_weight(const Plant& plant, const VecX& way) {
     const VecX& mass = node_mass_of(*plant.system);
     Vec3 moved = Vec3::Zero();
     for (int i = 0; i < mass.size(); i++) moved += mass[i] * point(way, i);
@@ -60,6 +60,7 @@ static bool has_energy_from_nowhere(const Plant& plant, double h, const Push& pu
 bool keeps_course(Plant& plant, double h, const Push& push) {
     plant.is_off_course = ends_off_course(plant, h);
     const bool is_asked = plant.is_off_course || plant.starts_anew || push.impulse.size() > 0 ||
+                          integrator(plant.step_settings.integrator).has_stages ||
                           is_carried(plant.motion, plant.x_good, plant.v_good);
     return !(is_asked && has_energy_from_nowhere(plant, h, push)) && !has_run_away(plant);
 }

@@ -1,6 +1,9 @@
 // In: a plant that is caught in a shape from which no step leads back: at rest with tets inside out, strained from all
 // sides, or stretched so far that every step fails. Out: its modelled shape, where it is held, if that has less
-// potential energy. The visible difference blends out within a second.
+// potential energy. The visible difference blends out within a second. The same for a plant that has been handed over
+// to other mechanics with more energy than it had: a shape between the two.
+#include <cmath>
+
 #include "mechanics/rotation.hpp"
 #include "plant/guard.hpp"
 #include "plant/plant.hpp"
@@ -30,12 +33,16 @@ bool find_frame(const Plant& plant, Mat3& rotation, Vec3& shift) {
            fit_rigid(from, to, Vec3::Zero(), rotation, shift);
 }
 
+// What is held stays where it is, and what broke off with its fragment.
 VecX modelled_in(const Plant& plant, const Mat3& rotation, const Vec3& shift) {
     const VecX& modelled = elements_of(*plant.system).modelled;
     const Vec3 turn = rotation_vector<double>(rotation);
+    const int per_node = plant.follow ? 2 : 1;
     VecX x = plant.motion.x;
     for (int i = 0; i < x.size() / 3; i++) {
-        if (plant.motion.pinned[size_t(i)]) continue;
+        const size_t node = size_t(i / per_node);
+        const bool is_gone = plant.follow ? fragment_of_chain_node(plant, node) : fragment_of_node(plant, node);
+        if (plant.motion.pinned[size_t(i)] || is_gone) continue;
         point(x, i) = plant.follow && i % 2 == 1 ? turn : Vec3(rotation * point(modelled, i) + shift);
     }
     return x;
@@ -68,6 +75,24 @@ bool is_inside_out(const Plant& plant) {
         if (!((point(x, tet[1]) - a).dot((point(x, tet[2]) - a).cross(point(x, tet[3]) - a)) > 0)) return true;
     }
     return false;
+}
+
+void approach_modelled(Plant& plant, double most) {
+    constexpr int HALVINGS = 8;
+    Mat3 rotation;
+    Vec3 shift;
+    if (!find_frame(plant, rotation, shift)) return;
+    const VecX from = plant.motion.x, to = modelled_in(plant, rotation, shift);
+    const VecX way = (plant.follow ? wound_as(from, to) : to) - from;
+    const auto has_little_at = [&](double share) {
+        plant.motion.x = from + share * way;
+        return stored_energy(plant).elastic - work_of_weight(plant, share * way) <= most;
+    };
+    if (!has_little_at(1)) set_plastic(plant, {});
+    double enough = 1;
+    for (double step = 0.5; step > std::ldexp(1, -HALVINGS); step /= 2)
+        if (has_little_at(enough - step)) enough -= step;
+    plant.motion.x = enough < 1 ? VecX(from + enough * way) : to;
 }
 
 bool start_from_modelled(Plant& plant) {

@@ -143,6 +143,7 @@ struct Plant {
     bool is_sound = true;        // the solution can be the next state
     bool is_off_course = false;  // something ended the running step off course
     bool may_yield = true;       // the running step may cause yielding, as far as is known
+    bool has_fibres = false;     // the running step pulls back fibres
     bool starts_anew = false;    // the running step has no past, since the host changed something
     bool looks_back = false;     // the running step continues from its history, if it can be batched
     // Time left to recover from a state that no admissible load can reach; if negative, time for which the plant has
@@ -176,7 +177,7 @@ frond_plant_def def_of(const Plant& plant);
 // strain, or rewind, and the chain.
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h);
 // Ends the first half: pulls back stretched fibres, and decides whether the solution can be the next state.
-void finish_solving(Plant& plant, frond_effects effects, double h);
+void finish_solving(Plant& plant, double h);
 // Does the middle of the first half: advances plant.motion by h under plant.loads.
 SolveReport solve_in_substeps(Plant& plant, double h);
 // Return gravity in the model's frame [m/s^2] and the settings of the running step.

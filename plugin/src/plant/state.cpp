@@ -26,6 +26,16 @@ Vec3 grab_force(const Plant& plant, const Grab& grab) {
     return grab.stiffness * (grab.target - grab_place(plant, grab.vertex));
 }
 
+// Returns whether the nodes that the ground holds are where it held them when the plant was made.
+static bool stands_where_made(const Plant& plant, const VecX& x) {
+    constexpr double NEAR = 1e-9;  // distance over the plant's size [-]
+    for (size_t n = 0; n < plant.foot->pinned.size(); n++)
+        if (plant.foot->pinned[n] &&
+            !((point(x, int(n)) - point(plant.foot->pin_target, int(n))).norm() < NEAR * double(plant.size)))
+            return false;
+    return true;
+}
+
 void set_state(Plant& plant, const double* positions, const double* velocities) {
     end_modal(plant);
     const Quat to_model = plant.rotation.conjugate();
@@ -38,7 +48,10 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
         if (positions) point(x, i) = plant.to_model(Vec3(positions + 3 * i));
         if (velocities) point(v, i) = to_model * Vec3(velocities + 3 * i);
     }
-    if (positions) plant.pin_target = x;
+    if (positions) {
+        plant.pins_are_own |= !stands_where_made(plant, x);
+        plant.pin_target = x;
+    }
     if (plant.follow) {
         if (positions) fit_chain(*plant.follow, *plant.model, x, motion.x);
         if (velocities) fit_velocities(*plant.follow, motion.x, v, motion.v);

@@ -85,7 +85,6 @@ static void minimise(Plant& plant, frond_integrator method, double h, const Push
     Motion& motion = plant.motion;
     motion.x = plant.x_good;
     motion.v = plant.v_good;
-    plant.fibre_force.resize(0);
     const VecX force = plant.loads.force;
     if (push.impulse.size() > 0) {
         plant.loads.force = push.impulse / h;
@@ -146,16 +145,6 @@ static bool is_calm_way(const Plant& plant) {
     return is_calm_to(plant.motion.x) || (plant.follow && is_calm_to(wound_as(from, plant.motion.x)));
 }
 
-// Pulls back stretched fibres; counts as part of the solve.
-static void hold_what_is_drawn_out(Plant& plant, frond_effects effects, double h) {
-    plant.fibre_force.resize(0);
-    if (!(effects & FROND_EFFECT_FIBRES)) return;
-    const Timer timer;
-    hold_lengths(plant, h);
-    plant.ms_fibres += timer.ms();
-    plant.report.ms_solve += timer.ms();
-}
-
 SolveSettings settings_for(const Plant& plant, frond_effects effects) {
     SolveSettings settings = plant.settings;
     if (!(effects & FROND_EFFECT_DAMPING))
@@ -187,6 +176,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.step_settings = settings_for(plant, effects);
     plant.ms_effects = plant.ms_user_force + plant.ms_air;
     plant.ms_fibres = plant.ms_plasticity = 0;
+    plant.has_fibres = effects & FROND_EFFECT_FIBRES;
 
     // Solve.
     drop_history_at_forces(plant);
@@ -195,11 +185,11 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
         integrator(plant.settings.integrator).looks_back && !motion.history.valid && !motion.history.shaken;
     plant.report = solve_in_substeps(plant, h);
     if (!plant.report.ok || !is_plausible(plant, h, nullptr)) solve_again(plant, h, nullptr);
-    finish_solving(plant, effects, h);
+    finish_solving(plant, h);
 }
 
-void finish_solving(Plant& plant, frond_effects effects, double h) {
-    hold_what_is_drawn_out(plant, effects, h);
+void finish_solving(Plant& plant, double h) {
+    hold_lengths(plant, h);
     // Chains have no fibres, so none of their nodes has moved since the plausibility check. A plant on its course is
     // not being stretched.
     plant.is_sound = (plant.follow ? plant.report.ok : is_sound(plant)) && !(plant.is_off_course && is_far_out(plant));

@@ -33,7 +33,8 @@ double local_error(Plant& plant, const VecX& x, const VecX& v, double h) {
     return 0.5 * std::sqrt(most);
 }
 
-// Solves all substeps, pinned nodes moving evenly; `error` is the sum of theirs.
+// Solves all substeps, pinned nodes moving evenly; `error` is the sum of theirs. The caller pulls back the fibres of
+// the last one.
 SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
     Motion& motion = plant.motion;
     const VecX from = motion.x, target = motion.pin_target;
@@ -43,7 +44,9 @@ SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
     for (int i = 1; i <= count && sum.ok; i++) {
         motion.pin_target = i < count ? VecX(from + (target - from) * (double(i) / count)) : target;
         const VecX x = motion.x, v = motion.v;
-        const SolveReport one = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / count, motion);
+        plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / count, motion);
+        if (i < count) hold_lengths(plant, h / count);
+        const SolveReport one = plant.report;
         error += local_error(plant, x, v, h / count);
         sum.ok = one.ok;
         sum.converged &= one.converged;
