@@ -20,6 +20,7 @@ struct Row {
 
 // Reads tests/corpus/seen.csv.
 std::vector<Row> read_seen();
+std::string path_of(const Row& row);
 
 struct Found {
     std::array<int, SEEN_COUNT> counts = {};

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -23,7 +25,8 @@ std::vector<Row> read_seen() {
         for (auto& range : row.counts) {
             std::getline(cells, cell, ',');
             range[0] = range[1] = std::stoi(cell);
-            if (const size_t dash = cell.find('-'); dash != std::string::npos) range[1] = std::stoi(cell.substr(dash + 1));
+            if (const size_t dash = cell.find('-'); dash != std::string::npos)
+                range[1] = std::stoi(cell.substr(dash + 1));
         }
         std::getline(cells, cell, ',');
         row.height = std::stod(cell);
@@ -43,8 +46,12 @@ static int seen_as(const std::string& kind) {
     return kind == "support" ? int(SUPPORTS) : -1;
 }
 
+std::string path_of(const Row& row) {
+    return FOLDER + row.file;
+}
+
 Found find(const Row& row, bool bare) {
-    Surface surface = import_surface(FOLDER + row.file, {});
+    Surface surface = import_surface(path_of(row), {});
     if (bare) {
         surface.parts.assign(1, Part());
         surface.parts[0].triangle_count = int(surface.triangles.size());
@@ -56,6 +63,14 @@ Found find(const Row& row, bool bare) {
     const std::vector<Organ> organs = find_organs(surface, topology, nullptr, 0);
     Found found;
     found.ms = timer.ms();
+    // FROND_CORPUS=Corn prints what was found in files with that in their names.
+    const char* wanted = std::getenv("FROND_CORPUS");
+    if (wanted && row.file.find(wanted) != std::string::npos)
+        for (const Part& part : surface.parts) {
+            const Organ& organ = organs[size_t(part.organ)];
+            std::printf("    %-10s %4d triangles, %.2f sure: %s\n", organ.kind.c_str(), part.triangle_count,
+                        organ.certainty, organ.why.c_str());
+        }
     for (const Organ& organ : organs)
         if (const int kind = seen_as(organ.kind); kind >= 0) found.counts[size_t(kind)]++;
     const Chain chain = make_chain(surface, topology, organs, {});

@@ -15,7 +15,8 @@ static Total print_table(bool bare) {
     constexpr double AT_THE_FOOT = 0.15;
     const std::vector<Row> rows = read_seen();
     Total total;
-    std::printf("%-28s leaves  stems  solids flowers crowns supports  right  root   ms\n", bare ? "bare" : "as they are");
+    std::printf("%-28s leaves  stems  solids flowers crowns supports  right  root   ms\n",
+                bare ? "bare" : "as they are");
     for (const Row& row : rows) {
         const Found found = find(row, bare);
         const Score score = compare(row, found.counts);
@@ -24,13 +25,14 @@ static Total print_table(bool bare) {
             const auto& [fewest, most] = row.counts[kind];
             std::printf(fewest == most ? " %3d/%d  " : " %3d/%d-%d", found.counts[kind], fewest, most);
         }
-        std::printf(" %2d/%-2d %s %.2f %6.1f\n", score.right, score.all, score.leaves ? " " : "L", found.root, found.ms);
+        std::printf(" %2d/%-2d %s %.2f %6.1f\n", score.right, score.all, score.leaves ? " " : "L", found.root,
+                    found.ms);
         total.kinds += double(score.right) / std::max(1, score.all) / double(rows.size());
         total.leaves += double(score.leaves) / double(rows.size());
         total.feet += double(found.root < AT_THE_FOOT) / double(rows.size());
     }
-    std::printf("kinds right %.3f, count of leaves right in %.3f of files, rooted at the foot %.3f\n", total.kinds, total.leaves,
-                total.feet);
+    std::printf("kinds right %.3f, count of leaves right in %.3f of files, rooted at the foot %.3f\n", total.kinds,
+                total.leaves, total.feet);
     return total;
 }
 
