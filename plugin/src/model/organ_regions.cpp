@@ -57,7 +57,13 @@ struct Finder {
         const int parent = slab(i).parent;
         return same_mesh(i) && piece(i).group == piece(parent).group && slab(i).is_sheet == slab(parent).is_sheet;
     }
-    double foot_radius(int i) const { return 0.25 * (slab(i).box.sizes().x() + slab(i).box.sizes().z()); }
+    double foot_radius(int i) const {
+        const Piece& foot = piece(i);
+        if (!(foot.area > 0)) return 0;
+        const Vec3 middle = foot.sum / foot.area;
+        const Mat3 spread = foot.square / foot.area - middle * middle.transpose();
+        return 1.2 * std::sqrt(std::max(0.0, spread(0, 0) + spread(2, 2)));
+    }
     // Returns the radius of a ring as long as the line where a slab grows out of another one of its mesh [m].
     double neck_radius(int i) const { return same_mesh(i) ? std::max(0.0, contact(i).length) / (2 * PI) : 0; }
 };

@@ -303,10 +303,10 @@ bool belongs_to_parent(const Voter& voter, const std::vector<FoundOrgan>& found,
     if (region.parent < 0) return false;
     const size_t p = size_t(region.parent);
     if (found[r].kind != found[p].kind) return false;
-    // Parts that are both named after wood are organs of their own.
-    if (region.part != voter.regions[p].part && !voter.named[size_t(region.part)].empty() &&
-        !voter.named[size_t(voter.regions[p].part)].empty() && found[r].kind != "flower")
-        return false;
+    // Stems of two nodes of a file are two organs.
+    const Part &own = voter.surface.parts[size_t(region.part)],
+               &other = voter.surface.parts[size_t(voter.regions[p].part)];
+    if (own.name != other.name && found[r].kind != "flower") return false;
     const std::string& kind = found[r].kind;
     if (kind == "stem" || kind == "branch" || kind == "root" || kind == "peduncle") {
         // Stems that stand beside each other are tied at their feet.

@@ -54,4 +54,8 @@ std::vector<RibCut> cut_ribs(const Surface& surface, const Topology& topology, c
 // Returns 0 for an ellipse and a polygon like one, 1 for a rectangle.
 double squareness(double area, double inertia_thin, double inertia_wide);
 
+// Lists the chain nodes on the ways between those that a triangle's corners are assigned to, without these: a long
+// triangle of a coarse mesh passes capsules at which it has no corner.
+void list_nodes_between(const Chain& chain, const Triangle& triangle, std::vector<int>& nodes);
+
 }  // namespace frond

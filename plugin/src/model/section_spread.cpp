@@ -78,18 +78,23 @@ std::vector<std::vector<Tile>> collect_patches(const Surface& surface, const Cha
         touching[size_t(chain.nodes[i].parent)].push_back(int(i));
     }
     Sharer sharer{chain, patches};
+    std::vector<int> between;
     for (const Part& part : surface.parts)
         for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++) {
             const Triangle& triangle = surface.triangles[size_t(t)];
             sharer.capsules.clear();
             double length = 0;
-            for (int corner : triangle)
-                for (int capsule : touching[size_t(chain.vertex_node[size_t(corner)])]) {
+            const auto touch = [&](int at) {
+                for (int capsule : touching[size_t(at)]) {
                     const ChainNode& node = chain.nodes[size_t(capsule)];
                     if (node.organ != part.organ) continue;
                     sharer.capsules.push_back(capsule);
                     length += (node.position - chain.nodes[size_t(node.parent)].position).norm();
                 }
+            };
+            for (int corner : triangle) touch(chain.vertex_node[size_t(corner)]);
+            list_nodes_between(chain, triangle, between);
+            for (int node : between) touch(node);
             if (sharer.capsules.empty()) continue;
             const Vec3& a = surface.positions[size_t(triangle[0])];
             const Vec3& b = surface.positions[size_t(triangle[1])];
@@ -135,6 +140,27 @@ Spread measure_spread(const std::vector<Tile>& patches, const CapsuleFrame& fram
 }
 
 }  // namespace
+
+void list_nodes_between(const Chain& chain, const Triangle& triangle, std::vector<int>& nodes) {
+    nodes.clear();
+    std::array<int, 3> ends;
+    for (size_t k = 0; k < 3; k++) ends[k] = chain.vertex_node[size_t(triangle[k])];
+    const auto add = [&](int node) {
+        if (std::find(ends.begin(), ends.end(), node) != ends.end()) return;
+        if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+    };
+    for (size_t k = 0; k < 3; k++) {
+        // Parents have the smaller numbers, so that both walks meet where the ways do, if they do.
+        int a = ends[k], b = ends[(k + 1) % 3];
+        const size_t before = nodes.size();
+        while (a != b && a >= 0 && b >= 0) {
+            int& farther = a > b ? a : b;
+            farther = chain.nodes[size_t(farther)].parent;
+            if (farther >= 0) add(farther);
+        }
+        if (a < 0 || b < 0) nodes.resize(before);
+    }
+}
 
 std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
                                     const std::vector<CapsuleFrame>& frames) {
