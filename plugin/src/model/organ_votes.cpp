@@ -345,6 +345,20 @@ void join_stems(const std::vector<Region>& regions, const std::vector<FoundOrgan
     }
 }
 
+// Joins hairs: awns, silk and the like, sheets far smaller than the plant's leaves, that hang on the same region.
+void join_hairs(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
+    constexpr double FAR_SMALLER = 0.05;  // area over that of the largest leaf
+    double largest = 0;
+    for (size_t r = 0; r < regions.size(); r++)
+        if (found[r].kind == "blade") largest = std::max(largest, regions[r].area);
+    std::map<std::pair<int, int>, int> first;  // by parent and part
+    for (size_t r = 0; r < regions.size(); r++) {
+        if (found[r].kind != "blade" || regions[r].parent < 0 || regions[r].area > FAR_SMALLER * largest) continue;
+        const auto [at, fresh] = first.emplace(std::make_pair(regions[r].parent, regions[r].part), int(r));
+        if (!fresh) sets.join(int(r), at->second);
+    }
+}
+
 // Joins the leaves of crowns that have hundreds of them: those of one part that begin near each other are a cluster.
 void join_clusters(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, double size,
                    UnionFind& sets) {
@@ -395,6 +409,7 @@ FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std
         if (belongs_to_parent(voter, found, r)) sets.join(int(r), cut.regions[r].parent);
     join_petals(cut.regions, found, sets);
     join_stems(cut.regions, found, sets);
+    join_hairs(cut.regions, found, sets);
     join_clusters(cut.regions, found, surface.size(), sets);
     FoundOrgans out;
     std::vector<int> number(cut.regions.size(), -1);

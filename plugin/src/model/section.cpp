@@ -274,8 +274,14 @@ static void carry_crowns(const Chain& chain, const std::vector<Organ>& organs, s
 std::vector<Section> measure_sections(const Surface& surface, const Topology& topology,
                                       const std::vector<Organ>& organs, const Chain& chain) {
     const std::vector<CapsuleFrame> frames = make_frames(chain);
-    const std::vector<Spread> spreads = measure_spreads(surface, chain, frames);
-    const std::vector<Outline> outlines = cut_outlines(surface, topology, organs, chain, frames);
+    std::vector<char> hearts = find_hearts(chain);
+    for (size_t i = 0; i < hearts.size(); i++)
+        hearts[i] = hearts[i] && is_sheet(organs[size_t(std::max(chain.nodes[i].organ, 0))]);
+    const std::vector<Spread> spreads = measure_spreads(surface, chain, frames, hearts);
+    std::vector<Outline> outlines = cut_outlines(surface, topology, organs, chain, frames);
+    // The outline of one leaf is not that of a heart.
+    for (size_t i = 0; i < hearts.size(); i++)
+        if (hearts[i]) outlines[i].found = outlines[i].doubled = false;
     const std::vector<double> gaps = measure_gaps(organs, chain, outlines);
     const std::vector<RibCut> ribs = cut_ribs(surface, topology, chain, frames);
     std::vector<Section> sections(chain.nodes.size());

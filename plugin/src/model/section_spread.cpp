@@ -65,7 +65,8 @@ struct Sharer {
 };
 
 // Distributes each triangle over the capsules of its own organ that begin or end where its corners are assigned.
-std::vector<std::vector<Tile>> collect_patches(const Surface& surface, const Chain& chain) {
+std::vector<std::vector<Tile>> collect_patches(const Surface& surface, const Chain& chain,
+                                               const std::vector<char>& hearts) {
     constexpr double SMALL = 1.0 / 16;  // share of a capsule's length
     // A triangle gives some hundreds of tiles at most, and all together not many millions.
     constexpr double MOST_PIECES = 8e6, FINEST = 24;
@@ -87,7 +88,7 @@ std::vector<std::vector<Tile>> collect_patches(const Surface& surface, const Cha
             const auto touch = [&](int at) {
                 for (int capsule : touching[size_t(at)]) {
                     const ChainNode& node = chain.nodes[size_t(capsule)];
-                    if (node.organ != part.organ) continue;
+                    if (node.organ != part.organ && !hearts[size_t(capsule)]) continue;
                     sharer.capsules.push_back(capsule);
                     length += (node.position - chain.nodes[size_t(node.parent)].position).norm();
                 }
@@ -141,6 +142,19 @@ Spread measure_spread(const std::vector<Tile>& patches, const CapsuleFrame& fram
 
 }  // namespace
 
+std::vector<char> find_hearts(const Chain& chain) {
+    constexpr int SEVERAL = 2;
+    std::vector<int> others(chain.nodes.size(), 0);
+    for (const ChainNode& node : chain.nodes)
+        if (node.parent >= 0 && node.organ != chain.nodes[size_t(node.parent)].organ) others[size_t(node.parent)]++;
+    std::vector<char> hearts(chain.nodes.size(), 0);
+    for (size_t i = 0; i < hearts.size(); i++) {
+        const int parent = chain.nodes[i].parent;
+        hearts[i] = parent >= 0 && chain.nodes[size_t(parent)].parent < 0 && others[i] >= SEVERAL;
+    }
+    return hearts;
+}
+
 void list_nodes_between(const Chain& chain, const Triangle& triangle, std::vector<int>& nodes) {
     nodes.clear();
     std::array<int, 3> ends;
@@ -162,9 +176,9 @@ void list_nodes_between(const Chain& chain, const Triangle& triangle, std::vecto
     }
 }
 
-std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
-                                    const std::vector<CapsuleFrame>& frames) {
-    const std::vector<std::vector<Tile>> patches = collect_patches(surface, chain);
+std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain, const std::vector<CapsuleFrame>& frames,
+                                    const std::vector<char>& hearts) {
+    const std::vector<std::vector<Tile>> patches = collect_patches(surface, chain, hearts);
     std::vector<Spread> spreads(patches.size(), {0, 0, 0, Vec3::UnitX(), Eigen::Vector2d::Zero()});
     for (size_t i = 0; i < patches.size(); i++)
         if (!patches[i].empty()) spreads[i] = measure_spread(patches[i], frames[i]);
