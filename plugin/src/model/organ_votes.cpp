@@ -10,7 +10,7 @@
 //   it is dark and brown                                    1 for a branch
 //   it is bright and not green                              2 for a flower if a sheet, 1 for a fruit if a solid
 //   its texture lets light through                          1 for a blade
-// Then regions that touch and have the same kind are one organ, if they are tubes, or petals of one flower.
+// Then regions are joined to organs: see organ_join.cpp.
 #include "model/organ_votes.hpp"
 
 #include <algorithm>
@@ -18,12 +18,11 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <tuple>
 
 #include "core/elementary.hpp"
 #include "model/organ_clues.hpp"
+#include "model/organ_join.hpp"
 #include "model/organ_regions.hpp"
-#include "model/union_find.hpp"
 
 namespace frond {
 
@@ -136,14 +135,10 @@ bool reaches_ground(const Voter& voter, size_t r) {
     return voter.regions[r].box.min().y() < voter.foot + AT_FOOT * voter.height;
 }
 
-// Returns whether a region begins a mesh on the ground.
-bool stands(const Voter& voter, const Region& region) {
-    return !region.same_mesh && region.box.min().y() < voter.foot + 0.05 * voter.height;
-}
-
 // Returns whether a tube is a blade of grass: it stands among others that bear nothing, too.
 bool is_bare(const Voter& voter, const Region& region) {
-    return region.form != Form::SOLID && stands(voter, region) && region.tubes + region.sheets + region.solids <= 1;
+    return region.form != Form::SOLID && stands(region, voter.foot, voter.height) &&
+           region.tubes + region.sheets + region.solids <= 1;
 }
 bool is_grass(const Voter& voter, const Region& region) {
     constexpr int TUFT = 5;
@@ -172,7 +167,7 @@ bool is_petiole(const Voter& voter, size_t r) {
     const Region& region = voter.regions[r];
     if (region.form != Form::TUBE || voter.tube == "branch" || voter.others[r] > 0 || region.length > 0.6 * voter.size)
         return false;
-    if (stands(voter, region)) return voter.leaves[r] == 1;
+    if (stands(region, voter.foot, voter.height)) return voter.leaves[r] == 1;
     const Region& parent = voter.regions[size_t(region.parent)];
     return voter.leaves[r] > 0 && voter.leaves[r] <= FEW_LEAVES &&
            (parent.form == Form::SOLID || region.radius() < PETIOLE_THIN * parent.radius());
@@ -297,87 +292,6 @@ void find_bright_parts(Voter& voter) {
     voter.bright.assign(area.size(), bright < 0.8 * all ? 1 : 0);
 }
 
-// Returns whether a region belongs to the organ of what it grows out of.
-bool belongs_to_parent(const Voter& voter, const std::vector<FoundOrgan>& found, size_t r) {
-    const Region& region = voter.regions[r];
-    if (region.parent < 0) return false;
-    const size_t p = size_t(region.parent);
-    if (found[r].kind != found[p].kind) return false;
-    // Stems of two nodes of a file are two organs.
-    const Part &own = voter.surface.parts[size_t(region.part)],
-               &other = voter.surface.parts[size_t(voter.regions[p].part)];
-    if (own.name != other.name && found[r].kind != "flower") return false;
-    const std::string& kind = found[r].kind;
-    if (kind == "stem" || kind == "branch" || kind == "root" || kind == "peduncle") {
-        // Stems that stand beside each other are tied at their feet.
-        return !(stands(voter, region) && region.box.sizes().y() > 0.3 * voter.height);
-    }
-    if (kind == "flower") return true;
-    if (kind == "crown") return region.same_mesh;
-    // A leaf whose midrib or base was told apart from it.
-    return region.same_mesh && kind == "blade" && region.form != voter.regions[p].form;
-}
-
-// Joins the parts of a flower: those that are near each other, by their size.
-void join_petals(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
-    constexpr double NEAR = 0.15;
-    constexpr size_t MOST = 2000;  // beyond that it is no plant with flowers but a meadow
-    std::vector<int> petals;
-    for (size_t r = 0; r < regions.size(); r++)
-        if (found[r].kind == "flower") petals.push_back(int(r));
-    if (petals.size() > MOST) return;
-    for (size_t i = 0; i < petals.size(); i++)
-        for (size_t k = 0; k < i; k++) {
-            const Region &a = regions[size_t(petals[i])], &b = regions[size_t(petals[k])];
-            const double size = std::min(a.box.diagonal().norm(), b.box.diagonal().norm());
-            if (a.box.exteriorDistance(b.box) < NEAR * size) sets.join(petals[i], petals[k]);
-        }
-}
-
-// Joins tubes of one mesh and part, between which foliage lies.
-void join_stems(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
-    std::map<std::tuple<int, int, std::string>, int> first;
-    for (size_t r = 0; r < regions.size(); r++) {
-        if (regions[r].form != Form::TUBE || (found[r].kind != "stem" && found[r].kind != "branch")) continue;
-        const auto [at, fresh] =
-            first.emplace(std::make_tuple(regions[r].component, regions[r].part, found[r].kind), int(r));
-        if (!fresh) sets.join(int(r), at->second);
-    }
-}
-
-// Joins hairs: awns, silk and the like, sheets far smaller than the plant's leaves, that hang on the same region.
-void join_hairs(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
-    constexpr double FAR_SMALLER = 0.05;  // area over that of the largest leaf
-    double largest = 0;
-    for (size_t r = 0; r < regions.size(); r++)
-        if (found[r].kind == "blade") largest = std::max(largest, regions[r].area);
-    std::map<std::pair<int, int>, int> first;  // by parent and part
-    for (size_t r = 0; r < regions.size(); r++) {
-        if (found[r].kind != "blade" || regions[r].parent < 0 || regions[r].area > FAR_SMALLER * largest) continue;
-        const auto [at, fresh] = first.emplace(std::make_pair(regions[r].parent, regions[r].part), int(r));
-        if (!fresh) sets.join(int(r), at->second);
-    }
-}
-
-// Joins the leaves of crowns that have hundreds of them: those of one part that begin near each other are a cluster.
-void join_clusters(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, double size,
-                   UnionFind& sets) {
-    constexpr int MOST_LEAVES = 120;
-    constexpr double CLUSTER = 0.15;  // edge of a cluster, as a share of the plant's size
-    std::vector<int> leaves;
-    for (size_t r = 0; r < regions.size(); r++)
-        if (found[r].kind == "blade" && sets.find(int(r)) == int(r)) leaves.push_back(int(r));
-    if (int(leaves.size()) <= MOST_LEAVES) return;
-    std::map<std::array<int, 4>, int> first;
-    for (int r : leaves) {
-        const Region& region = regions[size_t(r)];
-        std::array<int, 4> cell = {region.part, 0, 0, 0};
-        for (int k = 0; k < 3; k++) cell[size_t(k) + 1] = int(std::floor(region.begin[k] / (CLUSTER * size)));
-        const auto [at, fresh] = first.emplace(cell, r);
-        if (!fresh) sets.join(r, at->second);
-    }
-}
-
 }  // namespace
 
 FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std::vector<std::string> named,
@@ -404,13 +318,7 @@ FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std
     std::vector<FoundOrgan> found;
     for (size_t r = 0; r < cut.regions.size(); r++) found.push_back(vote(voter, r));
 
-    UnionFind sets(cut.regions.size());
-    for (size_t r = 0; r < cut.regions.size(); r++)
-        if (belongs_to_parent(voter, found, r)) sets.join(int(r), cut.regions[r].parent);
-    join_petals(cut.regions, found, sets);
-    join_stems(cut.regions, found, sets);
-    join_hairs(cut.regions, found, sets);
-    join_clusters(cut.regions, found, surface.size(), sets);
+    UnionFind sets = join_regions(surface, cut.regions, found);
     FoundOrgans out;
     std::vector<int> number(cut.regions.size(), -1);
     std::vector<double> largest;
