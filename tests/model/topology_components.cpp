@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
 #include <set>
 
 #include "core/error.hpp"
@@ -45,6 +47,30 @@ TEST(Topology, WeldsVerticesAtTheSamePlace) {
     EXPECT_EQ(topology.component_count, 2);
     EXPECT_EQ(topology.triangle_component, (std::vector<int>{0, 0, 1}));
     expect_tree(topology);
+}
+
+// Triangles of a scan or a printer's file, none of which shares a corner exactly.
+TEST(Topology, OfASoupIsThatOfItsMesh) {
+    constexpr int SIDES = 8, RINGS = 30;
+    Surface surface;
+    surface.parts.emplace_back();
+    std::mt19937_64 engine(5);
+    std::uniform_real_distribution<double> dice(-1e-5, 1e-5);
+    const auto corner = [&](int ring, int k) {
+        const double angle = 2 * M_PI * k / SIDES;
+        surface.positions.push_back(
+            Vec3(0.02 * std::cos(angle) + dice(engine), double(ring) / RINGS, 0.02 * std::sin(angle) + dice(engine)));
+        return int(surface.positions.size()) - 1;
+    };
+    for (int ring = 0; ring < RINGS; ring++)
+        for (int k = 0; k < SIDES; k++) {
+            surface.triangles.push_back({corner(ring, k), corner(ring, k + 1), corner(ring + 1, k + 1)});
+            surface.triangles.push_back({corner(ring, k), corner(ring + 1, k + 1), corner(ring + 1, k)});
+        }
+    surface.parts[0].triangle_count = int(surface.triangles.size());
+    const Topology topology = make_topology(surface);
+    EXPECT_EQ(topology.component_count, 1);
+    EXPECT_EQ(topology.points.size(), size_t(SIDES * (RINGS + 1)));
 }
 
 TEST(Topology, WeldingMatchesComparingAllPairs) {

@@ -39,6 +39,8 @@ nlohmann::ordered_json describe_organ(const frond_organ& organ) {
     const auto range = [](const frond_range& r) { return nlohmann::ordered_json{r.lower, r.upper}; };
     return {{"name", organ.name},
             {"kind", organ.kind},
+            {"why", organ.why},
+            {"certainty", organ.certainty},
             {"material", describe_material(organ.material)},
             {"capsules", organ.capsule_count},
             {"length", organ.length},
@@ -142,6 +144,14 @@ void print_kinds(const nlohmann::ordered_json& organs) {
     }
 }
 
+// Prints why an organ is of its kind, and how sure that is.
+void print_reason(const nlohmann::ordered_json& organs, const nlohmann::ordered_json& name) {
+    const auto organ = std::find_if(organs.begin(), organs.end(), [&](const auto& one) { return one["name"] == name; });
+    if (organ == organs.end() || (*organ)["why"] == "") return;
+    std::printf("             %3.0f %% sure: %s\n", 100 * (*organ)["certainty"].get<double>(),
+                (*organ)["why"].get<std::string>().c_str());
+}
+
 void print_model(const nlohmann::ordered_json& out) {
     const auto number = [&](const char* group, const char* field) { return out[group][field].get<double>(); };
     const auto count = [&](const char* group, const char* field) { return out[group][field].get<int>(); };
@@ -173,6 +183,7 @@ void print_model(const nlohmann::ordered_json& out) {
         std::printf("  organ    %-24s %-9s %7d triangles   (%s, %s)\n", part["organ"].get<std::string>().c_str(),
                     part["kind"].get<std::string>().c_str(), part["triangles"].get<int>(),
                     part["name"].get<std::string>().c_str(), part["material"].get<std::string>().c_str());
+        print_reason(out["organs"], part["organ"]);
     }
     if (out["parts"].size() > MOST_PARTS)
         std::printf("  ... and %zu more; --json lists all\n", out["parts"].size() - MOST_PARTS);

@@ -200,6 +200,8 @@ frond_result frond_model_get_organ(frond_model model, int organ, frond_organ* ou
         const Organ& o = m.organs[size_t(organ)];
         view.name = o.name.c_str();
         view.kind = o.kind.c_str();
+        view.why = o.why.c_str();
+        view.certainty = o.certainty;
         view.material = o.material;
         describe_sections(m, organ, view);
     });

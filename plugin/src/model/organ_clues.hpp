@@ -19,14 +19,18 @@ bool names_a_grass(const std::string& name);
 bool names_a_bush(const std::string& name);
 // Returns whether names mean a herb or a pot plant, and none a tree: it grows to some metres at most.
 bool names_a_herb(const std::vector<std::string>& names);
+// Returns whether a name means many organs at once ("leaves", "foliage", "twigs").
+bool names_many(const std::string& name);
 // Returns the kind of each part, or an empty text; node names take precedence over material names.
 std::vector<std::string> kinds_by_name(const Surface& surface);
-// Returns for each triangle whether it belongs to a sheet (a leaf, open or closed) rather than to a tube.
-std::vector<char> find_sheets(const Topology& topology);
 // Returns for each triangle whether it belongs to foliage that is drawn as one solid: held up by something else or,
 // with `on_ground`, also standing on the ground.
 std::vector<char> find_crowns(const Topology& topology, bool on_ground);
 
+// Makes parts named branches blades if they are cards beside real branches; `sheets` says which triangles are of
+// sheets.
+void find_cards(const Surface& surface, const Topology& topology, const std::vector<char>& sheets,
+                std::vector<std::string>& named);
 // Replaces materials by the caller's, as a part of find_organs().
 void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count);
 

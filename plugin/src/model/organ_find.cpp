@@ -7,10 +7,9 @@
 
 #include "core/error.hpp"
 #include "model/organ_clues.hpp"
+#include "model/organ_votes.hpp"
 
 namespace frond {
-
-constexpr double TREE_HEIGHT = 3;  // higher plants are held by wood [m]
 
 // Returns whether a part has the border of a sheet, at least as long as itself; a tube is closed or ends in rings.
 static bool has_border(const Topology& topology, const Part& part) {
@@ -31,8 +30,8 @@ static bool has_border(const Topology& topology, const Part& part) {
 
 // Finds twigs drawn as cards with leaves on them: parts named branches that are nearly all sheets, if other branches
 // are not. Makes them blades.
-static void find_cards(const Surface& surface, const Topology& topology, const std::vector<char>& sheets,
-                       std::vector<std::string>& named) {
+void find_cards(const Surface& surface, const Topology& topology, const std::vector<char>& sheets,
+                std::vector<std::string>& named) {
     constexpr double NEARLY_ALL = 0.9;
     std::vector<char> is_card(named.size(), 0);
     bool has_wood = false;
@@ -48,45 +47,47 @@ static void find_cards(const Surface& surface, const Topology& topology, const s
         if (has_wood && is_card[i]) named[i] = "blade";
 }
 
-static bool is_green(const std::array<float, 4>& color) {
-    return color[1] > 1.1f * color[0] && color[1] > 1.3f * color[2];
-}
-
-// Makes unnamed green parts of a plant with wood blades: they are foliage, however solid they were drawn.
-static void find_foliage(const Surface& surface, std::vector<std::string>& named) {
-    if (std::find(named.begin(), named.end(), "branch") == named.end()) return;
-    for (size_t i = 0; i < named.size(); i++) {
+// Returns which parts are one organ each: those whose own node is named after one organ.
+static std::vector<char> find_whole_parts(const Surface& surface, const std::vector<std::string>& named) {
+    std::multiset<std::string> given;
+    for (const Part& part : surface.parts) given.insert(part.name);
+    std::vector<char> whole(surface.parts.size(), 0);
+    for (size_t i = 0; i < whole.size(); i++) {
         const Part& part = surface.parts[i];
-        const bool has_color = part.texture < 0 && part.color != Part().color;
-        if (named[i].empty() && has_color && is_green(part.color)) named[i] = "blade";
+        const NameClue clue = read_name(part.name);
+        // Branches may be cards with leaves on them.
+        whole[i] = part.triangle_count == 0 || (!named[i].empty() && named[i] != "branch" && clue.kind == named[i] &&
+                                                !clue.species && given.count(part.name) == 1 && !names_many(part.name));
     }
+    return whole;
 }
 
-// Returns a kind for every triangle: by the names of its part, else by colour and shape.
-static std::vector<std::string> kinds_of_triangles(const Surface& surface, const Topology& topology) {
-    std::vector<std::string> named = kinds_by_name(surface);
-    std::vector<std::string> kinds(surface.triangles.size());
-    const auto is_open = [](const std::string& kind) { return kind.empty() || kind == "branch"; };
-    std::vector<char> sheets;
-    if (std::any_of(named.begin(), named.end(), is_open)) {
-        sheets = find_sheets(topology);
-        find_cards(surface, topology, sheets, named);
-        find_foliage(surface, named);
-    }
+// Finds the organs of the parts: whole ones, and those that shape and other clues tell apart in the rest.
+static FoundOrgans find_in_parts(const Surface& surface, const Topology& topology) {
+    const std::vector<std::string> named = kinds_by_name(surface);
+    const std::vector<char> whole = find_whole_parts(surface, named);
     const bool is_bush = std::any_of(surface.parts.begin(), surface.parts.end(), [](const Part& part) {
         return names_a_bush(part.name) || names_a_bush(part.material);
     });
     const std::vector<char> crowns = find_crowns(topology, is_bush);
-    const std::string tube = surface.height() > TREE_HEIGHT ? "branch" : "stem";
-    for (size_t i = 0; i < surface.parts.size(); i++) {
+    FoundOrgans found;
+    if (std::find(whole.begin(), whole.end(), 0) == whole.end())
+        found.organ_of.assign(surface.triangles.size(), -1);
+    else
+        found = vote_on_organs(surface, topology, named, crowns);
+    for (size_t i = 0; i < whole.size(); i++) {
+        if (!whole[i]) continue;
         const Part& part = surface.parts[i];
-        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
-            if (crowns[size_t(t)] && (named[i].empty() || named[i] == "blade"))
-                kinds[size_t(t)] = "crown";
-            else
-                kinds[size_t(t)] = !named[i].empty() ? named[i] : sheets[size_t(t)] ? "blade" : tube;
+        // What is called a leaf, but is a ball, is foliage; so it may be in a part of several meshes.
+        std::map<std::string, int> organ_of_kind;
+        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++) {
+            const std::string kind = crowns[size_t(t)] && named[i] == "blade" ? "crown" : named[i];
+            const auto [at, fresh] = organ_of_kind.emplace(kind, int(found.organs.size()));
+            if (fresh) found.organs.push_back({kind, "its node is named " + named[i], 1});
+            found.organ_of[size_t(t)] = at->second;
+        }
     }
-    return kinds;
+    return found;
 }
 
 template <typename T>
@@ -96,31 +97,31 @@ static void reorder(std::vector<T>& values, const std::vector<int>& order) {
     values.swap(moved);
 }
 
-// Splits each part into runs of one kind, in the order in which the kinds first appear. Returns the kind of each new
-// part.
-static std::vector<std::string> split_parts(Surface& surface, Topology& topology,
-                                            const std::vector<std::string>& kinds) {
+// Splits each part into runs of one organ, in the order in which they first appear. Sets Part::organ by found.organs.
+static void split_parts(Surface& surface, Topology& topology, const std::vector<int>& organ_of) {
     std::vector<int> order(surface.triangles.size());
     std::iota(order.begin(), order.end(), 0);
     std::vector<Part> parts;
-    std::vector<std::string> part_kinds;
-    bool moved = false;
     for (const Part& part : surface.parts) {
         const auto begin = order.begin() + part.first_triangle, end = begin + part.triangle_count;
+        // The organs of a part in the order in which they appear in it.
+        std::map<int, int> rank;
+        for (auto at = begin; at != end; ++at) rank.emplace(organ_of[size_t(*at)], int(rank.size()));
+        std::stable_sort(begin, end,
+                         [&](int a, int b) { return rank.at(organ_of[size_t(a)]) < rank.at(organ_of[size_t(b)]); });
         auto from = begin;
         do {
-            const std::string kind = from == end ? "stem" : kinds[size_t(*from)];
-            const auto to = std::stable_partition(from, end, [&](int t) { return kinds[size_t(t)] == kind; });
-            moved = moved || to != end;
+            const int organ = from == end ? -1 : organ_of[size_t(*from)];
+            const auto to = std::find_if(from, end, [&](int t) { return organ_of[size_t(t)] != organ; });
             parts.push_back(part);
             parts.back().first_triangle = int(from - order.begin());
             parts.back().triangle_count = int(to - from);
-            part_kinds.push_back(kind);
+            parts.back().organ = organ;
             from = to;
         } while (from != end);
     }
     surface.parts = std::move(parts);
-    if (!moved) return part_kinds;
+    if (std::is_sorted(order.begin(), order.end())) return;
     // The topology must list the same triangles in the same order.
     reorder(surface.triangles, order);
     reorder(topology.triangles, order);
@@ -132,30 +133,34 @@ static std::vector<std::string> split_parts(Surface& surface, Topology& topology
         joint.triangle_a = place[size_t(joint.triangle_a)];
         joint.triangle_b = place[size_t(joint.triangle_b)];
     }
-    return part_kinds;
 }
 
-// Makes one organ per part, with the part's own name if no other part has it, else its kind and a number that is still
-// free.
-static std::vector<Organ> name_organs(Surface& surface, const std::vector<std::string>& kinds) {
+// Makes the organs, numbered in the order of their first parts. Each has its part's own name if no other part has it,
+// else its kind and a number that is still free.
+static std::vector<Organ> name_organs(Surface& surface, const std::vector<FoundOrgan>& found) {
     std::multiset<std::string> given;
     for (const Part& part : surface.parts) given.insert(part.name);
     std::set<std::string> taken(given.begin(), given.end());
     std::vector<Organ> organs;
-    std::vector<std::pair<std::string, int>> counters;
-    for (size_t i = 0; i < surface.parts.size(); i++) {
-        Part& part = surface.parts[i];
+    std::map<std::string, int> counters;
+    std::map<int, int> number;
+    for (Part& part : surface.parts) {
+        const auto [at, fresh] = number.emplace(part.organ, int(organs.size()));
+        // A part without triangles is an organ of its own.
+        const FoundOrgan one = part.organ < 0 ? FoundOrgan{"stem", "", 1} : found[size_t(part.organ)];
+        const bool is_new = fresh || part.organ < 0;
+        part.organ = is_new ? int(organs.size()) : at->second;
+        if (!is_new) continue;
         std::string name = part.name;
         if (name.empty() || given.count(name) > 1) {
-            auto counter = std::find_if(counters.begin(), counters.end(), [&](auto& c) { return c.first == kinds[i]; });
-            if (counter == counters.end()) counter = counters.insert(counters.end(), {kinds[i], 0});
-            do name = kinds[i] + "_" + std::to_string(++counter->second);
+            do name = one.kind + "_" + std::to_string(++counters[one.kind]);
             while (!taken.insert(name).second);
         }
-        part.organ = int(organs.size());
         const bool grass = names_a_grass(part.name) || names_a_grass(part.material);
-        const Material* grass_material = grass ? material_preset("grass_" + kinds[i]) : nullptr;
-        organs.push_back({name, kinds[i], grass_material ? *grass_material : *material_preset(kinds[i])});
+        const Material* grass_material = grass ? material_preset("grass_" + one.kind) : nullptr;
+        organs.push_back({name, one.kind, grass_material ? *grass_material : *material_preset(one.kind)});
+        organs.back().why = one.why;
+        organs.back().certainty = one.certainty;
     }
     return organs;
 }
@@ -235,8 +240,9 @@ std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond
         surface.parts.emplace_back();
         surface.parts.back().triangle_count = int(surface.triangles.size());
     }
-    const std::vector<std::string> kinds = split_parts(surface, topology, kinds_of_triangles(surface, topology));
-    std::vector<Organ> organs = name_organs(surface, kinds);
+    const FoundOrgans found = find_in_parts(surface, topology);
+    split_parts(surface, topology, found.organ_of);
+    std::vector<Organ> organs = name_organs(surface, found.organs);
     override_materials(organs, overrides, override_count);
     color_by_kind(surface, organs);
     return organs;

@@ -279,6 +279,20 @@ static bool has_palette(const Surface& surface) {
     });
 }
 
+bool names_many(const std::string& name) {
+    static const std::set<std::string> words = {
+        "leaves",   "leafs",   "lvs",     "foliage", "canopy", "grass",     "branches", "berries", "husks",    "laub",
+        "blaetter", "blätter", "blatter", "nadeln",  "hojas",  "feuillage", "foglie",   "folia",   "bladeren", "zweige",
+        "aeste",    "äste",    "blumen",  "bluete",  "blüten", "blueten",   "frutti",   "beeren"};
+    for (const std::string& word : words_of(name)) {
+        if (words.count(word)) return true;
+        // A plural of an organ's name.
+        if (word.size() > 3 && word.back() == 's' && !organ_words().count(word) && look_up(organ_words(), word))
+            return true;
+    }
+    return false;
+}
+
 std::vector<std::string> kinds_by_name(const Surface& surface) {
     const size_t count = surface.parts.size();
     std::vector<std::string> kinds(count);

@@ -48,6 +48,8 @@ void name_organs(const UrdfTree& tree, const std::vector<int>& link_of_part, Sur
         const Part& part = surface.parts[p];
         Organ& organ = organs[size_t(part.organ)];
         organ.kind = kind_of(link, part.material, organ.kind);
+        organ.why.clear();
+        organ.certainty = 1;
         organ.material = material_of(link, part.material, organ.kind);
         std::string name = link.name;
         for (int i = 2; !taken.insert(name).second; ++i) name = link.name + "_" + std::to_string(i);

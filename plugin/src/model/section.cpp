@@ -71,17 +71,49 @@ void fill_ring(const Spread& spread, double width, double thickness, Section& se
     section.inertia_wide = std::max(sheet * (spread.large + own), solid * spread.large / 2);
 }
 
+// Two faces bound a sheet, unless they are so close that they are its middle surface, drawn twice.
+bool is_bounded(const Organ& organ, const Outline& outline) {
+    return outline.found && outline.doubled && outline.gap > 0.5 * organ.material.thickness;
+}
+
+// Returns the thickness of each sheet that is bounded by two faces for a good part of its length, else 0 [m].
+std::vector<double> measure_gaps(const std::vector<Organ>& organs, const Chain& chain,
+                                 const std::vector<Outline>& outlines) {
+    constexpr double GOOD_PART = 1.0 / 3;
+    std::vector<std::vector<double>> gaps(organs.size());
+    std::vector<int> capsules(organs.size(), 0);
+    for (size_t i = 0; i < chain.nodes.size(); i++) {
+        const int organ = chain.nodes[i].organ;
+        if (chain.nodes[i].parent < 0 || organ < 0 || !is_sheet(organs[size_t(organ)])) continue;
+        capsules[size_t(organ)]++;
+        if (is_bounded(organs[size_t(organ)], outlines[i])) gaps[size_t(organ)].push_back(outlines[i].gap);
+    }
+    std::vector<double> middle(organs.size(), 0.0);
+    for (size_t o = 0; o < organs.size(); o++) {
+        if (gaps[o].empty() || double(gaps[o].size()) < GOOD_PART * capsules[o]) continue;
+        const auto half = gaps[o].begin() + long(gaps[o].size() / 2);
+        std::nth_element(gaps[o].begin(), half, gaps[o].end());
+        middle[o] = *half;
+    }
+    return middle;
+}
+
 // Fills area and second moments of a capsule's outline, without its hole. Returns whether they are exact. An outline
 // that is much smaller than the surface around the capsule belongs to a corner that happens to be cut, and is not used.
-bool fill_outline(const ChainNode& node, const Organ& organ, const Spread& spread, const Outline& outline,
+bool fill_outline(const ChainNode& node, const Organ& organ, double gap, const Spread& spread, const Outline& outline,
                   const std::vector<Section>& before, Section& section) {
     constexpr double TOO_SMALL = 0.4;
     const double drawn = spread.area / section.length;
     section.thickness = organ.material.thickness;
     if (is_sheet(organ) && spread.area > 0) {
-        // Two faces bound the sheet, unless they are so close that they are its middle surface, drawn twice.
-        const bool bounded = outline.found && outline.doubled && outline.gap > 0.5 * section.thickness;
-        if (bounded) {
+        const bool bounded = is_bounded(organ, outline);
+        if (!bounded && gap > 0) {
+            // Elsewhere in this organ two faces bound it; here other organs are part of the outline.
+            Material thick = organ.material;
+            thick.thickness = section.thickness = gap;
+            section.thin = spread.thin;
+            fill_sheet(spread, drawn / 2, thick, section);
+        } else if (bounded) {
             section.thickness = outline.gap;
             take_outline(outline, section);
             add_rib(section.area / section.thickness, organ.material.midrib, section);
@@ -166,6 +198,10 @@ void finish_section(const Organ& organ, Section& section) {
     section.area *= 1 - hole;
     for (double* moment : {&section.inertia_thin, &section.inertia_wide, &section.torsion}) *moment *= 1 - hole * hole;
     section.density = material.density;
+    // Artists draw leaves thicker than they are: beyond this a chosen material's tissue holds air.
+    constexpr double SOLID_LEAF = 3e-3;  // [m]
+    if (is_sheet(organ) && !organ.material_given && section.thickness > SOLID_LEAF)
+        section.density *= SOLID_LEAF / section.thickness;
     section.young = material.young;
     section.shear = material.young / (2 * (1 + material.poisson));
     if (material.twist_to_bend > 0)
@@ -207,11 +243,46 @@ double hole_share(const Organ& organ) {
     return is_sheet(organ) ? 0 : organ.material.hollow * organ.material.hollow;
 }
 
+// Wood goes on within a crown: it carries the crown as the branch below does, and thins towards the crown's end.
+static void carry_crowns(const Chain& chain, const std::vector<Organ>& organs, std::vector<Section>& sections) {
+    constexpr double AT_END = 0.3;  // radius of the wood there, over that where it enters the crown
+    const auto is_crown = [&](const ChainNode& node) {
+        return node.organ >= 0 && organs[size_t(node.organ)].kind == "crown" &&
+               !organs[size_t(node.organ)].material_given;
+    };
+    std::vector<double> farthest(organs.size(), 0.0), bending(chain.nodes.size(), 0.0), begin(bending);
+    for (const ChainNode& node : chain.nodes)
+        if (is_crown(node)) farthest[size_t(node.organ)] = std::max(farthest[size_t(node.organ)], node.distance);
+    for (size_t i = 0; i < chain.nodes.size(); i++) {
+        const ChainNode& node = chain.nodes[i];
+        if (!is_crown(node) || node.parent < 0) continue;
+        const size_t parent = size_t(node.parent);
+        const bool goes_on = is_crown(chain.nodes[parent]);
+        bending[i] = goes_on ? bending[parent] : sections[parent].bending_thin();
+        begin[i] = goes_on ? begin[parent] : chain.nodes[parent].distance;
+        if (chain.nodes[parent].parent < 0) bending[i] = 0;
+        const double way = farthest[size_t(node.organ)] - begin[i];
+        const double share = way > 0 ? std::clamp((node.distance - begin[i]) / way, 0.0, 1.0) : 1;
+        const double wood = bending[i] * frond::pow(1 - (1 - AT_END) * share, 4);
+        Section& section = sections[i];
+        section.inertia_thin = std::max(section.inertia_thin, wood / section.young);
+        section.inertia_wide = std::max(section.inertia_wide, wood / section.young);
+        section.torsion = std::max(section.torsion, wood / material_preset("branch")->twist_to_bend / section.shear);
+    }
+}
+
 std::vector<Section> measure_sections(const Surface& surface, const Topology& topology,
                                       const std::vector<Organ>& organs, const Chain& chain) {
     const std::vector<CapsuleFrame> frames = make_frames(chain);
-    const std::vector<Spread> spreads = measure_spreads(surface, chain, frames);
-    const std::vector<Outline> outlines = cut_outlines(surface, topology, organs, chain, frames);
+    std::vector<char> hearts = find_hearts(chain);
+    for (size_t i = 0; i < hearts.size(); i++)
+        hearts[i] = hearts[i] && is_sheet(organs[size_t(std::max(chain.nodes[i].organ, 0))]);
+    const std::vector<Spread> spreads = measure_spreads(surface, chain, frames, hearts);
+    std::vector<Outline> outlines = cut_outlines(surface, topology, organs, chain, frames);
+    // The outline of one leaf is not that of a heart.
+    for (size_t i = 0; i < hearts.size(); i++)
+        if (hearts[i]) outlines[i].found = outlines[i].doubled = false;
+    const std::vector<double> gaps = measure_gaps(organs, chain, outlines);
     const std::vector<RibCut> ribs = cut_ribs(surface, topology, chain, frames);
     std::vector<Section> sections(chain.nodes.size());
     std::vector<char> exact(chain.nodes.size());
@@ -223,7 +294,8 @@ std::vector<Section> measure_sections(const Surface& surface, const Topology& to
     for (size_t i = 0; i < sections.size(); i++) {
         sections[i].axis = frames[i].axis;
         sections[i].length = frames[i].length;
-        exact[i] = fill_outline(chain.nodes[i], organ_of(i), spreads[i], outlines[i], sections, sections[i]);
+        const double gap = chain.nodes[i].organ < 0 ? 0 : gaps[size_t(chain.nodes[i].organ)];
+        exact[i] = fill_outline(chain.nodes[i], organ_of(i), gap, spreads[i], outlines[i], sections, sections[i]);
     }
     smooth_sections(chain, exact, sections);
     for (size_t i = 0; i < sections.size(); i++) {
@@ -231,6 +303,7 @@ std::vector<Section> measure_sections(const Surface& surface, const Topology& to
         if (ribs[i].organ >= 0)
             add_drawn_rib(ribs[i], organs[size_t(ribs[i].organ)], frames[i], spreads[i].middle, sections[i]);
     }
+    carry_crowns(chain, organs, sections);
     return sections;
 }
 

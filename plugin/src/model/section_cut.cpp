@@ -75,17 +75,22 @@ bool cut_triangle(const std::array<Vec3, 3>& corners, bool turned, const Capsule
 // Lists for each chain node the triangles of its own organ, or of that organ's ribs, with a corner assigned to it.
 std::vector<std::vector<int>> triangles_by_node(const Surface& surface, const Chain& chain, bool of_ribs) {
     std::vector<std::vector<int>> lists(chain.nodes.size());
+    std::vector<int> between;
     const auto organ_of = [&](const Part& part) {
         if (!of_ribs) return part.organ;
         return part.organ < 0 || chain.rib_of.empty() ? -1 : chain.rib_of[size_t(part.organ)];
     };
     for (const Part& part : surface.parts)
-        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
-            for (int corner : surface.triangles[size_t(t)]) {
-                const size_t node = size_t(chain.vertex_node[size_t(corner)]);
-                if (chain.nodes[node].organ != organ_of(part) || (of_ribs && organ_of(part) < 0)) continue;
+        for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++) {
+            const auto append = [&](int at) {
+                const size_t node = size_t(at);
+                if (chain.nodes[node].organ != organ_of(part) || (of_ribs && organ_of(part) < 0)) return;
                 if (lists[node].empty() || lists[node].back() != t) lists[node].push_back(t);
-            }
+            };
+            for (int corner : surface.triangles[size_t(t)]) append(chain.vertex_node[size_t(corner)]);
+            list_nodes_between(chain, surface.triangles[size_t(t)], between);
+            for (int node : between) append(node);
+        }
     return lists;
 }
 

@@ -42,8 +42,8 @@ struct RibCut {
 };
 
 // Return one result per chain node. A capsule without surface of its own has a spread of zero area.
-std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
-                                    const std::vector<CapsuleFrame>& frames);
+std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain, const std::vector<CapsuleFrame>& frames,
+                                    const std::vector<char>& hearts);
 std::vector<Outline> cut_outlines(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
                                   const Chain& chain, const std::vector<CapsuleFrame>& frames);
 
@@ -53,5 +53,13 @@ std::vector<RibCut> cut_ribs(const Surface& surface, const Topology& topology, c
 
 // Returns 0 for an ellipse and a polygon like one, 1 for a rectangle.
 double squareness(double area, double inertia_thin, double inertia_wide);
+
+// Returns which capsules are the heart of a rosette: they begin at a root, and leaves of several organs begin at their
+// end. All that is drawn there carries these.
+std::vector<char> find_hearts(const Chain& chain);
+
+// Lists the chain nodes on the ways between those that a triangle's corners are assigned to, without these: a long
+// triangle of a coarse mesh passes capsules at which it has no corner.
+void list_nodes_between(const Chain& chain, const Triangle& triangle, std::vector<int>& nodes);
 
 }  // namespace frond

@@ -65,7 +65,8 @@ struct Sharer {
 };
 
 // Distributes each triangle over the capsules of its own organ that begin or end where its corners are assigned.
-std::vector<std::vector<Tile>> collect_patches(const Surface& surface, const Chain& chain) {
+std::vector<std::vector<Tile>> collect_patches(const Surface& surface, const Chain& chain,
+                                               const std::vector<char>& hearts) {
     constexpr double SMALL = 1.0 / 16;  // share of a capsule's length
     // A triangle gives some hundreds of tiles at most, and all together not many millions.
     constexpr double MOST_PIECES = 8e6, FINEST = 24;
@@ -78,18 +79,23 @@ std::vector<std::vector<Tile>> collect_patches(const Surface& surface, const Cha
         touching[size_t(chain.nodes[i].parent)].push_back(int(i));
     }
     Sharer sharer{chain, patches};
+    std::vector<int> between;
     for (const Part& part : surface.parts)
         for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++) {
             const Triangle& triangle = surface.triangles[size_t(t)];
             sharer.capsules.clear();
             double length = 0;
-            for (int corner : triangle)
-                for (int capsule : touching[size_t(chain.vertex_node[size_t(corner)])]) {
+            const auto touch = [&](int at) {
+                for (int capsule : touching[size_t(at)]) {
                     const ChainNode& node = chain.nodes[size_t(capsule)];
-                    if (node.organ != part.organ) continue;
+                    if (node.organ != part.organ && !hearts[size_t(capsule)]) continue;
                     sharer.capsules.push_back(capsule);
                     length += (node.position - chain.nodes[size_t(node.parent)].position).norm();
                 }
+            };
+            for (int corner : triangle) touch(chain.vertex_node[size_t(corner)]);
+            list_nodes_between(chain, triangle, between);
+            for (int node : between) touch(node);
             if (sharer.capsules.empty()) continue;
             const Vec3& a = surface.positions[size_t(triangle[0])];
             const Vec3& b = surface.positions[size_t(triangle[1])];
@@ -136,9 +142,43 @@ Spread measure_spread(const std::vector<Tile>& patches, const CapsuleFrame& fram
 
 }  // namespace
 
-std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain,
-                                    const std::vector<CapsuleFrame>& frames) {
-    const std::vector<std::vector<Tile>> patches = collect_patches(surface, chain);
+std::vector<char> find_hearts(const Chain& chain) {
+    constexpr int SEVERAL = 2;
+    std::vector<int> others(chain.nodes.size(), 0);
+    for (const ChainNode& node : chain.nodes)
+        if (node.parent >= 0 && node.organ != chain.nodes[size_t(node.parent)].organ) others[size_t(node.parent)]++;
+    std::vector<char> hearts(chain.nodes.size(), 0);
+    for (size_t i = 0; i < hearts.size(); i++) {
+        const int parent = chain.nodes[i].parent;
+        hearts[i] = parent >= 0 && chain.nodes[size_t(parent)].parent < 0 && others[i] >= SEVERAL;
+    }
+    return hearts;
+}
+
+void list_nodes_between(const Chain& chain, const Triangle& triangle, std::vector<int>& nodes) {
+    nodes.clear();
+    std::array<int, 3> ends;
+    for (size_t k = 0; k < 3; k++) ends[k] = chain.vertex_node[size_t(triangle[k])];
+    const auto add = [&](int node) {
+        if (std::find(ends.begin(), ends.end(), node) != ends.end()) return;
+        if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+    };
+    for (size_t k = 0; k < 3; k++) {
+        // Parents have the smaller numbers, so that both walks meet where the ways do, if they do.
+        int a = ends[k], b = ends[(k + 1) % 3];
+        const size_t before = nodes.size();
+        while (a != b && a >= 0 && b >= 0) {
+            int& farther = a > b ? a : b;
+            farther = chain.nodes[size_t(farther)].parent;
+            if (farther >= 0) add(farther);
+        }
+        if (a < 0 || b < 0) nodes.resize(before);
+    }
+}
+
+std::vector<Spread> measure_spreads(const Surface& surface, const Chain& chain, const std::vector<CapsuleFrame>& frames,
+                                    const std::vector<char>& hearts) {
+    const std::vector<std::vector<Tile>> patches = collect_patches(surface, chain, hearts);
     std::vector<Spread> spreads(patches.size(), {0, 0, 0, Vec3::UnitX(), Eigen::Vector2d::Zero()});
     for (size_t i = 0; i < patches.size(); i++)
         if (!patches[i].empty()) spreads[i] = measure_spread(patches[i], frames[i]);

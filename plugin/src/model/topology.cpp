@@ -14,6 +14,8 @@ namespace frond {
 
 // Vertices closer than this share of the plant's size are one point.
 static constexpr double WELD_TOLERANCE = 1e-6;
+// The same in soups, whose triangles do not share corners exactly; in a mesh, triangles share each point with others.
+static constexpr double SOUP_TOLERANCE = 3e-5, SOUP_POINTS = 2.4;  // points a triangle
 // Edge of a hash cell in tolerances: large enough that most vertices are searched for in one or two cells only.
 static constexpr double CELL = 8;
 
@@ -69,11 +71,11 @@ static int find_point(PointTable& table, const std::vector<Vec3>& points, const 
     return found;
 }
 
-static void weld(const Surface& surface, double size, Topology& topology) {
+static void weld(const Surface& surface, double size, double share, Topology& topology) {
     // Far from the origin the coordinates themselves are coarser than the tolerance.
     double reach = 0;
     for (const Vec3& place : surface.positions) reach = std::max(reach, place.cwiseAbs().maxCoeff());
-    const double tolerance = std::max(WELD_TOLERANCE * size, 1e-14 * reach);
+    const double tolerance = std::max(share * size, 1e-14 * reach);
     PointTable table(surface.positions.size());
     topology.vertex_point.resize(surface.positions.size());
     for (size_t v = 0; v < surface.positions.size(); ++v) {
@@ -205,7 +207,11 @@ Topology make_topology(const Surface& surface) {
              size);
 
     Topology topology;
-    weld(surface, size, topology);
+    weld(surface, size, WELD_TOLERANCE, topology);
+    if (double(topology.points.size()) > SOUP_POINTS * double(surface.triangles.size())) {
+        topology = {};
+        weld(surface, size, SOUP_TOLERANCE, topology);
+    }
     topology.triangles.reserve(surface.triangles.size());
     for (const Triangle& triangle : surface.triangles)
         topology.triangles.push_back({topology.vertex_point[size_t(triangle[0])],
