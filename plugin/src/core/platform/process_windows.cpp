@@ -1,11 +1,14 @@
 // Processes by Windows: a job holds the child's limits and ends it with its host. In: a program and its arguments. Out:
 // what it writes, and how it ended.
 #define WIN32_LEAN_AND_MEAN
+#ifndef NOMINMAX
 #define NOMINMAX
+#endif
 #include <windows.h>
 // After it.
 #include <fcntl.h>
 #include <io.h>
+#include <shellapi.h>
 #include <stdio.h>
 
 #include <algorithm>
@@ -187,6 +190,15 @@ ChildEnd Child::end(bool stop) {
     snprintf(words, sizeof words, "code 0x%08lx", code);
     return {code == ERROR_NOT_ENOUGH_QUOTA || code == QUOTA_EXCEEDED ? ChildEnd::OUT_OF_CPU_TIME : ChildEnd::CRASHED,
             words};
+}
+
+std::vector<std::string> own_arguments(int, char**) {
+    int count = 0;
+    wchar_t** const words = CommandLineToArgvW(GetCommandLineW(), &count);
+    std::vector<std::string> arguments;
+    for (int i = 0; i < count; i++) arguments.push_back(std::filesystem::path(words[i]).u8string());
+    LocalFree(words);
+    return arguments;
 }
 
 // The host's job holds the limits.
