@@ -25,7 +25,10 @@ int main(int argc, char** argv) {
         std::fputs(words.at(2).c_str(), stderr);
         return write_output(std::string(size_t(number(3)), 'x')) ? 3 : 1;
     }
-    if (what == "crash") return *static_cast<volatile int*>(nullptr);
+    if (what == "crash") {
+        limit_self({});
+        *static_cast<volatile int*>(nullptr);
+    }
     if (what == "spin") {
         limit_self({number(2), 0, 0});
         for (volatile unsigned turn = 0;; turn = turn + 1) {

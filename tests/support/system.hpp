@@ -1,7 +1,10 @@
-// What tests ask of the system: folders for a while, and the environment.
+// What tests ask of the system: folders for a while, the environment, aligned memory.
 #pragma once
 
 #include <stdlib.h>
+#ifdef _WIN32
+#include <malloc.h>
+#endif
 
 #include <filesystem>
 #include <random>
@@ -23,5 +26,22 @@ inline void set_environment(const char* name, const char* value) {
     _putenv_s(name, value ? value : "");
 #else
     value ? setenv(name, value, 1) : unsetenv(name);
+#endif
+}
+
+// Null if there is none.
+inline void* allocate_aligned(size_t size, size_t alignment) {
+#ifdef _WIN32
+    return _aligned_malloc(size, alignment);
+#else
+    void* memory = nullptr;
+    return posix_memalign(&memory, alignment, size) == 0 ? memory : nullptr;
+#endif
+}
+inline void free_aligned(void* memory) {
+#ifdef _WIN32
+    _aligned_free(memory);
+#else
+    free(memory);
 #endif
 }

@@ -113,8 +113,8 @@ EMSCRIPTEN_KEEPALIVE int garden_open(int scene, int mechanics, int integrator, u
     } else {
         const int side = (int)ceil(sqrt((double)plants));
         for (i = 0; i < plants; i++)
-            plant(plants > 1 ? 0.75 * (i % side - 0.5 * (side - 1)) : 0,
-                  plants > 1 ? 0.75 * (i / side - 0.5 * (side - 1)) : 0, 1.3 * i);
+            plant(plants > 1 ? 1.8 * (i % side - 0.5 * (side - 1)) : 0,
+                  plants > 1 ? 1.8 * (i / side - 0.5 * (side - 1)) : 0, 1.3 * i);
     }
     blow();
     return garden.plant_count;

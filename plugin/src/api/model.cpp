@@ -34,6 +34,26 @@ static frond_model insert_model(std::shared_ptr<const Model> model) {
     return {id};
 }
 
+// A model is as it was built, so a def that asks for something else would be of no effect.
+static void check_no_wish(const frond_model_def& def) {
+    const frond_model_def plain = frond_default_model_def();
+    const char* wish = def.scale != plain.scale                                                         ? "scale"
+                       : Vec3(def.up.x, def.up.y, def.up.z) != Vec3(plain.up.x, plain.up.y, plain.up.z) ? "up"
+                       : def.capsule_height != plain.capsule_height   ? "capsule_height"
+                       : def.capsule_radius != plain.capsule_radius   ? "capsule_radius"
+                       : def.cage_size != plain.cage_size             ? "cage_size"
+                       : def.cage_offset != plain.cage_offset         ? "cage_offset"
+                       : def.cage_smoothness != plain.cage_smoothness ? "cage_smoothness"
+                       : def.rest != plain.rest                       ? "rest"
+                       : def.organ_count != 0                         ? "organs"
+                                                                      : nullptr;
+    if (wish)
+        fail(FROND_RESULT_BAD_ARGUMENT,
+             "def.%s is set, but a cooked model is as it was built; pass frond_default_model_def(), or set it and cook "
+             "the plant's own file anew",
+             wish);
+}
+
 // Runs a build and gives its model a handle.
 template <class Build>
 static frond_result open_model(const frond_model_def* def, frond_model* out, Build&& build) {
@@ -130,6 +150,7 @@ frond_result frond_material_preset(const char* kind, frond_material* out) {
 frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out) {
     return open_model(def, out, [&] {
         check_text(path, "path");
+        if (is_cooked(path)) check_no_wish(*def);
         return build_from_file(path, *def);
     });
 }

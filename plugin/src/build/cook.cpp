@@ -4,7 +4,6 @@
 
 #include <cstring>
 
-#include "build/build.hpp"
 #include "core/error.hpp"
 #include "core/platform/files.hpp"
 #include "core/timer.hpp"
@@ -67,26 +66,6 @@ void check_head(const CookedHead& head, const uint8_t* fields, size_t count) {
     if (head.checksum != checksum_by_words(fields, count)) fail_cooked("its checksum differs");
 }
 
-// A model is as it was built, so a def that asks for something else would be of no effect.
-void check_no_wish(const frond_model_def& def) {
-    const frond_model_def plain = frond_default_model_def();
-    const char* wish = def.scale != plain.scale                                                         ? "scale"
-                       : Vec3(def.up.x, def.up.y, def.up.z) != Vec3(plain.up.x, plain.up.y, plain.up.z) ? "up"
-                       : def.capsule_height != plain.capsule_height   ? "capsule_height"
-                       : def.capsule_radius != plain.capsule_radius   ? "capsule_radius"
-                       : def.cage_size != plain.cage_size             ? "cage_size"
-                       : def.cage_offset != plain.cage_offset         ? "cage_offset"
-                       : def.cage_smoothness != plain.cage_smoothness ? "cage_smoothness"
-                       : def.rest != plain.rest                       ? "rest"
-                       : def.organ_count != 0                         ? "organs"
-                                                                      : nullptr;
-    if (wish)
-        fail(FROND_RESULT_BAD_ARGUMENT,
-             "def.%s is set, but a cooked model is as it was built; pass frond_default_model_def(), or set it and cook "
-             "the plant's own file anew",
-             wish);
-}
-
 }  // namespace
 
 void fail_cooked(const std::string& what) {
@@ -135,9 +114,8 @@ bool is_cooked(const std::string& path) {
            std::memcmp(bytes.data(), COOKED.data(), COOKED.size()) == 0;
 }
 
-std::shared_ptr<const Model> load_cooked(const std::string& path, const frond_model_def& def) {
+std::shared_ptr<const Model> load_cooked(const std::string& path) {
     const Timer timer;
-    check_no_wish(def);
     std::string bytes, error;
     if (!read_file(path, LARGEST_COOKED, bytes, error))
         fail(FROND_RESULT_FILE_NOT_FOUND, "%s cannot be read: %s", path.c_str(), error.c_str());

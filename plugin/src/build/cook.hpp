@@ -16,7 +16,7 @@ std::shared_ptr<const Model> model_from_cooked(const uint8_t* bytes, size_t coun
 
 // Returns whether a file begins as cooked ones do.
 bool is_cooked(const std::string& path);
-std::shared_ptr<const Model> load_cooked(const std::string& path, const frond_model_def& def);
+std::shared_ptr<const Model> load_cooked(const std::string& path);
 
 // Visits all that is kept of a model.
 void visit(Archive& archive, Model& model);

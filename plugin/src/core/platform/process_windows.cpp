@@ -83,7 +83,7 @@ struct Child::Inside {
     std::mutex mutex;
     std::condition_variable news;
     std::string heard[2];
-    bool has_ended = false;
+    int ended = 0;  // of the two
     std::thread readers[2];
 
     void listen(int which) {
@@ -95,7 +95,7 @@ struct Child::Inside {
             news.notify_one();
         }
         const std::lock_guard<std::mutex> lock(mutex);
-        if (which == 0) has_ended = true;
+        ended++;
         news.notify_one();
     }
 };
@@ -171,10 +171,10 @@ bool Child::hear(double most_ms, std::string& output, std::string& errors) {
     std::unique_lock<std::mutex> lock(inside->mutex);
     std::string* const heard = inside->heard;
     inside->news.wait_for(lock, std::chrono::duration<double, std::milli>(std::max(most_ms, 0.0)),
-                          [&] { return inside->has_ended || !heard[0].empty() || !heard[1].empty(); });
+                          [&] { return inside->ended == 2 || !heard[0].empty() || !heard[1].empty(); });
     output += heard[0], errors += heard[1];
     heard[0].clear(), heard[1].clear();
-    return !inside->has_ended;
+    return inside->ended < 2;
 }
 
 ChildEnd Child::end(bool stop) {
@@ -201,8 +201,14 @@ std::vector<std::string> own_arguments(int, char**) {
     return arguments;
 }
 
-// The host's job holds the limits.
+static LONG WINAPI end_with_its_code(EXCEPTION_POINTERS* exception) {
+    TerminateProcess(GetCurrentProcess(), exception->ExceptionRecord->ExceptionCode);
+    return EXCEPTION_EXECUTE_HANDLER;
+}
+
+// The host's job holds the limits. What crashes ends, without a report or a debugger that waits for somebody.
 void limit_self(const ProcessLimits&) {
+    SetUnhandledExceptionFilter(end_with_its_code);
     SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX | SEM_NOOPENFILEERRORBOX);
 }
 
