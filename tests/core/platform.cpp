@@ -89,6 +89,13 @@ TEST(NumberTexts, AreReadInAnyLocale) {
     EXPECT_EQ(value, -1500);
 }
 
+// Wine holds no job to its memory; Windows does.
+#ifdef _WIN32
+constexpr bool IS_WINE = true;
+#else
+constexpr bool IS_WINE = false;
+#endif
+
 // Runs tests/support/child.cpp and returns how it ended.
 ChildEnd run(const std::vector<std::string>& words, std::string& output, std::string& errors,
              const ProcessLimits& limits = {}) {
@@ -139,7 +146,7 @@ TEST(Children, GetNoMoreMemoryThanTheyMay) {
     EXPECT_EQ(output, "got it");
     output.clear();
     run({"ask", "512", "256"}, output, errors, limits);
-    EXPECT_EQ(output, SANITIZED ? "got it" : "got none");
+    EXPECT_EQ(output, SANITIZED || IS_WINE ? "got it" : "got none");
 }
 
 TEST(Children, AreStoppedWithTheirObject) {
