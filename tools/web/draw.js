@@ -5,11 +5,13 @@ const VERTEX = `#version 300 es
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 vertex_color;
 uniform mat4 camera;
 uniform vec4 place;  // of a ball: position and radius; else radius 0
-out vec3 at, up;
+out vec3 at, up, tint;
 out vec2 st;
 void main() {
+    tint = pow(vertex_color.rgb, vec3(2.2));
     at = place.w > 0.0 ? place.xyz + place.w * position : position;
     up = normal;
     st = uv;
@@ -17,7 +19,7 @@ void main() {
 }`;
 const FRAGMENT = `#version 300 es
 precision highp float;
-in vec3 at, up;
+in vec3 at, up, tint;
 in vec2 st;
 uniform vec4 color;
 uniform bool textured;
@@ -25,7 +27,7 @@ uniform sampler2D image;
 uniform vec3 eye;
 out vec4 pixel;
 void main() {
-    vec4 base = color;
+    vec4 base = color * vec4(tint, 1.0);
     if (textured) {
         vec4 texel = texture(image, st);
         if (texel.a < 0.5) discard;
@@ -78,7 +80,7 @@ class Drawing {
         const points = new Float32Array(positions);
         return [points, points, null, new Uint32Array(indices)];
     }
-    makeMesh(positions, normals, uvs, indices, usage) {
+    makeMesh(positions, normals, uvs, indices, usage, colors = null) {
         const gl = this.gl, mesh = { vertices: gl.createVertexArray(), count: indices.length };
         gl.bindVertexArray(mesh.vertices);
         const attribute = (place, size, data, use) => {
@@ -92,6 +94,14 @@ class Drawing {
         mesh.positions = attribute(0, 3, positions, usage);
         mesh.normals = attribute(1, 3, normals, usage);
         if (uvs) mesh.uvs = attribute(2, 2, uvs, gl.STATIC_DRAW);
+        gl.vertexAttrib4f(3, 1, 1, 1, 1);
+        if (colors) {
+            mesh.colors = gl.createBuffer();
+            gl.bindBuffer(gl.ARRAY_BUFFER, mesh.colors);
+            gl.bufferData(gl.ARRAY_BUFFER, colors, gl.STATIC_DRAW);
+            gl.enableVertexAttribArray(3);
+            gl.vertexAttribPointer(3, 4, gl.UNSIGNED_BYTE, true, 0, 0);
+        }
         mesh.indices = gl.createBuffer();
         gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, mesh.indices);
         gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
@@ -100,12 +110,12 @@ class Drawing {
     setPlants(surfaces, parts, textures) {
         const gl = this.gl;
         for (const mesh of this.plants) {
-            for (const buffer of [mesh.positions, mesh.normals, mesh.uvs, mesh.indices]) if (buffer) gl.deleteBuffer(buffer);
+            for (const buffer of [mesh.positions, mesh.normals, mesh.uvs, mesh.colors, mesh.indices]) if (buffer) gl.deleteBuffer(buffer);
             gl.deleteVertexArray(mesh.vertices);
         }
         this.parts = parts;
         this.textures = textures;
-        this.plants = surfaces.map(s => this.makeMesh(s.positions, s.normals, s.uvs, s.indices, gl.DYNAMIC_DRAW));
+        this.plants = surfaces.map(s => this.makeMesh(s.positions, s.normals, s.uvs, s.indices, gl.DYNAMIC_DRAW, s.colors));
     }
     makeTexture(image) {
         const gl = this.gl, texture = gl.createTexture();

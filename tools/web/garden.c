@@ -197,7 +197,8 @@ EMSCRIPTEN_KEEPALIVE void garden_walk(double x, double z, double dt) {
     check(frond_rigid_set_state(garden.walker, &state));
 }
 
-/* Gives a plant's surface: pointers to positions and normals, uvs, indices, and numbers of vertices and triangles. */
+/* Gives a plant's surface: pointers to positions and normals, uvs, indices, numbers of vertices and triangles, and a
+ * pointer to colours. */
 EMSCRIPTEN_KEEPALIVE int garden_get_surface(int plant, uint32_t* out) {
     frond_surface_view view;
     if (!check(frond_plant_get_surface(garden.plants[plant], &view))) return 0;
@@ -207,6 +208,7 @@ EMSCRIPTEN_KEEPALIVE int garden_get_surface(int plant, uint32_t* out) {
     out[3] = (uint32_t)(size_t)view.indices;
     out[4] = (uint32_t)view.vertex_count;
     out[5] = (uint32_t)view.triangle_count;
+    out[6] = (uint32_t)(size_t)view.colors;
     return 1;
 }
 EMSCRIPTEN_KEEPALIVE int garden_get_part_count(void) {

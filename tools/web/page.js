@@ -44,9 +44,10 @@ async function takeModel(which, file) {
 
 function surfaceOf(plant) {
     call("get_surface", plant, room);
-    const [positions, normals, uvs, indices, vertices, triangles] = words(room, 6);
+    const [positions, normals, uvs, indices, vertices, triangles, colors] = words(room, 7);
     const floats = (at, count) => at ? new Float32Array(library.HEAPF32.buffer, at, count) : null;
     return { positions: floats(positions, 3 * vertices), normals: floats(normals, 3 * vertices), uvs: floats(uvs, 2 * vertices),
+        colors: colors ? new Uint8Array(library.HEAPU8.buffer, colors, 4 * vertices) : null,
         indices: new Uint32Array(library.HEAPU32.buffer, indices, 3 * triangles) };
 }
 

@@ -25,7 +25,7 @@ public:
     Child(const std::string& program, const std::vector<std::string>& arguments, const ProcessLimits& limits);
     // Stops it if it still runs.
     ~Child();
-    // Waits for the child to write, at most for that time, maybe less, and appends what it wrote. Returns false once its output has
+    // Waits for the child to write, at most for that time, and appends what it wrote. Returns false once its output has
     // ended.
     bool hear(double most_ms, std::string& output, std::string& errors);
     // Waits for its end, after stopping it if so wanted.

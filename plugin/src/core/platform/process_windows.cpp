@@ -77,25 +77,13 @@ std::string path_of_module(HMODULE module) {
 
 }  // namespace
 
-// Not every system that runs Windows programs holds a job to its time (Wine does not), so the host looks too.
-static double seconds_of(HANDLE process) {
-    FILETIME begin, end, kernel, user;
-    if (!GetProcessTimes(process, &begin, &end, &kernel, &user)) return 0;
-    const auto seconds = [](const FILETIME& time) {
-        return 1e-7 * (double(time.dwHighDateTime) * 4294967296.0 + double(time.dwLowDateTime));
-    };
-    return seconds(kernel) + seconds(user);
-}
-
 struct Child::Inside {
     Handle job, process, output, messages;
     // What two threads have read and hear() has not fetched yet.
     std::mutex mutex;
     std::condition_variable news;
     std::string heard[2];
-    int ended = 0;            // of the two
-    double most_seconds = 0;  // of processor time; 0: any
-    bool is_over = false;
+    int ended = 0;  // of the two
     std::thread readers[2];
 
     void listen(int which) {
@@ -127,7 +115,6 @@ Child::Child(const std::string& program, const std::vector<std::string>& argumen
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION most = {};
     most.BasicLimitInformation.LimitFlags =
         JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE | JOB_OBJECT_LIMIT_DIE_ON_UNHANDLED_EXCEPTION;
-    inside->most_seconds = limits.cpu_seconds;
     if (limits.cpu_seconds > 0) {
         most.BasicLimitInformation.LimitFlags |= JOB_OBJECT_LIMIT_PROCESS_TIME;
         most.BasicLimitInformation.PerProcessUserTimeLimit.QuadPart = LONGLONG(1e7 * limits.cpu_seconds);
@@ -181,17 +168,12 @@ Child::~Child() {
 }
 
 bool Child::hear(double most_ms, std::string& output, std::string& errors) {
-    constexpr double LOOK = 100;  // [ms] between looks at the child's time
     std::unique_lock<std::mutex> lock(inside->mutex);
     std::string* const heard = inside->heard;
-    inside->news.wait_for(lock, std::chrono::duration<double, std::milli>(std::clamp(most_ms, 0.0, LOOK)),
+    inside->news.wait_for(lock, std::chrono::duration<double, std::milli>(std::max(most_ms, 0.0)),
                           [&] { return inside->ended == 2 || !heard[0].empty() || !heard[1].empty(); });
     output += heard[0], errors += heard[1];
     heard[0].clear(), heard[1].clear();
-    if (inside->most_seconds > 0 && !inside->is_over && seconds_of(inside->process.handle) > inside->most_seconds) {
-        inside->is_over = true;
-        TerminateJobObject(inside->job.handle, 1);
-    }
     return inside->ended < 2;
 }
 
@@ -202,7 +184,6 @@ ChildEnd Child::end(bool stop) {
     GetExitCodeProcess(inside->process.handle, &code);
     inside->process.reset();
     for (std::thread& reader : inside->readers) reader.join();
-    if (inside->is_over) return {ChildEnd::OUT_OF_CPU_TIME, ""};
     if (code < 256) return {ChildEnd::EXITED, ""};
     constexpr DWORD QUOTA_EXCEEDED = 0xC0000044;
     char words[32];
