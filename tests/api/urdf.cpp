@@ -91,9 +91,14 @@ TEST(UrdfPlant, MeshesAreFoundByPackagePath) {
     frond_model model = {};
     EXPECT_EQ(frond_model_load(file.c_str(), &def, &model), FROND_RESULT_FILE_NOT_FOUND);
     EXPECT_NE(std::strstr(frond_last_error(), "FROND_PACKAGE_PATH"), nullptr) << frond_last_error();
-    ASSERT_EQ(setenv("FROND_PACKAGE_PATH", ("/none:" + folder.path + "/elsewhere").c_str(), 1), 0);
+#ifdef _WIN32
+    const std::string between = ";";
+#else
+    const std::string between = ":";
+#endif
+    set_environment("FROND_PACKAGE_PATH", ("/none" + between + folder.path + "/elsewhere").c_str());
     const Loaded found(file);
-    unsetenv("FROND_PACKAGE_PATH");
+    set_environment("FROND_PACKAGE_PATH", nullptr);
     EXPECT_EQ(found.organs.size(), 2u);
     // Found beside the file's own folders.
     folder.write("p/plants/leaf.obj", leaf);

@@ -22,18 +22,19 @@ struct Row {
     long double (*exact)(long double);
     double lower, upper;    // where arguments are spread evenly
     int smallest, largest;  // exponents of others
+    uint64_t hash;          // of values
 };
-const Row ROWS[] = {{"exp", frond::exp, std::exp, -745, 709, -60, 9},
-                    {"log", frond::log, std::log, 0.3, 3, -1074, 1023},
-                    {"log1p", frond::log1p, std::log1p, -1, 4, -1022, 1023},
-                    {"log10", frond::log10, std::log10, 0.01, 100, -1074, 1023},
-                    {"cbrt", frond::cbrt, std::cbrt, -8, 8, -1074, 1023},
-                    {"sin", frond::sin, std::sin, -10, 10, -1074, 62},
-                    {"cos", frond::cos, std::cos, -10, 10, -1074, 62},
-                    {"tan", frond::tan, std::tan, -10, 10, -1074, 62},
-                    {"asin", frond::asin, std::asin, -1, 1, -1074, 0},
-                    {"acos", frond::acos, std::acos, -1, 1, -1074, 0},
-                    {"tanh", frond::tanh, std::tanh, -22, 22, -1074, 5}};
+const Row ROWS[] = {{"exp", frond::exp, std::exp, -745, 709, -60, 9, 0x79adcd9d75e5dd9cu},
+                    {"log", frond::log, std::log, 0.3, 3, -1074, 1023, 0xf5236642f8c832a8u},
+                    {"log1p", frond::log1p, std::log1p, -1, 4, -1022, 1023, 0x9117dc8b0eb3475eu},
+                    {"log10", frond::log10, std::log10, 0.01, 100, -1074, 1023, 0x37530633a042c546u},
+                    {"cbrt", frond::cbrt, std::cbrt, -8, 8, -1074, 1023, 0x318c77ae6ded73cbu},
+                    {"sin", frond::sin, std::sin, -10, 10, -1074, 62, 0xd175e38170d8aff4u},
+                    {"cos", frond::cos, std::cos, -10, 10, -1074, 62, 0x22bad4951bcfb901u},
+                    {"tan", frond::tan, std::tan, -10, 10, -1074, 62, 0x02d12c44b9ae3828u},
+                    {"asin", frond::asin, std::asin, -1, 1, -1074, 0, 0x83ef90982d96d9a0u},
+                    {"acos", frond::acos, std::acos, -1, 1, -1074, 0, 0x08b6bed28de84df4u},
+                    {"tanh", frond::tanh, std::tanh, -22, 22, -1074, 5, 0xcec43797cab6bf0du}};
 
 // Arguments of either sign, half of them spread evenly, half by their exponents.
 struct Arguments {
@@ -62,8 +63,19 @@ bool is_finite(long double exact) {
 
 class OfOne : public ::testing::TestWithParam<Row> {};
 
+// Windows' C library takes sines of x87, which knows pi to 66 bits: it is no judge of them. Their bits are compared
+// below.
+bool is_judged(const Row& row) {
+#ifdef _WIN32
+    return row.largest != 62;
+#else
+    return row.name != nullptr;
+#endif
+}
+
 TEST_P(OfOne, IsTheExactValueButForTheLastPlace) {
     const Row& row = GetParam();
+    if (!is_judged(row)) GTEST_SKIP();
     Arguments arguments;
     double worst = 0, at = 0;
     int count = 0;
@@ -85,6 +97,7 @@ TEST_P(OfOne, IsTheExactValueButForTheLastPlace) {
 
 TEST_P(OfOne, HasTheSpecialValuesOfC) {
     const Row& row = GetParam();
+    if (!is_judged(row)) GTEST_SKIP();
     constexpr double MOST = std::numeric_limits<double>::max(), LEAST = std::numeric_limits<double>::denorm_min();
     for (const double x : std::vector<double>{0, 1, 2, 0.5, 1e300, 1e-310, LEAST, MOST, INFINITY, NAN})
         for (double sign : {1.0, -1.0}) {
@@ -98,6 +111,21 @@ TEST_P(OfOne, HasTheSpecialValuesOfC) {
                 EXPECT_EQ(std::signbit(value), std::signbit(exact)) << sign * x;
             }
         }
+}
+
+// A hash of the values of a hundred thousand arguments, recorded where the judge was good.
+TEST_P(OfOne, GivesTheSameBitsEverywhere) {
+    const Row& row = GetParam();
+    Arguments arguments;
+    uint64_t hash = 0;
+    for (int i = 0; i < 100000; i++) {
+        const double value = row.function(arguments.next(row));
+        uint64_t bits = 0;
+        if (!std::isnan(value)) std::memcpy(&bits, &value, sizeof bits);
+        hash = (hash ^ bits) * 0x100000001b3u;
+        hash ^= hash >> 29;
+    }
+    EXPECT_EQ(hash, row.hash) << row.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Elementary, OfOne, ::testing::ValuesIn(ROWS),

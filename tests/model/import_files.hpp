@@ -1,9 +1,6 @@
 // Files for the import tests: a small plant of a stem and a mirrored leaf, in two nodes, written in each format.
 #pragma once
 
-#include <stdlib.h>
-#include <unistd.h>
-
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -11,19 +8,17 @@
 #include <string>
 #include <vector>
 
+#include "support/system.hpp"
+
 namespace files {
 
 // A folder that is deleted with its owner.
 struct Folder {
-    std::string path;
-    Folder() {
-        char name[] = "/tmp/frond-test-XXXXXX";
-        path = mkdtemp(name);
-    }
-    ~Folder() {
-        const std::string command = "rm -rf '" + path + "'";
-        if (system(command.c_str()) != 0) perror("rm");
-    }
+    const std::string path = make_temporary_folder();
+    Folder() = default;
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder() { std::filesystem::remove_all(path); }
     std::string write(const std::string& name, const std::string& bytes) const {
         const std::string file = path + "/" + name;
         std::ofstream(file, std::ios::binary).write(bytes.data(), std::streamsize(bytes.size()));

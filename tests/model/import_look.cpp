@@ -20,7 +20,7 @@ static std::string replaced(std::string text, const std::string& from, const std
 }
 
 static void make_folder(const files::Folder& folder, const std::string& name) {
-    ASSERT_EQ(system(("mkdir -p '" + folder.path + "/" + name + "'").c_str()), 0);
+    std::filesystem::create_directories(folder.path + "/" + name);
 }
 
 TEST(ImportLook, TakesTheMaterialLibraryOfTheModelsNameWhereNoneIsNamed) {

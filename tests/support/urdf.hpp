@@ -2,7 +2,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
 #include <filesystem>
@@ -11,15 +10,14 @@
 #include <string>
 
 #include "frond/frond.h"
+#include "support/system.hpp"
 
 // A temporary folder for files, deleted with this object.
 struct UrdfFolder {
-    std::string path;
-    UrdfFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "frond_urdf_XXXXXX").string();
-        EXPECT_NE(mkdtemp(name.data()), nullptr);
-        path = name;
-    }
+    const std::string path = make_temporary_folder();
+    UrdfFolder() = default;
+    UrdfFolder(const UrdfFolder&) = delete;
+    UrdfFolder& operator=(const UrdfFolder&) = delete;
     ~UrdfFolder() { std::filesystem::remove_all(path); }
     std::string write(const std::string& name, const std::string& text) const {
         const std::string file = path + "/" + name;

@@ -11,6 +11,7 @@
 
 #include "frond/frond_bullet.hpp"
 #include "support/stems.hpp"
+#include "support/system.hpp"
 
 namespace manners_tests {
 
@@ -57,15 +58,14 @@ TEST(Manners, PartsOfAStepAreZonesOfBulletsProfiler) {
 
 int64_t taken = 0, given_back = 0, crooked = 0;
 void* take_aligned(size_t size, int alignment) {
-    void* memory = nullptr;
-    if (posix_memalign(&memory, size_t(alignment), size)) return nullptr;
-    taken++;
+    void* memory = allocate_aligned(size, size_t(alignment));
+    taken += memory != nullptr;
     return memory;
 }
 void give_back_aligned(void* memory) {
     if (memory) given_back++;
     if (reinterpret_cast<uintptr_t>(memory) % 16) crooked++;
-    std::free(memory);
+    free_aligned(memory);
 }
 
 // Bullet's own objects choose their allocator by their operator new.

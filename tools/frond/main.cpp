@@ -30,12 +30,15 @@ int main(int argc, char** argv) {
     app.failure_message(CLI::FailureMessage::help);
     frond::tools::add_inspect(app);
     frond::tools::add_run(app);
+    frond::tools::add_cook(app);
+#ifndef FROND_WITHOUT_PICTURES
     frond::tools::add_view(app);
     frond::tools::add_grow(app);
     frond::tools::add_bench(app);
     frond::tools::add_study(app);
     frond::tools::add_export(app);
     frond::tools::add_stability(app);
+#endif
     try {
         app.parse(argc, argv);
         return 0;

@@ -113,38 +113,6 @@ void print_run(const nlohmann::ordered_json& out) {
         ms["contact"].get<double>(), ms["capsules"].get<double>(), ms["surface"].get<double>());
 }
 
-// Writes frames as PNG files, a contact sheet and a moving picture.
-class Film {
-public:
-    Film(const std::string& folder, const View& view, double frames_per_second) : folder(folder) {
-        std::error_code failure;
-        std::filesystem::create_directories(folder, failure);
-        if (failure) throw SceneError("cannot make the folder " + folder + ": " + failure.message());
-        frond_film_def def = frond_default_film_def();
-        def.width = view.width;
-        def.height = view.height;
-        def.frames_per_second = std::clamp(frames_per_second, 1.0, 1000.0);
-        must(frond_film_create(&def, &film));
-    }
-    Film(const Film&) = delete;
-    Film& operator=(const Film&) = delete;
-    ~Film() { frond_film_destroy(film); }
-    void add(Studio& studio, const Stage& stage) {
-        must(frond_film_add(film, studio.shoot(stage)));
-        char name[32];
-        std::snprintf(name, sizeof name, "frame_%04d.png", frond_film_get_frame_count(film) - 1);
-        studio.write(folder + "/" + name);
-    }
-    void finish() {
-        must(frond_film_write_sheet(film, (folder + "/sheet.png").c_str(), 4, 3));
-        must(frond_film_write_webp(film, (folder + "/film.webp").c_str()));
-    }
-
-private:
-    std::string folder;
-    frond_film* film = nullptr;
-};
-
 // Returns the vertex that is highest at the start; it is followed, since another may be highest later.
 int tip_vertex(frond_plant plant) {
     frond_surface_view view;

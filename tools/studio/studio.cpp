@@ -1,10 +1,9 @@
 #include "studio/studio.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace frond::tools {
 
@@ -77,25 +76,31 @@ void Studio::write(const std::string& png_path) {
     must(frond_picture_write(picture, png_path.c_str()));
 }
 
-Progress::Progress(const char* what, int total)
-    : what(what),
-      total(total),
-      on_terminal(isatty(STDERR_FILENO)),
-      start(std::chrono::steady_clock::now()),
-      last(start) {}
-
-Progress::~Progress() {
-    if (shown) std::fprintf(stderr, "\r\033[K");
+Film::Film(const std::string& folder, const View& view, double frames_per_second) : folder(folder) {
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure) throw SceneError("cannot make the folder " + folder + ": " + failure.message());
+    frond_film_def def = frond_default_film_def();
+    def.width = view.width;
+    def.height = view.height;
+    def.frames_per_second = std::clamp(frames_per_second, 1.0, 1000.0);
+    must(frond_film_create(&def, &film));
 }
 
-void Progress::at(int done) {
-    if (!on_terminal) return;
-    const auto now = std::chrono::steady_clock::now();
-    using seconds = std::chrono::duration<double>;
-    if (seconds(now - start).count() < 1 || seconds(now - last).count() < 0.2) return;
-    last = now;
-    shown = true;
-    std::fprintf(stderr, "\r%s %d of %d\033[K", what, done, total);
+Film::~Film() {
+    frond_film_destroy(film);
+}
+
+void Film::add(Studio& studio, const Stage& stage) {
+    must(frond_film_add(film, studio.shoot(stage)));
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%04d.png", frond_film_get_frame_count(film) - 1);
+    studio.write(folder + "/" + name);
+}
+
+void Film::finish() {
+    must(frond_film_write_sheet(film, (folder + "/sheet.png").c_str(), 4, 3));
+    must(frond_film_write_webp(film, (folder + "/film.webp").c_str()));
 }
 
 }  // namespace frond::tools

@@ -30,6 +30,20 @@ private:
     View view;
     frond_picture* picture = nullptr;
 };
+// Frames as PNG files in a folder, a contact sheet and a moving picture.
+class Film {
+public:
+    Film(const std::string& folder, const View& view, double frames_per_second);
+    Film(const Film&) = delete;
+    Film& operator=(const Film&) = delete;
+    ~Film();
+    void add(Studio& studio, const Stage& stage);
+    void finish();
+
+private:
+    std::string folder;
+    frond_film* film = nullptr;
+};
 // Returns light, ground and a camera that sees the stage. azimuth, elevation [rad]; aspect: width over height.
 frond_picture_scene frame_stage(const Stage& stage, double azimuth, double elevation, double aspect);
 // Draws everything on the stage into a frame that was begun; what: bits FROND_PICTURE_* for plants.

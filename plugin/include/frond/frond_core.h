@@ -343,10 +343,10 @@ static inline frond_model_def frond_default_model_def(void) {
     frond_fill_def(&def, FROND_DEF_COOKIE('M'));
     return def;
 }
-/* Loads a model from a file: mesh files that assimp reads (.obj .ply .glb .gltf .fbx .dae .stl), tet meshes (.msh .vtk)
- * and plants as links and joints (.urdf). Files for assimp and urdfdom are read in a process of their own with limits
- * on time and memory, so that a damaged file cannot bring down the program; tet meshes are lists of numbers, read here
- * and checked one by one. */
+/* Loads a model from a file: mesh files that assimp reads (.obj .ply .glb .gltf .fbx .dae .stl), tet meshes (.msh
+ * .vtk), plants as links and joints (.urdf), and models that frond_model_save cooked, whatever their name. Files for
+ * assimp and urdfdom are read in a process of their own with limits on time and memory, so that a damaged file cannot
+ * bring down the program; tet meshes are lists of numbers, read here and checked one by one. */
 FROND_API frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out);
 /* Makes a model from triangles, which may be a soup. xyz: vertex_count*3. indices: triangle_count*3, each in
  * 0..vertex_count-1. */
@@ -360,6 +360,18 @@ FROND_API frond_result frond_model_from_stems(const frond_stem* stems, int stem_
  * do not. */
 FROND_API frond_result frond_model_from_tets(const double* xyz, int node_count, const int32_t* tets, int tet_count,
                                              const frond_model_def* def, frond_model* out);
+/* Saves a model, cooked: with all that was built for it, so that frond_model_load has it in milliseconds, without the
+ * program that reads meshes, and its plants move to the same bits. The file is the same on every system and for Bullet
+ * in either precision. It holds the rest shapes of mechanics that plants of this model had so far and of the default
+ * ones; others are found when a plant first needs them. A file that is damaged, or of a Frond that keeps models
+ * otherwise, is refused by FILE_FORMAT; a def whose fields are not the default ones by BAD_ARGUMENT. */
+FROND_API frond_result frond_model_save(frond_model model, const char* path);
+/* Returns the size of what frond_model_save_bytes writes now [bytes]; 0 for an invalid handle. */
+FROND_API size_t frond_model_get_saved_size(frond_model model);
+/* Does the same as frond_model_save, in memory. size must be what frond_model_get_saved_size returns. */
+FROND_API frond_result frond_model_save_bytes(frond_model model, void* bytes, size_t size);
+/* Loads a model from the bytes of a file that frond_model_save wrote. */
+FROND_API frond_result frond_model_load_bytes(const void* bytes, size_t size, frond_model* out);
 /* Destroys a model; plants made from it keep what they need. Null and stale handles are ignored. */
 FROND_API void frond_model_destroy(frond_model model);
 /* Returns whether a handle is of a model that exists. */

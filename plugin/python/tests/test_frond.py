@@ -48,6 +48,10 @@ def test_models_come_from_all_sources(corn, tmp_path):
     again = frond.Model(tmp_path / "corn.urdf").info
     assert again.chain_length == pytest.approx(corn.info.chain_length)
     assert again.mass == pytest.approx(corn.info.mass, rel=0.01) and again.capsule_count == corn.info.capsule_count
+    corn.save(tmp_path / "corn.frond")
+    cooked = frond.Model(tmp_path / "corn.frond")
+    assert cooked.to_bytes() == corn.to_bytes() == (tmp_path / "corn.frond").read_bytes()
+    assert frond.Model.from_bytes(corn.to_bytes()).info.mass == corn.info.mass == cooked.info.mass
     assert len(corn.textures) == corn.info.texture_count and corn.textures[0].bytes[:4] == b"\x89PNG"
     assert {part.kind for part in corn.parts} >= {"stem", "blade"}
 
@@ -282,7 +286,9 @@ def test_every_wrong_argument_is_refused_with_a_remedy(stem):
         lambda: plant.set_transform((0, 0, math.inf)), lambda: grab.move(None), lambda: plant.root_force((1, 2)),
         lambda: world.wrench_on("arm"), lambda: frond.picture.Picture(0, 10), lambda: frond.picture.Picture("a", 1),
         lambda: frond.picture.camera_of_matrices([0] * 16, [0] * 16), lambda: frond.picture.read_png("no.png"),
-        lambda: stem.recommend(), lambda: stem.recommend(error=-1), lambda: stem.write_urdf("/no/such/folder/a.urdf")]
+        lambda: stem.recommend(), lambda: stem.recommend(error=-1), lambda: stem.write_urdf("/no/such/folder/a.urdf"),
+        lambda: stem.save("/no/such/folder/a.frond"), lambda: frond.Model.from_bytes(b"frond"),
+        lambda: frond.Model.from_bytes(stem.to_bytes()[:-1]), lambda: frond.Model.from_bytes("frond")]
     before = world.state_hash
     for number, call in enumerate(wrong):
         with pytest.raises(frond.Error) as caught:

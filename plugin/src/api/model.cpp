@@ -5,6 +5,8 @@
 #include "api/call.hpp"
 #include "api/handles.hpp"
 #include "build/build.hpp"
+#include "build/cook.hpp"
+#include "core/platform/files.hpp"
 
 using namespace frond;
 
@@ -26,6 +28,32 @@ static void check_model_def(const frond_model_def* def) {
     for (int i = 0; i < def->organ_count; i++) check_text(def->organs[i].organ, "def.organs[].organ");
 }
 
+static frond_model insert_model(std::shared_ptr<const Model> model) {
+    const uint64_t id = model_slots().insert(std::move(model));
+    if (!id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many models; destroy some");
+    return {id};
+}
+
+// A model is as it was built, so a def that asks for something else would be of no effect.
+static void check_no_wish(const frond_model_def& def) {
+    const frond_model_def plain = frond_default_model_def();
+    const char* wish = def.scale != plain.scale                                                         ? "scale"
+                       : Vec3(def.up.x, def.up.y, def.up.z) != Vec3(plain.up.x, plain.up.y, plain.up.z) ? "up"
+                       : def.capsule_height != plain.capsule_height   ? "capsule_height"
+                       : def.capsule_radius != plain.capsule_radius   ? "capsule_radius"
+                       : def.cage_size != plain.cage_size             ? "cage_size"
+                       : def.cage_offset != plain.cage_offset         ? "cage_offset"
+                       : def.cage_smoothness != plain.cage_smoothness ? "cage_smoothness"
+                       : def.rest != plain.rest                       ? "rest"
+                       : def.organ_count != 0                         ? "organs"
+                                                                      : nullptr;
+    if (wish)
+        fail(FROND_RESULT_BAD_ARGUMENT,
+             "def.%s is set, but a cooked model is as it was built; pass frond_default_model_def(), or set it and cook "
+             "the plant's own file anew",
+             wish);
+}
+
 // Runs a build and gives its model a handle.
 template <class Build>
 static frond_result open_model(const frond_model_def* def, frond_model* out, Build&& build) {
@@ -33,9 +61,7 @@ static frond_result open_model(const frond_model_def* def, frond_model* out, Bui
         check_pointer(out, "out");
         *out = {};
         check_model_def(def);
-        const uint64_t id = model_slots().insert(build());
-        if (!id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many models; destroy some");
-        *out = {id};
+        *out = insert_model(build());
     });
 }
 
@@ -124,6 +150,7 @@ frond_result frond_material_preset(const char* kind, frond_material* out) {
 frond_result frond_model_load(const char* path, const frond_model_def* def, frond_model* out) {
     return open_model(def, out, [&] {
         check_text(path, "path");
+        if (is_cooked(path)) check_no_wish(*def);
         return build_from_file(path, *def);
     });
 }
@@ -163,6 +190,46 @@ frond_result frond_model_from_tets(const double* xyz, int node_count, const int3
         mesh.tet_region.assign(size_t(tet_count), 0);
         mesh.regions = {"stem"};
         return build_from_tets(std::move(mesh), *def);
+    });
+}
+
+frond_result frond_model_load_bytes(const void* bytes, size_t size, frond_model* out) {
+    return call([&] {
+        check_pointer(out, "out");
+        *out = {};
+        check_pointer(bytes, "bytes");
+        *out = insert_model(model_from_cooked(static_cast<const uint8_t*>(bytes), size));
+    });
+}
+
+frond_result frond_model_save(frond_model model, const char* path) {
+    return call([&] {
+        const std::shared_ptr<const Model> found = get(model);
+        check_text(path, "path");
+        const std::vector<uint8_t> bytes = cook(*found);
+        std::string error;
+        if (!write_file(path, std::string(bytes.begin(), bytes.end()), error))
+            fail(FROND_RESULT_FILE_NOT_FOUND, "%s cannot be written: %s", path, error.c_str());
+    });
+}
+
+size_t frond_model_get_saved_size(frond_model model) {
+    size_t size = 0;
+    call([&] { size = cook(*get(model)).size(); });
+    return size;
+}
+
+frond_result frond_model_save_bytes(frond_model model, void* bytes, size_t size) {
+    return call([&] {
+        const std::shared_ptr<const Model> found = get(model);
+        check_pointer(bytes, "bytes");
+        const std::vector<uint8_t> cooked = cook(*found);
+        if (size != cooked.size())
+            fail(FROND_RESULT_BAD_ARGUMENT,
+                 "size is %zu; this model takes %zu bytes now: ask "
+                 "frond_model_get_saved_size after its last plant was made",
+                 size, cooked.size());
+        std::memcpy(bytes, cooked.data(), size);
     });
 }
 

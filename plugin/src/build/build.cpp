@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "build/build_urdf.hpp"
+#include "build/cook.hpp"
 #include "build/weigh.hpp"
 #include "core/decompose.hpp"
 #include "core/error.hpp"
@@ -123,6 +124,7 @@ std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def
 }
 
 std::shared_ptr<const Model> build_from_file(const std::string& path, const frond_model_def& def) {
+    if (is_cooked(path)) return load_cooked(path);
     if (is_tet_file(path)) return build_from_tets(import_tets(path), def);
     if (is_urdf(path)) return build_from_urdf(path, def);
     const Timer total;

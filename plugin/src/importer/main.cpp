@@ -4,7 +4,6 @@
 // The program sets its own limits before it opens the file; its caller must expect that it may crash.
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <new>
 
 #include "core/log.hpp"
@@ -41,18 +40,21 @@ static void read_file(const std::string& path, frond::UrdfUse use, frond::Import
     result.tree = UrdfTree();
 }
 
-int main(int argument_count, char** arguments) {
-    if (argument_count < 2 || frond::is_output_a_terminal()) {
+int main(int count, char** words) {
+    const std::vector<std::string> arguments = frond::own_arguments(count, words);
+    if (arguments.size() < 2 || frond::is_output_a_terminal()) {
         fprintf(stderr,
                 "frond-import reads a mesh file for the Frond library and writes to a pipe; use the frond command\n");
         return 2;
     }
-    const auto number = [&](int i) { return argument_count > i ? double(strtol(arguments[i], nullptr, 10)) : 0.0; };
+    const auto number = [&](size_t i) {
+        return arguments.size() > i ? double(strtol(arguments[i].c_str(), nullptr, 10)) : 0.0;
+    };
     frond::limit_self({number(2), number(3), number(4)});
     if (!frond::write_output(frond::import_greeting())) return 1;
     frond::ImportResult result;
     frond::set_log(keep_warning, &result);
-    const bool collides = argument_count > 5 && strcmp(arguments[5], "collides") == 0;
+    const bool collides = arguments.size() > 5 && arguments[5] == "collides";
     read_file(arguments[1], collides ? frond::UrdfUse::COLLIDES : frond::UrdfUse::SEEN, result);
     const bool written = frond::write_output(frond::encode_import(result));
     // Skips the destructors: a scene that may be half damaged need not be torn down.

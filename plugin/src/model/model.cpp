@@ -101,14 +101,18 @@ static void list_capsules(Model& model) {
     }
 }
 
-void bind_chain(Model& model) {
-    embed_chain(model);
+void list_chain(Model& model) {
     list_capsules(model);
     for (const ChainNode& node : model.chain.nodes) {
         for (int axis = 0; axis < 3; axis++) model.chain_view.positions.push_back(node.position[axis]);
         model.chain_view.radii.push_back(node.radius);
         model.chain_view.parents.push_back(node.parent);
     }
+}
+
+void bind_chain(Model& model) {
+    embed_chain(model);
+    list_chain(model);
 }
 
 }  // namespace frond

@@ -70,5 +70,7 @@ struct Model {
 std::vector<uint8_t> find_root_nodes(const Model& model);
 // Fills capsules, chain_view and chain_embedding of a model whose surface, chain and cage are complete.
 void bind_chain(Model& model);
+// Fills capsules and chain_view.
+void list_chain(Model& model);
 
 }  // namespace frond

@@ -2,7 +2,7 @@
 // world, of bodies among Bullet's collision objects.
 #pragma once
 
-#include "world/archive.hpp"
+#include "core/archive.hpp"
 #include "world/world.hpp"
 
 namespace frond {

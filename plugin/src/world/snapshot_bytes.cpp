@@ -1,5 +1,5 @@
 // In: a snapshot, or its bytes. Out: the other. Layout: magic word, version, precision, length and checksum
-// of what follows; then everything in the order below, in the machine's own byte order.
+// of what follows; then everything in the order below.
 #include <cstring>
 
 #include "core/error.hpp"
@@ -157,7 +157,7 @@ Snapshot snapshot_from(const uint8_t* bytes, size_t count) {
         fail(FROND_RESULT_FILE_FORMAT, "the snapshot was made with a Bullet of %u bytes a number, this one has %u",
              head.precision, own.precision);
     if (head.checksum != own.checksum) fail(FROND_RESULT_FILE_FORMAT, "the snapshot is damaged; its checksum differs");
-    Archive archive(bytes, count);
+    Archive archive(bytes, count, {"the snapshot", "pass all bytes that frond_world_save wrote"});
     Snapshot snapshot;
     visit_all(archive, snapshot);
     if (!archive.is_at_end())

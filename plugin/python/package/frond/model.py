@@ -75,6 +75,7 @@ class Model:
 
     Model("corn")                      a plant that the package brings: corn, cucumber, sunflower, wheat, sapling
     Model("plant.obj", scale=0.01)     a file: .obj .ply .glb .gltf .fbx .dae .stl .msh .vtk .urdf
+    Model("plant.frond")               one that save or "frond cook" wrote, in milliseconds
     """
 
     def __init__(self, path: Any, organs: Mapping[str, Material | dict | str] | None = None,
@@ -223,6 +224,27 @@ class Model:
         out = ffi.from_buffer("int32_t[]", array) if array.size else ffi.NULL
         check(lib.frond_model_get_capsule_organs(self._handle, out, array.size))
         return array
+
+    def save(self, path: Any) -> None:
+        """Saves the model with all that was built for it; Model(path) then has it in milliseconds."""
+        check(lib.frond_model_save(self._handle, path_of(path)))
+
+    def to_bytes(self) -> bytes:
+        """Returns what save writes."""
+        size = lib.frond_model_get_saved_size(self._handle)
+        out = ffi.new("uint8_t[]", max(size, 1))
+        check(lib.frond_model_save_bytes(self._handle, out, size))
+        return bytes(ffi.buffer(out, size))
+
+    @classmethod
+    def from_bytes(cls, cooked: bytes) -> Model:
+        """Makes a model from the bytes of to_bytes, or of a file that save or "frond cook" wrote."""
+        if not isinstance(cooked, (bytes, bytearray, memoryview)):
+            raise refuse(f"cooked is {type(cooked).__name__}; pass the bytes of to_bytes")
+        data = bytes(cooked)
+        model = cls.__new__(cls)
+        model._take(lambda out: lib.frond_model_load_bytes(data, len(data), out), data)
+        return model
 
     def write_urdf(self, path: Any) -> None:
         """Writes the chain as a URDF file."""

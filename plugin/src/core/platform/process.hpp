@@ -36,6 +36,8 @@ private:
     std::unique_ptr<Inside> inside;
 };
 
+// Returns the words that this program was started with, its own name first, in UTF-8.
+std::vector<std::string> own_arguments(int count, char** words);
 // Limits this process, which also ends with the one that started it.
 void limit_self(const ProcessLimits& limits);
 // Returns whether standard output is a terminal; makes it binary.

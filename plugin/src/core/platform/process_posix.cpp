@@ -162,6 +162,10 @@ ChildEnd Child::end(bool stop) {
             "signal " + std::to_string(signal)};
 }
 
+std::vector<std::string> own_arguments(int count, char** words) {
+    return {words, words + count};
+}
+
 void limit_self(const ProcessLimits& limits) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     limit(RLIMIT_CORE, 0);

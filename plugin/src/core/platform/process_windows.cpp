@@ -1,11 +1,14 @@
 // Processes by Windows: a job holds the child's limits and ends it with its host. In: a program and its arguments. Out:
 // what it writes, and how it ended.
 #define WIN32_LEAN_AND_MEAN
+#ifndef NOMINMAX
 #define NOMINMAX
+#endif
 #include <windows.h>
 // After it.
 #include <fcntl.h>
 #include <io.h>
+#include <shellapi.h>
 #include <stdio.h>
 
 #include <algorithm>
@@ -80,7 +83,7 @@ struct Child::Inside {
     std::mutex mutex;
     std::condition_variable news;
     std::string heard[2];
-    bool has_ended = false;
+    int ended = 0;  // of the two
     std::thread readers[2];
 
     void listen(int which) {
@@ -92,7 +95,7 @@ struct Child::Inside {
             news.notify_one();
         }
         const std::lock_guard<std::mutex> lock(mutex);
-        if (which == 0) has_ended = true;
+        ended++;
         news.notify_one();
     }
 };
@@ -168,10 +171,10 @@ bool Child::hear(double most_ms, std::string& output, std::string& errors) {
     std::unique_lock<std::mutex> lock(inside->mutex);
     std::string* const heard = inside->heard;
     inside->news.wait_for(lock, std::chrono::duration<double, std::milli>(std::max(most_ms, 0.0)),
-                          [&] { return inside->has_ended || !heard[0].empty() || !heard[1].empty(); });
+                          [&] { return inside->ended == 2 || !heard[0].empty() || !heard[1].empty(); });
     output += heard[0], errors += heard[1];
     heard[0].clear(), heard[1].clear();
-    return !inside->has_ended;
+    return inside->ended < 2;
 }
 
 ChildEnd Child::end(bool stop) {
@@ -189,8 +192,23 @@ ChildEnd Child::end(bool stop) {
             words};
 }
 
-// The host's job holds the limits.
+std::vector<std::string> own_arguments(int, char**) {
+    int count = 0;
+    wchar_t** const words = CommandLineToArgvW(GetCommandLineW(), &count);
+    std::vector<std::string> arguments;
+    for (int i = 0; i < count; i++) arguments.push_back(std::filesystem::path(words[i]).u8string());
+    LocalFree(words);
+    return arguments;
+}
+
+static LONG WINAPI end_with_its_code(EXCEPTION_POINTERS* exception) {
+    TerminateProcess(GetCurrentProcess(), exception->ExceptionRecord->ExceptionCode);
+    return EXCEPTION_EXECUTE_HANDLER;
+}
+
+// The host's job holds the limits. What crashes ends, without a report or a debugger that waits for somebody.
 void limit_self(const ProcessLimits&) {
+    SetUnhandledExceptionFilter(end_with_its_code);
     SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX | SEM_NOOPENFILEERRORBOX);
 }
 

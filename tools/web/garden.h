@@ -1,0 +1,18 @@
+/* What garden.c gives to a page and to native.c, which measures the same without a browser. */
+#ifndef FROND_GARDEN_H
+#define FROND_GARDEN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { MODEL_CORN, MODEL_CUCUMBER, MODEL_COUNT };
+enum { SCENE_CORN, SCENE_CUCUMBER, SCENE_ROW, SCENE_FIELD, SCENE_COUNT };
+
+int garden_failed(void);
+const char* garden_error(void);
+double garden_take_model(int which, const void* bytes, size_t size);
+int garden_open(int scene, int mechanics, int integrator, uint32_t effects, double wind, int plants);
+void garden_step(double dt);
+void garden_get_hash(uint32_t* out);
+
+#endif
