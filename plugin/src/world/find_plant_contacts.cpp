@@ -5,6 +5,7 @@
 #include "model/union_find.hpp"
 #include "world/agree_on_sides.hpp"
 #include "world/remember_contacts.hpp"
+#include "world/strip_search.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -167,9 +168,61 @@ PlacedIsland placed_now(const World& world, const std::vector<PlantBody*>& islan
     return placed;
 }
 
-Found search_island(const World& world, const std::vector<PlantBody*>& island,
-                    const std::vector<const PlantContact*>& last, double h, PlantSearch& memory) {
-    Found result;
+// Places the corners of an island's strips, now and as they would be at the end of the step. Those of cages have none.
+std::vector<StripPath> strip_paths(const World& world, const std::vector<PlantBody*>& island, double h,
+                                   PlantSearch& memory) {
+    memory.corners.resize(std::max(memory.corners.size(), island.size()));
+    std::vector<StripPath> paths;
+    VecX then;
+    for (size_t i = 0; i < island.size(); i++) {
+        auto& [before, after] = memory.corners[i];
+        const Motion& motion = island[i]->plant->motion;
+        place_corners(*island[i], motion.x, before);
+        then = motion.x + h * motion.v;
+        place_corners(*island[i], then, after);
+        paths.push_back({island[i], before.data(), after.data(), has(world, *island[i], FROND_EFFECT_SELF_CONTACT)});
+    }
+    return paths;
+}
+
+// Returns whether the search for overlapping tets says how the organs of a contact part.
+bool is_of_tets(const CageContact& found, const std::vector<PlantBody*>& island,
+                const std::vector<OrganPair>& crossed) {
+    for (const ContactSide* side : {&found.a, &found.b})
+        if (!touches_by_sheath(*island[size_t(side->body)]->plant)) return true;
+    OrganPair organs = {found.a.body, found.a.organ, found.b.body, found.b.organ};
+    if (found.b.body < found.a.body || (found.a.body == found.b.body && found.b.organ < found.a.organ))
+        organs = {found.b.body, found.b.organ, found.a.body, found.a.organ};
+    const auto has_pair = [&](const OrganPair& pair) {
+        return std::binary_search(crossed.begin(), crossed.end(), pair);
+    };
+    return has_pair(organs) || (organs[0] == organs[2] && has_pair({organs[2], organs[3], organs[0], organs[1]}));
+}
+
+// Leaves out the regions of sheaths whose organs have crossed nothing, where all touch by sheaths.
+void leave_out_parted(const std::vector<PlantBody*>& island, const std::vector<OrganPair>& crossed,
+                      std::vector<CollisionBody>& bodies) {
+    for (size_t i = 0; i < island.size(); i++)
+        if (!touches_by_sheath(*island[i]->plant)) return;
+    for (size_t i = 0; i < island.size(); i++) {
+        const Model& model = *island[i]->plant->model;
+        std::vector<uint8_t>& pieces = bodies[i].pieces;
+        bool any = false;
+        for (size_t piece = 0; piece < pieces.size(); piece++) {
+            const int organ = model.chain.nodes[size_t(model.capsules[piece][1])].organ;
+            const auto is_of = [&](const OrganPair& pair) {
+                return (pair[0] == int(i) && pair[1] == organ) || (pair[2] == int(i) && pair[3] == organ);
+            };
+            if (pieces[piece] && std::none_of(crossed.begin(), crossed.end(), is_of)) pieces[piece] = 0;
+            any = any || pieces[piece];
+        }
+        if (!any) pieces.clear();
+    }
+}
+
+// Finds contacts of cages, and of organs that have crossed each other, by the overlaps of their tets.
+void search_tets(const World& world, const std::vector<PlantBody*>& island, const std::vector<OrganPair>& crossed,
+                 const std::vector<const PlantContact*>& last, double h, PlantSearch& memory, Found& result) {
     Timer timer;
     memory.shapes.resize(std::max(memory.shapes.size(), island.size()));
     std::vector<CoveredBody> covered;
@@ -183,20 +236,40 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
             {collider, memory.shapes[i].places.data(), {}, with_itself, touches_by_sheath(*island[i]->plant)});
     }
     std::vector<std::vector<uint8_t>> pieces = find_meeting_pieces(covered, 0);
-    bool meet = false;
-    for (size_t i = 0; i < island.size(); i++) {
-        meet = meet || !pieces[i].empty();
-        bodies[i].pieces = std::move(pieces[i]);
-    }
-    result.ms_broad = timer.lap();
+    for (size_t i = 0; i < island.size(); i++) bodies[i].pieces = std::move(pieces[i]);
+    leave_out_parted(island, crossed, bodies);
+    const bool meet =
+        std::any_of(bodies.begin(), bodies.end(), [](const CollisionBody& body) { return !body.pieces.empty(); });
+    result.ms_broad += timer.lap();
+    std::vector<PlantContact> contacts;
     if (meet) {
         result.ms_hash = find_cage_contacts(*memory.search, bodies, world.hash, memory.found).ms_hash;
-        for (const CageContact& found : memory.found) result.contacts.push_back(contact_of(found, memory, island));
+        for (const CageContact& found : memory.found)
+            if (is_of_tets(found, island, crossed)) contacts.push_back(contact_of(found, memory, island));
     }
-    if (!last.empty()) remember_contacts(placed_now(world, island, bodies, memory), last, result.contacts);
+    if (!last.empty()) remember_contacts(placed_now(world, island, bodies, memory), last, contacts);
     // Plants held by penalty springs fluctuate too much for their last sides to count.
-    if (world.response != FROND_RESPONSE_PENALTY) agree_on_sides(last, result.contacts);
-    result.ms_narrow = timer.lap() - result.ms_hash;
+    if (world.response != FROND_RESPONSE_PENALTY) agree_on_sides(last, contacts);
+    result.contacts.insert(result.contacts.end(), contacts.begin(), contacts.end());
+    result.ms_narrow += timer.lap() - result.ms_hash;
+}
+
+Found search_island(const World& world, const std::vector<PlantBody*>& island,
+                    const std::vector<const PlantContact*>& last, double h, PlantSearch& memory) {
+    Found result;
+    Timer timer;
+    const std::vector<StripPath> paths = strip_paths(world, island, h, memory);
+    result.ms_broad = timer.lap();
+    StripContacts strips = find_strip_contacts(paths, last);
+    result.contacts = std::move(strips.contacts);
+    result.ms_narrow = timer.lap();
+    const bool has_cages = std::any_of(island.begin(), island.end(),
+                                       [](const PlantBody* body) { return !touches_by_sheath(*body->plant); });
+    if (!has_cages && strips.crossed.empty()) return result;
+    std::vector<const PlantContact*> of_tets;
+    for (const PlantContact* contact : last)
+        if (!contact->by_strips) of_tets.push_back(contact);
+    search_tets(world, island, strips.crossed, of_tets, h, memory, result);
     return result;
 }
 

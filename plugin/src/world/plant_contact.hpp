@@ -18,6 +18,7 @@ struct PlantContact {
     Vec3 normal;                  // exit direction of the first from the second
     double depth;                 // depth of the overlap [m]; below zero they are apart
     double friction;              // combined coefficient of both [-]
+    bool by_strips = false;       // found by the distance of their cores, not by overlapping tets
     int missed = 0;               // substeps since the search last found it
     Vec3 impulse = Vec3::Zero();  // impulse on the first; the last substep's until this one's is known [N s]
 };
@@ -48,6 +49,7 @@ struct PlantSearch {
         std::vector<Capsule> covers;
     };
     std::vector<Shape> shapes;
+    std::vector<std::array<std::vector<Vec3>, 2>> corners;  // of strips, before and after the step, one per plant
 };
 
 // Finds the contacts of plants. Bullet's broad phase finds plants that may meet, capsules around regions of their cages
