@@ -153,6 +153,7 @@ void keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
 // Contacts of one island, and the time of the search [ms].
 struct Found {
     std::vector<PlantContact> contacts;
+    std::vector<uint8_t> near;  // one per plant of the island
     double ms_broad = 0, ms_hash = 0, ms_narrow = 0;
 };
 
@@ -180,7 +181,8 @@ std::vector<StripPath> strip_paths(const World& world, const std::vector<PlantBo
         place_corners(*island[i], motion.x, before);
         then = motion.x + h * motion.v;
         place_corners(*island[i], then, after);
-        paths.push_back({island[i], before.data(), after.data(), has(world, *island[i], FROND_EFFECT_SELF_CONTACT)});
+        paths.push_back({island[i], before.data(), after.data(), has(world, *island[i], FROND_EFFECT_SELF_CONTACT),
+                         way_of_pins(*island[i]->plant)});
     }
     return paths;
 }
@@ -262,6 +264,9 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
     result.ms_broad = timer.lap();
     StripContacts strips = find_strip_contacts(paths, last);
     result.contacts = std::move(strips.contacts);
+    result.near = std::move(strips.near);
+    memory.island = island;
+    memory.crossed = strips.crossed;
     result.ms_narrow = timer.lap();
     const bool has_cages = std::any_of(island.begin(), island.end(),
                                        [](const PlantBody* body) { return !touches_by_sheath(*body->plant); });
@@ -326,6 +331,8 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     std::vector<PlantContact> contacts;
     const std::vector<PlantContact> last = std::move(world.plant_contacts);
     world.plant_contacts.clear();
+    world.plant_island_count = 0;
+    for (PlantBody* body : world.awake) body->plant->is_watched = false;
     Timer timer;
     // Awake plants get their colliders in advance: the broad phase sees them as wide as their cages or sheaths.
     bool any = false;
@@ -344,6 +351,10 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     std::vector<Found> found(islands.size());
     run_jobs(world, islands.size(),
              [&](size_t i) { found[i] = search_island(world, islands[i], known[i], h, *world.plant_searches[i]); });
+    world.plant_island_count = islands.size();
+    for (size_t i = 0; i < islands.size(); i++)
+        for (size_t k = 0; k < islands[i].size(); k++)
+            islands[i][k]->plant->is_watched = found[i].near[k] && !islands[i][k]->rest.asleep;
     for (const Found& of : found) {
         contacts.insert(contacts.end(), of.contacts.begin(), of.contacts.end());
         world.profile.ms_broad += of.ms_broad;

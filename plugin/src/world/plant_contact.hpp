@@ -17,6 +17,7 @@ struct PlantContact {
     Vec3 point;                   // point on the first, world frame [m]
     Vec3 normal;                  // exit direction of the first from the second
     double depth;                 // depth of the overlap [m]; below zero they are apart
+    double lacking = 0;           // by how much the response found so far in this step left it too near [m]
     double friction;              // combined coefficient of both [-]
     bool by_strips = false;       // found by the distance of their cores, not by overlapping tets
     int missed = 0;               // substeps since the search last found it
@@ -50,6 +51,8 @@ struct PlantSearch {
     };
     std::vector<Shape> shapes;
     std::vector<std::array<std::vector<Vec3>, 2>> corners;  // of strips, before and after the step, one per plant
+    std::vector<PlantBody*> island;
+    std::vector<std::array<int, 4>> crossed;  // organs that have gone through each other, as OrganPair
 };
 
 // Finds the contacts of plants. Bullet's broad phase finds plants that may meet, capsules around regions of their cages

@@ -9,6 +9,7 @@
 #include "plant/touch.hpp"
 #include "world/contact_body.hpp"
 #include "world/contact_island.hpp"
+#include "world/strip_search.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -99,7 +100,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Ro
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
     const double room = std::max(0.0, SLOP - contact.depth) / h;
-    row.touch.bias_velocity = -room;
+    row.touch.bias_velocity = -room + contact.lacking / h;
     const double way = h * (row.touch.bias_velocity - row.touch.velocity.dot(contact.normal));
     for (size_t k = 0; k < 2; k++)
         if (drop_levers(way, contact.attachments[k]) &&
@@ -250,9 +251,15 @@ void end_steps(const ContactIsland& island) {
     for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending);
 }
 
-// Applies the rows' impulses to both sides. Returns the rigid bodies that were pushed.
-std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, std::vector<Row>& rows,
-                               const Pushes& pushes) {
+// Rows of an island and their impulses.
+struct Given {
+    std::vector<Row> rows;
+    Pushes pushes;
+};
+
+// Applies the rows' impulses to the plants.
+void give_to_plants(const ContactIsland& island, Given& given) {
+    auto& [rows, pushes] = given;
     const auto to_plants = [&](const Row& row, const Vec3& impulse, auto take) {
         if (impulse.isZero(0)) return;
         take(*row.plants[0]->plant, row.touches[0], impulse);
@@ -265,9 +272,14 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
         if (!pushes.corrections.empty()) to_plants(rows[i], pushes.corrections[i], take_correction);
     }
     end_steps(island);
+}
+
+// Applies the rows' impulses to the bodies. Returns the rigid ones among them.
+std::vector<btRigidBody*> give_to_bodies(const World& world, Given& given) {
+    auto& [rows, pushes] = given;
     std::vector<btRigidBody*> pushed;
     // A plant whose step fails is rewound, and then pushes nothing.
-    for (size_t i = 0; i < rows.size(); i++) {
+    for (size_t i = 0; i < pushes.impulses.size(); i++) {
         if (rows[i].plants[1] || pushes.impulses[i].isZero(0)) continue;
         const Plant& plant = *rows[i].plants[0]->plant;
         const bool pushes_back = world.effects & plant.effects & FROND_EFFECT_TWO_WAY;
@@ -278,24 +290,24 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
     return pushed;
 }
 
-// Finds and applies the impulses of an island. Returns the rigid bodies that were pushed.
-std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& response, const ContactIsland& island,
-                                     double h) {
-    std::vector<Row> rows;
+// Finds the impulses of an island and applies them to its plants.
+Given respond_in(const World& world, const ResponseRow& response, const ContactIsland& island, double h) {
+    Given given;
+    auto& [rows, pushes] = given;
     wake_pushed(island.with_bodies);
     for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
     for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
     for (Bond* bond : island.bonds) add_row(*bond, h, rows);
     if (all_wait(rows, h)) {
         end_steps(island);
-        return {};
+        rows.clear();
+        return given;
     }
     find_compliances(rows);
     std::vector<Touch> touches;
     for (const Row& row : rows) touches.push_back(row.touch);
     ResponseSettings settings = world.response_settings;
     settings.h = h;
-    Pushes pushes;
     for (const Row& row : rows) pushes.impulses.push_back(*row.impulse);
     Coupler coupler = {
         rows, sort_by_plant(island.plants.size(), rows), std::vector<std::vector<Coupling>>(rows.size()), {}, {}, {}};
@@ -304,19 +316,38 @@ std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& resp
     table.islands.emplace_back(rows.size());
     std::iota(table.islands[0].begin(), table.islands[0].end(), 0);
     response.find(touches, table, settings, pushes);
-    return give(world, island, rows, pushes);
+    give_to_plants(island, given);
+    return given;
 }
 
 }  // namespace
 
 void respond_to_contacts(World& world, double h) {
+    // Responses in a step: the response is linear, so that some may go through others in spite of it.
+    constexpr int MOST = 5;
     const ResponseRow& response = response_row(world.response);
     if (!response.find) return;
-    const std::vector<ContactIsland> islands = find_contact_islands(world);
-    std::vector<std::vector<btRigidBody*>> pushed(islands.size());
-    run_jobs(world, islands.size(), [&](size_t i) { pushed[i] = respond_in(world, response, islands[i], h); });
-    for (const std::vector<btRigidBody*>& bodies : pushed)
-        for (btRigidBody* body : bodies) give_gravity(world.gravity_ahead, *body, h);
+    std::vector<PlantBody*> waiting;
+    for (PlantBody* body : world.awake)
+        if ((body->plant->is_watched || body->plant->is_touched) && body->level.is_due && !body->plant->modal)
+            waiting.push_back(body);
+    std::vector<FreeStep> steps;
+    for (const PlantBody* body : waiting) steps.push_back(free_step(*body->plant));
+    std::vector<Given> given;
+    for (int round = 1;; round++) {
+        const std::vector<ContactIsland> islands = find_contact_islands(world);
+        given.clear();
+        given.resize(islands.size());
+        run_jobs(world, islands.size(), [&](size_t i) { given[i] = respond_in(world, response, islands[i], h); });
+        if (!find_missed_contacts(world, h)) break;
+        if (round == MOST) {
+            hold_back_what_passes(world);
+            break;
+        }
+        for (size_t i = 0; i < waiting.size(); i++) take_back(*waiting[i]->plant, steps[i]);
+    }
+    for (Given& of : given)
+        for (btRigidBody* body : give_to_bodies(world, of)) give_gravity(world.gravity_ahead, *body, h);
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -184,6 +184,11 @@ void sway(const World& world, PlantBody& body, const Surroundings& surroundings,
     body.level.ms_capsules = float(timer.ms());
 }
 
+// Returns whether a plant's step ends only when those of others are known.
+bool waits(const Plant& plant) {
+    return plant.is_touched || plant.is_watched;
+}
+
 // Takes a plant's own part of the substep, which is independent of all others.
 void step_alone(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
     if (body.plant->modal) return sway(world, body, surroundings, h);
@@ -193,7 +198,7 @@ void step_alone(const World& world, PlantBody& body, const Surroundings& surroun
         return;
     }
     solve_plant(*body.plant, surroundings, body.level.pending);
-    if (!body.plant->is_touched) finish(world, body, surroundings);
+    if (!waits(*body.plant)) finish(world, body, surroundings);
 }
 
 // Plants that are stepped by one job: a single one, or a batch.
@@ -288,7 +293,9 @@ void handle_contacts(World& world, double h) {
     const Timer timer;
     let_go_of_gone(world);
     frond_report& report = world.report;
-    if (!world.contacts.empty() || !world.plant_contacts.empty() || !world.bonds.empty()) {
+    const bool any_watched = std::any_of(world.awake.begin(), world.awake.end(),
+                                         [](const PlantBody* body) { return body->plant->is_watched; });
+    if (!world.contacts.empty() || !world.plant_contacts.empty() || !world.bonds.empty() || any_watched) {
         BT_PROFILE("frond respond");
         respond_to_contacts(world, h);
         report.effects_run |=
@@ -303,7 +310,7 @@ void handle_contacts(World& world, double h) {
 void finish_touched(World& world, const Surroundings& surroundings) {
     std::vector<PlantBody*> touched;
     for (PlantBody* body : world.awake)
-        if (body->plant->is_touched && !body->plant->modal) touched.push_back(body);
+        if (waits(*body->plant) && body->level.is_due && !body->plant->modal) touched.push_back(body);
     run_jobs(world, touched.size(), [&](size_t i) { finish(world, *touched[i], surroundings); });
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "collide/strip_cull.hpp"
 #include "world/strip_search.hpp"
 #include "world/world.hpp"
 
@@ -106,20 +107,23 @@ void take_over_impulses(const std::vector<const PlantContact*>& last, std::vecto
 StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std::vector<const PlantContact*>& last) {
     constexpr double MARGIN = 0.001, CROSSED = 1e-6;  // [m]
     StripContacts result;
+    result.near.assign(paths.size(), 0);
     std::vector<OrganPair> organs;  // of each contact
     for (const StripPair& pair : find_strip_pairs(paths, MARGIN)) {
         const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
+        result.near[size_t(pair.a)] = result.near[size_t(pair.b)] = 1;
+        const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
+        const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
+        if (stay_apart(core_a, a_after, core_b, b_after, thick + MARGIN)) continue;
         const StripGap now = gap_between(core_a, core_b);
         if (now.distance < CROSSED) {
             result.crossed.push_back(organs_of(paths, pair));
             continue;
         }
-        const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
         if (now.distance < thick + MARGIN) {
             result.contacts.push_back(contact_of(paths, pair, 0, now));
-        } else if (const auto impact = first_impact(core_a, a.core_after(pair.strip_a), core_b,
-                                                    b.core_after(pair.strip_b), thick + MARGIN)) {
+        } else if (const auto impact = first_impact(core_a, a_after, core_b, b_after, thick + MARGIN)) {
             result.contacts.push_back(contact_of(paths, pair, impact->time, impact->gap));
         } else {
             continue;

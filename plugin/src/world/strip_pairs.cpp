@@ -34,7 +34,7 @@ WayBox way_box(const StripPath& path, int body, int number, double margin) {
         box.add(path.before[corner]);
         box.add(path.after[corner]);
     }
-    box.widen(strip.radius + 0.5 * margin);
+    box.widen(strip.radius + 0.5 * margin + path.astray);
     return box;
 }
 

@@ -14,6 +14,7 @@ struct StripPath {
     PlantBody* body;
     const Vec3 *before, *after;  // places of its corners, world frame [m]
     bool with_itself;
+    double astray = 0;  // how much farther than that it may come [m]
     StripCore core_before(int strip) const;
     StripCore core_after(int strip) const;
     const Strip& strip(int number) const { return body->touched().strips[size_t(number)]; }
@@ -35,13 +36,20 @@ PlantContact contact_of(const std::vector<StripPath>& paths, const StripPair& pa
 using OrganPair = std::array<int, 4>;
 OrganPair organs_of(const std::vector<StripPath>& paths, const StripPair& pair);
 
-// What the strips of an island's plants touch; crossed: sorted.
+// What the strips of an island's plants touch.
 struct StripContacts {
     std::vector<PlantContact> contacts;
-    std::vector<OrganPair> crossed;
+    std::vector<OrganPair> crossed;  // sorted
+    std::vector<uint8_t> near;       // one per plant: something may come near it
 };
 // `last`: contacts of the last substep, whose impulses begin the next search for them.
 StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std::vector<const PlantContact*>& last);
+
+// Looks at the ways that watched plants went with the contacts that are known. Where strips went through each other, or
+// nearly, it adds contacts or has those that are known ask for more. Returns whether it did.
+bool find_missed_contacts(World& world, double h);
+// Has islands in which strips still go through each other go only as far along the step as none does.
+void hold_back_what_passes(World& world);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond
