@@ -33,6 +33,16 @@ void take_back(Plant& plant, const FreeStep& step) {
     if (plant.workspace) plant.workspace->retract_from = step.retract_from;
 }
 
+bool may_go_part_of_way(const Plant& plant, double share, double h) {
+    constexpr double LIFT = 0.5;  // speed of lifting the plant by its weight, for the work that is no matter [m/s]
+    const auto energy = [&](const VecX& x) {
+        return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
+    };
+    const double most = std::max(energy(plant.x_good), energy(plant.motion.x)) +
+                        node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
+    return energy(plant.x_good + share * way_of_step(plant)) <= most;
+}
+
 void go_part_of_way(Plant& plant, double share) {
     Motion& motion = plant.motion;
     motion.x = plant.x_good + share * way_of_step(plant);

@@ -195,7 +195,9 @@ struct FreeStep {
 };
 FreeStep free_step(const Plant& plant);
 void take_back(Plant& plant, const FreeStep& step);
-// Goes only a share of the solved step's way, more slowly.
+// Goes only a share of the solved step's way, more slowly. A straight way of nodes strains a plant that turns far:
+// the first returns whether it would be no more strained than at either end.
+bool may_go_part_of_way(const Plant& plant, double share, double h);
 void go_part_of_way(Plant& plant, double share);
 // Returns how far the farthest of the pinned nodes is from where it is to be at the end of the step [m].
 double way_of_pins(const Plant& plant);

@@ -4,7 +4,9 @@
 #include "core/timer.hpp"
 #include "model/union_find.hpp"
 #include "world/agree_on_sides.hpp"
+#include "world/convert.hpp"
 #include "world/remember_contacts.hpp"
+#include "world/show.hpp"
 #include "world/strip_search.hpp"
 #include "world/world.hpp"
 
@@ -18,8 +20,38 @@ bool has(const World& world, const PlantBody& body, frond_effects effect) {
     return world.effects & body.plant->effects & effect && !body.capsules().empty() && body.plant->fragments.empty();
 }
 
+// Returns how far a plant may go in the step at its speed, or carried by its pins [m].
+double reach_of(const Plant& plant, double h) {
+    double fastest = 0;
+    for (int i = 0; i < plant.motion.v.size() / 3; i += plant.follow ? 2 : 1)
+        fastest = std::max(fastest, point(plant.motion.v, i).squaredNorm());
+    return std::max(h * std::sqrt(fastest), way_of_pins(plant));
+}
+
+// Adds the plants that fast ones may come to, beyond the boxes that Bullet knows.
+void add_far_meetings(World& world, double h, std::vector<std::array<int, 2>>& meet) {
+    constexpr double FAR = 0.02;  // [m]
+    const std::vector<PlantBody*> awake = world.awake;
+    for (PlantBody* body : awake) {
+        if (body->plant->modal || !body->getBroadphaseHandle() || !has(world, *body, FROND_EFFECT_PLANT_CONTACT))
+            continue;
+        const double reach = reach_of(*body->plant, h);
+        if (!(reach > FAR)) continue;
+        const btVector3 around = to_bullet(Vec3::Constant(reach));
+        const btBroadphaseProxy& box = *body->getBroadphaseHandle();
+        for (PlantBody* other : plants_in(world, box.m_aabbMin - around, box.m_aabbMax + around)) {
+            const btBroadphaseProxy& of_other = *other->getBroadphaseHandle();
+            if (other == body || !has(world, *other, FROND_EFFECT_PLANT_CONTACT)) continue;
+            const int group = other->is_hidden ? other->filter_group : of_other.m_collisionFilterGroup,
+                      mask = other->is_hidden ? other->filter_mask : of_other.m_collisionFilterMask;
+            if (!(box.m_collisionFilterGroup & mask) || !(group & box.m_collisionFilterMask)) continue;
+            meet.push_back({number_of(world, *body), number_of(world, *other)});
+        }
+    }
+}
+
 // Finds groups of plants whose boxes overlap, and single plants with self-contact.
-std::vector<std::vector<PlantBody*>> find_islands(World& world) {
+std::vector<std::vector<PlantBody*>> find_islands(World& world, double h) {
     btBroadphasePairArray& pairs = world.bullet->getPairCache()->getOverlappingPairArray();
     std::vector<std::array<int, 2>> meet;
     for (int i = 0; i < pairs.size(); i++) {
@@ -30,6 +62,7 @@ std::vector<std::vector<PlantBody*>> find_islands(World& world) {
         if (first->rest.asleep && second->rest.asleep) continue;
         meet.push_back({number_of(world, *first), number_of(world, *second)});
     }
+    add_far_meetings(world, h, meet);
     UnionFind sets(world.taking_part.size());
     std::vector<uint8_t> takes_part(world.taking_part.size(), 0);
     for (size_t i = 0; i < takes_part.size(); i++) {
@@ -343,7 +376,7 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
         any = true;
     }
     if (!any) return contacts;
-    const std::vector<std::vector<PlantBody*>> islands = find_islands(world);
+    const std::vector<std::vector<PlantBody*>> islands = find_islands(world, h);
     while (world.plant_searches.size() < islands.size())
         world.plant_searches.push_back(std::make_unique<PlantSearch>());
     world.profile.ms_broad += timer.lap();

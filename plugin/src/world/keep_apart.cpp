@@ -105,7 +105,7 @@ bool find_missed_contacts(World& world, double) {
     return any;
 }
 
-void hold_back_what_passes(World& world) {
+void hold_back_what_passes(World& world, double h) {
     constexpr double WITHIN = 0.4, SAFE = 0.95;  // over what is allowed before; over the time to there [-]
     for (size_t i = 0; i < world.plant_island_count; i++) {
         PlantSearch& memory = *world.plant_searches[i];
@@ -114,6 +114,13 @@ void hold_back_what_passes(World& world) {
         double share = 1;
         for (const Miss& miss : misses_of(memory, paths, WITHIN)) share = std::min(share, SAFE * miss.impact.time);
         if (share == 1) continue;
+        // All by one share, or they would go through each other on ways that none of them went.
+        const auto may_go = [&](const PlantBody* body) {
+            return !moves(*body) || may_go_part_of_way(*body->plant, share, h);
+        };
+        constexpr double LEAST = 0.01;
+        while (share > LEAST && !std::all_of(memory.island.begin(), memory.island.end(), may_go)) share /= 2;
+        if (share <= LEAST) share = 0;
         for (PlantBody* body : memory.island)
             if (moves(*body)) {
                 go_part_of_way(*body->plant, share);

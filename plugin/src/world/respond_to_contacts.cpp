@@ -278,22 +278,61 @@ void give_to_plants(const ContactIsland& island, Given& given) {
 std::vector<btRigidBody*> give_to_bodies(const World& world, Given& given) {
     auto& [rows, pushes] = given;
     std::vector<btRigidBody*> pushed;
+    std::vector<BodyPush> all;
     // A plant whose step fails is rewound, and then pushes nothing.
     for (size_t i = 0; i < pushes.impulses.size(); i++) {
         if (rows[i].plants[1] || pushes.impulses[i].isZero(0)) continue;
         const Plant& plant = *rows[i].plants[0]->plant;
         const bool pushes_back = world.effects & plant.effects & FROND_EFFECT_TWO_WAY;
         if (!pushes_back || !plant.is_sound) continue;
-        take_impulse(rows[i].contact_body, -pushes.impulses[i]);
+        all.push_back({&rows[i].contact_body, -pushes.impulses[i]});
         if (rows[i].contact_body.rigid) pushed.push_back(rows[i].contact_body.rigid);
     }
+    take_impulses(all);
     return pushed;
+}
+
+// Brings the inertias of multi-bodies up to date.
+void take_inertias(const ContactIsland& island) {
+    std::vector<btMultiBody*> bodies;
+    const auto add = [&](btCollisionObject* object) {
+        const btMultiBodyLinkCollider* link = object ? btMultiBodyLinkCollider::upcast(object) : nullptr;
+        if (link && link->m_multiBody) bodies.push_back(link->m_multiBody);
+    };
+    for (const Contact* contact : island.with_bodies) add(contact->other);
+    for (const Bond* bond : island.bonds) add(bond->body);
+    std::sort(bodies.begin(), bodies.end());
+    bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+    for (btMultiBody* body : bodies) take_present_inertia(*body);
+}
+
+// Shortens impulses by which movable bodies would gain more energy than the plants have, as long as nothing drives them.
+void limit_gain(const ContactIsland& island, Given& given) {
+    std::vector<BodyPush> on_bodies;
+    for (size_t i = 0; i < given.rows.size(); i++) {
+        const ContactBody& body = given.rows[i].contact_body;
+        if (given.rows[i].plants[1] || given.pushes.impulses[i].isZero(0)) continue;
+        if (body.rigid || body.link) on_bodies.push_back({&body, -given.pushes.impulses[i]});
+    }
+    if (on_bodies.empty()) return;
+    const double share = share_within(on_bodies, [&] {
+        double stored = 0;
+        for (const PlantBody* body : island.plants) stored += stored_at_start(*body->plant);
+        for (const Contact* contact : island.with_bodies)
+            if (contact->other->isKinematicObject()) stored = INFINITY;
+        return stored;
+    });
+    if (share == 1) return;
+    for (size_t i = 0; i < given.rows.size(); i++)
+        if (!given.rows[i].plants[1] && (given.rows[i].contact_body.rigid || given.rows[i].contact_body.link))
+            given.pushes.impulses[i] *= share;
 }
 
 // Finds the impulses of an island and applies them to its plants.
 Given respond_in(const World& world, const ResponseRow& response, const ContactIsland& island, double h) {
     Given given;
     auto& [rows, pushes] = given;
+    take_inertias(island);
     wake_pushed(island.with_bodies);
     for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
     for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
@@ -316,6 +355,7 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
     table.islands.emplace_back(rows.size());
     std::iota(table.islands[0].begin(), table.islands[0].end(), 0);
     response.find(touches, table, settings, pushes);
+    limit_gain(island, given);
     give_to_plants(island, given);
     return given;
 }
@@ -341,7 +381,7 @@ void respond_to_contacts(World& world, double h) {
         run_jobs(world, islands.size(), [&](size_t i) { given[i] = respond_in(world, response, islands[i], h); });
         if (!find_missed_contacts(world, h)) break;
         if (round == MOST) {
-            hold_back_what_passes(world);
+            hold_back_what_passes(world, h);
             break;
         }
         for (size_t i = 0; i < waiting.size(); i++) take_back(*waiting[i]->plant, steps[i]);

@@ -49,7 +49,7 @@ StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std
 // nearly, it adds contacts or has those that are known ask for more. Returns whether it did.
 bool find_missed_contacts(World& world, double h);
 // Has islands in which strips still go through each other go only as far along the step as none does.
-void hold_back_what_passes(World& world);
+void hold_back_what_passes(World& world, double h);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond
