@@ -36,23 +36,23 @@ double apart_until(double time, const Vec3& normal, double radius, const Points<
     return until;
 }
 
-// Advances to the first time at which gap_now(a, b).distance is at most `tolerance`, and calls found(time, gap) then.
+// Advances to the first time at which gap_at(time).distance is at most `tolerance`, and calls found(time, gap) then.
 // Returns whether there is one. `radius`: the sum of both shapes' radii, by which their corners' gaps are larger. Where
 // shapes slide past each other at hardly more, steps become short; after `most` of them they count as touching, which
 // errs on the safe side.
-template <size_t A, size_t B, class GapNow, class Found>
+template <size_t A, size_t B, class GapAt, class Found>
 bool advance(const Points<A>& a_before, const Points<A>& a_after, const Points<B>& b_before, const Points<B>& b_after,
-             double radius, double tolerance, int most, GapNow&& gap_now, Found&& found) {
+             double radius, double tolerance, int most, GapAt&& gap_at, Found&& found) {
     double time = 0;
     for (int step = 0;; ++step) {
-        const Points<A> a_now = at_time(a_before, a_after, time);
-        const Points<B> b_now = at_time(b_before, b_after, time);
-        const auto gap = gap_now(a_now, b_now);
+        const auto gap = gap_at(time);
         if (gap.distance <= tolerance || step == most) {
             found(time, gap);
             return true;
         }
-        time = apart_until(time, gap.normal, radius, a_now, a_after, b_now, b_after);
+        const Points<A> a_now = at_time(a_before, a_after, time);
+        const Points<B> b_now = at_time(b_before, b_after, time);
+        time = std::max(time, apart_until(time, gap.normal, radius, a_now, a_after, b_now, b_after));
         if (time > 1) return false;
     }
 }

@@ -18,7 +18,10 @@ static std::optional<Impact> impact_of(const Points<A>& a_before, const Points<A
     constexpr int MOST_STEPS = 1000;
     const double size = radius + (a_before[A - 1] - a_before[0]).norm() + (b_before[B - 1] - b_before[0]).norm();
     std::optional<Impact> impact;
-    advance(a_before, a_after, b_before, b_after, radius, TOLERANCE * size, MOST_STEPS, gap_now,
+    const auto gap_at = [&](double time) {
+        return gap_now(at_time(a_before, a_after, time), at_time(b_before, b_after, time));
+    };
+    advance(a_before, a_after, b_before, b_after, radius, TOLERANCE * size, MOST_STEPS, gap_at,
             [&](double time, const Gap& gap) { impact = Impact{time, gap}; });
     return impact;
 }

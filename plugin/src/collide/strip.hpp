@@ -30,6 +30,13 @@ struct StripGap {
     std::array<double, 4> on_a, on_b;
 };
 StripGap gap_between(const StripCore& a, const StripCore& b);
+// Returns the gap of parts of two cores: of a triangle, 0 or 1, or of a line.
+StripGap gap_of_parts(const StripCore& a, int part_a, const StripCore& b, int part_b);
+inline int part_count(const StripCore& core) {
+    return core.is_line ? 1 : 2;
+}
+// Returns the corners of a part; of a line the last one twice.
+std::array<Vec3, 3> part_of(const StripCore& core, int part);
 Vec3 point_on(const StripQuad& core, const std::array<double, 4>& weights);
 
 // First time at which two cores come as near as `near` [m]; their corners move along straight lines at constant speed.

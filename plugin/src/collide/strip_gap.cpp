@@ -64,23 +64,35 @@ Vec3 point_on(const StripQuad& core, const std::array<double, 4>& weights) {
     return weights[0] * core[0] + weights[1] * core[1] + weights[2] * core[2] + weights[3] * core[3];
 }
 
+std::array<Vec3, 3> part_of(const StripCore& core, int part) {
+    return core.is_line ? std::array<Vec3, 3>{core.at[0], core.at[2], core.at[2]} : triangle_of(core, part);
+}
+
+static StripGap gap_of(const NearestPair& nearest, const StripCore& a, int part_a, const StripCore& b, int part_b) {
+    StripGap gap;
+    gap.distance = std::sqrt(nearest.squared);
+    gap.normal = gap.distance > 0 ? Vec3((nearest.a - nearest.b) / gap.distance) : Vec3(Vec3::UnitY());
+    gap.on_a = weights_of(a, part_a, nearest.a);
+    gap.on_b = weights_of(b, part_b, nearest.b);
+    return gap;
+}
+
+StripGap gap_of_parts(const StripCore& a, int part_a, const StripCore& b, int part_b) {
+    return gap_of(nearest_of_parts(a, part_a, b, part_b), a, part_a, b, part_b);
+}
+
 StripGap gap_between(const StripCore& a, const StripCore& b) {
     NearestPair nearest = {};
     std::array<int, 2> parts = {0, 0};
     nearest.squared = INFINITY;
-    for (int i = 0; i < (a.is_line ? 1 : 2); ++i)
-        for (int k = 0; k < (b.is_line ? 1 : 2); ++k) {
+    for (int i = 0; i < part_count(a); ++i)
+        for (int k = 0; k < part_count(b); ++k) {
             const NearestPair pair = nearest_of_parts(a, i, b, k);
             if (!(pair.squared < nearest.squared)) continue;
             nearest = pair;
             parts = {i, k};
         }
-    StripGap gap;
-    gap.distance = std::sqrt(nearest.squared);
-    gap.normal = gap.distance > 0 ? Vec3((nearest.a - nearest.b) / gap.distance) : Vec3(Vec3::UnitY());
-    gap.on_a = weights_of(a, parts[0], nearest.a);
-    gap.on_b = weights_of(b, parts[1], nearest.b);
-    return gap;
+    return gap_of(nearest, a, parts[0], b, parts[1]);
 }
 
 }  // namespace frond
