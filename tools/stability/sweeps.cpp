@@ -15,6 +15,8 @@ namespace frond::stability {
 
 namespace {
 
+// Displacements in a step from which on bodies are known to pass [m].
+constexpr double ROD_KNOWN = 0.03, TET_KNOWN = 0.015, BALL_KNOWN = 0.1;
 // A plant of 1 m whose middle is met, from before it to behind it, and how long all is watched from there [m], [s].
 constexpr double TALL = 1, MEETS_AT = 0.487, BEFORE = 0.05, BEHIND = 0.2;
 constexpr double THIN = 0.005, LEAF_HALF_WIDTH = 0.03;
@@ -288,6 +290,20 @@ const char* name_of(Meeting meeting) {
 
 bool may_pass(const Sweep& sweep) {
     return sweep.meeting != Meeting::BALL && sweep.speed * sweep.dt > 0.5 * TALL;
+}
+
+bool is_known_to_pass(const Sweep& sweep) {
+    const double way = sweep.speed * sweep.dt;
+    switch (sweep.meeting) {
+        case Meeting::WALL:
+        case Meeting::WIRE:
+        case Meeting::PLATE:
+            return way > (sweep.mechanics == FROND_MECHANICS_ROD ? ROD_KNOWN : TET_KNOWN);
+        case Meeting::BALL:
+            return way > BALL_KNOWN;
+        default:
+            return false;
+    }
 }
 
 Verdict run_sweep(const Sweep& sweep) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "collide/strip_cull.hpp"
+#include "world/contact_body.hpp"
+#include "world/piece.hpp"
 #include "world/strip_search.hpp"
 #include "world/world.hpp"
 
@@ -89,10 +91,32 @@ void add_missed(const std::vector<StripPath>& paths, const Miss& miss, std::vect
     contacts.push_back(contact);
 }
 
+// Returns by how much a plant is still in the way of a kinematic body at the end of the step [m].
+double behind(const Contact& contact, double h) {
+    const Plant& plant = *contact.plant->plant;
+    const Attachment at = attachment_of(contact);
+    const Vec3 way = attachment_place(at, plant.motion.x) - attachment_place(at, plant.x_good);
+    return contact.normal.dot(h * velocity_at(*contact.other, contact.on_other) - plant.rotation * way) - contact.gap;
+}
+
+// Has a contact ask for more where the plant's response, which is linear, leaves it in the way of a kinematic body, as
+// long as that helps.
+bool ask_for_more(Contact& contact, double h) {
+    constexpr double NO_MATTER = 0.001, SHARE = 0.3, HELPS = 0.8;  // [m], over the radius, over the last time [-]
+    if (!contact.other->isKinematicObject() || !moves(*contact.plant)) return false;
+    const double now = behind(contact, h);
+    if (now < std::max(NO_MATTER, SHARE * radius_of(*contact.plant, contact.capsule))) return false;
+    const bool helps = now < HELPS * contact.behind;
+    contact.behind = now;
+    if (helps) contact.lacking += now;
+    return helps;
+}
+
 }  // namespace
 
-bool find_missed_contacts(World& world, double) {
+bool find_missed_contacts(World& world, double h) {
     bool any = false;
+    for (Contact& contact : world.contacts) any |= ask_for_more(contact, h);
     for (size_t i = 0; i < world.plant_island_count; i++) {
         PlantSearch& memory = *world.plant_searches[i];
         const std::vector<StripPath> paths = paths_of(memory);

@@ -61,6 +61,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Row>& r
     row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
                               : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST + lag)
                                                : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
+    row.touch.bias_velocity += contact.lacking / h;
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;
     row.impulse = &contact.impulse;
