@@ -124,11 +124,12 @@ void add_stability(CLI::App& app) {
                                             "--quick a sample of it");
     // An option that would have no effect beside another one is an error.
     integrator->excludes(quick, of_default);
-    for (CLI::Option* option : {names, mechanics, integrator, of_default, json, html}) option->excludes(list, bullet, sweeps);
+    for (CLI::Option* option : {names, mechanics, integrator, of_default, json, html})
+        option->excludes(list, bullet, sweeps);
     list->excludes(quick, bullet, sweeps);
     bullet->excludes(sweeps);
-    add_random_options(*command, options->random, {names, mechanics, integrator, quick, of_default, json, html, bullet, sweeps},
-                       list);
+    add_random_options(*command, options->random,
+                       {names, mechanics, integrator, quick, of_default, json, html, bullet, sweeps}, list);
     // In the soft bodies' table a cell may take about as long as the time that it simulates: what a game could wait
     // for.
     constexpr int WITH_BULLET = 6;

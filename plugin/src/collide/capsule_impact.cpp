@@ -22,7 +22,9 @@ static std::optional<Impact> impact_of(const Points<A>& a_before, const Points<A
         return gap_now(at_time(a_before, a_after, time), at_time(b_before, b_after, time));
     };
     advance(a_before, a_after, b_before, b_after, radius, TOLERANCE * size, MOST_STEPS, gap_at,
-            [&](double time, const Gap& gap) { impact = Impact{time, gap}; });
+            [&](double time, const Gap& gap) {
+                impact = Impact{time, gap};
+            });
     return impact;
 }
 

@@ -1,6 +1,6 @@
 // Strip: a piece of an organ as plants touch it: all points within a radius of its core, a quad in a blade's middle
-// plane or a stem's axis. Cores of what has not gone through each other are apart, so that the line between their nearest
-// points shows on which side each is, however deep they are pressed into each other.
+// plane or a stem's axis. Cores of what has not gone through each other are apart, so that the line between their
+// nearest points shows on which side each is, however deep they are pressed into each other.
 #pragma once
 
 #include <optional>
@@ -46,6 +46,6 @@ struct StripImpact {
     StripGap gap;
 };
 std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCore& a_after, const StripCore& b_before,
-                                       const StripCore& b_after, double near);
+                                        const StripCore& b_after, double near);
 
 }  // namespace frond

@@ -17,8 +17,7 @@ std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCo
     for (int i = 0; i < part_count(a_before); ++i)
         for (int k = 0; k < part_count(b_before); ++k) {
             const auto gap_at = [&](double time) {
-                StripGap gap =
-                    gap_of_parts(at_time(a_before, a_after, time), i, at_time(b_before, b_after, time), k);
+                StripGap gap = gap_of_parts(at_time(a_before, a_after, time), i, at_time(b_before, b_after, time), k);
                 gap.distance -= near;
                 return gap;
             };

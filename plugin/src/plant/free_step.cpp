@@ -38,8 +38,8 @@ bool may_go_part_of_way(const Plant& plant, double share, double h) {
     const auto energy = [&](const VecX& x) {
         return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
     };
-    const double most = std::max(energy(plant.x_good), energy(plant.motion.x)) +
-                        node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
+    const double most =
+        std::max(energy(plant.x_good), energy(plant.motion.x)) + node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
     return energy(plant.x_good + share * way_of_step(plant)) <= most;
 }
 

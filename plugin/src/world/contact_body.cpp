@@ -111,9 +111,9 @@ void take_impulses(const std::vector<BodyPush>& pushes) {
             at.rigid->applyImpulse(to_bullet(push.impulse), to_bullet(at.point) - at.rigid->getCenterOfMassPosition());
         if (!at.link) continue;
         btMultiBody* body = at.link->m_multiBody;
-        auto of = std::find_if(changes.begin(), changes.end(), [&](const auto& change) { return change.first == body; });
-        if (of == changes.end())
-            of = changes.insert(of, {body, std::vector<double>(at.unit_responses[0].size(), 0)});
+        auto of =
+            std::find_if(changes.begin(), changes.end(), [&](const auto& change) { return change.first == body; });
+        if (of == changes.end()) of = changes.insert(of, {body, std::vector<double>(at.unit_responses[0].size(), 0)});
         for (size_t axis = 0; axis < 3; axis++)
             for (size_t k = 0; k < of->second.size(); k++)
                 of->second[k] += push.impulse[int(axis)] * double(at.unit_responses[axis][k]);

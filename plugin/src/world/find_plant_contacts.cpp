@@ -2,11 +2,8 @@
 #include <algorithm>
 
 #include "core/timer.hpp"
-#include "model/union_find.hpp"
 #include "world/agree_on_sides.hpp"
-#include "world/convert.hpp"
 #include "world/remember_contacts.hpp"
-#include "world/show.hpp"
 #include "world/strip_search.hpp"
 #include "world/world.hpp"
 
@@ -14,74 +11,6 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 namespace {
-
-// Returns whether a plant takes part in an effect. One that broke does not: its cage still has the fragments' nodes.
-bool has(const World& world, const PlantBody& body, frond_effects effect) {
-    return world.effects & body.plant->effects & effect && !body.capsules().empty() && body.plant->fragments.empty();
-}
-
-// Returns how far a plant may go in the step at its speed, or carried by its pins [m].
-double reach_of(const Plant& plant, double h) {
-    double fastest = 0;
-    for (int i = 0; i < plant.motion.v.size() / 3; i += plant.follow ? 2 : 1)
-        fastest = std::max(fastest, point(plant.motion.v, i).squaredNorm());
-    return std::max(h * std::sqrt(fastest), way_of_pins(plant));
-}
-
-// Adds the plants that fast ones may come to, beyond the boxes that Bullet knows.
-void add_far_meetings(World& world, double h, std::vector<std::array<int, 2>>& meet) {
-    constexpr double FAR = 0.02;  // [m]
-    const std::vector<PlantBody*> awake = world.awake;
-    for (PlantBody* body : awake) {
-        if (body->plant->modal || !body->getBroadphaseHandle() || !has(world, *body, FROND_EFFECT_PLANT_CONTACT))
-            continue;
-        const double reach = reach_of(*body->plant, h);
-        if (!(reach > FAR)) continue;
-        const btVector3 around = to_bullet(Vec3::Constant(reach));
-        const btBroadphaseProxy& box = *body->getBroadphaseHandle();
-        for (PlantBody* other : plants_in(world, box.m_aabbMin - around, box.m_aabbMax + around)) {
-            const btBroadphaseProxy& of_other = *other->getBroadphaseHandle();
-            if (other == body || !has(world, *other, FROND_EFFECT_PLANT_CONTACT)) continue;
-            const int group = other->is_hidden ? other->filter_group : of_other.m_collisionFilterGroup,
-                      mask = other->is_hidden ? other->filter_mask : of_other.m_collisionFilterMask;
-            if (!(box.m_collisionFilterGroup & mask) || !(group & box.m_collisionFilterMask)) continue;
-            meet.push_back({number_of(world, *body), number_of(world, *other)});
-        }
-    }
-}
-
-// Finds groups of plants whose boxes overlap, and single plants with self-contact.
-std::vector<std::vector<PlantBody*>> find_islands(World& world, double h) {
-    btBroadphasePairArray& pairs = world.bullet->getPairCache()->getOverlappingPairArray();
-    std::vector<std::array<int, 2>> meet;
-    for (int i = 0; i < pairs.size(); i++) {
-        PlantBody* first = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject));
-        if (!first || first->world != &world || !has(world, *first, FROND_EFFECT_PLANT_CONTACT)) continue;
-        PlantBody* second = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject));
-        if (!second || second->world != &world || !has(world, *second, FROND_EFFECT_PLANT_CONTACT)) continue;
-        if (first->rest.asleep && second->rest.asleep) continue;
-        meet.push_back({number_of(world, *first), number_of(world, *second)});
-    }
-    add_far_meetings(world, h, meet);
-    UnionFind sets(world.taking_part.size());
-    std::vector<uint8_t> takes_part(world.taking_part.size(), 0);
-    for (size_t i = 0; i < takes_part.size(); i++) {
-        const PlantBody& body = *world.taking_part[i];
-        takes_part[i] = !body.rest.asleep && has(world, body, FROND_EFFECT_SELF_CONTACT);
-    }
-    for (const auto& [first, second] : meet) {
-        sets.join(first, second);
-        takes_part[size_t(first)] = takes_part[size_t(second)] = 1;
-    }
-    std::vector<std::vector<PlantBody*>> all(takes_part.size()), islands;
-    for (size_t i = 0; i < takes_part.size(); i++)
-        if (takes_part[i]) all[size_t(sets.find(int(i)))].push_back(world.taking_part[i]);
-    for (std::vector<PlantBody*>& island : all)
-        if (!island.empty()) islands.push_back(std::move(island));
-    for (const std::vector<PlantBody*>& island : islands)
-        for (PlantBody* body : island) take_collider(look_at(*body));
-    return islands;
-}
 
 // Computes the places of the cage's or sheath's nodes, now and as they would be at the end of the step [m].
 void place_nodes(const PlantBody& body, double h, VecX& now, VecX& then) {
@@ -214,8 +143,8 @@ std::vector<StripPath> strip_paths(const World& world, const std::vector<PlantBo
         place_corners(*island[i], motion.x, before);
         then = motion.x + h * motion.v;
         place_corners(*island[i], then, after);
-        paths.push_back({island[i], before.data(), after.data(), has(world, *island[i], FROND_EFFECT_SELF_CONTACT),
-                         way_of_pins(*island[i]->plant)});
+        paths.push_back({island[i], before.data(), after.data(),
+                         touches_others(world, *island[i], FROND_EFFECT_SELF_CONTACT), way_of_pins(*island[i]->plant)});
     }
     return paths;
 }
@@ -264,7 +193,7 @@ void search_tets(const World& world, const std::vector<PlantBody*>& island, cons
     std::vector<CollisionBody> bodies;
     for (size_t i = 0; i < island.size(); i++) {
         place_shape(*island[i], i, h, memory.shapes[i]);
-        const bool with_itself = has(world, *island[i], FROND_EFFECT_SELF_CONTACT);
+        const bool with_itself = touches_others(world, *island[i], FROND_EFFECT_SELF_CONTACT);
         const Collider* collider = &island[i]->touched().collider;
         covered.push_back({collider, &memory.shapes[i].covers, with_itself});
         bodies.push_back(
@@ -295,7 +224,11 @@ Found search_island(const World& world, const std::vector<PlantBody*>& island,
     Timer timer;
     const std::vector<StripPath> paths = strip_paths(world, island, h, memory);
     result.ms_broad = timer.lap();
-    StripContacts strips = find_strip_contacts(paths, last);
+    memory.pairs = find_strip_pairs(paths, 2 * STRAY);
+    memory.foreseen.resize(island.size());
+    for (size_t i = 0; i < island.size(); i++) memory.foreseen[i] = memory.corners[i][1];
+    result.ms_broad += timer.lap();
+    StripContacts strips = find_strip_contacts(paths, memory.pairs, last);
     result.contacts = std::move(strips.contacts);
     result.near = std::move(strips.near);
     memory.island = island;
@@ -355,9 +288,10 @@ void take_attachments(PlantContact& contact) {
 }
 
 bool may_touch(const World& world, const PlantContact& contact) {
-    if (contact.plants[0] == contact.plants[1]) return has(world, *contact.plants[0], FROND_EFFECT_SELF_CONTACT);
-    return has(world, *contact.plants[0], FROND_EFFECT_PLANT_CONTACT) &&
-           has(world, *contact.plants[1], FROND_EFFECT_PLANT_CONTACT);
+    if (contact.plants[0] == contact.plants[1])
+        return touches_others(world, *contact.plants[0], FROND_EFFECT_SELF_CONTACT);
+    return touches_others(world, *contact.plants[0], FROND_EFFECT_PLANT_CONTACT) &&
+           touches_others(world, *contact.plants[1], FROND_EFFECT_PLANT_CONTACT);
 }
 
 std::vector<PlantContact> find_plant_contacts(World& world, double h) {
@@ -370,13 +304,13 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     // Awake plants get their colliders in advance: the broad phase sees them as wide as their cages or sheaths.
     bool any = false;
     for (PlantBody* body : world.awake) {
-        const bool together = world.bodies.size() > 1 && has(world, *body, FROND_EFFECT_PLANT_CONTACT);
-        if (!together && !has(world, *body, FROND_EFFECT_SELF_CONTACT)) continue;
+        const bool together = world.bodies.size() > 1 && touches_others(world, *body, FROND_EFFECT_PLANT_CONTACT);
+        if (!together && !touches_others(world, *body, FROND_EFFECT_SELF_CONTACT)) continue;
         take_collider(*body);
         any = true;
     }
     if (!any) return contacts;
-    const std::vector<std::vector<PlantBody*>> islands = find_islands(world, h);
+    const std::vector<std::vector<PlantBody*>> islands = find_plant_islands(world, h);
     while (world.plant_searches.size() < islands.size())
         world.plant_searches.push_back(std::make_unique<PlantSearch>());
     world.profile.ms_broad += timer.lap();

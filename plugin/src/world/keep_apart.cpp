@@ -43,6 +43,18 @@ std::vector<StripPath> paths_of(PlantSearch& memory) {
     return paths;
 }
 
+// Returns whether plants went so far off the foreseen ways that other pairs may meet.
+bool have_strayed(const PlantSearch& memory, const std::vector<StripPath>& paths) {
+    for (size_t i = 0; i < paths.size(); i++) {
+        const auto& [before, after] = memory.corners[i];
+        const std::vector<Vec3>& foreseen = memory.foreseen[i];
+        if (foreseen.size() != after.size()) return true;
+        for (size_t k = 0; k < after.size(); k++)
+            if (!((after[k] - foreseen[k]).squaredNorm() < STRAY * STRAY)) return true;
+    }
+    return false;
+}
+
 struct Miss {
     StripPair pair;
     StripImpact impact;
@@ -53,7 +65,10 @@ struct Miss {
 std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPath>& paths, double share) {
     constexpr double CROSSED = 1e-6;  // [m]
     std::vector<Miss> misses;
-    for (const StripPair& pair : find_strip_pairs(paths, 0)) {
+    std::vector<StripPair> anew;
+    const bool strayed = have_strayed(memory, paths);
+    if (strayed) anew = find_strip_pairs(paths, 0);
+    for (const StripPair& pair : strayed ? anew : memory.pairs) {
         const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
         if (!moves(*a.body) && !moves(*b.body)) continue;
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
@@ -127,6 +142,14 @@ bool find_missed_contacts(World& world, double h) {
         }
     }
     return any;
+}
+
+void tell_what_is_behind(World& world, double h) {
+    constexpr double WHOLE = 2;  // over the radius: all of a stem's thickness [-]
+    for (const Contact& contact : world.contacts)
+        if (contact.other->isKinematicObject() && moves(*contact.plant) &&
+            behind(contact, h) > WHOLE * radius_of(*contact.plant, contact.capsule))
+            world.report.trouble |= FROND_TROUBLE_PASSED;
 }
 
 void hold_back_what_passes(World& world, double h) {

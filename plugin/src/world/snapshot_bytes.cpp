@@ -26,8 +26,8 @@ static void visit(Archive& a, SavedPlantContact& saved) {
     a(saved.plants);
     for (ContactSide& side : c.sides) visit_side(a, side);
     for (Attachment& attachment : c.attachments) visit_attachment(a, attachment);
-    a(c.by_sheath), a(c.on_chain), a(c.by_strips), a(c.between), a(c.point), a(c.normal), a(c.depth), a(c.friction), a(c.missed),
-        a(c.impulse);
+    a(c.by_sheath), a(c.on_chain), a(c.by_strips), a(c.between), a(c.point), a(c.normal), a(c.depth), a(c.friction),
+        a(c.missed), a(c.impulse);
 }
 
 static void visit_touches(Archive& a, SavedTouches& touches) {

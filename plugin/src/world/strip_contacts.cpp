@@ -1,8 +1,8 @@
 // In: strips on their way through a step, as far as is known before it. Out: contacts of those that would meet.
 //
-// Cores that are apart show on which side of each other two strips are, so contacts need no memory. Cores of plants that
-// were made in each other cross; then what is beyond the other may be on the wrong side, and the search for overlapping
-// tets, which looks at whole organs, says where they leave.
+// Cores that are apart show on which side of each other two strips are, so contacts need no memory. Cores of plants
+// that were made in each other cross; then what is beyond the other may be on the wrong side, and the search for
+// overlapping tets, which looks at whole organs, says where they leave.
 #include <algorithm>
 #include <map>
 
@@ -19,8 +19,7 @@ void place_corners(const PlantBody& body, const VecX& x, std::vector<Vec3>& out)
     out.resize(sheath.corners.size());
     const Mat3 turn = plant.rotation.toRotationMatrix();
     for (size_t i = 0; i < out.size(); i++) {
-        const Attachment& corner =
-            plant.follow ? sheath.holds[size_t(sheath.corners[i])] : body.in_cage->corners[i];
+        const Attachment& corner = plant.follow ? sheath.holds[size_t(sheath.corners[i])] : body.in_cage->corners[i];
         out[i] = turn * attachment_place(corner, x) + plant.position;
     }
 }
@@ -104,18 +103,19 @@ void take_over_impulses(const std::vector<const PlantContact*>& last, std::vecto
 
 }  // namespace
 
-StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std::vector<const PlantContact*>& last) {
-    constexpr double MARGIN = 0.001, CROSSED = 1e-6;  // [m]
+StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std::vector<StripPair>& pairs,
+                                  const std::vector<const PlantContact*>& last) {
+    constexpr double MARGIN = 0.001, NEAR = 0.003, CROSSED = 1e-6;  // [m]
     StripContacts result;
     result.near.assign(paths.size(), 0);
     std::vector<OrganPair> organs;  // of each contact
-    for (const StripPair& pair : find_strip_pairs(paths, MARGIN)) {
+    for (const StripPair& pair : pairs) {
         const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
-        result.near[size_t(pair.a)] = result.near[size_t(pair.b)] = 1;
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
-        if (stay_apart(core_a, a_after, core_b, b_after, thick + MARGIN)) continue;
+        if (stay_apart(core_a, a_after, core_b, b_after, thick + NEAR + a.astray + b.astray)) continue;
+        result.near[size_t(pair.a)] = result.near[size_t(pair.b)] = 1;
         const StripGap now = gap_between(core_a, core_b);
         if (now.distance < CROSSED) {
             result.crossed.push_back(organs_of(paths, pair));

@@ -9,19 +9,26 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
+// Plain numbers: this file is compiled without inlining Eigen's.
 struct WayBox {
-    Vec3 lower = Vec3::Constant(INFINITY), upper = Vec3::Constant(-INFINITY);
+    double lower[3] = {INFINITY, INFINITY, INFINITY}, upper[3] = {-INFINITY, -INFINITY, -INFINITY};
     int body = 0, strip = 0;
-    void add(const Vec3& p) {
-        lower = lower.cwiseMin(p);
-        upper = upper.cwiseMax(p);
+    void add(const double* p) {
+        for (int k = 0; k < 3; k++) {
+            if (p[k] < lower[k]) lower[k] = p[k];
+            if (p[k] > upper[k]) upper[k] = p[k];
+        }
     }
     void widen(double by) {
-        lower.array() -= by;
-        upper.array() += by;
+        for (int k = 0; k < 3; k++) {
+            lower[k] -= by;
+            upper[k] += by;
+        }
     }
     bool meets(const WayBox& other) const {
-        return (lower.array() <= other.upper.array()).all() && (other.lower.array() <= upper.array()).all();
+        for (int k = 0; k < 3; k++)
+            if (lower[k] > other.upper[k] || other.lower[k] > upper[k]) return false;
+        return true;
     }
 };
 
@@ -31,8 +38,8 @@ WayBox way_box(const StripPath& path, int body, int number, double margin) {
     box.strip = number;
     const Strip& strip = path.strip(number);
     for (const int corner : strip.corners) {
-        box.add(path.before[corner]);
-        box.add(path.after[corner]);
+        box.add(path.before[corner].data());
+        box.add(path.after[corner].data());
     }
     box.widen(strip.radius + 0.5 * margin + path.astray);
     return box;
@@ -59,13 +66,14 @@ std::vector<WayBox> gather(const std::vector<StripPath>& paths, double margin) {
 
 std::vector<StripPair> find_strip_pairs(const std::vector<StripPath>& paths, double margin) {
     std::vector<WayBox> boxes = gather(paths, margin);
-    Vec3 lower = Vec3::Constant(INFINITY), upper = -lower;
+    WayBox whole;
     for (const WayBox& box : boxes) {
-        lower = lower.cwiseMin(box.lower);
-        upper = upper.cwiseMax(box.upper);
+        whole.add(box.lower);
+        whole.add(box.upper);
     }
-    int axis;
-    (upper - lower).maxCoeff(&axis);
+    int axis = 0;
+    for (int k = 1; k < 3; k++)
+        if (whole.upper[k] - whole.lower[k] > whole.upper[axis] - whole.lower[axis]) axis = k;
     std::sort(boxes.begin(), boxes.end(),
               [axis](const WayBox& a, const WayBox& b) { return a.lower[axis] < b.lower[axis]; });
     std::vector<StripPair> pairs;

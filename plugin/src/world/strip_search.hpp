@@ -20,12 +20,8 @@ struct StripPath {
     const Strip& strip(int number) const { return body->touched().strips[size_t(number)]; }
 };
 
-// Strips of two plants, or of one.
-struct StripPair {
-    int a, strip_a, b, strip_b;
-};
-// Finds the pairs that come nearer than `margin` [m] within the step, by their boxes; those near each other as modelled,
-// as at a joint, are left out.
+// Finds the pairs that come nearer than `margin` [m] within the step, by their boxes; those near each other as
+// modelled, as at a joint, are left out.
 std::vector<StripPair> find_strip_pairs(const std::vector<StripPath>& paths, double margin);
 
 // Makes the contact of a pair that has the gap at a time of the step: it keeps the two, from where they are before the
@@ -43,11 +39,17 @@ struct StripContacts {
     std::vector<uint8_t> near;       // one per plant: something may come near it
 };
 // `last`: contacts of the last substep, whose impulses begin the next search for them.
-StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std::vector<const PlantContact*>& last);
+// `pairs`: from find_strip_pairs.
+StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std::vector<StripPair>& pairs,
+                                  const std::vector<const PlantContact*>& last);
+// How far the corners of two plants may stray from the foreseen ways, before pairs have to be found anew [m].
+constexpr double STRAY = 0.003;
 
 // Looks at the ways that watched plants went with the contacts that are known. Where strips went through each other, or
 // nearly, it adds contacts or has those that are known ask for more. Returns whether it did.
 bool find_missed_contacts(World& world, double h);
+// Reports plants that a kinematic body has come past, whatever was asked of their contacts.
+void tell_what_is_behind(World& world, double h);
 // Has islands in which strips still go through each other go only as far along the step as none does.
 void hold_back_what_passes(World& world, double h);
 
