@@ -70,7 +70,7 @@ std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPa
     if (strayed) anew = find_strip_pairs(paths, 0);
     for (const StripPair& pair : strayed ? anew : memory.pairs) {
         const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
-        if (!moves(*a.body) && !moves(*b.body)) continue;
+        if (!moves(*a.body) || !moves(*b.body)) continue;  // a response needs the steps of both
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;

@@ -125,6 +125,11 @@ void mark_pushed(World& world) {
     for (const Bond& bond : world.bonds) bond.plant->plant->is_touched = bond.plant->plant->is_pressed = true;
 }
 
+// Returns whether a plant's step ends only when those of others are known.
+bool waits(const Plant& plant) {
+    return plant.is_touched || plant.is_watched;
+}
+
 // Drops contacts of modal plants, and of plants whose detail changed after their contacts were found; marks plants that
 // others push, which are stepped now.
 void mark_touched(World& world) {
@@ -143,7 +148,7 @@ void mark_touched(World& world) {
     }
     if (response_row(world.response).find) mark_pushed(world);
     for (PlantBody* body : world.awake)
-        if (body->plant->is_touched || body->plant->has_user_force) body->level.is_due = true;
+        if (waits(*body->plant) || body->plant->has_user_force) body->level.is_due = true;
 }
 
 // Takes the rest of a step, of one plant or of a batch, when no contact is left to push them; plants that may break
@@ -182,11 +187,6 @@ void sway(const World& world, PlantBody& body, const Surroundings& surroundings,
     pose(*body.plant);
     move_capsules(body);
     body.level.ms_capsules = float(timer.ms());
-}
-
-// Returns whether a plant's step ends only when those of others are known.
-bool waits(const Plant& plant) {
-    return plant.is_touched || plant.is_watched;
 }
 
 // Takes a plant's own part of the substep, which is independent of all others.
