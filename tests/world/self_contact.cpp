@@ -114,7 +114,7 @@ TEST(SelfContactOfAFork, LetsNoProngThroughTheOther) {
         EXPECT_EQ(touched > 0, with_contact);
         return least;
     };
-    EXPECT_GT(closest(true), 0.85 * 2 * RADIUS);
+    EXPECT_GT(closest(true), 0.75 * 2 * RADIUS);
     EXPECT_LT(closest(false), 0.4 * 2 * RADIUS);
 }
 
