@@ -302,40 +302,4 @@ TEST(Plants, MayComeAndGoWhileTheyTouch) {
     }
 }
 
-// Two prongs of a fork are pressed together until they would cross.
-TEST(Plants, DoNotPassThroughThemselves) {
-    const auto closest = [](bool with_contact) {
-        frond_world_def world_def = frond_default_world_def();
-        world_def.gravity = {0, 0, 0};
-        Stand stand(world_def);
-        stand.make_stems({{-1, {0, 0, 0}, {0, 0.2, 0}, 0.02, 0.02},
-                          {0, {0, 0.2, 0}, {0.15, 0.6, 0}, 0.012, 0.012},
-                          {0, {0, 0.2, 0}, {-0.15, 0.6, 0}, 0.012, 0.012}},
-                         5e7);
-        frond_plant_def def = stand.plant_def();
-        def.effects = FROND_EFFECT_DEFAULT | (with_contact ? uint32_t(FROND_EFFECT_SELF_CONTACT) : 0u);
-        const frond_plant plant = stand.add(def, {0, 0, 0});
-        stand.steps(5);
-        EXPECT_EQ(stand.report().plant_contact_count, 0);  // nothing touches as modelled
-        frond_grab left = {}, right = {};
-        must(frond_grab_create(plant, {-0.15, 0.6, 0}, 30, &left));
-        must(frond_grab_create(plant, {0.15, 0.6, 0}, 30, &right));
-        int touched = 0;
-        for (int i = 0; i < 120; i++) {
-            const double way = 0.45 * std::min(1.0, i / 60.0);
-            must(frond_grab_move(left, {-0.15 + way, 0.6, 0}));
-            must(frond_grab_move(right, {0.15 - way, 0.6, 0}));
-            stand.steps(1);
-            touched += stand.report().plant_contact_count > 0;
-        }
-        EXPECT_EQ(touched > 0, with_contact);
-        frond_vec3 at_left = {}, at_right = {};
-        must(frond_grab_get(left, &at_left, nullptr, nullptr));
-        must(frond_grab_get(right, &at_right, nullptr, nullptr));
-        return at_right.x - at_left.x;
-    };
-    EXPECT_GT(closest(true), 0);
-    EXPECT_LT(closest(false), 0);
-}
-
 }  // namespace plants_tests

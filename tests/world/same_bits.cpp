@@ -42,7 +42,7 @@ const Row ROWS[] = {
      0x345032fe81e8fb2b, 0x72f5cad73ebcb569},
     {"ball_on_rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, true, FROND_WIND_PROFILE_LOG, 0, 0xb0efaef0fda36f04,
      0xec361e59afc31374},
-    {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0x40a3e3a62e36c5b2,
+    {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0x4b57e7af75be11ff,
      0x969dbd4e11fe12dd},
     {"field", "wheat/wheat.obj", FROND_MECHANICS_ROD, 9, 1.5, false, FROND_WIND_PROFILE_UNIFORM, 4, 0x875b25917fdbaa12,
      0xcde11deb36d090e9},

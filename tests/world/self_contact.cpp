@@ -1,9 +1,17 @@
-// Self-contact of plants in their modelled shape: nothing touches, nothing moves.
+// Self-contact of plants: in their modelled shape nothing touches and nothing moves, and they do not pass through
+// themselves.
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
+#include "support/stand.hpp"
 #include "support/stems.hpp"
 
 namespace self_contact_tests {
+
+using frond::test::must;
+using frond::test::Stand;
 
 struct SelfContact : testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Plants, SelfContact, testing::Range(0, int(FROND_MECHANICS_COUNT)), [](const auto& info) {
@@ -47,6 +55,67 @@ TEST_P(SelfContact, LetsTheCornStand) {
     step(world, plant, frond_plant_get_node_count(plant), GetParam() == FROND_MECHANICS_SPRING_CHAIN ? 0.2 : 0.002);
     frond_world_destroy(world);
     frond_model_destroy(model);
+}
+
+double distance_of(const frond_capsule& a, const frond_capsule& b) {
+    constexpr int COUNT = 20;
+    const auto at = [](const frond_capsule& c, int i) {
+        const double share = double(i) / COUNT;
+        return std::array<double, 3>{c.begin.x + share * (c.end.x - c.begin.x),
+                                     c.begin.y + share * (c.end.y - c.begin.y),
+                                     c.begin.z + share * (c.end.z - c.begin.z)};
+    };
+    double least = INFINITY;
+    for (int i = 0; i <= COUNT; i++)
+        for (int k = 0; k <= COUNT; k++) {
+            const auto p = at(a, i), q = at(b, k);
+            least = std::min(least, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+        }
+    return least;
+}
+
+// Two prongs of a fork are pressed together until they would cross: round ones slip past each other in the end, but
+// their axes stay as far apart as they are thick.
+TEST(SelfContactOfAFork, LetsNoProngThroughTheOther) {
+    constexpr double RADIUS = 0.012, HIGH = 0.3;  // [m]
+    const auto closest = [](bool with_contact) {
+        frond_world_def world_def = frond_default_world_def();
+        world_def.gravity = {0, 0, 0};
+        Stand stand(world_def);
+        stand.make_stems({{-1, {0, 0, 0}, {0, 0.2, 0}, 0.02, 0.02},
+                          {0, {0, 0.2, 0}, {0.15, 0.6, 0}, RADIUS, RADIUS},
+                          {0, {0, 0.2, 0}, {-0.15, 0.6, 0}, RADIUS, RADIUS}},
+                         5e7);
+        frond_plant_def def = stand.plant_def();
+        def.effects = FROND_EFFECT_DEFAULT | (with_contact ? uint32_t(FROND_EFFECT_SELF_CONTACT) : 0u);
+        const frond_plant plant = stand.add(def, {0, 0, 0});
+        stand.steps(5);
+        EXPECT_EQ(stand.report().plant_contact_count, 0);  // nothing touches as modelled
+        frond_grab left = {}, right = {};
+        must(frond_grab_create(plant, {-0.15, 0.6, 0}, 30, &left));
+        must(frond_grab_create(plant, {0.15, 0.6, 0}, 30, &right));
+        std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
+        std::vector<int32_t> organs(capsules.size());
+        must(frond_model_get_capsule_organs(stand.model, organs.data(), int(organs.size())));
+        int touched = 0;
+        double least = INFINITY;
+        for (int i = 0; i < 120; i++) {
+            const double way = 0.45 * std::min(1.0, i / 60.0);
+            must(frond_grab_move(left, {-0.15 + way, 0.6, 0}));
+            must(frond_grab_move(right, {0.15 - way, 0.6, 0}));
+            stand.steps(1);
+            touched += stand.report().plant_contact_count > 0;
+            must(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())));
+            for (size_t a = 0; a < capsules.size(); a++)
+                for (size_t b = 0; b < capsules.size(); b++)
+                    if (organs[a] == 1 && organs[b] == 2 && capsules[a].begin.y > HIGH && capsules[b].begin.y > HIGH)
+                        least = std::min(least, distance_of(capsules[a], capsules[b]));
+        }
+        EXPECT_EQ(touched > 0, with_contact);
+        return least;
+    };
+    EXPECT_GT(closest(true), 0.75 * 2 * RADIUS);
+    EXPECT_LT(closest(false), 0.4 * 2 * RADIUS);
 }
 
 }  // namespace self_contact_tests

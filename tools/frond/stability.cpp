@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "export.hpp"
 #include "stability/stability.hpp"
+#include "stability/sweeps.hpp"
 #include "stability_random.hpp"
 #include "studio/studio.hpp"
 
@@ -17,7 +18,7 @@ struct StabilityOptions {
     stability::Scope scope;
     stability::Limits limits;
     std::string mechanics, integrator, json, html;
-    bool list = false, bullet = false;
+    bool list = false, bullet = false, sweeps = false;
     RandomOptions random;
 };
 
@@ -49,7 +50,20 @@ private:
     std::ofstream file;
 };
 
+void run_sweeps(const StabilityOptions& options) {
+    const bool quick = options.scope.quick;
+    Progress progress("sweep", int(stability::sweeps(quick).size()));
+    const std::vector<stability::SweptCell> cells =
+        stability::run_sweeps(quick, options.limits, [&](int done) { progress.at(done); });
+    std::printf("%s", stability::text_of(cells).c_str());
+    const auto is_red = [](const stability::SweptCell& cell) {
+        return cell.verdict.color == stability::Color::RED && !stability::is_known_to_pass(cell.sweep);
+    };
+    if (std::any_of(cells.begin(), cells.end(), is_red)) throw SceneError("something passes through a plant");
+}
+
 void run_stability(StabilityOptions& options) {
+    if (options.sweeps) return run_sweeps(options);
     if (!options.random.program.empty()) return run_program(options.random);
     if (options.random.count > 0) return options.list ? list_random(options.random) : run_random(options.random);
     if (options.list) {
@@ -105,12 +119,17 @@ void add_stability(CLI::App& app) {
     CLI::Option* bullet =
         command->add_flag("--bullet", options->bullet,
                           "Bullet's own soft bodies in the cases that they can be put through, beside Frond");
+    CLI::Option* sweeps = command->add_flag("--sweeps", options->sweeps,
+                                            "what comes at a plant at 0.1 to 100 m/s: a table of what passes; with "
+                                            "--quick a sample of it");
     // An option that would have no effect beside another one is an error.
     integrator->excludes(quick, of_default);
-    for (CLI::Option* option : {names, mechanics, integrator, of_default, json, html}) option->excludes(list, bullet);
-    list->excludes(quick, bullet);
-    add_random_options(*command, options->random, {names, mechanics, integrator, quick, of_default, json, html, bullet},
-                       list);
+    for (CLI::Option* option : {names, mechanics, integrator, of_default, json, html})
+        option->excludes(list, bullet, sweeps);
+    list->excludes(quick, bullet, sweeps);
+    bullet->excludes(sweeps);
+    add_random_options(*command, options->random,
+                       {names, mechanics, integrator, quick, of_default, json, html, bullet, sweeps}, list);
     // In the soft bodies' table a cell may take about as long as the time that it simulates: what a game could wait
     // for.
     constexpr int WITH_BULLET = 6;

@@ -49,9 +49,13 @@ enum {
     /* Cause: a step gained energy that nothing gave. Effect: it was solved again with a line search, which costs many
      * times as much and may damp. Remedy: a shorter time step, or gentler pushes. */
     FROND_TROUBLE_RETRIED = 1 << 3,
-    /* Cause: a kinematic body moved against a plant by more than half of its size in one step. Effect: it passes
-     * through the plant. Remedy: shorter steps. */
+    /* Cause: a kinematic body moved against a plant so far in one step that the plant did not get out of its way, or
+     * pins by more than the plant's size. Effect: the one passes through the other. Remedy: shorter steps. */
     FROND_TROUBLE_PASSED = 1 << 4,
+    /* Cause: parts of plants moved against each other so fast, or were pressed so hard, that no response kept them
+     * apart. Effect: these plants went only a part of the step's way, and their pins with them, so that nothing passed.
+     * Remedy: shorter steps. */
+    FROND_TROUBLE_HELD_BACK = 1 << 5,
     /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
      * there for the step. Remedy: have the function of frond_world_set_wind_field write every velocity. */
     FROND_TROUBLE_BAD_WIND = 1 << 7

@@ -244,9 +244,10 @@ static bool goes_on(const Plant& plant, double h) {
 }
 
 bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h) {
-    return !plant.modal && !plant.own_elements && !plant.workspace && !plant.is_touched && !plant.has_user_force &&
-           plant.grabs.empty() && plant.fragments.empty() && plant.pin_springs.empty() && !plant.pins_changed &&
-           plant.recovers_for <= 0 && plant.max_substeps <= 1 && plant.fibre_give.empty() && h > 0 && h <= TRUSTED &&
+    return !plant.modal && !plant.own_elements && !plant.workspace && !plant.is_touched && !plant.is_watched &&
+           !plant.has_user_force && plant.grabs.empty() && plant.fragments.empty() && plant.pin_springs.empty() &&
+           !plant.pins_changed && plant.recovers_for <= 0 && plant.max_substeps <= 1 && plant.fibre_give.empty() &&
+           h > 0 && h <= TRUSTED &&
            frond::may_be_batched(*plant.system, settings_for(plant, plant.effects & surroundings.effects), h) &&
            foresee_method(plant, h);
 }

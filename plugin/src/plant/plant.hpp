@@ -130,6 +130,7 @@ struct Plant {
     int max_substeps;
     int substeps = 1;           // of the next step
     bool is_touched = false;    // in contact, which is resolved over whole steps
+    bool is_watched = false;    // near something that it may go through in the running step
     bool is_pressed = false;    // in contact with something that may move
     bool is_entangled = false;  // deep in itself or another plant; crossed leaves come apart only by being stretched
     bool has_user_force = false;
@@ -186,6 +187,21 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects);
 // Adds contact_impulse and contact_correction, if there are any, to the solved step of a plant in contact: only then
 // does its energy show whether the step went wrong.
 void add_contacts(Plant& plant, double h);
+// The solved step without contacts, to which contacts may be added anew.
+struct FreeStep {
+    VecX x, v, retract_from;
+    bool is_shaken = false, has_history = false, is_sound = true, is_off_course = false;
+    SolveReport report;
+    uint32_t trouble = 0;
+};
+FreeStep free_step(const Plant& plant);
+void take_back(Plant& plant, const FreeStep& step);
+// Goes only a share of the solved step's way, more slowly. A straight way of nodes strains a plant that turns far:
+// the first returns whether it would be no more strained than at either end.
+bool may_go_part_of_way(const Plant& plant, double share, double h);
+void go_part_of_way(Plant& plant, double share);
+// Returns how far the farthest of the pinned nodes is from where it is to be at the end of the step [m].
+double way_of_pins(const Plant& plant);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Replaces the second half if the step was broken off: puts the plant back to where it was before the first one.
 void drop_step(Plant& plant);

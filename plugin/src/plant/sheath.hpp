@@ -3,6 +3,7 @@
 #pragma once
 
 #include "collide/cage_contact.hpp"
+#include "collide/strip.hpp"
 #include "plant/follow.hpp"
 
 namespace frond {
@@ -15,6 +16,9 @@ struct Sheath {
     std::vector<int> capsules;   // capsule for which each node was made
     std::vector<Attachment>
         holds;  // attachments of the nodes for pushes: the chain's axis, with a blade's half width as lever
+    // Strips between holds: their corners are nodes. Empty for a cage as a sheath, which has none.
+    std::vector<Strip> strips;
+    std::vector<int> corners;  // the nodes that are corners of strips, each once
 };
 
 // A sheath that follows a cage: its nodes, and the points at which it is pushed, are points of the tets around their
@@ -23,6 +27,7 @@ struct SheathInCage {
     Sheath sheath;
     std::vector<Attachment> attachments;         // of the sheath's nodes
     std::vector<std::vector<int>> capsule_tets;  // tets that carry the surface of each capsule
+    std::vector<Attachment> corners;             // of the holds of the sheath's corners
 };
 
 // Makes a sheath of blades that are that many strips wide: a chain's are rigid across, a cage's are not.

@@ -40,13 +40,21 @@ static Attachment attach(const Vec3& place, const std::vector<int>& tets, const 
     return tet_attachment(place_in_tet(nodes, model.cage.tets, best, weights));
 }
 
+// Returns where a hold is in the modelled shape [m].
+static Vec3 hold_place(const Attachment& hold, const Model& model) {
+    return model.chain.nodes[size_t(hold.node[0] / 2)].position + hold.arm[0];
+}
+
 SheathInCage make_sheath_in_cage(const Model& model, const TetNodes& nodes) {
     constexpr int STRIPS = 2;
-    SheathInCage in_cage = {make_sheath(model, STRIPS), {}, tets_of_capsules(model)};
+    SheathInCage in_cage = {make_sheath(model, STRIPS), {}, tets_of_capsules(model), {}};
     const Sheath& sheath = in_cage.sheath;
     for (size_t i = 0; i < sheath.modelled.size(); ++i)
         in_cage.attachments.push_back(
             attach(sheath.modelled[i], in_cage.capsule_tets[size_t(sheath.capsules[i])], model, nodes));
+    for (const int node : sheath.corners)
+        in_cage.corners.push_back(attach(hold_place(sheath.holds[size_t(node)], model),
+                                         in_cage.capsule_tets[size_t(sheath.capsules[size_t(node)])], model, nodes));
     return in_cage;
 }
 
@@ -60,10 +68,8 @@ SheathInCage cage_as_sheath(const Model& model) {
 Attachment sheath_attachment(const SheathInCage& in_cage, const Model& model, const TetNodes& nodes,
                              const ContactSide& side) {
     Vec3 place = Vec3::Zero();
-    for (size_t i = 0; i < size_t(side.node_count); ++i) {
-        const Attachment& hold = in_cage.sheath.holds[size_t(side.nodes[i])];
-        place += side.weights[i] * (model.chain.nodes[size_t(hold.node[0] / 2)].position + hold.arm[0]);
-    }
+    for (size_t i = 0; i < size_t(side.node_count); ++i)
+        place += side.weights[i] * hold_place(in_cage.sheath.holds[size_t(side.nodes[i])], model);
     return attach(place, in_cage.capsule_tets[size_t(side.piece)], model, nodes);
 }
 

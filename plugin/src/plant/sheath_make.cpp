@@ -108,8 +108,25 @@ void add_capsule(Maker& maker, int capsule, std::vector<int>& last_ring, std::ve
     const int below = goes_on ? last_ring[size_t(before)] : add_ring(maker, begin, capsule, ring);
     last_ring[size_t(capsule)] = add_ring(maker, end, capsule, ring);
     rings[size_t(capsule)] = ring;
-    for (int strip = 0; strip < strips_of(maker, ring); strip++)
+    for (int strip = 0; strip < strips_of(maker, ring); strip++) {
         add_box(maker, below, last_ring[size_t(capsule)], strip, capsule);
+        const int left = below + 2 * strip, left_above = last_ring[size_t(capsule)] + 2 * strip;
+        maker.sheath.strips.push_back(
+            {{left, left + 2, left_above, left_above + 2}, capsule, ring.half_thickness, !ring.is_flat});
+    }
+}
+
+// Lists the corners, and has strips refer to them by their places in that list.
+void list_corners(Sheath& sheath) {
+    std::vector<int> place(sheath.modelled.size(), -1);
+    for (const Strip& strip : sheath.strips)
+        for (const int node : strip.corners) {
+            if (place[size_t(node)] >= 0) continue;
+            place[size_t(node)] = int(sheath.corners.size());
+            sheath.corners.push_back(node);
+        }
+    for (Strip& strip : sheath.strips)
+        for (int& corner : strip.corners) corner = place[size_t(corner)];
 }
 
 }  // namespace
@@ -127,6 +144,7 @@ Sheath make_sheath(const Model& model, int strips) {
     sheath.collider = make_collider(sheath.modelled, maker.tets, maker.tet_piece, maker.tet_organ,
                                     std::max(int(model.capsules.size()), 1));
     separate_near_capsules(model, sheath.collider);
+    list_corners(sheath);
     return std::move(sheath);
 }
 

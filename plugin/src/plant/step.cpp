@@ -168,7 +168,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     take_workspace(plant);
     Timer timer;
     apply_pins(plant);
-    jump_with_pins(plant, JUMP);
+    if (jump_with_pins(plant, JUMP)) plant.trouble |= FROND_TROUBLE_PASSED;
     gather_loads(plant, surroundings, effects);
     plant.ms_user_force = timer.lap();
     gather_air(plant, surroundings, effects, h);

@@ -15,10 +15,12 @@ struct Contact {
     double along;   // position along the capsule, 0..1 [-]
     double across;  // distance from a plate's axis towards its wide side [m]; 0 for capsules
     btCollisionObject* other;
-    Vec3 on_plant, on_other;  // world frame [m]
-    Vec3 normal;              // direction from the other body to the plant
-    double gap;               // distance of the two along the normal when the step begins; below zero they overlap [m]
-    double friction;          // combined coefficient of both [-]
+    Vec3 on_plant, on_other;   // world frame [m]
+    Vec3 normal;               // direction from the other body to the plant
+    double gap;                // distance of the two along the normal when the step begins; below zero they overlap [m]
+    double lacking = 0;        // by how much the response found so far in this step left it behind [m]
+    double behind = INFINITY;  // by how much the last one did [m]
+    double friction;           // combined coefficient of both [-]
     Vec3 impulse = Vec3::Zero();  // impulse on the plant, once it is known [N s]
 };
 

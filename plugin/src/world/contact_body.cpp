@@ -2,13 +2,30 @@
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
+#include <algorithm>
+
 #include "mechanics/rotation.hpp"
 #include "world/convert.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// Computes Jacobians and unit responses of joints and base at the point, by the inertia of Bullet's last step.
+void take_present_inertia(btMultiBody& body) {
+    btAlignedObjectArray<btScalar> r;
+    btAlignedObjectArray<btVector3> v;
+    btAlignedObjectArray<btMatrix3x3> m;
+    // In a time of zero no velocity changes, but all that follows from positions is made anew. The host's feedback of
+    // joints is of its own step.
+    std::vector<btMultiBodyJointFeedback*> feedback;
+    for (int i = 0; i < body.getNumLinks(); i++) {
+        feedback.push_back(body.getLink(i).m_jointFeedback);
+        body.getLink(i).m_jointFeedback = nullptr;
+    }
+    body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, r, v, m, false, false, false);
+    for (int i = 0; i < body.getNumLinks(); i++) body.getLink(i).m_jointFeedback = feedback[size_t(i)];
+}
+
+// Computes Jacobians and unit responses of joints and base at the point.
 static void prepare_link(ContactBody& contact_body) {
     btMultiBody& body = *contact_body.link->m_multiBody;
     const size_t count = size_t(body.getNumDofs()) + 6;
@@ -84,14 +101,27 @@ Mat3 compliance_between(const ContactBody& at, const ContactBody& by) {
     return block;
 }
 
-void take_impulse(ContactBody& contact_body, const Vec3& impulse) {
-    if (contact_body.rigid)
-        contact_body.rigid->applyImpulse(to_bullet(impulse),
-                                         to_bullet(contact_body.point) - contact_body.rigid->getCenterOfMassPosition());
-    if (!contact_body.link) return;
-    for (size_t axis = 0; axis < 3; axis++)
-        contact_body.link->m_multiBody->applyDeltaVeeMultiDof(contact_body.unit_responses[axis].data(),
-                                                              btScalar(impulse[int(axis)]));
+void take_impulses(const std::vector<BodyPush>& pushes) {
+    // Bullet limits each speed of a multi-body whenever one is added, and opposite impulses may pass that limit on the
+    // way to a small sum: so each gets the sum of all its changes at once.
+    std::vector<std::pair<btMultiBody*, std::vector<double>>> changes;
+    for (const BodyPush& push : pushes) {
+        const ContactBody& at = *push.body;
+        if (at.rigid)
+            at.rigid->applyImpulse(to_bullet(push.impulse), to_bullet(at.point) - at.rigid->getCenterOfMassPosition());
+        if (!at.link) continue;
+        btMultiBody* body = at.link->m_multiBody;
+        auto of =
+            std::find_if(changes.begin(), changes.end(), [&](const auto& change) { return change.first == body; });
+        if (of == changes.end()) of = changes.insert(of, {body, std::vector<double>(at.unit_responses[0].size(), 0)});
+        for (size_t axis = 0; axis < 3; axis++)
+            for (size_t k = 0; k < of->second.size(); k++)
+                of->second[k] += push.impulse[int(axis)] * double(at.unit_responses[axis][k]);
+    }
+    for (const auto& [body, change] : changes) {
+        const std::vector<btScalar> all(change.begin(), change.end());
+        body->applyDeltaVeeMultiDof(all.data(), 1);
+    }
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -6,10 +6,12 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "core/types.hpp"
 #include "frond/frond_bullet.hpp"
+#include "plant/plant.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -26,11 +28,24 @@ struct ContactBody {
 void wake(btCollisionObject& object, const Vec3& normal, const Vec3& plant_velocity);
 // Returns the velocity of a rigid body at a point; zero for other objects [m/s].
 Vec3 velocity_at(const btCollisionObject& object, const Vec3& p);
+// Has a multi-body compute its inertia where it is now: Bullet's is of before the step in which it
+// went there, by which impulses would give it energy. Call it before contact bodies of it are made.
+void take_present_inertia(btMultiBody& body);
 // Makes a contact body at a point. A free body's velocity includes what gravity adds in its next step of h [s].
 ContactBody make_contact_body(btCollisionObject& object, const Vec3& point, double h);
 // Returns the velocity at `at` by a unit impulse at `by` [1/kg]; zero unless both are on the same movable body.
 Mat3 compliance_between(const ContactBody& at, const ContactBody& by);
-void take_impulse(ContactBody& contact_body, const Vec3& impulse);
+// An impulse on a movable body [N s].
+struct BodyPush {
+    const ContactBody* body;
+    Vec3 impulse;
+};
+// Applies all impulses of an island's bodies.
+void take_impulses(const std::vector<BodyPush>& pushes);
+// Returns the share of impulses by which the bodies gain no more energy than is allowed [J].
+double share_within(const std::vector<BodyPush>& pushes, const std::function<double()>& allowed);
+// Returns the energy that a plant had when its step began, infinite if something drives it [J].
+double stored_at_start(const Plant& plant);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -2,52 +2,15 @@
 #include <algorithm>
 
 #include "core/timer.hpp"
-#include "model/union_find.hpp"
 #include "world/agree_on_sides.hpp"
 #include "world/remember_contacts.hpp"
+#include "world/strip_search.hpp"
 #include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 namespace {
-
-// Returns whether a plant takes part in an effect. One that broke does not: its cage still has the fragments' nodes.
-bool has(const World& world, const PlantBody& body, frond_effects effect) {
-    return world.effects & body.plant->effects & effect && !body.capsules().empty() && body.plant->fragments.empty();
-}
-
-// Finds groups of plants whose boxes overlap, and single plants with self-contact.
-std::vector<std::vector<PlantBody*>> find_islands(World& world) {
-    btBroadphasePairArray& pairs = world.bullet->getPairCache()->getOverlappingPairArray();
-    std::vector<std::array<int, 2>> meet;
-    for (int i = 0; i < pairs.size(); i++) {
-        PlantBody* first = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject));
-        if (!first || first->world != &world || !has(world, *first, FROND_EFFECT_PLANT_CONTACT)) continue;
-        PlantBody* second = PlantBody::of(static_cast<btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject));
-        if (!second || second->world != &world || !has(world, *second, FROND_EFFECT_PLANT_CONTACT)) continue;
-        if (first->rest.asleep && second->rest.asleep) continue;
-        meet.push_back({number_of(world, *first), number_of(world, *second)});
-    }
-    UnionFind sets(world.taking_part.size());
-    std::vector<uint8_t> takes_part(world.taking_part.size(), 0);
-    for (size_t i = 0; i < takes_part.size(); i++) {
-        const PlantBody& body = *world.taking_part[i];
-        takes_part[i] = !body.rest.asleep && has(world, body, FROND_EFFECT_SELF_CONTACT);
-    }
-    for (const auto& [first, second] : meet) {
-        sets.join(first, second);
-        takes_part[size_t(first)] = takes_part[size_t(second)] = 1;
-    }
-    std::vector<std::vector<PlantBody*>> all(takes_part.size()), islands;
-    for (size_t i = 0; i < takes_part.size(); i++)
-        if (takes_part[i]) all[size_t(sets.find(int(i)))].push_back(world.taking_part[i]);
-    for (std::vector<PlantBody*>& island : all)
-        if (!island.empty()) islands.push_back(std::move(island));
-    for (const std::vector<PlantBody*>& island : islands)
-        for (PlantBody* body : island) take_collider(look_at(*body));
-    return islands;
-}
 
 // Computes the places of the cage's or sheath's nodes, now and as they would be at the end of the step [m].
 void place_nodes(const PlantBody& body, double h, VecX& now, VecX& then) {
@@ -152,6 +115,7 @@ void keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
 // Contacts of one island, and the time of the search [ms].
 struct Found {
     std::vector<PlantContact> contacts;
+    std::vector<uint8_t> near;  // one per plant of the island
     double ms_broad = 0, ms_hash = 0, ms_narrow = 0;
 };
 
@@ -167,36 +131,116 @@ PlacedIsland placed_now(const World& world, const std::vector<PlantBody*>& islan
     return placed;
 }
 
-Found search_island(const World& world, const std::vector<PlantBody*>& island,
-                    const std::vector<const PlantContact*>& last, double h, PlantSearch& memory) {
-    Found result;
+// Places the corners of an island's strips, now and as they would be at the end of the step. Those of cages have none.
+std::vector<StripPath> strip_paths(const World& world, const std::vector<PlantBody*>& island, double h,
+                                   PlantSearch& memory) {
+    memory.corners.resize(std::max(memory.corners.size(), island.size()));
+    std::vector<StripPath> paths;
+    VecX then;
+    for (size_t i = 0; i < island.size(); i++) {
+        auto& [before, after] = memory.corners[i];
+        const Motion& motion = island[i]->plant->motion;
+        place_corners(*island[i], motion.x, before);
+        then = motion.x + h * motion.v;
+        place_corners(*island[i], then, after);
+        paths.push_back({island[i], before.data(), after.data(),
+                         touches_others(world, *island[i], FROND_EFFECT_SELF_CONTACT), way_of_pins(*island[i]->plant)});
+    }
+    return paths;
+}
+
+// Returns whether the search for overlapping tets says how the organs of a contact part.
+bool is_of_tets(const CageContact& found, const std::vector<PlantBody*>& island,
+                const std::vector<OrganPair>& crossed) {
+    for (const ContactSide* side : {&found.a, &found.b})
+        if (!touches_by_sheath(*island[size_t(side->body)]->plant)) return true;
+    OrganPair organs = {found.a.body, found.a.organ, found.b.body, found.b.organ};
+    if (found.b.body < found.a.body || (found.a.body == found.b.body && found.b.organ < found.a.organ))
+        organs = {found.b.body, found.b.organ, found.a.body, found.a.organ};
+    const auto has_pair = [&](const OrganPair& pair) {
+        return std::binary_search(crossed.begin(), crossed.end(), pair);
+    };
+    return has_pair(organs) || (organs[0] == organs[2] && has_pair({organs[2], organs[3], organs[0], organs[1]}));
+}
+
+// Leaves out the regions of sheaths whose organs have crossed nothing, where all touch by sheaths.
+void leave_out_parted(const std::vector<PlantBody*>& island, const std::vector<OrganPair>& crossed,
+                      std::vector<CollisionBody>& bodies) {
+    for (size_t i = 0; i < island.size(); i++)
+        if (!touches_by_sheath(*island[i]->plant)) return;
+    for (size_t i = 0; i < island.size(); i++) {
+        const Model& model = *island[i]->plant->model;
+        std::vector<uint8_t>& pieces = bodies[i].pieces;
+        bool any = false;
+        for (size_t piece = 0; piece < pieces.size(); piece++) {
+            const int organ = model.chain.nodes[size_t(model.capsules[piece][1])].organ;
+            const auto is_of = [&](const OrganPair& pair) {
+                return (pair[0] == int(i) && pair[1] == organ) || (pair[2] == int(i) && pair[3] == organ);
+            };
+            if (pieces[piece] && std::none_of(crossed.begin(), crossed.end(), is_of)) pieces[piece] = 0;
+            any = any || pieces[piece];
+        }
+        if (!any) pieces.clear();
+    }
+}
+
+// Finds contacts of cages, and of organs that have crossed each other, by the overlaps of their tets.
+void search_tets(const World& world, const std::vector<PlantBody*>& island, const std::vector<OrganPair>& crossed,
+                 const std::vector<const PlantContact*>& last, double h, PlantSearch& memory, Found& result) {
     Timer timer;
     memory.shapes.resize(std::max(memory.shapes.size(), island.size()));
     std::vector<CoveredBody> covered;
     std::vector<CollisionBody> bodies;
     for (size_t i = 0; i < island.size(); i++) {
         place_shape(*island[i], i, h, memory.shapes[i]);
-        const bool with_itself = has(world, *island[i], FROND_EFFECT_SELF_CONTACT);
+        const bool with_itself = touches_others(world, *island[i], FROND_EFFECT_SELF_CONTACT);
         const Collider* collider = &island[i]->touched().collider;
         covered.push_back({collider, &memory.shapes[i].covers, with_itself});
         bodies.push_back(
             {collider, memory.shapes[i].places.data(), {}, with_itself, touches_by_sheath(*island[i]->plant)});
     }
     std::vector<std::vector<uint8_t>> pieces = find_meeting_pieces(covered, 0);
-    bool meet = false;
-    for (size_t i = 0; i < island.size(); i++) {
-        meet = meet || !pieces[i].empty();
-        bodies[i].pieces = std::move(pieces[i]);
-    }
-    result.ms_broad = timer.lap();
+    for (size_t i = 0; i < island.size(); i++) bodies[i].pieces = std::move(pieces[i]);
+    leave_out_parted(island, crossed, bodies);
+    const bool meet =
+        std::any_of(bodies.begin(), bodies.end(), [](const CollisionBody& body) { return !body.pieces.empty(); });
+    result.ms_broad += timer.lap();
+    std::vector<PlantContact> contacts;
     if (meet) {
         result.ms_hash = find_cage_contacts(*memory.search, bodies, world.hash, memory.found).ms_hash;
-        for (const CageContact& found : memory.found) result.contacts.push_back(contact_of(found, memory, island));
+        for (const CageContact& found : memory.found)
+            if (is_of_tets(found, island, crossed)) contacts.push_back(contact_of(found, memory, island));
     }
-    if (!last.empty()) remember_contacts(placed_now(world, island, bodies, memory), last, result.contacts);
+    if (!last.empty()) remember_contacts(placed_now(world, island, bodies, memory), last, contacts);
     // Plants held by penalty springs fluctuate too much for their last sides to count.
-    if (world.response != FROND_RESPONSE_PENALTY) agree_on_sides(last, result.contacts);
-    result.ms_narrow = timer.lap() - result.ms_hash;
+    if (world.response != FROND_RESPONSE_PENALTY) agree_on_sides(last, contacts);
+    result.contacts.insert(result.contacts.end(), contacts.begin(), contacts.end());
+    result.ms_narrow += timer.lap() - result.ms_hash;
+}
+
+Found search_island(const World& world, const std::vector<PlantBody*>& island,
+                    const std::vector<const PlantContact*>& last, double h, PlantSearch& memory) {
+    Found result;
+    Timer timer;
+    const std::vector<StripPath> paths = strip_paths(world, island, h, memory);
+    result.ms_broad = timer.lap();
+    memory.pairs = find_strip_pairs(paths, 2 * STRAY);
+    memory.foreseen.resize(island.size());
+    for (size_t i = 0; i < island.size(); i++) memory.foreseen[i] = memory.corners[i][1];
+    result.ms_broad += timer.lap();
+    StripContacts strips = find_strip_contacts(paths, memory.pairs, last);
+    result.contacts = std::move(strips.contacts);
+    result.near = std::move(strips.near);
+    memory.island = island;
+    memory.crossed = strips.crossed;
+    result.ms_narrow = timer.lap();
+    const bool has_cages = std::any_of(island.begin(), island.end(),
+                                       [](const PlantBody* body) { return !touches_by_sheath(*body->plant); });
+    if (!has_cages && strips.crossed.empty()) return result;
+    std::vector<const PlantContact*> of_tets;
+    for (const PlantContact* contact : last)
+        if (!contact->by_strips) of_tets.push_back(contact);
+    search_tets(world, island, strips.crossed, of_tets, h, memory, result);
     return result;
 }
 
@@ -244,26 +288,29 @@ void take_attachments(PlantContact& contact) {
 }
 
 bool may_touch(const World& world, const PlantContact& contact) {
-    if (contact.plants[0] == contact.plants[1]) return has(world, *contact.plants[0], FROND_EFFECT_SELF_CONTACT);
-    return has(world, *contact.plants[0], FROND_EFFECT_PLANT_CONTACT) &&
-           has(world, *contact.plants[1], FROND_EFFECT_PLANT_CONTACT);
+    if (contact.plants[0] == contact.plants[1])
+        return touches_others(world, *contact.plants[0], FROND_EFFECT_SELF_CONTACT);
+    return touches_others(world, *contact.plants[0], FROND_EFFECT_PLANT_CONTACT) &&
+           touches_others(world, *contact.plants[1], FROND_EFFECT_PLANT_CONTACT);
 }
 
 std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     std::vector<PlantContact> contacts;
     const std::vector<PlantContact> last = std::move(world.plant_contacts);
     world.plant_contacts.clear();
+    world.plant_island_count = 0;
+    for (PlantBody* body : world.awake) body->plant->is_watched = false;
     Timer timer;
     // Awake plants get their colliders in advance: the broad phase sees them as wide as their cages or sheaths.
     bool any = false;
     for (PlantBody* body : world.awake) {
-        const bool together = world.bodies.size() > 1 && has(world, *body, FROND_EFFECT_PLANT_CONTACT);
-        if (!together && !has(world, *body, FROND_EFFECT_SELF_CONTACT)) continue;
+        const bool together = world.bodies.size() > 1 && touches_others(world, *body, FROND_EFFECT_PLANT_CONTACT);
+        if (!together && !touches_others(world, *body, FROND_EFFECT_SELF_CONTACT)) continue;
         take_collider(*body);
         any = true;
     }
     if (!any) return contacts;
-    const std::vector<std::vector<PlantBody*>> islands = find_islands(world);
+    const std::vector<std::vector<PlantBody*>> islands = find_plant_islands(world, h);
     while (world.plant_searches.size() < islands.size())
         world.plant_searches.push_back(std::make_unique<PlantSearch>());
     world.profile.ms_broad += timer.lap();
@@ -271,6 +318,10 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     std::vector<Found> found(islands.size());
     run_jobs(world, islands.size(),
              [&](size_t i) { found[i] = search_island(world, islands[i], known[i], h, *world.plant_searches[i]); });
+    world.plant_island_count = islands.size();
+    for (size_t i = 0; i < islands.size(); i++)
+        for (size_t k = 0; k < islands[i].size(); k++)
+            islands[i][k]->plant->is_watched = found[i].near[k] && !islands[i][k]->rest.asleep;
     for (const Found& of : found) {
         contacts.insert(contacts.end(), of.contacts.begin(), of.contacts.end());
         world.profile.ms_broad += of.ms_broad;

@@ -17,7 +17,9 @@ struct PlantContact {
     Vec3 point;                   // point on the first, world frame [m]
     Vec3 normal;                  // exit direction of the first from the second
     double depth;                 // depth of the overlap [m]; below zero they are apart
+    double lacking = 0;           // by how much the response found so far in this step left it too near [m]
     double friction;              // combined coefficient of both [-]
+    bool by_strips = false;       // found by the distance of their cores, not by overlapping tets
     int missed = 0;               // substeps since the search last found it
     Vec3 impulse = Vec3::Zero();  // impulse on the first; the last substep's until this one's is known [N s]
 };
@@ -36,6 +38,11 @@ struct LastContacts {
     std::vector<PlantContact> with_plants;
 };
 
+// Strips of two plants of an island, or of one.
+struct StripPair {
+    int a, strip_a, b, strip_b;
+};
+
 // Memory that is kept between searches.
 struct PlantSearch {
     ContactSearchPtr search = make_contact_search();
@@ -48,8 +55,18 @@ struct PlantSearch {
         std::vector<Capsule> covers;
     };
     std::vector<Shape> shapes;
+    std::vector<std::array<std::vector<Vec3>, 2>> corners;  // of strips, before and after the step, one per plant
+    std::vector<PlantBody*> island;
+    std::vector<std::vector<Vec3>> foreseen;  // corners after the step, as they were when pairs were found
+    std::vector<StripPair> pairs;             // that come near each other within the step
+    std::vector<std::array<int, 4>> crossed;  // organs that have gone through each other, as OrganPair
 };
 
+// Returns whether a plant takes part in an effect by which plants touch. One that broke does not: its cage still has
+// the fragments' nodes.
+bool touches_others(const World& world, const PlantBody& body, frond_effects effect);
+// Finds groups of plants whose boxes overlap, or will within the step, and single plants with self-contact.
+std::vector<std::vector<PlantBody*>> find_plant_islands(World& world, double h);
 // Finds the contacts of plants. Bullet's broad phase finds plants that may meet, capsules around regions of their cages
 // find the organs, and a spatial hash finds nodes, edges and tets (section 3.3 of the paper). Contacts of the last
 // substep that the search misses are kept (remember_contacts.hpp), so that a plant that rests on another one does not

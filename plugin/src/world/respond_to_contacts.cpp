@@ -6,152 +6,16 @@
 #include <algorithm>
 #include <numeric>
 
-#include "plant/touch.hpp"
-#include "world/contact_body.hpp"
-#include "world/contact_island.hpp"
+#include "world/contact_rows.hpp"
+#include "world/strip_search.hpp"
 #include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-Attachment attachment_of(const Contact& contact) {
-    const Flat& flat = contact.plant->hull->flats[size_t(contact.capsule)];
-    return flat_attachment(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
-}
-
 namespace {
 
-// Returns how fast overlapping sides must part: by a share of the overlap beyond the slop per step, up to `fastest`
-// [m/s].
-double parting_speed(double depth, double slop, double h, double share, double fastest) {
-    return std::min(share * std::max(0.0, depth - slop) / h, fastest);
-}
-
-// A contact with the data of both sides.
-struct Row {
-    std::array<PlantBody*, 2> plants = {};  // the second is null where a body is on the other side
-    std::array<PlantTouch, 2> touches;
-    std::array<size_t, 2> sides = {};  // their indices among all sides of that plant
-    ContactBody contact_body;          // the other side, if that is no plant
-    Touch touch;
-    Vec3* impulse;  // the contact's own
-};
-
-bool rubs(const World& world, const PlantBody& body) {
-    return world.effects & body.plant->effects & FROND_EFFECT_FRICTION;
-}
-
-double mass_of(const PlantBody* body) {
-    return node_mass_of(*body->plant->system).sum();
-}
-
-// Adds the row of a contact with a body. Bodies have already moved, so overlaps are removed by velocities.
-void add_row(const World& world, Contact& contact, double h, std::vector<Row>& rows) {
-    constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 1;  // [m], [-], [m/s]
-    Plant& plant = *contact.plant->plant;
-    Row row;
-    row.plants[0] = contact.plant;
-    if (!make_touch(plant, attachment_of(contact), row.touches[0])) return;
-    row.contact_body = make_contact_body(*contact.other, contact.on_other, h);
-    row.touch.normal = contact.normal;
-    row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
-    // What a kinematic body has moved against in this step is to get out of its way at once.
-    const double lag = contact.other->isKinematicObject() ? row.contact_body.velocity.norm() : 0;
-    row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
-                              : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST + lag)
-                                               : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
-    row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
-    row.touch.depth = -contact.gap;
-    row.impulse = &contact.impulse;
-    rows.push_back(std::move(row));
-}
-
-// Wakes bodies that plants push. Call it before rows are made, so that all rows of a body see it in the same state.
-void wake_pushed(const std::vector<Contact*>& contacts) {
-    PlantTouch touch;
-    for (const Contact* contact : contacts)
-        if (make_touch(*contact->plant->plant, attachment_of(*contact), touch))
-            wake(*contact->other, contact->normal, touch.velocity);
-}
-
-// Moves an attachment from the rim to the axis where a push at the rim would turn it in the step by more than a linear
-// compliance can predict. Returns whether it did.
-bool drop_levers(double way, Attachment& attachment) {
-    constexpr double TURN = 0.15;  // [rad]
-    const double lever = (attachment.arm[0] + attachment.arm[1]).norm();
-    if (lever == 0 || way < TURN * lever) return false;
-    attachment.arm[0].setZero();
-    attachment.arm[1].setZero();
-    return true;
-}
-
-// Adds the row of a contact of plants. They part by position correction: cages may overlap by half a leaf when they are
-// made, and velocities would make them fly.
-void add_row(const World& world, PlantContact& contact, double h, std::vector<Row>& rows) {
-    constexpr double SLOP = 0.0002, SHARE = 0.4, FASTEST = 0.5;  // [m], [-], [m/s]
-    // Limit of a position correction, over the lighter plant's weight [-]. Without it, feet that cannot part would use
-    // up all work that position correction may do, and nothing else would part.
-    constexpr double STRONG = 0.4;
-    Row row;
-    row.plants = contact.plants;
-    for (size_t k = 0; k < 2; k++)
-        if (!make_touch(*contact.plants[k]->plant, contact.attachments[k], row.touches[k])) return;
-    row.touch.normal = contact.normal;
-    row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
-    const double room = std::max(0.0, SLOP - contact.depth) / h;
-    row.touch.bias_velocity = -room;
-    const double way = h * (row.touch.bias_velocity - row.touch.velocity.dot(contact.normal));
-    for (size_t k = 0; k < 2; k++)
-        if (drop_levers(way, contact.attachments[k]) &&
-            !make_touch(*contact.plants[k]->plant, contact.attachments[k], row.touches[k]))
-            return;
-    row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
-    // Penalty springs leave nearly all of the parting to position correction.
-    if (world.response != FROND_RESPONSE_PENALTY)
-        row.touch.most_correction =
-            h * STRONG * GRAVITY * std::min(mass_of(contact.plants[0]), mass_of(contact.plants[1]));
-    row.touch.least_correction = room > 0 ? -room : parting_speed(contact.depth, SLOP, h, SHARE, FASTEST);
-    row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
-    row.touch.depth = contact.depth;
-    row.impulse = &contact.impulse;
-    rows.push_back(std::move(row));
-}
-
-// Adds the row of a bond, which closes half of its gap per step.
-void add_row(Bond& bond, double h, std::vector<Row>& rows) {
-    constexpr double SHARE = 0.5, FASTEST = 10;  // [m/s]
-    if (bond.plant->rest.asleep) return;
-    bond.impulse.setZero();
-    bond.length = h;
-    if (!bond.body) return;
-    Plant& plant = *bond.plant->plant;
-    Row row;
-    row.plants[0] = bond.plant;
-    const Attachment attachment = vertex_attachment(plant, bond.vertex);
-    if (!make_touch(plant, attachment, row.touches[0])) return;
-    if (!bond.body->isStaticOrKinematicObject()) bond.body->activate();
-    const Vec3 place = place_on_body(bond);
-    row.contact_body = make_contact_body(*bond.body, place, h);
-    row.touch.is_bond = true;
-    row.touch.normal = Vec3::UnitY();
-    row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
-    row.touch.wanted = SHARE / h * (place - plant.to_world(attachment_place(attachment, plant.x_good)));
-    if (row.touch.wanted.norm() > FASTEST) row.touch.wanted *= FASTEST / row.touch.wanted.norm();
-    row.touch.bias_velocity = row.touch.friction = 0;
-    row.impulse = &bond.impulse;
-    rows.push_back(std::move(row));
-}
-
-// Returns whether no row would push anything: all are apart and come no nearer in the step than they may. Then no
-// compliances are needed.
-bool all_wait(const std::vector<Row>& rows, double h) {
-    const auto waits = [&](const Row& row) {
-        const Touch& touch = row.touch;
-        return !touch.is_bond && row.impulse->isZero(0) && touch.depth <= 0 && touch.least_correction <= 0 &&
-               touch.velocity.dot(touch.normal) >= std::max(touch.bias_velocity, touch.depth / h);
-    };
-    return std::all_of(rows.begin(), rows.end(), waits);
-}
+using Row = ContactRow;
 
 void find_compliances(std::vector<Row>& rows) {
     const auto has_none = [](Row& row) {
@@ -250,9 +114,15 @@ void end_steps(const ContactIsland& island) {
     for (PlantBody* body : island.plants) add_contacts(*body->plant, body->level.pending);
 }
 
-// Applies the rows' impulses to both sides. Returns the rigid bodies that were pushed.
-std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, std::vector<Row>& rows,
-                               const Pushes& pushes) {
+// Rows of an island and their impulses.
+struct Given {
+    std::vector<Row> rows;
+    Pushes pushes;
+};
+
+// Applies the rows' impulses to the plants.
+void give_to_plants(const ContactIsland& island, Given& given) {
+    auto& [rows, pushes] = given;
     const auto to_plants = [&](const Row& row, const Vec3& impulse, auto take) {
         if (impulse.isZero(0)) return;
         take(*row.plants[0]->plant, row.touches[0], impulse);
@@ -265,37 +135,79 @@ std::vector<btRigidBody*> give(const World& world, const ContactIsland& island, 
         if (!pushes.corrections.empty()) to_plants(rows[i], pushes.corrections[i], take_correction);
     }
     end_steps(island);
+}
+
+// Applies the rows' impulses to the bodies. Returns the rigid ones among them.
+std::vector<btRigidBody*> give_to_bodies(const World& world, Given& given) {
+    auto& [rows, pushes] = given;
     std::vector<btRigidBody*> pushed;
+    std::vector<BodyPush> all;
     // A plant whose step fails is rewound, and then pushes nothing.
-    for (size_t i = 0; i < rows.size(); i++) {
+    for (size_t i = 0; i < pushes.impulses.size(); i++) {
         if (rows[i].plants[1] || pushes.impulses[i].isZero(0)) continue;
         const Plant& plant = *rows[i].plants[0]->plant;
         const bool pushes_back = world.effects & plant.effects & FROND_EFFECT_TWO_WAY;
         if (!pushes_back || !plant.is_sound) continue;
-        take_impulse(rows[i].contact_body, -pushes.impulses[i]);
+        all.push_back({&rows[i].contact_body, -pushes.impulses[i]});
         if (rows[i].contact_body.rigid) pushed.push_back(rows[i].contact_body.rigid);
     }
+    take_impulses(all);
     return pushed;
 }
 
-// Finds and applies the impulses of an island. Returns the rigid bodies that were pushed.
-std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& response, const ContactIsland& island,
-                                     double h) {
-    std::vector<Row> rows;
-    wake_pushed(island.with_bodies);
-    for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
-    for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
-    for (Bond* bond : island.bonds) add_row(*bond, h, rows);
+// Brings the inertias of multi-bodies up to date.
+void take_inertias(const ContactIsland& island) {
+    std::vector<btMultiBody*> bodies;
+    const auto add = [&](btCollisionObject* object) {
+        const btMultiBodyLinkCollider* link = object ? btMultiBodyLinkCollider::upcast(object) : nullptr;
+        if (link && link->m_multiBody) bodies.push_back(link->m_multiBody);
+    };
+    for (const Contact* contact : island.with_bodies) add(contact->other);
+    for (const Bond* bond : island.bonds) add(bond->body);
+    std::sort(bodies.begin(), bodies.end());
+    bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+    for (btMultiBody* body : bodies) take_present_inertia(*body);
+}
+
+// Shortens impulses by which movable bodies would gain more energy than the plants have, as long as nothing drives
+// them.
+void limit_gain(const ContactIsland& island, Given& given) {
+    std::vector<BodyPush> on_bodies;
+    for (size_t i = 0; i < given.rows.size(); i++) {
+        const ContactBody& body = given.rows[i].contact_body;
+        if (given.rows[i].plants[1] || given.pushes.impulses[i].isZero(0)) continue;
+        if (body.rigid || body.link) on_bodies.push_back({&body, -given.pushes.impulses[i]});
+    }
+    if (on_bodies.empty()) return;
+    const double share = share_within(on_bodies, [&] {
+        double stored = 0;
+        for (const PlantBody* body : island.plants) stored += stored_at_start(*body->plant);
+        for (const Contact* contact : island.with_bodies)
+            if (contact->other->isKinematicObject()) stored = INFINITY;
+        return stored;
+    });
+    if (share == 1) return;
+    for (size_t i = 0; i < given.rows.size(); i++)
+        if (!given.rows[i].plants[1] && (given.rows[i].contact_body.rigid || given.rows[i].contact_body.link))
+            given.pushes.impulses[i] *= share;
+}
+
+// Finds the impulses of an island and applies them to its plants.
+Given respond_in(const World& world, const ResponseRow& response, const ContactIsland& island, double h) {
+    Given given;
+    auto& [rows, pushes] = given;
+    take_inertias(island);
+    rows = make_rows(world, island, h);
     if (all_wait(rows, h)) {
         end_steps(island);
-        return {};
+        rows.clear();
+        return given;
     }
     find_compliances(rows);
     std::vector<Touch> touches;
     for (const Row& row : rows) touches.push_back(row.touch);
     ResponseSettings settings = world.response_settings;
     settings.h = h;
-    Pushes pushes;
     for (const Row& row : rows) pushes.impulses.push_back(*row.impulse);
     Coupler coupler = {
         rows, sort_by_plant(island.plants.size(), rows), std::vector<std::vector<Coupling>>(rows.size()), {}, {}, {}};
@@ -304,19 +216,40 @@ std::vector<btRigidBody*> respond_in(const World& world, const ResponseRow& resp
     table.islands.emplace_back(rows.size());
     std::iota(table.islands[0].begin(), table.islands[0].end(), 0);
     response.find(touches, table, settings, pushes);
-    return give(world, island, rows, pushes);
+    limit_gain(island, given);
+    give_to_plants(island, given);
+    return given;
 }
 
 }  // namespace
 
 void respond_to_contacts(World& world, double h) {
+    // Responses in a step: the response is linear, so that some may go through others in spite of it.
+    constexpr int MOST = 5;
     const ResponseRow& response = response_row(world.response);
     if (!response.find) return;
-    const std::vector<ContactIsland> islands = find_contact_islands(world);
-    std::vector<std::vector<btRigidBody*>> pushed(islands.size());
-    run_jobs(world, islands.size(), [&](size_t i) { pushed[i] = respond_in(world, response, islands[i], h); });
-    for (const std::vector<btRigidBody*>& bodies : pushed)
-        for (btRigidBody* body : bodies) give_gravity(world.gravity_ahead, *body, h);
+    std::vector<PlantBody*> waiting;
+    for (PlantBody* body : world.awake)
+        if ((body->plant->is_watched || body->plant->is_touched) && body->level.is_due && !body->plant->modal)
+            waiting.push_back(body);
+    std::vector<FreeStep> steps;
+    for (const PlantBody* body : waiting) steps.push_back(free_step(*body->plant));
+    std::vector<Given> given;
+    for (int round = 1;; round++) {
+        const std::vector<ContactIsland> islands = find_contact_islands(world);
+        given.clear();
+        given.resize(islands.size());
+        run_jobs(world, islands.size(), [&](size_t i) { given[i] = respond_in(world, response, islands[i], h); });
+        if (!find_missed_contacts(world, h)) break;
+        if (round == MOST) {
+            hold_back_what_passes(world, h);
+            break;
+        }
+        for (size_t i = 0; i < waiting.size(); i++) take_back(*waiting[i]->plant, steps[i]);
+    }
+    tell_what_is_behind(world, h);
+    for (Given& of : given)
+        for (btRigidBody* body : give_to_bodies(world, of)) give_gravity(world.gravity_ahead, *body, h);
 }
 
 }  // namespace FROND_BULLET_PRECISION

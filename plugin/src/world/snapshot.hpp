@@ -95,6 +95,7 @@ struct Snapshot {
     std::vector<SavedRigid> rigids;
     std::vector<SavedBond> bonds;
     std::vector<SavedAhead> ahead;
+    std::vector<int> others_before;  // objects that the last substep knew, none of them a plant
     SavedTouches touches;
 };
 

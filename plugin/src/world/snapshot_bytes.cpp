@@ -26,8 +26,8 @@ static void visit(Archive& a, SavedPlantContact& saved) {
     a(saved.plants);
     for (ContactSide& side : c.sides) visit_side(a, side);
     for (Attachment& attachment : c.attachments) visit_attachment(a, attachment);
-    a(c.by_sheath), a(c.on_chain), a(c.between), a(c.point), a(c.normal), a(c.depth), a(c.friction), a(c.missed),
-        a(c.impulse);
+    a(c.by_sheath), a(c.on_chain), a(c.by_strips), a(c.between), a(c.point), a(c.normal), a(c.depth), a(c.friction),
+        a(c.missed), a(c.impulse);
 }
 
 static void visit_touches(Archive& a, SavedTouches& touches) {
@@ -99,14 +99,14 @@ static void visit(Archive& a, SavedBond& bond) {
 
 static void visit_all(Archive& a, Snapshot& s) {
     a(s.time), a(s.travelled), a(s.turn), a(s.substep), a(s.gravity_before), a(s.effects_before), a(s.is_held);
-    a(s.plants), a(s.rigids), a(s.bonds), a(s.ahead);
+    a(s.plants), a(s.rigids), a(s.bonds), a(s.ahead), a(s.others_before);
     visit_touches(a, s.touches);
 }
 
 namespace {
 
 constexpr char MAGIC[8] = {'F', 'R', 'O', 'N', 'D', 'S', 'N', 'P'};
-constexpr uint32_t LAYOUT = 3;  // to be raised with every change above
+constexpr uint32_t LAYOUT = 4;  // to be raised with every change above
 
 struct Head {
     char magic[8];

@@ -257,6 +257,7 @@ void check_snapshot(World& world, const Snapshot& snapshot) {
         if (!btRigidBody::upcast(objects[ahead.body])) damaged("gravity");
         check_numbers(ahead.force, "gravity");
     }
+    for (const int other : snapshot.others_before) check_index(other, object_count, "objects");
 }
 
 }  // namespace FROND_BULLET_PRECISION

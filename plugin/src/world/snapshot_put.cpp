@@ -174,6 +174,9 @@ void put_snapshot(World& world, Snapshot snapshot) {
         world.gravity_ahead.bodies.push_back(
             {btRigidBody::upcast(object_at(world, ahead.body)), vector_of(ahead.force)});
     world.gravity_ahead.is_held = snapshot.is_held;
+    world.others_before.clear();
+    for (const int other : snapshot.others_before) world.others_before.push_back(object_at(world, other));
+    std::sort(world.others_before.begin(), world.others_before.end(), std::less<>());
     put_touches(world, snapshot.touches, world.contacts, world.plant_contacts);
     find_contacts_anew(world);
     world.events.list.clear();

@@ -166,6 +166,9 @@ Snapshot take_snapshot(World& world) {
         const int body = place_of(world, held.body);
         if (body >= 0) snapshot.ahead.push_back({body, numbers_of(held.force)});
     }
+    for (const btCollisionObject* other : world.others_before)
+        if (const int place = place_of(world, other); place >= 0) snapshot.others_before.push_back(place);
+    std::sort(snapshot.others_before.begin(), snapshot.others_before.end());  // they were by address
     snapshot.touches = take_touches(world, world.contacts, world.plant_contacts);
     return snapshot;
 }

@@ -125,6 +125,11 @@ void mark_pushed(World& world) {
     for (const Bond& bond : world.bonds) bond.plant->plant->is_touched = bond.plant->plant->is_pressed = true;
 }
 
+// Returns whether a plant's step ends only when those of others are known.
+bool waits(const Plant& plant) {
+    return plant.is_touched || plant.is_watched;
+}
+
 // Drops contacts of modal plants, and of plants whose detail changed after their contacts were found; marks plants that
 // others push, which are stepped now.
 void mark_touched(World& world) {
@@ -143,7 +148,7 @@ void mark_touched(World& world) {
     }
     if (response_row(world.response).find) mark_pushed(world);
     for (PlantBody* body : world.awake)
-        if (body->plant->is_touched || body->plant->has_user_force) body->level.is_due = true;
+        if (waits(*body->plant) || body->plant->has_user_force) body->level.is_due = true;
 }
 
 // Takes the rest of a step, of one plant or of a batch, when no contact is left to push them; plants that may break
@@ -193,7 +198,7 @@ void step_alone(const World& world, PlantBody& body, const Surroundings& surroun
         return;
     }
     solve_plant(*body.plant, surroundings, body.level.pending);
-    if (!body.plant->is_touched) finish(world, body, surroundings);
+    if (!waits(*body.plant)) finish(world, body, surroundings);
 }
 
 // Plants that are stepped by one job: a single one, or a batch.
@@ -288,7 +293,9 @@ void handle_contacts(World& world, double h) {
     const Timer timer;
     let_go_of_gone(world);
     frond_report& report = world.report;
-    if (!world.contacts.empty() || !world.plant_contacts.empty() || !world.bonds.empty()) {
+    const bool any_watched = std::any_of(world.awake.begin(), world.awake.end(),
+                                         [](const PlantBody* body) { return body->plant->is_watched; });
+    if (!world.contacts.empty() || !world.plant_contacts.empty() || !world.bonds.empty() || any_watched) {
         BT_PROFILE("frond respond");
         respond_to_contacts(world, h);
         report.effects_run |=
@@ -303,7 +310,7 @@ void handle_contacts(World& world, double h) {
 void finish_touched(World& world, const Surroundings& surroundings) {
     std::vector<PlantBody*> touched;
     for (PlantBody* body : world.awake)
-        if (body->plant->is_touched && !body->plant->modal) touched.push_back(body);
+        if (waits(*body->plant) && body->level.is_due && !body->plant->modal) touched.push_back(body);
     run_jobs(world, touched.size(), [&](size_t i) { finish(world, *touched[i], surroundings); });
 }
 

@@ -25,8 +25,12 @@ ObjectMotion motion_of(const btCollisionObject& object, double h) {
         motion.turn = h * from_bullet(rigid->getAngularVelocity());
     } else if (const auto* link = btMultiBodyLinkCollider::upcast(&object)) {
         const btMultiBody& body = *link->m_multiBody;
-        motion.way = h * from_bullet(link->m_link < 0 ? body.getBaseVel()
-                                                      : body.getLink(link->m_link).m_absFrameTotVelocity.m_bottomVec);
+        // In each link's own frame, the base first.
+        std::vector<btVector3> turning(size_t(body.getNumLinks()) + 1), moving(turning.size());
+        body.compTreeLinkVelocities(turning.data(), moving.data());
+        const size_t number = size_t(link->m_link + 1);
+        motion.way = h * from_bullet(motion.from.getBasis() * moving[number]);
+        motion.turn = h * from_bullet(motion.from.getBasis() * turning[number]);
     }
     if (!motion.way.allFinite() || !motion.turn.allFinite()) return {object.getWorldTransform()};
     return motion;

@@ -73,6 +73,7 @@ struct World final : btActionInterface {
     GravityAhead gravity_ahead;                                // gravity given in advance to the bodies of those
     std::vector<PlantContact> plant_contacts;                  // contacts of plants with each other and themselves
     std::vector<std::unique_ptr<PlantSearch>> plant_searches;  // one per island of plants that may touch
+    size_t plant_island_count = 0;                             // in the running substep
     double time = 0;                                           // [s]
     frond_report report = {};                                  // report of the last substep
     frond_profile profile = {};                                // likewise

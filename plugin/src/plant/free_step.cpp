@@ -1,0 +1,63 @@
+// Repeats and shortens the second half of a step.
+#include <algorithm>
+
+#include "plant/load_work.hpp"
+#include "plant/plant.hpp"
+#include "solve/workspace.hpp"
+
+namespace frond {
+
+FreeStep free_step(const Plant& plant) {
+    FreeStep step = {plant.motion.x,
+                     plant.motion.v,
+                     {},
+                     plant.motion.history.shaken,
+                     plant.motion.history.valid,
+                     plant.is_sound,
+                     plant.is_off_course,
+                     plant.report,
+                     plant.trouble};
+    if (plant.workspace) step.retract_from = plant.workspace->retract_from;
+    return step;
+}
+
+void take_back(Plant& plant, const FreeStep& step) {
+    plant.motion.x = step.x;
+    plant.motion.v = step.v;
+    plant.motion.history.shaken = step.is_shaken;
+    plant.motion.history.valid = step.has_history;
+    plant.is_sound = step.is_sound;
+    plant.is_off_course = step.is_off_course;
+    plant.report = step.report;
+    plant.trouble = step.trouble;
+    if (plant.workspace) plant.workspace->retract_from = step.retract_from;
+}
+
+bool may_go_part_of_way(const Plant& plant, double share, double h) {
+    constexpr double LIFT = 0.5;  // speed of lifting the plant by its weight, for the work that is no matter [m/s]
+    const auto energy = [&](const VecX& x) {
+        return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
+    };
+    const double most =
+        std::max(energy(plant.x_good), energy(plant.motion.x)) + node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
+    return energy(plant.x_good + share * way_of_step(plant)) <= most;
+}
+
+void go_part_of_way(Plant& plant, double share) {
+    Motion& motion = plant.motion;
+    motion.x = plant.x_good + share * way_of_step(plant);
+    motion.v *= share;
+    motion.history.valid = false;
+}
+
+double way_of_pins(const Plant& plant) {
+    if (!plant.pins_changed || plant.pinned.empty()) return 0;
+    const VecX& places = cage_places(plant);
+    double farthest = 0;
+    for (size_t n = 0; n < plant.pinned.size(); ++n)
+        if (plant.pinned[n])
+            farthest = std::max(farthest, (point(plant.pin_target, int(n)) - point(places, int(n))).norm());
+    return farthest;
+}
+
+}  // namespace frond

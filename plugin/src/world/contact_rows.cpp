@@ -1,0 +1,151 @@
+// In: contacts and bonds. Out: their rows.
+#include "world/contact_rows.hpp"
+
+#include <algorithm>
+
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+Attachment attachment_of(const Contact& contact) {
+    const Flat& flat = contact.plant->hull->flats[size_t(contact.capsule)];
+    return flat_attachment(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
+}
+
+namespace {
+
+// Returns how fast overlapping sides must part: by a share of the overlap beyond the slop per step, up to `fastest`
+// [m/s].
+double parting_speed(double depth, double slop, double h, double share, double fastest) {
+    return std::min(share * std::max(0.0, depth - slop) / h, fastest);
+}
+
+bool rubs(const World& world, const PlantBody& body) {
+    return world.effects & body.plant->effects & FROND_EFFECT_FRICTION;
+}
+
+double mass_of(const PlantBody* body) {
+    return node_mass_of(*body->plant->system).sum();
+}
+
+// Adds the row of a contact with a body. Bodies have already moved, so overlaps are removed by velocities.
+void add_row(const World& world, Contact& contact, double h, std::vector<ContactRow>& rows) {
+    constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 1;  // [m], [-], [m/s]
+    Plant& plant = *contact.plant->plant;
+    ContactRow row;
+    row.plants[0] = contact.plant;
+    if (!make_touch(plant, attachment_of(contact), row.touches[0])) return;
+    row.contact_body = make_contact_body(*contact.other, contact.on_other, h);
+    row.touch.normal = contact.normal;
+    row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
+    // What a kinematic body has moved against in this step is to get out of its way at once.
+    const double lag = contact.other->isKinematicObject() ? row.contact_body.velocity.norm() : 0;
+    row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
+                              : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST + lag)
+                                               : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
+    row.touch.bias_velocity += contact.lacking / h;
+    row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
+    row.touch.depth = -contact.gap;
+    row.impulse = &contact.impulse;
+    rows.push_back(std::move(row));
+}
+
+// Wakes bodies that plants push. Call it before rows are made, so that all rows of a body see it in the same state.
+void wake_pushed(const std::vector<Contact*>& contacts) {
+    PlantTouch touch;
+    for (const Contact* contact : contacts)
+        if (make_touch(*contact->plant->plant, attachment_of(*contact), touch))
+            wake(*contact->other, contact->normal, touch.velocity);
+}
+
+// Moves an attachment from the rim to the axis where a push at the rim would turn it in the step by more than a linear
+// compliance can predict. Returns whether it did.
+bool drop_levers(double way, Attachment& attachment) {
+    constexpr double TURN = 0.15;  // [rad]
+    const double lever = (attachment.arm[0] + attachment.arm[1]).norm();
+    if (lever == 0 || way < TURN * lever) return false;
+    attachment.arm[0].setZero();
+    attachment.arm[1].setZero();
+    return true;
+}
+
+// Adds the row of a contact of plants. They part by position correction: cages may overlap by half a leaf when they are
+// made, and velocities would make them fly.
+void add_row(const World& world, PlantContact& contact, double h, std::vector<ContactRow>& rows) {
+    constexpr double SLOP = 0.0002, SHARE = 0.4, FASTEST = 0.5;  // [m], [-], [m/s]
+    // Limit of a position correction, over the lighter plant's weight [-]. Without it, feet that cannot part would use
+    // up all work that position correction may do, and nothing else would part.
+    constexpr double STRONG = 0.4;
+    ContactRow row;
+    row.plants = contact.plants;
+    for (size_t k = 0; k < 2; k++)
+        if (!make_touch(*contact.plants[k]->plant, contact.attachments[k], row.touches[k])) return;
+    row.touch.normal = contact.normal;
+    row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
+    const double room = std::max(0.0, SLOP - contact.depth) / h;
+    row.touch.bias_velocity = -room + contact.lacking / h;
+    const double way = h * (row.touch.bias_velocity - row.touch.velocity.dot(contact.normal));
+    for (size_t k = 0; k < 2; k++)
+        if (drop_levers(way, contact.attachments[k]) &&
+            !make_touch(*contact.plants[k]->plant, contact.attachments[k], row.touches[k]))
+            return;
+    row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
+    // Penalty springs leave nearly all of the parting to position correction.
+    if (world.response != FROND_RESPONSE_PENALTY)
+        row.touch.most_correction =
+            h * STRONG * GRAVITY * std::min(mass_of(contact.plants[0]), mass_of(contact.plants[1]));
+    row.touch.least_correction = room > 0 ? -room : parting_speed(contact.depth, SLOP, h, SHARE, FASTEST);
+    row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
+    row.touch.depth = contact.depth;
+    row.impulse = &contact.impulse;
+    rows.push_back(std::move(row));
+}
+
+// Adds the row of a bond, which closes half of its gap per step.
+void add_row(Bond& bond, double h, std::vector<ContactRow>& rows) {
+    constexpr double SHARE = 0.5, FASTEST = 10;  // [m/s]
+    if (bond.plant->rest.asleep) return;
+    bond.impulse.setZero();
+    bond.length = h;
+    if (!bond.body) return;
+    Plant& plant = *bond.plant->plant;
+    ContactRow row;
+    row.plants[0] = bond.plant;
+    const Attachment attachment = vertex_attachment(plant, bond.vertex);
+    if (!make_touch(plant, attachment, row.touches[0])) return;
+    if (!bond.body->isStaticOrKinematicObject()) bond.body->activate();
+    const Vec3 place = place_on_body(bond);
+    row.contact_body = make_contact_body(*bond.body, place, h);
+    row.touch.is_bond = true;
+    row.touch.normal = Vec3::UnitY();
+    row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
+    row.touch.wanted = SHARE / h * (place - plant.to_world(attachment_place(attachment, plant.x_good)));
+    if (row.touch.wanted.norm() > FASTEST) row.touch.wanted *= FASTEST / row.touch.wanted.norm();
+    row.touch.bias_velocity = row.touch.friction = 0;
+    row.impulse = &bond.impulse;
+    rows.push_back(std::move(row));
+}
+
+}  // namespace
+
+std::vector<ContactRow> make_rows(const World& world, const ContactIsland& island, double h) {
+    std::vector<ContactRow> rows;
+    wake_pushed(island.with_bodies);
+    for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
+    for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
+    for (Bond* bond : island.bonds) add_row(*bond, h, rows);
+    return rows;
+}
+
+bool all_wait(const std::vector<ContactRow>& rows, double h) {
+    const auto waits = [&](const ContactRow& row) {
+        const Touch& touch = row.touch;
+        return !touch.is_bond && row.impulse->isZero(0) && touch.depth <= 0 && touch.least_correction <= 0 &&
+               touch.velocity.dot(touch.normal) >= std::max(touch.bias_velocity, touch.depth / h);
+    };
+    return std::all_of(rows.begin(), rows.end(), waits);
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

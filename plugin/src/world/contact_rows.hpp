@@ -1,0 +1,28 @@
+// Rows: contacts and bonds as equations of the response.
+#pragma once
+
+#include "plant/touch.hpp"
+#include "world/contact_body.hpp"
+#include "world/contact_island.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+// A contact with the data of both sides.
+struct ContactRow {
+    std::array<PlantBody*, 2> plants = {};  // the second is null where a body is on the other side
+    std::array<PlantTouch, 2> touches;
+    std::array<size_t, 2> sides = {};  // their indices among all sides of that plant
+    ContactBody contact_body;          // the other side, if that is no plant
+    Touch touch;
+    Vec3* impulse;  // the contact's own
+};
+
+// Makes the rows of an island for a step of h [s]; wakes sleeping bodies that plants push.
+std::vector<ContactRow> make_rows(const World& world, const ContactIsland& island, double h);
+// Returns whether no row would push anything: all are apart and come no nearer in the step than they may. Then no
+// compliances are needed.
+bool all_wait(const std::vector<ContactRow>& rows, double h);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

@@ -1,0 +1,180 @@
+// In: the steps that plants took with the contacts that were known before. Out: contacts of what went through others in
+// spite of them, or, if nothing helps, shorter steps. The ways of corners count as straight.
+#include <algorithm>
+
+#include "collide/strip_cull.hpp"
+#include "world/contact_body.hpp"
+#include "world/piece.hpp"
+#include "world/strip_search.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+// How near cores may come, over how thick they are together, and over how near they were [-].
+constexpr double NEAREST = 0.25, OF_BEFORE = 0.5;
+
+bool moves(const PlantBody& body) {
+    return body.level.is_due && !body.rest.asleep && !body.plant->modal &&
+           body.plant->x_good.size() == body.plant->motion.x.size();
+}
+
+// The ways that an island's plants went; empty if none of them is watched.
+std::vector<StripPath> paths_of(PlantSearch& memory) {
+    std::vector<StripPath> paths;
+    const auto is_watched = [](const PlantBody* body) { return body->plant->is_watched && moves(*body); };
+    if (std::none_of(memory.island.begin(), memory.island.end(), is_watched)) return paths;
+    memory.corners.resize(std::max(memory.corners.size(), memory.island.size()));
+    for (size_t i = 0; i < memory.island.size(); i++) {
+        PlantBody& body = *memory.island[i];
+        take_collider(body);
+        auto& [before, after] = memory.corners[i];
+        const bool steps = moves(body);
+        place_corners(body, steps ? body.plant->x_good : body.plant->motion.x, before);
+        if (steps)
+            place_corners(body, body.plant->motion.x, after);
+        else
+            after = before;
+        const bool with_itself = body.world->effects & body.plant->effects & FROND_EFFECT_SELF_CONTACT;
+        paths.push_back({&body, before.data(), after.data(), with_itself});
+    }
+    return paths;
+}
+
+// Returns whether plants went so far off the foreseen ways that other pairs may meet.
+bool have_strayed(const PlantSearch& memory, const std::vector<StripPath>& paths) {
+    for (size_t i = 0; i < paths.size(); i++) {
+        const auto& [before, after] = memory.corners[i];
+        const std::vector<Vec3>& foreseen = memory.foreseen[i];
+        if (foreseen.size() != after.size()) return true;
+        for (size_t k = 0; k < after.size(); k++)
+            if (!((after[k] - foreseen[k]).squaredNorm() < STRAY * STRAY)) return true;
+    }
+    return false;
+}
+
+struct Miss {
+    StripPair pair;
+    StripImpact impact;
+    double thick;  // [m]
+};
+
+// Finds pairs that come too near each other, nearer than `share` of what they may.
+std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPath>& paths, double share) {
+    constexpr double CROSSED = 1e-6;  // [m]
+    std::vector<Miss> misses;
+    std::vector<StripPair> anew;
+    const bool strayed = have_strayed(memory, paths);
+    if (strayed) anew = find_strip_pairs(paths, 0);
+    for (const StripPair& pair : strayed ? anew : memory.pairs) {
+        const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
+        if (!moves(*a.body) || !moves(*b.body)) continue;  // a response needs the steps of both
+        const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
+        const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
+        const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
+        if (stay_apart(core_a, a_after, core_b, b_after, NEAREST * thick)) continue;
+        const double before = gap_between(core_a, core_b).distance;
+        if (before < CROSSED) continue;
+        const double near = share * std::min(NEAREST * thick, OF_BEFORE * before);
+        const auto impact = first_impact(core_a, a_after, core_b, b_after, near);
+        if (!impact) continue;
+        if (std::binary_search(memory.crossed.begin(), memory.crossed.end(), organs_of(paths, pair))) continue;
+        misses.push_back({pair, *impact, thick});
+    }
+    return misses;
+}
+
+bool is_between(const PlantContact& known, const PlantContact& contact) {
+    return known.by_strips && known.plants == contact.plants && known.sides[0].nodes == contact.sides[0].nodes &&
+           known.sides[1].nodes == contact.sides[1].nodes;
+}
+
+// Adds a contact, or has the known one of the same strips that points the same way ask for what is lacking.
+void add_missed(const std::vector<StripPath>& paths, const Miss& miss, std::vector<PlantContact>& contacts) {
+    constexpr double ALIKE = 0.9;  // cosine
+    PlantContact contact = contact_of(paths, miss.pair, miss.impact.time, miss.impact.gap);
+    for (PlantContact& known : contacts) {
+        if (!is_between(known, contact) || known.normal.dot(contact.normal) < ALIKE) continue;
+        const StripPath &a = paths[size_t(miss.pair.a)], &b = paths[size_t(miss.pair.b)];
+        const double apart = known.normal.dot(point_on(a.core_after(miss.pair.strip_a).at, known.sides[0].weights) -
+                                              point_on(b.core_after(miss.pair.strip_b).at, known.sides[1].weights));
+        known.lacking += std::max(0.0, miss.thick - apart);
+        return;
+    }
+    contacts.push_back(contact);
+}
+
+// Returns by how much a plant is still in the way of a kinematic body at the end of the step [m].
+double behind(const Contact& contact, double h) {
+    const Plant& plant = *contact.plant->plant;
+    const Attachment at = attachment_of(contact);
+    const Vec3 way = attachment_place(at, plant.motion.x) - attachment_place(at, plant.x_good);
+    return contact.normal.dot(h * velocity_at(*contact.other, contact.on_other) - plant.rotation * way) - contact.gap;
+}
+
+// Has a contact ask for more where the plant's response, which is linear, leaves it in the way of a kinematic body, as
+// long as that helps.
+bool ask_for_more(Contact& contact, double h) {
+    constexpr double NO_MATTER = 0.001, SHARE = 0.3, HELPS = 0.8;  // [m], over the radius, over the last time [-]
+    if (!contact.other->isKinematicObject() || !moves(*contact.plant)) return false;
+    const double now = behind(contact, h);
+    if (now < std::max(NO_MATTER, SHARE * radius_of(*contact.plant, contact.capsule))) return false;
+    const bool helps = now < HELPS * contact.behind;
+    contact.behind = now;
+    if (helps) contact.lacking += now;
+    return helps;
+}
+
+}  // namespace
+
+bool find_missed_contacts(World& world, double h) {
+    bool any = false;
+    for (Contact& contact : world.contacts) any |= ask_for_more(contact, h);
+    for (size_t i = 0; i < world.plant_island_count; i++) {
+        PlantSearch& memory = *world.plant_searches[i];
+        const std::vector<StripPath> paths = paths_of(memory);
+        if (paths.empty()) continue;
+        for (const Miss& miss : misses_of(memory, paths, 1)) {
+            add_missed(paths, miss, world.plant_contacts);
+            any = true;
+        }
+    }
+    return any;
+}
+
+void tell_what_is_behind(World& world, double h) {
+    constexpr double WHOLE = 2;  // over the radius: all of a stem's thickness [-]
+    for (const Contact& contact : world.contacts)
+        if (contact.other->isKinematicObject() && moves(*contact.plant) &&
+            behind(contact, h) > WHOLE * radius_of(*contact.plant, contact.capsule))
+            world.report.trouble |= FROND_TROUBLE_PASSED;
+}
+
+void hold_back_what_passes(World& world, double h) {
+    constexpr double WITHIN = 0.4, SAFE = 0.95;  // over what is allowed before; over the time to there [-]
+    for (size_t i = 0; i < world.plant_island_count; i++) {
+        PlantSearch& memory = *world.plant_searches[i];
+        const std::vector<StripPath> paths = paths_of(memory);
+        if (paths.empty()) continue;
+        double share = 1;
+        for (const Miss& miss : misses_of(memory, paths, WITHIN)) share = std::min(share, SAFE * miss.impact.time);
+        if (share == 1) continue;
+        // All by one share, or they would go through each other on ways that none of them went.
+        const auto may_go = [&](const PlantBody* body) {
+            return !moves(*body) || may_go_part_of_way(*body->plant, share, h);
+        };
+        constexpr double LEAST = 0.01;
+        while (share > LEAST && !std::all_of(memory.island.begin(), memory.island.end(), may_go)) share /= 2;
+        if (share <= LEAST) share = 0;
+        for (PlantBody* body : memory.island)
+            if (moves(*body)) {
+                go_part_of_way(*body->plant, share);
+                body->plant->trouble |= FROND_TROUBLE_HELD_BACK;
+            }
+    }
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond

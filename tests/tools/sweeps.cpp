@@ -1,0 +1,58 @@
+// A sample of the table of what comes at plants: what goes through, and that the count of crossings can tell.
+#include "stability/sweeps.hpp"
+
+#include <gtest/gtest.h>
+
+#include "stability/crossing.hpp"
+#include "support/sanitized.hpp"
+
+namespace frond::stability {
+namespace {
+
+std::string told(const Sweep& sweep) {
+    return std::string(name_of(sweep.meeting)) + ", " + frond_mechanics_name(sweep.mechanics) + ", " +
+           std::to_string(sweep.speed) + " m/s, " + std::to_string(sweep.dt) + " s";
+}
+
+void expect_none_passes(const std::vector<Meeting>& meetings, const std::vector<double>& speeds, double dt) {
+    for (const Meeting meeting : meetings)
+        for (const frond_mechanics mechanics : {FROND_MECHANICS_ROD, FROND_MECHANICS_TET_COROTATIONAL})
+            for (const double speed : speeds) {
+                if (SANITIZED && speed < 5) continue;
+                const Sweep sweep = {meeting, mechanics, speed, dt};
+                const Verdict verdict = run_sweep(sweep);
+                EXPECT_EQ(verdict.color, Color::GREEN) << told(sweep) << ": " << verdict.text;
+            }
+}
+
+TEST(Sweeps, PlantsPassThroughNoPlants) {
+    expect_none_passes({Meeting::STEM, Meeting::ITSELF, Meeting::LEAF}, {0.5, 5, 20}, 1.0 / 60);
+    expect_none_passes({Meeting::STEM, Meeting::ITSELF, Meeting::LEAF}, {1, 10}, 1.0 / 30);
+}
+
+TEST(Sweeps, BodiesPassThroughNoPlantsAtModerateSpeeds) {
+    expect_none_passes({Meeting::WALL, Meeting::WIRE, Meeting::PLATE}, {0.2, 0.5}, 1.0 / 60);
+    expect_none_passes({Meeting::WALL, Meeting::WIRE, Meeting::PLATE}, {2}, 1.0 / 240);
+    expect_none_passes({Meeting::BALL}, {0.5, 5}, 1.0 / 60);
+}
+
+// What passes by more than half of the plant's size in a step is reported.
+TEST(Sweeps, WhatIsOutOfReachSaysSo) {
+    const Sweep sweep = {Meeting::STEM, FROND_MECHANICS_ROD, 100, 1.0 / 30};
+    EXPECT_EQ(run_sweep(sweep).color, Color::GREY);
+}
+
+// One line goes through another, beside it, and there and back.
+TEST(Sweeps, CrossingsAreCountedBySide) {
+    const auto upright = [](double x, double z) { return Core{{frond_vec3{x, -1, z}, frond_vec3{x, 1, z}}}; };
+    const Core level = {{frond_vec3{0, 0.1, -1}, frond_vec3{0, 0.1, 1}}};
+    EXPECT_EQ(std::abs(crossings(upright(-1, 0.2), upright(1, 0.3), level, level)), 1);
+    EXPECT_EQ(crossings(upright(-1, 1.2), upright(1, 1.3), level, level), 0);
+    EXPECT_EQ(crossings(upright(-1, 0), upright(-0.1, 0), level, level), 0);
+    EXPECT_EQ(
+        crossings(upright(-1, 0), upright(1, 0), level, level) + crossings(upright(1, 0), upright(-1, 0), level, level),
+        0);
+}
+
+}  // namespace
+}  // namespace frond::stability
