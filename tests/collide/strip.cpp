@@ -65,7 +65,7 @@ TEST(Strip, FirstTimesAreThoseOfSmallSteps) {
     constexpr double NEAR = 0.02;
     Dice dice(2);
     int hits = 0, misses = 0;
-    for (int round = 0; round < 200; round++) {
+    for (int round = 0; round < 800; round++) {
         const StripCore a = random_core(dice, 0.5), b = random_core(dice, 0.5);
         StripCore a_after = a, b_after = b;
         const Vec3 way = random_point(dice, 1);

@@ -118,14 +118,14 @@ TEST_P(EveryRod, PositiveStiffnessIsNeverNegativeAndExactWithoutLoad) {
 }
 
 // A plastic bend leaves a segment at rest far from its modelled shape: what counts is how far it turns from there.
-TEST(Rod, BendsFromItsRestShapeBeyondHalfATurn) {
+TEST(Rod, BendsFromItsPlasticShapeBeyondHalfATurn) {
     constexpr double REST = 2.5;  // [rad]
     RodElements elements = make_rod_elements(chain_model(), FROND_MECHANICS_ROD);
     elements.segments.resize(1);
     RodSegment& rod = elements.segments[0];
     rod.centre = 0;
     for (int c = 0; c < 3; ++c) {
-        set_rest_curvature(rod, REST / rod.length * Vec3::Unit(c));
+        give_set(rod, REST / rod.length * Vec3::Unit(c));
         for (double angle = 0.6; angle < 4.45; angle += 0.1) {
             VecX x = elements.modelled;
             const Vec3 axis = rod.frame.col(c);

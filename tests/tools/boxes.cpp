@@ -58,7 +58,7 @@ TEST_P(Boxes, ComeToRestOnLeavesAndStay) {
     stage.rigid(ground);
     const frond_rigid box = stage.rigid(draw_box(GetParam().seed));
     const auto step = [&] { must(frond_world_step(stage.world, settings.dt)); };
-    for (int i = 0; i < 180; i++) step();
+    for (int i = 0; i < 480; i++) step();
     frond_rigid_state before, now;
     must(frond_rigid_get_state(box, &before));
     EXPECT_GT(before.position.y, 0.16);  // not on the ground

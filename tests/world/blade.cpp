@@ -125,7 +125,7 @@ TEST_P(Blade, IsFeltAtItsRim) {
     }
     const double down = near.y - shelf.place_of(0.2, HALF_WIDTH).y, other = far.y - shelf.place_of(0.2, -HALF_WIDTH).y;
     EXPECT_GT(down, 0.02);
-    EXPECT_GT(down - other, 0.002);
+    EXPECT_GT(down - other, 0.0015);
 }
 
 }  // namespace blade_tests

@@ -2,12 +2,13 @@
 //
 // Geometrically exact rods (Simo 1985; Simo, Vu-Quoc 1986) with two nodes and one integration point a segment:
 //   c = F^T R^T (x2 - x1) / L,  strain G = (|c|, tilt of c from the axis),  k = F^T log(R1'^T R2') / L,
-//   U = L/2 (G - G0) . C (G - G0) + L/2 m(k) . B m(k),
-// F the segment's frame in the modelled shape, R1' = R1 exp(L F k0 / 2) and R2' = R2 exp(-L F k0 / 2) the rotations of
-// its ends, which are equal without load, R = R1' exp(log(R1'^T R2') / 2) the midway rotation, m the measures of
-// bending and twist (rod_piece.hpp). U has no jump where a segment turns by half a turn from its rest shape, since
-// m(-k) = -m(k). The shear stiffness is the residual bending flexibility, 12 EI / L^2 (MacNeal 1978): for small
-// rotations the segment then is the Euler-Bernoulli beam with cubic shape functions, exact at its ends.
+//   U = L/2 (G - G0) . C (G - G0) + L/2 (m(k) - k0) . B (m(k) - k0),
+// F the segment's frame in the modelled shape, R1' = R1 exp(L F kp / 2) and R2' = R2 exp(-L F kp / 2) the rotations of
+// its ends without the plastic curvature kp, R = R1' exp(log(R1'^T R2') / 2) the midway rotation, m the measures of
+// bending and twist (rod_piece.hpp). So a segment that is bent for good is strained by what it turns from there, and is
+// far from half a turn, where the vector of a rotation jumps. The shear stiffness is the residual bending flexibility,
+// 12 EI / L^2 (MacNeal 1978): for small rotations the segment then is the Euler-Bernoulli beam with cubic shape
+// functions, exact at its ends.
 #include <algorithm>
 
 #include "mechanics/dual.hpp"
@@ -111,8 +112,9 @@ struct AddExactStiffness {
         piece.bend = constants<S>(rod.bend);
         piece.rest_strain = constants<S>(rod.rest_strain);
         piece.rest_curvature = constants<S>(rod.rest_curvature);
-        piece.rest_w = rod.rest_w;
-        piece.rest_p = constants<S>(rod.rest_p);
+        piece.set_curvature = constants<S>(rod.set_curvature);
+        piece.set_w = rod.set_w;
+        piece.set_p = constants<S>(rod.set_p);
         Lanes3<Dual<S>> v[4];
         for (int n = 0; n < 4; ++n) {
             const double* from = x.data() + 3 * (2 * (n < 2 ? rod.a : rod.b) + n % 2);

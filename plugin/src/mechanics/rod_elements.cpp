@@ -58,7 +58,8 @@ RodSegment make_segment(const Model& model, size_t node) {
     rod.frame.col(2) = rod.frame.col(0).cross(rod.frame.col(1));
     const Vec3 chord = model.chain.nodes[node].position - model.chain.nodes[size_t(rod.a)].position;
     rod.rest_strain = rod.frame.transpose() * chord / rod.length;
-    set_rest_curvature(rod, Vec3::Zero());
+    rod.rest_curvature.setZero();
+    give_set(rod, Vec3::Zero());
     return rod;
 }
 
@@ -100,7 +101,8 @@ RodSegment make_tie(const Model& model, int root, int other, const std::vector<R
     tie.frame.col(1) = Vec3(tie.frame.col(0)).unitOrthogonal();
     tie.frame.col(2) = tie.frame.col(0).cross(tie.frame.col(1));
     tie.rest_strain = Vec3::UnitX();
-    set_rest_curvature(tie, Vec3::Zero());
+    tie.rest_curvature.setZero();
+    give_set(tie, Vec3::Zero());
     const double over = 12 * stiff / (tie.length * tie.length);
     tie.stretch = Vec3(stretch, over, over);
     tie.bend = Vec3::Constant(stiff);
@@ -114,29 +116,11 @@ void check_segment(const RodSegment& rod) {
              rod.b);
 }
 
-// Returns the twist of a segment that stores a moment, given as the twist without warping, see measure_twist():
-// t + 2 warping t^3 = linear.
-double twist_of(double linear, double warping) {
-    double twist = 0;
-    for (double step = linear; std::abs(step) > 1e-14 * std::abs(twist);
-         step = (linear - twist - 2 * warping * twist * twist * twist) / (1 + 6 * warping * twist * twist)) {
-        if (twist + step == twist) break;
-        twist += step;
-    }
-    return twist;
-}
-
-// Returns the rest curvature of a segment that bears a moment in the modelled shape.
-Vec3 curvature_under(const RodSegment& rod, const Vec3& moment) {
-    const Vec3 linear = (rod.frame.transpose() * moment).cwiseQuotient(rod.bend);
-    return {twist_of(linear[0], rod.warping), linear[1], linear[2]};
-}
-
 // Sets each segment's rest strain and curvature from the weight that it bears. Segments are in the order of their
 // second nodes, parents first.
 void let_stand(RodElements& elements) {
     const size_t count = elements.mass.size();
-    std::vector<Vec3> force(count), moment(count, Vec3::Zero()), borne(elements.segments.size());
+    std::vector<Vec3> force(count), moment(count, Vec3::Zero());
     for (size_t i = 0; i < count; ++i) force[i] = Vec3(0, -GRAVITY * elements.mass[i], 0);
     for (size_t s = elements.segments.size(); s-- > 0;) {
         RodSegment& rod = elements.segments[s];
@@ -146,29 +130,9 @@ void let_stand(RodElements& elements) {
         // Moment by the segment's end on its second node, at the elastic centre.
         const Vec3 couple = (rod.centre / rod.length - 0.5) * from_end - moment[b];
         rod.rest_strain -= (rod.frame.transpose() * force[b]).cwiseQuotient(rod.stretch);
-        borne[s] = -couple;
-        set_rest_curvature(rod, curvature_under(rod, borne[s]));
+        rod.rest_curvature -= (rod.frame.transpose() * couple).cwiseQuotient(rod.bend);
         force[a] += force[b];
         moment[a] += from_end + moment[b];
-    }
-    // Moments of segments are those of small rotations but for terms of third order.
-    constexpr int ROUNDS = 20;
-    constexpr double NONE = 1e-12;  // of the moments that are borne [-]
-    double most = 0;
-    for (const Vec3& whole : borne) most = std::max(most, whole.norm());
-    for (int round = 0; round < ROUNDS; ++round) {
-        VecX left = VecX::Zero(elements.modelled.size());
-        rod_add_force(elements, elements.modelled, left);
-        double worst = 0;
-        for (size_t s = elements.segments.size(); s-- > 0;) {
-            RodSegment& rod = elements.segments[s];
-            const Vec3 at_end = point(left, 2 * rod.b + 1);
-            worst = std::max(worst, at_end.norm());
-            borne[s] -= at_end;
-            set_rest_curvature(rod, curvature_under(rod, borne[s]));
-            point(left, 2 * rod.a + 1) += at_end;
-        }
-        if (worst <= NONE * most) break;
     }
 }
 
@@ -264,12 +228,12 @@ RodElements make_elements(const Model& model, Take&& take) {
 
 }  // namespace
 
-void set_rest_curvature(RodSegment& rod, const Vec3& curvature) {
-    rod.rest_curvature = curvature;
+void give_set(RodSegment& rod, const Vec3& curvature) {
+    rod.set_curvature = curvature;
     const Vec3 turn = rod.frame * curvature * rod.length;
     const double angle = turn.norm();
-    rod.rest_w = cos(0.25 * angle);
-    rod.rest_p = angle > 0 ? Vec3(turn * (sin(0.25 * angle) / angle)) : Vec3::Zero();
+    rod.set_w = cos(0.25 * angle);
+    rod.set_p = angle > 0 ? Vec3(turn * (sin(0.25 * angle) / angle)) : Vec3::Zero();
 }
 
 void find_roots(RodElements& elements) {

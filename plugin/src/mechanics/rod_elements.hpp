@@ -16,20 +16,20 @@ struct RodSegment {
     double centre;        // elastic centre from the middle towards b [m]; only taper moves it
     double warping;       // growth of twist stiffness by the square of twist, see measure_twist() [m^2]
     Vec3 rest_strain;     // stretch and tilt without load; (1, 0, 0) for a straight segment at its own length [-]
-    Vec3 rest_curvature;  // twist and curvature without load, relative to the modelled shape [1/m]
-    double rest_w;        // quaternion of half the rotation between its ends without load
-    Vec3 rest_p;
+    Vec3 rest_curvature;  // elastic twist and curvature without load, relative to the modelled shape [1/m]
+    Vec3 set_curvature;   // plastic ones [1/m]
+    double set_w;         // quaternion of half the rotation between its ends by set_curvature
+    Vec3 set_p;
     double shared_mass;             // mass between its nodes, taken from either [kg]
     double reach_thin, reach_wide;  // distances of the outermost fibres from the axis, towards thin and wide [m]
     std::array<int, 16> slots;      // blocks of the nodes 2a, 2a+1, 2b, 2b+1 in a BlockMatrix of the pattern
 };
 
-// Sets rest_curvature and what follows from it [1/m].
-void set_rest_curvature(RodSegment& rod, const Vec3& curvature);
+// Sets set_curvature and what follows from it [1/m].
+void give_set(RodSegment& rod, const Vec3& curvature);
 
-// Plastic strain of a segment, and its rest curvature without it.
+// Plastic strain of a segment.
 struct RodPlastic {
-    Vec3 rest_curvature;          // [1/m]
     double bend_wide, bend_thin;  // curvature towards wide and towards thin, each about the other axis [1/m]
     double hardening;             // see elastic_share()
 };

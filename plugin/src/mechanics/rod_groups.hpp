@@ -155,8 +155,9 @@ FROND_INLINE RodPiece<S> piece_of(const Pieces& pieces) {
     out.bend = pieces.vector(&RodSegment::bend);
     out.rest_strain = pieces.vector(&RodSegment::rest_strain);
     out.rest_curvature = pieces.vector(&RodSegment::rest_curvature);
-    out.rest_w = pieces.number(&RodSegment::rest_w);
-    out.rest_p = pieces.vector(&RodSegment::rest_p);
+    out.set_curvature = pieces.vector(&RodSegment::set_curvature);
+    out.set_w = pieces.number(&RodSegment::set_w);
+    out.set_p = pieces.vector(&RodSegment::set_p);
     return out;
 }
 

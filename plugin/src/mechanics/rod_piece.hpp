@@ -14,9 +14,9 @@ template <class S>
 struct RodPiece {
     S length, centre, warping;
     Lanes33<S> frame;
-    Lanes3<S> stretch, bend, rest_strain, rest_curvature;
-    S rest_w;
-    Lanes3<S> rest_p;
+    Lanes3<S> stretch, bend, rest_strain, rest_curvature, set_curvature;
+    S set_w;
+    Lanes3<S> set_p;
 };
 
 template <class S>
@@ -90,8 +90,8 @@ FROND_INLINE void fold_up(const Lanes3<S>& quarter, const S& square, const Lanes
 template <class S>
 struct RodBent {
     Lanes3<S> chord;              // [m]
-    Lanes33<S> first;             // rotation of the first end, as if at rest both had the same
-    Lanes3<S> turn;               // rotation vector of the second end relative to the first, without that at rest
+    Lanes33<S> first;             // rotation of the first end, half of the plastic one added
+    Lanes3<S> turn;               // rotation vector of the second end relative to the first, without the plastic one
     Lanes3<S> quarter;            // its axis times tan(angle/4)
     S cotangent;                  // angle/2 cot(angle/2)
     S fold;                       // curvature is by fold * turn
@@ -176,10 +176,10 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
                               -0.050351024039430294125, 0.037965256099576568431,  -0.017805395704537507381};
     RodBent<S> out;
     out.chord = b.place - a.place;
-    // Each end meets the other half way along the rotation at rest.
-    const S a_w = a.w * rod.rest_w - dot(a.p, rod.rest_p), b_w = b.w * rod.rest_w + dot(b.p, rod.rest_p);
-    const Lanes3<S> a_p = a.w * rod.rest_p + rod.rest_w * a.p + cross(a.p, rod.rest_p);
-    const Lanes3<S> b_p = rod.rest_w * b.p - b.w * rod.rest_p - cross(b.p, rod.rest_p);
+    // Each end meets the other half way along the plastic rotation.
+    const S a_w = a.w * rod.set_w - dot(a.p, rod.set_p), b_w = b.w * rod.set_w + dot(b.p, rod.set_p);
+    const Lanes3<S> a_p = a.w * rod.set_p + rod.set_w * a.p + cross(a.p, rod.set_p);
+    const Lanes3<S> b_p = rod.set_w * b.p - b.w * rod.set_p - cross(b.p, rod.set_p);
     out.first = rotation_of(a_w, a_p);
     S w = a_w * b_w + dot(a_p, b_p);
     Lanes3<S> u = a_w * b_p - b_w * a_p - cross(a_p, b_p);
@@ -201,8 +201,9 @@ FROND_INLINE RodBent<S> bend_between(const RodPiece<S>& rod, const RodEnd<S>& a,
     const S per_length = 1.0 / rod.length;
     measure_chord(per_length * transposed_times(out.middle, out.chord), out);
     out.curvature = per_length * transposed_times(rod.frame, out.fold * out.turn);
-    out.strain = tilt_at_centre(rod, out.strain, out.curvature + rod.rest_curvature, constant<S>(1)) - rod.rest_strain;
+    out.strain = tilt_at_centre(rod, out.strain, out.curvature + rod.set_curvature, constant<S>(1)) - rod.rest_strain;
     measure_twist(rod, out);
+    out.curvature = out.curvature - rod.rest_curvature;
     return out;
 }
 

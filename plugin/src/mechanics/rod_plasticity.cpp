@@ -15,7 +15,7 @@ namespace frond {
 namespace {
 
 void apply(const RodPlastic& plastic, RodSegment& rod) {
-    set_rest_curvature(rod, plastic.rest_curvature + Vec3(0, plastic.bend_wide, plastic.bend_thin));
+    give_set(rod, {0, plastic.bend_wide, plastic.bend_thin});
 }
 
 constexpr size_t NUMBERS_OF_PIECE = 3;  // the two curvatures, hardening
@@ -50,7 +50,7 @@ bool rods_yield(const Elements& body, const VecX& x) {
 
 std::unique_ptr<Elements> copy_rods(const Elements& body) {
     auto own = std::make_unique<RodElements>(as_rods(body));
-    for (const RodSegment& rod : own->segments) own->plastic.push_back({rod.rest_curvature, 0, 0, 0});
+    own->plastic.assign(own->segments.size(), {0, 0, 0});
     return own;
 }
 

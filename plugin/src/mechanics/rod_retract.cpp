@@ -23,7 +23,7 @@ FROND_INLINE Lanes3<S> chord_after(const Placed<S>& at, const Placed<S>& after) 
     const Lanes3<S> by_turns =
         change.strain_a * (after.a.turn - at.a.turn) + change.strain_b * (after.b.turn - at.b.turn);
     const Lanes3<S> strain = at.bent.strain + at.piece.rest_strain + per_length * (by_chord + by_turns);
-    const Lanes3<S> curvature = after.bent.curvature + at.piece.rest_curvature;
+    const Lanes3<S> curvature = after.bent.curvature + at.piece.rest_curvature + at.piece.set_curvature;
     return at.piece.length *
            (after.bent.middle * chord_of_strain(tilt_at_centre(at.piece, strain, curvature, constant<S>(-1))));
 }

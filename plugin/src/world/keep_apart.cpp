@@ -106,6 +106,11 @@ void add_missed(const std::vector<StripPath>& paths, const Miss& miss, std::vect
     contacts.push_back(contact);
 }
 
+// Returns whether a kinematic body moves there. What rests in a plant parts from it slowly, as any other body.
+bool is_carried_on(const Contact& contact) {
+    return contact.other->isKinematicObject() && !velocity_at(*contact.other, contact.on_other).isZero(0);
+}
+
 // Returns by how much a plant is still in the way of a kinematic body at the end of the step [m].
 double behind(const Contact& contact, double h) {
     const Plant& plant = *contact.plant->plant;
@@ -118,7 +123,7 @@ double behind(const Contact& contact, double h) {
 // long as that helps.
 bool ask_for_more(Contact& contact, double h) {
     constexpr double NO_MATTER = 0.001, SHARE = 0.3, HELPS = 0.8;  // [m], over the radius, over the last time [-]
-    if (!contact.other->isKinematicObject() || !moves(*contact.plant)) return false;
+    if (!is_carried_on(contact) || !moves(*contact.plant)) return false;
     const double now = behind(contact, h);
     if (now < std::max(NO_MATTER, SHARE * radius_of(*contact.plant, contact.capsule))) return false;
     const bool helps = now < HELPS * contact.behind;
@@ -147,7 +152,7 @@ bool find_missed_contacts(World& world, double h) {
 void tell_what_is_behind(World& world, double h) {
     constexpr double WHOLE = 2;  // over the radius: all of a stem's thickness [-]
     for (const Contact& contact : world.contacts)
-        if (contact.other->isKinematicObject() && moves(*contact.plant) &&
+        if (is_carried_on(contact) && moves(*contact.plant) &&
             behind(contact, h) > WHOLE * radius_of(*contact.plant, contact.capsule))
             world.report.trouble |= FROND_TROUBLE_PASSED;
 }
