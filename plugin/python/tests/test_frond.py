@@ -331,6 +331,6 @@ def test_worlds_are_freed_when_nothing_refers_to_them(stem):
 def test_warnings_go_where_they_are_sent():
     heard = []
     frond.set_log(heard.append)
-    frond.Model("sunflower")  # its stem is made stiffer
+    frond.Model("wheat")  # a stem is made stiffer
     frond.set_log(None)
     assert any("stiffer" in text for text in heard)
