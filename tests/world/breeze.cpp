@@ -128,4 +128,30 @@ TEST_P(EveryBreeze, LeavesSegmentsTheirLengthsAndThePlantUpright) {
     frond_model_destroy(model);
 }
 
+// A leaf that a gale folds may stand where no search finds a way; it still goes on.
+TEST(Gale, PutsNoPlantBack) {
+    frond_world_def world_def = frond_default_world_def();
+    const frond_model_def model_def = frond_default_model_def();
+    frond_plant_def def = frond_default_plant_def();
+    def.mechanics = FROND_MECHANICS_ROD;
+    frond_wind_def wind = frond_default_wind_def();
+    wind.velocity = {25, 0, 0};
+    wind.profile = FROND_WIND_PROFILE_UNIFORM;
+    frond_world world;
+    frond_model model;
+    frond_plant plant;
+    ASSERT_EQ(frond_world_create(&world_def, &world), FROND_OK) << frond_last_error();
+    ASSERT_EQ(frond_world_set_wind(world, &wind), FROND_OK) << frond_last_error();
+    ASSERT_EQ(frond_model_load(FROND_SOURCE_DIR "/models/sunflower/sunflower.obj", &model_def, &model), FROND_OK);
+    ASSERT_EQ(frond_plant_create(world, model, &def, &plant), FROND_OK) << frond_last_error();
+    for (int step = 0; step < 720; step++) {
+        ASSERT_EQ(frond_world_step(world, 1.0 / 60), FROND_OK);
+        frond_report report = {};
+        ASSERT_EQ(frond_world_get_report(world, &report), FROND_OK);
+        EXPECT_EQ(report.trouble & FROND_TROUBLE_REWOUND, 0u) << "step " << step;
+    }
+    frond_world_destroy(world);
+    frond_model_destroy(model);
+}
+
 }  // namespace breeze_tests

@@ -110,7 +110,7 @@ TEST(Detail, IsHandedOverWithoutAJumpBothWays) {
                                    FROND_DETAIL_MODAL, FROND_DETAIL_STILL, FROND_DETAIL_MODAL,
                                    FROND_DETAIL_ROD,   FROND_DETAIL_ROD,   FROND_DETAIL_FULL};
     constexpr double MOST_FASTER =
-        0.7;  // speed change of any node in four steps of free fall; the usual one may be larger [m/s]
+        0.5;  // speed change of any node in three steps of free fall; the usual one may be larger [m/s]
     State before(plant);
     frond_vec3 tip;
     must(frond_plant_get_tip(plant, &tip));

@@ -130,10 +130,11 @@ static void solve_again(Plant& plant, double h, const Push* known) {
         push.impulse = share * known->impulse;
         minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, true);
     }
-    if (plant.report.ok && !plant.report.converged && way_of_step(plant).isZero(0)) {
+    if (!plant.report.converged && way_of_step(plant).isZero(0) && are_finite(x_once) && are_finite(v_once)) {
         // The search found no way at all, and would find none in the next step: a part of what one solve gave is one.
         plant.motion.x = x_once;
         plant.motion.v = v_once;
+        plant.report.ok = true;
     }
     hold_back(plant, h, pushes);
 }
