@@ -45,25 +45,6 @@ struct Kitchen {
     }
 };
 
-void change(Input& input, std::vector<uint8_t>& bytes) {
-    const size_t at = input.raw<uint32_t>() % bytes.size();
-    const double number = input.number();
-    const uint32_t word = input.raw<uint32_t>();
-    switch (input.below(4)) {
-        case 0:
-            bytes[at] ^= uint8_t(word);
-            break;
-        case 1:
-            if (at + sizeof number <= bytes.size()) std::memcpy(&bytes[at], &number, sizeof number);
-            break;
-        case 2:
-            if (at + sizeof word <= bytes.size()) std::memcpy(&bytes[at], &word, sizeof word);
-            break;
-        default:
-            if (word % 16 == 0) bytes.resize(at + 1);
-    }
-}
-
 void mend_head(std::vector<uint8_t>& bytes) {
     if (bytes.size() < HEAD) return;
     uint64_t length = bytes.size() - HEAD, checksum = 0xcbf29ce484222325u ^ length;
@@ -99,7 +80,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     std::vector<uint8_t> bytes = kitchen.cooked[size_t(input.below(int(kitchen.cooked.size())))];
     const bool mends_head = input.byte() % 8 != 0;
     Input plants = input;
-    while (!input.is_empty()) change(input, bytes);
+    while (!input.is_empty()) {
+        const size_t at = input.raw<uint32_t>() % bytes.size();
+        damage(input, at, bytes);
+    }
     if (mends_head) mend_head(bytes);
     frond_model model = {1};
     const frond_result result = frond_model_load_bytes(bytes.data(), bytes.size(), &model);

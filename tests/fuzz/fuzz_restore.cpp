@@ -48,21 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const bool mends_head = input.byte() % 8 != 0;
     while (!input.is_empty()) {
         const size_t at = input.raw<uint16_t>() % bytes.size();
-        const double number = input.number();
-        const uint32_t word = input.raw<uint32_t>();
-        switch (input.below(4)) {
-            case 0:
-                bytes[at] ^= uint8_t(word);
-                break;
-            case 1:
-                if (at + sizeof number <= bytes.size()) std::memcpy(&bytes[at], &number, sizeof number);
-                break;
-            case 2:
-                if (at + sizeof word <= bytes.size()) std::memcpy(&bytes[at], &word, sizeof word);
-                break;
-            default:
-                if (word % 16 == 0) bytes.resize(at + 1);
-        }
+        damage(input, at, bytes);
     }
     if (mends_head && bytes.size() >= HEAD) {
         uint64_t length = bytes.size() - HEAD, checksum = 0xcbf29ce484222325u;

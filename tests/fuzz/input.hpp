@@ -53,6 +53,25 @@ struct Input {
     }
 };
 
+// Changes bytes of a file from a place on, or now and then ends it there.
+inline void damage(Input& input, size_t at, std::vector<uint8_t>& bytes) {
+    const double number = input.number();
+    const uint32_t word = input.raw<uint32_t>();
+    switch (input.below(4)) {
+        case 0:
+            bytes[at] ^= uint8_t(word);
+            break;
+        case 1:
+            if (at + sizeof number <= bytes.size()) std::memcpy(&bytes[at], &number, sizeof number);
+            break;
+        case 2:
+            if (at + sizeof word <= bytes.size()) std::memcpy(&bytes[at], &word, sizeof word);
+            break;
+        default:
+            if (word % 16 == 0) bytes.resize(at + 1);
+    }
+}
+
 inline void require(bool holds, const char* what) {
     if (holds) return;
     std::fprintf(stderr, "fuzz: %s; last error: %s\n", what, frond_last_error());

@@ -108,9 +108,10 @@ TEST(RodPlasticity, KeepsTheSetOfElasticPerfectlyPlasticBending) {
     for (double k : {1.2, 2.0, 5.0}) {
         const auto own = bend_beyond(stem_model(0.02), k * first, NEVER);
         const double set = k * first - first * section_limit({0.02, 0, 0, false}, k);
-        for (const RodPlastic& plastic : static_cast<const RodElements&>(*own).plastic) {
-            EXPECT_NEAR(std::hypot(plastic.bend_thin, plastic.bend_wide), set, 0.01 * k * first);
-            EXPECT_NEAR(plastic.hardening * first, set, 0.01 * k * first);
+        const RodElements& rods = as_rods(*own);
+        for (size_t s = 0; s < rods.segments.size(); s++) {
+            EXPECT_NEAR(rods.segments[s].set_curvature.norm(), set, 0.01 * k * first);
+            EXPECT_NEAR(rods.hardening[s] * first, set, 0.01 * k * first);
         }
         // Its unloaded shape is the arc of that curvature.
         VecX f = VecX::Zero(own->modelled.size());
@@ -149,10 +150,7 @@ TEST(RodPlasticity, CreepsAtItsRateTowardsTheYield) {
     const double first = 2, curvature = 1.4 * first;
     auto own = bend_beyond(stem_model(0.02, 0.5), curvature, 1e-9);
     const VecX x = arc(*own, curvature);
-    const auto excess = [&] {
-        const auto& plastic = static_cast<const RodElements&>(*own).plastic[10];
-        return (curvature - std::hypot(plastic.bend_thin, plastic.bend_wide)) / first - 1;
-    };
+    const auto excess = [&] { return (curvature - as_rods(*own).segments[10].set_curvature.norm()) / first - 1; };
     const double start = excess();
     EXPECT_GT(start, 0.2);
     for (int n = 0; n < 120; ++n) row.flow(*own, x, 1.0 / 60);

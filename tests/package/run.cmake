@@ -1,12 +1,6 @@
 # Installs the build into a prefix and moves that. Runs the command there, then builds and runs programs against it: with
 # find_package and with pkg-config.
-function(run)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(NOT result EQUAL 0)
-        message(FATAL_ERROR "${ARGN}\nfailed with ${result}\n${output}")
-    endif()
-    message("${output}")
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run_or_fail.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 set(prefix ${WORK}/prefix)

@@ -20,16 +20,24 @@ constexpr double TALL = 1, MEETS_AT = 0.487, BEFORE = 0.05, BEHIND = 0.2;
 constexpr double THIN = 0.005, LEAF_HALF_WIDTH = 0.03;
 const double SQUARE_ROOT = std::sqrt(0.5);
 
-frond_model model_of_stems(const frond_stem* stems, int count) {
-    frond_model_def def = frond_default_model_def();
-    frond_organ_material organ = {"stem", {}};
-    must(frond_material_preset("stem", &organ.material));
+// Returns the def of an upright model in metres, of one kind of organ, whose stiffness it sets; `organ` is to outlive
+// it.
+frond_model_def stiff_def(const char* kind, frond_organ_material& organ) {
+    organ.organ = kind;
+    must(frond_material_preset(kind, &organ.material));
     organ.material.young = 1e9;
+    frond_model_def def = frond_default_model_def();
     def.organs = &organ;
     def.organ_count = 1;
     def.scale = 1;
     def.up = {0, 1, 0};
     def.rest = FROND_REST_WITHOUT_GRAVITY;
+    return def;
+}
+
+frond_model model_of_stems(const frond_stem* stems, int count) {
+    frond_organ_material organ = {};
+    const frond_model_def def = stiff_def("stem", organ);
     frond_model model = {};
     must(frond_model_from_stems(stems, count, &def, &model));
     return model;
@@ -49,16 +57,9 @@ frond_model leaf_model() {
             const int a = i * (WIDE + 1) + k, b = a + WIDE + 1;
             indices.insert(indices.end(), {a, b, a + 1, a + 1, b, b + 1});
         }
-    frond_model_def def = frond_default_model_def();
-    frond_organ_material blade = {"blade", {}};
-    must(frond_material_preset("blade", &blade.material));
+    frond_organ_material blade = {};
+    const frond_model_def def = stiff_def("blade", blade);
     blade.material.thickness = 2e-3;
-    blade.material.young = 1e9;
-    def.organs = &blade;
-    def.organ_count = 1;
-    def.scale = 1;
-    def.up = {0, 1, 0};
-    def.rest = FROND_REST_WITHOUT_GRAVITY;
     frond_model model = {};
     must(frond_model_from_triangles(xyz.data(), int(xyz.size() / 3), indices.data(), int(indices.size() / 3), &def,
                                     &model));

@@ -26,7 +26,7 @@ std::unique_ptr<Elements> without_rods(const Elements& body, const std::vector<u
     keep_others(own->damping_ratio, is_gone);
     keep_others(own->yields, is_gone);
     keep_others(own->segments, is_gone);
-    keep_others(own->plastic, is_gone);
+    keep_others(own->hardening, is_gone);
     keep_others(own->section, is_gone);
     find_roots(*own);
     return own;

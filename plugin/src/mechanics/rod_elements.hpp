@@ -17,7 +17,7 @@ struct RodSegment {
     double warping;       // growth of twist stiffness by the square of twist, see measure_twist() [m^2]
     Vec3 rest_strain;     // stretch and tilt without load; (1, 0, 0) for a straight segment at its own length [-]
     Vec3 rest_curvature;  // elastic twist and curvature without load, relative to the modelled shape [1/m]
-    Vec3 set_curvature;   // plastic ones [1/m]
+    Vec3 set_curvature;   // plastic ones; there is no plastic twist [1/m]
     double set_w;         // quaternion of half the rotation between its ends by set_curvature
     Vec3 set_p;
     double shared_mass;             // mass between its nodes, taken from either [kg]
@@ -28,18 +28,12 @@ struct RodSegment {
 // Sets set_curvature and what follows from it [1/m].
 void give_set(RodSegment& rod, const Vec3& curvature);
 
-// Plastic strain of a segment.
-struct RodPlastic {
-    double bend_wide, bend_thin;  // curvature towards wide and towards thin, each about the other axis [1/m]
-    double hardening;             // see elastic_share()
-};
-
 struct RodElements : Elements {
     std::vector<RodSegment> segments;
-    std::vector<double> mass;         // one a chain node [kg]
-    std::vector<Mat3> inertia;        // rotary, one a chain node, in the modelled shape [kg m^2]
-    std::vector<int> root;            // of each chain node: the first node that segments lead to it from, or itself
-    std::vector<RodPlastic> plastic;  // one a segment; empty unless the plant has yielded
+    std::vector<double> mass;       // one a chain node [kg]
+    std::vector<Mat3> inertia;      // rotary, one a chain node, in the modelled shape [kg m^2]
+    std::vector<int> root;          // of each chain node: the first node that segments lead to it from, or itself
+    std::vector<double> hardening;  // see elastic_share(); one a segment, empty unless the plant has yielded
 };
 
 // Sets `root` from the segments.

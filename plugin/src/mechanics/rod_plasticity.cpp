@@ -14,10 +14,6 @@ namespace frond {
 
 namespace {
 
-void apply(const RodPlastic& plastic, RodSegment& rod) {
-    give_set(rod, {0, plastic.bend_wide, plastic.bend_thin});
-}
-
 constexpr size_t NUMBERS_OF_PIECE = 3;  // the two curvatures, hardening
 
 }  // namespace
@@ -50,7 +46,7 @@ bool rods_yield(const Elements& body, const VecX& x) {
 
 std::unique_ptr<Elements> copy_rods(const Elements& body) {
     auto own = std::make_unique<RodElements>(as_rods(body));
-    own->plastic.assign(own->segments.size(), {0, 0, 0});
+    own->hardening.assign(own->segments.size(), 0);
     return own;
 }
 
@@ -61,18 +57,19 @@ void rods_flow(Elements& body, const VecX& x, double h) {
         const Yield& yield = elements.yields[s];
         const double bend = fibre_strain(elements.segments[s], strains[s]).bend;
         if (yield.strain == 0 || !(bend > yield.strain)) continue;
-        RodPlastic& plastic = elements.plastic[s];
-        const double gone = 1 - elastic_share(yield, bend, h, plastic.hardening);
-        plastic.bend_wide += gone * strains[s].curvature[1];
-        plastic.bend_thin += gone * strains[s].curvature[2];
-        apply(plastic, elements.segments[s]);
+        RodSegment& rod = elements.segments[s];
+        const double gone = 1 - elastic_share(yield, bend, h, elements.hardening[s]);
+        give_set(rod, rod.set_curvature + gone * Vec3(0, strains[s].curvature[1], strains[s].curvature[2]));
     }
 }
 
 std::vector<double> plastic_of_rods(const Elements& body) {
     std::vector<double> values;
-    for (const RodPlastic& l : as_rods(body).plastic)
-        values.insert(values.end(), {l.bend_wide, l.bend_thin, l.hardening});
+    const RodElements& elements = as_rods(body);
+    for (size_t s = 0; s < elements.hardening.size(); ++s) {
+        const Vec3& set = elements.segments[s].set_curvature;
+        values.insert(values.end(), {set[1], set[2], elements.hardening[s]});
+    }
     return values;
 }
 
@@ -88,9 +85,8 @@ void set_plastic_of_rods(Elements& body, const std::vector<double>& values) {
     }
     for (size_t s = 0; s < elements.segments.size(); ++s) {
         const double* v = values.data() + NUMBERS_OF_PIECE * s;
-        RodPlastic& plastic = elements.plastic[s];
-        plastic.bend_wide = v[0], plastic.bend_thin = v[1], plastic.hardening = v[2];
-        apply(plastic, elements.segments[s]);
+        give_set(elements.segments[s], {0, v[0], v[1]});
+        elements.hardening[s] = v[2];
     }
 }
 

@@ -265,6 +265,7 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (by_modes && plant.follow) keep_only_modes(plant);
     const VecX smooth = cage_places(plant), smooth_rate = cage_velocities(plant);
     const StoredEnergy held = stored_energy(plant);
+    const bool pins_moved = plant.pins_changed;
     // Plastic states carry over between mechanics of tets, and between those of the chain.
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
     const std::vector<double> plastic = keeps ? plastic_of(plant) : std::vector<double>();
@@ -279,7 +280,7 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     }
     leave_fragments(plant);
     set_plastic(plant, plastic);
-    relax(plant, held);
+    relax(plant, held, pins_moved);
     apply_pins(plant);
     moved(plant);
     if (smoothly) begin_blend_out(plant.blend_out, places - cage_places(plant), velocities - cage_velocities(plant));

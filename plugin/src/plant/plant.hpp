@@ -283,8 +283,8 @@ struct StoredEnergy {
     double elastic, kinetic;
 };
 StoredEnergy stored_energy(const Plant& plant);
-// Relaxes a plant until it stores no more than that.
-void relax(Plant& plant, const StoredEnergy& most);
+// Relaxes a plant until it stores no more than that. Pins that were moved since the last step are left to the next one.
+void relax(Plant& plant, const StoredEnergy& most, bool pins_moved);
 // Switches to other mechanics with the same shape and motion. `smoothly`: between cage and chain only the modal part of
 // a plant that sways on its roots is handed over, which strains neither, and the rest of shape and motion blends out.
 void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly = false);

@@ -25,7 +25,7 @@ static void take_velocities(Plant& plant, const SolveSettings& settings, const V
     if (!respond(*plant.workspace, settings, momentum, plant.motion.v)) plant.motion.v.setZero();
 }
 
-// Holds pins where they are now: what moved pins do is work of the next step.
+// Holds pinned nodes where they are now: what moved pins do is work of the next step.
 static void hold_still(Plant& plant) {
     apply_pins(plant);
     Motion& motion = plant.motion;
@@ -36,7 +36,7 @@ static void hold_still(Plant& plant) {
     plant.pins_changed = true;
 }
 
-void relax(Plant& plant, const StoredEnergy& most) {
+void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
     constexpr int ROUNDS = 30, ITERATIONS = 10;
     constexpr double STEP = 1.0 / 60;  // [s]
     // Shares of the energy that lifts the plant by its size: what counts as none, and what a step's check allows [-].
@@ -48,7 +48,10 @@ void relax(Plant& plant, const StoredEnergy& most) {
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     Loads loads;
     if (plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
-    hold_still(plant);
+    if (pins_moved)
+        hold_still(plant);
+    else
+        apply_pins(plant);
     plant.has_fibres = true;
     bool ok = true;
     int round = 0;

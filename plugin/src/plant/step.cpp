@@ -118,6 +118,7 @@ static void solve_again(Plant& plant, double h, const Push* known) {
     const bool from_rest = !plant.is_entangled;
     Push push = known ? *known : Push();
     const Push* const pushes = known ? &push : nullptr;
+    const bool was_solved = plant.report.ok;
     const VecX x_once = plant.motion.x, v_once = plant.motion.v;
     if (!plant.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
         minimise(plant, own, h, push, from_rest);
@@ -130,7 +131,7 @@ static void solve_again(Plant& plant, double h, const Push* known) {
         push.impulse = share * known->impulse;
         minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, true);
     }
-    if (!plant.report.converged && way_of_step(plant).isZero(0) && are_finite(x_once) && are_finite(v_once)) {
+    if (was_solved && !plant.report.converged && way_of_step(plant).isZero(0)) {
         // The search found no way at all, and would find none in the next step: a part of what one solve gave is one.
         plant.motion.x = x_once;
         plant.motion.v = v_once;

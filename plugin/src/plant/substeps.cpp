@@ -46,7 +46,7 @@ SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
         const VecX x = motion.x, v = motion.v;
         plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / count, motion);
         if (i < count) hold_lengths(plant, h / count);
-        const SolveReport one = plant.report;
+        const SolveReport& one = plant.report;
         error += local_error(plant, x, v, h / count);
         sum.ok = one.ok;
         sum.converged &= one.converged;
