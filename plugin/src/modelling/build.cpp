@@ -5,6 +5,7 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/weigh.hpp"
+#include "core/assert.hpp"
 #include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -66,6 +67,16 @@ void build_body(Model& model, const frond_model_def& def) {
     tell_stiffened(model, weak, find_rest_shape(model, 1));
 }
 
+// Returns whether a model is what one read from a file has to be: sizes that agree, indices in range, positive numbers.
+static bool is_whole(const Model& model) {
+    try {
+        check_cooked(model);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def, const Timer& total) {
     auto model = std::make_shared<Model>();
     model->surface = std::move(surface);
@@ -76,6 +87,7 @@ static std::shared_ptr<const Model> build(Surface surface, const frond_model_def
     model->ms_chain = timer.ms();
     build_body(*model, def);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 
@@ -108,6 +120,7 @@ std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_
     model->ms_chain = timer.ms();
     build_body(*model, def);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 
@@ -122,6 +135,7 @@ std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def
     finish(*model);
     take_materials(*model);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 

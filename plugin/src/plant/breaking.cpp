@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "core/assert.hpp"
 #include "mechanics/rotation.hpp"
 #include "mechanics/sections.hpp"
 #include "plant/plant.hpp"
@@ -109,6 +110,7 @@ void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
         fragment.mass = LEAST;
         moment = LEAST * plant.to_world(plant.chain_positions[size_t(fragment.node)]);
     }
+    FROND_ASSERT(fragment.mass > 0);
     fragment.centre = moment / fragment.mass;
     fragment.velocity = momentum / fragment.mass;
     Vec3 angular = Vec3::Zero();
@@ -168,6 +170,7 @@ void leave_fragments(Plant& plant) {
 }
 
 const Fragment& break_off(Plant& plant, int node) {
+    FROND_ASSERT(node >= 0 && plant.model->chain.nodes[size_t(node)].parent >= 0);
     Fragment fragment;
     fragment.node = node;
     fragment.cage_x = cage_places(plant);

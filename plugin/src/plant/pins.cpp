@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/assert.hpp"
 #include "mechanics/rotation.hpp"
 #include "plant/plant.hpp"
 
@@ -29,6 +30,7 @@ void unpin_node(Plant& plant, int node) {
 }
 
 void move_pin(Plant& plant, int node, const Vec3& target) {
+    FROND_ASSERT(node >= 0 && node < node_count_of(plant) && target.allFinite());
     point(plant.pin_target, node) = target;
     plant.pins_changed = plant.pins_are_own = true;
 }
@@ -115,6 +117,7 @@ bool is_carried(const Motion& motion, const VecX& x, const VecX& v) {
 }
 
 void apply_pins(Plant& plant) {
+    FROND_ASSERT(plant.pinned.size() == size_t(node_count_of(plant)));
     if (plant.follow) {
         if (plant.pins_changed || !is_where_held(plant.motion)) pin_chain(plant);
     } else if (plant.pins_changed) {
