@@ -67,16 +67,6 @@ void build_body(Model& model, const frond_model_def& def) {
     tell_stiffened(model, weak, find_rest_shape(model, 1));
 }
 
-// Returns whether a model is what one read from a file has to be: sizes that agree, indices in range, positive numbers.
-static bool is_whole(const Model& model) {
-    try {
-        check_cooked(model);
-        return true;
-    } catch (const Error&) {
-        return false;
-    }
-}
-
 static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def, const Timer& total) {
     auto model = std::make_shared<Model>();
     model->surface = std::move(surface);
