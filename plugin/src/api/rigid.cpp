@@ -11,7 +11,7 @@ static void check_state(const frond_rigid_state& state) {
     const double length = Quat(q.w, q.x, q.y, q.z).norm();
     if (!(length > 1e-9 && length < 1e9))
         fail(FROND_RESULT_BAD_ARGUMENT, "state.rotation has no direction; (0,0,0,1) is none");
-    constexpr double FASTEST = 1e6;
+    constexpr double FASTEST = 1e6;  // [m/s] and [rad/s]
     for (double v : {state.velocity.x, state.velocity.y, state.velocity.z})
         check_range(v, -FASTEST, FASTEST, "state.velocity [m/s]");
     for (double v : {state.angular_velocity.x, state.angular_velocity.y, state.angular_velocity.z})

@@ -63,7 +63,7 @@ struct LookAtWays {
     unsigned &far_away, &off_course;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr double NEARLY = 1 - 1e-9;
+        constexpr double NEARLY = 1 - 1e-9;  // rounding, which differs between lanes and one by one [-]
         const double far = squared(OFF_COURSE * size) * NEARLY;
         const double turned = TURNED_OFF_COURSE * TURNED_OFF_COURSE * NEARLY;
         S near = constant<S>(1), on_course = near;
@@ -87,7 +87,7 @@ struct LookForTaut {
     unsigned& taut;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr double NEARLY = 1 - 1e-9;
+        constexpr double NEARLY = 1 - 1e-9;  // rounding, which differs between lanes and one by one [-]
         S slack = constant<S>(1);
         for (const Fibre& fibre : fibres.list) {
             const size_t node = size_t(fibre.node), parent = size_t(chain.nodes[node].parent);

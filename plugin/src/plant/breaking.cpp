@@ -34,7 +34,7 @@ void mark_cage(const Plant& plant, Parting& parting) {
     const std::vector<int> capsule = capsules_of_tets(model);
     parting.of_tet.clear();
     for (int c : capsule) parting.of_tet.push_back(parting.of_chain[size_t(c)]);
-    constexpr int NONE = -2;
+    constexpr int NONE = -2;  // no tet has been there; -1: the plant itself
     parting.of_node.assign(plant.pinned.size(), NONE);
     const auto mark = [&](int node, int fragment) {
         int& of = parting.of_node[size_t(node)];

@@ -38,7 +38,7 @@ void move_pin(Plant& plant, int node, const Vec3& target) {
 // Returns a spring's stiffness, STRONG times the plant's weight over a millimetre: with it a plant counts as rigidly
 // held.
 static double pin_stiffness(const Plant& plant) {
-    constexpr double STRONG = 1e7;
+    constexpr double STRONG = 1e7;  // weights of the plant for a millimetre [-]
     return STRONG * std::max(node_mass_of(*plant.system).sum(), 1e-6) * GRAVITY / 1e-3;
 }
 
