@@ -13,7 +13,7 @@
 namespace frond {
 
 template <class S>
-constexpr int LANES = int(sizeof(S) / sizeof(double));
+constexpr int LANES = int(sizeof(S) / sizeof(double));  // numbers of a vector
 
 constexpr int MOST_LANES = 8;  // on any processor
 

@@ -7,8 +7,8 @@
 namespace frond {
 
 static constexpr char MAGIC[] = "frond-import";
-static constexpr uint32_t VERSION = 3;
-static constexpr uint32_t MAX_PARTS = 1000000, MAX_TEXTURES = 10000, MAX_WARNINGS = 1000;
+static constexpr uint32_t VERSION = 3;  // of the stream; another one is of another build
+static constexpr uint32_t MAX_PARTS = 1000000, MAX_TEXTURES = 10000, MAX_WARNINGS = 1000;  // more is damage
 
 std::string import_greeting() {
     std::string greeting(MAGIC, 12);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "core/assert.hpp"
 #include "mechanics/rotation.hpp"
 #include "mechanics/sections.hpp"
 #include "plant/plant.hpp"
@@ -33,7 +34,7 @@ void mark_cage(const Plant& plant, Parting& parting) {
     const std::vector<int> capsule = capsules_of_tets(model);
     parting.of_tet.clear();
     for (int c : capsule) parting.of_tet.push_back(parting.of_chain[size_t(c)]);
-    constexpr int NONE = -2;
+    constexpr int NONE = -2;  // no tet has been there; -1: the plant itself
     parting.of_node.assign(plant.pinned.size(), NONE);
     const auto mark = [&](int node, int fragment) {
         int& of = parting.of_node[size_t(node)];
@@ -109,6 +110,7 @@ void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
         fragment.mass = LEAST;
         moment = LEAST * plant.to_world(plant.chain_positions[size_t(fragment.node)]);
     }
+    FROND_ASSERT(fragment.mass > 0);
     fragment.centre = moment / fragment.mass;
     fragment.velocity = momentum / fragment.mass;
     Vec3 angular = Vec3::Zero();
@@ -207,6 +209,7 @@ static void set_shape(const Plant& plant, const VecX& x, Fragment& fragment) {
 }
 
 const Fragment& break_off(Plant& plant, int node) {
+    FROND_ASSERT(node >= 0 && plant.model->chain.nodes[size_t(node)].parent >= 0);
     Fragment fragment;
     fragment.node = node;
     fragment.turn = plant.rotation.toRotationMatrix();
