@@ -27,6 +27,7 @@ static void check_rigid_def(const frond_rigid_def* def) {
     for (int i = 0; i < size_count(frond_shape(shape)); i++) check_range(size[i], 1e-4, 1e4, "def.size [m]");
     if (def->mass != 0) check_range(def->mass, 1e-6, 1e9, "def.mass [kg]");
     check_range(def->friction, 0, 100, "def.friction");
+    check_range(def->restitution, 0, 1, "def.restitution");
     check_state(def->state);
 }
 

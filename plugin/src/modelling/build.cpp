@@ -95,7 +95,9 @@ StemPlacement placement_of(const Surface& before, const Surface& after) {
     return placed;
 }
 
-std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def) {
+std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def,
+                                              const frond_stem_section* sections) {
+    if (sections) check_stem_sections(sections, stem_count);
     const Timer total;
     auto model = std::make_shared<Model>();
     const Surface made = surface_from_stems(stems, stem_count);
@@ -104,8 +106,9 @@ std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_
     model->ms_import = total.ms();
     const Timer timer;
     find_organs(*model, def);
-    model->chain = make_chain_of_stems(stems, stem_count, model->surface, placement_of(made, model->surface),
-                                       model->organs, {def.capsule_height, def.capsule_radius}, model->sections);
+    model->chain =
+        make_chain_of_stems(stems, stem_count, model->surface, placement_of(made, model->surface), model->organs,
+                            {def.capsule_height, def.capsule_radius}, model->sections, {}, sections);
     model->exact_sections = true;
     model->ms_chain = timer.ms();
     build_body(*model, def);

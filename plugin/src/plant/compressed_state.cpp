@@ -50,7 +50,7 @@ void compress(Plant& plant, double tolerance, bool keep_surface) {
     plant.blown.setZero();
     plant.air = nullptr;
     for (VecX* numbers : {&plant.x_good, &plant.v_good, &plant.contact_impulse, &plant.contact_correction,
-                          &plant.user_force, &plant.cage_x})
+                          &plant.user_force, &plant.chain_load, &plant.cage_x})
         drop(*numbers);
     plant.cage_stale = true;
     drop(plant.chain_positions);

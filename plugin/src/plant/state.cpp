@@ -40,6 +40,26 @@ static bool stands_where_made(const Plant& plant, const VecX& x) {
     return true;
 }
 
+// Lets steps go on from a motion that was set.
+static void go_on_anew(Plant& plant) {
+    plant.motion.history.valid = plant.motion.history.shaken = false;
+    plant.blend_out = {};
+    plant.lead = plant.stepped_by = 0;
+    plant.fibre_force.resize(0);
+    plant.pins_changed = true;
+    apply_pins(plant);
+    moved(plant);
+}
+
+void go_on_from_state(Plant& plant) {
+    VecX x = cage_places(plant);
+    follow_places(*plant.follow, plant.motion.x, x);
+    plant.pins_are_own |= !stands_where_made(plant, x);
+    plant.pin_target = x;
+    carry_stumps(plant);
+    go_on_anew(plant);
+}
+
 void set_state(Plant& plant, const double* positions, const double* velocities) {
     end_modal(plant);
     const Quat to_model = plant.rotation.conjugate();
@@ -65,13 +85,7 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
         if (positions) motion.x = x;
         if (velocities) motion.v = v;
     }
-    motion.history.valid = motion.history.shaken = false;
-    plant.blend_out = {};
-    plant.lead = plant.stepped_by = 0;
-    plant.fibre_force.resize(0);
-    plant.pins_changed = true;
-    apply_pins(plant);
-    moved(plant);
+    go_on_anew(plant);
 }
 
 std::vector<double> plastic_of(const Plant& plant) {

@@ -4,6 +4,7 @@
 
 #include "core/assert.hpp"
 #include "core/timer.hpp"
+#include "plant/chain_state.hpp"
 #include "plant/guard.hpp"
 #include "plant/load_work.hpp"
 #include "plant/plant.hpp"
@@ -28,7 +29,8 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
     if (plant.has_user_force) {
         const Mat3 turn = to_model.toRotationMatrix();
         loads.force.setZero(plant.motion.x.size());
-        for (int i = 0; i < node_count_of(plant); i++) {
+        gather_chain_loads(plant, loads.force);
+        for (int i = 0; i < plant.user_force.size() / 3; i++) {
             const Vec3 force = turn * point(plant.user_force, i);
             if (!plant.follow)
                 point(loads.force, i) = force;
@@ -298,6 +300,7 @@ void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
 void clear_user_force(Plant& plant) {
     if (!plant.has_user_force) return;
     plant.user_force.setZero();
+    plant.chain_load.setZero();
     plant.has_user_force = false;
 }
 

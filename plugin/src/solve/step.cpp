@@ -39,10 +39,9 @@ void prepare(Workspace& workspace, const StepInput& input) {
         workspace.external.setZero(motion.x.size());
     workspace.v_start = motion.v;
     const int pinned_count = int(motion.pinned.size());
-    for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1)) {
+    for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1))
         workspace.held[size_t(i)] = 1;
-        point(workspace.v_start, i) = (point(motion.pin_target, i) - point(motion.x, i)) / input.h;
-    }
+    carry_held(workspace, input);
     // The rows of either mass matrix add up to the lumped mass.
     for (int i = 0; i < system.elements->node_count; ++i)
         point(workspace.external, i) += system.masses.node[i] * input.loads.gravity;

@@ -23,6 +23,14 @@ double parting_speed(double depth, double slop, double h, double share, double f
     return std::min(share * std::max(0.0, depth - slop) / h, fastest);
 }
 
+// Returns how fast sides that meet within the step must part by restitution; 0 below a speed at which nothing bounces.
+double rebound_speed(const Contact& contact, const Touch& touch, double h) {
+    constexpr double SLOWEST = 0.5;  // [m/s]
+    const double approach = -touch.velocity.dot(contact.normal);
+    const bool meets = approach > SLOWEST && h * approach > contact.gap;
+    return meets ? contact.restitution * approach : 0;
+}
+
 bool rubs(const World& world, const PlantBody& body) {
     return world.effects & body.plant->effects & FROND_EFFECT_FRICTION;
 }
@@ -47,6 +55,8 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
                               : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST + lag)
                                                : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
+    if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
+        row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);
     row.touch.bias_velocity += contact.lacking / h;
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;

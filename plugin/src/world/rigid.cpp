@@ -47,6 +47,7 @@ Rigid* add_rigid(World& world, const frond_rigid_def& def) {
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, rigid->shape.get(), inertia);
     info.m_startWorldTransform = frame_of(def.state);
     info.m_friction = btScalar(def.friction);
+    info.m_restitution = btScalar(def.restitution);
     rigid->body = lend<btRigidBody>(*rigid, info);
     // A kinematic body stays awake, or Bullet would not compute its velocity.
     if (mass == 0 && !rigid->is_plane) {
