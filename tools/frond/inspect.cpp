@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "studio/studio.hpp"
+#include "studio/organ_picture.hpp"
 
 namespace frond::tools {
 namespace {
 
 struct InspectOptions {
-    std::string file, shot;
+    std::string file, shot, picture;
     bool json = false;
     std::vector<std::string> assignments;
     View view;
@@ -199,8 +199,10 @@ void inspect(const InspectOptions& options) {
         std::printf("%s\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     else
         print_model(out);
-    if (options.shot.empty()) return;
+    if (options.shot.empty() && options.picture.empty()) return;
     stage.plant(model, {0, 0, 0});
+    if (!options.picture.empty()) draw_organs(stage, options.view).write(options.picture);
+    if (options.shot.empty()) return;
     Studio studio(options.view);
     studio.shoot(stage);
     studio.write(options.shot);
@@ -216,6 +218,10 @@ void add_inspect(CLI::App& app) {
         ->required();
     command->add_flag("--json", options->json, "print JSON");
     command->add_option("--shot", options->shot, "write a picture (PNG) with cage and capsules")
+        ->check(file_ending_in(".png"));
+    command
+        ->add_option("--picture", options->picture,
+                     "write a picture (PNG) of the organs in colours with their names and weights, chain and roots")
         ->check(file_ending_in(".png"));
     command->add_option("--overlay", options->view.overlays, "cage, faces, capsules")->delimiter(',');
     command->add_option("--set", options->assignments, "key=value, may be repeated; see frond run --help");
