@@ -224,6 +224,8 @@ void add_inspect(CLI::App& app) {
                      "write a picture (PNG) of the organs in colours with their names and weights, chain and roots")
         ->check(file_ending_in(".png"));
     command->add_option("--overlay", options->view.overlays, "cage, faces, capsules")->delimiter(',');
+    command->add_option("--width", options->view.width, "of pictures [pixel]")->check(CLI::Range(64, 4096));
+    command->add_option("--height", options->view.height, "of pictures [pixel]")->check(CLI::Range(64, 4096));
     command->add_option("--set", options->assignments, "key=value, may be repeated; see frond run --help");
     command->callback([options] { inspect(*options); });
 }

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "build/build.hpp"
+#include "build/hidden_ribs.hpp"
 #include "build/strengthen.hpp"
 #include "build/sway.hpp"
 #include "build/toppling.hpp"
-#include "build/weigh.hpp"
 #include "core/elementary.hpp"
 #include "mechanics/rod_elements.hpp"
 
@@ -23,40 +23,6 @@ constexpr double SAFETY = 1.7, SAFETY_OF_GIVEN = 1.02;
 // An organ may turn this far under its own weight applied sideways, by linear theory; an upright column topples at
 // 1.306.
 constexpr double LARGEST_TURN = 1.2;  // [rad]
-
-// Returns how far each organ turns from its base to its tip when all its weight pulls sideways, by linear theory [rad].
-std::vector<double> organ_turns(const Model& model) {
-    const std::vector<ChainNode>& nodes = model.chain.nodes;
-    const Weights weights = weigh(model, hang_tets(model));
-    std::vector<double> turns(model.organs.size(), 0.0);
-    for (int axis = 0; axis < 3; axis++) {
-        const Vec3 load = GRAVITY * Vec3::Unit(axis);
-        std::vector<Vec3> force(nodes.size()), moment(nodes.size());
-        for (size_t i = 0; i < nodes.size(); i++) {
-            force[i] = weights.mass[i] * load;
-            moment[i] = weights.moment[i].cross(load);
-        }
-        std::vector<double> curvature(nodes.size(), 0.0), turn(nodes.size(), 0.0);
-        for (size_t i = nodes.size(); i-- > 0;) {
-            if (nodes[i].parent < 0) continue;
-            const size_t parent = size_t(nodes[i].parent);
-            const Section& section = model.sections[i];
-            const Vec3 M = moment[i] - (0.5 * (nodes[i].position + nodes[parent].position)).cross(force[i]);
-            curvature[i] = frond::hypot(M.dot(section.wide()) / section.bending_thin(),
-                                        M.dot(section.thin) / section.bending_wide());
-            force[parent] += force[i];
-            moment[parent] += moment[i];
-        }
-        for (size_t i = 0; i < nodes.size(); i++) {
-            if (nodes[i].parent < 0) continue;
-            const size_t parent = size_t(nodes[i].parent), organ = size_t(nodes[i].organ);
-            turn[i] =
-                model.sections[i].length * curvature[i] + (nodes[parent].organ == nodes[i].organ ? turn[parent] : 0.0);
-            turns[organ] = std::max(turns[organ], turn[i]);
-        }
-    }
-    return turns;
-}
 
 // Rods of a plant that stands, with the stiffness that resists, in which each organ is weaker by its safety factor, and
 // the stiffness that weight takes.
@@ -140,7 +106,8 @@ void strengthen_rods(const Model& model, frond_mechanics which, const std::funct
 
 WeakOrgan strengthen(Model& model) {
     std::vector<double>& stiffer = model.organ_stiffer;
-    const std::vector<double> turns = organ_turns(model);
+    grow_hidden_ribs(model, LARGEST_TURN / SAFETY);
+    const std::vector<double> turns = find_turns(model).organ;
     std::vector<double> safety;
     for (size_t o = 0; o < stiffer.size(); o++) {
         const bool given = model.organs[o].material_given;

@@ -25,7 +25,7 @@ bool names_many(const std::string& name);
 std::vector<std::string> kinds_by_name(const Surface& surface);
 // Returns for each triangle whether it belongs to foliage that is drawn as one solid: held up by something else or,
 // with `on_ground`, also standing on the ground.
-std::vector<char> find_crowns(const Topology& topology, bool on_ground);
+std::vector<char> find_crowns(const Surface& surface, const Topology& topology, bool on_ground);
 
 // Makes parts named branches blades if they are cards beside real branches; `sheets` says which triangles are of
 // sheets.

@@ -7,7 +7,7 @@
 //   it is a solid at the foot that bears leaves             3 for a root
 //   it is a thin tube at whose end one leaf or few are      2.5 for a petiole
 //   it is green                                             0.5 for a blade, 0.3 for a stem
-//   it is dark and brown                                    1 for a branch
+//   it is dark and brown                                    1 for a branch, 2.5 less for a crown
 //   it is bright and not green                              2 for a flower if a sheet, 1 for a fruit if a solid
 //   its texture lets light through                          1 for a blade
 // Then regions are joined to organs: see organ_join.cpp.
@@ -146,7 +146,9 @@ bool is_grass(const Voter& voter, const Region& region) {
 }
 
 bool is_rooted_tuber(const Voter& voter, size_t r) {
+    constexpr double LOW = 0.3;  // largest height above the ground at which one begins, as a share of the plant's
     const Region& region = voter.regions[r];
+    if (voter.height > TREE_HEIGHT || region.box.min().y() > voter.foot + LOW * voter.height) return false;
     if (region.form == Form::SOLID) return region.tubes + region.sheets > 0 && reaches_ground(voter, r);
     // A tube that stands on its point, thick at its upper end, out of which thin ones grow.
     const double length = region.box.sizes().y();
@@ -167,7 +169,7 @@ bool is_petiole(const Voter& voter, size_t r) {
     const Region& region = voter.regions[r];
     if (region.form != Form::TUBE || voter.tube == "branch" || voter.others[r] > 0 || region.length > 0.6 * voter.size)
         return false;
-    if (stands(region, voter.foot, voter.height)) return voter.leaves[r] == 1;
+    if (region.parent < 0 || stands(region, voter.foot, voter.height)) return voter.leaves[r] == 1;
     const Region& parent = voter.regions[size_t(region.parent)];
     return voter.leaves[r] > 0 && voter.leaves[r] <= FEW_LEAVES &&
            (parent.form == Form::SOLID || region.radius() < PETIOLE_THIN * parent.radius());
@@ -205,7 +207,7 @@ void vote_by_shape(const Voter& voter, size_t r, Ballot& ballot) {
     const Vec3 size = region.box.sizes();
     if (is_rooted_tuber(voter, r) || is_point(voter, r))
         ballot.add("root", 3, sized("solid at the foot that bears leaves,", size.maxCoeff(), size.minCoeff()));
-    else if (voter.crown[r] > 0.5 && !(region.form == Form::TUBE && region.solids > 0))
+    else if (voter.crown[r] > 0.5 && voter.height > CROWN_HEIGHT && !(region.form == Form::TUBE && region.solids > 0))
         ballot.add("crown", 3, sized("large round solid,", size.maxCoeff(), size.minCoeff()));
     else if (surrounds_wood(voter, region))
         ballot.add("crown", 3, sized("foliage around wood,", size.maxCoeff(), size.minCoeff()));
@@ -240,6 +242,7 @@ void vote_by_look(const Voter& voter, size_t r, Ballot& ballot) {
         ballot.add("stem", 0.3, "");
     } else if (is_brown(part.color)) {
         ballot.add("branch", 1, "brown");
+        if (ballot.votes.count("crown")) ballot.add("crown", -2.5, "");
     } else if (is_bright(part.color) && voter.leaves[r] <= (region.form == Form::SHEET) &&
                voter.bright[size_t(region.part)] > 0) {
         if (region.form != Form::SOLID)
