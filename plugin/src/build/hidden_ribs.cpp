@@ -53,10 +53,10 @@ struct Sheet {
     double widest = 0, begin = INFINITY, end = 0;  // [m]; the last two along the chain from the root
 };
 
-std::vector<Sheet> list_sheets(const Model& model) {
+std::vector<Sheet> list_sheets(const Model& model, const std::vector<double>& stiffer) {
     std::vector<Sheet> sheets(model.organs.size());
     for (size_t o = 0; o < sheets.size(); o++)
-        sheets[o].may_grow = is_sheet(model.organs[o]) && !model.organs[o].material_given &&
+        sheets[o].may_grow = stiffer[o] > 1 && is_sheet(model.organs[o]) && !model.organs[o].material_given &&
                              std::count(model.chain.rib_of.begin(), model.chain.rib_of.end(), int(o)) == 0;
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
@@ -71,15 +71,17 @@ std::vector<Sheet> list_sheets(const Model& model) {
 
 }  // namespace
 
-void grow_hidden_ribs(Model& model, double turn) {
+bool grow_hidden_ribs(Model& model, const std::vector<double>& stiffer, double turn) {
     constexpr double MOST = 0.2;  // diameter of a rib over the width of its leaf: petioles of narrow leaves are thicker
     const Turns turns = find_turns(model);
-    const std::vector<Sheet> sheets = list_sheets(model);
+    const std::vector<Sheet> sheets = list_sheets(model, stiffer);
+    bool grown = false;
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
         if (node.parent < 0 || node.organ < 0) continue;
         const Sheet& sheet = sheets[size_t(node.organ)];
-        if (!sheet.may_grow || turns.organ[size_t(node.organ)] <= turn) continue;
+        if (!sheet.may_grow) continue;
+        grown = true;
         Section& section = model.sections[i];
         const Material& rib = *material_preset("midrib");
         const double young = std::max(rib.young, section.young);
@@ -89,6 +91,7 @@ void grow_hidden_ribs(Model& model, double turn) {
         section.inertia_wide = std::max(section.inertia_wide, section.inertia_thin);
         section.torsion = std::max(section.torsion, bending / rib.twist_to_bend / section.shear);
     }
+    return grown;
 }
 
 }  // namespace frond

@@ -12,8 +12,9 @@ struct Turns {
 };
 Turns find_turns(const Model& model);
 
-// Thickens the ribs of leaves and petals that could not carry themselves: to what turns them by no more than `turn`
-// [rad], but to no more than a rib can be. Changes sections only.
-void grow_hidden_ribs(Model& model, double turn);
+// Puts ribs into the sections of leaves and petals that are stiffer than their materials so that they stand, `stiffer`
+// by organ: so thick that their weight, applied sideways, turns them by no more than `turn` [rad], but no thicker than
+// ribs are. Returns whether there was such an organ.
+bool grow_hidden_ribs(Model& model, const std::vector<double>& stiffer, double turn);
 
 }  // namespace frond

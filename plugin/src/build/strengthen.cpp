@@ -104,9 +104,9 @@ void strengthen_rods(const Model& model, frond_mechanics which, const std::funct
     }
 }
 
-WeakOrgan strengthen(Model& model) {
+// Finds by how much each organ has to be stiffer so that the plant stands.
+static void find_stiffer(Model& model) {
     std::vector<double>& stiffer = model.organ_stiffer;
-    grow_hidden_ribs(model, LARGEST_TURN / SAFETY);
     const std::vector<double> turns = find_turns(model).organ;
     std::vector<double> safety;
     for (size_t o = 0; o < stiffer.size(); o++) {
@@ -116,6 +116,12 @@ WeakOrgan strengthen(Model& model) {
     }
     strengthen_rods(
         model, FROND_MECHANICS_ROD, [&] { return make_rod_elements(model, FROND_MECHANICS_ROD); }, safety, stiffer);
+}
+
+WeakOrgan strengthen(Model& model) {
+    const std::vector<double>& stiffer = model.organ_stiffer;
+    find_stiffer(model);
+    if (grow_hidden_ribs(model, stiffer, LARGEST_TURN / SAFETY)) find_stiffer(model);
 
     // Organs of negligible weight, silk and hairs, are not reported.
     constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]

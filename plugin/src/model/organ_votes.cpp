@@ -126,6 +126,7 @@ struct Voter {
     std::vector<double> trust = {};   // by part, weight of its name
     std::vector<double> crown = {};   // by region, share of its triangles that belong to round solids
     std::vector<int> leaves = {};     // by region, sheets that grow out of it and what it bears
+    std::vector<int> borne = {};      // by region, those that grow out of it and do not stand beside it
     std::vector<int> others = {};     // by region, solids and tubes that bear no leaf likewise
 };
 
@@ -136,13 +137,14 @@ bool reaches_ground(const Voter& voter, size_t r) {
 }
 
 // Returns whether a tube is a blade of grass: it stands among others that bear nothing, too.
-bool is_bare(const Voter& voter, const Region& region) {
-    return region.form != Form::SOLID && stands(region, voter.foot, voter.height) &&
-           region.tubes + region.sheets + region.solids <= 1;
+bool is_bare(const Voter& voter, size_t r) {
+    const Region& region = voter.regions[r];
+    return region.form != Form::SOLID && stands(region, voter.foot, voter.height) && voter.borne[r] <= 1;
 }
-bool is_grass(const Voter& voter, const Region& region) {
+bool is_grass(const Voter& voter, size_t r) {
     constexpr int TUFT = 5;
-    return is_bare(voter, region) && region.form == Form::TUBE && voter.height < TREE_HEIGHT && voter.bare >= TUFT;
+    const Region& region = voter.regions[r];
+    return is_bare(voter, r) && region.form == Form::TUBE && voter.height < TREE_HEIGHT && voter.bare >= TUFT;
 }
 
 bool is_rooted_tuber(const Voter& voter, size_t r) {
@@ -213,7 +215,7 @@ void vote_by_shape(const Voter& voter, size_t r, Ballot& ballot) {
         ballot.add("crown", 3, sized("foliage around wood,", size.maxCoeff(), size.minCoeff()));
     else if (region.form == Form::SHEET)
         ballot.add("blade", 2, sized("sheet", region.length, region.length > 0 ? region.area / region.length : 0));
-    else if (is_grass(voter, region))
+    else if (is_grass(voter, r))
         ballot.add("blade", 2, sized("one of many alike on the ground,", region.length, 2 * region.radius()));
     else if (is_petiole(voter, r))
         ballot.add("petiole", 2.5, sized("thin tube with a leaf at its end,", region.length, 2 * region.radius()));
@@ -268,10 +270,12 @@ FoundOrgan vote(const Voter& voter, size_t r) {
 void count_leaves(Voter& voter) {
     voter.leaves.assign(voter.regions.size(), 0);
     voter.others.assign(voter.regions.size(), 0);
+    voter.borne.assign(voter.regions.size(), 0);
     for (size_t r = voter.regions.size(); r-- > 0;) {
         const Region& region = voter.regions[r];
         if (region.form == Form::SHEET) voter.leaves[r]++;
         if (region.parent < 0) continue;
+        voter.borne[size_t(region.parent)] += !stands(region, voter.foot, voter.height);
         // Veins are no stems.
         const bool is_vein =
             region.form == Form::TUBE && region.radius() < 0.8 * voter.regions[size_t(region.parent)].radius();
@@ -314,7 +318,7 @@ FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std
                 height > TREE_HEIGHT ? "branch" : "stem"};
     voter.has_wood = std::find(named.begin(), named.end(), "branch") != named.end();
     count_leaves(voter);
-    for (const Region& region : cut.regions) voter.bare += is_bare(voter, region);
+    for (size_t r = 0; r < cut.regions.size(); r++) voter.bare += is_bare(voter, r);
     voter.trust = weigh_names(surface, named);
     voter.crown = share_of_crowns(cut, crowns);
     find_bright_parts(voter);
