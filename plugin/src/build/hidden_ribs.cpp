@@ -53,10 +53,10 @@ struct Sheet {
     double widest = 0, begin = INFINITY, end = 0;  // [m]; the last two along the chain from the root
 };
 
-std::vector<Sheet> list_sheets(const Model& model, const std::vector<double>& stiffer) {
+std::vector<Sheet> list_sheets(const Model& model, const std::vector<double>& load) {
     std::vector<Sheet> sheets(model.organs.size());
     for (size_t o = 0; o < sheets.size(); o++)
-        sheets[o].may_grow = stiffer[o] > 1 && is_sheet(model.organs[o]) && !model.organs[o].material_given &&
+        sheets[o].may_grow = load[o] > 0 && is_sheet(model.organs[o]) && !model.organs[o].material_given &&
                              std::count(model.chain.rib_of.begin(), model.chain.rib_of.end(), int(o)) == 0;
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
@@ -71,10 +71,10 @@ std::vector<Sheet> list_sheets(const Model& model, const std::vector<double>& st
 
 }  // namespace
 
-bool grow_hidden_ribs(Model& model, const std::vector<double>& stiffer, double turn) {
+bool grow_hidden_ribs(Model& model, const std::vector<double>& load, double turn) {
     constexpr double MOST = 0.2;  // diameter of a rib over the width of its leaf: petioles of narrow leaves are thicker
     const Turns turns = find_turns(model);
-    const std::vector<Sheet> sheets = list_sheets(model, stiffer);
+    const std::vector<Sheet> sheets = list_sheets(model, load);
     bool grown = false;
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
@@ -86,7 +86,8 @@ bool grow_hidden_ribs(Model& model, const std::vector<double>& stiffer, double t
         const Material& rib = *material_preset("midrib");
         const double young = std::max(rib.young, section.young);
         const double most = young * PI * frond::pow(MOST * sheet.widest, 4) / 64;
-        const double wanted = turns.moment[i] * (sheet.end - sheet.begin) / turn, bending = std::min(wanted, most);
+        const double moment = load[size_t(node.organ)] * turns.moment[i];
+        const double bending = std::min(moment * (sheet.end - sheet.begin) / turn, most);
         section.inertia_thin = std::max(section.inertia_thin, bending / section.young);
         section.inertia_wide = std::max(section.inertia_wide, section.inertia_thin);
         section.torsion = std::max(section.torsion, bending / rib.twist_to_bend / section.shear);

@@ -12,9 +12,9 @@ struct Turns {
 };
 Turns find_turns(const Model& model);
 
-// Puts ribs into the sections of leaves and petals that are stiffer than their materials so that they stand, `stiffer`
-// by organ: so thick that their weight, applied sideways, turns them by no more than `turn` [rad], but no thicker than
-// ribs are. Returns whether there was such an organ.
-bool grow_hidden_ribs(Model& model, const std::vector<double>& stiffer, double turn);
+// Puts ribs into the sections of leaves and petals, so thick that `load` times their weight, by organ, applied
+// sideways, turns them by no more than `turn` [rad], but no thicker than ribs are. Organs with a load of zero stay.
+// Returns whether there was such an organ.
+bool grow_hidden_ribs(Model& model, const std::vector<double>& load, double turn);
 
 }  // namespace frond

@@ -121,7 +121,17 @@ static void find_stiffer(Model& model) {
 WeakOrgan strengthen(Model& model) {
     const std::vector<double>& stiffer = model.organ_stiffer;
     find_stiffer(model);
-    if (grow_hidden_ribs(model, stiffer, LARGEST_TURN / SAFETY)) find_stiffer(model);
+    // Ribs are looked for before tissue is made stiffer: those that weight needs, then thicker ones, since what it does
+    // beside bending counts, too.
+    constexpr int ROUNDS = 3;
+    std::vector<double> load(stiffer.size(), 0.0);
+    for (int round = 0; round < ROUNDS; round++) {
+        for (size_t o = 0; o < load.size(); o++)
+            if (stiffer[o] > 1) load[o] = std::max(1.0, load[o] * stiffer[o]);
+        if (!grow_hidden_ribs(model, load, LARGEST_TURN / SAFETY)) break;
+        find_stiffer(model);
+        if (std::all_of(stiffer.begin(), stiffer.end(), [](double factor) { return factor <= 1; })) break;
+    }
 
     // Organs of negligible weight, silk and hairs, are not reported.
     constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]
