@@ -31,6 +31,8 @@ std::vector<char> find_crowns(const Surface& surface, const Topology& topology, 
 // sheets.
 void find_cards(const Surface& surface, const Topology& topology, const std::vector<char>& sheets,
                 std::vector<std::string>& named);
+// Returns "stem (stem), leaf_1 (blade) ... and 12 more", for error texts.
+std::string list_organs(const std::vector<Organ>& organs);
 // Replaces materials by the caller's, as a part of find_organs().
 void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count);
 

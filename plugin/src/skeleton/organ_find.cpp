@@ -180,8 +180,7 @@ static std::vector<Organ> name_organs(Surface& surface, const std::vector<FoundO
     return organs;
 }
 
-// Returns "stem (stem), leaf_1 (blade) ... and 12 more".
-static std::string list_organs(const std::vector<Organ>& organs) {
+std::string list_organs(const std::vector<Organ>& organs) {
     std::string text;
     for (size_t i = 0; i < organs.size(); i++) {
         if (i == 30) return text + " and " + std::to_string(organs.size() - i) + " more";
