@@ -336,7 +336,7 @@ WeakOrgan find_rest_shape(Model& model, int order) {
     }
     model.rest_shapes->known[size_t(order - 1)][FROND_MECHANICS_TET_COROTATIONAL] = true;
     const size_t weakest = size_t(std::max_element(factor.begin(), factor.end()) - factor.begin());
-    return {model.organs[weakest].name, factor[weakest]};
+    return {model.organs[weakest].name, model.organs[weakest].kind, factor[weakest]};
 }
 
 // Fits a cage of Frond's own to an order of its elements.

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "io/urdf.hpp"
+#include "skeleton/organ_correct.hpp"
 #include "surface/surface.hpp"
 
 namespace frond {
@@ -15,6 +16,7 @@ struct ImportResult {
     // If code is FROND_OK, one of these; the other is empty.
     Surface surface;
     UrdfTree tree;
+    Corrections corrections = {};
 };
 
 constexpr size_t IMPORT_GREETING_SIZE = 16;  // [byte]

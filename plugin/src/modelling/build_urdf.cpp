@@ -67,7 +67,7 @@ static void build_stems(const UrdfTree& tree, const std::vector<UrdfPiece>& piec
     }
     find_organs_of_links(tree, links, def, model);
     model.chain = make_chain_of_stems(stems.data(), int(stems.size()), model.surface, placement_of(made, model.surface),
-                                      model.organs, {def.capsule_height, def.capsule_radius}, model.sections,
+                                      model.organs, {def.capsule_height, def.capsule_radius, {}}, model.sections,
                                       find_capsules(tree, pieces, def));
     model.exact_sections = true;
     take_sections(tree, links, turn, model);

@@ -286,7 +286,8 @@ Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, dou
     return {};
 }
 
-Shape measure_shape(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs) {
+Shape measure_shape(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
+                    const std::vector<int>& rooted) {
     Shape shape{surface, topology, {}, {}, {}, {}, {}, 0};
     shape.group.assign(topology.triangles.size(), 0);
     shape.organ.assign(topology.triangles.size(), -1);
@@ -298,7 +299,7 @@ Shape measure_shape(const Surface& surface, const Topology& topology, const std:
                     known ? group_of_kind(organs[size_t(part.organ)].kind) : 0);
     }
     shape.edges = find_shared_edges(topology);
-    RootPoints roots = find_root_points(surface, topology, organs);
+    RootPoints roots = find_root_points(surface, topology, organs, rooted);
     shape.distance = measure_distances(topology, roots.points, roots.heights);
     shape.roots = std::move(roots.points);
     shape.farthest = *std::max_element(shape.distance.begin(), shape.distance.end());
@@ -328,7 +329,7 @@ Chain make_chain(const Surface& surface, const Topology& topology, const std::ve
     if (!(options.radius >= 0 && options.radius < INFINITY))
         fail(FROND_RESULT_BAD_ARGUMENT, "capsule_radius is %g; give a length in metres, or 0 to fit the shape",
              options.radius);
-    const Shape shape = measure_shape(surface, topology, organs);
+    const Shape shape = measure_shape(surface, topology, organs, options.rooted);
     if (options.height > 0) {
         check_height(shape, options.height);
         return make_with_height(shape, organs, options.height, options.radius, INT_MAX);

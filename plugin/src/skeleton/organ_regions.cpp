@@ -205,11 +205,12 @@ void grow_regions(Finder& finder) {
     std::vector<char> solid(count, 0);
     for (int i : finder.cut.tree.order) {
         const int parent = finder.slab(i).parent;
-        const bool in_solid = finder.same_mesh(i) && solid[size_t(parent)];
-        solid[size_t(i)] = in_solid || finder.volume[size_t(i)] > 0;
         const bool same_part = parent >= 0 && finder.piece(i).group == finder.piece(parent).group;
+        // Twigs that go on within a crown are of another part than it.
+        const bool in_solid = finder.same_mesh(i) && same_part && solid[size_t(parent)];
+        solid[size_t(i)] = in_solid || finder.volume[size_t(i)] > 0;
         int number = -1;
-        if (in_solid && same_part)
+        if (in_solid)
             number = finder.region[size_t(parent)];
         else if (!solid[size_t(i)] && finder.alike(i) && !is_own_branch(finder, i, leaders[size_t(parent)]))
             number = finder.region[size_t(parent)];
