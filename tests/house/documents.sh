@@ -35,7 +35,7 @@ trap 'rm -f "$names"' EXIT
     for header in plugin/include/frond/*.h; do "$compiler" -E -P -x c -Iplugin/include "$header"; done
     cat plugin/include/frond/*.h*
 } | grep -oE '\b(frond|FROND)_\w+' | sort -u >"$names"
-printf '%s\n' frond_kernels frond_command frond_float64 FROND_TESTS FROND_TOOLS FROND_IMPORTER FROND_PACKAGE_PATH FROND_ASSERT FROND_ASSERTS >>"$names"
+printf '%s\n' frond_kernels frond_command frond_float64 FROND_TESTS FROND_TOOLS FROND_IMPORTER FROND_PACKAGE_PATH FROND_ASSERT FROND_ASSERTS FROND_INSTALL FROND_SHARED FROND_STATIC FROND_FLOAT64 FROND_BUILD_PATHS >>"$names"
 for page in "${pages[@]}"; do
     while IFS= read -r name; do
         grep -qxF "$name" "$names" || fail "$page: the headers have no $name"
