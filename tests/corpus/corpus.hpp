@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/chain.hpp"
+#include "skeleton/chain.hpp"
 
 namespace frond::test {
 

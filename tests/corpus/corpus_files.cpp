@@ -7,7 +7,7 @@
 
 #include "core/timer.hpp"
 #include "corpus.hpp"
-#include "model/import.hpp"
+#include "io/import.hpp"
 
 namespace frond::test {
 

@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "build/build.hpp"
 #include "corpus.hpp"
+#include "modelling/build.hpp"
 #include "support/model_def.hpp"
 
 namespace frond::test {

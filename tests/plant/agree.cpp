@@ -6,9 +6,10 @@
 #include <map>
 #include <tuple>
 
-#include "build/build.hpp"
-#include "build/static_stiffness.hpp"
-#include "build/sway.hpp"
+#include "calibration/calibration.hpp"
+#include "calibration/static_stiffness.hpp"
+#include "calibration/sway.hpp"
+#include "modelling/build.hpp"
 #include "plant/plant.hpp"
 #include "support/model_def.hpp"
 #include "support/sanitized.hpp"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "build/build.hpp"
 #include "core/lanes.hpp"
+#include "modelling/build.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"
 #include "support/soups.hpp"

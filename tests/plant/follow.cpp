@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "build/build.hpp"
+#include "modelling/build.hpp"
 #include "plant/plant.hpp"
 #include "support/model_def.hpp"
 

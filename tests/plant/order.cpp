@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "build/build.hpp"
+#include "modelling/build.hpp"
 #include "plant/plant.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"

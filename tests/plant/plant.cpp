@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "build/build.hpp"
+#include "modelling/build.hpp"
 #include "support/materials.hpp"
 #include "support/model_def.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "build/build.hpp"
+#include "modelling/build.hpp"
 #include "plant/plant.hpp"
 #include "support/materials.hpp"
 

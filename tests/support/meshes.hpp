@@ -5,8 +5,8 @@
 #include <memory>
 #include <random>
 
+#include "cage/tet_geometry.hpp"
 #include "model/model.hpp"
-#include "model/tet_geometry.hpp"
 #include "support/materials.hpp"
 
 namespace frond::test {

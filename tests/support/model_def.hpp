@@ -2,7 +2,7 @@
 // damping but the materials', which must be requested.
 #pragma once
 
-#include "build/build.hpp"
+#include "modelling/build.hpp"
 
 namespace frond::test {
 

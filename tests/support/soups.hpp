@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "model/surface.hpp"
+#include "surface/surface.hpp"
 
 namespace frond::test {
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "build/build.hpp"
 #include "frond/frond.h"
 #include "grow/grow.hpp"
+#include "modelling/build.hpp"
 #include "solve/linear_solver.hpp"
 #include "solve/solve.hpp"
 

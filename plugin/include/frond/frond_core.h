@@ -252,7 +252,7 @@ FROND_API frond_material frond_default_material(void);
 /* Looks up published values for the kinds "stem", "petiole", "blade", "midrib", "peduncle", "flower", "fruit",
  * "branch", "root", "tendril", "crown" (foliage drawn as a solid) and "support" (stakes, pots), and for "grass_stem"
  * and "grass_blade", given to stems and blades whose name or material names a grass. Sources stand in
- * plugin/src/model/materials.cpp. BAD_ARGUMENT names the kinds there are. */
+ * plugin/src/skeleton/materials.cpp. BAD_ARGUMENT names the kinds there are. */
 FROND_API frond_result frond_material_preset(const char* kind, frond_material* out);
 
 typedef struct frond_model_def {

@@ -4,9 +4,9 @@
 
 #include "api/call.hpp"
 #include "api/handles.hpp"
-#include "build/build.hpp"
-#include "build/cook.hpp"
 #include "core/platform/files.hpp"
+#include "modelling/build.hpp"
+#include "modelling/cook.hpp"
 
 using namespace frond;
 

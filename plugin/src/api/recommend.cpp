@@ -5,7 +5,7 @@
 
 #include "api/call.hpp"
 #include "api/handles.hpp"
-#include "build/sway_frequency.hpp"
+#include "calibration/sway_frequency.hpp"
 #include "core/elementary.hpp"
 #include "mechanics/mechanics.hpp"
 

@@ -1,5 +1,5 @@
 // frond_model_write_urdf.
-#include "model/write_urdf.hpp"
+#include "io/write_urdf.hpp"
 
 #include "api/call.hpp"
 #include "api/handles.hpp"

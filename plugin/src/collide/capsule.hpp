@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "model/triangle_distance.hpp"
+#include "surface/triangle_distance.hpp"
 
 namespace frond {
 

@@ -7,7 +7,7 @@
 #include "collide/collider.hpp"
 #include "collide/overlap.hpp"
 #include "model/model.hpp"
-#include "model/triangle_distance.hpp"
+#include "surface/triangle_distance.hpp"
 
 namespace frond {
 

@@ -3,7 +3,7 @@
 
 #include "collide/contact_gap.hpp"
 #include "collide/penetration.hpp"
-#include "model/triangle_distance.hpp"
+#include "surface/triangle_distance.hpp"
 
 namespace frond {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "collide/penetration.hpp"
-#include "model/triangle_distance.hpp"
+#include "surface/triangle_distance.hpp"
 
 namespace frond {
 

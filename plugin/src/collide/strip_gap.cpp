@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "collide/strip.hpp"
-#include "model/triangle_distance.hpp"
+#include "surface/triangle_distance.hpp"
 
 namespace frond {
 

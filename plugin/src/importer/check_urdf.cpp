@@ -8,7 +8,7 @@
 #include <set>
 
 #include "importer/urdf.hpp"
-#include "model/section.hpp"
+#include "section/section.hpp"
 
 namespace frond {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "importer/check.hpp"
-#include "model/surface.hpp"
+#include "surface/surface.hpp"
 
 struct aiScene;
 struct aiMaterial;

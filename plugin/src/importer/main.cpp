@@ -10,7 +10,7 @@
 #include "core/platform/process.hpp"
 #include "importer/importer.hpp"
 #include "importer/urdf.hpp"
-#include "model/import_stream.hpp"
+#include "io/import_stream.hpp"
 
 static void keep_warning(const char* message, void* result) {
     static_cast<frond::ImportResult*>(result)->warnings.push_back(message);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "importer/check.hpp"
-#include "model/urdf.hpp"
+#include "io/urdf.hpp"
 
 namespace frond {
 

@@ -10,9 +10,9 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "core/union_find.hpp"
 #include "mechanics/rows.hpp"
 #include "mechanics/sections.hpp"
-#include "model/union_find.hpp"
 
 namespace frond {
 

@@ -11,13 +11,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cage/tet_geometry.hpp"
 #include "core/decompose.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "mechanics/polar.hpp"
 #include "mechanics/sections.hpp"
 #include "mechanics/tet_looks.hpp"
-#include "model/tet_geometry.hpp"
 
 namespace frond {
 

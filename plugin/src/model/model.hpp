@@ -1,11 +1,11 @@
-// Model: everything about a plant that does not change. Built once, read-only, shared by all its plants.
+// Model: everything about a plant that does not change. Built once (modelling/build.hpp), read-only, shared by all its
+// plants.
 #pragma once
 
 #include <memory>
 #include <mutex>
-#include "model/cage.hpp"
-
-#include "model/section.hpp"
+#include "cage/cage.hpp"
+#include "section/section.hpp"
 
 namespace frond {
 
@@ -64,13 +64,5 @@ struct Model {
     double mass() const;                                   // [kg]
     const std::vector<double>& young_of(int order) const;  // moduli of the tets, as elements of an order [Pa]
 };
-
-// Finds the cage nodes of the tets that hold the foot of the chain's roots: a drooping leaf that touches the ground
-// stays free.
-std::vector<uint8_t> find_root_nodes(const Model& model);
-// Fills capsules, chain_view and chain_embedding of a model whose surface, chain and cage are complete.
-void bind_chain(Model& model);
-// Fills capsules and chain_view.
-void list_chain(Model& model);
 
 }  // namespace frond

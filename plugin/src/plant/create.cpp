@@ -4,8 +4,8 @@
 #include <mutex>
 #include <tuple>
 
-#include "build/build.hpp"
-#include "build/sway_frequency.hpp"
+#include "calibration/calibration.hpp"
+#include "calibration/sway_frequency.hpp"
 #include "plant/touch.hpp"
 
 namespace frond {

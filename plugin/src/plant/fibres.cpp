@@ -10,8 +10,8 @@
 
 #include <algorithm>
 
+#include "cage/tet_geometry.hpp"
 #include "core/timer.hpp"
-#include "model/tet_geometry.hpp"
 #include "plant/plant.hpp"
 #include "solve/node_compliance.hpp"
 #include "solve/one_sided.hpp"

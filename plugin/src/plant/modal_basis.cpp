@@ -1,10 +1,10 @@
 // In: a model's rods, and their segments in the air. Out: their first two modes and how air drives them.
 //
-// Modes are those of the exact stiffness under weight (build/sway_find.cpp). Air that passes a plant as modelled at a
-// velocity u presses a mode by rho |u| sum e_a^2 push_a . u, e being u's direction: pressures grow with the square of
-// the speed and are known along the axes.
-#include "build/static_stiffness.hpp"
-#include "build/sway.hpp"
+// Modes are those of the exact stiffness under weight (calibration/sway_find.cpp). Air that passes a plant as modelled
+// at a velocity u presses a mode by rho |u| sum e_a^2 push_a . u, e being u's direction: pressures grow with the square
+// of the speed and are known along the axes.
+#include "calibration/static_stiffness.hpp"
+#include "calibration/sway.hpp"
 #include "plant/modal.hpp"
 #include "solve/solve.hpp"
 

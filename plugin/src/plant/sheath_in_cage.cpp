@@ -1,7 +1,7 @@
 // In: a sheath and the cage around it. Out: how its nodes and other points of it follow the cage.
 #include <algorithm>
 
-#include "model/tet_geometry.hpp"
+#include "cage/tet_geometry.hpp"
 #include "plant/sheath.hpp"
 
 namespace frond {

@@ -4,7 +4,7 @@
 // undetected. A push beside a blade's midrib has a lever across the blade, which turns with the chain's nodes.
 #include <algorithm>
 
-#include "model/tet_geometry.hpp"
+#include "cage/tet_geometry.hpp"
 #include "plant/flat.hpp"
 #include "plant/sheath.hpp"
 

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "core/decompose.hpp"
-#include "model/union_find.hpp"
+#include "core/union_find.hpp"
 
 namespace frond {
 

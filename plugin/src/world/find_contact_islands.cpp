@@ -4,7 +4,7 @@
 
 #include <unordered_map>
 
-#include "model/union_find.hpp"
+#include "core/union_find.hpp"
 #include "world/contact_island.hpp"
 #include "world/world.hpp"
 

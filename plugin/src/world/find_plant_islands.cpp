@@ -1,7 +1,7 @@
 // In: plants in their places, and the pairs of Bullet's broad phase. Out: groups of plants that may touch in the step.
 #include <algorithm>
 
-#include "model/union_find.hpp"
+#include "core/union_find.hpp"
 #include "world/convert.hpp"
 #include "world/show.hpp"
 #include "world/world.hpp"

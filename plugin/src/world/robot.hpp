@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "frond/frond_robot.h"
-#include "model/urdf.hpp"
+#include "io/urdf.hpp"
 #include "world/lent.hpp"
 #include "world/world.hpp"
 

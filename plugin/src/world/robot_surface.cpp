@@ -1,5 +1,5 @@
 // Makes the surface of a robot: the shapes that collide, as triangles that move with their links.
-#include "model/urdf_pieces.hpp"
+#include "io/urdf_pieces.hpp"
 #include "world/robot.hpp"
 
 namespace frond {

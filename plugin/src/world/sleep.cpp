@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/union_find.hpp"
+#include "core/union_find.hpp"
 #include "world/contact_body.hpp"
 #include "world/convert.hpp"
 #include "world/show.hpp"

@@ -1,0 +1,122 @@
+#include "calibration/weigh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cage/tet_geometry.hpp"
+
+namespace frond {
+
+static Vec3 tet_centre(const Cage& cage, const Tet& tet) {
+    Vec3 sum = Vec3::Zero();
+    for (int corner : tet) sum += cage.nodes[size_t(corner)];
+    return sum / 4;
+}
+
+// Finds the nearest of an organ's chain nodes to a place, or of all nodes where it has none.
+static int nearest_node(const Chain& chain, int organ, const Vec3& place) {
+    int nearest = 0;
+    double least = INFINITY;
+    bool own = false;
+    for (size_t i = 0; i < chain.nodes.size(); i++) {
+        const ChainNode& node = chain.nodes[i];
+        const double distance = (node.position - place).squaredNorm();
+        const bool is_own = node.organ == organ;
+        if (is_own < own || (is_own == own && distance >= least)) continue;
+        own = is_own;
+        least = distance;
+        nearest = int(i);
+    }
+    return nearest;
+}
+
+std::vector<int> hang_tets(const Model& model) {
+    const size_t tet_count = model.cage.tets.size();
+    std::vector<std::vector<int>> votes(tet_count);
+    // Where organs meet, a tet of one may hold vertices of another, which does not bear it.
+    for (size_t v = 0; v < model.embedding.tet.size(); v++) {
+        const size_t tet = size_t(model.embedding.tet[v]);
+        const int node = model.chain.vertex_node[v];
+        if (model.chain.nodes[size_t(node)].organ == model.cage.tet_organ[tet]) votes[tet].push_back(node);
+    }
+    std::vector<int> hangs(tet_count);
+    for (size_t e = 0; e < tet_count; e++) {
+        std::vector<int>& nodes = votes[e];
+        if (nodes.empty()) {
+            hangs[e] = nearest_node(model.chain, model.cage.tet_organ[e], tet_centre(model.cage, model.cage.tets[e]));
+            continue;
+        }
+        std::nth_element(nodes.begin(), nodes.begin() + long(nodes.size() / 2), nodes.end());
+        hangs[e] = nodes[nodes.size() / 2];
+    }
+    return hangs;
+}
+
+Weights weigh(const Model& model, const std::vector<int>& hangs) {
+    Weights weights;
+    weights.mass.assign(model.chain.nodes.size(), 0);
+    weights.moment.assign(model.chain.nodes.size(), Vec3::Zero());
+    for (size_t e = 0; e < hangs.size(); e++) {
+        const double mass = model.tet_density[e] * tet_volume(model.cage.nodes, model.cage.tets[e]);
+        weights.mass[size_t(hangs[e])] += mass;
+        weights.moment[size_t(hangs[e])] += mass * tet_centre(model.cage, model.cage.tets[e]);
+    }
+    return weights;
+}
+
+// Returns the mass of each organ by its sections [kg]; sets that of each chain node, by the capsules' centres of mass.
+static std::vector<double> weigh_sections(Model& model) {
+    std::vector<double> organs(model.organs.size(), 0.0);
+    model.chain_mass.assign(model.chain.nodes.size(), 0.0);
+    for (size_t i = 0; i < model.chain.nodes.size(); i++) {
+        const ChainNode& node = model.chain.nodes[i];
+        if (node.parent < 0) continue;
+        const double mass = model.sections[i].mass() * model.sections[i].length;
+        organs[size_t(node.organ)] += mass;
+        const double share = model.sections[i].mass_at_end();
+        model.chain_mass[i] += share * mass;
+        model.chain_mass[size_t(node.parent)] += (1 - share) * mass;
+    }
+    return organs;
+}
+
+// Returns the density of each organ's sections over that of its material: leaves drawn too thick hold air.
+static std::vector<double> find_lightness(const Model& model) {
+    std::vector<double> light(model.organs.size(), 0.0), full(light);
+    for (size_t i = 0; i < model.chain.nodes.size(); i++) {
+        const ChainNode& node = model.chain.nodes[i];
+        if (node.parent < 0 || node.organ < 0 || !is_sheet(model.organs[size_t(node.organ)])) continue;
+        const double volume = model.sections[i].area * model.sections[i].length;
+        light[size_t(node.organ)] += volume * model.sections[i].density;
+        full[size_t(node.organ)] += volume * model.organs[size_t(node.organ)].material.density;
+    }
+    for (size_t o = 0; o < light.size(); o++)
+        light[o] = full[o] > 0 && std::count(model.chain.rib_of.begin(), model.chain.rib_of.end(), int(o)) == 0
+                       ? std::min(1.0, light[o] / full[o])
+                       : 1;
+    return light;
+}
+
+void give_mass(Model& model) {
+    const Cage& cage = model.cage;
+    const std::vector<double> lightness = find_lightness(model);
+    model.tet_density.resize(cage.tets.size());
+    std::vector<double> organs(model.organs.size(), 0.0);
+    for (size_t e = 0; e < cage.tets.size(); e++) {
+        const Organ& organ = model.organs[size_t(cage.tet_organ[e])];
+        model.tet_density[e] =
+            organ.material.density * cage.tet_fill[e] * (1 - hole_share(organ)) * lightness[size_t(cage.tet_organ[e])];
+        organs[size_t(cage.tet_organ[e])] += model.tet_density[e] * tet_volume(cage.nodes, cage.tets[e]);
+    }
+    if (!model.exact_sections) {
+        model.chain_mass = weigh(model, hang_tets(model)).mass;
+        return;
+    }
+    const std::vector<double> exact = weigh_sections(model);
+    for (size_t e = 0; e < cage.tets.size(); e++) {
+        const size_t organ = size_t(cage.tet_organ[e]);
+        if (exact[organ] > 0) model.tet_density[e] *= exact[organ] / organs[organ];
+    }
+}
+
+}  // namespace frond

@@ -1,0 +1,136 @@
+// From a surface to a model: topology -> organs -> chain, cage -> calibration.
+#include "modelling/build.hpp"
+
+#include <algorithm>
+
+#include "calibration/calibration.hpp"
+#include "calibration/weigh.hpp"
+#include "core/decompose.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "core/timer.hpp"
+#include "modelling/attach.hpp"
+#include "modelling/build_urdf.hpp"
+#include "modelling/cook.hpp"
+
+namespace frond {
+
+ImportOptions import_options(const frond_model_def& def) {
+    return {def.scale, Vec3(def.up.x, def.up.y, def.up.z)};
+}
+
+static void find_organs(Model& model, const frond_model_def& def) {
+    model.topology = make_topology(model.surface);
+    model.organs = find_organs(model.surface, model.topology, def.organs, def.organ_count);
+    model.organ_stiffer.assign(model.organs.size(), 1.0);
+}
+
+void find_chain(Model& model, const frond_model_def& def) {
+    model.chain = make_chain(model.surface, model.topology, model.organs, {def.capsule_height, def.capsule_radius});
+    model.sections = measure_sections(model.surface, model.topology, model.organs, model.chain);
+}
+
+static void finish(Model& model) {
+    model.root = find_root_nodes(model);
+    bind_chain(model);
+    give_mass(model);
+    model.cage_report = measure_cage(model.surface, model.cage, model.embedding);
+}
+
+// Warns once: about a plant that its materials do not carry, or else one that its cage does not.
+static void tell_stiffened(Model& model, const WeakOrgan& weak, const WeakOrgan& in_cage) {
+    constexpr double MUCH = 3;          // more than the margin that chosen materials get anyway
+    constexpr double MUCH_IN_CAGE = 4;  // cells as coarse as the paper's are not more exact than that
+    model.stiffening_factor = std::max(weak.factor, in_cage.factor);
+    if (weak.factor >= MUCH)
+        warn(
+            "%s cannot carry its weight in the shape it was modelled in and was made %.3g times stiffer; check the "
+            "scale (the plant is %.3g m high) and the materials",
+            weak.name.c_str(), weak.factor, model.surface.height());
+    else if (in_cage.factor >= MUCH_IN_CAGE)
+        warn("the cage around %s would not stand and was made %.3g times stiffer; a smaller cage_size helps",
+             in_cage.name.c_str(), in_cage.factor);
+}
+
+void build_body(Model& model, const frond_model_def& def) {
+    const Timer timer;
+    make_cage(model.surface, model.topology, model.organs, {def.cage_size, def.cage_offset, def.cage_smoothness},
+              model.cage, model.embedding);
+    model.ms_cage = timer.ms();
+    finish(model);
+    model.stands_as_modelled = def.rest == FROND_REST_STANDS_AS_MODELLED;
+    WeakOrgan weak;
+    if (model.stands_as_modelled) weak = strengthen(model);
+    calibrate(model, 1);
+    if (!model.stands_as_modelled) return;
+    tell_stiffened(model, weak, find_rest_shape(model, 1));
+}
+
+static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def, const Timer& total) {
+    auto model = std::make_shared<Model>();
+    model->surface = std::move(surface);
+    model->ms_import = total.ms();
+    const Timer timer;
+    find_organs(*model, def);
+    find_chain(*model, def);
+    model->ms_chain = timer.ms();
+    build_body(*model, def);
+    model->ms_total = total.ms();
+    return model;
+}
+
+std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_model_def& def) {
+    const Timer total;
+    place_surface(surface, import_options(def));
+    return build(std::move(surface), def, total);
+}
+
+StemPlacement placement_of(const Surface& before, const Surface& after) {
+    StemPlacement placed;
+    placed.scale = after.scale;
+    placed.turn = turn_between(after.up, Vec3::UnitY()).toRotationMatrix();
+    placed.shift = after.positions.front() - placed.image(before.positions.front());
+    return placed;
+}
+
+std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def) {
+    const Timer total;
+    auto model = std::make_shared<Model>();
+    const Surface made = surface_from_stems(stems, stem_count);
+    model->surface = made;
+    place_surface(model->surface, import_options(def));
+    model->ms_import = total.ms();
+    const Timer timer;
+    find_organs(*model, def);
+    model->chain = make_chain_of_stems(stems, stem_count, model->surface, placement_of(made, model->surface),
+                                       model->organs, {def.capsule_height, def.capsule_radius}, model->sections);
+    model->exact_sections = true;
+    model->ms_chain = timer.ms();
+    build_body(*model, def);
+    model->ms_total = total.ms();
+    return model;
+}
+
+std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def& def) {
+    const Timer total;
+    auto model = std::make_shared<Model>();
+    take_tets(std::move(mesh), import_options(def), model->surface, model->cage, model->embedding);
+    model->has_own_tets = true;
+    model->ms_import = total.ms();
+    find_organs(*model, def);
+    find_chain(*model, def);
+    finish(*model);
+    take_materials(*model);
+    model->ms_total = total.ms();
+    return model;
+}
+
+std::shared_ptr<const Model> build_from_file(const std::string& path, const frond_model_def& def) {
+    if (is_cooked(path)) return load_cooked(path);
+    if (is_tet_file(path)) return build_from_tets(import_tets(path), def);
+    if (is_urdf(path)) return build_from_urdf(path, def);
+    const Timer total;
+    return build(import_surface(path, import_options(def)), def, total);
+}
+
+}  // namespace frond

@@ -1,0 +1,94 @@
+// The fields of a cooked model. Each struct is taken apart into all of its members, so that a new one does not compile
+// until it stands here.
+#include "modelling/cook.hpp"
+
+namespace frond {
+
+static void visit(Archive& a, Part& part) {
+    auto& [name, material, color, texture, first_triangle, triangle_count, organ] = part;
+    a(name, material, color, texture, first_triangle, triangle_count, organ);
+}
+
+static void visit(Archive& a, Texture& texture) {
+    auto& [name, bytes] = texture;
+    a(name, bytes);
+}
+
+static void visit(Archive& a, Surface& surface) {
+    auto& [positions, normals, uvs, colors, triangles, parts, textures, dropped_triangles, repaired_vertices, scale, up,
+           up_declared, scale_declared, placed] = surface;
+    a(positions, normals, uvs, colors, triangles, parts, textures, dropped_triangles, repaired_vertices, scale, up,
+      up_declared, scale_declared, placed);
+}
+
+static void visit(Archive& a, Joint& joint) {
+    auto& [triangle_a, triangle_b, point_a, point_b] = joint;
+    a(triangle_a, triangle_b, point_a, point_b);
+}
+
+static void visit(Archive& a, Topology& topology) {
+    auto& [points, vertex_point, triangles, triangle_component, turned, component_count, joints] = topology;
+    a(points, vertex_point, triangles, triangle_component, turned, component_count, joints);
+}
+
+static void visit(Archive& a, Material& material) {
+    auto& [density, young, poisson, thickness, hollow, twist_to_bend, damping_ratio, friction, yield_strain, creep_rate,
+           strength, drag, midrib] = material;
+    a(density, young, poisson, thickness, hollow, twist_to_bend, damping_ratio, friction, yield_strain, creep_rate,
+      strength, drag, midrib);
+}
+
+static void visit(Archive& a, Organ& organ) {
+    auto& [name, kind, material, material_given, why, certainty] = organ;
+    a(name, kind, material, material_given, why, certainty);
+}
+
+static void visit(Archive& a, ChainNode& node) {
+    auto& [position, radius, parent, organ, distance, fitted_radius] = node;
+    a(position, radius, parent, organ, distance, fitted_radius);
+}
+
+static void visit(Archive& a, Chain& chain) {
+    auto& [nodes, vertex_node, vertex_capsule, vertex_along, rib_of, height] = chain;
+    a(nodes, vertex_node, vertex_capsule, vertex_along, rib_of, height);
+}
+
+static void visit(Archive& a, Section& section) {
+    auto& [axis, thin, length, area, inertia_thin, inertia_wide, torsion, thickness, width, density, young, shear,
+           taper] = section;
+    a(axis, thin, length, area, inertia_thin, inertia_wide, torsion, thickness, width, density, young, shear, taper);
+}
+
+static void visit(Archive& a, Cage& cage) {
+    auto& [nodes, tets, tet_organ, tet_fill] = cage;
+    a(nodes, tets, tet_organ, tet_fill);
+}
+
+static void visit(Archive& a, Embedding& embedding) {
+    auto& [tet, weights] = embedding;
+    a(tet, weights);
+}
+
+static void visit(Archive& a, RestShapes& shapes) {
+    auto& [mutex, known, positions, stiffer, quadratic_young, springs] = shapes;
+    a(known, positions, stiffer, quadratic_young, springs);
+}
+
+static void visit(Archive& a, CageReport& report) {
+    auto& [min_dihedral, max_dihedral, min_volume, volume, contained, attachment_error] = report;
+    a(min_dihedral, max_dihedral, min_volume, volume, contained, attachment_error);
+}
+
+// Capsules and the view of the chain follow from the chain; what it took to build the model is of no use to one that is
+// loaded.
+void visit(Archive& a, Model& model) {
+    auto& [surface, topology, organs, chain, chain_view, sections, exact_sections, chain_mass, organ_stiffer,
+           calibrated, stands_as_modelled, capsules, cage, has_own_tets, embedding, chain_embedding, tet_density,
+           tet_young, tet_poisson, root, rest_shapes, stiffening_factor, cage_report, ms_import, ms_cage, ms_chain,
+           ms_total] = model;
+    a(surface, topology, organs, chain, sections, exact_sections, chain_mass, organ_stiffer, calibrated,
+      stands_as_modelled, cage, has_own_tets, embedding, chain_embedding, tet_density, tet_young, tet_poisson, root,
+      *rest_shapes, stiffening_factor, cage_report);
+}
+
+}  // namespace frond

@@ -1,0 +1,40 @@
+// Organs: the parts of a plant that have a name, a kind and a material.
+#pragma once
+
+#include <string>
+
+#include "frond/frond.h"
+#include "skeleton/topology.hpp"
+
+namespace frond {
+
+using Material = frond_material;
+
+struct Organ {
+    std::string name;  // "leaf_3"; unique in a model
+    std::string kind;  // a row of the table in materials.cpp: "stem", "blade" ...
+    Material material = {};
+    bool material_given = false;  // given by the caller, not a preset
+    std::string why = {};         // what speaks for its kind
+    double certainty = 1;         // 0: another kind is as likely, 1: nothing speaks for another one [-]
+};
+
+// Returns published values by kind; null if there is no such kind.
+const Material* material_preset(const std::string& kind);
+// Returns "stem, petiole, blade ...", for error texts.
+std::string material_kinds();
+// Fails with BAD_ARGUMENT, naming `who`, unless every number is finite and in range.
+void check_material(const Material& material, const std::string& who);
+
+// Returns whether an organ is a sheet: a blade or a flower.
+bool is_sheet(const Organ& organ);
+
+// Finds organs: a part whose node is named after one is that organ; others are cut into sheets, tubes and solids, which
+// votes of shape, place, name, material, colour and texture tell to be leaves, stems, fruits ... (organ_votes.cpp).
+// Sets Part::organ and splits parts that hold several organs: triangles are then reordered, in the surface and in the
+// topology alike. Parts of several materials may share an organ. `overrides` replace materials by organ name or kind,
+// the last match wins; an override that matches no organ is an error that names the existing organs.
+std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond_organ_material* overrides,
+                               int override_count);
+
+}  // namespace frond
