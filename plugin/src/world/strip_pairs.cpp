@@ -9,11 +9,11 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-BoxSet::Bounds nothing() {
+BoxSet::Bounds no_box() {
     return {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
 }
 
-void add(const BoxSet::Bounds& box, BoxSet::Bounds& to) {
+void add_box(const BoxSet::Bounds& box, BoxSet::Bounds& to) {
     for (int k = 0; k < 3; k++) {
         to.lower[k] = std::min(to.lower[k], box.lower[k]);
         to.upper[k] = std::max(to.upper[k], box.upper[k]);
@@ -24,7 +24,7 @@ void add(const BoxSet::Bounds& box, BoxSet::Bounds& to) {
 BoxSet::Bounds way_box(const StripPath& path, int number, double margin) {
     const Strip& strip = path.strip(number);
     const double around = strip.radius + 0.5 * margin + path.astray;
-    BoxSet::Bounds box = nothing();
+    BoxSet::Bounds box = no_box();
     for (const Vec3* corners : {path.before, path.after})
         for (const int corner : strip.corners) {
             const double* p = corners[corner].data();
@@ -43,17 +43,17 @@ struct StripBoxes {
 };
 
 // Gathers the boxes that meet another plant's, and all of plants that touch themselves, of which each is a group.
-StripBoxes gather(const std::vector<StripPath>& paths, double margin) {
+StripBoxes gather_strips(const std::vector<StripPath>& paths, double margin) {
     StripBoxes all, wanted;
     BoxSet wholes;
     for (size_t b = 0; b < paths.size(); b++) {
-        wholes.boxes.push_back(nothing());
+        wholes.boxes.push_back(no_box());
         wholes.boxes[b].group = int(b);
         for (size_t s = 0; s < paths[b].body->touched().strips.size(); s++) {
             all.set.boxes.push_back(way_box(paths[b], int(s), margin));
             all.set.boxes.back().group = int(b);
             all.strips.push_back({int(b), int(s)});
-            add(all.set.boxes.back(), wholes.boxes[b]);
+            add_box(all.set.boxes.back(), wholes.boxes[b]);
         }
     }
     std::vector<std::vector<int>> others(paths.size());  // plants whose boxes meet each
@@ -79,11 +79,11 @@ StripBoxes gather(const std::vector<StripPath>& paths, double margin) {
 }  // namespace
 
 std::vector<StripPair> find_strip_pairs(const std::vector<StripPath>& paths, double margin) {
-    const StripBoxes boxes = gather(paths, margin);
+    const StripBoxes boxes = gather_strips(paths, margin);
     std::vector<StripPair> pairs;
     for (const auto& [first, second] : find_pairs_by_sweep(boxes.set)) {
-        const auto& [body_a, strip_a] = boxes.strips[size_t(first)],
-                             &[ body_b, strip_b ] = boxes.strips[size_t(second)];
+        const auto& [body_a, strip_a] = boxes.strips[size_t(first)];
+        const auto& [body_b, strip_b] = boxes.strips[size_t(second)];
         if (body_a == body_b) {
             const StripPath& path = paths[size_t(body_a)];
             if (path.body->touched().collider.are_near(path.strip(strip_a).piece, path.strip(strip_b).piece)) continue;
