@@ -167,7 +167,8 @@ bool is_petiole(const Voter& voter, size_t r) {
     const Region& region = voter.regions[r];
     if (region.form != Form::TUBE || voter.tube == "branch" || voter.others[r] > 0 || region.length > 0.6 * voter.size)
         return false;
-    if (stands(region, voter.foot, voter.height)) return voter.leaves[r] == 1;
+    // Above the ground, too, a tube may grow out of nothing.
+    if (region.parent < 0 || stands(region, voter.foot, voter.height)) return voter.leaves[r] == 1;
     const Region& parent = voter.regions[size_t(region.parent)];
     return voter.leaves[r] > 0 && voter.leaves[r] <= FEW_LEAVES &&
            (parent.form == Form::SOLID || region.radius() < PETIOLE_THIN * parent.radius());
