@@ -65,6 +65,12 @@ Vec3 attachment_place(const Attachment& attachment, const VecX& x) {
     return place;
 }
 
+void attachment_places(const std::vector<Attachment>& attachments, const VecX& x, const Mat3& turn, const Vec3& shift,
+                       std::vector<Vec3>& out) {
+    out.resize(attachments.size());
+    for (size_t i = 0; i < out.size(); ++i) out[i] = turn * attachment_place(attachments[i], x) + shift;
+}
+
 Vec3 attachment_velocity(const Attachment& attachment, const VecX& x, const VecX& v) {
     Vec3 velocity = Vec3::Zero();
     if (!attachment.turns) {

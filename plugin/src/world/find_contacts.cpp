@@ -265,10 +265,11 @@ std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& las
     drop_what_draws_out(contacts);
     drop_what_is_inside(contacts);
     // The response depends on their order a little, and Bullet's is the dispatcher's.
-    std::stable_sort(contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) {
-        return std::tie(a.plant->index, a.capsule, a.along, a.across) <
-               std::tie(b.plant->index, b.capsule, b.along, b.across);
-    });
+    const auto key = [](const Contact& c) {
+        return std::make_tuple(c.plant->index, c.capsule, c.along, c.across, c.other->getWorldArrayIndex());
+    };
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [&](const Contact& a, const Contact& b) { return key(a) < key(b); });
     for (PlantBody* body : world.awake) body->new_for = int16_t(std::max(body->new_for - 1, 0));
     return contacts;
 }

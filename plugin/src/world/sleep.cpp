@@ -68,6 +68,7 @@ void fall_asleep(World& world, PlantBody& body) {
     pose(plant);
     plant.motion.v.setZero();
     plant.motion.history.valid = false;
+    plant.is_watched = false;
     auto contacts = std::make_shared<LastContacts>();
     for (const Contact& contact : world.contacts)
         if (contact.plant == &body) contacts->with_bodies.push_back(contact);

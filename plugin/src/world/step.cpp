@@ -89,16 +89,14 @@ void find_touches(World& world, double h) {
         add_effect(world, FROND_EFFECT_RIGID_CONTACT, timer.ms());
     }
     const frond_effects among = FROND_EFFECT_PLANT_CONTACT | FROND_EFFECT_SELF_CONTACT;
-    if (any_wants(world, among)) {
-        const Timer timer;
-        world.plant_contacts = find_plant_contacts(world, h);
+    // Also where no plant wants any: what is known of the last substep's ends.
+    const Timer timer;
+    world.plant_contacts = find_plant_contacts(world, h);
+    if (any_wants(world, among))
         add_effect(
             world,
             any_wants(world, FROND_EFFECT_PLANT_CONTACT) ? FROND_EFFECT_PLANT_CONTACT : FROND_EFFECT_SELF_CONTACT,
             timer.ms());
-    } else {
-        world.plant_contacts.clear();
-    }
     wake_touched(world, h);
     world.profile.ms_collide = find_timer.ms();
 }
