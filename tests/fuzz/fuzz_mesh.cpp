@@ -42,7 +42,7 @@ struct RandomDef {
             if (input.below(8) == 0) value = input.number();
         };
         for (double* value : {&def.scale, &def.capsule_height, &def.capsule_radius, &def.cage_size, &def.cage_offset,
-                              &def.cage_smoothness})
+                              &def.cage_smoothness, &def.allow_stiffening})
             change(*value);
         if (input.below(8) == 0) def.up = input.vec();
         if (input.below(8) == 0) def.rest = frond_rest(input.below(FROND_REST_COUNT + 1));

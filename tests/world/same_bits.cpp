@@ -8,15 +8,14 @@
 #include <string>
 
 #include "frond/frond.h"
+#include "support/must.hpp"
 
 namespace same_bits_tests {
 
+using frond::test::must;
+
 constexpr double H = 1.0 / 60;
 constexpr int STEPS = 600;
-
-void must(frond_result result) {
-    ASSERT_EQ(result, FROND_OK) << frond_last_error();
-}
 
 struct Row {
     const char* name;

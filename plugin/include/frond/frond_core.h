@@ -256,6 +256,15 @@ FROND_API frond_material frond_default_material(void);
  * plugin/src/skeleton/materials.cpp. BAD_ARGUMENT names the kinds there are. */
 FROND_API frond_result frond_material_preset(const char* kind, frond_material* out);
 
+/* What a person says about an organ where Frond's guess is wrong: see frond_model_def.corrections. */
+typedef struct frond_organ_correction {
+    const char* organ;  /* its name as Frond finds it without corrections: see frond_model_get_organ */
+    const char* kind;   /* "stem", "blade" ..., with its preset, or "grass_blade"; null: as found */
+    const char* parent; /* name of the organ that it grows out of, if it is a mesh of its own; null: as found */
+    bool is_root;       /* it stands in the ground; if one organ is said to, the others do not */
+    bool leave_out;     /* it is no part of the plant: neither simulated nor drawn */
+} frond_organ_correction;
+
 typedef struct frond_model_def {
     uint32_t cookie;        /* do not set */
     double scale;           /* metres per file unit; 0 (default) takes the file's own unit (glTF, FBX, DAE, OBJ with a
@@ -272,6 +281,15 @@ typedef struct frond_model_def {
     const frond_organ_material* organs; /* override presets, by organ name or kind; the last match wins; BAD_ARGUMENT
                                          * for one that no organ has */
     int organ_count;
+    /* Largest factor by which organs may be made stiffer than their materials so that the plant carries itself [-], 1
+     * and more, default 3. Leaves first get the midribs that a file does not show. A plant that needs more is
+     * BAD_GEOMETRY, with a text that names the organ and what to set; INFINITY takes any plant, with a warning. */
+    double allow_stiffening;
+    /* Corrections of organs, BAD_ARGUMENT for one of an organ that is not found. For mesh files they come on top of
+     * those in a file (manual/import.md); scale and up here win over those there. Not for tets and .urdf. */
+    const frond_organ_correction* corrections;
+    int correction_count;
+    const char* corrections_file; /* null (default): MESH.frond.json beside MESH.obj ..., if it is there; "": none */
 } frond_model_def;
 
 /* One tapered straight segment. parent is an index into the same array (smaller than its own), or -1 for a root. */

@@ -50,7 +50,7 @@ inline void check_count(int given, int own, const char* name) {
 }
 // Checks a name or a path: none in a file system or a mesh is longer than the limit.
 inline void check_text(const char* text, const char* name) {
-    constexpr size_t LONGEST = 4096;
+    constexpr size_t LONGEST = 4096;  // of a path on Linux [byte]
     check_pointer(text, name);
     if (strnlen(text, LONGEST + 1) > LONGEST)
         fail(FROND_RESULT_BAD_ARGUMENT, "%s has more than %zu characters; pass a shorter one", name, LONGEST);

@@ -2,6 +2,7 @@
 // convex; a quad that is bent along its diagonal is not.
 #include "collide/advance.hpp"
 #include "collide/strip.hpp"
+#include "core/assert.hpp"
 
 namespace frond {
 
@@ -22,6 +23,7 @@ std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCo
                 return gap;
             };
             const auto keep_first = [&](double time, const StripGap& gap) {
+                FROND_ASSERT(time >= 0 && time <= 1);
                 if (impact && impact->time <= time) return;
                 impact = StripImpact{time, gap};
                 impact->gap.distance += near;

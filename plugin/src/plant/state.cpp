@@ -1,6 +1,8 @@
 // Reading and setting a plant's state: energy, nodes, the force of a grab.
 #include "plant/plant.hpp"
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
@@ -14,6 +16,8 @@ frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
 }
 
 Spring grab_spring(const Plant& plant, const Grab& grab) {
+    FROND_ASSERT(grab.vertex >= 0 && size_t(grab.vertex) < plant.model->surface.positions.size());
+    FROND_ASSERT(grab.stiffness >= 0);
     return {vertex_attachment(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness};
 }
 
@@ -61,6 +65,7 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
     const Quat to_model = plant.rotation.conjugate();
     Motion& motion = plant.motion;
     VecX x, v;
+    FROND_ASSERT(!plant.is_compressed);
     if (positions) x = cage_places(plant);
     if (velocities) v.setZero(3 * node_count_of(plant));
     for (int i = 0; i < node_count_of(plant); i++) {
@@ -129,6 +134,7 @@ const VecX& cage_places(const Plant& plant) {
             follow_places(*plant.follow, plant.motion.x, plant.cage_x);
         else
             plant.cage_x = plant.motion.x;
+        FROND_ASSERT(plant.cage_x.size() == 3 * node_count_of(plant));
         add_offset(plant.blend_out, plant.cage_x);
         if (plant.lead > 0) plant.cage_x += plant.lead * cage_velocities(plant);
     }
@@ -137,6 +143,7 @@ const VecX& cage_places(const Plant& plant) {
 }
 
 Vec3 node_place(const Plant& plant, int node) {
+    FROND_ASSERT(node >= 0 && node < node_count_of(plant));
     const Fragment* fragment = fragment_of_node(plant, size_t(node));
     return fragment ? fragment->place(point(fragment->cage_x, node)) : plant.to_world(point(cage_places(plant), node));
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/timer.hpp"
 #include "plant/chain_state.hpp"
 #include "plant/guard.hpp"
@@ -162,6 +163,9 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects) {
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     const frond_effects effects = plant.effects & surroundings.effects;
     Motion& motion = plant.motion;
+    FROND_ASSERT(h > 0 && !plant.is_compressed && !plant.modal);
+    FROND_ASSERT(motion.x.size() == 3 * elements_of(plant).node_count && motion.v.size() == motion.x.size());
+    FROND_ASSERT(std::abs(plant.rotation.norm() - 1) < 1e-9);
     plant.x_good = motion.x;
     plant.v_good = motion.v;
     plant.trouble = 0;
@@ -217,6 +221,7 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
 }
 
 void add_contacts(Plant& plant, double h) {
+    FROND_ASSERT(plant.workspace);
     if (!plant.is_sound) return;
     Push push = {std::move(plant.contact_impulse)};
     const VecX shift = std::move(plant.contact_correction);
@@ -262,6 +267,8 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
             plant.ms_plasticity = timer.ms();
         }
     }
+    FROND_ASSERT(are_finite(motion.x) && are_finite(motion.v));
+    FROND_ASSERT(motion.x.size() == 3 * elements_of(plant).node_count);
     drop_history_at_forces(plant);
     plant.stepped_by = h;
     carry_stumps(plant);

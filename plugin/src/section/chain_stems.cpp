@@ -95,6 +95,7 @@ void cut_pieces(std::vector<StemPiece>& pieces, double height) {
         std::sort(fixed.begin(), fixed.end());
         for (double cut : fixed)
             if (piece.cuts.empty() || cut - piece.cuts.back() > 1e-6) piece.cuts.push_back(cut);
+        piece.cuts.back() = 1;  // also where another one grows out just before the end
         const std::vector<double> kept = piece.cuts;
         for (int k = 1; k < count; k++) {
             const double cut = piece.even_cut(double(k) / count);

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "core/assert.hpp"
 #include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 Attachment attachment_of(const Contact& contact) {
+    FROND_ASSERT(contact.capsule >= 0 && size_t(contact.capsule) < contact.plant->hull->flats.size());
     const Flat& flat = contact.plant->hull->flats[size_t(contact.capsule)];
     return flat_attachment(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
 }
@@ -45,6 +47,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.plants[0] = contact.plant;
     if (!make_touch(plant, attachment_of(contact), row.touches[0])) return;
     row.contact_body = make_contact_body(*contact.other, contact.on_other, h);
+    FROND_ASSERT(std::abs(contact.normal.squaredNorm() - 1) < 1e-3);
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
     // What a kinematic body has moved against in this step is to get out of its way at once.
