@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "collide/sweep.hpp"
+#include "core/lanes.hpp"
 #include "support/meshes.hpp"
 
 namespace frond::test {
@@ -111,6 +113,26 @@ TEST(Hash, ATableOfOneBucketTellsEachPairOnce) {
         Pairs pairs;
         find_pairs_by_table(items, queries, table_size, 0.3, memory, pairs);
         EXPECT_EQ(pairs.size(), expected.size()) << table_size;
+    }
+}
+
+// In lanes of any width, with boxes that reach to infinity and one whose ends are no numbers.
+TEST(Hash, TheSweepFindsThePairsThatTryingFinds) {
+    Dice dice(4);
+    const int most = most_lanes();
+    for (int n = 0; n < 40; ++n) {
+        BoxSet set = random_boxes(dice, int(dice.uniform(0, 60)), 1, n % 2 ? 0.5 : 0.1, 4);
+        set.boxes.push_back({{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}, 9});
+        set.boxes.push_back({{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 10});
+        Pairs expected;
+        for (int a = 0; a < int(set.boxes.size()); ++a)
+            for (int b = a + 1; b < int(set.boxes.size()); ++b)
+                if (boxes_meet(set.boxes[size_t(a)], set.boxes[size_t(b)])) expected.push_back({a, b});
+        for (const int lanes : {2, most}) {
+            most_lanes() = lanes;
+            EXPECT_EQ(find_pairs_by_sweep(set), expected);
+        }
+        most_lanes() = most;
     }
 }
 

@@ -74,7 +74,7 @@ TEST(Strip, FirstTimesAreThoseOfSmallSteps) {
             a_after.at[k] += way + Vec3(0.05 * double(as), 0, 0);
         }
         if (gap_between(a, b).distance < 2 * NEAR) continue;
-        const auto impact = first_impact(a, a_after, b, b_after, NEAR);
+        const auto impact = first_impact(a, a_after, b, b_after, NEAR, gap_between(a, b));
         double first = 2;
         for (int i = 0; i <= STEPS && first > 1; i++)
             if (gap_between(between(a, a_after, double(i) / STEPS), between(b, b_after, double(i) / STEPS)).distance <

@@ -95,6 +95,18 @@ TEST(CornPair, OfCagesStaysApartByItsOrgans) {
     EXPECT_GT(before, 0.005);
 }
 
+TEST(CornPair, TellsOfContactsThatAreLeftOut) {
+    CornPair crowded(FROND_RESPONSE_IMPULSE, FROND_MECHANICS_TET_COROTATIONAL, H, {{0.02, 0, 0}, {0, 0}});
+    crowded.steps(1);
+    EXPECT_EQ(frond_plant_get_contact_count(crowded.plants[0]), 100);
+    EXPECT_NE(crowded.report().trouble & FROND_TROUBLE_CROWDED, 0u);
+    CornPair pair(FROND_RESPONSE_IMPULSE, FROND_MECHANICS_TET_COROTATIONAL, H, frond::test::AS_IN_SCENE,
+                  FROND_COLLISION_ORGANS);
+    pair.steps(1);
+    EXPECT_LT(frond_plant_get_contact_count(pair.plants[0]), 100);
+    EXPECT_EQ(pair.report().trouble & FROND_TROUBLE_CROWDED, 0u);
+}
+
 TEST(CornPair, SpringsPartItToo) {
     if (SANITIZED) GTEST_SKIP() << "a figure";
     for (const frond_mechanics mechanics : {FROND_MECHANICS_TET_COROTATIONAL, FROND_MECHANICS_ROD}) {
@@ -260,6 +272,21 @@ TEST(Plants, OffMeansThatTheyPassThroughEachOther) {
         must(frond_plant_get_momentum(stems.plants[0], &hit));
         EXPECT_LT(std::abs(hit.z), 1e-12);
     }
+}
+
+TEST(Plants, SwitchedOffWhileTheyTouchPassThroughEachOtherFromThenOn) {
+    ThrownStems stems(FROND_MECHANICS_ROD);
+    for (int i = 0; i < 30 && stems.report().plant_contact_count == 0; i++) stems.steps(1);
+    ASSERT_GT(stems.report().plant_contact_count, 0);
+    must(frond_world_set_effects(stems.world, FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_PLANT_CONTACT)));
+    frond_vec3 before = {}, after = {};
+    must(frond_plant_get_momentum(stems.plants[0], &before));
+    for (int i = 0; i < 30; i++) {
+        stems.steps(1);
+        EXPECT_EQ(stems.report().plant_contact_count, 0);
+    }
+    must(frond_plant_get_momentum(stems.plants[0], &after));
+    EXPECT_NEAR(after.z, before.z, 1e-9);
 }
 
 TEST(Plants, FarFromEachOtherMoveAsIfAlone) {

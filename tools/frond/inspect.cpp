@@ -34,7 +34,8 @@ nlohmann::ordered_json describe_material(const frond_material& material) {
             {"creep_rate", material.creep_rate},
             {"strength", material.strength},
             {"drag", material.drag},
-            {"midrib", material.midrib}};
+            {"midrib", material.midrib},
+            {"restitution", material.restitution}};
 }
 
 nlohmann::ordered_json describe_organ(const frond_organ& organ) {

@@ -49,6 +49,7 @@ std::string trouble_text(uint32_t trouble) {
     if (trouble & FROND_TROUBLE_INVERTED) text += " inverted";
     if (trouble & FROND_TROUBLE_RETRIED) text += " retried";
     if (trouble & FROND_TROUBLE_HELD_BACK) text += " held_back";
+    if (trouble & FROND_TROUBLE_CROWDED) text += " crowded";
     if (trouble & FROND_TROUBLE_PASSED) text += " passed";
     if (trouble & FROND_TROUBLE_BAD_WIND) text += " bad_wind";
     return text.empty() ? "none" : text.substr(1);

@@ -20,6 +20,7 @@ std::string trouble_text(uint32_t trouble) {
     if (trouble & FROND_TROUBLE_INVERTED) text += " inverted";
     if (trouble & FROND_TROUBLE_RETRIED) text += " retried";
     if (trouble & FROND_TROUBLE_HELD_BACK) text += " held back";
+    if (trouble & FROND_TROUBLE_CROWDED) text += " crowded";
     if (trouble & FROND_TROUBLE_PASSED) text += " passed";
     if (trouble & FROND_TROUBLE_BAD_WIND) text += " bad wind";
     return "trouble so far:" + (text.empty() ? " none" : text);

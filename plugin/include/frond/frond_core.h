@@ -56,6 +56,9 @@ enum {
      * apart. Effect: these plants went only a part of the step's way, and their pins with them, so that nothing passed.
      * Remedy: shorter steps. */
     FROND_TROUBLE_HELD_BACK = 1 << 5,
+    /* Cause: a plant had more than 100 contacts with plants, as where cages were made in each other. Effect: its deepest
+     * 100 push, the others do not. Remedy: FROND_COLLISION_ORGANS, which touches at fewer places. */
+    FROND_TROUBLE_CROWDED = 1 << 6,
     /* Cause: the game's wind field gave a velocity that is not finite or beyond 1000 m/s. Effect: the air stood still
      * there for the step. Remedy: have the function of frond_world_set_wind_field write every velocity. */
     FROND_TROUBLE_BAD_WIND = 1 << 7
@@ -238,6 +241,10 @@ typedef struct frond_material {
      * carried by a rib that the file does not show. The presets of blades have 1/20 (maize: 4 mm of 80 mm). Blades and
      * flowers bend at least as stiffly as the rib, and twist by the sum of both; it adds no mass. */
     double midrib;
+    /* Speed at which a body bounces off over that at which it came, at the place that it hits [-], 0 .. 1; times the
+     * body's own, as Bullet does it. It counts above 0.5 m/s, with FROND_RESPONSE_IMPULSE, and not among plants. What
+     * the plant gives back by its own spring comes on top. 0 in the presets. */
+    double restitution;
 } frond_material;
 /* A material for the organs of one kind or name: see frond_model_def.organs. */
 typedef struct frond_organ_material {
@@ -294,6 +301,27 @@ typedef struct frond_stem {
     frond_vec3 begin, end;           /* [m] */
     double radius_begin, radius_end; /* [m] */
 } frond_stem;
+
+/* Outlines of a stem's section. */
+typedef enum frond_outline {
+    FROND_OUTLINE_ROUND,     /* of the stem's radii */
+    FROND_OUTLINE_RECTANGLE, /* of the given width and thickness; drawn and touched as round ones are */
+    FROND_OUTLINE_COUNT
+} frond_outline;
+
+/* Section of a stem, where it is not a solid disk of its organ's material. All zero: it is that. A curved stem is a row
+ * of straight ones. */
+typedef struct frond_stem_section {
+    frond_outline outline;
+    double width, thickness; /* of a rectangle at the stem's begin, thickness the smaller one [m]; they taper with the
+                              * radii */
+    frond_vec3 thin;         /* direction of the thickness at the begin; its part along the stem does not count, and
+                              * (0, 0, 0) leaves it open */
+    double twist;            /* how far the section turns about the axis from begin to end [rad], -1000 .. 1000 */
+    double hollow;           /* inner over outer size [-], 0 .. 0.98; 0: as the organ's material says. Exact for round
+                              * sections, and for a rectangle's bending */
+    double young_begin, young_end; /* Young's modulus at both ends, linear between [Pa]; 0: the material's */
+} frond_stem_section;
 
 typedef struct frond_model_info {
     /* surface */
@@ -377,6 +405,9 @@ FROND_API frond_result frond_model_from_triangles(const float* xyz, int vertex_c
 /* Makes a model from a tree of tapered segments, and its surface with it. */
 FROND_API frond_result frond_model_from_stems(const frond_stem* stems, int stem_count, const frond_model_def* def,
                                               frond_model* out);
+/* Makes a model from a tree of tapered segments with sections of their own. sections: stem_count. */
+FROND_API frond_result frond_model_from_stem_sections(const frond_stem* stems, const frond_stem_section* sections,
+                                                      int stem_count, const frond_model_def* def, frond_model* out);
 /* Makes a model from the caller's own tets, simulated as they are, node by node. xyz: node_count*3 [m]; tets:
  * tet_count*4, in either orientation. The surface is the tets' boundary. scale and up of the def apply, the cage fields
  * do not. */
@@ -634,6 +665,7 @@ typedef struct frond_rigid_def {
     frond_vec3 size;         /* see FROND_SHAPES; default 0.1 each */
     double mass;             /* [kg]; default 1; 0: nothing moves it but frond_rigid_set_state */
     double friction;         /* default 0.5; Bullet multiplies it by the other body's or organ's */
+    double restitution;      /* 0 (default) .. 1 [-]; Bullet multiplies it by the other body's or organ's */
     frond_rigid_state state; /* at the beginning; default at the origin, at rest */
 } frond_rigid_def;
 

@@ -184,6 +184,16 @@ frond_result frond_model_from_stems(const frond_stem* stems, int stem_count, con
     });
 }
 
+frond_result frond_model_from_stem_sections(const frond_stem* stems, const frond_stem_section* sections, int stem_count,
+                                            const frond_model_def* def, frond_model* out) {
+    return open_model(def, out, [&] {
+        check_pointer(stems, "stems");
+        check_pointer(sections, "sections");
+        check_range(stem_count, 1, 100000, "stem_count");
+        return build_from_stems(stems, stem_count, *def, sections);
+    });
+}
+
 frond_result frond_model_from_tets(const double* xyz, int node_count, const int32_t* tets, int tet_count,
                                    const frond_model_def* def, frond_model* out) {
     return open_model(def, out, [&] {

@@ -40,12 +40,12 @@ std::array<Vec3, 3> part_of(const StripCore& core, int part);
 Vec3 point_on(const StripQuad& core, const std::array<double, 4>& weights);
 
 // First time at which two cores come as near as `near` [m]; their corners move along straight lines at constant speed.
-// Nothing where they never do. No such time is missed: it is approached from below.
+// Nothing where they never do. No such time is missed: it is approached from below. `now`: their gap before the step.
 struct StripImpact {
     double time;  // share of the step, 0..1 [-]; 0 where they are as near from the start
     StripGap gap;
 };
 std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCore& a_after, const StripCore& b_before,
-                                        const StripCore& b_after, double near);
+                                        const StripCore& b_after, double near, const StripGap& now);
 
 }  // namespace frond

@@ -87,6 +87,8 @@ StripGap gap_between(const StripCore& a, const StripCore& b) {
     nearest.squared = INFINITY;
     for (int i = 0; i < part_count(a); ++i)
         for (int k = 0; k < part_count(b); ++k) {
+            // Most parts are farther apart than the nearest so far along the line between its points.
+            if (i + k > 0 && are_apart(part_of(a, i), part_of(b, k), nearest.a - nearest.b, nearest.squared)) continue;
             const NearestPair pair = nearest_of_parts(a, i, b, k);
             if (!(pair.squared < nearest.squared)) continue;
             nearest = pair;

@@ -2,6 +2,8 @@
 // convex; a quad that is bent along its diagonal is not.
 #include "collide/advance.hpp"
 #include "collide/strip.hpp"
+#include "collide/strip_cull.hpp"
+#include "core/assert.hpp"
 
 namespace frond {
 
@@ -10,10 +12,11 @@ static StripCore at_time(const StripCore& before, const StripCore& after, double
 }
 
 std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCore& a_after, const StripCore& b_before,
-                                        const StripCore& b_after, double near) {
+                                        const StripCore& b_after, double near, const StripGap& now) {
     constexpr double TOLERANCE = 0.01;  // over `near` [-]
     constexpr int MOST_STEPS = 100;
     std::optional<StripImpact> impact;
+    if (stay_apart_along(now.normal, a_before, a_after, b_before, b_after, (1 + TOLERANCE) * near)) return impact;
     for (int i = 0; i < part_count(a_before); ++i)
         for (int k = 0; k < part_count(b_before); ++k) {
             const auto gap_at = [&](double time) {
@@ -22,6 +25,7 @@ std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCo
                 return gap;
             };
             const auto keep_first = [&](double time, const StripGap& gap) {
+                FROND_ASSERT(time >= 0 && time <= 1);
                 if (impact && impact->time <= time) return;
                 impact = StripImpact{time, gap};
                 impact->gap.distance += near;

@@ -16,7 +16,7 @@
 namespace frond {
 
 static constexpr double LARGEST_FILE = 1073741824.0;  // [byte]
-static constexpr size_t STDERR_KEPT = 4096;
+static constexpr size_t STDERR_KEPT = 4096;           // of what the program says [byte]
 
 // Replaces limits of 0 by limits chosen from the file's size.
 static ImportLimits choose_limits(const ImportLimits& wanted, double file_bytes) {

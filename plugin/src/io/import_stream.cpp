@@ -7,7 +7,8 @@
 namespace frond {
 
 static constexpr char MAGIC[] = "frond-import";
-static constexpr uint32_t VERSION = 4;
+static constexpr uint32_t VERSION = 4;  // of the stream; another one is of another build
+// More is damage.
 static constexpr uint32_t MAX_PARTS = 1000000, MAX_TEXTURES = 10000, MAX_WARNINGS = 1000, MAX_CORRECTIONS = 100000;
 
 std::string import_greeting() {

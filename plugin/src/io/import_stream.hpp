@@ -19,7 +19,7 @@ struct ImportResult {
     Corrections corrections = {};
 };
 
-constexpr size_t IMPORT_GREETING_SIZE = 16;
+constexpr size_t IMPORT_GREETING_SIZE = 16;  // [byte]
 // Returns magic and version.
 std::string import_greeting();
 std::string encode_import(const ImportResult& result);

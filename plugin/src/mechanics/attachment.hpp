@@ -27,6 +27,9 @@ struct AttachmentDerivative {
 };
 AttachmentDerivative derivative_at(const Attachment& attachment, const VecX& x);
 Vec3 attachment_place(const Attachment& attachment, const VecX& x);
+// Computes the places of many, turned and then shifted.
+void attachment_places(const std::vector<Attachment>& attachments, const VecX& x, const Mat3& turn, const Vec3& shift,
+                       std::vector<Vec3>& out);
 Vec3 attachment_velocity(const Attachment& attachment, const VecX& x, const VecX& v);
 // Distributes a force at the point [N] over the nodes.
 void add_attachment_force(const Attachment& attachment, const VecX& x, const Vec3& force, VecX& f);

@@ -5,6 +5,7 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/weigh.hpp"
+#include "core/assert.hpp"
 #include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -115,6 +116,7 @@ static std::shared_ptr<const Model> build(Surface surface, const frond_model_def
     model->ms_chain = timer.ms();
     build_body(*model, def);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 
@@ -134,7 +136,9 @@ StemPlacement placement_of(const Surface& before, const Surface& after) {
     return placed;
 }
 
-std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def) {
+std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def,
+                                              const frond_stem_section* sections) {
+    if (sections) check_stem_sections(sections, stem_count);
     const Timer total;
     auto model = std::make_shared<Model>();
     refuse_corrections(def);
@@ -144,12 +148,14 @@ std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_
     model->ms_import = total.ms();
     const Timer timer;
     find_organs(*model, def, {});
-    model->chain = make_chain_of_stems(stems, stem_count, model->surface, placement_of(made, model->surface),
-                                       model->organs, {def.capsule_height, def.capsule_radius, {}}, model->sections);
+    model->chain =
+        make_chain_of_stems(stems, stem_count, model->surface, placement_of(made, model->surface), model->organs,
+                            {def.capsule_height, def.capsule_radius, {}}, model->sections, {}, sections);
     model->exact_sections = true;
     model->ms_chain = timer.ms();
     build_body(*model, def);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 
@@ -164,6 +170,7 @@ std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def
     finish(*model);
     take_materials(*model);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 

@@ -1,9 +1,11 @@
 #include "modelling/build_urdf.hpp"
 
+#include "core/assert.hpp"
 #include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/timer.hpp"
 #include "io/urdf_pieces.hpp"
+#include "modelling/cook.hpp"
 #include "skeleton/organ_clues.hpp"
 #include "skeleton/topology_joints.hpp"
 
@@ -131,6 +133,7 @@ static std::shared_ptr<const Model> build(const UrdfTree& tree, const frond_mode
     if (is_upright) model->surface.up = Vec3::UnitZ();
     build_body(*model, def);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 

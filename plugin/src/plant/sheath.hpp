@@ -18,7 +18,8 @@ struct Sheath {
         holds;  // attachments of the nodes for pushes: the chain's axis, with a blade's half width as lever
     // Strips between holds: their corners are nodes. Empty for a cage as a sheath, which has none.
     std::vector<Strip> strips;
-    std::vector<int> corners;  // the nodes that are corners of strips, each once
+    std::vector<int> corners;              // the nodes that are corners of strips, each once
+    std::vector<Attachment> corner_holds;  // their attachments
 };
 
 // A sheath that follows a cage: its nodes, and the points at which it is pushed, are points of the tets around their

@@ -127,6 +127,7 @@ void list_corners(Sheath& sheath) {
         }
     for (Strip& strip : sheath.strips)
         for (int& corner : strip.corners) corner = place[size_t(corner)];
+    for (const int node : sheath.corners) sheath.corner_holds.push_back(sheath.holds[size_t(node)]);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/decompose.hpp"
 #include "core/elementary.hpp"
 #include "section/section_parts.hpp"
@@ -297,6 +298,9 @@ static void hold_roots(const Chain& chain, const std::vector<Organ>& organs, std
 std::vector<Section> measure_sections(const Surface& surface, const Topology& topology,
                                       const std::vector<Organ>& organs, const Chain& chain) {
     const std::vector<CapsuleFrame> frames = make_frames(chain);
+    FROND_ASSERT(chain.vertex_node.size() == surface.positions.size());
+    FROND_ASSERT(!organs.empty());
+    FROND_ASSERT(frames.size() == chain.nodes.size());
     std::vector<char> hearts = find_hearts(chain);
     for (size_t i = 0; i < hearts.size(); i++)
         hearts[i] = hearts[i] && is_sheet(organs[size_t(std::max(chain.nodes[i].organ, 0))]);

@@ -8,6 +8,7 @@
 #include <climits>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/error.hpp"
 #include "skeleton/chain.hpp"
 #include "skeleton/chain_ribs.hpp"
@@ -94,15 +95,15 @@ struct Maker {
     }
 };
 
-// Returns the node that a slab grows from: the end of its parent, or the parent's beginning if the contact is nearer to
+// Returns the node that a slab grows from: the end of its parent, or the parent's beginning if the link is nearer to
 // that.
 int node_below(const Maker& maker, const Shoot& shoot) {
     const int node = maker.node_of_piece[size_t(shoot.parent)];
-    const Contact& contact = maker.tree.contacts[size_t(shoot.contact)];
+    const SlabLink& link = maker.tree.links[size_t(shoot.link)];
     const int before = maker.chain.nodes[size_t(node)].parent;
-    if (contact.level || before < 0) return node;
-    const double to_end = (maker.chain.nodes[size_t(node)].position - contact.middle).squaredNorm();
-    const double to_begin = (maker.chain.nodes[size_t(before)].position - contact.middle).squaredNorm();
+    if (link.level || before < 0) return node;
+    const double to_end = (maker.chain.nodes[size_t(node)].position - link.middle).squaredNorm();
+    const double to_begin = (maker.chain.nodes[size_t(before)].position - link.middle).squaredNorm();
     return to_begin < to_end ? before : node;
 }
 
@@ -200,18 +201,18 @@ std::vector<double> begins_of_slabs(const Maker& maker) {
             along[size_t(number)] = own ? 0 : 1;
             continue;
         }
-        const Contact& contact = maker.tree.contacts[size_t(shoot.contact)];
+        const SlabLink& link = maker.tree.links[size_t(shoot.link)];
         const int node = maker.node_of_piece[size_t(number)];
         const auto place = [&](const Vec3& p) { return nearest_along(maker.chain, node, p); };
         double& begin = along[size_t(number)];
         if (own)
-            begin = contact.level ? 0 : place(shoot.down ? piece.far_end : piece.near_end);
+            begin = link.level ? 0 : place(shoot.down ? piece.far_end : piece.near_end);
         else if (shoot.children > 0)
             begin = 1;
-        else if (contact.level)
+        else if (link.level)
             begin = maker.owns_node[size_t(shoot.parent)] ? 1 : along[size_t(shoot.parent)];
         else
-            begin = place(contact.middle);
+            begin = place(link.middle);
     }
     return along;
 }
@@ -256,6 +257,12 @@ void bind_vertices(Maker& maker) {
         }
 }
 
+bool parents_come_first(const Chain& chain) {
+    for (size_t i = 0; i < chain.nodes.size(); i++)
+        if (chain.nodes[i].parent < -1 || chain.nodes[i].parent >= int(i)) return false;
+    return true;
+}
+
 // Makes the chain for one height. Larger loose parts than usual are dropped while there are more than `most` capsules.
 Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, double height, double radius, int most) {
     const Bands bands = cut_bands(shape.topology, shape.edges, shape.distance, shape.group, shape.organ, height);
@@ -271,6 +278,8 @@ Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, dou
         fit_radii(maker, organs, radius);
         bind_vertices(maker);
         join_ribs(shape.surface, organs, maker.chain);
+        FROND_ASSERT(parents_come_first(maker.chain));
+        FROND_ASSERT(maker.chain.vertex_capsule.size() == shape.surface.positions.size());
         maker.chain.height = height;
         return std::move(maker.chain);
     }

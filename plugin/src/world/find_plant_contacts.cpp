@@ -95,10 +95,11 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
 }
 
 // Keeps each plant's deepest contacts: they suffice where plants overlap completely, and each contact is coupled with
-// all others of its plants, so that cost grows with the square of their number.
-void keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
+// all others of its plants, so that cost grows with the square of their number. Returns whether others were dropped.
+bool keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
     constexpr int MOST = 100;  // contacts per plant
-    if (contacts.size() <= MOST) return;
+    const size_t all = contacts.size();
+    if (all <= MOST) return false;
     std::stable_sort(contacts.begin(), contacts.end(),
                      [](const PlantContact& a, const PlantContact& b) { return a.depth > b.depth; });
     std::vector<int> count(plant_count, 0);
@@ -110,6 +111,7 @@ void keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
         return false;
     };
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_too_many), contacts.end());
+    return contacts.size() < all;
 }
 
 // Contacts of one island, and the time of the search [ms].
@@ -328,7 +330,7 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
         world.profile.ms_hash += of.ms_hash;
         world.profile.ms_narrow += of.ms_narrow;
     }
-    keep_deepest(world.taking_part.size(), contacts);
+    if (keep_deepest(world.taking_part.size(), contacts)) world.report.trouble |= FROND_TROUBLE_CROWDED;
     return contacts;
 }
 

@@ -75,10 +75,10 @@ std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPa
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
         if (stay_apart(core_a, a_after, core_b, b_after, NEAREST * thick)) continue;
-        const double before = gap_between(core_a, core_b).distance;
-        if (before < CROSSED) continue;
-        const double near = share * std::min(NEAREST * thick, OF_BEFORE * before);
-        const auto impact = first_impact(core_a, a_after, core_b, b_after, near);
+        const StripGap before = gap_between(core_a, core_b);
+        if (before.distance < CROSSED) continue;
+        const double near = share * std::min(NEAREST * thick, OF_BEFORE * before.distance);
+        const auto impact = first_impact(core_a, a_after, core_b, b_after, near, before);
         if (!impact) continue;
         if (std::binary_search(memory.crossed.begin(), memory.crossed.end(), organs_of(paths, pair))) continue;
         misses.push_back({pair, *impact, thick});

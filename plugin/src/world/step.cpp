@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/timer.hpp"
 #include "plant/batch.hpp"
 #include "world/convert.hpp"
@@ -88,16 +89,14 @@ void find_touches(World& world, double h) {
         add_effect(world, FROND_EFFECT_RIGID_CONTACT, timer.ms());
     }
     const frond_effects among = FROND_EFFECT_PLANT_CONTACT | FROND_EFFECT_SELF_CONTACT;
-    if (any_wants(world, among)) {
-        const Timer timer;
-        world.plant_contacts = find_plant_contacts(world, h);
+    // Also where no plant wants any: what is known of the last substep's ends.
+    const Timer timer;
+    world.plant_contacts = find_plant_contacts(world, h);
+    if (any_wants(world, among))
         add_effect(
             world,
             any_wants(world, FROND_EFFECT_PLANT_CONTACT) ? FROND_EFFECT_PLANT_CONTACT : FROND_EFFECT_SELF_CONTACT,
             timer.ms());
-    } else {
-        world.plant_contacts.clear();
-    }
     wake_touched(world, h);
     world.profile.ms_collide = find_timer.ms();
 }
@@ -208,6 +207,7 @@ struct StepJob {
 };
 
 void run_job(const World& world, const StepJob& job, const Surroundings& surroundings, double h) {
+    FROND_ASSERT(job.count >= 1 && job.count <= MOST_LANES);
     if (job.count == 1) return step_alone(world, *job.bodies[0], surroundings, h);
     std::array<Plant*, MOST_LANES> plants;
     for (int i = 0; i < job.count; i++) plants[size_t(i)] = job.bodies[size_t(i)]->plant.get();
@@ -315,6 +315,7 @@ void finish_touched(World& world, const Surroundings& surroundings) {
 }
 
 void take_step(World& world, btCollisionWorld& collision_world, double h) {
+    FROND_ASSERT(h > 0);
     const Timer step_timer;
     const Surroundings surroundings = begin_step(world, collision_world, h);
     if (world.ledger) count_calls(world);

@@ -16,12 +16,8 @@ inline namespace FROND_BULLET_PRECISION {
 void place_corners(const PlantBody& body, const VecX& x, std::vector<Vec3>& out) {
     const Plant& plant = *body.plant;
     const Sheath& sheath = body.touched();
-    out.resize(sheath.corners.size());
-    const Mat3 turn = plant.rotation.toRotationMatrix();
-    for (size_t i = 0; i < out.size(); i++) {
-        const Attachment& corner = plant.follow ? sheath.holds[size_t(sheath.corners[i])] : body.in_cage->corners[i];
-        out[i] = turn * attachment_place(corner, x) + plant.position;
-    }
+    attachment_places(plant.follow ? sheath.corner_holds : body.in_cage->corners, x, plant.rotation.toRotationMatrix(),
+                      plant.position, out);
 }
 
 static StripCore core_of(const Strip& strip, const Vec3* places) {
@@ -123,7 +119,7 @@ StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std
         }
         if (now.distance < thick + MARGIN) {
             result.contacts.push_back(contact_of(paths, pair, 0, now));
-        } else if (const auto impact = first_impact(core_a, a_after, core_b, b_after, thick + MARGIN)) {
+        } else if (const auto impact = first_impact(core_a, a_after, core_b, b_after, thick + MARGIN, now)) {
             result.contacts.push_back(contact_of(paths, pair, impact->time, impact->gap));
         } else {
             continue;

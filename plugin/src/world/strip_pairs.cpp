@@ -1,7 +1,7 @@
-// In: strips on their way through a step. Out: pairs that may meet. Boxes around the ways are sorted along one axis and
-// swept (Baraff 1992, "Dynamic Simulation of Non-penetrating Rigid Bodies").
+// In: strips on their way through a step. Out: pairs that may meet, by boxes around the ways.
 #include <algorithm>
 
+#include "collide/sweep.hpp"
 #include "world/strip_search.hpp"
 
 namespace frond {
@@ -9,55 +9,69 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// Plain numbers: this file is compiled without inlining Eigen's.
-struct WayBox {
-    double lower[3] = {INFINITY, INFINITY, INFINITY}, upper[3] = {-INFINITY, -INFINITY, -INFINITY};
-    int body = 0, strip = 0;
-    void add(const double* p) {
-        for (int k = 0; k < 3; k++) {
-            if (p[k] < lower[k]) lower[k] = p[k];
-            if (p[k] > upper[k]) upper[k] = p[k];
-        }
-    }
-    void widen(double by) {
-        for (int k = 0; k < 3; k++) {
-            lower[k] -= by;
-            upper[k] += by;
-        }
-    }
-    bool meets(const WayBox& other) const {
-        for (int k = 0; k < 3; k++)
-            if (lower[k] > other.upper[k] || other.lower[k] > upper[k]) return false;
-        return true;
-    }
-};
+BoxSet::Bounds no_box() {
+    return {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+}
 
-WayBox way_box(const StripPath& path, int body, int number, double margin) {
-    WayBox box;
-    box.body = body;
-    box.strip = number;
-    const Strip& strip = path.strip(number);
-    for (const int corner : strip.corners) {
-        box.add(path.before[corner].data());
-        box.add(path.after[corner].data());
+void add_box(const BoxSet::Bounds& box, BoxSet::Bounds& to) {
+    for (int k = 0; k < 3; k++) {
+        to.lower[k] = std::min(to.lower[k], box.lower[k]);
+        to.upper[k] = std::max(to.upper[k], box.upper[k]);
     }
-    box.widen(strip.radius + 0.5 * margin + path.astray);
+}
+
+// Plain numbers: this file is compiled without inlining Eigen's.
+BoxSet::Bounds way_box(const StripPath& path, int number, double margin) {
+    const Strip& strip = path.strip(number);
+    const double around = strip.radius + 0.5 * margin + path.astray;
+    BoxSet::Bounds box = no_box();
+    for (const Vec3* corners : {path.before, path.after})
+        for (const int corner : strip.corners) {
+            const double* p = corners[corner].data();
+            for (int k = 0; k < 3; k++) {
+                if (p[k] - around < box.lower[k]) box.lower[k] = p[k] - around;
+                if (p[k] + around > box.upper[k]) box.upper[k] = p[k] + around;
+            }
+        }
     return box;
 }
 
-// Gathers the boxes that meet another plant's, and all of plants that touch themselves.
-std::vector<WayBox> gather(const std::vector<StripPath>& paths, double margin) {
-    std::vector<WayBox> wholes(paths.size()), all, wanted;
-    for (size_t b = 0; b < paths.size(); b++)
+// Boxes of strips, and which they are.
+struct StripBoxes {
+    BoxSet set;
+    std::vector<std::array<int, 2>> strips;  // body and strip
+};
+
+// Gathers the boxes that meet another plant's, and all of plants that touch themselves, of which each is a group.
+StripBoxes gather_strips(const std::vector<StripPath>& paths, double margin) {
+    StripBoxes all, wanted;
+    BoxSet wholes;
+    for (size_t b = 0; b < paths.size(); b++) {
+        wholes.boxes.push_back(no_box());
+        wholes.boxes[b].group = int(b);
         for (size_t s = 0; s < paths[b].body->touched().strips.size(); s++) {
-            all.push_back(way_box(paths[b], int(b), int(s), margin));
-            wholes[b].add(all.back().lower);
-            wholes[b].add(all.back().upper);
+            all.set.boxes.push_back(way_box(paths[b], int(s), margin));
+            all.set.boxes.back().group = int(b);
+            all.strips.push_back({int(b), int(s)});
+            add_box(all.set.boxes.back(), wholes.boxes[b]);
         }
-    for (const WayBox& box : all) {
-        bool meets = paths[size_t(box.body)].with_itself;
-        for (size_t b = 0; b < wholes.size() && !meets; b++) meets = int(b) != box.body && box.meets(wholes[b]);
-        if (meets) wanted.push_back(box);
+    }
+    std::vector<std::vector<int>> others(paths.size());  // plants whose boxes meet each
+    for (const auto& [a, b] : find_pairs_by_sweep(wholes)) {
+        others[size_t(a)].push_back(b);
+        others[size_t(b)].push_back(a);
+    }
+    int groups = int(paths.size());
+    for (size_t i = 0; i < all.strips.size(); i++) {
+        BoxSet::Bounds& box = all.set.boxes[i];
+        const size_t body = size_t(box.group);
+        const auto meets = [&](int other) { return boxes_meet(box, wholes.boxes[size_t(other)]); };
+        if (paths[body].with_itself)
+            box.group = groups++;
+        else if (std::none_of(others[body].begin(), others[body].end(), meets))
+            continue;
+        wanted.set.boxes.push_back(box);
+        wanted.strips.push_back(all.strips[i]);
     }
     return wanted;
 }
@@ -65,31 +79,17 @@ std::vector<WayBox> gather(const std::vector<StripPath>& paths, double margin) {
 }  // namespace
 
 std::vector<StripPair> find_strip_pairs(const std::vector<StripPath>& paths, double margin) {
-    std::vector<WayBox> boxes = gather(paths, margin);
-    WayBox whole;
-    for (const WayBox& box : boxes) {
-        whole.add(box.lower);
-        whole.add(box.upper);
-    }
-    int axis = 0;
-    for (int k = 1; k < 3; k++)
-        if (whole.upper[k] - whole.lower[k] > whole.upper[axis] - whole.lower[axis]) axis = k;
-    std::sort(boxes.begin(), boxes.end(),
-              [axis](const WayBox& a, const WayBox& b) { return a.lower[axis] < b.lower[axis]; });
+    const StripBoxes boxes = gather_strips(paths, margin);
     std::vector<StripPair> pairs;
-    for (size_t i = 0; i < boxes.size(); i++)
-        for (size_t k = i + 1; k < boxes.size() && boxes[k].lower[axis] <= boxes[i].upper[axis]; k++) {
-            if (!boxes[i].meets(boxes[k])) continue;
-            const WayBox &a = boxes[i], &b = boxes[k];
-            if (a.body == b.body) {
-                const StripPath& path = paths[size_t(a.body)];
-                const auto piece = [&](const WayBox& box) { return path.strip(box.strip).piece; };
-                if (!path.with_itself || path.body->touched().collider.are_near(piece(a), piece(b))) continue;
-            }
-            const bool in_order = std::tie(a.body, a.strip) < std::tie(b.body, b.strip);
-            const WayBox &first = in_order ? a : b, &second = in_order ? b : a;
-            pairs.push_back({first.body, first.strip, second.body, second.strip});
+    for (const auto& [first, second] : find_pairs_by_sweep(boxes.set)) {
+        const auto& [body_a, strip_a] = boxes.strips[size_t(first)];
+        const auto& [body_b, strip_b] = boxes.strips[size_t(second)];
+        if (body_a == body_b) {
+            const StripPath& path = paths[size_t(body_a)];
+            if (path.body->touched().collider.are_near(path.strip(strip_a).piece, path.strip(strip_b).piece)) continue;
         }
+        pairs.push_back({body_a, strip_a, body_b, strip_b});
+    }
     const auto key = [](const StripPair& p) { return std::tie(p.a, p.b, p.strip_a, p.strip_b); };
     std::sort(pairs.begin(), pairs.end(), [&](const StripPair& p, const StripPair& q) { return key(p) < key(q); });
     return pairs;
