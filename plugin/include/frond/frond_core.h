@@ -285,7 +285,7 @@ typedef struct frond_model_def {
                                          * for one that no organ has */
     int organ_count;
     /* Largest factor by which organs may be made stiffer than their materials so that the plant carries itself [-], 1
-     * and more, default 3. Leaves first get the midribs that a file does not show. A plant that needs more is
+     * and more, default 10. Leaves first get the midribs that a file does not show. A plant that needs more is
      * BAD_GEOMETRY, with a text that names the organ and what to set; INFINITY takes any plant, with a warning. */
     double allow_stiffening;
     /* Corrections of organs, BAD_ARGUMENT for one of an organ that is not found. For mesh files they come on top of

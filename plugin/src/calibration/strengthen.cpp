@@ -140,7 +140,8 @@ WeakOrgan strengthen(Model& model) {
     for (double mass : masses) whole += mass;
     WeakOrgan weak;
     for (size_t o = 0; o < stiffer.size(); o++)
-        if (masses[o] >= WORTH_A_WORD * whole && stiffer[o] > weak.factor) weak = {model.organs[o].name, model.organs[o].kind, stiffer[o]};
+        if (masses[o] >= WORTH_A_WORD * whole && stiffer[o] > weak.factor)
+            weak = {model.organs[o].name, model.organs[o].kind, stiffer[o]};
     return weak;
 }
 

@@ -24,6 +24,7 @@ constexpr MaterialField MATERIAL_FIELDS[] = {
     {"strength", &Material::strength},
     {"drag", &Material::drag},
     {"midrib", &Material::midrib},
+    {"restitution", &Material::restitution},
 };
 constexpr size_t MATERIAL_FIELD_COUNT = sizeof MATERIAL_FIELDS / sizeof MATERIAL_FIELDS[0];
 
