@@ -1,23 +1,34 @@
 # frond_find_bullet(SUFFIX TARGET): makes the imported target TARGET of Bullet, in single precision if SUFFIX is empty and in
 # double precision if it is -float64, or leaves it out if there is none. pkg-config is asked first (Debian's packages, where
-# both precisions stand side by side), then find_package(Bullet) (vcpkg, Conan, Bullet's own installation), which tells its
-# precision by BULLET_DEFINITIONS. Frond's build and its installed package both find Bullet by this file.
+# both precisions stand side by side), then find_package(Bullet) (vcpkg, Conan, Bullet's own installation); both tell a
+# precision by its definition. Frond's build and its installed package both find Bullet by this file. FROND_BULLET_MODULE is
+# set to the name that pkg-config knows, or is empty.
 include_guard(GLOBAL)
 
 function(frond_find_bullet suffix target)
     if(TARGET ${target})
         return()
     endif()
-    string(MAKE_C_IDENTIFIER "FROND_BULLET${suffix}" prefix)
+    set(FROND_BULLET_MODULE "" PARENT_SCOPE)
     find_package(PkgConfig QUIET)
+    set(modules "")
     if(PKG_CONFIG_FOUND)
-        pkg_check_modules(${prefix} QUIET IMPORTED_TARGET GLOBAL bullet${suffix})
+        set(modules bullet${suffix} bullet)
     endif()
-    if(${prefix}_FOUND)
-        add_library(${target} INTERFACE IMPORTED GLOBAL)
-        set_property(TARGET ${target} PROPERTY INTERFACE_LINK_LIBRARIES PkgConfig::${prefix})
-        return()
-    endif()
+    foreach(module IN LISTS modules)
+        string(MAKE_C_IDENTIFIER "FROND_FOUND_${module}" prefix)
+        pkg_check_modules(${prefix} QUIET IMPORTED_TARGET GLOBAL ${module})
+        set(found "")
+        if("${${prefix}_CFLAGS}" MATCHES "BT_USE_DOUBLE_PRECISION")
+            set(found "-float64")
+        endif()
+        if(${prefix}_FOUND AND "${found}" STREQUAL "${suffix}")
+            add_library(${target} INTERFACE IMPORTED GLOBAL)
+            set_property(TARGET ${target} PROPERTY INTERFACE_LINK_LIBRARIES PkgConfig::${prefix})
+            set(FROND_BULLET_MODULE ${module} PARENT_SCOPE)
+            return()
+        endif()
+    endforeach()
 
     foreach(config BulletConfig${suffix}.cmake BulletConfig.cmake)
         unset(Bullet_DIR CACHE)
@@ -44,7 +55,12 @@ function(frond_bullet_of_package target)
         endforeach()
     endforeach()
     set(libraries "")
-    foreach(name BulletSoftBody BulletDynamics BulletCollision LinearMath)
+    # Conan's package has one target for all of Bullet; elsewhere the four that Frond needs are named.
+    set(wanted "BulletSoftBody" "BulletDynamics" "BulletCollision" "LinearMath")
+    if(TARGET "${BULLET_LIBRARIES}")
+        set(wanted ".*")
+    endif()
+    foreach(name IN LISTS wanted)
         set(given ${BULLET_LIBRARIES})
         list(FILTER given INCLUDE REGEX "(^|::)${name}(-.*)?$")
         if(NOT given)

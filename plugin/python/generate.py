@@ -130,7 +130,7 @@ def write_structs(structs, comments, enums):
             continue
         is_def = name.endswith("_def") or name in ("frond_picture_scene",)
         is_given = is_def or name in ("frond_material", "frond_tuning", "frond_contact_tuning", "frond_rigid_state",
-                                      "frond_picture_camera", "frond_stem")
+                                      "frond_picture_camera", "frond_stem", "frond_stem_section")
         if is_given:
             out += [f"class {camel(name)}Options(TypedDict, total=False):", docstring(name, comments)]
             for field, kind, count in fields:

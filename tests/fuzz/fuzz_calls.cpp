@@ -175,6 +175,19 @@ void set_plastic(Stage& s) {
     frond_plant_set_plastic(plant, values.data(), s.input.byte() < 200 ? int(values.size()) : 0);
 }
 
+void load_chain(Stage& s) {
+    const frond_plant plant = s.plant();
+    frond_plant_add_chain_load(plant, s.input.integer(), s.input.vec(), s.input.vec());
+    frond_plant_add_distributed_load(plant, s.input.integer(), s.input.vec());
+    std::vector<frond_section_force> forces(size_t(frond_plant_get_capsule_count(plant)));
+    frond_plant_get_section_forces(plant, forces.data(), int(forces.size()));
+    std::vector<frond_chain_state> states(size_t(frond_plant_get_chain_node_count(plant)));
+    if (frond_plant_get_chain_state(plant, states.data(), int(states.size())) != FROND_OK || states.empty()) return;
+    states.front().position = s.input.vec();
+    states.back().angular_velocity = s.input.vec();
+    frond_plant_set_chain_state(plant, states.data(), int(states.size()));
+}
+
 void look_at_plant(Stage& s) {
     const frond_plant plant = s.plant();
     frond_surface_view view;
@@ -292,6 +305,7 @@ void hold(Stage& s) {
             break;
         case 7:
             frond_plant_add_force(s.plant(), s.node(), s.input.vec());
+            load_chain(s);
             break;
         default:
             frond_plant_move_pin(s.plant(), s.node(), s.input.vec());

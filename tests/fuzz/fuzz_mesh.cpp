@@ -42,7 +42,7 @@ struct RandomDef {
             if (input.below(8) == 0) value = input.number();
         };
         for (double* value : {&def.scale, &def.capsule_height, &def.capsule_radius, &def.cage_size, &def.cage_offset,
-                              &def.cage_smoothness})
+                              &def.cage_smoothness, &def.allow_stiffening})
             change(*value);
         if (input.below(8) == 0) def.up = input.vec();
         if (input.below(8) == 0) def.rest = frond_rest(input.below(FROND_REST_COUNT + 1));
@@ -108,6 +108,19 @@ void try_stems(Input& input) {
     frond_model model = {};
     const frond_result result = frond_model_from_stems(stems.data(), int(stems.size()), &random.def, &model);
     try_model(result, model);
+    std::vector<frond_stem_section> sections(stems.size());
+    for (frond_stem_section& section : sections)
+        section = {frond_outline(input.below(FROND_OUTLINE_COUNT)),
+                   input.number(),
+                   input.number(),
+                   input.vec(),
+                   input.number(),
+                   input.number(),
+                   input.number(),
+                   input.number()};
+    frond_model shaped = {};
+    try_model(frond_model_from_stem_sections(stems.data(), sections.data(), int(stems.size()), &random.def, &shaped),
+              shaped);
 }
 
 }  // namespace

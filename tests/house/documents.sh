@@ -22,6 +22,12 @@ for page in plugin/manual/*.md; do
     grep -qF "($page)" README.md || fail "README.md does not link $page"
 done
 
+# Decisions are few, and name files that exist.
+[ "$(wc -l <plugin/DESIGN.md)" -le 250 ] || fail "plugin/DESIGN.md has more than 250 lines"
+for name in $(grep -ohE '`[a-z_/0-9]+\.(cpp|hpp|md|cmake|sh)`' plugin/DESIGN.md plugin/GLOSSARY.md plugin/src/*/README.md | tr -d '`' | sort -u); do
+    [ -n "$(find ./plugin/src ./tests ./tools -path "*/$name" -print -quit)" ] || fail "plugin/DESIGN.md, GLOSSARY.md or a README.md of plugin/src: there is no $name"
+done
+
 # Names of the API, as the preprocessor sees them; of the build, the environment and the tools.
 names=$(mktemp)
 trap 'rm -f "$names"' EXIT
@@ -29,7 +35,7 @@ trap 'rm -f "$names"' EXIT
     for header in plugin/include/frond/*.h; do "$compiler" -E -P -x c -Iplugin/include "$header"; done
     cat plugin/include/frond/*.h*
 } | grep -oE '\b(frond|FROND)_\w+' | sort -u >"$names"
-printf '%s\n' frond_kernels frond_command frond_float64 FROND_TESTS FROND_TOOLS FROND_IMPORTER FROND_PACKAGE_PATH >>"$names"
+printf '%s\n' frond_kernels frond_command frond_float64 FROND_TESTS FROND_TOOLS FROND_IMPORTER FROND_PACKAGE_PATH FROND_ASSERT FROND_ASSERTS FROND_INSTALL FROND_SHARED FROND_STATIC FROND_FLOAT64 FROND_BUILD_PATHS >>"$names"
 for page in "${pages[@]}"; do
     while IFS= read -r name; do
         grep -qxF "$name" "$names" || fail "$page: the headers have no $name"

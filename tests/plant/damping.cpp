@@ -25,6 +25,7 @@ std::shared_ptr<const Model> stem_model(double low_ratio, double high_ratio, fro
     organs[1].material.damping_ratio = high_ratio;
     frond_model_def def = {};
     def.scale = 1;
+    def.allow_stiffening = INFINITY;
     def.cage_smoothness = 0.5;
     def.cage_size = 0.06;
     def.rest = rest;

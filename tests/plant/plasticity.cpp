@@ -21,6 +21,7 @@ std::shared_ptr<const Model> stem_model(double yield_strain, double creep = 0,
     organ.material.creep_rate = creep;
     frond_model_def def = {};
     def.scale = 1;
+    def.allow_stiffening = INFINITY;
     def.cage_smoothness = 0.5;
     def.cage_size = 0.08;
     def.rest = rest;

@@ -17,6 +17,7 @@ std::shared_ptr<const Model> stem_model() {
     frond_organ_material organ = {"stem", plain_material(1000, 1e8, 0.3, 1e-3)};
     frond_model_def def = {};
     def.scale = 1;
+    def.allow_stiffening = INFINITY;
     def.cage_smoothness = 0.5;
     def.cage_size = 0.08;
     def.organs = &organ;

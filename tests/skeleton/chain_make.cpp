@@ -324,7 +324,7 @@ TEST(Chain, IsTheSameEachTime) {
 
 TEST(Chain, RefusesHeightsAndRadiiThatMakeNoSense) {
     const Sketch sketch = leafy_plant(2, true);
-    for (const ChainOptions options :
+    for (const ChainOptions& options :
          {ChainOptions{-1, 0}, ChainOptions{NAN, 0}, ChainOptions{INFINITY, 0}, ChainOptions{1e-9, 0},
           ChainOptions{0, -1}, ChainOptions{0, NAN}, ChainOptions{0, INFINITY}})
         EXPECT_THROW(grow(sketch, options), Error) << options.height << " " << options.radius;

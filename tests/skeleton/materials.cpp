@@ -41,7 +41,8 @@ const Field FIELDS[] = {{"density", &Material::density, 1, 2e4, false},
                         {"creep_rate", &Material::creep_rate, 0, 1e6, true},
                         {"strength", &Material::strength, 1, 1e12, true},
                         {"drag", &Material::drag, 0.01, 10, true},
-                        {"midrib", &Material::midrib, 0, 0.5, true}};
+                        {"midrib", &Material::midrib, 0, 0.5, true},
+                        {"restitution", &Material::restitution, 0, 1, true}};
 
 TEST(Materials, ArePresetForEveryKindAndInRange) {
     for (const char* kind : KINDS) {

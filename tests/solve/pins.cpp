@@ -41,11 +41,13 @@ TEST_P(EveryPin, MovesPinsToTheirTargetWithTheVelocityThatTakes) {
             for (int i = 0; i < rig.node_count(); ++i) {
                 if (!rig.motion.pinned[size_t(i)]) continue;
                 EXPECT_EQ(Vec3(point(rig.motion.x, i)), Vec3(point(rig.motion.pin_target, i)));
-                // The velocity over the step; bdf2's is that at its end, as its history tells.
-                const bool looks_back = rig.settings.integrator == FROND_INTEGRATOR_BDF2 && n > 1;
+                // The velocity over the step; of methods that go on from it that at its end, as their history tells:
+                // generalized-alpha's rates are a little apart in time.
+                const bool is_alpha = rig.settings.integrator == FROND_INTEGRATOR_GENERALIZED_ALPHA;
+                const bool looks_back = (rig.settings.integrator == FROND_INTEGRATOR_BDF2 && n > 1) || is_alpha;
                 const Vec3 mean = (point(rig.motion.x, i) - point(before, i)) / H;
                 const Vec3 velocity = looks_back ? Vec3(mean + 0.5 * Vec3(0.003 / 20 / H, 0, 0)) : mean;
-                EXPECT_NEAR((point(rig.motion.v, i) - velocity).norm(), 0, 1e-12);
+                EXPECT_NEAR((point(rig.motion.v, i) - velocity).norm(), 0, is_alpha ? 0.05 * 0.003 / 20 / H : 1e-12);
             }
         }
         // The free end follows, given enough time.

@@ -32,6 +32,10 @@ double bound_of(const std::string& name) {
         {"release", 0.02},        {"aspect", 0.05},
         {"twig", 0.05},           {"reconfiguration", 0.03},
         {"corn_drift", 1e-3},     {"cucumber_drift", 1e-3},
+        {"cone", 0.01},           {"heavy_cantilever", 0.02},
+        {"bend_45", 0.01},        {"arc", 0.03},
+        {"spinning_rod", 0.03},   {"moving_root", 0.01},
+        {"sliding_block", 0.01},
     };
     const auto bound = bounds.find(name);
     return bound == bounds.end() ? -1 : bound->second;

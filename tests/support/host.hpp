@@ -11,6 +11,7 @@
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+#include <LinearMath/btThreads.h>
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
@@ -32,6 +33,7 @@ struct Host {
     btSphereShape sphere{btScalar(0.05)};
     btRigidBody ground{0, nullptr, &plane};
     btRigidBody ball{1, nullptr, &sphere, btVector3(1, 1, 1)};
+    bool has_set_scheduler = false;
 
     explicit Host(int kind) {
         deformable_solver.setDeformableSolver(&deformable_body_solver);
@@ -40,6 +42,9 @@ struct Host {
                 world = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &solver, &configuration);
                 break;
             case 1:
+                // Where Bullet was built with threads, it steps this world by a scheduler, which the host has to set.
+                has_set_scheduler = !btGetTaskScheduler();
+                if (has_set_scheduler) btSetTaskScheduler(btGetSequentialTaskScheduler());
                 world = std::make_unique<btDiscreteDynamicsWorldMt>(&dispatcher, &broadphase, &pool, nullptr,
                                                                     &configuration);
                 break;
@@ -69,6 +74,7 @@ struct Host {
         if (!world) return;
         world->removeRigidBody(&ball);
         world->removeRigidBody(&ground);
+        if (has_set_scheduler) btSetTaskScheduler(nullptr);
     }
 };
 

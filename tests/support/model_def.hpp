@@ -2,6 +2,8 @@
 // damping but the materials', which must be requested.
 #pragma once
 
+#include <cmath>
+
 #include "modelling/build.hpp"
 
 namespace frond::test {
@@ -9,6 +11,7 @@ namespace frond::test {
 inline frond_model_def model_def() {
     frond_model_def def = {};
     def.cage_smoothness = CageOptions().smoothness;
+    def.allow_stiffening = INFINITY;
     def.scale = 1;
     def.up = {0, 1, 0};
     return def;

@@ -13,7 +13,7 @@
 namespace frond::test {
 
 // The mechanics that move the cage come first in the enum.
-constexpr int TET_MECHANICS = FROND_MECHANICS_TET_NEOHOOKEAN + 1;
+constexpr int TET_MECHANICS = FROND_MECHANICS_ROD;
 
 struct RigSettings : SolveSettings {
     frond_mechanics mechanics;

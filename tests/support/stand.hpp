@@ -6,20 +6,14 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <vector>
 
-#include "frond/frond.h"
+#include "support/must.hpp"
 #include "support/referee.hpp"
 
 namespace frond::test {
 
 constexpr double H = 1.0 / 60;
-
-// Throws the library's error text, which ends a test or a program.
-inline void must(frond_result result) {
-    if (result != FROND_OK) throw std::runtime_error(frond_last_error());
-}
 
 struct Stand {
     frond_world world = {};

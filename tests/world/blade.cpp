@@ -4,16 +4,15 @@
 #include <vector>
 
 #include "frond/frond.h"
+#include "support/must.hpp"
 #include "support/stems.hpp"
 
 namespace blade_tests {
 
+using frond::test::must;
+
 constexpr double H = 1.0 / 60;
 constexpr double LENGTH = 0.3, HALF_WIDTH = 0.06, HEIGHT = 0.5;  // [m]
-
-void must(frond_result result) {
-    ASSERT_EQ(result, FROND_OK) << frond_last_error();
-}
 
 // A blade of 12 by 30 cm, held at one end, that extends level along x.
 struct Shelf {

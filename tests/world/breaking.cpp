@@ -105,6 +105,20 @@ INSTANTIATE_TEST_SUITE_P(Breaking, EveryBreak,
                                          FROND_MECHANICS_ROD),
                          [](const auto& info) { return std::string(frond_mechanics_name(info.param)); });
 
+// What came off is strained by nothing any more. With the shape at the break, a stem that broke at its foot stayed
+// bent, and a picked fruit crumpled.
+TEST_P(EveryBreak, WhatComesOffSpringsBack) {
+    Stem stem(GetParam(), 1.2e7);
+    const auto length = [&] {
+        std::vector<frond_capsule> capsules(size_t(stem.capsule_count()));
+        EXPECT_EQ(frond_plant_get_capsules(stem.plant, capsules.data(), int(capsules.size())), FROND_OK);
+        const frond_vec3 a = capsules.front().begin, b = capsules.back().end;
+        return std::hypot(b.x - a.x, std::hypot(b.y - a.y, b.z - a.z));
+    };
+    ASSERT_GT(stem.pull_until_it_breaks({1, 0, 0}, 40), 0);
+    EXPECT_NEAR(length(), LENGTH, 1e-3 * LENGTH);
+}
+
 // Bending moment at the foot over the section modulus: F L / (pi r^3 / 4). The foot's capsule reports the strain at its
 // middle.
 TEST_P(EveryBreak, AStemBreaksAtItsFootWhereTheFormulaSays) {

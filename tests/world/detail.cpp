@@ -11,15 +11,14 @@
 
 #include "frond/frond.h"
 #include "support/sanitized.hpp"
+#include "support/stand.hpp"
 #include "support/stems.hpp"
 
 namespace detail_tests {
 
-constexpr double H = 1.0 / 60;
+using frond::test::must;
 
-void must(frond_result result) {
-    ASSERT_EQ(result, FROND_OK) << frond_last_error();
-}
+constexpr double H = 1.0 / 60;
 
 double distance(const frond_vec3& a, const frond_vec3& b) {
     return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
@@ -147,26 +146,12 @@ TEST(Detail, IsHandedOverWithoutAJumpBothWays) {
 }
 
 // Stems in a row away from the viewer.
-struct Stand {
-    frond_world world = {};
-    frond_model model = {};
-    std::vector<frond_plant> plants;
-    Stand(int count, double apart, frond_mechanics mechanics = FROND_MECHANICS_ROD) {
-        const frond_world_def def = frond_default_world_def();
-        must(frond_world_create(&def, &world));
+struct RowOfStems : frond::test::Stand {
+    RowOfStems(int count, double apart, frond_mechanics mechanics = FROND_MECHANICS_ROD) {
         model = make_small_model(0, FROND_REST_STANDS_AS_MODELLED);
-        for (int i = 0; i < count; i++) {
-            frond_plant_def plant_def = frond_default_plant_def();
-            plant_def.mechanics = mechanics;
-            plant_def.position = {apart * i, 0, 0};
-            frond_plant plant = {};
-            must(frond_plant_create(world, model, &plant_def, &plant));
-            plants.push_back(plant);
-        }
-    }
-    ~Stand() {
-        frond_world_destroy(world);
-        frond_model_destroy(model);
+        frond_plant_def def = plant_def();
+        def.mechanics = mechanics;
+        for (int i = 0; i < count; i++) add(def, {apart * i, 0, 0});
     }
 };
 
@@ -214,7 +199,7 @@ TEST(Detail, OfPlantsThatTouchChangesWhileTheyDo) {
 }
 
 TEST(Detail, HasHysteresis) {
-    Stand stand(1, 1);
+    RowOfStems stand(1, 1);
     const frond_detail_def def = frond_default_detail_def();
     const auto at = [&](double far) {
         EXPECT_EQ(frond_world_set_viewer(stand.world, {far, 0.3, 0}), FROND_OK);
@@ -236,7 +221,7 @@ TEST(Detail, HasHysteresis) {
 TEST(Detail, SwaysAsTheRodsDo) {
     double lean[2], first_peak[2];
     for (const bool sways : {false, true}) {
-        Stand stand(1, 1);
+        RowOfStems stand(1, 1);
         frond_wind_def wind = frond_default_wind_def();
         wind.velocity = {20, 0, 0};
         wind.turbulence = 0;
@@ -266,7 +251,7 @@ TEST(Detail, SwaysAsTheRodsDo) {
 
 TEST(Detail, OfWhatIsTouchedIsRodsAndOfWhatIsStillNothing) {
     for (const double far : {50.0, 300.0}) {
-        Stand stand(1, 1);
+        RowOfStems stand(1, 1);
         must(frond_world_set_viewer(stand.world, {-far, 0.3, 0}));
         frond_rigid_def ball = frond_default_rigid_def();
         ball.size.x = 0.05;
@@ -289,7 +274,7 @@ TEST(Detail, OfWhatIsTouchedIsRodsAndOfWhatIsStillNothing) {
 }
 
 TEST(Detail, OfStillPlantsIsSleepWhateverBlows) {
-    Stand stand(3, 1);
+    RowOfStems stand(3, 1);
     must(frond_world_set_viewer(stand.world, {500, 0, 0}));
     frond_wind_def wind = frond_default_wind_def();
     wind.velocity = {10, 0, 0};
@@ -309,7 +294,7 @@ double double_of(frond_plant, double far, void* user) {
 }
 
 TEST(Detail, GoesByTheHostsOwnDistanceAndBySize) {
-    Stand stand(1, 1);
+    RowOfStems stand(1, 1);
     int asked = 0;
     frond_detail_def def = frond_default_detail_def();
     def.distance = double_of;
@@ -336,7 +321,7 @@ TEST(Detail, GoesByTheHostsOwnDistanceAndBySize) {
 TEST(Detail, KeepsABudget) {
     if (SANITIZED) GTEST_SKIP() << "a time";
     constexpr int COUNT = 200;
-    Stand stand(COUNT, 0.5);
+    RowOfStems stand(COUNT, 0.5);
     frond_wind_def wind = frond_default_wind_def();
     wind.velocity = {5, 0, 0};
     must(frond_world_set_wind(stand.world, &wind));

@@ -6,15 +6,14 @@
 #include <vector>
 
 #include "frond/frond.h"
+#include "support/must.hpp"
 #include "support/sanitized.hpp"
 
 namespace instances_tests {
 
-constexpr double H = 1.0 / 60;
+using frond::test::must;
 
-void must(frond_result result) {
-    ASSERT_EQ(result, FROND_OK) << frond_last_error();
-}
+constexpr double H = 1.0 / 60;
 
 double kilobytes() {
     const struct mallinfo2 info = mallinfo2();

@@ -8,25 +8,18 @@
 
 #include "frond/frond.h"
 #include "support/sanitized.hpp"
+#include "support/stand.hpp"
 
 namespace sleep_tests {
 
+using frond::test::must;
+
 constexpr double H = 1.0 / 60;
 
-void must(frond_result result) {
-    ASSERT_EQ(result, FROND_OK) << frond_last_error();
-}
-
 // Forked stems of half a metre, some beside each other.
-struct Stand {
-    frond_world world = {};
-    frond_model model = {};
-    std::vector<frond_plant> plants;
-
-    explicit Stand(double sleep_distance = frond_default_world_def().sleep_distance) {
-        frond_world_def def = frond_default_world_def();
-        def.sleep_distance = sleep_distance;
-        must(frond_world_create(&def, &world));
+struct ForkedStems : frond::test::Stand {
+    explicit ForkedStems(double sleep_distance = frond_default_world_def().sleep_distance)
+        : Stand(def_of(sleep_distance)) {
         const frond_stem stems[] = {{-1, {0, 0, 0}, {0, 0.3, 0}, 0.012, 0.01},
                                     {0, {0, 0.3, 0}, {0.15, 0.5, 0}, 0.01, 0.008},
                                     {0, {0, 0.3, 0}, {-0.15, 0.5, 0}, 0.01, 0.008}};
@@ -39,31 +32,15 @@ struct Stand {
         model_def.organ_count = 1;
         must(frond_model_from_stems(stems, 3, &model_def, &model));
     }
-    ~Stand() {
-        frond_world_destroy(world);
-        frond_model_destroy(model);
+    static frond_world_def def_of(double sleep_distance) {
+        frond_world_def def = frond_default_world_def();
+        def.sleep_distance = sleep_distance;
+        return def;
     }
     frond_plant add(double x, frond_mechanics mechanics = FROND_MECHANICS_ROD, double z = 0) {
-        frond_plant_def def = frond_default_plant_def();
-        def.position = {x, 0, z};
+        frond_plant_def def = plant_def();
         def.mechanics = mechanics;
-        frond_plant plant = {};
-        must(frond_plant_create(world, model, &def, &plant));
-        plants.push_back(plant);
-        return plant;
-    }
-    void steps(int count) {
-        for (int i = 0; i < count; i++) must(frond_world_step(world, H));
-    }
-    frond_report report() const {
-        frond_report report = {};
-        must(frond_world_get_report(world, &report));
-        return report;
-    }
-    std::vector<double> places(frond_plant plant) const {
-        std::vector<double> out(3 * size_t(frond_plant_get_node_count(plant)));
-        must(frond_plant_get_state(plant, out.data(), nullptr, int(out.size() / 3)));
-        return out;
+        return Stand::add(def, {x, 0, z});
     }
     void pull(frond_plant plant, int count) {
         for (int i = 0; i < count; i++) {
@@ -89,8 +66,8 @@ INSTANTIATE_TEST_SUITE_P(Mechanics, Sleep,
 
 TEST_P(Sleep, ChangesNothingByMoreThanATenthOfAMillimetre) {
     if (SANITIZED && GetParam() != FROND_MECHANICS_ROD) GTEST_SKIP() << "a figure";
-    Stand sleeps, stays_awake(0);
-    for (Stand* stand : {&sleeps, &stays_awake}) {
+    ForkedStems sleeps, stays_awake(0);
+    for (ForkedStems* stand : {&sleeps, &stays_awake}) {
         stand->add(0, GetParam());
         stand->pull(stand->plants[0], 30);
     }
@@ -114,7 +91,7 @@ TEST_P(Sleep, ChangesNothingByMoreThanATenthOfAMillimetre) {
 
 // A plant whose foot is in the ground from the start is not pushed out of it when it wakes.
 TEST(Sleep, FromTheStartLeavesAPlantWhereItStands) {
-    Stand stand;
+    ForkedStems stand;
     frond_rigid_def ground = frond_default_rigid_def();
     ground.shape = FROND_SHAPE_PLANE;
     ground.state.position.y = 0.05;
@@ -136,7 +113,7 @@ TEST(Sleep, FromTheStartLeavesAPlantWhereItStands) {
 }
 
 TEST_P(Sleep, ComesNotWhileAPlantSways) {
-    Stand stand;
+    ForkedStems stand;
     const frond_plant plant = stand.add(0, GetParam());
     stand.pull(plant, 30);
     std::vector<double> before = stand.places(plant);
@@ -151,7 +128,7 @@ TEST_P(Sleep, ComesNotWhileAPlantSways) {
 
 // Each cause wakes a sleeping plant, and that one only.
 TEST(Wake, ComesFromAllThatMovesAPlant) {
-    Stand stand;
+    ForkedStems stand;
     const frond_plant plant = stand.add(0), other = stand.add(2);
     const std::vector<double> modelled = stand.places(plant);
     frond_grab grab = {};
@@ -219,7 +196,7 @@ TEST(Wake, ComesFromAllThatMovesAPlant) {
 
 // A kinematic body, which is filtered like static ones, wakes a plant that never moved; so does the next one.
 TEST(Wake, ComesFromWhatTheHostCarriesIntoAPlant) {
-    Stand stand;
+    ForkedStems stand;
     frond_plant_def def = frond_default_plant_def();
     def.mechanics = FROND_MECHANICS_ROD;
     def.starts_asleep = true;
@@ -250,7 +227,7 @@ TEST(Wake, ComesFromWhatTheHostCarriesIntoAPlant) {
 }
 
 TEST(Wake, ComesToAllFromWhatIsOfTheWorld) {
-    Stand stand;
+    ForkedStems stand;
     stand.add(0);
     stand.add(2);
     frond_wind_def wind = frond_default_wind_def();
@@ -291,7 +268,7 @@ TEST(Wake, GoesOnFromPlantToPlant) {
     std::vector<frond_mechanics> all = {FROND_MECHANICS_ROD};
     if (!SANITIZED) all.push_back(FROND_MECHANICS_TET_COROTATIONAL);
     for (const frond_mechanics mechanics : all) {
-        Stand stand;
+        ForkedStems stand;
         for (int i = 0; i < 4; i++) stand.add(0.29 * i, mechanics);
         stand.add(3, mechanics);
         ASSERT_TRUE(stand.rests_within(mechanics == FROND_MECHANICS_ROD ? 10 : 40));
@@ -311,7 +288,7 @@ TEST(Wake, GoesOnFromPlantToPlant) {
 
 // A board on the tips of two plants keeps them awake until it rests too; after it is removed, they spring back.
 TEST(Wake, ComesWhenWhatLayOnAPlantIsTakenAway) {
-    Stand stand;
+    ForkedStems stand;
     for (const double z : {-0.1, 0.1}) stand.add(0, FROND_MECHANICS_ROD, z);
     const std::vector<double> alone = stand.places(stand.plants[0]);
     frond_rigid_def def = frond_default_rigid_def();
@@ -343,7 +320,7 @@ TEST(Wake, ComesWhenWhatLayOnAPlantIsTakenAway) {
 }
 
 TEST(Wake, DoesNotComeFromWhatIsRefused) {
-    Stand stand;
+    ForkedStems stand;
     const frond_plant plant = stand.add(0);
     const std::vector<double> places = stand.places(plant);
     const int count = int(places.size() / 3);

@@ -11,15 +11,14 @@
 #include <vector>
 
 #include "frond/frond.h"
+#include "support/must.hpp"
 #include "support/stems.hpp"
 
 namespace threads_tests {
 
-constexpr double H = 1.0 / 60;
+using frond::test::must;
 
-void must(frond_result result) {
-    ASSERT_EQ(result, FROND_OK) << frond_last_error();
-}
+constexpr double H = 1.0 / 60;
 
 // A game's job system, reduced to a minimum.
 struct Team {

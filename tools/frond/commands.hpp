@@ -8,6 +8,7 @@ namespace frond::tools {
 
 void add_inspect(CLI::App& app);
 void add_cook(CLI::App& app);
+void add_gallery(CLI::App& app);
 void add_run(CLI::App& app);
 void add_view(CLI::App& app);
 void add_grow(CLI::App& app);

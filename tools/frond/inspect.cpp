@@ -1,20 +1,22 @@
 // frond inspect FILE: prints what was read and repaired, the cage and the chain.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "studio/studio.hpp"
+#include "studio/organ_picture.hpp"
+#include "write_corrections.hpp"
 
 namespace frond::tools {
 namespace {
 
 struct InspectOptions {
-    std::string file, shot;
-    bool json = false;
+    std::string file, shot, picture;
+    bool json = false, write = false;
     std::vector<std::string> assignments;
     View view;
 };
@@ -32,7 +34,8 @@ nlohmann::ordered_json describe_material(const frond_material& material) {
             {"creep_rate", material.creep_rate},
             {"strength", material.strength},
             {"drag", material.drag},
-            {"midrib", material.midrib}};
+            {"midrib", material.midrib},
+            {"restitution", material.restitution}};
 }
 
 nlohmann::ordered_json describe_organ(const frond_organ& organ) {
@@ -191,6 +194,7 @@ void print_model(const nlohmann::ordered_json& out) {
 
 void inspect(const InspectOptions& options) {
     Settings settings;
+    settings.model.allow_stiffening = INFINITY;  // what is too weak is to be seen, too
     for (const std::string& assignment : options.assignments) apply_setting(settings, assignment);
     Stage stage(settings);
     const frond_model model = stage.load(options.file);
@@ -199,8 +203,11 @@ void inspect(const InspectOptions& options) {
         std::printf("%s\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     else
         print_model(out);
-    if (options.shot.empty()) return;
+    if (options.write) std::printf("wrote %s\n", write_corrections(model, options.file).c_str());
+    if (options.shot.empty() && options.picture.empty()) return;
     stage.plant(model, {0, 0, 0});
+    if (!options.picture.empty()) draw_organs(stage, options.view).write(options.picture);
+    if (options.shot.empty()) return;
     Studio studio(options.view);
     studio.shoot(stage);
     studio.write(options.shot);
@@ -215,9 +222,17 @@ void add_inspect(CLI::App& app) {
     command->add_option("file", options->file, "a plant file: .obj .ply .glb .gltf .fbx .dae .stl .msh .vtk .urdf")
         ->required();
     command->add_flag("--json", options->json, "print JSON");
+    command->add_flag("--write", options->write,
+                      "write MESH.frond.json beside the file: what was found, to be corrected by hand");
     command->add_option("--shot", options->shot, "write a picture (PNG) with cage and capsules")
         ->check(file_ending_in(".png"));
+    command
+        ->add_option("--picture", options->picture,
+                     "write a picture (PNG) of the organs in colours with their names and weights, chain and roots")
+        ->check(file_ending_in(".png"));
     command->add_option("--overlay", options->view.overlays, "cage, faces, capsules")->delimiter(',');
+    command->add_option("--width", options->view.width, "of pictures [pixel]")->check(CLI::Range(64, 4096));
+    command->add_option("--height", options->view.height, "of pictures [pixel]")->check(CLI::Range(64, 4096));
     command->add_option("--set", options->assignments, "key=value, may be repeated; see frond run --help");
     command->callback([options] { inspect(*options); });
 }

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
     frond::tools::add_run(app);
     frond::tools::add_cook(app);
 #ifndef FROND_WITHOUT_PICTURES
+    frond::tools::add_gallery(app);
     frond::tools::add_view(app);
     frond::tools::add_grow(app);
     frond::tools::add_bench(app);

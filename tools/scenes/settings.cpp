@@ -147,6 +147,8 @@ const std::vector<Key>& keys() {
         real("cage_size", "edge of a cage cell [m], 0: chosen", &Settings::model, &frond_model_def::cage_size),
         real("cage_offset", "reach outside the surface [m]", &Settings::model, &frond_model_def::cage_offset),
         real("cage_smoothness", "0..1", &Settings::model, &frond_model_def::cage_smoothness),
+        real("allow_stiffening", "largest factor by which organs may be made stiffer", &Settings::model,
+             &frond_model_def::allow_stiffening),
         choice("mechanics", "row of the table", FROND_MECHANICS_COUNT, frond_mechanics_name, &Settings::plant,
                &frond_plant_def::mechanics),
         {"rest", "as_modelled, or without_gravity: then it droops",

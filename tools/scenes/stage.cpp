@@ -129,7 +129,9 @@ std::string model_path(const std::string& name) {
     std::error_code none;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
     folders.push_back((program.parent_path() / FROND_MODELS_FROM_PROGRAM).string());
+#ifdef FROND_MODELS_BUILD_PATH
     folders.push_back(FROND_MODELS_BUILD_PATH);
+#endif
     for (const std::string& folder : folders) {
         const std::filesystem::path path = std::filesystem::path(folder) / name;
         if (std::filesystem::exists(path)) return path.string();

@@ -20,18 +20,18 @@ frond_model model_of_corn() {
     return made;
 }
 
-struct Stand {
+struct StandingCorn {
     frond_plant plant;
     std::vector<int> foot;
     Places rest;
 };
 
-Stand stand_on_ground(Bench& bench) {
+StandingCorn stand_on_ground(Bench& bench) {
     bench.box = 1e6;
     frond_rigid_def ground = frond_default_rigid_def();
     ground.shape = FROND_SHAPE_PLANE;
     bench.add(ground);
-    Stand corn = {bench.add(model_of_corn()), {}, {}};
+    StandingCorn corn = {bench.add(model_of_corn()), {}, {}};
     corn.rest = bench.places(corn.plant);
     // Only pinned nodes can be moved.
     for (size_t i = 0; i < corn.rest.size(); i++)
@@ -39,13 +39,13 @@ Stand stand_on_ground(Bench& bench) {
     return corn;
 }
 
-void come_back(Bench& bench, const Stand& corn) {
+void come_back(Bench& bench, const StandingCorn& corn) {
     bench.run(CORN_BACK);
     bench.expect_shape(corn.plant, corn.rest, NEAR_DRIVEN);
 }
 
 void scatter_corn(Bench& bench) {
-    const Stand corn = stand_on_ground(bench);
+    const StandingCorn corn = stand_on_ground(bench);
     Places places = corn.rest;
     for (frond_vec3& p : places)
         p = p + SIZE * frond_vec3{bench.between(-0.5, 0.5), bench.between(-0.5, 0.5), bench.between(-0.5, 0.5)};
@@ -57,7 +57,7 @@ void scatter_corn(Bench& bench) {
 // The plant is struck by forces of up to ten million times a leaf's weight.
 void strike(Bench& bench) {
     constexpr int NODES = 5;
-    const Stand corn = stand_on_ground(bench);
+    const StandingCorn corn = stand_on_ground(bench);
     bench.run(BLOWS, [&](double) {
         for (int i = 0; i < NODES; i++) {
             const size_t node = bench.random() % corn.rest.size();
@@ -73,7 +73,7 @@ void strike(Bench& bench) {
 // The plant is dragged at single points, by springs soft to hard, to and fro by more than its length.
 void drag(Bench& bench) {
     constexpr int TIMES = 3;
-    const Stand corn = stand_on_ground(bench);
+    const StandingCorn corn = stand_on_ground(bench);
     for (int i = 0; i < TIMES; i++) {
         const size_t node = bench.random() % corn.rest.size();
         const frond_vec3 way = {bench.between(-3, 3), bench.between(-1, 3), bench.between(-3, 3)};
@@ -89,7 +89,7 @@ void drag(Bench& bench) {
 
 // The foot is moved by less than the plant's size, so that this does not count as a teleport.
 void jerk(Bench& bench) {
-    const Stand corn = stand_on_ground(bench);
+    const StandingCorn corn = stand_on_ground(bench);
     for (const frond_vec3& way : {frond_vec3{0.6 * SIZE, 0.6 * SIZE, 0}, frond_vec3{}}) {
         bench.move(corn.plant, corn.foot, [&](const frond_vec3& p) { return p + way; });
         bench.run(BLOWS);
@@ -101,7 +101,7 @@ void jerk(Bench& bench) {
 void fling(Bench& bench) {
     constexpr double LIES = 1, SLOW = 1;  // mean displacement over size, as it may lie on the ground [-]; [m/s]
     bench.plant_def.effects |= FROND_EFFECT_PLASTICITY;
-    const Stand corn = stand_on_ground(bench);
+    const StandingCorn corn = stand_on_ground(bench);
     must(frond_world_set_gravity(bench.world(), {650, 50, 850}));
     bench.run(BLOWS);
     must(frond_world_set_gravity(bench.world(), {0, -9.81, 0}));

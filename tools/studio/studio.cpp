@@ -55,10 +55,16 @@ void draw_stage(frond_picture* picture, const Stage& stage, uint32_t what) {
     for (frond_grab grab : stage.grabs) must(frond_picture_draw_grab(picture, grab));
 }
 
-const uint8_t* Studio::shoot(const Stage& stage) {
+frond_picture_scene Studio::draw(const Stage& stage, const std::function<void(frond_picture*)>& draw) {
     const frond_picture_scene scene =
         frame_stage(stage, view.azimuth, view.elevation, double(view.width) / view.height);
     must(frond_picture_begin(picture, &scene));
+    draw(picture);
+    must(frond_picture_end(picture));
+    return scene;
+}
+
+const uint8_t* Studio::shoot(const Stage& stage) {
     const auto wants = [&](const char* overlay) {
         return std::find(view.overlays.begin(), view.overlays.end(), overlay) != view.overlays.end();
     };
@@ -67,9 +73,8 @@ const uint8_t* Studio::shoot(const Stage& stage) {
     if (wants("faces")) what |= FROND_PICTURE_CAGE_FACES;
     if (wants("capsules")) what |= FROND_PICTURE_CAPSULES;
     if (wants("contacts")) what |= FROND_PICTURE_CONTACTS;
-    draw_stage(picture, stage, what);
-    must(frond_picture_end(picture));
-    return frond_picture_get_pixels(picture);
+    draw(stage, [&](frond_picture*) { draw_stage(picture, stage, what); });
+    return pixels();
 }
 
 void Studio::write(const std::string& png_path) {

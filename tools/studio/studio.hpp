@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 #include "picture/frond_picture.h"
@@ -24,6 +25,9 @@ public:
     ~Studio();
     // Draws the stage; the pixels are valid until the next call.
     const uint8_t* shoot(const Stage& stage);
+    // Draws what `draw` puts into a frame for which the stage is framed; returns the scene. Pixels as above.
+    frond_picture_scene draw(const Stage& stage, const std::function<void(frond_picture*)>& draw);
+    const uint8_t* pixels() const { return frond_picture_get_pixels(picture); }
     void write(const std::string& png_path);
 
 private:

@@ -24,6 +24,19 @@ Outcome run_torsion(const Setup& setup, Session& session);
 Outcome run_greenhill(const Setup& setup, Session& session);
 Outcome run_peers(const Setup& setup, Session& session);
 
+Setup stem_baseline();       // rods of a stem of Frond's own, 20 capsules
+Setup free_stem_baseline();  // the same, not held anywhere
+Setup carried_baseline();    // a cage with damping proportional to stiffness
+Outcome run_heavy_cantilever(const Setup& setup, Session& session);
+Outcome run_cone(const Setup& setup, Session& session);
+Outcome run_bend_45(const Setup& setup, Session& session);
+Outcome run_arc(const Setup& setup, Session& session);
+Outcome run_lateral_tip(const Setup& setup, Session& session);
+Outcome run_lateral_weight(const Setup& setup, Session& session);
+Outcome run_spinning_rod(const Setup& setup, Session& session);
+Outcome run_moving_root(const Setup& setup, Session& session);
+Outcome run_sliding_block(const Setup& setup, Session& session);
+
 Outcome run_free_fall(const Setup& setup, Session& session);
 Outcome run_frequencies(const Setup& setup, Session& session);
 Outcome run_damping(const Setup& setup, Session& session);

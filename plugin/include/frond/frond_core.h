@@ -241,6 +241,10 @@ typedef struct frond_material {
      * carried by a rib that the file does not show. The presets of blades have 1/20 (maize: 4 mm of 80 mm). Blades and
      * flowers bend at least as stiffly as the rib, and twist by the sum of both; it adds no mass. */
     double midrib;
+    /* Speed at which a body bounces off over that at which it came, at the place that it hits [-], 0 .. 1; times the
+     * body's own, as Bullet does it. It counts above 0.5 m/s, with FROND_RESPONSE_IMPULSE, and not among plants. What
+     * the plant gives back by its own spring comes on top. 0 in the presets. */
+    double restitution;
 } frond_material;
 /* A material for the organs of one kind or name: see frond_model_def.organs. */
 typedef struct frond_organ_material {
@@ -254,6 +258,15 @@ FROND_API frond_material frond_default_material(void);
  * and "grass_blade", given to stems and blades whose name or material names a grass. Sources stand in
  * plugin/src/skeleton/materials.cpp. BAD_ARGUMENT names the kinds there are. */
 FROND_API frond_result frond_material_preset(const char* kind, frond_material* out);
+
+/* What a person says about an organ where Frond's guess is wrong: see frond_model_def.corrections. */
+typedef struct frond_organ_correction {
+    const char* organ;  /* its name as Frond finds it without corrections: see frond_model_get_organ */
+    const char* kind;   /* "stem", "blade" ..., with its preset, or "grass_blade"; null: as found */
+    const char* parent; /* name of the organ that it grows out of, if it is a mesh of its own; null: as found */
+    bool is_root;       /* it stands in the ground; if one organ is said to, the others do not */
+    bool leave_out;     /* it is no part of the plant: neither simulated nor drawn */
+} frond_organ_correction;
 
 typedef struct frond_model_def {
     uint32_t cookie;        /* do not set */
@@ -271,6 +284,15 @@ typedef struct frond_model_def {
     const frond_organ_material* organs; /* override presets, by organ name or kind; the last match wins; BAD_ARGUMENT
                                          * for one that no organ has */
     int organ_count;
+    /* Largest factor by which organs may be made stiffer than their materials so that the plant carries itself [-], 1
+     * and more, default 3. Leaves first get the midribs that a file does not show. A plant that needs more is
+     * BAD_GEOMETRY, with a text that names the organ and what to set; INFINITY takes any plant, with a warning. */
+    double allow_stiffening;
+    /* Corrections of organs, BAD_ARGUMENT for one of an organ that is not found. For mesh files they come on top of
+     * those in a file (manual/import.md); scale and up here win over those there. Not for tets and .urdf. */
+    const frond_organ_correction* corrections;
+    int correction_count;
+    const char* corrections_file; /* null (default): MESH.frond.json beside MESH.obj ..., if it is there; "": none */
 } frond_model_def;
 
 /* One tapered straight segment. parent is an index into the same array (smaller than its own), or -1 for a root. */
@@ -279,6 +301,27 @@ typedef struct frond_stem {
     frond_vec3 begin, end;           /* [m] */
     double radius_begin, radius_end; /* [m] */
 } frond_stem;
+
+/* Outlines of a stem's section. */
+typedef enum frond_outline {
+    FROND_OUTLINE_ROUND,     /* of the stem's radii */
+    FROND_OUTLINE_RECTANGLE, /* of the given width and thickness; drawn and touched as round ones are */
+    FROND_OUTLINE_COUNT
+} frond_outline;
+
+/* Section of a stem, where it is not a solid disk of its organ's material. All zero: it is that. A curved stem is a row
+ * of straight ones. */
+typedef struct frond_stem_section {
+    frond_outline outline;
+    double width, thickness; /* of a rectangle at the stem's begin, thickness the smaller one [m]; they taper with the
+                              * radii */
+    frond_vec3 thin;         /* direction of the thickness at the begin; its part along the stem does not count, and
+                              * (0, 0, 0) leaves it open */
+    double twist;            /* how far the section turns about the axis from begin to end [rad], -1000 .. 1000 */
+    double hollow;           /* inner over outer size [-], 0 .. 0.98; 0: as the organ's material says. Exact for round
+                              * sections, and for a rectangle's bending */
+    double young_begin, young_end; /* Young's modulus at both ends, linear between [Pa]; 0: the material's */
+} frond_stem_section;
 
 typedef struct frond_model_info {
     /* surface */
@@ -362,6 +405,9 @@ FROND_API frond_result frond_model_from_triangles(const float* xyz, int vertex_c
 /* Makes a model from a tree of tapered segments, and its surface with it. */
 FROND_API frond_result frond_model_from_stems(const frond_stem* stems, int stem_count, const frond_model_def* def,
                                               frond_model* out);
+/* Makes a model from a tree of tapered segments with sections of their own. sections: stem_count. */
+FROND_API frond_result frond_model_from_stem_sections(const frond_stem* stems, const frond_stem_section* sections,
+                                                      int stem_count, const frond_model_def* def, frond_model* out);
 /* Makes a model from the caller's own tets, simulated as they are, node by node. xyz: node_count*3 [m]; tets:
  * tet_count*4, in either orientation. The surface is the tets' boundary. scale and up of the def apply, the cage fields
  * do not. */
@@ -619,6 +665,7 @@ typedef struct frond_rigid_def {
     frond_vec3 size;         /* see FROND_SHAPES; default 0.1 each */
     double mass;             /* [kg]; default 1; 0: nothing moves it but frond_rigid_set_state */
     double friction;         /* default 0.5; Bullet multiplies it by the other body's or organ's */
+    double restitution;      /* 0 (default) .. 1 [-]; Bullet multiplies it by the other body's or organ's */
     frond_rigid_state state; /* at the beginning; default at the origin, at rest */
 } frond_rigid_def;
 

@@ -91,6 +91,51 @@ FROND_API frond_result frond_plant_get_air_force(frond_plant plant, frond_vec3* 
 /* Computes the momentum of all nodes together, in the world's frame [kg m/s]. */
 FROND_API frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out);
 
+/* ---- the chain's own loads, state and section forces ---------------------------------------------------------------
+ * Chain nodes are those of frond_model_get_chain, capsules those of frond_plant_get_capsules. State and section forces
+ * are of FROND_MECHANICS_ROD and FROND_MECHANICS_SPRING_CHAIN, whose nodes turn; with tets they are UNSUPPORTED. */
+
+/* Returns the number of chain nodes; 0 for an invalid handle. */
+FROND_API int frond_plant_get_chain_node_count(frond_plant plant);
+/* Adds a force [N] and a moment [N m] on a chain node for the next frond_world_step (all its substeps) only, in the
+ * world's frame: they keep their directions. Loads on one node add up, with those of frond_plant_add_force. With tets
+ * the moment is a couple of forces on the corners of the tet that the node is in. */
+FROND_API frond_result frond_plant_add_chain_load(frond_plant plant, int chain_node, frond_vec3 force,
+                                                  frond_vec3 moment);
+/* Adds a force per length of a capsule as it is modelled [N/m], likewise. Its ends get what makes a beam bend as under
+ * the load itself: half of it each, and the moments of a beam that is clamped at both ends. */
+FROND_API frond_result frond_plant_add_distributed_load(frond_plant plant, int capsule, frond_vec3 force_per_length);
+
+/* Motion of a chain node in the world's frame. A node's rotation is that of the plant's material there from how it was
+ * modelled: that of the plant's def as long as nothing is bent. */
+typedef struct frond_chain_state {
+    frond_vec3 position;         /* [m] */
+    frond_quat rotation;         /* need not have length one when it is set */
+    frond_vec3 velocity;         /* [m/s] */
+    frond_vec3 angular_velocity; /* [rad/s] */
+} frond_chain_state;
+/* Copies the motion of all chain nodes. chain_node_count must be the plant's; out: chain_node_count. */
+FROND_API frond_result frond_plant_get_chain_state(frond_plant plant, frond_chain_state* out, int chain_node_count);
+/* Sets the motion of all chain nodes, as above, exactly. It moves pinned nodes too: they stay where they are put. Nodes
+ * of fragments stay with these. */
+FROND_API frond_result frond_plant_set_chain_state(frond_plant plant, const frond_chain_state* states,
+                                                   int chain_node_count);
+
+/* Elastic force and moment in the middle of a capsule, of what is beyond it (towards its end) on what is before it. */
+typedef struct frond_section_force {
+    frond_vec3 axis;     /* direction from the capsule's begin to its end, world frame, length one */
+    frond_vec3 thin;     /* direction across it, where it is thinnest; `wide` is axis x thin */
+    double tension;      /* force along axis: below zero it is pressed [N] */
+    double shear_thin;   /* force along thin [N] */
+    double shear_wide;   /* force along wide [N] */
+    double twist;        /* moment about axis [N m] */
+    double bending_thin; /* moment that bends the axis towards thin, about wide [N m] */
+    double bending_wide; /* moment that bends the axis towards wide, about minus thin [N m] */
+} frond_section_force;
+/* Computes the section forces of all capsules: what statics says of the loads beyond, for a plant at rest. 0 for
+ * fragments. capsule_count must be the plant's; out: capsule_count. */
+FROND_API frond_result frond_plant_get_section_forces(frond_plant plant, frond_section_force* out, int capsule_count);
+
 /* ---- energy ledger: what was given to plants, and what became of it -----------------------------------------------
  */
 

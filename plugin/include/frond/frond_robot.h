@@ -121,9 +121,9 @@ FROND_API frond_result frond_robot_bond(frond_plant plant, frond_vec3 point, fro
 FROND_API frond_result frond_model_write_urdf(frond_model model, const char* path);
 
 /* Computes the force that holds a plant, of the ground on its pinned nodes, in the world's frame [N], and its moment
- * about `about` [N m]. Either may be null. Elastic forces and weight after the last substep count; damping forces
- * do not, so that it is exact for a plant at rest, where it is the opposite of the plant's weight and of all loads
- * beyond its foot. */
+ * about `about` [N m]. Either may be null. It is what weight, elastic and damping forces after the last substep leave to
+ * be held, and what pins that move take to be accelerated: for a plant at rest, and for one that is carried evenly, the
+ * opposite of its weight and of all loads beyond its foot. */
 FROND_API frond_result frond_plant_get_root_force(frond_plant plant, frond_vec3 about, frond_vec3* force,
                                                   frond_vec3* moment);
 

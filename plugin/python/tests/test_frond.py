@@ -95,6 +95,12 @@ def test_state_surface_and_forces_are_arrays(stem):
     plant.set_mechanics("rod")
     plant.set_integrator(frond.Integrator.SDIRK2)
     assert plant.definition.integrator == frond.Integrator.SDIRK2
+    states = plant.chain_state
+    assert len(states) == plant.chain_node_count and states[0].rotation.shape == (4,)
+    plant.set_chain_state(states)
+    plant.add_chain_load(plant.chain_node_count - 1, moment=(0, 0, 1e-3))
+    plant.add_distributed_load(0, (0.1, 0, 0))
+    assert len(plant.section_forces) == plant.capsule_count and plant.section_forces[0].tension < 0
     plant.set_plastic(plant.get_plastic())
     plant.pin(plant.node_count - 1)
     plant.move_pin(plant.node_count - 1, x[-1] + [0.01, 0, 0])

@@ -45,9 +45,12 @@ inline void check_range(double value, double low, double high, const char* name)
 inline void check_vec(const frond_vec3& p, const char* name) {
     for (double value : {p.x, p.y, p.z}) check_range(value, -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
 }
+inline void check_count(int given, int own, const char* name) {
+    if (given != own) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; this plant has %d", name, given, own);
+}
 // Checks a name or a path: none in a file system or a mesh is longer than the limit.
 inline void check_text(const char* text, const char* name) {
-    constexpr size_t LONGEST = 4096;
+    constexpr size_t LONGEST = 4096;  // of a path on Linux [byte]
     check_pointer(text, name);
     if (strnlen(text, LONGEST + 1) > LONGEST)
         fail(FROND_RESULT_BAD_ARGUMENT, "%s has more than %zu characters; pass a shorter one", name, LONGEST);

@@ -74,6 +74,11 @@ Bond& get(frond_bond bond) {
     return *found;
 }
 
+void show(PlantBody& body) {
+    move_capsules(body);
+    body.world->bullet->updateSingleAabb(&body);
+}
+
 Plant& awaken(PlantBody& body) {
     wake(body);
     end_sway(body);

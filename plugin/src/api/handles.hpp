@@ -35,6 +35,8 @@ Bond& get(frond_bond bond);
 
 // Wakes a plant that is about to be changed, after all arguments were checked: it is stepped in full again.
 Plant& awaken(PlantBody& body);
+// Updates capsules and box after the nodes were moved.
+void show(PlantBody& body);
 
 // Releases the handles of a plant, its grabs, bonds and fragments; the plant itself belongs to the world.
 void forget(PlantBody& body);

@@ -21,11 +21,18 @@ static void check_model_def(const frond_model_def* def) {
     check_range(def->cage_size, 0, 1e6, "def.cage_size [m]");
     check_range(def->cage_offset, 0, 1e6, "def.cage_offset [m]");
     check_range(def->cage_smoothness, 0, 1, "def.cage_smoothness");
+    if (!(def->allow_stiffening >= 1))
+        fail(FROND_RESULT_BAD_ARGUMENT,
+             "def.allow_stiffening is %g; give the largest factor that organs may be made stiffer by, 1 and more",
+             def->allow_stiffening);
     if (number_of(def->rest) < 0 || number_of(def->rest) >= FROND_REST_COUNT)
         fail(FROND_RESULT_BAD_ARGUMENT, "def.rest is %d; use FROND_REST_*", number_of(def->rest));
     check_range(def->organ_count, 0, 10000, "def.organ_count");
     if (def->organ_count > 0) check_pointer(def->organs, "def.organs");
     for (int i = 0; i < def->organ_count; i++) check_text(def->organs[i].organ, "def.organs[].organ");
+    check_range(def->correction_count, 0, 100000, "def.correction_count");
+    if (def->correction_count > 0) check_pointer(def->corrections, "def.corrections");
+    for (int i = 0; i < def->correction_count; i++) check_text(def->corrections[i].organ, "def.corrections[].organ");
 }
 
 static frond_model insert_model(std::shared_ptr<const Model> model) {
@@ -39,14 +46,16 @@ static void check_no_wish(const frond_model_def& def) {
     const frond_model_def plain = frond_default_model_def();
     const char* wish = def.scale != plain.scale                                                         ? "scale"
                        : Vec3(def.up.x, def.up.y, def.up.z) != Vec3(plain.up.x, plain.up.y, plain.up.z) ? "up"
-                       : def.capsule_height != plain.capsule_height   ? "capsule_height"
-                       : def.capsule_radius != plain.capsule_radius   ? "capsule_radius"
-                       : def.cage_size != plain.cage_size             ? "cage_size"
-                       : def.cage_offset != plain.cage_offset         ? "cage_offset"
-                       : def.cage_smoothness != plain.cage_smoothness ? "cage_smoothness"
-                       : def.rest != plain.rest                       ? "rest"
-                       : def.organ_count != 0                         ? "organs"
-                                                                      : nullptr;
+                       : def.capsule_height != plain.capsule_height     ? "capsule_height"
+                       : def.capsule_radius != plain.capsule_radius     ? "capsule_radius"
+                       : def.cage_size != plain.cage_size               ? "cage_size"
+                       : def.cage_offset != plain.cage_offset           ? "cage_offset"
+                       : def.cage_smoothness != plain.cage_smoothness   ? "cage_smoothness"
+                       : def.rest != plain.rest                         ? "rest"
+                       : def.organ_count != 0                           ? "organs"
+                       : def.allow_stiffening != plain.allow_stiffening ? "allow_stiffening"
+                       : def.correction_count != 0                      ? "corrections"
+                                                                        : nullptr;
     if (wish)
         fail(FROND_RESULT_BAD_ARGUMENT,
              "def.%s is set, but a cooked model is as it was built; pass frond_default_model_def(), or set it and cook "
@@ -172,6 +181,16 @@ frond_result frond_model_from_stems(const frond_stem* stems, int stem_count, con
         check_pointer(stems, "stems");
         check_range(stem_count, 1, 100000, "stem_count");
         return build_from_stems(stems, stem_count, *def);
+    });
+}
+
+frond_result frond_model_from_stem_sections(const frond_stem* stems, const frond_stem_section* sections, int stem_count,
+                                            const frond_model_def* def, frond_model* out) {
+    return open_model(def, out, [&] {
+        check_pointer(stems, "stems");
+        check_pointer(sections, "sections");
+        check_range(stem_count, 1, 100000, "stem_count");
+        return build_from_stems(stems, stem_count, *def, sections);
     });
 }
 

@@ -49,19 +49,9 @@ static void check_node(const Plant& plant, int node) {
         fail(FROND_RESULT_BAD_ARGUMENT, "node is %d; this plant has nodes 0 .. %d", node, node_count_of(plant) - 1);
 }
 
-static void check_count(int given, int own, const char* name) {
-    if (given != own) fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; this plant has %d", name, given, own);
-}
-
 static void check_numbers(const double* numbers, int count, const char* name) {
     if (!numbers) return;
     for (int i = 0; i < count; i++) check_range(numbers[i], -LARGEST_COORDINATE, LARGEST_COORDINATE, name);
-}
-
-// Updates capsules and box after the nodes were moved.
-static void show(PlantBody& body) {
-    move_capsules(body);
-    body.world->bullet->updateSingleAabb(&body);
 }
 
 // Returns the capsule that ends at a chain node.

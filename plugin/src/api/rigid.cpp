@@ -11,18 +11,11 @@ static void check_state(const frond_rigid_state& state) {
     const double length = Quat(q.w, q.x, q.y, q.z).norm();
     if (!(length > 1e-9 && length < 1e9))
         fail(FROND_RESULT_BAD_ARGUMENT, "state.rotation has no direction; (0,0,0,1) is none");
-    constexpr double FASTEST = 1e6;
+    constexpr double FASTEST = 1e6;  // [m/s] and [rad/s]
     for (double v : {state.velocity.x, state.velocity.y, state.velocity.z})
         check_range(v, -FASTEST, FASTEST, "state.velocity [m/s]");
     for (double v : {state.angular_velocity.x, state.angular_velocity.y, state.angular_velocity.z})
         check_range(v, -FASTEST, FASTEST, "state.angular_velocity [rad/s]");
-}
-
-// Returns how many of the size's three numbers a shape has.
-static int size_count(int shape) {
-    static const int COUNTS[] = {1, 3, 2, 2, 2, 0};
-    static_assert(sizeof COUNTS / sizeof COUNTS[0] == FROND_SHAPE_COUNT, "every shape needs its size");
-    return COUNTS[shape];
 }
 
 static void check_rigid_def(const frond_rigid_def* def) {
@@ -31,9 +24,10 @@ static void check_rigid_def(const frond_rigid_def* def) {
     if (shape < 0 || shape >= FROND_SHAPE_COUNT)
         fail(FROND_RESULT_BAD_ARGUMENT, "def.shape is %d; use one of frond_shape's names", shape);
     const double size[] = {def->size.x, def->size.y, def->size.z};
-    for (int i = 0; i < size_count(shape); i++) check_range(size[i], 1e-4, 1e4, "def.size [m]");
+    for (int i = 0; i < size_count(frond_shape(shape)); i++) check_range(size[i], 1e-4, 1e4, "def.size [m]");
     if (def->mass != 0) check_range(def->mass, 1e-6, 1e9, "def.mass [kg]");
     check_range(def->friction, 0, 100, "def.friction");
+    check_range(def->restitution, 0, 1, "def.restitution");
     check_state(def->state);
 }
 

@@ -267,7 +267,7 @@ frond_result frond_plant_get_root_force(frond_plant plant, frond_vec3 about, fro
         const Plant& p = *body.plant;
         const bool has_weight = p.effects & body.world->effects & FROND_EFFECT_GRAVITY;
         const Vec3 gravity = has_weight ? gravity_of(*body.world) : Vec3(Vec3::Zero());
-        const Wrench held = root_force(p, gravity, to_vec(about));
+        const Wrench held = root_force(p, gravity, body.world->effects, to_vec(about));
         if (force) *force = from_vec(held.force);
         if (moment) *moment = from_vec(held.moment);
     });

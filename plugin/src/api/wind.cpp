@@ -6,7 +6,7 @@ using namespace frond;
 
 static void check_wind_def(const frond_wind_def* def) {
     check_def(def, 'A', "wind");
-    constexpr double FASTEST = 200;
+    constexpr double FASTEST = 200;  // twice that of the strongest storms [m/s]
     for (double v : {def->velocity.x, def->velocity.y, def->velocity.z})
         check_range(v, -FASTEST, FASTEST, "def.velocity [m/s]");
     check_range(def->turbulence, 0, 1, "def.turbulence");

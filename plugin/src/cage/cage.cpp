@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "cage/cage_parts.hpp"
+#include "core/assert.hpp"
 #include "core/error.hpp"
 
 namespace frond {
@@ -46,8 +47,8 @@ static void find_vertex_copies(const Surface& surface, Draft& draft) {
     draft.vertex_copy.assign(surface.positions.size(), -1);
     for (size_t v = 0; v < surface.positions.size(); ++v) {
         if (triangle_at[v] < 0) continue;
-        const int cell = draft.cover.cells.find(draft.cover.lattice.cell_of(surface.positions[v]));
-        const int entry = cell < 0 ? -1 : draft.cover.find_entry(cell, triangle_at[v]);
+        const int cell = draft.voxels.cells.find(draft.voxels.lattice.cell_of(surface.positions[v]));
+        const int entry = cell < 0 ? -1 : draft.voxels.find_entry(cell, triangle_at[v]);
         if (entry >= 0) draft.vertex_copy[v] = draft.copies.entry_copy[size_t(entry)];
     }
 }
@@ -106,6 +107,12 @@ static void check(const Surface& surface, const Topology& topology, const CageOp
         fail(FROND_RESULT_BAD_ARGUMENT, "cage_smoothness is %g; it must lie in 0 .. 1", options.smoothness);
 }
 
+static bool have_volume(const Cage& cage) {
+    for (const Tet& tet : cage.tets)
+        if (!(tet_volume(cage.nodes, tet) > 0)) return false;
+    return true;
+}
+
 void make_cage(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
                const CageOptions& options, Cage& cage, Embedding& embedding) {
     check(surface, topology, options);
@@ -115,19 +122,22 @@ void make_cage(const Surface& surface, const Topology& topology, const std::vect
     const Patches patches = make_patches(topology, triangle_organ, organ);
     double cell_size = options.cell_size > 0 ? options.cell_size : choose_cell_size(topology, options.offset);
     for (int tried = 1;; ++tried) {
-        const Cover cover = make_cover(topology, make_lattice(topology, cell_size), options.offset);
-        const Copies copies = make_copies(topology, patches, cover);
+        const Voxels voxels = make_voxels(topology, make_lattice(topology, cell_size), options.offset);
+        const Copies copies = make_copies(topology, patches, voxels);
         if (options.cell_size == 0 && tried < TRIES && TETS_PER_COPY * copies.cell.size() > MOST_TETS_TRIED) {
             cell_size *= 1.2;
             continue;
         }
         cage = {};
-        Draft draft{topology, patches, cover, copies, cage, {}};
+        Draft draft{topology, patches, voxels, copies, cage, {}};
         make_tets(copies, cage);
         find_vertex_copies(surface, draft);
         bind_vertices(surface, draft, embedding);
         smooth_cage(surface, options, draft, embedding);
         fill_cage(triangle_organ, organ, draft);
+        FROND_ASSERT(have_volume(cage));
+        FROND_ASSERT(embedding.tet.size() == surface.positions.size());
+        FROND_ASSERT(cage.tet_organ.size() == cage.tets.size() && cage.tet_fill.size() == cage.tets.size());
         return;
     }
 }

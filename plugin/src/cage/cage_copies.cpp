@@ -37,9 +37,9 @@ static void join_corners(Joining& joining, int a, int b) {
     }
 }
 
-static void add_inside(const Topology& topology, const Cover& cover, Joining& joining) {
+static void add_inside(const Topology& topology, const Voxels& voxels, Joining& joining) {
     Copies& copies = joining.copies;
-    const std::vector<Inside> inside = find_inside(topology, cover);
+    const std::vector<Inside> inside = find_inside(topology, voxels);
     const int first = int(copies.cell.size());
     for (const Inside& one : inside) {
         copies.cell.push_back(one.cell);
@@ -63,11 +63,11 @@ static void add_inside(const Topology& topology, const Cover& cover, Joining& jo
             CellIndex next = inside[size_t(i)].cell;
             next[size_t(side / 2)] += side % 2 ? 1 : -1;
             const int component = inside[size_t(i)].component;
-            const int other = find(next, component), cell = cover.cells.find(next);
+            const int other = find(next, component), cell = voxels.cells.find(next);
             if (other > first + i) joining.links.push_back({first + i, other});
             if (cell < 0) continue;
-            for (int e = cover.first[size_t(cell)]; e < cover.first[size_t(cell) + 1]; ++e) {
-                const int item = cover.item[size_t(e)];
+            for (int e = voxels.first[size_t(cell)]; e < voxels.first[size_t(cell) + 1]; ++e) {
+                const int item = voxels.item[size_t(e)];
                 if (item >= triangle_count || topology.triangle_component[size_t(item)] != component) continue;
                 joining.links.push_back({copies.entry_copy[size_t(e)], first + i});
             }
@@ -138,12 +138,12 @@ static void place_nodes(const Lattice& lattice, Joining& joining) {
 }
 
 // Finds the patch that each copy mostly carries; copies inside take that of a neighbour.
-static void find_patches(const Topology& topology, const Patches& patches, const Cover& cover, Copies& copies) {
+static void find_patches(const Topology& topology, const Patches& patches, const Voxels& voxels, Copies& copies) {
     const size_t count = copies.cell.size();
     std::vector<std::vector<int>> carried(count);
-    for (size_t e = 0; e < cover.item.size(); ++e)
-        if (size_t(cover.item[e]) < topology.triangles.size())
-            carried[size_t(copies.entry_copy[e])].push_back(patches.triangle_patch[size_t(cover.item[e])]);
+    for (size_t e = 0; e < voxels.item.size(); ++e)
+        if (size_t(voxels.item[e]) < topology.triangles.size())
+            carried[size_t(copies.entry_copy[e])].push_back(patches.triangle_patch[size_t(voxels.item[e])]);
     copies.patch.assign(count, -1);
     std::vector<int> waiting;
     for (size_t c = 0; c < count; ++c) {
@@ -167,18 +167,18 @@ static void find_patches(const Topology& topology, const Patches& patches, const
         }
 }
 
-Copies make_copies(const Topology& topology, const Patches& patches, const Cover& cover) {
-    const Pieces pieces = find_pieces(topology, patches, cover);
+Copies make_copies(const Topology& topology, const Patches& patches, const Voxels& voxels) {
+    const Pieces pieces = find_pieces(topology, patches, voxels);
     Joining joining;
     Copies& copies = joining.copies;
     copies.entry_copy = pieces.entry_piece;
     copies.cell.resize(size_t(pieces.count));
     joining.component.assign(size_t(pieces.count), -1);
-    for (size_t cell = 0; cell + 1 < cover.first.size(); ++cell)
-        for (int e = cover.first[cell]; e < cover.first[cell + 1]; ++e)
-            copies.cell[size_t(pieces.entry_piece[size_t(e)])] = cover.cells.cells()[cell];
+    for (size_t cell = 0; cell + 1 < voxels.first.size(); ++cell)
+        for (int e = voxels.first[cell]; e < voxels.first[cell + 1]; ++e)
+            copies.cell[size_t(pieces.entry_piece[size_t(e)])] = voxels.cells.cells()[cell];
     joining.links = pieces.links;
-    add_inside(topology, cover, joining);
+    add_inside(topology, voxels, joining);
 
     joining.corners = UnionFind(8 * copies.cell.size());
     copies.neighbors.resize(copies.cell.size());
@@ -188,8 +188,8 @@ Copies make_copies(const Topology& topology, const Patches& patches, const Cover
         copies.neighbors[size_t(b)].push_back(a);
     }
     merge_equal(joining);
-    place_nodes(cover.lattice, joining);
-    find_patches(topology, patches, cover, copies);
+    place_nodes(voxels.lattice, joining);
+    find_patches(topology, patches, voxels, copies);
     return std::move(joining.copies);
 }
 

@@ -8,7 +8,7 @@ namespace frond {
 
 // Corners of a cell by bits: 1 = +x, 2 = +y, 4 = +z; node 8 is its middle.
 struct Copies {
-    std::vector<int> entry_copy;  // copy of each entry of the cover
+    std::vector<int> entry_copy;  // copy of each entry of Voxels
     std::vector<CellIndex> cell;  // cell of each copy
     std::vector<int> patch;       // patch of most triangles of each copy
     std::vector<std::array<int, 9>> nodes;
@@ -27,15 +27,15 @@ struct Pieces {
     std::vector<int> first, entries;        // the entries of part p are entries[first[p]] .. entries[first[p+1]-1]
     std::vector<std::array<int, 2>> links;  // parts in neighbouring cells that share an item, a < b
 };
-Pieces find_pieces(const Topology& topology, const Patches& patches, const Cover& cover);
+Pieces find_pieces(const Topology& topology, const Patches& patches, const Voxels& voxels);
 
 // A cell inside a component: it cannot be reached from outside without crossing a cell that the component touches.
 struct Inside {
     CellIndex cell;
     int component;
 };
-std::vector<Inside> find_inside(const Topology& topology, const Cover& cover);
+std::vector<Inside> find_inside(const Topology& topology, const Voxels& voxels);
 
-Copies make_copies(const Topology& topology, const Patches& patches, const Cover& cover);
+Copies make_copies(const Topology& topology, const Patches& patches, const Voxels& voxels);
 
 }  // namespace frond

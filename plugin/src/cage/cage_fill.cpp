@@ -96,7 +96,7 @@ static void add_slices(const Lattice& lattice, const Polygon& polygon, std::vect
 // Adds the area of every triangle to the tets, and lists the slices of closed patches.
 static void spread_surface(Filler& filler, std::vector<std::vector<Slice>>& slices) {
     const Draft& draft = filler.draft;
-    const Lattice& lattice = draft.cover.lattice;
+    const Lattice& lattice = draft.voxels.lattice;
     const double largest = LARGEST_SAMPLE * lattice.cell_size * lattice.cell_size;
     for (int t = 0; t < int(draft.topology.triangles.size()); ++t) {
         if (draft.patches.repeated[size_t(t)]) continue;
@@ -108,8 +108,8 @@ static void spread_surface(Filler& filler, std::vector<std::vector<Slice>>& slic
                        draft.topology.points[size_t(corner[2])]);
         int last = -1;
         visit_cells(lattice, 0, polygon, [&](const CellIndex& cell, const Polygon& part) {
-            const int found = draft.cover.cells.find(cell);
-            const int entry = found < 0 ? -1 : draft.cover.find_entry(found, t);
+            const int found = draft.voxels.cells.find(cell);
+            const int entry = found < 0 ? -1 : draft.voxels.find_entry(found, t);
             if (entry >= 0) last = draft.copies.entry_copy[size_t(entry)];
             if (last < 0) return;
             for (int k = 2; k < part.count; ++k)
@@ -141,7 +141,7 @@ static void fill_copy(Filler& filler, int copy, size_t patch, double amount) {
 // Finds the volume that a closed patch encloses in each cell, by summing slices column by column from the top.
 static void fill_skin(Filler& filler, size_t patch, std::vector<Slice>& slices,
                       const std::vector<std::pair<CellIndex, int>>& copies_by_cell) {
-    const double cell_size = filler.draft.cover.lattice.cell_size;
+    const double cell_size = filler.draft.voxels.lattice.cell_size;
     std::stable_sort(slices.begin(), slices.end(), [](const Slice& a, const Slice& b) {
         if (a.cell[0] != b.cell[0]) return a.cell[0] < b.cell[0];
         return a.cell[1] != b.cell[1] ? a.cell[1] < b.cell[1] : a.cell[2] > b.cell[2];
@@ -281,7 +281,7 @@ void fill_cage(const std::vector<int>& triangle_organ, const std::vector<Organ>&
     for (size_t p = 0; p < slices.size(); ++p) {
         if (!draft.patches.patches[p].filled) continue;
         for (const auto& cap : draft.patches.patches[p].caps)
-            add_slices(draft.cover.lattice, polygon_of(cap[0], cap[1], cap[2]), slices[p]);
+            add_slices(draft.voxels.lattice, polygon_of(cap[0], cap[1], cap[2]), slices[p]);
         fill_skin(filler, p, slices[p], copies_by_cell);
     }
     place_leftovers(filler);

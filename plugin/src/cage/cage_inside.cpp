@@ -35,14 +35,14 @@ static void flood(const CellIndex& low, const CellIndex& count, std::vector<char
                 if (!state[size_t(at(x, y, z))]) inside.push_back({{low[0] + x, low[1] + y, low[2] + z}, component});
 }
 
-std::vector<Inside> find_inside(const Topology& topology, const Cover& cover) {
+std::vector<Inside> find_inside(const Topology& topology, const Voxels& voxels) {
     // Lists the touched cells of each component.
     const int triangle_count = int(topology.triangles.size());
     std::vector<std::vector<int>> touched(size_t(topology.component_count));
-    for (int cell = 0; cell + 1 < int(cover.first.size()); ++cell)
-        for (int e = cover.first[size_t(cell)]; e < cover.first[size_t(cell) + 1]; ++e) {
-            if (cover.item[size_t(e)] >= triangle_count) continue;
-            auto& cells = touched[size_t(topology.triangle_component[size_t(cover.item[size_t(e)])])];
+    for (int cell = 0; cell + 1 < int(voxels.first.size()); ++cell)
+        for (int e = voxels.first[size_t(cell)]; e < voxels.first[size_t(cell) + 1]; ++e) {
+            if (voxels.item[size_t(e)] >= triangle_count) continue;
+            auto& cells = touched[size_t(topology.triangle_component[size_t(voxels.item[size_t(e)])])];
             if (cells.empty() || cells.back() != cell) cells.push_back(cell);
         }
     std::vector<Inside> inside;
@@ -50,11 +50,11 @@ std::vector<Inside> find_inside(const Topology& topology, const Cover& cover) {
     for (int component = 0; component < topology.component_count; ++component) {
         const auto& cells = touched[size_t(component)];
         if (cells.size() < 6) continue;  // it takes six to enclose a cell
-        CellIndex low = cover.cells.cells()[size_t(cells[0])], high = low;
+        CellIndex low = voxels.cells.cells()[size_t(cells[0])], high = low;
         for (int cell : cells)
             for (size_t axis = 0; axis < 3; ++axis) {
-                low[axis] = std::min(low[axis], cover.cells.cells()[size_t(cell)][axis]);
-                high[axis] = std::max(high[axis], cover.cells.cells()[size_t(cell)][axis]);
+                low[axis] = std::min(low[axis], voxels.cells.cells()[size_t(cell)][axis]);
+                high[axis] = std::max(high[axis], voxels.cells.cells()[size_t(cell)][axis]);
             }
         CellIndex count;
         int64_t total = 1;
@@ -68,7 +68,7 @@ std::vector<Inside> find_inside(const Topology& topology, const Cover& cover) {
         if (!thick || total > MAX_BOX) continue;
         state.assign(size_t(total), 0);
         for (int cell : cells) {
-            const CellIndex& at = cover.cells.cells()[size_t(cell)];
+            const CellIndex& at = voxels.cells.cells()[size_t(cell)];
             state[size_t((int64_t(at[2] - low[2]) * count[1] + (at[1] - low[1])) * count[0] + (at[0] - low[0]))] = 1;
         }
         flood(low, count, state, component, inside);

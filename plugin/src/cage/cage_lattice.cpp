@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/assert.hpp"
 #include "core/error.hpp"
 
 namespace frond {
@@ -86,16 +87,17 @@ int CellTable::insert(const CellIndex& cell) {
     return slots[k];
 }
 
-int Cover::find_entry(int cell, int wanted) const {
+int Voxels::find_entry(int cell, int wanted) const {
+    FROND_ASSERT(cell >= 0 && size_t(cell) + 1 < first.size());
     const auto begin = item.begin() + first[size_t(cell)], end = item.begin() + first[size_t(cell) + 1];
     const auto found = std::lower_bound(begin, end, wanted);
     return found != end && *found == wanted ? int(found - item.begin()) : -1;
 }
 
-Cover make_cover(const Topology& topology, const Lattice& lattice, double offset) {
+Voxels make_voxels(const Topology& topology, const Lattice& lattice, double offset) {
     double size = 0;
     for (const Vec3& place : topology.points) size = std::max(size, 2 * (place - topology.points[0]).norm());
-    Cover cover{lattice, offset + std::max(CELL_MARGIN * lattice.cell_size, SIZE_MARGIN * size), {}, {}, {}, {}};
+    Voxels voxels{lattice, offset + std::max(CELL_MARGIN * lattice.cell_size, SIZE_MARGIN * size), {}, {}, {}, {}};
 
     // Entries in the order of the items.
     std::vector<int> cell_of_entry, item_of_entry;
@@ -104,12 +106,12 @@ Cover make_cover(const Topology& topology, const Lattice& lattice, double offset
     int last = -1;
     const size_t most = MAX_ENTRIES + MAX_ENTRIES_PER_TRIANGLE * topology.triangles.size();
     const auto enter = [&](int item, const Polygon& polygon) {
-        visit_cells(lattice, cover.margin, polygon, [&](const CellIndex& cell, const Polygon& part) {
+        visit_cells(lattice, voxels.margin, polygon, [&](const CellIndex& cell, const Polygon& part) {
             if (last < 0 || cell != last_cell) {
-                last = cover.cells.insert(cell);
+                last = voxels.cells.insert(cell);
                 last_cell = cell;
             }
-            if (cell_of_entry.size() >= most || cover.cells.cells().size() > MAX_CELLS)
+            if (cell_of_entry.size() >= most || voxels.cells.cells().size() > MAX_CELLS)
                 fail(FROND_RESULT_BAD_ARGUMENT,
                      "cells of %g m are too small for this plant, or cage_offset or its %zu triangles are too large; "
                      "make "
@@ -134,18 +136,19 @@ Cover make_cover(const Topology& topology, const Lattice& lattice, double offset
     }
 
     // Sorts the entries by cell and keeps the order of items.
-    cover.first.assign(cover.cells.cells().size() + 1, 0);
-    for (int cell : cell_of_entry) ++cover.first[size_t(cell) + 1];
-    for (size_t c = 1; c < cover.first.size(); ++c) cover.first[c] += cover.first[c - 1];
-    std::vector<int> next(cover.first.begin(), cover.first.end() - 1);
-    cover.item.resize(cell_of_entry.size());
-    cover.centre.resize(cell_of_entry.size());
+    voxels.first.assign(voxels.cells.cells().size() + 1, 0);
+    for (int cell : cell_of_entry) ++voxels.first[size_t(cell) + 1];
+    for (size_t c = 1; c < voxels.first.size(); ++c) voxels.first[c] += voxels.first[c - 1];
+    std::vector<int> next(voxels.first.begin(), voxels.first.end() - 1);
+    voxels.item.resize(cell_of_entry.size());
+    voxels.centre.resize(cell_of_entry.size());
     for (size_t e = 0; e < cell_of_entry.size(); ++e) {
         const size_t place = size_t(next[size_t(cell_of_entry[e])]++);
-        cover.item[place] = item_of_entry[e];
-        cover.centre[place] = centres[e];
+        voxels.item[place] = item_of_entry[e];
+        voxels.centre[place] = centres[e];
     }
-    return cover;
+    FROND_ASSERT(size_t(voxels.first.back()) == voxels.item.size());
+    return voxels;
 }
 
 }  // namespace frond

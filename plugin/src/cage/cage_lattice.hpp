@@ -96,8 +96,9 @@ private:
     std::vector<CellIndex> numbered;
 };
 
-// The cells that the surface passes through. Items are the triangles, then the joints (as lines between their ends).
-struct Cover {
+// The cells that the surface passes through (surface voxelization). Items are the triangles, then the joints (as lines
+// between their ends).
+struct Voxels {
     Lattice lattice;
     double margin;  // enlargement of cells on all sides [m]
     CellTable cells;
@@ -113,7 +114,7 @@ struct Cover {
     int find_entry(int cell, int item) const;
 };
 
-Cover make_cover(const Topology& topology, const Lattice& lattice, double offset);
+Voxels make_voxels(const Topology& topology, const Lattice& lattice, double offset);
 
 // Limits of cells, and of entries in all plus so many per triangle. Cells that need more are too small.
 constexpr size_t MAX_CELLS = 200000, MAX_ENTRIES = 4000000, MAX_ENTRIES_PER_TRIANGLE = 8;

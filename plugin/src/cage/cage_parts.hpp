@@ -14,7 +14,7 @@ constexpr int TETS_PER_COPY = 12;
 struct Draft {
     const Topology& topology;
     const Patches& patches;
-    const Cover& cover;
+    const Voxels& voxels;
     const Copies& copies;
     Cage& cage;
     std::vector<int> vertex_copy;  // copy of each surface vertex

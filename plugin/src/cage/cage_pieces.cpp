@@ -18,9 +18,9 @@ static constexpr double SCRAP = 1.5;
 static constexpr size_t NODE_SAMPLES = 48;
 
 // Returns whether a line segment reaches into an enlarged cell.
-static bool reaches(const Cover& cover, int cell, const Vec3& a, const Vec3& b) {
-    const Vec3 low = cover.lattice.low(cover.cells.cells()[size_t(cell)]) - Vec3::Constant(cover.margin);
-    const double size = cover.lattice.cell_size + 2 * cover.margin;
+static bool reaches(const Voxels& voxels, int cell, const Vec3& a, const Vec3& b) {
+    const Vec3 low = voxels.lattice.low(voxels.cells.cells()[size_t(cell)]) - Vec3::Constant(voxels.margin);
+    const double size = voxels.lattice.cell_size + 2 * voxels.margin;
     double begin = 0, end = 1;
     for (int axis = 0; axis < 3; ++axis) {
         const double from = a[axis] - low[axis], along = b[axis] - a[axis];
@@ -64,18 +64,18 @@ std::vector<int> find_hosts(const Topology& topology, double cell_size) {
     return host;
 }
 
-static void join_touching(const Topology& topology, const Patches& patches, const Cover& cover, UnionFind& sets) {
+static void join_touching(const Topology& topology, const Patches& patches, const Voxels& voxels, UnionFind& sets) {
     // The last entry at each point and edge, valid if it is in the current cell.
     std::vector<int> at_point(topology.points.size(), -1), at_edge(patches.edges.first.size(), -1);
     const int triangle_count = int(topology.triangles.size());
-    for (int cell = 0; cell + 1 < int(cover.first.size()); ++cell) {
-        const int begin = cover.first[size_t(cell)], end = cover.first[size_t(cell) + 1];
-        for (int e = begin; e < end && cover.item[size_t(e)] < triangle_count; ++e) {
-            const size_t t = size_t(cover.item[size_t(e)]);
+    for (int cell = 0; cell + 1 < int(voxels.first.size()); ++cell) {
+        const int begin = voxels.first[size_t(cell)], end = voxels.first[size_t(cell) + 1];
+        for (int e = begin; e < end && voxels.item[size_t(e)] < triangle_count; ++e) {
+            const size_t t = size_t(voxels.item[size_t(e)]);
             const Triangle& corner = topology.triangles[t];
             std::array<bool, 3> held;
             for (size_t k = 0; k < 3; ++k) {
-                held[k] = cover.holds(cell, topology.points[size_t(corner[k])]);
+                held[k] = voxels.holds(cell, topology.points[size_t(corner[k])]);
                 if (!held[k]) continue;
                 int& last = at_point[size_t(corner[k])];
                 if (last >= begin) sets.join(last, e);
@@ -84,7 +84,7 @@ static void join_touching(const Topology& topology, const Patches& patches, cons
             for (size_t k = 0; k < 3; ++k) {
                 const int edge = patches.edges.triangle_edges[t][k];
                 if (edge < 0 || held[k] || held[(k + 1) % 3]) continue;
-                if (!reaches(cover, cell, topology.points[size_t(corner[k])],
+                if (!reaches(voxels, cell, topology.points[size_t(corner[k])],
                              topology.points[size_t(corner[(k + 1) % 3])]))
                     continue;
                 int& last = at_edge[size_t(edge)];
@@ -93,19 +93,19 @@ static void join_touching(const Topology& topology, const Patches& patches, cons
             }
         }
         // Joints tie parts in the cells that hold the joints' ends.
-        for (int e = end - 1; e >= begin && cover.item[size_t(e)] >= triangle_count; --e) {
-            const Joint& joint = topology.joints[size_t(cover.item[size_t(e)] - triangle_count)];
-            const int a = cover.find_entry(cell, joint.triangle_a), b = cover.find_entry(cell, joint.triangle_b);
-            if (a >= 0 && cover.holds(cell, joint.point_a)) sets.join(a, e);
-            if (b >= 0 && cover.holds(cell, joint.point_b)) sets.join(b, e);
+        for (int e = end - 1; e >= begin && voxels.item[size_t(e)] >= triangle_count; --e) {
+            const Joint& joint = topology.joints[size_t(voxels.item[size_t(e)] - triangle_count)];
+            const int a = voxels.find_entry(cell, joint.triangle_a), b = voxels.find_entry(cell, joint.triangle_b);
+            if (a >= 0 && voxels.holds(cell, joint.point_a)) sets.join(a, e);
+            if (b >= 0 && voxels.holds(cell, joint.point_b)) sets.join(b, e);
         }
     }
 }
 
-static void number(const Cover& cover, UnionFind& sets, Pieces& pieces) {
+static void number(const Voxels& voxels, UnionFind& sets, Pieces& pieces) {
     pieces.count = 0;
-    pieces.entry_piece.assign(cover.item.size(), -1);
-    for (size_t e = 0; e < cover.item.size(); ++e) {
+    pieces.entry_piece.assign(voxels.item.size(), -1);
+    for (size_t e = 0; e < voxels.item.size(); ++e) {
         const size_t root = size_t(sets.find(int(e)));
         pieces.entry_piece[e] = root == e ? pieces.count++ : pieces.entry_piece[root];
     }
@@ -113,25 +113,25 @@ static void number(const Cover& cover, UnionFind& sets, Pieces& pieces) {
     for (int p : pieces.entry_piece) ++pieces.first[size_t(p) + 1];
     for (size_t p = 1; p < pieces.first.size(); ++p) pieces.first[p] += pieces.first[p - 1];
     std::vector<int> next(pieces.first.begin(), pieces.first.end() - 1);
-    pieces.entries.resize(cover.item.size());
-    for (size_t e = 0; e < cover.item.size(); ++e)
+    pieces.entries.resize(voxels.item.size());
+    for (size_t e = 0; e < voxels.item.size(); ++e)
         pieces.entries[size_t(next[size_t(pieces.entry_piece[e])]++)] = int(e);
 }
 
-static void link(const Cover& cover, Pieces& pieces) {
+static void link(const Voxels& voxels, Pieces& pieces) {
     pieces.links.clear();
-    for (int cell = 0; cell + 1 < int(cover.first.size()); ++cell) {
-        const CellIndex& here = cover.cells.cells()[size_t(cell)];
+    for (int cell = 0; cell + 1 < int(voxels.first.size()); ++cell) {
+        const CellIndex& here = voxels.cells.cells()[size_t(cell)];
         for (int side = 14; side < 27; ++side) {
             const int other =
-                cover.cells.find({here[0] + side % 3 - 1, here[1] + side / 3 % 3 - 1, here[2] + side / 9 - 1});
+                voxels.cells.find({here[0] + side % 3 - 1, here[1] + side / 3 % 3 - 1, here[2] + side / 9 - 1});
             if (other < 0) continue;
             // Both are sorted by item.
-            int a = cover.first[size_t(cell)], b = cover.first[size_t(other)];
-            const int end_a = cover.first[size_t(cell) + 1], end_b = cover.first[size_t(other) + 1];
+            int a = voxels.first[size_t(cell)], b = voxels.first[size_t(other)];
+            const int end_a = voxels.first[size_t(cell) + 1], end_b = voxels.first[size_t(other) + 1];
             std::array<int, 2> last = {-1, -1};
             while (a < end_a && b < end_b) {
-                const int item_a = cover.item[size_t(a)], item_b = cover.item[size_t(b)];
+                const int item_a = voxels.item[size_t(a)], item_b = voxels.item[size_t(b)];
                 if (item_a == item_b) {
                     const auto [low, high] = std::minmax(pieces.entry_piece[size_t(a)], pieces.entry_piece[size_t(b)]);
                     if (last != std::array<int, 2>{low, high}) pieces.links.push_back({low, high});
@@ -157,7 +157,7 @@ struct Nearness {
 struct Gatherer {
     const Topology& topology;
     const Patches& patches;
-    const Cover& cover;
+    const Voxels& voxels;
     const Pieces& pieces;
     std::vector<int> host;
     UnionFind sets;  // sets of parts
@@ -165,10 +165,10 @@ struct Gatherer {
     std::vector<int> seen;  // number of the last search that reached each part
     int search = 0;
 
-    bool is_triangle(int entry) const { return size_t(cover.item[size_t(entry)]) < topology.triangles.size(); }
-    int component(int entry) const { return topology.triangle_component[size_t(cover.item[size_t(entry)])]; }
+    bool is_triangle(int entry) const { return size_t(voxels.item[size_t(entry)]) < topology.triangles.size(); }
+    int component(int entry) const { return topology.triangle_component[size_t(voxels.item[size_t(entry)])]; }
     const Patch& patch_of(int entry) const {
-        return patches.patches[size_t(patches.triangle_patch[size_t(cover.item[size_t(entry)])])];
+        return patches.patches[size_t(patches.triangle_patch[size_t(voxels.item[size_t(entry)])])];
     }
 };
 
@@ -183,7 +183,7 @@ static Nearness measure_nearness(const Gatherer& gatherer, int a, int b) {
         for (size_t k = 0; k < count_b; k += count_b / NODE_SAMPLES + 1) {
             const int entry_a = pieces.entries[first_a + i], entry_b = pieces.entries[first_b + k];
             const double squared =
-                (gatherer.cover.centre[size_t(entry_a)] - gatherer.cover.centre[size_t(entry_b)]).squaredNorm();
+                (gatherer.voxels.centre[size_t(entry_a)] - gatherer.voxels.centre[size_t(entry_b)]).squaredNorm();
             if (squared < best.squared && gatherer.is_triangle(entry_a) && gatherer.is_triangle(entry_b))
                 best = {squared, entry_a, entry_b};
         }
@@ -192,7 +192,7 @@ static Nearness measure_nearness(const Gatherer& gatherer, int a, int b) {
 
 // Returns the outward normal, of any length.
 static Vec3 outward(const Gatherer& gatherer, int entry) {
-    const size_t t = size_t(gatherer.cover.item[size_t(entry)]);
+    const size_t t = size_t(gatherer.voxels.item[size_t(entry)]);
     const Triangle& corner = gatherer.topology.triangles[t];
     const Vec3& a = gatherer.topology.points[size_t(corner[0])];
     const Vec3 normal =
@@ -203,7 +203,7 @@ static Vec3 outward(const Gatherer& gatherer, int entry) {
 static bool face_through_inside(const Gatherer& gatherer, const Nearness& nearness) {
     const int a = nearness.entry_a, b = nearness.entry_b;
     if (a < 0 || &gatherer.patch_of(a) != &gatherer.patch_of(b) || !gatherer.patch_of(a).solid) return false;
-    const Vec3 way = gatherer.cover.centre[size_t(b)] - gatherer.cover.centre[size_t(a)];
+    const Vec3 way = gatherer.voxels.centre[size_t(b)] - gatherer.voxels.centre[size_t(a)];
     return outward(gatherer, a).dot(way) < 0 && outward(gatherer, b).dot(way) > 0;
 }
 
@@ -228,7 +228,7 @@ static bool is_near_along(Gatherer& gatherer, int from, int to) {
 
 // Joins two walls of a body, or two faces of a sheet.
 static void gather_walls(Gatherer& gatherer, const std::vector<int>& in_cell) {
-    const double gap = FACE_GAP * gatherer.cover.lattice.cell_size;
+    const double gap = FACE_GAP * gatherer.voxels.lattice.cell_size;
     for (size_t i = 0; i < in_cell.size(); ++i)
         for (size_t k = i + 1; k < in_cell.size(); ++k) {
             const int a = in_cell[i], b = in_cell[k];
@@ -291,18 +291,18 @@ static void gather_scraps(Gatherer& gatherer, const std::vector<int>& in_cell) {
     }
 }
 
-Pieces find_pieces(const Topology& topology, const Patches& patches, const Cover& cover) {
-    UnionFind sets(cover.item.size());
-    join_touching(topology, patches, cover, sets);
+Pieces find_pieces(const Topology& topology, const Patches& patches, const Voxels& voxels) {
+    UnionFind sets(voxels.item.size());
+    join_touching(topology, patches, voxels, sets);
     Pieces pieces;
-    number(cover, sets, pieces);
-    link(cover, pieces);
+    number(voxels, sets, pieces);
+    link(voxels, pieces);
 
     Gatherer gatherer{topology,
                       patches,
-                      cover,
+                      voxels,
                       pieces,
-                      find_hosts(topology, cover.lattice.cell_size),
+                      find_hosts(topology, voxels.lattice.cell_size),
                       UnionFind(size_t(pieces.count)),
                       {},
                       std::vector<int>(size_t(pieces.count), 0)};
@@ -312,22 +312,22 @@ Pieces find_pieces(const Topology& topology, const Patches& patches, const Cover
         gatherer.linked[size_t(b)].push_back(a);
     }
     std::vector<int> in_cell;
-    for (size_t cell = 0; cell + 1 < cover.first.size(); ++cell) {
+    for (size_t cell = 0; cell + 1 < voxels.first.size(); ++cell) {
         // Parts are numbered by their first entry, so those of a cell have consecutive numbers.
         in_cell.clear();
-        for (int e = cover.first[cell]; e < cover.first[cell + 1]; ++e)
+        for (int e = voxels.first[cell]; e < voxels.first[cell + 1]; ++e)
             if (in_cell.empty() || pieces.entry_piece[size_t(e)] > in_cell.back())
                 in_cell.push_back(pieces.entry_piece[size_t(e)]);
         if (in_cell.size() < 2) continue;
         gather_walls(gatherer, in_cell);
         gather_scraps(gatherer, in_cell);
     }
-    for (size_t e = 0; e < cover.item.size(); ++e)
+    for (size_t e = 0; e < voxels.item.size(); ++e)
         if (const int p = gatherer.sets.find(pieces.entry_piece[e]); p != pieces.entry_piece[e])
             sets.join(pieces.entries[size_t(pieces.first[size_t(p)])], int(e));
     Pieces gathered;
-    number(cover, sets, gathered);
-    link(cover, gathered);
+    number(voxels, sets, gathered);
+    link(voxels, gathered);
     return gathered;
 }
 

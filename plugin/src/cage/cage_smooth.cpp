@@ -10,8 +10,8 @@
 
 namespace frond {
 
-static constexpr int PASSES = 3;
-static constexpr int HALVINGS = 3;
+static constexpr int PASSES = 3;    // over all nodes; each starts from its neighbours' new places
+static constexpr int HALVINGS = 3;  // of a move that would spoil a tet: down to an eighth
 // Limits of the angles between two faces [degree].
 static constexpr double SMALLEST_ANGLE = 14, LARGEST_ANGLE = 162;
 // Least distance of the outside from the surface as a share of a cell, in addition to the offset.
@@ -75,9 +75,9 @@ static void find_outside(const Cage& cage, std::vector<std::vector<int>>& outsid
 static std::vector<Vec3> find_nearest_places(const Smoother& smoother) {
     const Draft& draft = smoother.draft;
     std::vector<std::vector<int>> copy_triangles(draft.copies.cell.size());
-    for (size_t e = 0; e < draft.cover.item.size(); ++e)
-        if (size_t(draft.cover.item[e]) < draft.topology.triangles.size())
-            copy_triangles[size_t(draft.copies.entry_copy[e])].push_back(draft.cover.item[e]);
+    for (size_t e = 0; e < draft.voxels.item.size(); ++e)
+        if (size_t(draft.voxels.item[e]) < draft.topology.triangles.size())
+            copy_triangles[size_t(draft.copies.entry_copy[e])].push_back(draft.voxels.item[e]);
     std::vector<Vec3> nearest = draft.cage.nodes;
     std::vector<double> squared(draft.cage.nodes.size(), 1e300);
     for (size_t copy = 0; copy < copy_triangles.size(); ++copy) {
@@ -180,7 +180,7 @@ static void move_nodes(Smoother& smoother, const std::vector<Vec3>& wanted, doub
         const Vec3 here = nodes[size_t(node)];
         Vec3 move =
             within ? Vec3(mean - here) : Vec3(wanted[size_t(node)] - here + RELAXATION * smoothness * (mean - here));
-        if (move.norm() < 1e-3 * smoother.draft.cover.lattice.cell_size) continue;
+        if (move.norm() < 1e-3 * smoother.draft.voxels.lattice.cell_size) continue;
         for (int halving = 0; halving < HALVINGS; ++halving) {
             if (try_move(smoother, node, here + move)) break;
             move *= 0.5;
@@ -211,7 +211,7 @@ void smooth_cage(const Surface& surface, const CageOptions& options, Draft& draf
 
     // Target of each node, without constraints.
     std::vector<Vec3> wanted = find_nearest_places(smoother);
-    const double nearest = options.offset + NEAREST * draft.cover.lattice.cell_size;
+    const double nearest = options.offset + NEAREST * draft.voxels.lattice.cell_size;
     for (size_t i = 0; i < wanted.size(); ++i) {
         const Vec3 outward = cage.nodes[i] - wanted[i];
         const double distance = outward.norm();

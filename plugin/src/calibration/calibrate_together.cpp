@@ -48,7 +48,7 @@ double cage_energy(const Model& model, const TetElements& elements, const VecX& 
 }  // namespace
 
 void calibrate_together(Model& model, const std::vector<char>& alone, int order) {
-    constexpr int ROUNDS = 4;
+    constexpr int ROUNDS = 4;               // each multiplies moduli by what is lacking, so few are enough
     constexpr double LARGEST_FACTOR = 1e6;  // on a modulus in a round [-]
     if (std::all_of(alone.begin(), alone.end(), [](char is) { return is; })) return;
     double rods = 0;

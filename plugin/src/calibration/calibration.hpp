@@ -9,6 +9,7 @@ namespace frond {
 // needed most.
 struct WeakOrgan {
     std::string name;   // empty: none
+    std::string kind;   // "blade" ...
     double factor = 1;  // factor by which it was made stiffer [-]
 };
 WeakOrgan strengthen(Model& model);

@@ -69,7 +69,7 @@ double energy_of(const Compliance& share, const Compliance& rods) {
     const auto trace = [](const Compliance& C, int first) { return C.diagonal().segment<3>(first).sum(); };
     return trace(share, TIP_FORCE) / trace(rods, TIP_FORCE) + trace(share, WEIGHT) / trace(rods, WEIGHT);
 }
-constexpr double WHOLE_ENERGY = 2;
+constexpr double WHOLE_ENERGY = 2;  // energy_of() the rods: a share of one for either load [-]
 
 // The slab of each tet, and the energy that the rods have there.
 struct Places {
@@ -99,7 +99,7 @@ Places find_places(const LoneOrgan& lone, const Model& plant, const std::vector<
 }
 
 bool fit_places(Bench& bench, const Places& places) {
-    constexpr int ROUNDS = 3;
+    constexpr int ROUNDS = 3;                      // energies give a first factor only
     constexpr double LARGEST_FACTOR = 1e6;         // on a modulus in a round [-]
     constexpr double SOFTEST = 0.5, STIFFEST = 8;  // modulus of a slab over its first one [-]
     constexpr double BLUR = 0.3;                   // share of the organ's energy that is added to each of its slabs [-]

@@ -50,7 +50,7 @@ struct Gap {
     double step = 0;          // change of the factor's logarithm [-]
 };
 static Gap find_gap(const RodSways& rods, const RodSways& springs) {
-    constexpr double LARGEST_STEP = 0.7;
+    constexpr double LARGEST_STEP = 0.7;  // change of a logarithm: a factor of two [-]
     double error = 0, slope = 0;
     for (size_t i = 0; i < rods.square.size(); i++) {
         if (!(rods.square[i] > 0) || !(springs.square[i] > 0)) return {};
@@ -63,7 +63,7 @@ static Gap find_gap(const RodSways& rods, const RodSways& springs) {
 }
 
 std::vector<double> fit_springs(const Model& model) {
-    constexpr int ROUNDS = 8;
+    constexpr int ROUNDS = 8;             // in each the error falls or the step is halved
     constexpr double CLOSE = 0.02;        // error that counts as none [-]
     constexpr double LEAST_SHARE = 0.05;  // least share of a step [-]
     constexpr double MARGIN = 2;  // load over weight beyond which it may topple, so that a touch does not topple it [-]

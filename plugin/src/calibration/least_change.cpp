@@ -8,7 +8,7 @@
 namespace frond {
 
 VecX least_change(const MatX& slope, const VecX& wanted, const VecX& least, const VecX& most, double rigid) {
-    constexpr int PASSES = 12;
+    constexpr int PASSES = 12;  // in each of which some reach their bounds and are fixed
     const Eigen::Index count = slope.cols(), rows = slope.rows();
     VecX x = VecX::Zero(count), rest = wanted;
     std::vector<char> fixed(size_t(count), 0);

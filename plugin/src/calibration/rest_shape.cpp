@@ -104,7 +104,7 @@ int organ_of_largest(const Model& model, const TetElements& elements, const VecX
 
 // Balances a share of gravity from the present rest shape; false, with that shape unchanged, if that fails.
 bool balance(Search& search, double gravity) {
-    constexpr int ROUNDS = 25;
+    constexpr int ROUNDS = 25;           // Newton's method takes 5 or 6 where it converges
     constexpr double TOLERANCE = 3e-9;   // distance of a node from its balance, over the plant's size [-]
     constexpr double LEAST_SHARE = 0.1;  // least share of a displacement that makes progress [-]
     constexpr int PATIENCE = 5;          // rounds in which displacements must become half as large
@@ -200,7 +200,7 @@ Outcome find_outcome(Search& search) {
 // Finds the rest shape of one mechanics, of a plant that could bear `margin` times its weight. Gravity is increased
 // gradually, in steps as large as the search bears.
 Outcome search_rest_shape(Search& search, double margin = 1) {
-    constexpr double SMALLEST_STEP = 1.0 / 8;
+    constexpr double SMALLEST_STEP = 1.0 / 8;  // share of gravity below which the search gives up [-]
     double step = 1;
     for (double done = 0; done < 1;) {
         const double next = std::min(1.0, done + step);
@@ -223,7 +223,7 @@ Outcome search_rest_shape(Search& search, double margin = 1) {
 // Fits the first modes of a search that found its rest shape to the rods', in changes that are halved if weight cannot
 // be balanced or the modes come no nearer. Returns the logarithms of the factors on its tets' moduli.
 VecX fit_sway(Search& search, const RodSways& rods) {
-    constexpr int ROUNDS = 8;
+    constexpr int ROUNDS = 8;            // a change may be halved in each
     constexpr double CLOSE = 0.02;       // error of a frequency's square that counts as none [-]
     constexpr double LEAST_SHARE = 0.1;  // least share of a change [-]
     VecX done = VecX::Zero(Eigen::Index(search.elements.tets.size()));
@@ -275,8 +275,8 @@ std::vector<double> organ_strains(const Model& model, int order) {
 // Makes organs stiffer that weight would tear apart in the cage, loose parts that hang on a corner, so that the rest of
 // the plant need not be.
 void stiffen_torn_organs(Model& model, int order) {
-    constexpr double LARGEST_STRAIN = 0.35;
-    constexpr int ROUNDS = 3;
+    constexpr double LARGEST_STRAIN = 0.35;  // by linear statics; above it tets are about to tear [-]
+    constexpr int ROUNDS = 3;                // strain falls in proportion, so that one is mostly enough
     for (int round = 0; round < ROUNDS; round++) {
         const std::vector<double> strains = organ_strains(model, order);
         bool torn = false;
@@ -336,7 +336,7 @@ WeakOrgan find_rest_shape(Model& model, int order) {
     }
     model.rest_shapes->known[size_t(order - 1)][FROND_MECHANICS_TET_COROTATIONAL] = true;
     const size_t weakest = size_t(std::max_element(factor.begin(), factor.end()) - factor.begin());
-    return {model.organs[weakest].name, factor[weakest]};
+    return {model.organs[weakest].name, model.organs[weakest].kind, factor[weakest]};
 }
 
 // Fits a cage of Frond's own to an order of its elements.

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "calibration/calibration.hpp"
+#include "calibration/hidden_ribs.hpp"
 #include "calibration/strengthen.hpp"
 #include "calibration/sway.hpp"
 #include "calibration/toppling.hpp"
-#include "calibration/weigh.hpp"
 #include "core/elementary.hpp"
 #include "mechanics/rod_elements.hpp"
 
@@ -23,40 +23,6 @@ constexpr double SAFETY = 1.7, SAFETY_OF_GIVEN = 1.02;
 // An organ may turn this far under its own weight applied sideways, by linear theory; an upright column topples at
 // 1.306.
 constexpr double LARGEST_TURN = 1.2;  // [rad]
-
-// Returns how far each organ turns from its base to its tip when all its weight pulls sideways, by linear theory [rad].
-std::vector<double> organ_turns(const Model& model) {
-    const std::vector<ChainNode>& nodes = model.chain.nodes;
-    const Weights weights = weigh(model, hang_tets(model));
-    std::vector<double> turns(model.organs.size(), 0.0);
-    for (int axis = 0; axis < 3; axis++) {
-        const Vec3 load = GRAVITY * Vec3::Unit(axis);
-        std::vector<Vec3> force(nodes.size()), moment(nodes.size());
-        for (size_t i = 0; i < nodes.size(); i++) {
-            force[i] = weights.mass[i] * load;
-            moment[i] = weights.moment[i].cross(load);
-        }
-        std::vector<double> curvature(nodes.size(), 0.0), turn(nodes.size(), 0.0);
-        for (size_t i = nodes.size(); i-- > 0;) {
-            if (nodes[i].parent < 0) continue;
-            const size_t parent = size_t(nodes[i].parent);
-            const Section& section = model.sections[i];
-            const Vec3 M = moment[i] - (0.5 * (nodes[i].position + nodes[parent].position)).cross(force[i]);
-            curvature[i] = frond::hypot(M.dot(section.wide()) / section.bending_thin(),
-                                        M.dot(section.thin) / section.bending_wide());
-            force[parent] += force[i];
-            moment[parent] += moment[i];
-        }
-        for (size_t i = 0; i < nodes.size(); i++) {
-            if (nodes[i].parent < 0) continue;
-            const size_t parent = size_t(nodes[i].parent), organ = size_t(nodes[i].organ);
-            turn[i] =
-                model.sections[i].length * curvature[i] + (nodes[parent].organ == nodes[i].organ ? turn[parent] : 0.0);
-            turns[organ] = std::max(turns[organ], turn[i]);
-        }
-    }
-    return turns;
-}
 
 // Rods of a plant that stands, with the stiffness that resists, in which each organ is weaker by its safety factor, and
 // the stiffness that weight takes.
@@ -122,7 +88,7 @@ std::vector<double> organ_masses(const Model& model) {
 
 void strengthen_rods(const Model& model, frond_mechanics which, const std::function<RodElements()>& make,
                      const std::vector<double>& safety, std::vector<double>& stiffer) {
-    constexpr int MOST_ROUNDS = 300;
+    constexpr int MOST_ROUNDS = 300;  // each stiffens by 2 % at least, all by a factor of 380
     for (int round = 0; round < MOST_ROUNDS; round++) {
         Standing standing(model, make(), which, safety);
         if (!standing.is_sound) break;
@@ -138,9 +104,10 @@ void strengthen_rods(const Model& model, frond_mechanics which, const std::funct
     }
 }
 
-WeakOrgan strengthen(Model& model) {
+// Finds by how much each organ has to be stiffer so that the plant stands.
+static void find_stiffer(Model& model) {
     std::vector<double>& stiffer = model.organ_stiffer;
-    const std::vector<double> turns = organ_turns(model);
+    const std::vector<double> turns = find_turns(model).organ;
     std::vector<double> safety;
     for (size_t o = 0; o < stiffer.size(); o++) {
         const bool given = model.organs[o].material_given;
@@ -149,6 +116,22 @@ WeakOrgan strengthen(Model& model) {
     }
     strengthen_rods(
         model, FROND_MECHANICS_ROD, [&] { return make_rod_elements(model, FROND_MECHANICS_ROD); }, safety, stiffer);
+}
+
+WeakOrgan strengthen(Model& model) {
+    const std::vector<double>& stiffer = model.organ_stiffer;
+    find_stiffer(model);
+    // Ribs are looked for before tissue is made stiffer: those that weight needs, then thicker ones, since what it does
+    // beside bending counts, too.
+    constexpr int ROUNDS = 3;
+    std::vector<double> load(stiffer.size(), 0.0);
+    for (int round = 0; round < ROUNDS; round++) {
+        for (size_t o = 0; o < load.size(); o++)
+            if (stiffer[o] > 1) load[o] = std::max(1.0, load[o] * stiffer[o]);
+        if (!grow_hidden_ribs(model, load, LARGEST_TURN / SAFETY)) break;
+        find_stiffer(model);
+        if (std::all_of(stiffer.begin(), stiffer.end(), [](double factor) { return factor <= 1; })) break;
+    }
 
     // Organs of negligible weight, silk and hairs, are not reported.
     constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]
@@ -157,7 +140,7 @@ WeakOrgan strengthen(Model& model) {
     for (double mass : masses) whole += mass;
     WeakOrgan weak;
     for (size_t o = 0; o < stiffer.size(); o++)
-        if (masses[o] >= WORTH_A_WORD * whole && stiffer[o] > weak.factor) weak = {model.organs[o].name, stiffer[o]};
+        if (masses[o] >= WORTH_A_WORD * whole && stiffer[o] > weak.factor) weak = {model.organs[o].name, model.organs[o].kind, stiffer[o]};
     return weak;
 }
 

@@ -42,8 +42,8 @@ static VecX move_along(const Vec3& direction, const std::vector<uint8_t>& still)
 
 static Sway first_sway(BlockFactor& stiffness, const VecX& node_mass, const std::vector<uint8_t>& still,
                        const Vec3& direction) {
-    constexpr int MOST_STEPS = 12;
-    constexpr double CLOSE = 0.3;  // width in logarithms of frequencies' squares within which modes are combined [-]
+    constexpr int MOST_STEPS = 12;  // of Lanczos: the modes that a push excites, and few more
+    constexpr double CLOSE = 0.3;   // width in logarithms of frequencies' squares within which modes are combined [-]
     std::vector<VecX> basis, weighted;  // normalised to unit mass; the same times the masses
     VecX next = move_along(direction, still);
     VecX diagonal = VecX::Zero(MOST_STEPS),

@@ -21,7 +21,7 @@ void hold(const std::vector<uint8_t>& held, VecX& x) {
 // Uses power iteration, the value by Rayleigh's quotient. Parts under tension have negative eigenvalues; if one of
 // these is largest, they are shifted away.
 Toppling find_toppling(StaticStiffness& resisting, const BlockMatrix& taken, const std::vector<uint8_t>& held) {
-    constexpr int ROUNDS = 200;
+    constexpr int ROUNDS = 200;     // of a power iteration, which ends when it is close
     constexpr double CLOSE = 1e-4;  // change of the value in a round [-]
     const Eigen::Index size = 3 * Eigen::Index(held.size());
     VecX product(size), solution(size);
@@ -66,8 +66,8 @@ std::vector<double> find_shares(const Toppling& toppling, StaticStiffness& resis
 }
 
 std::vector<double> stiffer_by(const std::vector<double>& shares, double overload) {
-    constexpr double MUCH = 0.3;  // over the largest share [-]
-    constexpr double MARGIN = 1.02, LARGEST = 8;
+    constexpr double MUCH = 0.3;                  // over the largest share [-]
+    constexpr double MARGIN = 1.02, LARGEST = 8;  // factors beyond what is lacking, and at most in a round [-]
     const double least = MUCH * *std::max_element(shares.begin(), shares.end());
     double together = 0;
     for (double share : shares)

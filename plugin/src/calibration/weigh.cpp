@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cage/tet_geometry.hpp"
+#include "core/assert.hpp"
 
 namespace frond {
 
@@ -99,6 +100,8 @@ static std::vector<double> find_lightness(const Model& model) {
 
 void give_mass(Model& model) {
     const Cage& cage = model.cage;
+    FROND_ASSERT(model.sections.size() == model.chain.nodes.size());
+    FROND_ASSERT(cage.tet_organ.size() == cage.tets.size() && cage.tet_fill.size() == cage.tets.size());
     const std::vector<double> lightness = find_lightness(model);
     model.tet_density.resize(cage.tets.size());
     std::vector<double> organs(model.organs.size(), 0.0);

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "collide/penetration.hpp"
+#include "core/assert.hpp"
 #include "core/timer.hpp"
 
 namespace frond {
@@ -74,6 +75,9 @@ SearchTimes find_cage_contacts(ContactSearch& search, const std::vector<Collisio
         for (const int overlap : pair.nodes) place_of(overlap) = -1;
     }
     drop_doubles(out);
+    FROND_ASSERT(std::all_of(out.begin(), out.end(), [](const CageContact& contact) {
+        return std::abs(contact.normal.squaredNorm() - 1) < 1e-6 && contact.depth >= 0;
+    }));
     const double ms_hash = search.overlaps.ms_hash;
     return {ms_hash, timer.ms() - ms_hash};
 }

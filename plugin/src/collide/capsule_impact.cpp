@@ -2,6 +2,7 @@
 // goes out.
 #include "collide/advance.hpp"
 #include "collide/capsule.hpp"
+#include "core/assert.hpp"
 
 namespace frond {
 
@@ -23,6 +24,7 @@ static std::optional<Impact> impact_of(const Points<A>& a_before, const Points<A
     };
     advance(a_before, a_after, b_before, b_after, radius, TOLERANCE * size, MOST_STEPS, gap_at,
             [&](double time, const Gap& gap) {
+                FROND_ASSERT(time >= 0 && time <= 1);
                 impact = Impact{time, gap};
             });
     return impact;

@@ -6,6 +6,7 @@
 #include "collide/capsule.hpp"
 #include "collide/collider.hpp"
 #include "collide/overlap.hpp"
+#include "core/assert.hpp"
 #include "model/model.hpp"
 #include "surface/triangle_distance.hpp"
 
@@ -112,6 +113,9 @@ static void find_near_pieces(Collider& collider, const std::vector<Vec3>& nodes)
 
 Collider make_collider(const std::vector<Vec3>& nodes, const std::vector<Tet>& tets, const std::vector<int>& tet_piece,
                        const std::vector<int>& tet_organ, int piece_count) {
+    FROND_ASSERT(tet_piece.size() == tets.size() && tet_organ.size() == tets.size());
+    FROND_ASSERT(
+        std::all_of(tet_piece.begin(), tet_piece.end(), [&](int piece) { return piece >= 0 && piece < piece_count; }));
     Collider collider;
     collider.node_count = int(nodes.size());
     collider.piece_count = piece_count;
@@ -127,6 +131,7 @@ Collider make_collider(const std::vector<Vec3>& nodes, const std::vector<Tet>& t
 }
 
 void separate_near_capsules(const Model& model, Collider& collider) {
+    FROND_ASSERT(collider.piece_count >= int(model.capsules.size()));
     constexpr double BESIDE = 0.015;  // [m]
     std::vector<Capsule> capsules;
     for (const auto& [begin, end] : model.capsules) {

@@ -3,6 +3,7 @@
 #include "collide/advance.hpp"
 #include "collide/strip.hpp"
 #include "collide/strip_cull.hpp"
+#include "core/assert.hpp"
 
 namespace frond {
 
@@ -24,6 +25,7 @@ std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCo
                 return gap;
             };
             const auto keep_first = [&](double time, const StripGap& gap) {
+                FROND_ASSERT(time >= 0 && time <= 1);
                 if (impact && impact->time <= time) return;
                 impact = StripImpact{time, gap};
                 impact->gap.distance += near;

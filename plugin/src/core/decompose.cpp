@@ -38,7 +38,7 @@ SingularParts singular_parts(const Mat3& A) {
 }
 
 Quat turn_between(const Vec3& from, const Vec3& to) {
-    constexpr double OPPOSITE = 1e-12;
+    constexpr double OPPOSITE = 1e-12;  // one plus the cosine below which the axis is any across [-]
     const Vec3 a = from.normalized(), b = to.normalized();
     const double cosine = b.dot(a);
     if (cosine < OPPOSITE - 1) {

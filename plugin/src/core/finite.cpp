@@ -12,7 +12,7 @@ struct AddNothing {
     double& sum;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr Eigen::Index AT_ONCE = 4 * LANES<S>;
+        constexpr Eigen::Index AT_ONCE = 4 * LANES<S>;  // four sums wait for nothing
         const Eigen::Index count = x.size();
         S sums[4] = {};
         Eigen::Index k = 0;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "core/constants.hpp"
 #include "core/platform/vectors.hpp"
@@ -13,7 +14,7 @@
 namespace frond {
 
 template <class S>
-constexpr int LANES = int(sizeof(S) / sizeof(double));
+constexpr int LANES = int(sizeof(S) / sizeof(double));  // numbers of a vector
 
 constexpr int MOST_LANES = 8;  // on any processor
 
@@ -109,12 +110,15 @@ FROND_INLINE unsigned bits_of(const Mask& mask) {
     for (size_t lane = 0; lane < sizeof mask / sizeof mask[0]; ++lane) bits |= unsigned(mask[lane] != 0) << lane;
     return bits;
 }
-// Returns value(lane) in each lane.
+// Returns value(lane) in each lane. Not by a loop: clang would write lane by lane into memory and read all back each
+// time.
+template <class S, class Value, size_t... LANE>
+FROND_INLINE S gather(const Value& value, std::index_sequence<LANE...>) {
+    return S{value(int(LANE))...};
+}
 template <class S, class Value>
 FROND_INLINE S gather(const Value& value) {
-    S out = {};
-    for (int lane = 0; lane < LANES<S>; ++lane) out[lane] = value(lane);
-    return out;
+    return gather<S>(value, std::make_index_sequence<size_t(LANES<S>)>());
 }
 
 FROND_INLINE double sqrt(double a) {

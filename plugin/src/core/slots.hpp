@@ -48,7 +48,7 @@ public:
     }
 
 private:
-    static constexpr size_t MAX_COUNT = (1u << 24) - 2;
+    static constexpr size_t MAX_COUNT = (1u << 24) - 2;  // what the index in a handle can tell apart
     struct Slot {
         T value{};
         uint32_t generation = 1;

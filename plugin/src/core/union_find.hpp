@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 struct UnionFind {
@@ -13,6 +15,7 @@ struct UnionFind {
 
     explicit UnionFind(size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0); }
     int find(int i) {
+        FROND_ASSERT(i >= 0 && size_t(i) < parent.size());
         while (parent[size_t(i)] != i) i = parent[size_t(i)] = parent[size_t(parent[size_t(i)])];
         return i;
     }

@@ -8,6 +8,7 @@
 
 namespace frond {
 
+// In the order of the rows in open_file.cpp.
 enum class FileFormat { OBJ, PLY, GLTF, GLB, FBX, DAE, STL, URDF };
 
 struct MeshFile {

@@ -14,7 +14,7 @@
 namespace frond {
 
 static constexpr size_t LARGEST_TEXTURE = size_t(128) << 20, ALL_TEXTURES = size_t(768) << 20;  // [byte]
-static constexpr int DEEPEST_FOLDER = 4, MOST_ENTRIES = 20000;
+static constexpr int DEEPEST_FOLDER = 4, MOST_ENTRIES = 20000;  // bounds on listing a folder that is no model's own
 
 // Files of a folder and its subfolders, in the order in which they were listed.
 struct Listing {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "importer/check.hpp"
+#include "skeleton/organ_correct.hpp"
 #include "surface/surface.hpp"
 
 struct aiScene;
@@ -10,6 +11,8 @@ struct aiMaterial;
 namespace frond {
 
 Surface read_ply(const MeshFile& file);
+// Reads a file MESH.frond.json; errors begin with its name.
+Corrections read_corrections(const std::string& path);
 // Reads the file through assimp.
 Surface read_scene(const MeshFile& file);
 // Stores what the file declares in Surface::scale, scale_declared, up and up_declared. Returns the transform that

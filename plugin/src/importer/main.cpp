@@ -1,6 +1,7 @@
 // frond-import: reads a mesh file or a URDF file and writes its surface or tree of links to stdout as an import stream.
-//     frond-import FILE [CPU_SECONDS WALL_SECONDS MEMORY_MIB [collides]]
-// With "collides" the collision meshes of a URDF file are read, not the visual ones.
+//     frond-import FILE [CPU_SECONDS WALL_SECONDS MEMORY_MIB [collides|seen [CORRECTIONS]]]
+// With "collides" the collision meshes of a URDF file are read, not the visual ones. CORRECTIONS: a file of those, or
+// empty.
 // The program sets its own limits before it opens the file; its caller must expect that it may crash.
 #include <cstdio>
 #include <cstdlib>
@@ -16,7 +17,8 @@ static void keep_warning(const char* message, void* result) {
     static_cast<frond::ImportResult*>(result)->warnings.push_back(message);
 }
 
-static void read_file(const std::string& path, frond::UrdfUse use, frond::ImportResult& result) {
+static void read_file(const std::string& path, frond::UrdfUse use, const std::string& corrections,
+                      frond::ImportResult& result) {
     using namespace frond;
     try {
         const MeshFile file = open_file(path);
@@ -25,6 +27,7 @@ static void read_file(const std::string& path, frond::UrdfUse use, frond::Import
             result.tree = read_urdf(file, use);
         else
             result.surface = file.format == FileFormat::PLY ? read_ply(file) : read_scene(file);
+        if (!corrections.empty()) result.corrections = read_corrections(corrections);
     } catch (const Error& error) {
         result.code = error.code;
         result.error = error.what();
@@ -38,6 +41,7 @@ static void read_file(const std::string& path, frond::UrdfUse use, frond::Import
     if (result.code == FROND_OK) return;
     result.surface = Surface();
     result.tree = UrdfTree();
+    result.corrections = Corrections();
 }
 
 int main(int count, char** words) {
@@ -55,7 +59,8 @@ int main(int count, char** words) {
     frond::ImportResult result;
     frond::set_log(keep_warning, &result);
     const bool collides = arguments.size() > 5 && arguments[5] == "collides";
-    read_file(arguments[1], collides ? frond::UrdfUse::COLLIDES : frond::UrdfUse::SEEN, result);
+    read_file(arguments[1], collides ? frond::UrdfUse::COLLIDES : frond::UrdfUse::SEEN,
+              arguments.size() > 6 ? arguments[6] : "", result);
     const bool written = frond::write_output(frond::encode_import(result));
     // Skips the destructors: a scene that may be half damaged need not be torn down.
     frond::leave(written ? 0 : 1);

@@ -22,20 +22,33 @@ static std::string read_bytes(const std::string& path) {
     return bytes;
 }
 
+// One row for each FileFormat. Formats without a check are checked by their reader.
+struct FormatRow {
+    const char *ending, *name;
+    bool is_text;
+    void (*check)(const MeshFile& file);
+};
+static const FormatRow FORMATS[] = {
+    {".obj", "OBJ", true, check_obj},   {".ply", "PLY", false, nullptr},   {".gltf", "glTF", true, check_gltf},
+    {".glb", "GLB", false, check_gltf}, {".fbx", "FBX", false, check_fbx}, {".dae", "DAE", true, check_dae},
+    {".stl", "STL", false, check_stl},  {".urdf", "URDF", true, nullptr},
+};
+static_assert(sizeof FORMATS / sizeof FORMATS[0] == size_t(FileFormat::URDF) + 1, "every format needs its row");
+
+static const FormatRow& row_of(FileFormat format) {
+    return FORMATS[size_t(format)];
+}
+
 static FileFormat format_by_name(const std::string& name) {
-    static const struct {
-        const char* ending;
-        FileFormat format;
-    } ROWS[] = {{".obj", FileFormat::OBJ}, {".ply", FileFormat::PLY},  {".gltf", FileFormat::GLTF},
-                {".glb", FileFormat::GLB}, {".fbx", FileFormat::FBX},  {".dae", FileFormat::DAE},
-                {".stl", FileFormat::STL}, {".urdf", FileFormat::URDF}};
-    for (const auto& row : ROWS)
-        if (has_ending(name, row.ending)) return row.format;
+    std::string meshes;
+    for (size_t i = 0; i <= size_t(FileFormat::URDF); ++i) {
+        if (has_ending(name, FORMATS[i].ending)) return FileFormat(i);
+        if (FileFormat(i) != FileFormat::URDF) meshes += std::string(" ") + FORMATS[i].ending;
+    }
     const size_t dot = name.rfind('.');
     const std::string ending = dot == std::string::npos ? "" : name.substr(dot);
-    fail(FROND_RESULT_FILE_FORMAT,
-         "the name ends in \"%s\"; meshes are read from .obj .ply .gltf .glb .fbx .dae .stl, trees of links from .urdf",
-         ending.c_str());
+    fail(FROND_RESULT_FILE_FORMAT, "the name ends in \"%s\"; meshes are read from%s, trees of links from .urdf",
+         ending.c_str(), meshes.c_str());
 }
 
 static bool starts_with(const std::string& bytes, const char* text) {
@@ -56,11 +69,6 @@ static const char* format_by_content(const std::string& bytes) {
     return nullptr;
 }
 
-static const char* name_of(FileFormat format) {
-    static const char* const NAMES[] = {"OBJ", "PLY", "glTF", "GLB", "FBX", "DAE", "STL", "URDF"};
-    return NAMES[int(format)];
-}
-
 MeshFile open_file(const std::string& path) {
     MeshFile file;
     file.path = path;
@@ -70,37 +78,20 @@ MeshFile open_file(const std::string& path) {
     file.bytes = read_bytes(path);
 
     const char* content = format_by_content(file.bytes);
-    if (content && strcmp(content, name_of(file.format)) != 0 && file.format != FileFormat::STL)
+    const FormatRow& row = row_of(file.format);
+    if (content && strcmp(content, row.name) != 0 && file.format != FileFormat::STL)
         fail(FROND_RESULT_FILE_FORMAT, "the content is that of a %s file, not of the %s file that the name promises",
-             content, name_of(file.format));
-    const bool is_text = file.format == FileFormat::OBJ || file.format == FileFormat::GLTF ||
-                         file.format == FileFormat::DAE || file.format == FileFormat::URDF;
+             content, row.name);
     const bool is_wide = starts_with(file.bytes, "\xff\xfe") || starts_with(file.bytes, "\xfe\xff");
     const size_t zero = file.bytes.find('\0');
-    if (is_text && !is_wide && zero != std::string::npos)
+    if (row.is_text && !is_wide && zero != std::string::npos)
         fail(FROND_RESULT_FILE_FORMAT,
-             "the file has a zero byte at %zu, so it is not the %s text that the name promises", zero,
-             name_of(file.format));
+             "the file has a zero byte at %zu, so it is not the %s text that the name promises", zero, row.name);
     return file;
 }
 
 void check_file(const MeshFile& file) {
-    switch (file.format) {
-        case FileFormat::OBJ:
-            return check_obj(file);
-        case FileFormat::PLY:
-        case FileFormat::URDF:
-            return;  // the reader itself checks
-        case FileFormat::GLTF:
-        case FileFormat::GLB:
-            return check_gltf(file);
-        case FileFormat::FBX:
-            return check_fbx(file);
-        case FileFormat::DAE:
-            return check_dae(file);
-        case FileFormat::STL:
-            return check_stl(file);
-    }
+    if (row_of(file.format).check) row_of(file.format).check(file);
 }
 
 }  // namespace frond

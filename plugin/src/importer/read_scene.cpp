@@ -57,7 +57,7 @@ public:
     void Close(Assimp::IOStream* stream) override { delete stream; }
 
 private:
-    static constexpr size_t LARGEST = size_t(1) << 30;
+    static constexpr size_t LARGEST = size_t(1) << 30;  // [byte]
     const MeshFile& file;
     const std::string& bytes;
     // assimp puts the folder in front of a reference; here it is removed again.

@@ -35,7 +35,7 @@ static double unit_of_dae(const std::string& bytes) {
 // Returns the unit that an OBJ file's comments state, as some programs write it ("## File units = inches") [m]; 0:
 // none.
 static double unit_of_obj(const std::string& bytes) {
-    constexpr size_t HEADER = 4096;
+    constexpr size_t HEADER = 4096;  // where programs write it [byte]
     static const std::map<std::string, double> UNITS = {
         {"millimeters", 1e-3}, {"millimetres", 1e-3}, {"centimeters", 1e-2}, {"centimetres", 1e-2}, {"meters", 1},
         {"metres", 1},         {"inches", 0.0254},    {"feet", 0.3048},      {"mm", 1e-3},          {"cm", 1e-2}};

@@ -31,7 +31,7 @@ static float in_range(float value) {
 
 // Returns whether a colour is a tint. Grey, black and white are what exporters write when nobody chose a colour.
 static bool is_tint(const aiColor4D& color) {
-    constexpr float LEAST = 0.05f;
+    constexpr float LEAST = 0.05f;  // difference of channels that can be seen [-]
     return std::max({color.r, color.g, color.b}) - std::min({color.r, color.g, color.b}) > LEAST;
 }
 
@@ -45,7 +45,7 @@ static bool is_gltf(const MeshFile& file) {
 
 // Returns whether colours are linear: in glTF, and in files by Blender, which states its name near the beginning.
 static bool has_linear_colors(const MeshFile& file) {
-    constexpr size_t HEADER = 16384;
+    constexpr size_t HEADER = 16384;  // beginning in which it stands [byte]
     return is_gltf(file) || file.bytes.substr(0, HEADER).find("Blender") != std::string::npos;
 }
 

@@ -16,7 +16,7 @@ namespace frond {
 
 using Mat4 = Eigen::Matrix4d;
 
-static constexpr size_t MOST_NODES = 500000, MOST_PARTS = 200000;
+static constexpr size_t MOST_NODES = 500000, MOST_PARTS = 200000;  // a file with more is damaged
 
 struct SceneNode {
     const aiNode* node;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cage/cage.hpp"
+#include "skeleton/organ_correct.hpp"
 
 namespace frond {
 
@@ -9,6 +10,8 @@ struct ImportOptions {
     double scale = 0;        // metres per file unit; 0: guessed
     Vec3 up = Vec3::Zero();  // up axis of the file; zero: guessed
     std::string name = {};   // name of the file, which may name the plant
+    // File with corrections; empty: none, "beside": MESH.frond.json in the mesh's folder, if it is there.
+    std::string corrections = {};
 };
 
 // Output of a tet mesher: nodes and tets as given.
@@ -20,8 +23,8 @@ struct TetMesh {
 };
 
 // Imports a mesh file, through assimp in a child process with limits: see import_process.cpp. The surface is placed and
-// clean.
-Surface import_surface(const std::string& path, const ImportOptions& options);
+// clean. `corrections`: receives those of options.corrections, or null.
+Surface import_surface(const std::string& path, const ImportOptions& options, Corrections* corrections = nullptr);
 // Tet files: Gmsh .msh (2.2 and 4.1, text and binary) and legacy .vtk unstructured grids.
 bool is_tet_file(const std::string& path);
 TetMesh import_tets(const std::string& path);

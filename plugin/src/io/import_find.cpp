@@ -21,6 +21,9 @@ std::string find_importer() {
     const std::string name = std::string("frond-import") + PROGRAM_ENDING;
     for (const std::string& folder : own_folders()) {
         candidates.push_back(folder + "/" + name);
+#ifdef FROND_IMPORTER_FROM_LIBRARY
+        candidates.push_back(folder + "/" FROND_IMPORTER_FROM_LIBRARY "/" + name);
+#endif
         candidates.push_back(folder + "/../libexec/frond/" + name);
         candidates.push_back(folder + "/../../libexec/frond/" + name);
     }

@@ -16,7 +16,7 @@
 namespace frond {
 
 static constexpr double LARGEST_FILE = 1073741824.0;  // [byte]
-static constexpr size_t STDERR_KEPT = 4096;
+static constexpr size_t STDERR_KEPT = 4096;           // of what the program says [byte]
 
 // Replaces limits of 0 by limits chosen from the file's size.
 static ImportLimits choose_limits(const ImportLimits& wanted, double file_bytes) {
@@ -29,14 +29,15 @@ static ImportLimits choose_limits(const ImportLimits& wanted, double file_bytes)
     return limits;
 }
 
-static Child start_program(const std::string& program, const std::string& path, const ImportLimits& limits,
-                           UrdfUse use) {
+static Child start_program(const std::string& program, const std::string& path, const ImportLimits& limits, UrdfUse use,
+                           const std::string& corrections) {
     const ProcessLimits whole = {std::ceil(limits.cpu_seconds), std::ceil(limits.wall_seconds),
                                  std::floor(limits.memory_mib)};
     std::vector<std::string> arguments = {path};
     for (const double limit : {whole.cpu_seconds, whole.wall_seconds, whole.memory_mib})
         arguments.push_back(std::to_string(int64_t(limit)));
-    if (use == UrdfUse::COLLIDES) arguments.push_back("collides");
+    arguments.push_back(use == UrdfUse::COLLIDES ? "collides" : "seen");
+    arguments.push_back(corrections);
     try {
         return Child(program, arguments, whole);
     } catch (const std::system_error& error) {
@@ -106,7 +107,8 @@ static std::string last_line(std::string text) {
          end.how == ChildEnd::CRASHED ? " with " : "", end.how == ChildEnd::CRASHED ? end.words.c_str() : "");
 }
 
-static ImportResult run_program(const std::string& path, const ImportLimits& wanted, UrdfUse use) {
+static ImportResult run_program(const std::string& path, const ImportLimits& wanted, UrdfUse use,
+                                const std::string& corrections) {
     // Checks what can be checked without the program.
     const std::string name = file_name(path);
     if (path.empty() || path.find('\0') != std::string::npos)
@@ -124,7 +126,7 @@ static ImportResult run_program(const std::string& path, const ImportLimits& wan
     const ImportLimits limits = choose_limits(wanted, double(status.size));
     const std::string program = find_importer();
 
-    Child child = start_program(program, path, limits, use);
+    Child child = start_program(program, path, limits, use, corrections);
     std::string stream, errors;
     const Ending ending = listen_to(child, limits, stream, errors);
     const ChildEnd end = child.end(ending != Ending::COMPLETE);
@@ -141,13 +143,25 @@ static ImportResult run_program(const std::string& path, const ImportLimits& wan
 }
 
 Surface run_importer(const std::string& path, const ImportLimits& limits) {
-    return run_program(path, limits, UrdfUse::SEEN).surface;
+    return run_program(path, limits, UrdfUse::SEEN, "").surface;
 }
 
-Surface import_surface(const std::string& path, const ImportOptions& options) {
-    Surface surface = run_importer(path, ImportLimits());
+// Returns the path of the file with corrections, "" for none.
+static std::string find_corrections(const std::string& path, const std::string& wanted) {
+    if (wanted != "beside") return wanted;
+    const size_t dot = path.rfind('.'), name = path.size() - file_name(path).size();
+    const std::string beside = (dot == std::string::npos || dot < name ? path : path.substr(0, dot)) + ".frond.json";
+    return status_of(beside).exists ? beside : "";
+}
+
+Surface import_surface(const std::string& path, const ImportOptions& options, Corrections* corrections) {
+    ImportResult result = run_program(path, ImportLimits(), UrdfUse::SEEN, find_corrections(path, options.corrections));
+    Surface surface = std::move(result.surface);
     try {
         ImportOptions named = options;
+        if (named.scale == 0) named.scale = result.corrections.unit;
+        if (named.up.isZero(0)) named.up = result.corrections.up;
+        if (corrections) *corrections = std::move(result.corrections);
         named.name = file_name(path);
         place_surface(surface, named);
     } catch (const Error& error) {
@@ -164,7 +178,7 @@ UrdfTree import_urdf(const std::string& path, UrdfUse use) {
     if (!is_urdf(path))
         fail(FROND_RESULT_FILE_FORMAT, "%s: the name does not end in .urdf; give the path of a URDF file",
              file_name(path).c_str());
-    return run_program(path, ImportLimits(), use).tree;
+    return run_program(path, ImportLimits(), use, "").tree;
 }
 
 }  // namespace frond

@@ -7,8 +7,9 @@
 namespace frond {
 
 static constexpr char MAGIC[] = "frond-import";
-static constexpr uint32_t VERSION = 3;
-static constexpr uint32_t MAX_PARTS = 1000000, MAX_TEXTURES = 10000, MAX_WARNINGS = 1000;
+static constexpr uint32_t VERSION = 4;  // of the stream; another one is of another build
+// More is damage.
+static constexpr uint32_t MAX_PARTS = 1000000, MAX_TEXTURES = 10000, MAX_WARNINGS = 1000, MAX_CORRECTIONS = 100000;
 
 std::string import_greeting() {
     std::string greeting(MAGIC, 12);
@@ -57,6 +58,25 @@ static void put_surface(std::string& out, const Surface& surface) {
     put(out, int32_t(surface.dropped_triangles));
 }
 
+static void put_corrections(std::string& out, const Corrections& corrections) {
+    put(out, corrections.unit);
+    for (int axis = 0; axis < 3; ++axis) put(out, double(corrections.up[axis]));
+    put(out, corrections.allow_stiffening);
+    put(out, uint32_t(corrections.organs.size()));
+    for (const OrganCorrection& one : corrections.organs) {
+        put_text(out, one.organ);
+        put_text(out, one.kind);
+        put_text(out, one.parent);
+        put(out, uint32_t(one.material.size()));
+        for (const auto& [field, value] : one.material) {
+            put(out, int32_t(field));
+            put(out, value);
+        }
+        put(out, uint8_t(one.is_root));
+        put(out, uint8_t(one.leave_out));
+    }
+}
+
 std::string encode_import(const ImportResult& result) {
     const Surface& surface = result.surface;
     std::string out(8, '\0');
@@ -68,6 +88,7 @@ std::string encode_import(const ImportResult& result) {
     if (result.code == FROND_OK) {
         put_surface(out, surface);
         put_tree(out, result.tree);
+        put_corrections(out, result.corrections);
     }
     const uint64_t length = out.size() - 8;
     std::memcpy(&out[0], &length, 8);
@@ -106,6 +127,32 @@ static void take_surface(StreamReader& in, Surface& surface) {
     surface.up_declared = take<uint8_t>(in) != 0;
     surface.scale_declared = take<uint8_t>(in) != 0;
     surface.dropped_triangles = take<int32_t>(in);
+}
+
+static void take_corrections(StreamReader& in, Corrections& corrections) {
+    corrections.unit = take<double>(in);
+    for (int axis = 0; axis < 3; ++axis) corrections.up[axis] = take<double>(in);
+    corrections.allow_stiffening = take<double>(in);
+    in.good = in.good && corrections.unit >= 0 && std::isfinite(corrections.unit) && corrections.up.allFinite() &&
+              corrections.allow_stiffening >= 0;
+    const uint32_t count = take<uint32_t>(in);
+    in.good = in.good && count <= MAX_CORRECTIONS;
+    for (uint32_t i = 0; in.good && i < count; ++i) {
+        OrganCorrection one;
+        one.organ = take_text(in);
+        one.kind = take_text(in);
+        one.parent = take_text(in);
+        const uint32_t fields = take<uint32_t>(in);
+        in.good = in.good && fields <= MATERIAL_FIELD_COUNT;
+        for (uint32_t k = 0; in.good && k < fields; ++k) {
+            const int32_t field = take<int32_t>(in);
+            in.good = in.good && field >= 0 && size_t(field) < MATERIAL_FIELD_COUNT;
+            one.material.push_back({field, take<double>(in)});
+        }
+        one.is_root = take<uint8_t>(in) != 0;
+        one.leave_out = take<uint8_t>(in) != 0;
+        corrections.organs.push_back(std::move(one));
+    }
 }
 
 // Returns whether sizes and indices agree. Defects that clean_surface() repairs are not checked here.
@@ -151,6 +198,7 @@ bool decode_import(const char* bytes, size_t byte_count, ImportResult& result) {
         if (in.good && !holds_together(result.surface)) return false;
         take_tree(in, result.tree);
         if (in.good && !result.tree.links.empty() && !what_is_wrong_with(result.tree).empty()) return false;
+        take_corrections(in, result.corrections);
     }
     return in.good && in.left == 0;
 }

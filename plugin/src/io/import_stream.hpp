@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "io/urdf.hpp"
+#include "skeleton/organ_correct.hpp"
 #include "surface/surface.hpp"
 
 namespace frond {
@@ -15,9 +16,10 @@ struct ImportResult {
     // If code is FROND_OK, one of these; the other is empty.
     Surface surface;
     UrdfTree tree;
+    Corrections corrections = {};
 };
 
-constexpr size_t IMPORT_GREETING_SIZE = 16;
+constexpr size_t IMPORT_GREETING_SIZE = 16;  // [byte]
 // Returns magic and version.
 std::string import_greeting();
 std::string encode_import(const ImportResult& result);

@@ -3,7 +3,7 @@
 
 namespace frond {
 
-static constexpr uint32_t MOST_MESHES = 10000;
+static constexpr uint32_t MOST_MESHES = 10000;  // more is damage
 
 static void put_vec(std::string& out, const Vec3& v) {
     for (int axis = 0; axis < 3; ++axis) put(out, double(v[axis]));

@@ -13,8 +13,21 @@ namespace frond {
 
 static constexpr uint64_t LARGEST_TET_FILE = 1ull << 30;  // [byte]
 
+// The formats.
+struct TetFormat {
+    const char* ending;
+    TetMesh (*read)(TetFile& file);
+};
+static const TetFormat TET_FORMATS[] = {{".msh", read_gmsh}, {".vtk", read_vtk}};
+
+static const TetFormat* format_of(const std::string& path) {
+    for (const TetFormat& format : TET_FORMATS)
+        if (has_ending(path, format.ending)) return &format;
+    return nullptr;
+}
+
 bool is_tet_file(const std::string& path) {
-    return has_ending(path, ".msh") || has_ending(path, ".vtk");
+    return format_of(path) != nullptr;
 }
 
 void fail_at(const TetFile& file, const std::string& what) {
@@ -129,10 +142,15 @@ static TetFile open_tet_file(const std::string& path) {
 }
 
 TetMesh import_tets(const std::string& path) {
-    if (!is_tet_file(path))
-        fail(FROND_RESULT_FILE_FORMAT, "%s: tets are read from .msh and .vtk files", file_name(path).c_str());
+    const TetFormat* format = format_of(path);
+    if (!format) {
+        std::string endings;
+        for (const TetFormat& row : TET_FORMATS) endings += std::string(" ") + row.ending;
+        fail(FROND_RESULT_FILE_FORMAT, "%s: tets are read from files that end in%s", file_name(path).c_str(),
+             endings.c_str());
+    }
     TetFile file = open_tet_file(path);
-    TetMesh mesh = has_ending(path, ".msh") ? read_gmsh(file) : read_vtk(file);
+    TetMesh mesh = format->read(file);
     if (mesh.tets.empty())
         fail(FROND_RESULT_FILE_FORMAT, "%s: there are no tetrahedra in the file; mesh the volume, not only its surface",
              file.name.c_str());

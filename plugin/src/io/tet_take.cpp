@@ -12,7 +12,7 @@
 
 namespace frond {
 
-static constexpr size_t MOST_TETS = 5000000;
+static constexpr size_t MOST_TETS = 5000000;  // beyond any that is stepped
 // A tet is flat if six times its volume is less than this share of its longest edge's cube.
 static constexpr double SMALLEST_VOLUME = 1e-9;
 

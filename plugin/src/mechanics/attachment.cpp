@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "mechanics/rotation.hpp"
 
 namespace frond {
@@ -38,6 +39,7 @@ AttachmentDerivative derivative_at(const Attachment& attachment, const VecX& x) 
 }
 
 Attachment tet_attachment(const TetPlace& place) {
+    FROND_ASSERT(place.count >= 1 && place.count <= Attachment::MOST);
     Attachment attachment;
     attachment.count = place.count;
     std::copy_n(place.node.begin(), place.count, attachment.node.begin());
@@ -97,9 +99,10 @@ void add_attachment_block(const Attachment& attachment, const VecX& x, const Mat
         for (int r = 0; r < attachment.count; ++r)
             for (int c = 0; c < attachment.count; ++c) {
                 const int i = attachment.node[size_t(r)], j = attachment.node[size_t(c)];
-                if (i >= j)
-                    A.block(A.pattern->slot(i, j)) +=
-                        attachment.weight[size_t(r)] * attachment.weight[size_t(c)] * block;
+                if (i < j) continue;
+                const int slot = A.pattern->slot(i, j);
+                FROND_ASSERT(slot >= 0);
+                A.block(slot) += attachment.weight[size_t(r)] * attachment.weight[size_t(c)] * block;
             }
         return;
     }
@@ -108,7 +111,9 @@ void add_attachment_block(const Attachment& attachment, const VecX& x, const Mat
         for (int c = 0; c < d.count; ++c) {
             const int i = d.node[size_t(r)], j = d.node[size_t(c)];
             if (i < j) continue;
-            A.block(A.pattern->slot(i, j)) += d.by[size_t(r)].transpose() * block * d.by[size_t(c)];
+            const int slot = A.pattern->slot(i, j);
+            FROND_ASSERT(slot >= 0);
+            A.block(slot) += d.by[size_t(r)].transpose() * block * d.by[size_t(c)];
         }
 }
 

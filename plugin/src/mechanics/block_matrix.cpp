@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "core/assert.hpp"
 #include "core/lanes.hpp"
 
 namespace frond {
 
 int BlockPattern::slot(int i, int j) const {
+    FROND_ASSERT(i >= 0 && j >= 0 && i < node_count && j < node_count);
     if (i < j) std::swap(i, j);
     const auto begin = row.begin() + start[size_t(j)], end = row.begin() + start[size_t(j) + 1];
     const auto found = std::lower_bound(begin, end, i);
@@ -49,6 +51,8 @@ void BlockMatrix::set_zero() {
 
 // Takes two rows of a block at once and the third by itself.
 void BlockMatrix::multiply(const VecX& x, VecX& y) const {
+    FROND_ASSERT(pattern && x.size() == 3 * pattern->node_count);
+    FROND_ASSERT(values.size() == 9 * pattern->row.size());
     y.setZero(x.size());
     const double* a = values.data();
     for (int j = 0; j < pattern->node_count; ++j) {

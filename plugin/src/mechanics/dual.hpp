@@ -12,7 +12,7 @@ namespace frond {
 
 template <class S>
 struct Dual {
-    static constexpr int COUNT = 12, GROUPS = COUNT / LANES<S>;
+    static constexpr int COUNT = 12, GROUPS = COUNT / LANES<S>;  // numbers of a segment's two ends
     double value;
     S slope[GROUPS];
 

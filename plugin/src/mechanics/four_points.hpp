@@ -12,7 +12,7 @@
 namespace frond {
 
 struct FourPoints {
-    static constexpr size_t TETS = 1;
+    static constexpr size_t TETS = 1;  // whose four points are the lanes
     static constexpr double C = QuadraticTetElement::CORNER, E = QuadraticTetElement::EDGE,
                             M = QuadraticTetElement::MORE;
     using S = FourLanes;

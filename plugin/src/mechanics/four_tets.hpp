@@ -7,7 +7,7 @@
 namespace frond {
 
 struct FourTets {
-    static constexpr size_t TETS = 4;
+    static constexpr size_t TETS = 4;  // one a lane
     using S = FourLanes;
     const TetElements& elements;
     size_t tet[TETS];  // the last one is repeated past the end

@@ -6,30 +6,29 @@
 namespace frond {
 
 static Mechanics rods(const char* name) {
-    return {name,
-            make_rods,
-            rod_masses,
-            rod_energy,
-            rod_add_force,
-            rod_add_stiffness,
-            rod_add_both,
-            rod_add_damped,
-            rod_add_ahead,
-            rod_inertia,
-            rods_are_calm,
-            nullptr,
-            rods_yield,
-            copy_rods,
-            rods_flow,
-            plastic_of_rods,
-            set_plastic_of_rods,
-            rod_section_strains,
-            without_rods,
-            false,
-            true,
-            true,
-            &rod_batch(),
-            retract_rods};
+    Mechanics row;
+    row.name = name;
+    row.make = make_rods;
+    row.masses = rod_masses;
+    row.energy = rod_energy;
+    row.add_force = rod_add_force;
+    row.add_stiffness = rod_add_stiffness;
+    row.add_force_and_stiffness = rod_add_both;
+    row.add_force_stiffness_and_damping = rod_add_damped;
+    row.add_ahead = rod_add_ahead;
+    row.rotary_inertia = rod_inertia;
+    row.is_calm = rods_are_calm;
+    row.yields = rods_yield;
+    row.copy = copy_rods;
+    row.flow = rods_flow;
+    row.get_plastic = plastic_of_rods;
+    row.set_plastic = set_plastic_of_rods;
+    row.section_strains = rod_section_strains;
+    row.without = without_rods;
+    row.moves_chain = true;
+    row.batch = &rod_batch();
+    row.retract = retract_rods;
+    return row;
 }
 
 const Mechanics& mechanics(frond_mechanics which, int order) {

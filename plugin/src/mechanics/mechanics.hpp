@@ -101,51 +101,53 @@ struct BatchMechanics {
 
 // x is in the frame of the rest positions, so a plant's rotation in the world does not strain it.
 struct Mechanics {
-    const char* name;
+    const char* name = nullptr;
     // `which` is the row's own number.
-    std::unique_ptr<const Elements> (*make)(const Model& model, frond_mechanics which);
-    Masses (*masses)(const Elements& elements, frond_mass mass);
+    std::unique_ptr<const Elements> (*make)(const Model& model, frond_mechanics which) = nullptr;
+    Masses (*masses)(const Elements& elements, frond_mass mass) = nullptr;
     // Returns the elastic energy at x [J].
-    double (*energy)(const Elements& elements, const VecX& x);
+    double (*energy)(const Elements& elements, const VecX& x) = nullptr;
     // Adds the elastic force at x, minus the gradient of the energy, to f [N]; returns the number of inverted tets.
-    int (*add_force)(const Elements& elements, const VecX& x, VecX& f);
+    int (*add_force)(const Elements& elements, const VecX& x, VecX& f) = nullptr;
     // Adds scale times the stiffness at x, the second derivative of the energy, to K [N/m].
-    void (*add_stiffness)(const Elements& elements, const VecX& x, Tangent tangent, double scale, BlockMatrix& K);
+    void (*add_stiffness)(const Elements& elements, const VecX& x, Tangent tangent, double scale,
+                          BlockMatrix& K) = nullptr;
     // Does both in one pass over the elements, the stiffness with scale one.
-    int (*add_force_and_stiffness)(const Elements& elements, const VecX& x, Tangent tangent, VecX& f, BlockMatrix& K);
+    int (*add_force_and_stiffness)(const Elements& elements, const VecX& x, Tangent tangent, VecX& f,
+                                   BlockMatrix& K) = nullptr;
     // The same with the positive stiffness; also adds damping[e] [s] times each element's stiffness to D [N s/m].
     int (*add_force_stiffness_and_damping)(const Elements& elements, const VecX& x, const std::vector<double>& damping,
-                                           VecX& f, BlockMatrix& K, BlockMatrix& D);
+                                           VecX& f, BlockMatrix& K, BlockMatrix& D) = nullptr;
     // With K the positive stiffness at x and D its stiffness-proportional damping: adds the force at x minus K way
     // minus D v to f, and step^2 K + step D to A; returns the number of inverted tets. Null: use the functions above.
-    int (*add_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A);
+    int (*add_ahead)(const Elements& elements, const VecX& x, const Ahead& ahead, VecX& f, BlockMatrix& A) = nullptr;
     // Computes the rotary inertia of each pair of nodes, position and rotation, by the rate of the rotation vector at x
     // [kg m^2]; null: no node rotates.
-    void (*rotary_inertia)(const Elements& elements, const VecX& x, std::vector<Mat3>& out);
+    void (*rotary_inertia)(const Elements& elements, const VecX& x, std::vector<Mat3>& out) = nullptr;
     // Returns whether all elements strain and rotate little between `from` and `to` (the trust bound), so that forces
     // and stiffness at `to` may be used for a step that begins at `from`.
-    bool (*is_calm)(const Elements& elements, const VecX& from, const VecX& to);
+    bool (*is_calm)(const Elements& elements, const VecX& from, const VecX& to) = nullptr;
     // Computes the derivative of a tet's forces on its n nodes by their rest positions [N/m]: of the force on a by the
     // position of b at [n a + b], nodes in the order of element_nodes(). Null where the rest shape is known without it.
-    void (*rest_derivative)(const Elements& elements, size_t e, const VecX& x, std::vector<Mat3>& out);
+    void (*rest_derivative)(const Elements& elements, size_t e, const VecX& x, std::vector<Mat3>& out) = nullptr;
     // Plasticity: returns whether an element is strained beyond its yield strain at x; needs `yields`.
-    bool (*yields)(const Elements& elements, const VecX& x);
+    bool (*yields)(const Elements& elements, const VecX& x) = nullptr;
     // Copies the elements for a plant that has yielded.
-    std::unique_ptr<Elements> (*copy)(const Elements& elements);
+    std::unique_ptr<Elements> (*copy)(const Elements& elements) = nullptr;
     // Makes the part of such a copy's deformation at x that yields or creeps within h [s] plastic; elastic energy does
     // not grow by it.
-    void (*flow)(Elements& own, const VecX& x, double h);
+    void (*flow)(Elements& own, const VecX& x, double h) = nullptr;
     // Get and set the plastic state; set throws BAD_ARGUMENT, with nothing changed, for values that get cannot return.
-    std::vector<double> (*get_plastic)(const Elements& own);
-    void (*set_plastic)(Elements& own, const std::vector<double>& values);
+    std::vector<double> (*get_plastic)(const Elements& own) = nullptr;
+    void (*set_plastic)(Elements& own, const std::vector<double>& values) = nullptr;
     // Breaking: computes the strain of each capsule's outermost fibre at x, one a chain node [-].
-    void (*section_strains)(const Elements& elements, const VecX& x, std::vector<double>& out);
+    void (*section_strains)(const Elements& elements, const VecX& x, std::vector<double>& out) = nullptr;
     // Copies the elements without those of the capsules that are `gone`, one flag a chain node; the pattern stays.
-    std::unique_ptr<Elements> (*without)(const Elements& elements, const std::vector<uint8_t>& gone);
+    std::unique_ptr<Elements> (*without)(const Elements& elements, const std::vector<uint8_t>& gone) = nullptr;
     // A single solve may blow up where tets are inverted, and has to be continued with a line search.
-    bool needs_search;
+    bool needs_search = false;
     // Nodes are pairs of a chain node's position and rotation, and the cage follows; else nodes are the cage's.
-    bool moves_chain;
+    bool moves_chain = false;
     // Rotations cause no strain; false for linear tets, which grow when they rotate far.
     bool turns = true;
     const BatchMechanics* batch = nullptr;  // null: plants are stepped one by one

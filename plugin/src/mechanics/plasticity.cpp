@@ -41,7 +41,7 @@ Yield yield_of(const Model& model, int organ) {
 }
 
 double firm_strain(double yield_strain, double standing) {
-    constexpr double MARGIN = 1.5;
+    constexpr double MARGIN = 1.5;  // a coarse cage strains places more than tissue is [-]
     return std::max(yield_strain, MARGIN * standing);
 }
 

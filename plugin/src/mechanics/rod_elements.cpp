@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/assert.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
 #include "core/union_find.hpp"
@@ -213,6 +214,9 @@ RodElements make_elements(const Model& model, Take&& take) {
         const int ends[4] = {2 * rod.a, 2 * rod.a + 1, 2 * rod.b, 2 * rod.b + 1};
         for (size_t r = 0; r < 4; ++r)
             for (size_t c = 0; c < 4; ++c) rod.slots[4 * r + c] = out.pattern.slot(ends[r], ends[c]);
+        FROND_ASSERT(rod.a >= 0 && rod.a < rod.b && 2 * rod.b < out.node_count);
+        FROND_ASSERT(*std::min_element(rod.slots.begin(), rod.slots.end()) >= 0);
+        FROND_ASSERT((rod.frame.transpose() * rod.frame).isIdentity(1e-6));
     }
 
     // No node is massless: nothing would resist its acceleration.
@@ -222,6 +226,7 @@ RodElements make_elements(const Model& model, Take&& take) {
     set_inertia(model, out);
     share_mass(model, out);
     find_roots(out);
+    FROND_ASSERT(out.section.size() == out.segments.size() && out.damping_ratio.size() == out.segments.size());
     if (model.stands_as_modelled) let_stand(out);
     return out;
 }

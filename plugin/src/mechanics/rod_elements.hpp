@@ -54,6 +54,12 @@ struct FibreStrain {
     double sum() const { return pull + bend; }
 };
 FibreStrain fibre_strain(const RodSegment& rod, const RodStrain& strain);
+// Force and moment in the middle of a segment, of what is beyond it on what is before it [N], [N m], and its directions
+// along the chord and towards its thin side.
+struct RodSectionForce {
+    Vec3 force, moment, axis, thin;
+};
+std::vector<RodSectionForce> rod_section_forces(const RodElements& elements, const VecX& x);
 // Sets `yields` of elements that are otherwise complete.
 void let_rods_yield(const Model& model, RodElements& elements);
 

@@ -12,8 +12,8 @@ namespace frond {
 // As many segments of one plant as there are lanes; the last one is repeated past the end.
 template <class S>
 struct PiecesOfOne {
-    static constexpr int MANY = LANES<S>;
-    using Number = double;  // number of a node in x
+    static constexpr int MANY = LANES<S>;  // segments
+    using Number = double;                 // number of a node in x
     const RodSegment* rod[LANES<S>];
     size_t first;
     int count;
@@ -89,7 +89,7 @@ struct PiecesOfOne {
 // One segment of as many plants as there are lanes.
 template <class S>
 struct PieceOfSeveral {
-    static constexpr int MANY = 1;
+    static constexpr int MANY = 1;  // segment
     using Number = S;
     const RodSegment& rod;
     size_t first;

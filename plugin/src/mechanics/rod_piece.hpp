@@ -29,7 +29,7 @@ struct RodEnd {
 
 template <class S>
 FROND_INLINE RodEnd<S> rod_end(const Lanes3<S>& place, const Lanes3<S>& turn) {
-    constexpr double TINY = 1e-8;
+    constexpr double TINY = 1e-8;  // square of an angle, below which series are exact [rad^2]
     RodEnd<S> end;
     end.place = place;
     end.turn = turn;
@@ -76,7 +76,7 @@ template <class S>
 FROND_INLINE void fold_up(const Lanes3<S>& quarter, const S& square, const Lanes3<S>& bending, const S& over_angle,
                           S& fold, Lanes3<S>& fold_slope) {
     constexpr double FROM = 0.29844638;  // tan(angle/4)^2 at two radians
-    constexpr double STIFFNESS = 10;
+    constexpr double STIFFNESS = 10;     // so that the growth at half a turn is 4.5 times [-]
     const S bent = dot(bending, bending);
     const S beyond = select(bent < FROM, constant<S>(0), S(bent - FROM));
     const S grown = STIFFNESS * beyond * beyond;

@@ -10,7 +10,7 @@ namespace frond {
 // Stiffness blocks of a few tets, before they are added to the matrix.
 template <class S>
 struct WaitingBlocks {
-    static constexpr size_t MOST = 4, BLOCKS = 10;
+    static constexpr size_t MOST = 4, BLOCKS = 10;  // tets that one plant takes at once, and blocks of a tet
     S at[MOST][BLOCKS][9];
 
     FROND_INLINE void put(size_t tet, size_t slot, const Lanes33<S>& k) {

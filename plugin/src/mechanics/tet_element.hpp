@@ -57,8 +57,8 @@ struct TetStiffness {
 };
 
 struct LinearTet {
-    static constexpr int POINTS = 1, NODES = 4;
-    using Places = Mat3;  // edges from the first corner
+    static constexpr int POINTS = 1, NODES = 4;  // T4
+    using Places = Mat3;                         // edges from the first corner
 
     static TetShare share(const TetElements& elements, size_t e, int q = 0) {
         return {rest_inverse(elements, e, q, POINTS), elements.volume[e], elements.lambda[e], elements.mu[e]};
@@ -87,7 +87,7 @@ struct LinearTet {
 };
 
 struct QuadraticTetElement {
-    static constexpr int POINTS = 4, NODES = 10;
+    static constexpr int POINTS = 4, NODES = 10;                                          // T10
     static constexpr double NEAR = 0.58541019662496845446, FAR = 0.13819660112501051518;  // a and b
     // Weights in a corner's y: of its own node, of its edges' nodes, and the excess of the node between it and corner q
     // at point q.

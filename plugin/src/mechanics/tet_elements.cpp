@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/error.hpp"
 #include "mechanics/rows.hpp"
 #include "mechanics/sections.hpp"
@@ -40,6 +41,7 @@ std::array<int, PAIRS> slots_of(const BlockPattern& pattern, const std::array<in
     size_t pair = 0;
     for (size_t a = 0; a < N; ++a)
         for (size_t b = 0; b <= a; ++b) slots[pair++] = pattern.slot(nodes[a], nodes[b]);
+    FROND_ASSERT(*std::min_element(slots.begin(), slots.end()) >= 0);
     return slots;
 }
 

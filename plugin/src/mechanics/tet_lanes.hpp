@@ -119,36 +119,35 @@ struct TetRowInLanes {
 
 template <class Law>
 Mechanics tet_row(const char* name, int order, bool needs_search) {
-    const auto row = [&](auto rows, auto lanes, auto make, auto is_calm, auto yields, auto rest_derivative) {
-        return Mechanics{name,
-                         make,
-                         tet_masses,
-                         lanes.energy,
-                         lanes.add_force,
-                         lanes.add_stiffness,
-                         lanes.add_both,
-                         lanes.add_damped,
-                         Law::GOES_AHEAD ? lanes.add_ahead : nullptr,
-                         nullptr,
-                         is_calm,
-                         rest_derivative,
-                         yields,
-                         copy_tets,
-                         rows.flow,
-                         plastic_of_tets,
-                         set_plastic_of_tets,
-                         tet_section_strains,
-                         without_tets,
-                         needs_search,
-                         false};
+    Mechanics row;
+    row.name = name;
+    row.masses = tet_masses;
+    row.copy = copy_tets;
+    row.get_plastic = plastic_of_tets;
+    row.set_plastic = set_plastic_of_tets;
+    row.section_strains = tet_section_strains;
+    row.without = without_tets;
+    row.needs_search = needs_search;
+    const auto take = [&](auto element, auto lanes) {
+        using Element = decltype(element);
+        using Points = PointByPoint<Law>;
+        row.energy = lanes.energy;
+        row.add_force = lanes.add_force;
+        row.add_stiffness = lanes.add_stiffness;
+        row.add_force_and_stiffness = lanes.add_both;
+        row.add_force_stiffness_and_damping = lanes.add_damped;
+        if (Law::GOES_AHEAD) row.add_ahead = lanes.add_ahead;
+        row.is_calm = tets_are_calm<Element>;
+        row.rest_derivative = rest_derivative<Points, Element>;
+        row.yields = tets_yield<Element>;
+        row.flow = TetRow<Points, Element>::flow;
     };
-    using Points = PointByPoint<Law>;
+    row.make = order == 1 ? make_tets<1> : make_tets<2>;
     if (order == 1)
-        return row(TetRow<Points, LinearTet>(), TetRowInLanes<Law, FourTets>(), make_tets<1>, tets_are_calm<LinearTet>,
-                   tets_yield<LinearTet>, rest_derivative<Points, LinearTet>);
-    return row(TetRow<Points, QuadraticTetElement>(), TetRowInLanes<Law, FourPoints>(), make_tets<2>,
-               tets_are_calm<QuadraticTetElement>, tets_yield<QuadraticTetElement>,
-               rest_derivative<Points, QuadraticTetElement>);
+        take(LinearTet(), TetRowInLanes<Law, FourTets>());
+    else
+        take(QuadraticTetElement(), TetRowInLanes<Law, FourPoints>());
+    return row;
 }
 
 // Makes a row whose plants are stepped in batches too.

@@ -54,7 +54,7 @@ FROND_INLINE bool turn_plane(S& pp, S& qq, S& pq, S& pr, S& qr, Lanes3<S>& p, La
 template <class S>
 FROND_INLINE Frame<S> principal_frame(const Lanes33<S>& F) {
     constexpr double ROUNDING = 1e-17, FLAT = 1e-6;  // in terms of squared stretches
-    constexpr int MOST_SWEEPS = 12;
+    constexpr int MOST_SWEEPS = 12;                  // two or three near rest; the rotations converge quadratically
     const Lanes33<S> C = transposed_times(F, F);
     const S size = trace(C), least = ROUNDING * size;
     S c00 = C.r[0].x, c11 = C.r[1].y, c22 = C.r[2].z, c01 = C.r[0].y, c02 = C.r[0].z, c12 = C.r[1].z;

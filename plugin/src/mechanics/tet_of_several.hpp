@@ -8,7 +8,7 @@ namespace frond {
 
 template <class Lanes>
 struct TetOfSeveral {
-    static constexpr size_t TETS = 1;
+    static constexpr size_t TETS = 1;  // of as many plants as there are lanes
     using S = Lanes;
     const TetElements& elements;
     size_t tet;

@@ -5,6 +5,7 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/weigh.hpp"
+#include "core/assert.hpp"
 #include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -12,21 +13,44 @@
 #include "modelling/attach.hpp"
 #include "modelling/build_urdf.hpp"
 #include "modelling/cook.hpp"
+#include "skeleton/organ_clues.hpp"
 
 namespace frond {
 
 ImportOptions import_options(const frond_model_def& def) {
-    return {def.scale, Vec3(def.up.x, def.up.y, def.up.z)};
+    return {def.scale, Vec3(def.up.x, def.up.y, def.up.z), {}, def.corrections_file ? def.corrections_file : "beside"};
 }
 
-static void find_organs(Model& model, const frond_model_def& def) {
+// Adds the def's corrections to those of a file.
+static void add_corrections(const frond_model_def& def, std::vector<OrganCorrection>& corrections) {
+    const auto text = [](const char* words) { return words ? std::string(words) : std::string(); };
+    for (int i = 0; i < def.correction_count; i++) {
+        const frond_organ_correction& one = def.corrections[i];
+        corrections.push_back({text(one.organ), text(one.kind), text(one.parent), {}, one.is_root, one.leave_out});
+    }
+}
+
+// Returns the organs that the plant is said to stand on.
+static std::vector<int> find_organs(Model& model, const frond_model_def& def,
+                                    const std::vector<OrganCorrection>& corrections) {
     model.topology = make_topology(model.surface);
-    model.organs = find_organs(model.surface, model.topology, def.organs, def.organ_count);
+    model.organs = find_organs(model.surface, model.topology, nullptr, 0);
+    std::vector<int> rooted = correct_organs(corrections, model.surface, model.topology, model.organs);
+    override_materials(model.organs, def.organs, def.organ_count);
     model.organ_stiffer.assign(model.organs.size(), 1.0);
+    return rooted;
 }
 
-void find_chain(Model& model, const frond_model_def& def) {
-    model.chain = make_chain(model.surface, model.topology, model.organs, {def.capsule_height, def.capsule_radius});
+// Stems, tets and links have their own structure, which corrections of organs would contradict.
+static void refuse_corrections(const frond_model_def& def) {
+    if (def.correction_count > 0)
+        fail(FROND_RESULT_UNSUPPORTED,
+             "def.corrections are for meshes; name the parts of stems, tets and links so that their organs are found");
+}
+
+void find_chain(Model& model, const frond_model_def& def, const std::vector<int>& rooted) {
+    model.chain =
+        make_chain(model.surface, model.topology, model.organs, {def.capsule_height, def.capsule_radius, rooted});
     model.sections = measure_sections(model.surface, model.topology, model.organs, model.chain);
 }
 
@@ -35,6 +59,19 @@ static void finish(Model& model) {
     bind_chain(model);
     give_mass(model);
     model.cage_report = measure_cage(model.surface, model.cage, model.embedding);
+}
+
+// Refuses a plant of which an organ is too weak; the cause is rarely the tissue.
+static void check_strength(const Model& model, const WeakOrgan& weak, double most) {
+    if (weak.factor <= most) return;
+    fail(FROND_RESULT_BAD_GEOMETRY,
+         "%s, a %s, cannot carry its weight in the shape it was modelled in: it would have to be %.3g times stiffer, "
+         "and "
+         "def.allow_stiffening is %.3g. The plant is %.3g m high, weighs %.3g kg and has %d roots: if that is wrong, "
+         "set "
+         "scale or up; if %s is no %s, set its kind; if it is, set its density, young or thickness; or allow it",
+         weak.name.c_str(), weak.kind.c_str(), weak.factor, most, model.surface.height(), model.mass(),
+         model.chain.root_count(), weak.name.c_str(), weak.kind.c_str());
 }
 
 // Warns once: about a plant that its materials do not carry, or else one that its cage does not.
@@ -60,29 +97,35 @@ void build_body(Model& model, const frond_model_def& def) {
     finish(model);
     model.stands_as_modelled = def.rest == FROND_REST_STANDS_AS_MODELLED;
     WeakOrgan weak;
-    if (model.stands_as_modelled) weak = strengthen(model);
+    if (model.stands_as_modelled) {
+        weak = strengthen(model);
+        check_strength(model, weak, def.allow_stiffening);
+    }
     calibrate(model, 1);
     if (!model.stands_as_modelled) return;
     tell_stiffened(model, weak, find_rest_shape(model, 1));
 }
 
-static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def, const Timer& total) {
+static std::shared_ptr<const Model> build(Surface surface, const frond_model_def& def,
+                                          const std::vector<OrganCorrection>& corrections, const Timer& total) {
     auto model = std::make_shared<Model>();
     model->surface = std::move(surface);
     model->ms_import = total.ms();
     const Timer timer;
-    find_organs(*model, def);
-    find_chain(*model, def);
+    find_chain(*model, def, find_organs(*model, def, corrections));
     model->ms_chain = timer.ms();
     build_body(*model, def);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 
 std::shared_ptr<const Model> build_from_surface(Surface surface, const frond_model_def& def) {
     const Timer total;
     place_surface(surface, import_options(def));
-    return build(std::move(surface), def, total);
+    std::vector<OrganCorrection> corrections;
+    add_corrections(def, corrections);
+    return build(std::move(surface), def, corrections, total);
 }
 
 StemPlacement placement_of(const Surface& before, const Surface& after) {
@@ -93,44 +136,58 @@ StemPlacement placement_of(const Surface& before, const Surface& after) {
     return placed;
 }
 
-std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def) {
+std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_count, const frond_model_def& def,
+                                              const frond_stem_section* sections) {
+    if (sections) check_stem_sections(sections, stem_count);
     const Timer total;
     auto model = std::make_shared<Model>();
+    refuse_corrections(def);
     const Surface made = surface_from_stems(stems, stem_count);
     model->surface = made;
     place_surface(model->surface, import_options(def));
     model->ms_import = total.ms();
     const Timer timer;
-    find_organs(*model, def);
-    model->chain = make_chain_of_stems(stems, stem_count, model->surface, placement_of(made, model->surface),
-                                       model->organs, {def.capsule_height, def.capsule_radius}, model->sections);
+    find_organs(*model, def, {});
+    model->chain =
+        make_chain_of_stems(stems, stem_count, model->surface, placement_of(made, model->surface), model->organs,
+                            {def.capsule_height, def.capsule_radius, {}}, model->sections, {}, sections);
     model->exact_sections = true;
     model->ms_chain = timer.ms();
     build_body(*model, def);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 
 std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def& def) {
     const Timer total;
     auto model = std::make_shared<Model>();
+    refuse_corrections(def);
     take_tets(std::move(mesh), import_options(def), model->surface, model->cage, model->embedding);
     model->has_own_tets = true;
     model->ms_import = total.ms();
-    find_organs(*model, def);
-    find_chain(*model, def);
+    find_chain(*model, def, find_organs(*model, def, {}));
     finish(*model);
     take_materials(*model);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 
 std::shared_ptr<const Model> build_from_file(const std::string& path, const frond_model_def& def) {
     if (is_cooked(path)) return load_cooked(path);
     if (is_tet_file(path)) return build_from_tets(import_tets(path), def);
-    if (is_urdf(path)) return build_from_urdf(path, def);
+    if (is_urdf(path)) {
+        refuse_corrections(def);
+        return build_from_urdf(path, def);
+    }
     const Timer total;
-    return build(import_surface(path, import_options(def)), def, total);
+    Corrections corrections;
+    Surface surface = import_surface(path, import_options(def), &corrections);
+    frond_model_def allowed = def;
+    allowed.allow_stiffening = std::max(def.allow_stiffening, corrections.allow_stiffening);
+    add_corrections(def, corrections.organs);
+    return build(std::move(surface), allowed, corrections.organs, total);
 }
 
 }  // namespace frond

@@ -1,9 +1,11 @@
 #include "modelling/build_urdf.hpp"
 
+#include "core/assert.hpp"
 #include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/timer.hpp"
 #include "io/urdf_pieces.hpp"
+#include "modelling/cook.hpp"
 #include "skeleton/organ_clues.hpp"
 #include "skeleton/topology_joints.hpp"
 
@@ -65,7 +67,7 @@ static void build_stems(const UrdfTree& tree, const std::vector<UrdfPiece>& piec
     }
     find_organs_of_links(tree, links, def, model);
     model.chain = make_chain_of_stems(stems.data(), int(stems.size()), model.surface, placement_of(made, model.surface),
-                                      model.organs, {def.capsule_height, def.capsule_radius}, model.sections,
+                                      model.organs, {def.capsule_height, def.capsule_radius, {}}, model.sections,
                                       find_capsules(tree, pieces, def));
     model.exact_sections = true;
     take_sections(tree, links, turn, model);
@@ -131,6 +133,7 @@ static std::shared_ptr<const Model> build(const UrdfTree& tree, const frond_mode
     if (is_upright) model->surface.up = Vec3::UnitZ();
     build_body(*model, def);
     model->ms_total = total.ms();
+    FROND_ASSERT(is_whole(*model));
     return model;
 }
 

@@ -17,7 +17,7 @@ ImportOptions import_options(const frond_model_def& def);
 // Returns how place_surface() moved a surface.
 StemPlacement placement_of(const Surface& before, const Surface& after);
 // Finds chain and sections of a model that has its surface and organs.
-void find_chain(Model& model, const frond_model_def& def);
+void find_chain(Model& model, const frond_model_def& def, const std::vector<int>& rooted = {});
 // Makes cage, masses and moduli of a model that has its chain too.
 void build_body(Model& model, const frond_model_def& def);
 

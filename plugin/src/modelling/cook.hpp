@@ -22,6 +22,8 @@ std::shared_ptr<const Model> load_cooked(const std::string& path);
 void visit(Archive& archive, Model& model);
 // Throws FILE_FORMAT unless indices, sizes and numbers are such as plants can be made of.
 void check_cooked(const Model& model);
+// Returns whether a model passes these checks, as each that is built has to.
+bool is_whole(const Model& model);
 // Throws FILE_FORMAT for a damaged model, in words for the reader.
 [[noreturn]] void fail_cooked(const std::string& what);
 

@@ -215,4 +215,13 @@ void check_cooked(const Model& model) {
     check_rest_shapes(model);
 }
 
+bool is_whole(const Model& model) {
+    try {
+        check_cooked(model);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 }  // namespace frond

@@ -33,9 +33,9 @@ static void visit(Archive& a, Topology& topology) {
 
 static void visit(Archive& a, Material& material) {
     auto& [density, young, poisson, thickness, hollow, twist_to_bend, damping_ratio, friction, yield_strain, creep_rate,
-           strength, drag, midrib] = material;
+           strength, drag, midrib, restitution] = material;
     a(density, young, poisson, thickness, hollow, twist_to_bend, damping_ratio, friction, yield_strain, creep_rate,
-      strength, drag, midrib);
+      strength, drag, midrib, restitution);
 }
 
 static void visit(Archive& a, Organ& organ) {

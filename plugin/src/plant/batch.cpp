@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/elementary.hpp"
 #include "core/lanes.hpp"
 #include "core/lanes_of_plants.hpp"
@@ -62,7 +63,7 @@ struct LookAtWays {
     unsigned &far_away, &off_course;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr double NEARLY = 1 - 1e-9;
+        constexpr double NEARLY = 1 - 1e-9;  // rounding, which differs between lanes and one by one [-]
         const double far = squared(OFF_COURSE * size) * NEARLY;
         const double turned = TURNED_OFF_COURSE * TURNED_OFF_COURSE * NEARLY;
         S near = constant<S>(1), on_course = near;
@@ -86,7 +87,7 @@ struct LookForTaut {
     unsigned& taut;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr double NEARLY = 1 - 1e-9;
+        constexpr double NEARLY = 1 - 1e-9;  // rounding, which differs between lanes and one by one [-]
         S slack = constant<S>(1);
         for (const Fibre& fibre : fibres.list) {
             const size_t node = size_t(fibre.node), parent = size_t(chain.nodes[node].parent);
@@ -272,6 +273,7 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
         else
             solve_plant(plant, surroundings, h);
     }
+    FROND_ASSERT(given_count <= MOST_LANES);
     // A batch with half of its lanes empty is no faster than its plants one by one.
     const int lanes = lanes_for(count);
     if (count < lanes / 2 + 1) {
@@ -284,6 +286,8 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
     const System& system = *plants[0]->system;
     const frond_effects effects = plants[0]->effects & surroundings.effects;
     const SolveSettings settings = settings_for(*plants[0], effects);
+    FROND_ASSERT(std::all_of(plants.begin(), plants.begin() + count,
+                             [&](const Plant* plant) { return go_alike(*plants[0], *plant); }));
     make_room(step, plants[0]->system, lanes);
     Timer timer;
     gather_motions(step, plants.data(), count, surroundings, effects);

@@ -1,5 +1,6 @@
 // (offset + rate t) exp(-SPEED t): shape and velocity continue without a jump, and nothing oscillates.
 #include "plant/blend_out.hpp"
+#include "core/assert.hpp"
 #include "core/elementary.hpp"
 
 #include <cmath>
@@ -10,6 +11,7 @@ constexpr double SPEED = 4;      // [1/s]
 constexpr double UNSEEN = 1e-6;  // [m]
 
 void begin_blend_out(BlendOut& blend_out, VecX offset, const VecX& rate) {
+    FROND_ASSERT(offset.size() == rate.size());
     blend_out = {};
     if (offset.lpNorm<Eigen::Infinity>() < UNSEEN && rate.lpNorm<Eigen::Infinity>() < SPEED * UNSEEN) return;
     blend_out.rate = rate + SPEED * offset;
@@ -25,6 +27,7 @@ void pass_time(BlendOut& blend_out, double h) {
 }
 
 void add_offset(const BlendOut& blend_out, VecX& x) {
+    FROND_ASSERT(is_over(blend_out) || x.size() == blend_out.offset.size());
     if (!is_over(blend_out))
         x += frond::exp(-SPEED * blend_out.time) * (blend_out.offset + blend_out.time * blend_out.rate);
 }

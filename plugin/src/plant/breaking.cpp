@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "core/assert.hpp"
 #include "mechanics/rotation.hpp"
 #include "mechanics/sections.hpp"
 #include "plant/plant.hpp"
@@ -33,7 +34,7 @@ void mark_cage(const Plant& plant, Parting& parting) {
     const std::vector<int> capsule = capsules_of_tets(model);
     parting.of_tet.clear();
     for (int c : capsule) parting.of_tet.push_back(parting.of_chain[size_t(c)]);
-    constexpr int NONE = -2;
+    constexpr int NONE = -2;  // no tet has been there; -1: the plant itself
     parting.of_node.assign(plant.pinned.size(), NONE);
     const auto mark = [&](int node, int fragment) {
         int& of = parting.of_node[size_t(node)];
@@ -109,6 +110,7 @@ void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
         fragment.mass = LEAST;
         moment = LEAST * plant.to_world(plant.chain_positions[size_t(fragment.node)]);
     }
+    FROND_ASSERT(fragment.mass > 0);
     fragment.centre = moment / fragment.mass;
     fragment.velocity = momentum / fragment.mass;
     Vec3 angular = Vec3::Zero();
@@ -167,20 +169,58 @@ void leave_fragments(Plant& plant) {
     let_rest(plant);
 }
 
+// Returns where the nodes of a part are once it has sprung back: nothing holds it strained any more. That is one long
+// step of implicit Euler from rest, searched to balance, which leaves its centre and hardly turns it.
+static VecX sprung_back(const Plant& plant, int fragment) {
+    constexpr double LONG = 1;  // longer than what comes off sways [s]
+    constexpr int ITERATIONS = 30;
+    std::vector<uint8_t> others;
+    for (int of : plant.parting->of_chain) others.push_back(of != fragment);
+    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
+    const std::unique_ptr<Elements> own = plant.own_elements ? row.without(*plant.own_elements, others) : nullptr;
+    const WorkspacePtr workspace = make_workspace(system_without(*plant.system, others));
+    use_elements(*workspace, own.get());
+    SolveSettings settings = plant.settings;
+    settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
+    settings.newton_iterations = ITERATIONS;
+    settings.careful = true;
+    settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
+    Motion motion;
+    motion.x = motion.pin_target = plant.motion.x;
+    motion.v = VecX::Zero(motion.x.size());
+    motion.pinned.assign(plant.motion.pinned.size(), 0);
+    const bool ok = solve_step(*workspace, settings, Loads(), LONG, motion).ok;
+    return ok && are_finite(motion.x) ? motion.x : plant.motion.x;
+}
+
+// Sets the shape that the part keeps from now on.
+static void set_shape(const Plant& plant, const VecX& x, Fragment& fragment) {
+    fragment.follow = plant.follow;
+    fragment.chain_x.resize(plant.chain_positions.size());
+    if (plant.follow) {
+        fragment.x = x;
+        follow_places(*plant.follow, x, fragment.cage_x);
+    } else {
+        fragment.cage_x = x;
+    }
+    for (size_t i = 0; i < fragment.chain_x.size(); i++)
+        fragment.chain_x[i] =
+            plant.follow ? Vec3(point(x, int(2 * i))) : attachment_place(chain_attachment(plant, int(i)), x);
+}
+
 const Fragment& break_off(Plant& plant, int node) {
+    FROND_ASSERT(node >= 0 && plant.model->chain.nodes[size_t(node)].parent >= 0);
     Fragment fragment;
     fragment.node = node;
-    fragment.cage_x = cage_places(plant);
-    if (plant.follow) fragment.x = plant.motion.x;
-    fragment.follow = plant.follow;
-    fragment.chain_x = plant.chain_positions;
     fragment.turn = plant.rotation.toRotationMatrix();
     fragment.shift = plant.position;
     const VecX mass = node_mass_of(*plant.system);
+    const int number = int(plant.fragments.size());
     if (plant.fragments.empty()) plant.parting = std::make_shared<Parting>();
-    mark_chain(plant, node, int(plant.fragments.size()), plant.parting->of_chain);
+    mark_chain(plant, node, number, plant.parting->of_chain);
     mark_cage(plant, *plant.parting);
     mark_surface(plant, *plant.parting);
+    set_shape(plant, sprung_back(plant, number), fragment);
     plant.fragments.push_back(std::move(fragment));
     take_away(plant);
     measure(plant, mass - node_mass_of(*plant.system), plant.fragments.back());

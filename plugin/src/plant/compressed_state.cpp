@@ -4,6 +4,8 @@
 // precision, or not at all if there are none.
 #include "plant/plant.hpp"
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 namespace {
@@ -33,6 +35,7 @@ void compress(Plant& plant, double tolerance, bool keep_surface) {
     plant.blend_out = {};
     plant.lead = plant.stepped_by = 0;
     const VecX& modelled = elements_of(*plant.system).modelled;
+    FROND_ASSERT(plant.motion.x.size() == modelled.size());
     const VecX moves = plant.motion.x - modelled;
     if (plant.own_elements || !(moves.lpNorm<Eigen::Infinity>() <= tolerance)) {
         plant.away.resize(size_t(moves.size()));
@@ -47,7 +50,7 @@ void compress(Plant& plant, double tolerance, bool keep_surface) {
     plant.blown.setZero();
     plant.air = nullptr;
     for (VecX* numbers : {&plant.x_good, &plant.v_good, &plant.contact_impulse, &plant.contact_correction,
-                          &plant.user_force, &plant.cage_x})
+                          &plant.user_force, &plant.chain_load, &plant.cage_x})
         drop(*numbers);
     plant.cage_stale = true;
     drop(plant.chain_positions);
@@ -66,6 +69,7 @@ void decompress(Plant& plant) {
     plant.seat.take();
     Motion& motion = plant.motion;
     motion.x = motion.pin_target = elements_of(*plant.system).modelled;
+    FROND_ASSERT(plant.away.empty() || plant.away.size() == size_t(motion.x.size()));
     for (size_t i = 0; i < plant.away.size(); i++) motion.x[Eigen::Index(i)] += double(plant.away[i]);
     drop(plant.away);
     motion.v = VecX::Zero(motion.x.size());

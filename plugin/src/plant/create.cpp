@@ -6,6 +6,7 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/sway_frequency.hpp"
+#include "core/assert.hpp"
 #include "plant/touch.hpp"
 
 namespace frond {
@@ -141,6 +142,8 @@ static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.motion.pinned.assign(size_t(start.size() / 3), 0);
     plant.pins_changed = plant.cage_stale = true;
     plant.substeps = 1;
+    FROND_ASSERT(start.size() == 3 * elements_of(*plant.system).node_count);
+    FROND_ASSERT(!plant.follow || plant.follow->attachments.size() == size_t(nodes.count()));
 }
 
 // Finds the cage nodes that the ground holds; a node between two corners is held if both are.
@@ -220,6 +223,10 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     plant->anchor = plant->foot->anchor;
     plant->pin_target = plant->foot->pin_target;
     plant->stands_on_roots = def.root_height == 0;
+    FROND_ASSERT(plant->size > 0);
+    FROND_ASSERT(std::abs(plant->rotation.norm() - 1) < 1e-9);
+    FROND_ASSERT(plant->pinned.size() == size_t(node_count_of(*plant)) && plant->anchor.size() == plant->pinned.size());
+    FROND_ASSERT(plant->pin_target.size() == 3 * node_count_of(*plant));
     apply_pins(*plant);
     moved(*plant);
     return plant;

@@ -29,7 +29,7 @@ struct Normal {
         plan = make_block_plan(pattern);
         factor.plan = &plan;
         A.set_pattern(pattern);
-        constexpr double WEAK = 1e-9;
+        constexpr double WEAK = 1e-9;  // weight that holds what no cage node determines [-]
         for (int i = 0; i < pattern.node_count; i++) weight.push_back(i % 2 ? WEAK * reach * reach + 1e-30 : WEAK);
     }
     // Factorizes for the attachments at x.

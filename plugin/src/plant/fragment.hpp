@@ -12,12 +12,13 @@ struct Follow;
 struct Plant;
 
 struct Fragment {
-    int node;     // chain node at the end of the capsule that broke
-    VecX cage_x;  // all cage nodes at the break, model frame [m]
-    // With a chain: positions and rotations of all its nodes then, and what follows them; else empty and null.
+    int node;  // chain node at the end of the capsule that broke
+    // Its shape, sprung back from that at the break.
+    VecX cage_x;  // all cage nodes, model frame [m]
+    // With a chain: positions and rotations of all its nodes, and what follows them; else empty and null.
     VecX x;
     std::shared_ptr<const Follow> follow;
-    std::vector<Vec3> chain_x;  // all chain nodes then, model frame [m]
+    std::vector<Vec3> chain_x;  // all chain nodes, model frame [m]
     // Rigid body, world frame. Its first momentum and angular momentum are those of its nodes.
     double mass = 0;               // [kg]
     Mat3 axes = Mat3::Identity();  // principal axes when it came off

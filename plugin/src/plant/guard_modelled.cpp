@@ -78,7 +78,7 @@ bool is_inside_out(const Plant& plant) {
 }
 
 void approach_modelled(Plant& plant, double most) {
-    constexpr int HALVINGS = 8;
+    constexpr int HALVINGS = 8;  // the share of the way is found to a 256th
     Mat3 rotation;
     Vec3 shift;
     if (!find_frame(plant, rotation, shift)) return;

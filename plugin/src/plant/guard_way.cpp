@@ -123,7 +123,7 @@ bool has_run_away(const Plant& plant) {
 }
 
 bool is_far_out(const Plant& plant) {
-    constexpr double FARTHEST = 100;
+    constexpr double FARTHEST = 100;  // of a node from its modelled place, in sizes of the plant [-]
     return !are_near(plant, elements_of(*plant.system).modelled, FARTHEST * double(plant.size));
 }
 

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/elementary.hpp"
 #include "mechanics/rotation.hpp"
 #include "plant/plant.hpp"
@@ -22,6 +23,7 @@ struct State {
 
 // Solves x'' + c x' + k (x - rest) = 0 for the state after t.
 State after(const State& start, double rest, double c, double k, double t) {
+    FROND_ASSERT(k >= 0 && c >= 0 && t >= 0);
     const double a = 0.5 * c, d = k - a * a, x = start.place - rest;
     double cosine, sine_over;  // cos(sqrt(d) t), and sin(sqrt(d) t) over sqrt(d)
     double fall = frond::exp(-a * t);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/assert.hpp"
 #include "mechanics/rotation.hpp"
 #include "plant/plant.hpp"
 
@@ -29,6 +30,7 @@ void unpin_node(Plant& plant, int node) {
 }
 
 void move_pin(Plant& plant, int node, const Vec3& target) {
+    FROND_ASSERT(node >= 0 && node < node_count_of(plant) && target.allFinite());
     point(plant.pin_target, node) = target;
     plant.pins_changed = plant.pins_are_own = true;
 }
@@ -36,7 +38,7 @@ void move_pin(Plant& plant, int node, const Vec3& target) {
 // Returns a spring's stiffness, STRONG times the plant's weight over a millimetre: with it a plant counts as rigidly
 // held.
 static double pin_stiffness(const Plant& plant) {
-    constexpr double STRONG = 1e7;
+    constexpr double STRONG = 1e7;  // weights of the plant for a millimetre [-]
     return STRONG * std::max(node_mass_of(*plant.system).sum(), 1e-6) * GRAVITY / 1e-3;
 }
 
@@ -115,6 +117,7 @@ bool is_carried(const Motion& motion, const VecX& x, const VecX& v) {
 }
 
 void apply_pins(Plant& plant) {
+    FROND_ASSERT(plant.pinned.size() == size_t(node_count_of(plant)));
     if (plant.follow) {
         if (plant.pins_changed || !is_where_held(plant.motion)) pin_chain(plant);
     } else if (plant.pins_changed) {

@@ -109,6 +109,7 @@ struct Plant {
     std::unique_ptr<AirState> air;  // null until the plant is in air
     Vec3 blown = Vec3::Zero();      // force of the last step's air, if there are no drags to compute it from [N]
     VecX user_force;                // on cage nodes, until the end of the host's step, world frame [N]; empty: none yet
+    VecX chain_load;  // forces and moments on chain nodes, likewise, six numbers each [N], [N m]; empty: none yet
     std::list<Grab> grabs;
 
     std::vector<Fragment> fragments;                  // parts that came off
@@ -237,6 +238,8 @@ Vec3 grab_force(const Plant& plant, const Grab& grab);
 // Moves all nodes [world frame]; pinned nodes stay where they are put. Null arrays leave positions or velocities
 // unchanged.
 void set_state(Plant& plant, const double* positions, const double* velocities);
+// Ends a change of the motion of a chain from outside: what is pinned stays where it is now.
+void go_on_from_state(Plant& plant);
 // Get and set the plastic state in numbers; none if nothing has yielded. Setting none removes all plastic strain.
 std::vector<double> plastic_of(const Plant& plant);
 void set_plastic(Plant& plant, const std::vector<double>& values);

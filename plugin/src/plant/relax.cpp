@@ -37,8 +37,8 @@ static void hold_still(Plant& plant) {
 }
 
 void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
-    constexpr int ROUNDS = 30, ITERATIONS = 10;
-    constexpr double STEP = 1.0 / 60;  // [s]
+    constexpr int ROUNDS = 30, ITERATIONS = 10;  // steps, and solves in each
+    constexpr double STEP = 1.0 / 60;            // [s]
     // Shares of the energy that lifts the plant by its size: what counts as none, and what a step's check allows [-].
     constexpr double SHARE = 0.001, ALLOWED = 0.01;
     Motion& motion = plant.motion;

@@ -1,20 +1,71 @@
-// A pinned node does not accelerate: the force that holds it is opposite to all others on it, elastic forces, those of
-// taut fibres and weight. If the mechanics move the chain, nodes are pairs of a position and a rotation, and a held
-// rotation is held by a moment.
+// The force that holds a node is what its motion takes, mass times acceleration, less all others on it: elastic and
+// damping forces, those of taut fibres and weight. If the mechanics move the chain, nodes are pairs of a position and a
+// rotation, and a held rotation is held by a moment.
 #include "plant/root_force.hpp"
 
 #include "mechanics/rotation.hpp"
+#include "solve/integrator.hpp"
 
 namespace frond {
 
-Wrench root_force(const Plant& plant, const Vec3& gravity, const Vec3& about) {
+// Velocities at the end of the last step, and accelerations over it, of held nodes.
+struct HeldMotion {
+    VecX v;             // [m/s]
+    VecX acceleration;  // [m/s^2]; empty: none
+};
+static HeldMotion motion_of_held(const Plant& plant) {
+    const Motion& motion = plant.motion;
+    HeldMotion out = {motion.v, {}};
+    const bool is_known = plant.stepped_by > 0 && plant.v_good.size() == motion.v.size();
+    if (!is_known || !is_carried(motion, plant.x_good, plant.v_good)) return out;
+    out.acceleration = (motion.v - plant.v_good) / plant.stepped_by;
+    // Methods of stages leave the mean velocity over the step.
+    const Integrator& method = integrator(plant.settings.integrator);
+    const int count = int(motion.pinned.size());
+    if (method.has_stages && !method.looks_back)
+        for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1))
+            point(out.v, i) += 0.5 * plant.stepped_by * point(out.acceleration, i);
+    return out;
+}
+
+// Adds damping forces at velocities v, as a step would have them, to f [N].
+static void add_damping_force(const Plant& plant, const SolveSettings& settings, const VecX& v, VecX& f) {
+    const System& system = *plant.system;
+    const Elements& elements = elements_of(plant);
+    for (int i = 0; i < elements.node_count; ++i)
+        point(f, i) -= settings.mass_damping * node_mass_of(system)[i] * point(v, i);
+    std::vector<double> of_element;
+    const double damping = damping_of(system, settings, of_element);
+    if (damping == 0) return;
+    BlockMatrix K, D;
+    for (BlockMatrix* matrix : {&K, &D}) {
+        matrix->set_pattern(elements.pattern);
+        matrix->set_zero();
+    }
+    VecX elastic = VecX::Zero(v.size()), product;
+    if (of_element.empty())
+        system.row->add_stiffness(elements, plant.motion.x, Tangent::positive, damping, D);
+    else
+        system.row->add_force_stiffness_and_damping(elements, plant.motion.x, of_element, elastic, K, D);
+    D.multiply(v, product);
+    f -= product;
+}
+
+// Returns all forces on nodes but weight and what accelerates them [N].
+static VecX forces_on_nodes(const Plant& plant, frond_effects effects, const VecX& v) {
+    VecX pull = VecX::Zero(plant.motion.x.size());
+    plant.system->row->add_force(elements_of(plant), plant.motion.x, pull);
+    if (plant.fibre_force.size() == pull.size()) pull += plant.fibre_force;
+    if (v.size() == pull.size() && !v.isZero(0)) add_damping_force(plant, settings_for(plant, effects), v, pull);
+    return pull;
+}
+
+Wrench root_force(const Plant& plant, const Vec3& gravity, frond_effects effects, const Vec3& about) {
     const VecX& x = plant.motion.x;
     const VecX& mass = node_mass_of(*plant.system);
-    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const Vec3 centre = plant.to_model(about), weight = plant.rotation.conjugate() * gravity;
-    VecX pull = VecX::Zero(x.size());
-    row.add_force(elements_of(plant), x, pull);
-    if (plant.fibre_force.size() == pull.size()) pull += plant.fibre_force;
+    const HeldMotion motion = motion_of_held(plant);
+    const VecX pull = forces_on_nodes(plant, plant.effects & effects, motion.v);
     Wrench held;
     const auto hold = [&](const Vec3& force, const Vec3& place) {
         held.force += force;
@@ -22,10 +73,12 @@ Wrench root_force(const Plant& plant, const Vec3& gravity, const Vec3& about) {
     };
     const int pinned_count = int(plant.motion.pinned.size());
     for (int i = next_pinned(plant.motion, 0); i < pinned_count; i = next_pinned(plant.motion, i + 1)) {
-        if (row.moves_chain && i % 2 == 1)
+        Vec3 force = -point(pull, i) - mass[i] * weight;
+        if (motion.acceleration.size() > 0) force += mass[i] * point(motion.acceleration, i);
+        if (plant.system->row->moves_chain && i % 2 == 1)
             held.moment -= inverse_rate_matrix<double>(Vec3(point(x, i))).transpose() * point(pull, i);
         else
-            hold(-point(pull, i) - mass[i] * weight, point(x, i));
+            hold(force, point(x, i));
     }
     for (const Spring& spring : plant.pin_springs) {
         const Vec3 place = attachment_place(spring.attachment, x);

@@ -9,7 +9,8 @@ struct Wrench {
     Vec3 force = Vec3::Zero();   // [N]
     Vec3 moment = Vec3::Zero();  // [N m]
 };
-// Returns those of the ground on pinned nodes and pin springs, about a point; world frame. Damping forces are left out.
-Wrench root_force(const Plant& plant, const Vec3& gravity, const Vec3& about);
+// Returns those of the ground on pinned nodes and pin springs, about a point; world frame. `gravity` and `effects` are
+// the world's.
+Wrench root_force(const Plant& plant, const Vec3& gravity, frond_effects effects, const Vec3& about);
 
 }  // namespace frond

@@ -46,7 +46,7 @@ static Vec3 hold_place(const Attachment& hold, const Model& model) {
 }
 
 SheathInCage make_sheath_in_cage(const Model& model, const TetNodes& nodes) {
-    constexpr int STRIPS = 2;
+    constexpr int STRIPS = 2;  // a blade in a cage is soft across: tips slip between the corners of one
     SheathInCage in_cage = {make_sheath(model, STRIPS), {}, tets_of_capsules(model), {}};
     const Sheath& sheath = in_cage.sheath;
     for (size_t i = 0; i < sheath.modelled.size(); ++i)

@@ -1,6 +1,8 @@
 // In: a model. Out: how its surface hangs on the capsules of its chain.
 #include "plant/skin.hpp"
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 // Sets each vertex's gradient to the mean over the triangles around it on the same capsule, weighted by area.
@@ -38,6 +40,7 @@ Skin make_skin(const Model& model) {
     for (size_t v = 0; v < chain.vertex_capsule.size(); ++v) {
         const int node = chain.vertex_capsule[v];
         const double along = chain.vertex_along[v];
+        FROND_ASSERT(node >= 0 && size_t(node) < chain.nodes.size() && along >= 0 && along <= 1);
         const Vec3& begin = chain.nodes[size_t(skin.parents[size_t(node)])].position;
         const Vec3 across = model.surface.positions[v] - begin - along * skin.axes[size_t(node)];
         skin.vertices.push_back({node, along, across, Vec3f::Zero()});

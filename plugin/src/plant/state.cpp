@@ -1,6 +1,8 @@
 // Reading and setting a plant's state: energy, nodes, the force of a grab.
 #include "plant/plant.hpp"
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
@@ -14,6 +16,8 @@ frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
 }
 
 Spring grab_spring(const Plant& plant, const Grab& grab) {
+    FROND_ASSERT(grab.vertex >= 0 && size_t(grab.vertex) < plant.model->surface.positions.size());
+    FROND_ASSERT(grab.stiffness >= 0);
     return {vertex_attachment(plant, grab.vertex), plant.to_model(grab.target), grab.stiffness};
 }
 
@@ -36,11 +40,32 @@ static bool stands_where_made(const Plant& plant, const VecX& x) {
     return true;
 }
 
+// Lets steps go on from a motion that was set.
+static void go_on_anew(Plant& plant) {
+    plant.motion.history.valid = plant.motion.history.shaken = false;
+    plant.blend_out = {};
+    plant.lead = plant.stepped_by = 0;
+    plant.fibre_force.resize(0);
+    plant.pins_changed = true;
+    apply_pins(plant);
+    moved(plant);
+}
+
+void go_on_from_state(Plant& plant) {
+    VecX x = cage_places(plant);
+    follow_places(*plant.follow, plant.motion.x, x);
+    plant.pins_are_own |= !stands_where_made(plant, x);
+    plant.pin_target = x;
+    carry_stumps(plant);
+    go_on_anew(plant);
+}
+
 void set_state(Plant& plant, const double* positions, const double* velocities) {
     end_modal(plant);
     const Quat to_model = plant.rotation.conjugate();
     Motion& motion = plant.motion;
     VecX x, v;
+    FROND_ASSERT(!plant.is_compressed);
     if (positions) x = cage_places(plant);
     if (velocities) v.setZero(3 * node_count_of(plant));
     for (int i = 0; i < node_count_of(plant); i++) {
@@ -60,13 +85,7 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
         if (positions) motion.x = x;
         if (velocities) motion.v = v;
     }
-    motion.history.valid = motion.history.shaken = false;
-    plant.blend_out = {};
-    plant.lead = plant.stepped_by = 0;
-    plant.fibre_force.resize(0);
-    plant.pins_changed = true;
-    apply_pins(plant);
-    moved(plant);
+    go_on_anew(plant);
 }
 
 std::vector<double> plastic_of(const Plant& plant) {
@@ -115,6 +134,7 @@ const VecX& cage_places(const Plant& plant) {
             follow_places(*plant.follow, plant.motion.x, plant.cage_x);
         else
             plant.cage_x = plant.motion.x;
+        FROND_ASSERT(plant.cage_x.size() == 3 * node_count_of(plant));
         add_offset(plant.blend_out, plant.cage_x);
         if (plant.lead > 0) plant.cage_x += plant.lead * cage_velocities(plant);
     }
@@ -123,6 +143,7 @@ const VecX& cage_places(const Plant& plant) {
 }
 
 Vec3 node_place(const Plant& plant, int node) {
+    FROND_ASSERT(node >= 0 && node < node_count_of(plant));
     const Fragment* fragment = fragment_of_node(plant, size_t(node));
     return fragment ? fragment->place(point(fragment->cage_x, node)) : plant.to_world(point(cage_places(plant), node));
 }

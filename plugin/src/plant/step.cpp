@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/timer.hpp"
+#include "plant/chain_state.hpp"
 #include "plant/guard.hpp"
 #include "plant/load_work.hpp"
 #include "plant/plant.hpp"
@@ -27,7 +29,8 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
     if (plant.has_user_force) {
         const Mat3 turn = to_model.toRotationMatrix();
         loads.force.setZero(plant.motion.x.size());
-        for (int i = 0; i < node_count_of(plant); i++) {
+        gather_chain_loads(plant, loads.force);
+        for (int i = 0; i < plant.user_force.size() / 3; i++) {
             const Vec3 force = turn * point(plant.user_force, i);
             if (!plant.follow)
                 point(loads.force, i) = force;
@@ -160,6 +163,9 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects) {
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     const frond_effects effects = plant.effects & surroundings.effects;
     Motion& motion = plant.motion;
+    FROND_ASSERT(h > 0 && !plant.is_compressed && !plant.modal);
+    FROND_ASSERT(motion.x.size() == 3 * elements_of(plant).node_count && motion.v.size() == motion.x.size());
+    FROND_ASSERT(std::abs(plant.rotation.norm() - 1) < 1e-9);
     plant.x_good = motion.x;
     plant.v_good = motion.v;
     plant.trouble = 0;
@@ -215,6 +221,7 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
 }
 
 void add_contacts(Plant& plant, double h) {
+    FROND_ASSERT(plant.workspace);
     if (!plant.is_sound) return;
     Push push = {std::move(plant.contact_impulse)};
     const VecX shift = std::move(plant.contact_correction);
@@ -260,6 +267,8 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
             plant.ms_plasticity = timer.ms();
         }
     }
+    FROND_ASSERT(are_finite(motion.x) && are_finite(motion.v));
+    FROND_ASSERT(motion.x.size() == 3 * elements_of(plant).node_count);
     drop_history_at_forces(plant);
     plant.stepped_by = h;
     carry_stumps(plant);
@@ -291,6 +300,7 @@ void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
 void clear_user_force(Plant& plant) {
     if (!plant.has_user_force) return;
     plant.user_force.setZero();
+    plant.chain_load.setZero();
     plant.has_user_force = false;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "plant/plant.hpp"
 
 namespace frond {
@@ -65,6 +66,7 @@ SolveReport solve_in_substeps(Plant& plant, double h) {
         return solve_step(*plant.workspace, plant.step_settings, plant.loads, h, plant.motion);
     constexpr double TOO_FINE = 1.0 / 8;  // half as many substeps make four times the error
     const double allowed = plant.substep_tolerance * plant.size;
+    FROND_ASSERT(plant.substeps >= 1 && plant.substep_tolerance >= 0);
     const Motion start = plant.motion;
     const Trend trend = plant.trend;
     SolveReport spent;

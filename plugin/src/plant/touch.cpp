@@ -1,5 +1,7 @@
 #include "plant/touch.hpp"
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 // Attaches a point to the tets of both chain nodes; with quadratic tets, which have too many nodes, to the nearer
@@ -20,6 +22,8 @@ static Attachment ends_attachment(const Plant& plant, int begin, int end, double
 }
 
 Attachment capsule_attachment(const Plant& plant, int capsule, double along) {
+    FROND_ASSERT(capsule >= 0 && size_t(capsule) < plant.model->capsules.size());
+    FROND_ASSERT(along >= 0 && along <= 1);
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
     if (!plant.follow) return ends_attachment(plant, begin, end, along);
     Attachment attachment;
@@ -47,6 +51,7 @@ bool make_touch(const Plant& plant, const Attachment& attachment, PlantTouch& to
 }
 
 bool find_compliance(Plant& plant, PlantTouch& touch) {
+    FROND_ASSERT(plant.workspace);
     const Mat3 to_model = plant.rotation.conjugate().toRotationMatrix();
     const AttachmentDerivative derivative = derivative_at(touch.attachment, plant.x_good);
     std::vector<NodeBlock> pushes;
@@ -56,6 +61,7 @@ bool find_compliance(Plant& plant, PlantTouch& touch) {
 }
 
 static void add_impulse(const Plant& plant, const PlantTouch& touch, const Vec3& impulse, VecX& sum) {
+    FROND_ASSERT(impulse.allFinite());
     if (sum.size() == 0) sum = VecX::Zero(plant.motion.v.size());
     add_attachment_force(touch.attachment, plant.x_good, plant.rotation.conjugate() * impulse, sum);
 }

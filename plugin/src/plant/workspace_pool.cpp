@@ -2,6 +2,8 @@
 // turns.
 #include "plant/plant.hpp"
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 void PoolSeat::take() {
@@ -14,6 +16,7 @@ void PoolSeat::take() {
 void PoolSeat::leave() {
     if (!is_taken) return;
     std::lock_guard<std::mutex> lock(pool->mutex);
+    FROND_ASSERT(pool->seats > 0);
     pool->seats--;
     while (pool->free.size() > pool->seats) pool->free.pop_back();
     while (pool->batch.size() > pool->seats) pool->batch.pop_back();
@@ -22,6 +25,7 @@ void PoolSeat::leave() {
 
 void take_workspace(Plant& plant) {
     if (plant.workspace) return;
+    FROND_ASSERT(plant.seat.is_taken);
     {
         std::lock_guard<std::mutex> lock(plant.seat.pool->mutex);
         if (!plant.seat.pool->free.empty()) {

@@ -2,8 +2,11 @@
 // capsules lie exactly on the axes, from the beginning of each segment to its end, and their sections, which are known.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "core/convert.hpp"
 #include "core/elementary.hpp"
+#include "core/error.hpp"
 #include "section/section.hpp"
 
 namespace frond {
@@ -20,9 +23,12 @@ struct StemPiece {
     Vec3 begin, end;
     double radius_begin, radius_end, length;
     int organ;
-    bool is_capsule;           // is cut only where others grow out
-    std::vector<double> cuts;  // positions of chain nodes, 0 .. 1, ascending
-    std::vector<int> nodes;    // chain nodes, one per cut
+    bool is_capsule;                // is cut only where others grow out
+    const frond_stem_section* own;  // null: round, of its organ's material
+    Vec3 thin;                      // placed direction of the own section's thickness at the begin, or zero
+    double scale;                   // metres per unit of the own section
+    std::vector<double> cuts;       // positions of chain nodes, 0 .. 1, ascending
+    std::vector<int> nodes;         // chain nodes, one per cut
     double radius(double share) const { return radius_begin + share * (radius_end - radius_begin); }
     // Returns the place of an even cut. Pieces are shorter where a stem is thin, by their radius to the power of 2/3,
     // since waves are (by its root) and a thin piece's mass is lumped the more coarsely; where a stem narrows by half
@@ -41,7 +47,8 @@ struct StemPiece {
 
 // Places the stems as the surface was, by the same rotation, scale and translation.
 std::vector<StemPiece> place_stems(const frond_stem* stems, int count, const Surface& surface,
-                                   const StemPlacement& placed, const std::vector<uint8_t>& are_capsules) {
+                                   const StemPlacement& placed, const std::vector<uint8_t>& are_capsules,
+                                   const frond_stem_section* own) {
     std::vector<StemPiece> pieces;
     for (int i = 0; i < count; i++) {
         const frond_stem& stem = stems[i];
@@ -53,6 +60,9 @@ std::vector<StemPiece> place_stems(const frond_stem* stems, int count, const Sur
         piece.radius_end = stem.radius_end * surface.scale;
         piece.length = (piece.end - piece.begin).norm();
         piece.is_capsule = !are_capsules.empty() && are_capsules[size_t(i)];
+        piece.own = own ? own + i : nullptr;
+        piece.thin = own ? Vec3(placed.turn * to_vec(own[i].thin)) : Vec3(Vec3::Zero());
+        piece.scale = surface.scale;
         pieces.push_back(piece);
     }
     for (const Part& part : surface.parts) pieces[size_t(std::stoi(part.name.substr(5)))].organ = part.organ;
@@ -85,6 +95,7 @@ void cut_pieces(std::vector<StemPiece>& pieces, double height) {
         std::sort(fixed.begin(), fixed.end());
         for (double cut : fixed)
             if (piece.cuts.empty() || cut - piece.cuts.back() > 1e-6) piece.cuts.push_back(cut);
+        piece.cuts.back() = 1;  // also where another one grows out just before the end
         const std::vector<double> kept = piece.cuts;
         for (int k = 1; k < count; k++) {
             const double cut = piece.even_cut(double(k) / count);
@@ -105,6 +116,37 @@ Section round_section(const Vec3& along, double radius, double taper, const Orga
     section.inertia_thin = section.inertia_wide = section.area * radius * radius / 4;
     section.thickness = 2 * radius;
     section.taper = std::clamp(taper, -LARGEST_TAPER, LARGEST_TAPER);
+    finish_section(organ, section);
+    return section;
+}
+
+// Returns the direction of a section's thickness at a share of its stem.
+Vec3 thin_at(const StemPiece& piece, const Vec3& axis, double share) {
+    constexpr double ALONG = 1e-6;  // length of what is across, over the whole one [-]
+    const Vec3 across = piece.thin - piece.thin.dot(axis) * axis;
+    const bool is_open = !(across.norm() > ALONG * piece.thin.norm());
+    const Vec3 thin = is_open ? Vec3(axis.unitOrthogonal()) : Vec3(across.normalized());
+    const double turn = share * piece.own->twist;
+    return frond::cos(turn) * thin + frond::sin(turn) * axis.cross(thin);
+}
+
+// Makes a stem's own section between two shares of its length, from the round one there.
+Section own_section(const StemPiece& piece, double from, double to, const Organ& of, const Section& round) {
+    const frond_stem_section& own = *piece.own;
+    const double share = 0.5 * (from + to);
+    Organ organ = of;
+    if (own.hollow > 0) organ.material.hollow = own.hollow;
+    const double begin = own.young_begin > 0 ? own.young_begin : of.material.young,
+                 end = own.young_end > 0 ? own.young_end : of.material.young;
+    organ.material.young = begin + share * (end - begin);
+    const double radius = 0.5 * (piece.radius(from) + piece.radius(to));
+    Section section = round_section(round.length * round.axis, radius, round.taper, organ);
+    section.thin = thin_at(piece, section.axis, share);
+    if (own.outline != FROND_OUTLINE_RECTANGLE) return section;
+    const double size = piece.scale * radius / piece.radius_begin, t = size * own.thickness, w = size * own.width;
+    section.area = w * t;
+    section.inertia_thin = section.area * t * t / 12;
+    section.inertia_wide = section.area * w * w / 12;
     finish_section(organ, section);
     return section;
 }
@@ -179,10 +221,34 @@ void bind_vertices(StemChain& maker, const Surface& surface, const std::vector<S
 
 }  // namespace
 
+void check_stem_sections(const frond_stem_section* sections, int stem_count) {
+    const auto check = [](int stem, const char* what, double value, double least, double most, bool or_zero) {
+        if ((value >= least && value <= most) || (or_zero && value == 0)) return;
+        fail(FROND_RESULT_BAD_ARGUMENT, "%s of stem %d's section is %g; give a value from %g to %g%s", what, stem,
+             value, least, most, or_zero ? ", or 0" : "");
+    };
+    for (int i = 0; i < stem_count; i++) {
+        const frond_stem_section& own = sections[i];
+        int outline;
+        std::memcpy(&outline, &own.outline, sizeof outline);
+        if (outline < 0 || outline >= FROND_OUTLINE_COUNT)
+            fail(FROND_RESULT_BAD_ARGUMENT, "outline of stem %d's section is %d; use FROND_OUTLINE_*", i, outline);
+        if (outline == FROND_OUTLINE_RECTANGLE) {
+            check(i, "width [m]", own.width, 1e-9, 1e6, false);
+            check(i, "thickness [m]", own.thickness, 1e-9, own.width, false);
+        }
+        for (const double part : {own.thin.x, own.thin.y, own.thin.z}) check(i, "thin", part, -1e9, 1e9, false);
+        check(i, "twist [rad]", own.twist, -1000, 1000, false);
+        check(i, "hollow", own.hollow, 0, 0.98, false);
+        check(i, "young_begin [Pa]", own.young_begin, 1e3, 1e12, true);
+        check(i, "young_end [Pa]", own.young_end, 1e3, 1e12, true);
+    }
+}
+
 Chain make_chain_of_stems(const frond_stem* stems, int stem_count, const Surface& surface, const StemPlacement& placed,
                           const std::vector<Organ>& organs, const ChainOptions& options, std::vector<Section>& sections,
-                          const std::vector<uint8_t>& are_capsules) {
-    std::vector<StemPiece> pieces = place_stems(stems, stem_count, surface, placed, are_capsules);
+                          const std::vector<uint8_t>& are_capsules, const frond_stem_section* own) {
+    std::vector<StemPiece> pieces = place_stems(stems, stem_count, surface, placed, are_capsules, own);
     const double height = options.height > 0 ? options.height : longest_way(pieces) / USUAL_STEM_COUNT;
     cut_pieces(pieces, height);
     StemChain maker = {organs, options.radius};
@@ -192,6 +258,9 @@ Chain make_chain_of_stems(const frond_stem* stems, int stem_count, const Surface
             const double begin = piece.radius(piece.cuts[k - 1]), end = piece.radius(piece.cuts[k]);
             piece.nodes.push_back(maker.add(piece.place(piece.cuts[k]), piece.nodes.back(), 0.5 * (begin + end),
                                             piece.organ, (end - begin) / (end + begin)));
+            if (piece.own)
+                maker.sections.back() = own_section(piece, piece.cuts[k - 1], piece.cuts[k],
+                                                    organs[size_t(piece.organ)], maker.sections.back());
         }
     }
     maker.chain.height = height;

@@ -94,9 +94,11 @@ struct StemPlacement {
 
 // Makes the chain of a tree of stems, whose capsules lie on the stems' axes from end to end, and its sections. The
 // surface is that of surface_from_stems(), placed and with organs; its parts are named "stem_<index>". Stems of which
-// are_capsules is true are one capsule each, others two at least; empty: none is.
+// are_capsules is true are one capsule each, others two at least; empty: none is. `own`: their own sections, if any.
 Chain make_chain_of_stems(const frond_stem* stems, int stem_count, const Surface& surface, const StemPlacement& placed,
                           const std::vector<Organ>& organs, const ChainOptions& options, std::vector<Section>& sections,
-                          const std::vector<uint8_t>& are_capsules = {});
+                          const std::vector<uint8_t>& are_capsules = {}, const frond_stem_section* own = nullptr);
+// Throws BAD_ARGUMENT for a section that cannot be.
+void check_stem_sections(const frond_stem_section* sections, int stem_count);
 
 }  // namespace frond

@@ -24,8 +24,8 @@ struct Piece {
     Vec3 near_end, far_end;      // positions of its nearest and its farthest end [m]
 };
 
-// Two slabs that touch.
-struct Contact {
+// Two slabs that touch, and where.
+struct SlabLink {
     int low, high;               // slabs; across a level line the distance grows from `low` to `high`
     double length = 0;           // [m]
     Vec3 middle = Vec3::Zero();  // [m]
@@ -42,7 +42,7 @@ struct Bands {
     std::vector<int> first, first_band;
     std::vector<int> piece;  // fragment -> slab
     std::vector<Piece> pieces;
-    std::vector<Contact> contacts;
+    std::vector<SlabLink> links;
 
     // Returns the slab of a triangle at a distance from the start of its component.
     int piece_at(int triangle, double local_distance) const;

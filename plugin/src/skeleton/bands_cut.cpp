@@ -1,10 +1,11 @@
 // Bands, second half. In: distances of points. Out: slabs of bands with their area, moments and ends, and their
-// contacts.
+// links.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
 
+#include "core/assert.hpp"
 #include "skeleton/bands.hpp"
 
 namespace frond {
@@ -48,7 +49,7 @@ struct Cutter {
     const std::vector<int>& group;
     const std::vector<int>& organ;
     Bands& bands;
-    std::unordered_map<uint64_t, int> contact_of = {};
+    std::unordered_map<uint64_t, int> link_of = {};
 
     double local(int triangle, int point) const {
         return bands.distance[size_t(point)] - bands.entry[size_t(topology.triangle_component[size_t(triangle)])];
@@ -75,13 +76,13 @@ struct Cutter {
 void Cutter::touch(int low, int high, double length, const Vec3& middle, bool level) {
     if (!level && low > high) std::swap(low, high);
     const auto [at, fresh] =
-        contact_of.try_emplace(uint64_t(uint32_t(low)) << 32 | uint32_t(high), int(bands.contacts.size()));
-    if (fresh) bands.contacts.push_back({low, high, 0, middle, level});
-    Contact& contact = bands.contacts[size_t(at->second)];
-    contact.level = contact.level || level;
-    // The middle is the mean weighted by length; a contact that has only points keeps the first of them.
-    contact.length += length;
-    if (length > 0) contact.middle += (middle - contact.middle) * (length / contact.length);
+        link_of.try_emplace(uint64_t(uint32_t(low)) << 32 | uint32_t(high), int(bands.links.size()));
+    if (fresh) bands.links.push_back({low, high, 0, middle, level});
+    SlabLink& link = bands.links[size_t(at->second)];
+    link.level = link.level || level;
+    // The middle is the mean weighted by length; a link that has only points keeps the first of them.
+    link.length += length;
+    if (length > 0) link.middle += (middle - link.middle) * (length / link.length);
 }
 
 void number_fragments(Cutter& cutter) {
@@ -245,9 +246,9 @@ void measure_pieces(Cutter& cutter) {
     }
 }
 
-// Finds contacts along edges, between groups and between bands where an edge lies on the level line, and contacts at
+// Finds links along edges, between groups and between bands where an edge lies on the level line, and links at
 // single points.
-void find_side_contacts(Cutter& cutter) {
+void find_side_links(Cutter& cutter) {
     const Topology& topology = cutter.topology;
     const Bands& bands = cutter.bands;
     const auto touch = [&](int one, int other, double length, const Vec3& middle) {
@@ -343,6 +344,10 @@ double count_fragments(const Topology& topology, const std::vector<double>& dist
 
 Bands cut_bands(const Topology& topology, const std::vector<SharedEdge>& edges, const std::vector<double>& distance,
                 const std::vector<int>& triangle_group, const std::vector<int>& triangle_organ, double height) {
+    FROND_ASSERT(height > 0);
+    FROND_ASSERT(distance.size() == topology.points.size());
+    FROND_ASSERT(triangle_group.size() == topology.triangles.size());
+    FROND_ASSERT(triangle_organ.size() == topology.triangles.size());
     Bands bands;
     bands.height = height;
     bands.origin = topology.points.front();
@@ -352,8 +357,12 @@ Bands cut_bands(const Topology& topology, const std::vector<SharedEdge>& edges, 
     number_fragments(cutter);
     join_fragments(cutter);
     measure_pieces(cutter);
-    find_side_contacts(cutter);
+    find_side_links(cutter);
     find_ends(cutter);
+    FROND_ASSERT(bands.piece.size() == size_t(bands.first.back()));
+    FROND_ASSERT(std::all_of(bands.links.begin(), bands.links.end(), [&](const SlabLink& link) {
+        return std::min(link.low, link.high) >= 0 && size_t(std::max(link.low, link.high)) < bands.pieces.size();
+    }));
     return bands;
 }
 

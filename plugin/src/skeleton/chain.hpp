@@ -30,8 +30,9 @@ struct Chain {
 };
 
 struct ChainOptions {
-    double height = 0;  // length of a capsule [m]; 0: chosen from the shape
-    double radius = 0;  // [m]; 0: fitted to the shape
+    double height = 0;             // length of a capsule [m]; 0: chosen from the shape
+    double radius = 0;             // [m]; 0: fitted to the shape
+    std::vector<int> rooted = {};  // organs that the plant stands on; empty: found by kind and place
 };
 
 // Makes a chain: connected parts of bands of geodesic distance from the root become nodes, so that forks and leaves
@@ -50,6 +51,7 @@ struct RootPoints {
     std::vector<int> points;
     std::vector<double> heights;
 };
-RootPoints find_root_points(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs);
+RootPoints find_root_points(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
+                            const std::vector<int>& rooted);
 
 }  // namespace frond

@@ -8,6 +8,7 @@
 #include <climits>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/error.hpp"
 #include "skeleton/chain.hpp"
 #include "skeleton/chain_ribs.hpp"
@@ -94,15 +95,15 @@ struct Maker {
     }
 };
 
-// Returns the node that a slab grows from: the end of its parent, or the parent's beginning if the contact is nearer to
+// Returns the node that a slab grows from: the end of its parent, or the parent's beginning if the link is nearer to
 // that.
 int node_below(const Maker& maker, const Shoot& shoot) {
     const int node = maker.node_of_piece[size_t(shoot.parent)];
-    const Contact& contact = maker.tree.contacts[size_t(shoot.contact)];
+    const SlabLink& link = maker.tree.links[size_t(shoot.link)];
     const int before = maker.chain.nodes[size_t(node)].parent;
-    if (contact.level || before < 0) return node;
-    const double to_end = (maker.chain.nodes[size_t(node)].position - contact.middle).squaredNorm();
-    const double to_begin = (maker.chain.nodes[size_t(before)].position - contact.middle).squaredNorm();
+    if (link.level || before < 0) return node;
+    const double to_end = (maker.chain.nodes[size_t(node)].position - link.middle).squaredNorm();
+    const double to_begin = (maker.chain.nodes[size_t(before)].position - link.middle).squaredNorm();
     return to_begin < to_end ? before : node;
 }
 
@@ -200,18 +201,18 @@ std::vector<double> begins_of_slabs(const Maker& maker) {
             along[size_t(number)] = own ? 0 : 1;
             continue;
         }
-        const Contact& contact = maker.tree.contacts[size_t(shoot.contact)];
+        const SlabLink& link = maker.tree.links[size_t(shoot.link)];
         const int node = maker.node_of_piece[size_t(number)];
         const auto place = [&](const Vec3& p) { return nearest_along(maker.chain, node, p); };
         double& begin = along[size_t(number)];
         if (own)
-            begin = contact.level ? 0 : place(shoot.down ? piece.far_end : piece.near_end);
+            begin = link.level ? 0 : place(shoot.down ? piece.far_end : piece.near_end);
         else if (shoot.children > 0)
             begin = 1;
-        else if (contact.level)
+        else if (link.level)
             begin = maker.owns_node[size_t(shoot.parent)] ? 1 : along[size_t(shoot.parent)];
         else
-            begin = place(contact.middle);
+            begin = place(link.middle);
     }
     return along;
 }
@@ -256,6 +257,12 @@ void bind_vertices(Maker& maker) {
         }
 }
 
+bool parents_come_first(const Chain& chain) {
+    for (size_t i = 0; i < chain.nodes.size(); i++)
+        if (chain.nodes[i].parent < -1 || chain.nodes[i].parent >= int(i)) return false;
+    return true;
+}
+
 // Makes the chain for one height. Larger loose parts than usual are dropped while there are more than `most` capsules.
 Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, double height, double radius, int most) {
     const Bands bands = cut_bands(shape.topology, shape.edges, shape.distance, shape.group, shape.organ, height);
@@ -271,13 +278,16 @@ Chain make_with_height(const Shape& shape, const std::vector<Organ>& organs, dou
         fit_radii(maker, organs, radius);
         bind_vertices(maker);
         join_ribs(shape.surface, organs, maker.chain);
+        FROND_ASSERT(parents_come_first(maker.chain));
+        FROND_ASSERT(maker.chain.vertex_capsule.size() == shape.surface.positions.size());
         maker.chain.height = height;
         return std::move(maker.chain);
     }
     return {};
 }
 
-Shape measure_shape(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs) {
+Shape measure_shape(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
+                    const std::vector<int>& rooted) {
     Shape shape{surface, topology, {}, {}, {}, {}, {}, 0};
     shape.group.assign(topology.triangles.size(), 0);
     shape.organ.assign(topology.triangles.size(), -1);
@@ -289,7 +299,7 @@ Shape measure_shape(const Surface& surface, const Topology& topology, const std:
                     known ? group_of_kind(organs[size_t(part.organ)].kind) : 0);
     }
     shape.edges = find_shared_edges(topology);
-    RootPoints roots = find_root_points(surface, topology, organs);
+    RootPoints roots = find_root_points(surface, topology, organs, rooted);
     shape.distance = measure_distances(topology, roots.points, roots.heights);
     shape.roots = std::move(roots.points);
     shape.farthest = *std::max_element(shape.distance.begin(), shape.distance.end());
@@ -319,7 +329,7 @@ Chain make_chain(const Surface& surface, const Topology& topology, const std::ve
     if (!(options.radius >= 0 && options.radius < INFINITY))
         fail(FROND_RESULT_BAD_ARGUMENT, "capsule_radius is %g; give a length in metres, or 0 to fit the shape",
              options.radius);
-    const Shape shape = measure_shape(surface, topology, organs);
+    const Shape shape = measure_shape(surface, topology, organs, options.rooted);
     if (options.height > 0) {
         check_height(shape, options.height);
         return make_with_height(shape, organs, options.height, options.radius, INT_MAX);

@@ -142,7 +142,37 @@ void root_at_end(const Surface& surface, const Topology& topology, RootPoints& r
 
 }  // namespace
 
-RootPoints find_root_points(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs) {
+// Returns the lowest points of organs that the plant stands on, each by itself.
+static RootPoints feet_of(const Surface& surface, const Topology& topology, const std::vector<int>& rooted) {
+    const double height = surface.height();
+    std::vector<double> above(topology.points.size(), INFINITY);
+    for (int organ : rooted) {
+        std::vector<int> points;
+        double low = INFINITY;
+        for (const Part& part : surface.parts)
+            for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
+                if (part.organ == organ)
+                    for (int p : topology.triangles[size_t(t)]) {
+                        points.push_back(p);
+                        low = std::min(low, topology.points[size_t(p)].y());
+                    }
+        for (int p : points) {
+            const double y = topology.points[size_t(p)].y() - low;
+            if (y <= FOOT * height) above[size_t(p)] = std::min(above[size_t(p)], y);
+        }
+    }
+    RootPoints roots;
+    for (size_t i = 0; i < above.size(); i++) {
+        if (!std::isfinite(above[i])) continue;
+        roots.points.push_back(int(i));
+        roots.heights.push_back(above[i]);
+    }
+    return roots;
+}
+
+RootPoints find_root_points(const Surface& surface, const Topology& topology, const std::vector<Organ>& organs,
+                            const std::vector<int>& rooted) {
+    if (!rooted.empty()) return feet_of(surface, topology, rooted);
     const Feet feet = choose_feet(surface, topology, organs);
     const double height = surface.height();
     const std::vector<int> holds = find_holds(surface, topology, feet);

@@ -6,29 +6,31 @@
 #include <queue>
 #include <tuple>
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 namespace {
 
 constexpr double TINY = 0.5;  // in bands: shorter side twigs are dropped
 
-// Lists of contacts by slab.
+// Lists of links by slab.
 struct Around {
-    std::vector<int> first, contact;
+    std::vector<int> first, link;
 };
 
-Around contacts_of_pieces(size_t piece_count, const std::vector<Contact>& contacts) {
+Around links_of_pieces(size_t piece_count, const std::vector<SlabLink>& links) {
     Around around;
     around.first.assign(piece_count + 1, 0);
-    for (const Contact& c : contacts) {
+    for (const SlabLink& c : links) {
         around.first[size_t(c.low) + 1]++;
         around.first[size_t(c.high) + 1]++;
     }
     for (size_t i = 0; i < piece_count; i++) around.first[i + 1] += around.first[i];
-    around.contact.resize(size_t(around.first[piece_count]));
+    around.link.resize(size_t(around.first[piece_count]));
     std::vector<int> next(around.first.begin(), around.first.end() - 1);
-    for (size_t i = 0; i < contacts.size(); i++)
-        for (int piece : {contacts[i].low, contacts[i].high}) around.contact[size_t(next[size_t(piece)]++)] = int(i);
+    for (size_t i = 0; i < links.size(); i++)
+        for (int piece : {links[i].low, links[i].high}) around.link[size_t(next[size_t(piece)]++)] = int(i);
     return around;
 }
 
@@ -49,22 +51,22 @@ double distance_at(const Topology& topology, const Bands& bands, int triangle, c
     return da + wb * (db - da) + wc * (dc - da) - bands.entry[size_t(topology.triangle_component[size_t(triangle)])];
 }
 
-void add_joints(const Topology& topology, const Bands& bands, std::vector<Contact>& contacts) {
+void add_joints(const Topology& topology, const Bands& bands, std::vector<SlabLink>& links) {
     for (const Joint& joint : topology.joints) {
         const int a = bands.piece_at(joint.triangle_a, distance_at(topology, bands, joint.triangle_a, joint.point_a));
         const int b = bands.piece_at(joint.triangle_b, distance_at(topology, bands, joint.triangle_b, joint.point_b));
-        contacts.push_back({a, b, -1, 0.5 * (joint.point_a + joint.point_b), false});
+        links.push_back({a, b, -1, 0.5 * (joint.point_a + joint.point_b), false});
     }
 }
 
-bool is_tie(const Bands& bands, const Contact& contact) {
-    const bool low = bands.pieces[size_t(contact.low)].group == SUPPORT_GROUP,
-               high = bands.pieces[size_t(contact.high)].group == SUPPORT_GROUP;
-    return low != high && contact.length >= 0;
+bool is_tie(const Bands& bands, const SlabLink& link) {
+    const bool low = bands.pieces[size_t(link.low)].group == SUPPORT_GROUP,
+               high = bands.pieces[size_t(link.high)].group == SUPPORT_GROUP;
+    return low != high && link.length >= 0;
 }
 
-// Orders contacts: ties to a support first, then level ones before sides before joints; then the longest.
-bool is_better(const Bands& bands, const Contact& a, const Contact& b) {
+// Orders links: ties to a support first, then level ones before sides before joints; then the longest.
+bool is_better(const Bands& bands, const SlabLink& a, const SlabLink& b) {
     const bool tie_a = is_tie(bands, a), tie_b = is_tie(bands, b);
     if (tie_a != tie_b) return tie_a;
     if (a.level != b.level) return a.level;
@@ -76,8 +78,8 @@ std::vector<char> find_feet(const Topology& topology, const Bands& bands, const 
                             ChainTree& tree) {
     std::vector<char> is_root(topology.points.size(), 0), rooted(bands.pieces.size(), 0), above(bands.pieces.size(), 0);
     for (int root : roots) is_root[size_t(root)] = 1;
-    for (const Contact& contact : bands.contacts)
-        if (contact.level && contact.length > 0) above[size_t(contact.high)] = 1;
+    for (const SlabLink& link : bands.links)
+        if (link.level && link.length > 0) above[size_t(link.high)] = 1;
     std::vector<double> weight(bands.pieces.size(), 0.0), lowest(bands.pieces.size(), INFINITY);
     tree.foot.assign(bands.pieces.size(), Vec3::Zero());
     for (size_t t = 0; t < topology.triangles.size(); t++)
@@ -107,11 +109,11 @@ Vec3 end_of(const Bands& bands, const ChainTree& tree, const Around& around, int
     Vec3 sum = Vec3::Zero();
     double weight = 0;
     for (int i = around.first[size_t(piece)]; i < around.first[size_t(piece) + 1]; i++) {
-        const Contact& contact = tree.contacts[size_t(around.contact[size_t(i)])];
-        if (!contact.level || contact.length <= 0 || around.contact[size_t(i)] == shoot.contact) continue;
-        if ((shoot.down ? contact.high : contact.low) != piece) continue;
-        sum += contact.length * contact.length * contact.middle;
-        weight += contact.length * contact.length;
+        const SlabLink& link = tree.links[size_t(around.link[size_t(i)])];
+        if (!link.level || link.length <= 0 || around.link[size_t(i)] == shoot.link) continue;
+        if ((shoot.down ? link.high : link.low) != piece) continue;
+        sum += link.length * link.length * link.middle;
+        weight += link.length * link.length;
     }
     if (weight > 0) return sum / weight;
     return shoot.down ? bands.pieces[size_t(piece)].near_end : bands.pieces[size_t(piece)].far_end;
@@ -122,10 +124,10 @@ Vec3 end_of(const Bands& bands, const ChainTree& tree, const Around& around, int
 ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vector<int>& roots) {
     ChainTree tree;
     const size_t count = bands.pieces.size();
-    tree.contacts = bands.contacts;
-    add_joints(topology, bands, tree.contacts);
+    tree.links = bands.links;
+    add_joints(topology, bands, tree.links);
     tree.shoots.resize(count);
-    const Around around = contacts_of_pieces(count, tree.contacts);
+    const Around around = links_of_pieces(count, tree.links);
     const std::vector<char> rooted = find_feet(topology, bands, roots, tree);
 
     std::vector<char> grown(count, 0), waiting(count, 0);
@@ -151,24 +153,26 @@ ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vec
         front.pop();
         Shoot& shoot = tree.shoots[size_t(piece)];
         for (int i = around.first[size_t(piece)]; i < around.first[size_t(piece) + 1]; i++) {
-            const int number = around.contact[size_t(i)];
-            const Contact& contact = tree.contacts[size_t(number)];
-            const int other = contact.low == piece ? contact.high : contact.low;
+            const int number = around.link[size_t(i)];
+            const SlabLink& link = tree.links[size_t(number)];
+            const int other = link.low == piece ? link.high : link.low;
             if (!grown[size_t(other)]) {
                 wait(other);
                 continue;
             }
             if (rooted[size_t(piece)] || other == piece) continue;
-            if (shoot.contact < 0 || is_better(bands, contact, tree.contacts[size_t(shoot.contact)])) {
-                shoot.contact = number;
+            if (shoot.link < 0 || is_better(bands, link, tree.links[size_t(shoot.link)])) {
+                shoot.link = number;
                 shoot.parent = other;
-                shoot.down = contact.level && contact.low == piece;
+                shoot.down = link.level && link.low == piece;
             }
         }
         if (shoot.parent >= 0) tree.shoots[size_t(shoot.parent)].children++;
+        FROND_ASSERT(!grown[size_t(piece)]);
         grown[size_t(piece)] = 1;
         tree.order.push_back(piece);
     }
+    FROND_ASSERT(tree.order.size() == count);
     for (size_t i = 0; i < count; i++) tree.shoots[i].end = end_of(bands, tree, around, int(i));
     return tree;
 }

@@ -10,7 +10,7 @@ constexpr int SUPPORT_GROUP = 3;
 
 struct Shoot {
     int parent = -1;       // slab; -1 at a root
-    int contact = -1;      // index into ChainTree::contacts; -1 at a root
+    int link = -1;         // index into ChainTree::links; -1 at a root
     bool down = false;     // grows towards smaller distances
     bool dropped = false;  // too small for a capsule: part of its parent
     int children = 0;      // children that are not dropped
@@ -18,13 +18,13 @@ struct Shoot {
 };
 
 struct ChainTree {
-    std::vector<Contact> contacts;  // contacts of the bands, then one per joint
-    std::vector<Shoot> shoots;      // one per slab
-    std::vector<int> order;         // slabs, parents first
-    std::vector<Vec3> foot;         // slab -> foot, under the middle of its root points; only at roots
+    std::vector<SlabLink> links;  // links of the bands, then one per joint
+    std::vector<Shoot> shoots;    // one per slab
+    std::vector<int> order;       // slabs, parents first
+    std::vector<Vec3> foot;       // slab -> foot, under the middle of its root points; only at roots
 };
 
-// Makes a forest over all slabs. Each grows from the widest level contact with a slab that has grown already, else from
+// Makes a forest over all slabs. Each grows from the widest level link with a slab that has grown already, else from
 // a side, else over a joint; the slab nearest to the root grows first. Supports grow before the plant, and a stem grows
 // out of the support wherever it is tied to it, because the support carries it.
 ChainTree grow_tree(const Topology& topology, const Bands& bands, const std::vector<int>& roots);

@@ -71,59 +71,61 @@ struct MaterialRow {
 // - creep_rate: wood creeps within hours [20]: 1e-4 / s. Primary walls, turgid and not lignified, creep within a
 //   quarter of an hour.
 // - midrib of blades: maize, 4 mm of 80 mm.
+// - restitution is zero: what a plant gives back it gives by its own spring.
 // - drag is zero, so that it follows from the shape: see plant/air_pieces.cpp.
 // - fruit, flower, root and tendril have their strands in the middle or none, so they are near isotropic [13]; blades
 //   twist as strips.
 constexpr double ISOTROPIC = 0, WOOD_CREEP = 1e-4, HERB_CREEP = 1e-3, BY_SHAPE = 0, NONE = 0, MAIZE_RIB = 0.05;
 
 // density [kg/m^3], young [Pa], poisson, thickness [m]; hollow, twist_to_bend, damping_ratio, friction; yield_strain,
-// creep_rate [1/s], strength [Pa], drag, midrib
+// creep_rate [1/s], strength [Pa], drag, midrib, restitution
 static const MaterialRow MATERIALS[] = {
     // Middle of a cucumber stem, brittle [1]; wall of an open tube: rind. Friction [17]. Twist: estimate, a closed ring
     // at the rim [13], between isotropic and the tulip [12].
-    {"stem", {1000, 2.0e8, 0.30, 1.5e-3, 0, 4, 0.06, 0.45, 0.028, HERB_CREEP, 6.3e6, BY_SHAPE, NONE}},
+    {"stem", {1000, 2.0e8, 0.30, 1.5e-3, 0, 4, 0.06, 0.45, 0.028, HERB_CREEP, 6.3e6, BY_SHAPE, NONE, NONE}},
     // Green maize as a whole: a rind of 6-16 GPa dry, less when wet, around a pith of 1/17 of it [3]. Strength:
     // estimate, the rind breaks at a strain of 1.1-1.3 % [3], [24], the whole stalk with it. Twist as the tulip's, a
     // monocot's round stem [12]. Friction [17]. Damping and creep lie between those of herbs and wood.
-    {"grass_stem", {950, 1.5e9, 0.30, 1.0e-3, 0, 8.3, 0.05, 0.45, 0.008, 3e-4, 1.8e7, BY_SHAPE, NONE}},
+    {"grass_stem", {950, 1.5e9, 0.30, 1.0e-3, 0, 8.3, 0.05, 0.45, 0.008, 3e-4, 1.8e7, BY_SHAPE, NONE, NONE}},
     // Chosen: between veins [5] and stems [1]; carries a blade with the safety factors of [7]. Twist: the two dicots of
     // [7]. Strength: estimate, breaks at the strain of stems [1].
-    {"petiole", {980, 1.5e8, 0.30, 1.0e-3, 0, 12, 0.06, 0.45, 0.022, HERB_CREEP, 5e6, BY_SHAPE, NONE}},
+    {"petiole", {980, 1.5e8, 0.30, 1.0e-3, 0, 12, 0.06, 0.45, 0.022, HERB_CREEP, 5e6, BY_SHAPE, NONE, NONE}},
     // Chosen between a dicot's lamina (5-6 MPa) with its veins (60 MPa) [5] and the stiffer grasses: a blade drawn as a
     // bare sheet has to carry what the midrib carries in life [6]. Leaves are 0.2-0.5 mm thick. Friction [17].
     // Strength: estimate, a wet sheet stretches by 5 % before it tears.
-    {"blade", {900, 3.0e7, 0.30, 0.4e-3, 0, ISOTROPIC, 0.08, 0.38, 0.033, HERB_CREEP, 1.5e6, BY_SHAPE, MAIZE_RIB}},
+    {"blade",
+     {900, 3.0e7, 0.30, 0.4e-3, 0, ISOTROPIC, 0.08, 0.38, 0.033, HERB_CREEP, 1.5e6, BY_SHAPE, MAIZE_RIB, NONE}},
     // Chosen: the sclerenchyma of its many parallel veins and midrib carries most of the bending [6]. Strength: that of
     // sclerenchyma times a share of 8 % [21]. Friction [17].
     {"grass_blade",
-     {900, 3.0e8, 0.30, 0.3e-3, 0, ISOTROPIC, 0.06, 0.38, 0.025, HERB_CREEP, 1.15e7, BY_SHAPE, MAIZE_RIB}},
+     {900, 3.0e8, 0.30, 0.3e-3, 0, ISOTROPIC, 0.06, 0.38, 0.025, HERB_CREEP, 1.15e7, BY_SHAPE, MAIZE_RIB, NONE}},
     // Veins 60 MPa in tension [5]; the sclerenchyma on the lower side of a maize midrib is stiffer [6]. Twist and
     // strain at failure as the petiole, which it continues. Friction of leaves [17].
-    {"midrib", {950, 8.0e7, 0.30, 2.0e-3, 0, 12, 0.06, 0.38, 0.022, HERB_CREEP, 2.7e6, BY_SHAPE, NONE}},
+    {"midrib", {950, 8.0e7, 0.30, 2.0e-3, 0, 12, 0.06, 0.38, 0.022, HERB_CREEP, 2.7e6, BY_SHAPE, NONE, NONE}},
     // A tube of parenchyma with a stiff rim [8]; between broccoli [2] and cucumber [1]. Twist of the tulip [12].
     // Strength: estimate, the strain of stems [1]; half of broccoli's 6.9 MPa [2].
-    {"peduncle", {980, 1.0e8, 0.30, 1.0e-3, 0, 8.3, 0.06, 0.45, 0.022, HERB_CREEP, 3.3e6, BY_SHAPE, NONE}},
+    {"peduncle", {980, 1.0e8, 0.30, 1.0e-3, 0, 8.3, 0.06, 0.45, 0.022, HERB_CREEP, 3.3e6, BY_SHAPE, NONE, NONE}},
     // Parenchyma without veins to speak of [9]. Strength: estimate, soft tissue breaks at some 6 %. Friction of leaves
     // [17].
-    {"flower", {900, 5.0e6, 0.30, 0.3e-3, 0, ISOTROPIC, 0.10, 0.38, 0.04, HERB_CREEP, 3e5, BY_SHAPE, NONE}},
+    {"flower", {900, 5.0e6, 0.30, 0.3e-3, 0, ISOTROPIC, 0.10, 0.38, 0.04, HERB_CREEP, 3e5, BY_SHAPE, NONE, NONE}},
     // Parenchyma under turgor, with its skin [9]. Friction: maize kernels [18], for want of others. Strength: estimate,
     // as flower, with a skin: 8 %.
-    {"fruit", {980, 5.0e6, 0.35, 3.0e-3, 0, ISOTROPIC, 0.10, 0.55, 0.053, HERB_CREEP, 4e5, BY_SHAPE, NONE}},
+    {"fruit", {980, 5.0e6, 0.35, 3.0e-3, 0, ISOTROPIC, 0.10, 0.55, 0.053, HERB_CREEP, 4e5, BY_SHAPE, NONE, NONE}},
     // The middle of living branches [4]; green wood sinks or nearly so. Twist [14], damping [15], yield and strength
     // [19], creep [20]. Friction: estimate, bark is rougher than stems.
-    {"branch", {950, 3.0e9, 0.35, 3.0e-3, 0, 7, 0.03, 0.5, 0.008, WOOD_CREEP, 4.5e7, BY_SHAPE, NONE}},
+    {"branch", {950, 3.0e9, 0.35, 3.0e-3, 0, 7, 0.03, 0.5, 0.008, WOOD_CREEP, 4.5e7, BY_SHAPE, NONE, NONE}},
     // Foliage drawn as one solid: leaves, twigs and mostly air. Estimates: 2-5 m^2 of leaf per cubic metre, 0.25 kg per
     // m^2 when fresh, and as much again in twigs; stiff enough to keep its shape and too soft to hold up the branches
     // in it. It neither yields nor breaks.
-    {"crown", {4, 5.0e4, 0.20, 0.4e-3, 0, ISOTROPIC, 0.10, 0.38, 0, 0, 0, BY_SHAPE, NONE}},
+    {"crown", {4, 5.0e4, 0.20, 0.4e-3, 0, ISOTROPIC, 0.10, 0.38, 0, 0, 0, BY_SHAPE, NONE, NONE}},
     // Hydrated: between herbs and wood [11]. Strength: thick roots of herbs [22]. Friction: estimate, as bark.
-    {"root", {1000, 2.0e8, 0.35, 2.0e-3, 0, ISOTROPIC, 0.06, 0.5, 0.025, HERB_CREEP, 7.5e6, BY_SHAPE, NONE}},
+    {"root", {1000, 2.0e8, 0.35, 2.0e-3, 0, ISOTROPIC, 0.06, 0.5, 0.025, HERB_CREEP, 7.5e6, BY_SHAPE, NONE, NONE}},
     // Thin, lignified late [10]. Strength: 2 N [23] on a tendril of half a millimetre. Friction: estimate, they hold on
     // by ridges and hooks.
-    {"tendril", {950, 2.0e8, 0.30, 0.5e-3, 0, ISOTROPIC, 0.08, 0.6, 0.033, HERB_CREEP, 1.0e7, BY_SHAPE, NONE}},
+    {"tendril", {950, 2.0e8, 0.30, 0.5e-3, 0, ISOTROPIC, 0.08, 0.6, 0.033, HERB_CREEP, 1.0e7, BY_SHAPE, NONE, NONE}},
     // Not a plant: stakes, trellises, pots. Air-dry softwood [14], which neither yields nor creeps within a day;
     // friction of wood on wood and damping of dry wood: estimates.
-    {"support", {600, 8.0e9, 0.35, 5.0e-3, 0, 7, 0.02, 0.4, 0, 0, 8.0e7, BY_SHAPE, NONE}},
+    {"support", {600, 8.0e9, 0.35, 5.0e-3, 0, 7, 0.02, 0.4, 0, 0, 8.0e7, BY_SHAPE, NONE, NONE}},
 };
 
 const Material* material_preset(const std::string& kind) {
@@ -161,7 +163,8 @@ void check_material(const Material& material, const std::string& who) {
                   {"creep_rate [1/s]", material.creep_rate, 0, 1e6, false},
                   {"strength [Pa]", material.strength, 1, 1e12, true},
                   {"drag", material.drag, 0.01, 10, true},
-                  {"midrib", material.midrib, 0, 0.5, false}};
+                  {"midrib", material.midrib, 0, 0.5, false},
+                  {"restitution", material.restitution, 0, 1, false}};
     for (const auto& range : ranges) {
         if (range.value >= range.least && range.value <= range.most) continue;
         if (range.or_zero && range.value == 0) continue;

@@ -25,12 +25,14 @@ bool names_many(const std::string& name);
 std::vector<std::string> kinds_by_name(const Surface& surface);
 // Returns for each triangle whether it belongs to foliage that is drawn as one solid: held up by something else or,
 // with `on_ground`, also standing on the ground.
-std::vector<char> find_crowns(const Topology& topology, bool on_ground);
+std::vector<char> find_crowns(const Surface& surface, const Topology& topology, bool on_ground);
 
 // Makes parts named branches blades if they are cards beside real branches; `sheets` says which triangles are of
 // sheets.
 void find_cards(const Surface& surface, const Topology& topology, const std::vector<char>& sheets,
                 std::vector<std::string>& named);
+// Returns "stem (stem), leaf_1 (blade) ... and 12 more", for error texts.
+std::string list_organs(const std::vector<Organ>& organs);
 // Replaces materials by the caller's, as a part of find_organs().
 void override_materials(std::vector<Organ>& organs, const frond_organ_material* overrides, int count);
 

@@ -11,20 +11,33 @@
 
 namespace frond {
 
-// Returns whether a part has the border of a sheet, at least as long as itself; a tube is closed or ends in rings.
-static bool has_border(const Topology& topology, const Part& part) {
-    std::map<std::array<int, 2>, int> uses;
+using EdgeEnds = std::array<int, 2>;
+
+static EdgeEnds edge_of(const Triangle& corners, size_t k) {
+    const auto [a, b] = std::minmax(corners[k], corners[(k + 1) % 3]);
+    return {a, b};
+}
+
+static std::map<EdgeEnds, int> count_edges(const Topology& topology) {
+    std::map<EdgeEnds, int> uses;
+    for (const Triangle& corners : topology.triangles)
+        for (size_t k = 0; k < 3; k++) uses[edge_of(corners, k)]++;
+    return uses;
+}
+
+// Returns whether a part has the border of a sheet, at least as long as itself; a tube is closed or ends in rings, and
+// a face between others has its neighbours all around.
+static bool has_border(const Topology& topology, const std::map<EdgeEnds, int>& uses, const Part& part) {
     Vec3 lower = Vec3::Constant(INFINITY), upper = -lower;
+    double border = 0;
     for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; t++)
         for (size_t k = 0; k < 3; k++) {
-            const int a = topology.triangles[size_t(t)][k], b = topology.triangles[size_t(t)][(k + 1) % 3];
-            uses[{std::min(a, b), std::max(a, b)}]++;
-            lower = lower.cwiseMin(topology.points[size_t(a)]);
-            upper = upper.cwiseMax(topology.points[size_t(a)]);
+            const EdgeEnds edge = edge_of(topology.triangles[size_t(t)], k);
+            const Vec3 &a = topology.points[size_t(edge[0])], &b = topology.points[size_t(edge[1])];
+            if (uses.at(edge) == 1) border += (b - a).norm();
+            lower = lower.cwiseMin(a).cwiseMin(b);
+            upper = upper.cwiseMax(a).cwiseMax(b);
         }
-    double border = 0;
-    for (const auto& [edge, count] : uses)
-        if (count == 1) border += (topology.points[size_t(edge[1])] - topology.points[size_t(edge[0])]).norm();
     return border >= (upper - lower).norm();
 }
 
@@ -35,12 +48,14 @@ void find_cards(const Surface& surface, const Topology& topology, const std::vec
     constexpr double NEARLY_ALL = 0.9;
     std::vector<char> is_card(named.size(), 0);
     bool has_wood = false;
+    if (std::find(named.begin(), named.end(), "branch") == named.end()) return;
+    const std::map<EdgeEnds, int> uses = count_edges(topology);
     for (size_t i = 0; i < named.size(); i++) {
         const Part& part = surface.parts[i];
         if (named[i] != "branch" || part.triangle_count == 0) continue;
         const auto first = sheets.begin() + part.first_triangle;
         is_card[i] = std::count(first, first + part.triangle_count, 1) >= NEARLY_ALL * part.triangle_count &&
-                     has_border(topology, part);
+                     has_border(topology, uses, part);
         has_wood = has_wood || !is_card[i];
     }
     for (size_t i = 0; i < named.size(); i++)
@@ -69,7 +84,7 @@ static FoundOrgans find_in_parts(const Surface& surface, const Topology& topolog
     const bool is_bush = std::any_of(surface.parts.begin(), surface.parts.end(), [](const Part& part) {
         return names_a_bush(part.name) || names_a_bush(part.material);
     });
-    const std::vector<char> crowns = find_crowns(topology, is_bush);
+    const std::vector<char> crowns = find_crowns(surface, topology, is_bush);
     FoundOrgans found;
     if (std::find(whole.begin(), whole.end(), 0) == whole.end())
         found.organ_of.assign(surface.triangles.size(), -1);
@@ -165,8 +180,7 @@ static std::vector<Organ> name_organs(Surface& surface, const std::vector<FoundO
     return organs;
 }
 
-// Returns "stem (stem), leaf_1 (blade) ... and 12 more".
-static std::string list_organs(const std::vector<Organ>& organs) {
+std::string list_organs(const std::vector<Organ>& organs) {
     std::string text;
     for (size_t i = 0; i < organs.size(); i++) {
         if (i == 30) return text + " and " + std::to_string(organs.size() - i) + " more";

@@ -48,7 +48,7 @@ struct Finder {
 
     const Piece& piece(int i) const { return cut.bands.pieces[size_t(i)]; }
     const Slab& slab(int i) const { return cut.slabs[size_t(i)]; }
-    const Contact& contact(int i) const { return cut.tree.contacts[size_t(cut.tree.shoots[size_t(i)].contact)]; }
+    const SlabLink& link(int i) const { return cut.tree.links[size_t(cut.tree.shoots[size_t(i)].link)]; }
     bool same_mesh(int i) const {
         const int parent = slab(i).parent;
         return parent >= 0 && piece(i).component == piece(parent).component;
@@ -65,7 +65,7 @@ struct Finder {
         return 1.2 * std::sqrt(std::max(0.0, spread(0, 0) + spread(2, 2)));
     }
     // Returns the radius of a ring as long as the line where a slab grows out of another one of its mesh [m].
-    double neck_radius(int i) const { return same_mesh(i) ? std::max(0.0, contact(i).length) / (2 * PI) : 0; }
+    double neck_radius(int i) const { return same_mesh(i) ? std::max(0.0, link(i).length) / (2 * PI) : 0; }
 };
 
 // Where the solids that grow out of a slab begin: their volume and the widest of their necks.
@@ -107,7 +107,7 @@ double solid_volume(const Finder& finder, int i) {
     const double widest = std::min(wide, std::sqrt(tree.area / (4 * PI)));
     // What stands on the ground by itself stands broadly.
     if (finder.slab(i).parent < 0 ? finder.foot_radius(i) < SOLID_NECK * widest : neck > SOLID_NECK * widest) return 0;
-    const Vec3 from = on_neck ? finder.contact(i).middle : tree.box.center();
+    const Vec3 from = on_neck ? finder.link(i).middle : tree.box.center();
     const double volume = std::abs(tree.flux - from.dot(tree.normal)) / 3, area = tree.area + PI * neck * neck;
     // The normals of a closed surface add up to nothing but its neck.
     if (tree.normal.norm() > SOLID_OPEN * tree.area + 1.3 * PI * neck * neck) return 0;
@@ -170,7 +170,7 @@ int begin_region(Finder& finder, int i, Form form) {
     region.same_mesh = finder.same_mesh(i);
     const int parent = finder.slab(i).parent;
     region.parent = parent >= 0 ? finder.region[size_t(parent)] : -1;
-    region.begin = parent >= 0 ? finder.contact(i).middle : finder.cut.tree.foot[size_t(i)];
+    region.begin = parent >= 0 ? finder.link(i).middle : finder.cut.tree.foot[size_t(i)];
     region.neck = finder.neck_radius(i);
     region.volume = finder.volume[size_t(i)];
     finder.regions.push_back(region);
@@ -205,11 +205,12 @@ void grow_regions(Finder& finder) {
     std::vector<char> solid(count, 0);
     for (int i : finder.cut.tree.order) {
         const int parent = finder.slab(i).parent;
-        const bool in_solid = finder.same_mesh(i) && solid[size_t(parent)];
-        solid[size_t(i)] = in_solid || finder.volume[size_t(i)] > 0;
         const bool same_part = parent >= 0 && finder.piece(i).group == finder.piece(parent).group;
+        // Twigs that go on within a crown are of another part than it.
+        const bool in_solid = finder.same_mesh(i) && same_part && solid[size_t(parent)];
+        solid[size_t(i)] = in_solid || finder.volume[size_t(i)] > 0;
         int number = -1;
-        if (in_solid && same_part)
+        if (in_solid)
             number = finder.region[size_t(parent)];
         else if (!solid[size_t(i)] && finder.alike(i) && !is_own_branch(finder, i, leaders[size_t(parent)]))
             number = finder.region[size_t(parent)];

@@ -144,8 +144,8 @@ std::vector<double> measure_normals(const Topology& topology, const Bands& bands
 // Flips slabs that differ from all their neighbours, if these are larger together: such slabs are noise.
 void smooth(const Bands& bands, std::vector<Slab>& slabs) {
     std::vector<double> same(slabs.size(), 0.0), other(slabs.size(), 0.0);
-    for (const Contact& contact : bands.contacts) {
-        const size_t low = size_t(contact.low), high = size_t(contact.high);
+    for (const SlabLink& link : bands.links) {
+        const size_t low = size_t(link.low), high = size_t(link.high);
         if (bands.pieces[low].group != bands.pieces[high].group) continue;
         auto& sums = slabs[low].is_sheet == slabs[high].is_sheet ? same : other;
         sums[low] += bands.pieces[high].area;

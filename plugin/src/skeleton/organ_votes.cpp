@@ -7,7 +7,7 @@
 //   it is a solid at the foot that bears leaves             3 for a root
 //   it is a thin tube at whose end one leaf or few are      2.5 for a petiole
 //   it is green                                             0.5 for a blade, 0.3 for a stem
-//   it is dark and brown                                    1 for a branch
+//   it is dark and brown                                    1 for a branch, 2.5 less for a crown
 //   it is bright and not green                              2 for a flower if a sheet, 1 for a fruit if a solid
 //   its texture lets light through                          1 for a blade
 // Then regions are joined to organs: see organ_join.cpp.
@@ -126,6 +126,7 @@ struct Voter {
     std::vector<double> trust = {};   // by part, weight of its name
     std::vector<double> crown = {};   // by region, share of its triangles that belong to round solids
     std::vector<int> leaves = {};     // by region, sheets that grow out of it and what it bears
+    std::vector<int> borne = {};      // by region, those that grow out of it and do not stand beside it
     std::vector<int> others = {};     // by region, solids and tubes that bear no leaf likewise
 };
 
@@ -136,17 +137,20 @@ bool reaches_ground(const Voter& voter, size_t r) {
 }
 
 // Returns whether a tube is a blade of grass: it stands among others that bear nothing, too.
-bool is_bare(const Voter& voter, const Region& region) {
-    return region.form != Form::SOLID && stands(region, voter.foot, voter.height) &&
-           region.tubes + region.sheets + region.solids <= 1;
+bool is_bare(const Voter& voter, size_t r) {
+    const Region& region = voter.regions[r];
+    return region.form != Form::SOLID && stands(region, voter.foot, voter.height) && voter.borne[r] <= 1;
 }
-bool is_grass(const Voter& voter, const Region& region) {
+bool is_grass(const Voter& voter, size_t r) {
     constexpr int TUFT = 5;
-    return is_bare(voter, region) && region.form == Form::TUBE && voter.height < TREE_HEIGHT && voter.bare >= TUFT;
+    const Region& region = voter.regions[r];
+    return is_bare(voter, r) && region.form == Form::TUBE && voter.height < TREE_HEIGHT && voter.bare >= TUFT;
 }
 
 bool is_rooted_tuber(const Voter& voter, size_t r) {
+    constexpr double LOW = 0.3;  // largest height above the ground at which one begins, as a share of the plant's
     const Region& region = voter.regions[r];
+    if (voter.height > TREE_HEIGHT || region.box.min().y() > voter.foot + LOW * voter.height) return false;
     if (region.form == Form::SOLID) return region.tubes + region.sheets > 0 && reaches_ground(voter, r);
     // A tube that stands on its point, thick at its upper end, out of which thin ones grow.
     const double length = region.box.sizes().y();
@@ -167,7 +171,6 @@ bool is_petiole(const Voter& voter, size_t r) {
     const Region& region = voter.regions[r];
     if (region.form != Form::TUBE || voter.tube == "branch" || voter.others[r] > 0 || region.length > 0.6 * voter.size)
         return false;
-    // Above the ground, too, a tube may grow out of nothing.
     if (region.parent < 0 || stands(region, voter.foot, voter.height)) return voter.leaves[r] == 1;
     const Region& parent = voter.regions[size_t(region.parent)];
     return voter.leaves[r] > 0 && voter.leaves[r] <= FEW_LEAVES &&
@@ -206,13 +209,13 @@ void vote_by_shape(const Voter& voter, size_t r, Ballot& ballot) {
     const Vec3 size = region.box.sizes();
     if (is_rooted_tuber(voter, r) || is_point(voter, r))
         ballot.add("root", 3, sized("solid at the foot that bears leaves,", size.maxCoeff(), size.minCoeff()));
-    else if (voter.crown[r] > 0.5 && !(region.form == Form::TUBE && region.solids > 0))
+    else if (voter.crown[r] > 0.5 && voter.height > CROWN_HEIGHT && !(region.form == Form::TUBE && region.solids > 0))
         ballot.add("crown", 3, sized("large round solid,", size.maxCoeff(), size.minCoeff()));
     else if (surrounds_wood(voter, region))
         ballot.add("crown", 3, sized("foliage around wood,", size.maxCoeff(), size.minCoeff()));
     else if (region.form == Form::SHEET)
         ballot.add("blade", 2, sized("sheet", region.length, region.length > 0 ? region.area / region.length : 0));
-    else if (is_grass(voter, region))
+    else if (is_grass(voter, r))
         ballot.add("blade", 2, sized("one of many alike on the ground,", region.length, 2 * region.radius()));
     else if (is_petiole(voter, r))
         ballot.add("petiole", 2.5, sized("thin tube with a leaf at its end,", region.length, 2 * region.radius()));
@@ -241,6 +244,7 @@ void vote_by_look(const Voter& voter, size_t r, Ballot& ballot) {
         ballot.add("stem", 0.3, "");
     } else if (is_brown(part.color)) {
         ballot.add("branch", 1, "brown");
+        if (ballot.votes.count("crown")) ballot.add("crown", -2.5, "");
     } else if (is_bright(part.color) && voter.leaves[r] <= (region.form == Form::SHEET) &&
                voter.bright[size_t(region.part)] > 0) {
         if (region.form != Form::SOLID)
@@ -266,10 +270,12 @@ FoundOrgan vote(const Voter& voter, size_t r) {
 void count_leaves(Voter& voter) {
     voter.leaves.assign(voter.regions.size(), 0);
     voter.others.assign(voter.regions.size(), 0);
+    voter.borne.assign(voter.regions.size(), 0);
     for (size_t r = voter.regions.size(); r-- > 0;) {
         const Region& region = voter.regions[r];
         if (region.form == Form::SHEET) voter.leaves[r]++;
         if (region.parent < 0) continue;
+        voter.borne[size_t(region.parent)] += !stands(region, voter.foot, voter.height);
         // Veins are no stems.
         const bool is_vein =
             region.form == Form::TUBE && region.radius() < 0.8 * voter.regions[size_t(region.parent)].radius();
@@ -312,7 +318,7 @@ FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std
                 height > TREE_HEIGHT ? "branch" : "stem"};
     voter.has_wood = std::find(named.begin(), named.end(), "branch") != named.end();
     count_leaves(voter);
-    for (const Region& region : cut.regions) voter.bare += is_bare(voter, region);
+    for (size_t r = 0; r < cut.regions.size(); r++) voter.bare += is_bare(voter, r);
     voter.trust = weigh_names(surface, named);
     voter.crown = share_of_crowns(cut, crowns);
     find_bright_parts(voter);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/assert.hpp"
 #include "core/error.hpp"
 #include "skeleton/topology_joints.hpp"
 
@@ -220,6 +221,10 @@ Topology make_topology(const Surface& surface) {
     find_components(topology);
     orient(topology);
     join_components(topology);
+    FROND_ASSERT(topology.vertex_point.size() == surface.positions.size());
+    FROND_ASSERT(topology.triangle_component.size() == surface.triangles.size());
+    FROND_ASSERT(topology.turned.size() == surface.triangles.size());
+    FROND_ASSERT(topology.joints.size() + 1 == size_t(topology.component_count));
     return topology;
 }
 

@@ -228,7 +228,7 @@ struct Finish {
     unsigned& lost;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr double NEARLY = 1 - 1e-9;
+        constexpr double NEARLY = 1 - 1e-9;  // rounding, which differs between lanes and one by one [-]
         S sound = constant<S>(1), within = sound;
         for (int i = 0; i < a.system->elements->node_count; ++i) {
             if (pinned[size_t(i)]) {

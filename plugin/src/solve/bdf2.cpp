@@ -12,7 +12,7 @@ namespace frond {
 static bool is_smooth(const Workspace& w, const StepInput& input) {
     constexpr double ROUGH = 0.5;  // largest error, as a share of the displacement [-]
     const VecX way = w.x - input.motion.x;
-    return (way - 0.5 * input.h * (w.v_start + w.v)).squaredNorm() <= ROUGH * ROUGH * way.squaredNorm();
+    return (way - 0.5 * input.h * (input.motion.v + w.v)).squaredNorm() <= ROUGH * ROUGH * way.squaredNorm();
 }
 
 // Takes a first step by sdirk2 where possible: implicit Euler would take 1 % of the energy from a 1 Hz mode at 1/60 s,
@@ -43,11 +43,11 @@ bool step_bdf2(Workspace& workspace, const StepInput& input, SolveReport& report
 
     const auto [back, step] = bdf2_after(motion.history.h, input.h);
     w.x_base = motion.x + back * (motion.x - motion.history.x_prev);
-    w.v_base = w.v_start + back * (w.v_start - motion.history.v_prev);
+    w.v_base = motion.v + back * (motion.v - motion.history.v_prev);
     // Held nodes get the velocity that the method finds in their positions, as free ones do: otherwise a foot that
     // stops would tear at a plant that goes on.
-    for (size_t i = 0; i < w.held.size(); ++i)
-        if (w.held[i]) point(w.v_start, int(i)) = 1 / step * (point(w.x_from, int(i)) - point(w.x_base, int(i)));
+    lead_held(w, input, step);
+    predict_held(w, motion.x, input.h, motion.v);
     return solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from}, report);
 }
 

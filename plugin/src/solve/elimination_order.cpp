@@ -4,6 +4,8 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 std::vector<int> elimination_order(const BlockPattern& pattern) {
@@ -16,6 +18,7 @@ std::vector<int> elimination_order(const BlockPattern& pattern) {
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
     Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), permutation);
     const auto& indices = permutation.indices();
+    FROND_ASSERT(indices.size() == pattern.node_count);
     return std::vector<int>(indices.data(), indices.data() + indices.size());
 }
 

@@ -11,7 +11,7 @@ struct Corner {
     S pivot[3], inverse[3];
 };
 
-constexpr double LARGEST_PIVOT = 1e300;
+constexpr double LARGEST_PIVOT = 1e300;  // also refuses what is not finite
 
 // Factorizes the triangle on and below the diagonal, given column by column.
 template <class S>

@@ -6,6 +6,7 @@
 // method").
 #include <algorithm>
 
+#include "core/assert.hpp"
 #include "solve/elimination_order.hpp"
 #include "solve/fronts.hpp"
 
@@ -189,7 +190,10 @@ FrontPlan make_front_plan(const BlockPattern& pattern) {
         front.rows = int(draft.rows.size());
         front.child = int(plan.children.size());
         front.children = int(draft.children.size());
-        for (const int child : draft.children) plan.children.push_back(front_at[size_t(child)]);
+        for (const int child : draft.children) {
+            FROND_ASSERT(front_at[size_t(child)] >= 0);
+            plan.children.push_back(front_at[size_t(child)]);
+        }
         for (const int j : draft.own) {
             const int node = first_order[size_t(j)];
             place[size_t(j)] = plan.place[size_t(node)] = int(plan.order.size());
@@ -204,7 +208,9 @@ FrontPlan make_front_plan(const BlockPattern& pattern) {
         for (const int j : drafts[size_t(order[f])].rows) plan.rows.push_back(place[size_t(j)]);
         std::sort(plan.rows.begin() + front.row, plan.rows.end());
         front.parent = front.rows == 0 ? -1 : plan.front_of[size_t(plan.rows[size_t(front.row)])];
+        FROND_ASSERT(front.parent < 0 || front.parent > int(f));
     }
+    FROND_ASSERT(plan.order.size() == size_t(pattern.node_count));
     place_rows(plan);
     place_entries(pattern, plan);
     place_numbers(plan);

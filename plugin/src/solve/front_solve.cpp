@@ -11,7 +11,7 @@ namespace frond {
 
 namespace {
 
-constexpr int ROWS_AT_ONCE = 4;
+constexpr int ROWS_AT_ONCE = 4;  // numbers of a column
 
 struct SolveFronts {
     const FrontPlan& plan;

@@ -21,9 +21,10 @@ bool start(Workspace& w, const StepInput& input, SolveReport& report) {
     if (!step_sdirk2(w, input, report)) return false;
     w.x_rate = w.v;
     if (is_pushed(input))
-        w.v_rate = (w.v - w.v_start) / input.h;
+        w.v_rate = (w.v - input.motion.v) / input.h;
     else
         w.v_rate = (w.v - w.v_base) / (input.h * (1 - std::sqrt(0.5)));
+    keep_held(w);
     return true;
 }
 
@@ -34,15 +35,9 @@ bool step_generalized_alpha(Workspace& workspace, const StepInput& input, SolveR
     const History& history = input.motion.history;
     if (!history.valid) return start(w, input, report);
 
-    // Held nodes move at constant velocity, whatever they did before.
-    const VecX &x = input.motion.x, &v = w.v_start;
+    const VecX &x = input.motion.x, &v = input.motion.v;
     w.x_rate = history.x_rate;
     w.v_rate = history.v_rate;
-    for (size_t i = 0; i < w.held.size(); ++i) {
-        if (!w.held[i]) continue;
-        point(w.x_rate, int(i)) = point(v, int(i));
-        point(w.v_rate, int(i)).setZero();
-    }
 
     // The stage is at y_f.
     const double s = input.settings.spectral_radius, h = input.h;
@@ -51,6 +46,7 @@ bool step_generalized_alpha(Workspace& workspace, const StepInput& input, SolveR
     w.x_base = x + old * w.x_rate;
     w.v_base = v + old * w.v_rate;
     w.x_from = x + a * h * v;
+    lead_held(w, input, step, a);
     const int iterations = std::max(LEAST_ITERATIONS, input.settings.newton_iterations);
     if (!solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from, nullptr, iterations}, report)) return false;
 
@@ -59,6 +55,7 @@ bool step_generalized_alpha(Workspace& workspace, const StepInput& input, SolveR
     w.v_rate += ((w.v - w.v_base) / step - w.v_rate) / m;
     w.x = x + (w.x - x) / a;
     w.v = v + (w.v - v) / a;
+    keep_held(w);
     return true;
 }
 

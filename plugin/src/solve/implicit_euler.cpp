@@ -6,7 +6,8 @@
 namespace frond {
 
 bool step_implicit_euler(Workspace& workspace, const StepInput& input, SolveReport& report) {
-    return solve_stage(workspace, input, {input.motion.x, workspace.v_start, input.h, input.motion.x}, report);
+    carry_held(workspace, input);
+    return solve_stage(workspace, input, {input.motion.x, input.motion.v, input.h, input.motion.x}, report);
 }
 
 }  // namespace frond

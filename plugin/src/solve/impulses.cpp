@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/assert.hpp"
 #include "core/decompose.hpp"
 #include "core/union_find.hpp"
 
@@ -159,6 +160,9 @@ CouplingTable coupling_table(const std::vector<std::vector<Coupling>>& rows) {
 ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTable& coupling,
                             const ImpulseLimits& limits, std::vector<Vec3>& impulses, double unfelt) {
     impulses.resize(touches.size(), Vec3::Zero());
+    FROND_ASSERT(std::all_of(touches.begin(), touches.end(), [](const Touch& touch) {
+        return touch.is_bond || (touch.friction >= 0 && std::abs(touch.normal.squaredNorm() - 1) < 1e-6);
+    }));
     std::vector<int> place(touches.size(), 0);
     ImpulseReport report;
     report.converged = true;
@@ -168,6 +172,7 @@ ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTab
         search.own.resize(island.size());
         for (size_t k = 0; k < island.size(); k++) {
             place[size_t(island[k])] = int(k);
+            FROND_ASSERT(island[k] >= 0 && size_t(island[k]) < touches.size());
             search.velocities.segment<3>(3 * Eigen::Index(k)) = touches[size_t(island[k])].velocity;
         }
         for (size_t k = 0; k < island.size(); k++)

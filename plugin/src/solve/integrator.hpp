@@ -46,6 +46,19 @@ inline bool is_pushed(const StepInput& input) {
     return !input.motion.history.valid && input.motion.history.shaken;
 }
 
+// Sets workspace.v_start of held nodes to their mean velocities over the step.
+void carry_held(Workspace& workspace, const StepInput& input);
+// Sets it to the velocities at the end of the step, for methods that go on from those.
+void keep_held(Workspace& workspace);
+// Predicts held nodes as free ones are, by velocities that they had, though their ends are known: where only those of
+// free nodes were extrapolated, forces would be linearized at a foot that is bent against its plant.
+void predict_held(Workspace& workspace, const VecX& x, double ahead, const VecX& v);
+// Sets workspace.v_start of held nodes for methods of stages, whose steps leave their mean velocities: to that at a
+// share of the step, at the acceleration from the last mean to this one.
+void pace_held(Workspace& workspace, const StepInput& input, double share);
+// Sets it to what leads them from workspace.x_base, within a stage, to where they are at that share of the way.
+void lead_held(Workspace& workspace, const StepInput& input, double step, double share = 1);
+
 // Returns whether predicted positions are within the trust bound.
 inline bool is_calm(const System& system, const VecX& from, const VecX& to) {
     return system.row->is_calm(*system.elements, from, to);

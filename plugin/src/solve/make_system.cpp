@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/assert.hpp"
 #include "core/error.hpp"
 #include "core/product.hpp"
 #include "solve/system.hpp"
@@ -12,6 +13,8 @@ namespace frond {
 // Sets what follows from the elements.
 static void finish(System& system, frond_mass mass) {
     system.masses = system.row->masses(*system.elements, mass);
+    FROND_ASSERT(system.masses.node.size() == system.elements->node_count);
+    FROND_ASSERT(system.masses.slot.size() == system.elements->pattern.row.size());
     const std::vector<double>& ratio = system.elements->damping_ratio;
     system.damps_alike = std::adjacent_find(ratio.begin(), ratio.end(), std::not_equal_to<>()) == ratio.end();
 
@@ -78,6 +81,7 @@ void multiply_mass(const System& system, const std::vector<Mat3>& inertia, const
     const BlockPattern& pattern = system.elements->pattern;
     const Masses& masses = system.masses;
     y.resize(v.size());
+    FROND_ASSERT(v.size() == 3 * pattern.node_count);
     if (masses.lumped) {
         for (int i = 0; i < pattern.node_count; ++i) point(y, i) = masses.node[i] * point(v, i);
     } else {

@@ -247,7 +247,7 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
 // Goes along dv as far as the residual decreases while the potential stays below `most`, or the potential decreases
 // enough (Armijo 1966; Nocedal and Wright 2006, section 3.1). Returns false if neither does.
 bool search_line(Newton& n, double most, VecX& rhs, double& norm) {
-    constexpr int HALVINGS = 12;
+    constexpr int HALVINGS = 12;       // of a direction; a step of a 4000th is none
     constexpr double DESCENT = 1e-4;   // share of the linear decrease that is enough [-]
     constexpr double ROUNDING = 1e-6;  // relative change of a potential that is none [-]
     Workspace& w = n.w;
@@ -285,7 +285,7 @@ void stand_still_if_better(Newton& n) {
 
 // Leaves the first solve to the line search. Returns the norm of the residual, negative on failure.
 double skip_first(Newton& n) {
-    constexpr int SEARCHED_ITERATIONS = 20;
+    constexpr int SEARCHED_ITERATIONS = 20;  // solves granted to a stage that is searched
     Timer timer;
     if (n.iterations < SEARCHED_ITERATIONS) {
         n.iterations = SEARCHED_ITERATIONS;

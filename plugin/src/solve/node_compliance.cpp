@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/assert.hpp"
 #include "solve/integrator.hpp"
 
 namespace frond {
@@ -10,8 +11,10 @@ namespace frond {
 bool make_compliance(Workspace& workspace, const SolveSettings& settings, const std::vector<NodeBlock>& pushes,
                      NodeCompliance& compliance) {
     std::vector<NodeBlock> free;
-    for (const NodeBlock& push : pushes)
+    for (const NodeBlock& push : pushes) {
+        FROND_ASSERT(push.node >= 0 && size_t(push.node) < workspace.held.size());
         if (!workspace.held[size_t(push.node)]) free.push_back(push);
+    }
     const LinearSolver& solver = linear_solver(settings.linear_solver);
     if (solver.half && !responds_by_mass(workspace, settings)) {
         solver.half(workspace.linear, free, compliance);
@@ -42,6 +45,7 @@ bool make_compliance(Workspace& workspace, const SolveSettings& settings, const 
 void add_compliances(const std::vector<const NodeCompliance*>& at, const NodeCompliance& by, Eigen::Matrix3Xd& spread,
                      std::vector<Mat3>& blocks) {
     int most = 0;
+    FROND_ASSERT(blocks.size() == at.size());
     for (const NodeCompliance* compliance : at)
         if (!compliance->rows.empty()) most = std::max(most, compliance->rows.back() + 1);
     const bool whole = by.right.cols() != Eigen::Index(by.rows.size());

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 namespace {
@@ -43,6 +45,7 @@ bool solve_on(const Eigen::MatrixXd& W, const VecX& b, std::vector<Eigen::Index>
 bool solve_one_sided(const Eigen::MatrixXd& W, const VecX& b, VecX& p) {
     constexpr int EAGER = 6;  // rounds in which all violated rows join
     const Eigen::Index count = b.size();
+    FROND_ASSERT(W.rows() == count && W.cols() == count);
     const double rounding = 1e-9 * (count > 0 ? b.cwiseAbs().maxCoeff() : 0);
     std::vector<Eigen::Index> pulling;
     p.setZero(count);
@@ -52,7 +55,10 @@ bool solve_one_sided(const Eigen::MatrixXd& W, const VecX& b, VecX& p) {
         for (Eigen::Index i = 0; i < count; i++)
             if (!(lacking[i] <= rounding) && std::find(pulling.begin(), pulling.end(), i) == pulling.end())
                 violated.push_back(i);
-        if (violated.empty()) return true;
+        if (violated.empty()) {
+            FROND_ASSERT(count == 0 || p.minCoeff() >= 0);
+            return true;
+        }
         if (round >= EAGER) {
             const auto is_less = [&](Eigen::Index i, Eigen::Index k) { return lacking[i] < lacking[k]; };
             violated = {*std::max_element(violated.begin(), violated.end(), is_less)};

@@ -40,7 +40,7 @@ bool factorize_in_place(const BlockPattern& pattern, std::vector<double>& values
 
 // Returns false if no shift helps, or a block of the diagonal is not positive definite from the start.
 bool factorize_incompletely(const BlockMatrix& A, LinearScratch& scratch) {
-    constexpr double FIRST_SHIFT = 1e-3, LAST_SHIFT = 10;
+    constexpr double FIRST_SHIFT = 1e-3, LAST_SHIFT = 10;  // of the diagonal, by its own size [-]
     const BlockPattern& pattern = *A.pattern;
     for (int j = 0; j < pattern.node_count; ++j) {
         const Mat3 block = A.block(pattern.start[size_t(j)]);

@@ -62,7 +62,7 @@ Vec3 pushed(const Touch& touch, const ContactSpring& spring, Vec3 velocity, cons
 
 void push_by_penalty(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
                      Pushes& out) {
-    constexpr int ROUNDS = 8;
+    constexpr int ROUNDS = 8;  // in which springs feel each other
     std::vector<ContactSpring> springs(touches.size());
     std::vector<Vec3> velocities;
     for (const Touch& touch : touches) velocities.push_back(touch.velocity);

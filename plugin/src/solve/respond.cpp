@@ -1,6 +1,8 @@
 // In: a step just taken, and impulses that it did not include. Out: the change of velocities and positions at its end.
 #include "solve/integrator.hpp"
 
+#include "core/assert.hpp"
+
 namespace frond {
 
 bool responds_by_mass(const Workspace& workspace, const SolveSettings& settings) {
@@ -10,6 +12,8 @@ bool responds_by_mass(const Workspace& workspace, const SolveSettings& settings)
 bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& impulse, VecX& dv) {
     Workspace& w = workspace;
     w.rhs = impulse;
+    FROND_ASSERT(w.held.size() == size_t(w.system->elements->node_count));
+    FROND_ASSERT(impulse.size() == 3 * Eigen::Index(w.held.size()));
     for (size_t i = 0; i < w.held.size(); ++i)
         if (w.held[i]) point(w.rhs, int(i)).setZero();
     if (responds_by_mass(w, settings)) {
@@ -31,6 +35,7 @@ void add_response(const Workspace& workspace, const VecX& dv, Motion& motion) {
 }
 
 void add_correction(const Workspace& workspace, const VecX& dv, Motion& motion) {
+    FROND_ASSERT(dv.size() == motion.x.size());
     motion.x += workspace.reach * dv;
     motion.history.shaken = true;
 }

@@ -10,16 +10,22 @@ namespace frond {
 bool step_sdirk2(Workspace& workspace, const StepInput& input, SolveReport& report) {
     if (is_pushed(input)) return step_implicit_euler(workspace, input, report);
     Workspace& w = workspace;
-    const VecX &x = input.motion.x, &v = w.v_start;
+    const VecX &x = input.motion.x, &v = w.v_base;
     const double g = 1 - std::sqrt(0.5), step = g * input.h;
+    pace_held(w, input, 0);
+    w.v_base = w.v_start;
     w.x_from = x + step * v;
+    pace_held(w, input, g);
     if (!solve_stage(w, input, {x, v, step, w.x_from}, report)) return false;
 
     // y2 = y + (1-g) h dy1/dt + g h dy2/dt, and dy1/dt = (y1 - y) / (g h).
     w.x_base = x + ((1 - g) / g) * (w.x - x);
-    w.v_base = v + ((1 - g) / g) * (w.v - v);
+    w.v_base += ((1 - g) / g) * (w.v - w.v_base);
     w.x_from = w.x + (input.h - step) * w.v;
-    return solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from}, report);
+    lead_held(w, input, step);
+    const bool ok = solve_stage(w, input, {w.x_base, w.v_base, step, w.x_from}, report);
+    carry_held(w, input);
+    return ok;
 }
 
 }  // namespace frond

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <tuple>
 
+#include "core/assert.hpp"
 #include "solve/drags.hpp"
 #include "solve/integrator.hpp"
 #include "solve/springs.hpp"
@@ -38,10 +39,9 @@ void prepare(Workspace& workspace, const StepInput& input) {
         workspace.external.setZero(motion.x.size());
     workspace.v_start = motion.v;
     const int pinned_count = int(motion.pinned.size());
-    for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1)) {
+    for (int i = next_pinned(motion, 0); i < pinned_count; i = next_pinned(motion, i + 1))
         workspace.held[size_t(i)] = 1;
-        point(workspace.v_start, i) = (point(motion.pin_target, i) - point(motion.x, i)) / input.h;
-    }
+    carry_held(workspace, input);
     // The rows of either mass matrix add up to the lumped mass.
     for (int i = 0; i < system.elements->node_count; ++i)
         point(workspace.external, i) += system.masses.node[i] * input.loads.gravity;
@@ -129,6 +129,7 @@ int next_pinned(const Motion& motion, int i) {
     const size_t count = motion.pinned.size();
     if (size_t(i) >= count) return int(count);
     const void* found = std::memchr(motion.pinned.data() + i, 1, count - size_t(i));
+    FROND_ASSERT(i >= 0);
     return found ? int(static_cast<const uint8_t*>(found) - motion.pinned.data()) : int(count);
 }
 
@@ -144,6 +145,8 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
                        Motion& motion) {
     SolveReport report;
     const StepInput input = {settings, loads, motion, h};
+    FROND_ASSERT(workspace.elements->node_count == workspace.system->elements->node_count);
+    FROND_ASSERT(workspace.A.pattern == &workspace.system->elements->pattern);
     if (!input_is_sound(*workspace.system, input)) return report;
     const Integrator& method = integrator(settings.integrator);
     const bool goes_on = method.looks_back && history_holds(motion, settings.integrator, h);
@@ -159,6 +162,8 @@ SolveReport solve_step(Workspace& workspace, const SolveSettings& settings, cons
     motion.x = workspace.x;
     motion.v = workspace.v;
     if (workspace.system->row->moves_chain) unwind(motion);
+    FROND_ASSERT(are_finite(motion.x) && are_finite(motion.v));
+    FROND_ASSERT(motion.x.size() == 3 * workspace.system->elements->node_count);
     report.ok = true;
     return report;
 }

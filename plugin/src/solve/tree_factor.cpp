@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/assert.hpp"
 #include "core/lanes.hpp"
 
 namespace frond {
@@ -202,6 +203,7 @@ bool factorize(const TreePlan& plan, const BlockMatrix& A, TreeFactor& factor) {
 }
 
 void solve(const TreePlan& plan, const TreeFactor& factor, const VecX& b, VecX& x) {
+    FROND_ASSERT(factor.pairs.size() == plan.pairs.size() && b.size() == SIX * Eigen::Index(plan.pairs.size()));
     x = b;
     run_in_lanes(SolveTree{plan, factor, x.data()});
 }
@@ -216,6 +218,7 @@ void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<Node
     // Only pairs on the paths from the given ones to their roots are not zero.
     std::vector<int> path;
     for (const NodeBlock& given : right_side) {
+        FROND_ASSERT(given.node >= 0 && size_t(given.node) < 2 * count);
         for (int r = 0; r < 3; ++r) factor.sparse.col(3 * given.node + r) += given.block.row(r).transpose();
         for (int i = given.node / 2; i >= 0 && !factor.reached[size_t(i)]; i = plan.pairs[size_t(i)].parent) {
             factor.reached[size_t(i)] = 1;

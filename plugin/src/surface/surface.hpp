@@ -55,6 +55,6 @@ void clean_surface(Surface& surface);
 // area.
 void make_normals(Surface& surface, const std::vector<char>& missing);
 
-constexpr int MAX_TRIANGLES = 5000000;
+constexpr int MAX_TRIANGLES = 5000000;  // of a file: more is a scan, not a model
 
 }  // namespace frond

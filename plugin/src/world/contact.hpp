@@ -20,8 +20,10 @@ struct Contact {
     double gap;                // distance of the two along the normal when the step begins; below zero they overlap [m]
     double lacking = 0;        // by how much the response found so far in this step left it behind [m]
     double behind = INFINITY;  // by how much the last one did [m]
-    double friction;           // combined coefficient of both [-]
+    double friction = 0;       // combined coefficient of both [-]
+    double restitution = 0;    // likewise [-]
     Vec3 impulse = Vec3::Zero();  // impulse on the plant, once it is known [N s]
+    bool is_inside = false;       // the plant's point is on a segment's round end, within another one
 };
 
 // Returns the attachment of the touched point of the plant.
@@ -47,6 +49,9 @@ bool pushes(const btCollisionObject& object);
 bool takes_part(const World& world, const PlantBody* body);
 // Returns whether neither side ignores the other, apart from their groups and PlantBody's own exclusions.
 bool may_collide(const PlantBody& body, const btCollisionObject& object);
+// Returns whether a body passes over the joints of a stem's segments, as a free rigid body does. Bodies that something
+// leads, kinematic ones and links, push whatever they meet, so that nothing slips through them.
+bool slides(const btCollisionObject& object);
 // Returns whether the object is an infinite plane.
 bool is_plane(const btCollisionObject& object);
 // Adds the contacts of an infinite plane with the plants that Bullet's broad phase pairs with it; its narrow phase

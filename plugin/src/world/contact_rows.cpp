@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "core/assert.hpp"
 #include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 Attachment attachment_of(const Contact& contact) {
+    FROND_ASSERT(contact.capsule >= 0 && size_t(contact.capsule) < contact.plant->hull->flats.size());
     const Flat& flat = contact.plant->hull->flats[size_t(contact.capsule)];
     return flat_attachment(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
 }
@@ -19,6 +21,14 @@ namespace {
 // [m/s].
 double parting_speed(double depth, double slop, double h, double share, double fastest) {
     return std::min(share * std::max(0.0, depth - slop) / h, fastest);
+}
+
+// Returns how fast sides that meet within the step must part by restitution; 0 below a speed at which nothing bounces.
+double rebound_speed(const Contact& contact, const Touch& touch, double h) {
+    constexpr double SLOWEST = 0.5;  // [m/s]
+    const double approach = -touch.velocity.dot(contact.normal);
+    const bool meets = approach > SLOWEST && h * approach > contact.gap;
+    return meets ? contact.restitution * approach : 0;
 }
 
 bool rubs(const World& world, const PlantBody& body) {
@@ -37,6 +47,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.plants[0] = contact.plant;
     if (!make_touch(plant, attachment_of(contact), row.touches[0])) return;
     row.contact_body = make_contact_body(*contact.other, contact.on_other, h);
+    FROND_ASSERT(std::abs(contact.normal.squaredNorm() - 1) < 1e-3);
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
     // What a kinematic body has moved against in this step is to get out of its way at once.
@@ -44,6 +55,8 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
                               : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST + lag)
                                                : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
+    if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
+        row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);
     row.touch.bias_velocity += contact.lacking / h;
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;

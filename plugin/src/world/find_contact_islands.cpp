@@ -4,6 +4,7 @@
 
 #include <unordered_map>
 
+#include "core/assert.hpp"
 #include "core/union_find.hpp"
 #include "world/contact_island.hpp"
 #include "world/world.hpp"
@@ -47,6 +48,7 @@ std::vector<ContactIsland> find_contact_islands(World& world) {
     std::vector<ContactIsland> islands;
     std::vector<int> island_of(members.sets.parent.size(), -1);
     const auto island = [&](const PlantBody& body) -> ContactIsland& {
+        FROND_ASSERT(body.number >= 0 && size_t(body.number) < island_of.size());
         int& number = island_of[size_t(members.sets.find(body.number))];
         if (number < 0) {
             number = int(islands.size());

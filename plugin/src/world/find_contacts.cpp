@@ -4,6 +4,7 @@
 // compound. So only the point on the other body is used; its distance from the capsule is computed anew.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 #include "world/contact_body.hpp"
@@ -29,6 +30,10 @@ bool may_collide(const PlantBody& body, const btCollisionObject& object) {
     return body.btSoftBody::checkCollideWithOverride(&object) && object.checkCollideWith(&body);
 }
 
+bool slides(const btCollisionObject& object) {
+    return btRigidBody::upcast(&object) && !object.isStaticOrKinematicObject();
+}
+
 bool is_plane(const btCollisionObject& object) {
     return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
@@ -49,16 +54,23 @@ int nearest_capsule(const PlantBody& body, const Vec3& p) {
     return nearest;
 }
 
-// Makes the contact of a body's point with a capsule; an infinite gap means none. Friction is multiplied, as in Bullet.
+// Returns whether a body's point is on the side of a core from which Bullet has the body come. Else it is past the
+// core, and the exit direction is Bullet's.
+bool is_outside(const Vec3& way, const Vec3& towards) {
+    constexpr double SIDEWAYS = 0.2;
+    return way.dot(towards) > SIDEWAYS * way.norm();
+}
+
+// Makes the contact of a body's point with a capsule; an infinite gap means none.
 Contact contact_at(PlantBody& body, int capsule, btCollisionObject& other, const Vec3& on_other, const Vec3& towards) {
+    if (slides(other) && is_outside(nearest_on_core(body, capsule, on_other).point - on_other, towards)) {
+        const int under = piece_under(body, capsule, on_other);
+        if (!is_apart(body, under, other)) capsule = under;
+    }
     const OnCore core = nearest_on_core(body, capsule, on_other);
     const double radius = radius_of(body, capsule);
     const Vec3 way = core.point - on_other;
-    const double distance = way.norm();
-    // Where the body's point is past the core, the exit direction is Bullet's.
-    constexpr double SIDEWAYS = 0.2;
-    const bool outside = way.dot(towards) > SIDEWAYS * distance;
-    const Vec3 normal = outside ? Vec3(way / distance) : towards;
+    const Vec3 normal = is_outside(way, towards) ? Vec3(way.normalized()) : towards;
     Contact contact;
     contact.gap = way.dot(normal) - radius;
     if (is_between_pieces(body, capsule, normal)) contact.gap = INFINITY;
@@ -70,7 +82,7 @@ Contact contact_at(PlantBody& body, int capsule, btCollisionObject& other, const
     contact.on_plant = core.point - radius * normal;
     contact.on_other = on_other;
     contact.normal = normal;
-    contact.friction = piece_friction(body, capsule) * double(other.getFriction());
+    set_surface_of(contact);
     return contact;
 }
 
@@ -223,6 +235,21 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), draws_out), contacts.end());
 }
 
+// Drops contacts with round ends within a stem whose next segment the body touches: they would catch what slides along.
+void drop_what_is_inside(std::vector<Contact>& contacts) {
+    std::vector<Contact> outside;
+    std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(outside),
+                 [](const Contact& contact) { return !contact.is_inside; });
+    if (outside.size() == contacts.size()) return;
+    const auto is_hidden = [&](const Contact& contact) {
+        return contact.is_inside && std::any_of(outside.begin(), outside.end(), [&](const Contact& by) {
+                   return by.plant == contact.plant && by.other == contact.other &&
+                          are_joined(*contact.plant->plant, by.capsule, contact.capsule);
+               });
+    };
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_hidden), contacts.end());
+}
+
 }  // namespace
 
 std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& last, double h) {
@@ -236,6 +263,7 @@ std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& las
     add_swept_contacts(world, others, last, h, contacts);
     discount_grown_in(contacts);
     drop_what_draws_out(contacts);
+    drop_what_is_inside(contacts);
     // The response depends on their order a little, and Bullet's is the dispatcher's.
     const auto key = [](const Contact& c) {
         return std::make_tuple(c.plant->index, c.capsule, c.along, c.across, c.other->getWorldArrayIndex());

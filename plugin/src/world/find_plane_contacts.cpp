@@ -86,7 +86,7 @@ void add_at_node(PlantBody& body, int capsule, double along, double reach, const
         contact.on_plant = p - radius * contact.normal;
         contact.on_other = p - height * contact.normal;
         contact.gap = height - radius;
-        contact.friction = piece_friction(body, capsule) * double(plane.object.getFriction());
+        set_surface_of(contact);
         contacts.push_back(contact);
     }
 }

@@ -30,14 +30,60 @@ OnCore nearest_on_core(const PlantBody& body, int capsule, const Vec3& p) {
     return core;
 }
 
+// Calls `take` for the segments that meet a segment at one of its chain nodes.
+template <class F>
+static void for_joined(const PlantBody& body, int capsule, size_t end, const F& take) {
+    const std::vector<std::array<int, 2>>& ends = body.plant->model->capsules;
+    const int joint = ends[size_t(capsule)][end];
+    for (size_t i = 0; i < ends.size(); i++)
+        if (int(i) != capsule && (ends[i][0] == joint || ends[i][1] == joint)) take(int(i));
+}
+
+bool are_joined(const Plant& plant, int capsule, int other) {
+    const auto &a = plant.model->capsules[size_t(capsule)], &b = plant.model->capsules[size_t(other)];
+    return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+}
+
+int piece_under(const PlantBody& body, int capsule, const Vec3& p) {
+    constexpr int MOST = 16;  // segments that a body's point may have gone on since it was found
+    for (int steps = 0; steps < MOST; steps++) {
+        const OnCore core = nearest_on_core(body, capsule, p);
+        if (core.along > 0 && core.along < 1) break;
+        double least = (core.point - p).squaredNorm();
+        const int from = capsule;
+        for_joined(body, from, core.along > 0 ? 1 : 0, [&](int other) {
+            const double square = (nearest_on_core(body, other, p).point - p).squaredNorm();
+            if (square >= least) return;
+            least = square;
+            capsule = other;
+        });
+        if (capsule == from) break;
+    }
+    return capsule;
+}
+
+bool is_in_joint(const PlantBody& body, int capsule, const Vec3& p) {
+    constexpr double WITHIN = 0.9999;  // of the other segment's radius, so that a corner of a bent stem is outside
+    const double along = nearest_on_core(body, capsule, p).along;
+    bool is_in = false;
+    if (along > 0 && along < 1) return is_in;
+    for_joined(body, capsule, along > 0 ? 1 : 0, [&](int other) {
+        is_in |= (nearest_on_core(body, other, p).point - p).norm() < WITHIN * radius_of(body, other);
+    });
+    return is_in;
+}
+
 bool is_covered(const PlantBody& body, int child) {
     return child >= 0 && size_t(child) < body.capsules().size() && body.hull->flats[size_t(child)].half_width > 0;
 }
 
-double piece_friction(const PlantBody& body, int capsule) {
-    const Model& model = *body.plant->model;
-    const int organ = model.chain.nodes[size_t(model.capsules[size_t(capsule)][1])].organ;
-    return organ >= 0 ? model.organs[size_t(organ)].material.friction : 0;
+void set_surface_of(Contact& contact) {
+    const Model& model = *contact.plant->plant->model;
+    const int organ = model.chain.nodes[size_t(model.capsules[size_t(contact.capsule)][1])].organ;
+    if (organ < 0) return;
+    const Material& material = model.organs[size_t(organ)].material;
+    contact.friction = material.friction * double(contact.other->getFriction());
+    contact.restitution = material.restitution * double(contact.other->getRestitution());
 }
 
 bool is_between_pieces(const PlantBody& body, int capsule, const Vec3& normal) {

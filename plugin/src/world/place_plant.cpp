@@ -1,6 +1,7 @@
 // In: a plant of a world. Out: the same elsewhere, or as newly made.
 #include <algorithm>
 
+#include "core/assert.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
 #include "world/world.hpp"
@@ -34,6 +35,7 @@ void leave_place(World& world, PlantBody& body) {
 }  // namespace
 
 void place_plant(PlantBody& body, const Vec3& position, const Quat& rotation) {
+    FROND_ASSERT(position.allFinite() && std::abs(rotation.norm() - 1) < 1e-6);
     World& world = *body.world;
     Plant& plant = *body.plant;
     leave_place(world, body);

@@ -70,7 +70,8 @@ struct Memory {
 };
 constexpr Memory OF_CAGES = {follow, 0.8, false}, OF_SHEATHS = {move_on, -1, true};
 
-// Penalty springs hold followed contacts badly: a leaf of the corn pair was 53 mm in the other one after 2 s.
+// A penalty spring pushes by depth, which begins anew where a contact is followed to another place, so such contacts
+// are remembered instead.
 const Memory& memory_of(const World& world, const PlantContact& contact) {
     const bool is_followed = !contact.by_sheath[0] && !contact.by_sheath[1] && world.response != FROND_RESPONSE_PENALTY;
     return is_followed ? OF_CAGES : OF_SHEATHS;

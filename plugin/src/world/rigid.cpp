@@ -16,35 +16,38 @@ static btTransform frame_of(const frond_rigid_state& state) {
                        to_bullet(to_vec(state.position)));
 }
 
-static std::unique_ptr<btCollisionShape> make_shape(frond_shape shape, const frond_vec3& size) {
-    const btScalar x = btScalar(size.x), y = btScalar(size.y);
-    switch (shape) {
-        case FROND_SHAPE_BOX:
-            return std::make_unique<btBoxShape>(to_bullet(to_vec(size)));
-        case FROND_SHAPE_CAPSULE:
-            return std::make_unique<btCapsuleShape>(x, 2 * y);
-        case FROND_SHAPE_CYLINDER:
-            return std::make_unique<btCylinderShape>(btVector3(x, y, x));
-        case FROND_SHAPE_CONE:
-            return std::make_unique<btConeShape>(x, 2 * y);
-        case FROND_SHAPE_PLANE:
-            return std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0));
-        default:
-            return std::make_unique<btSphereShape>(x);
-    }
+// A row for each name in FROND_SHAPES: how many sizes it has, and Bullet's shape of those.
+struct ShapeRow {
+    int size_count;
+    btCollisionShape* (*make)(const btVector3& size);
+};
+using Size = const btVector3&;
+static const ShapeRow SHAPES[] = {
+    {1, [](Size s) -> btCollisionShape* { return new btSphereShape(s.x()); }},
+    {3, [](Size s) -> btCollisionShape* { return new btBoxShape(s); }},
+    {2, [](Size s) -> btCollisionShape* { return new btCapsuleShape(s.x(), 2 * s.y()); }},
+    {2, [](Size s) -> btCollisionShape* { return new btCylinderShape(btVector3(s.x(), s.y(), s.x())); }},
+    {2, [](Size s) -> btCollisionShape* { return new btConeShape(s.x(), 2 * s.y()); }},
+    {0, [](Size) -> btCollisionShape* { return new btStaticPlaneShape(btVector3(0, 1, 0), btScalar(0)); }},
+};
+static_assert(sizeof SHAPES / sizeof SHAPES[0] == FROND_SHAPE_COUNT, "every shape needs its row");
+
+int size_count(frond_shape shape) {
+    return SHAPES[shape].size_count;
 }
 
 Rigid* add_rigid(World& world, const frond_rigid_def& def) {
     auto rigid = std::make_unique<Rigid>();
     rigid->world = &world;
     rigid->is_plane = def.shape == FROND_SHAPE_PLANE;
-    rigid->shape = make_shape(def.shape, def.size);
+    rigid->shape.reset(SHAPES[def.shape].make(to_bullet(to_vec(def.size))));
     const btScalar mass = rigid->is_plane ? 0 : btScalar(def.mass);
     btVector3 inertia(0, 0, 0);
     if (mass > 0) rigid->shape->calculateLocalInertia(mass, inertia);
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, rigid->shape.get(), inertia);
     info.m_startWorldTransform = frame_of(def.state);
     info.m_friction = btScalar(def.friction);
+    info.m_restitution = btScalar(def.restitution);
     rigid->body = lend<btRigidBody>(*rigid, info);
     // A kinematic body stays awake, or Bullet would not compute its velocity.
     if (mass == 0 && !rigid->is_plane) {

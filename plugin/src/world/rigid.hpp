@@ -29,6 +29,8 @@ struct Rigid {
     Vec3 grown_shift = Vec3::Zero();
 };
 
+// Returns how many of frond_rigid_def's three sizes a shape has.
+int size_count(frond_shape shape);
 // Makes a rigid body in a world. The caller has checked `def`.
 Rigid* add_rigid(World& world, const frond_rigid_def& def);
 void remove_rigid(World& world, Rigid* rigid);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/union_find.hpp"
 #include "world/contact_body.hpp"
 #include "world/convert.hpp"
@@ -63,6 +64,7 @@ bool meets(const Contact& contact, double h) {
 
 void fall_asleep(World& world, PlantBody& body) {
     Plant& plant = *body.plant;
+    FROND_ASSERT(!body.rest.asleep);
     pose(plant);
     plant.motion.v.setZero();
     plant.motion.history.valid = false;

@@ -170,7 +170,8 @@ void check_pins(const SavedPlant& saved, const Plant& plant) {
     check_size(saved.pin_target, 3 * Eigen::Index(nodes), "pins");
     if (saved.pinned.size() != nodes || !are_flags(saved.pinned) || saved.anchor.size() != nodes) damaged("pins");
     for (int anchor : saved.anchor) check_index(anchor, plant.model->chain.nodes.size(), "pins");
-    check_size(saved.user_force, 3 * Eigen::Index(nodes), "forces", !saved.has_user_force);
+    check_size(saved.user_force, 3 * Eigen::Index(nodes), "forces", true);
+    check_size(saved.chain_load, 6 * Eigen::Index(plant.model->chain.nodes.size()), "forces", true);
 }
 
 void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_count) {

@@ -87,6 +87,7 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     plant.fibre_force = std::move(saved.fibre_force);
     plant.has_user_force = saved.has_user_force;
     plant.user_force = std::move(saved.user_force);
+    plant.chain_load = std::move(saved.chain_load);
     plant.is_touched = saved.is_touched;
     plant.is_entangled = saved.is_entangled;
     plant.substeps = saved.substeps;

@@ -77,6 +77,7 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     saved.pins_are_own = plant.pins_are_own;
     saved.has_user_force = plant.has_user_force;
     saved.user_force = plant.user_force;
+    saved.chain_load = plant.chain_load;
     saved.is_touched = plant.is_touched;
     saved.is_entangled = plant.is_entangled;
     saved.substeps = plant.substeps;

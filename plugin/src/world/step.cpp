@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.hpp"
 #include "core/timer.hpp"
 #include "plant/batch.hpp"
 #include "world/convert.hpp"
@@ -206,6 +207,7 @@ struct StepJob {
 };
 
 void run_job(const World& world, const StepJob& job, const Surroundings& surroundings, double h) {
+    FROND_ASSERT(job.count >= 1 && job.count <= MOST_LANES);
     if (job.count == 1) return step_alone(world, *job.bodies[0], surroundings, h);
     std::array<Plant*, MOST_LANES> plants;
     for (int i = 0; i < job.count; i++) plants[size_t(i)] = job.bodies[size_t(i)]->plant.get();
@@ -313,6 +315,7 @@ void finish_touched(World& world, const Surroundings& surroundings) {
 }
 
 void take_step(World& world, btCollisionWorld& collision_world, double h) {
+    FROND_ASSERT(h > 0);
     const Timer step_timer;
     const Surroundings surroundings = begin_step(world, collision_world, h);
     if (world.ledger) count_calls(world);

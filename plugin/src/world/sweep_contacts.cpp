@@ -40,13 +40,8 @@ Contact contact_of(PlantBody& body, btCollisionObject& other, const Hit& hit) {
     const OnCore core = nearest_on_core(body, hit.capsule, contact.on_plant);
     contact.along = core.along;
     contact.across = core.across;
-    contact.friction = piece_friction(body, hit.capsule) * double(other.getFriction());
+    set_surface_of(contact);
     return contact;
-}
-
-bool are_joined(const Plant& plant, int capsule, int other) {
-    const auto &a = plant.model->capsules[size_t(capsule)], &b = plant.model->capsules[size_t(other)];
-    return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
 }
 
 // Returns whether one of two capsules continues the other, or they are one: a body that pushes both pushes them to one
@@ -198,6 +193,7 @@ void add_hits(Search& search, PlantBody& body, btCollisionObject& object, const 
     constexpr double LIMIT = 0.5;  // displacement that no step can give a plant, over its size [-]
     find_hits(body, motion_in(search, body), object, motion, [&](const Hit& hit) {
         Contact contact = contact_of(body, object, hit);
+        contact.is_inside = slides(object) && is_in_joint(body, hit.capsule, contact.on_plant);
         // Overlaps with free bodies are for Bullet's own contacts to end.
         if (!object.isKinematicObject()) contact.gap = std::max(0.0, contact.gap);
         if (object.isKinematicObject() && contact.normal.dot(motion.way) > LIMIT * double(body.plant->size))

@@ -9,13 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ._generated import Advice, Material, ModelInfo, Organ, Part
-from ._lib import (FOLDER, check, documented, ffi, fill, lib, make_def, material_struct, numbers, path_of, real,
+from ._lib import (FOLDER, as_options, check, documented, ffi, fill, lib, make_def, material_struct, numbers, path_of, real,
                    refuse, text_of, to_python, view)
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._generated import ModelDefOptions, StemOptions
+    from ._generated import ModelDefOptions, StemOptions, StemSectionOptions
 
 MODELS = FOLDER / "models"
 
@@ -99,8 +99,9 @@ class Model:
 
     @classmethod
     def from_stems(cls, stems: Sequence[StemOptions], organs: Mapping[str, Material | dict | str] | None = None,
-                   **options: Unpack[ModelDefOptions]) -> Model:
-        """Makes a model from tapered segments: dicts of parent, begin, end [m], radius_begin, radius_end [m]."""
+                   sections: Sequence[StemSectionOptions] | None = None, **options: Unpack[ModelDefOptions]) -> Model:
+        """Makes a model from tapered segments: dicts of parent, begin, end [m], radius_begin, radius_end [m]; and of
+        their sections, if they have their own."""
         if not isinstance(stems, (list, tuple)):
             raise refuse(f"stems is {stems!r}; pass a list of dicts of parent, begin, end, radius_begin, radius_end")
         array = ffi.new("frond_stem[]", max(len(stems), 1))
@@ -108,8 +109,16 @@ class Model:
             if not isinstance(stem, dict) or set(stem) != {"parent", "begin", "end", "radius_begin", "radius_end"}:
                 raise refuse(f"stem {i} is {stem!r}; pass a dict of parent, begin, end, radius_begin, radius_end")
             fill(array[i], stem, "a stem")
-        return cls._made(organs, options, lambda definition, out: lib.frond_model_from_stems(
-            array, len(stems), definition, out))
+        if sections is None:
+            return cls._made(organs, options, lambda definition, out: lib.frond_model_from_stems(
+                array, len(stems), definition, out))
+        if not isinstance(sections, (list, tuple)) or len(sections) != len(stems):
+            raise refuse(f"sections is {sections!r}; pass as many dicts of StemSectionOptions as there are stems")
+        own = ffi.new("frond_stem_section[]", max(len(stems), 1))
+        for i, section in enumerate(sections):
+            fill(own[i], as_options(section, f"section {i}"), "a stem's section")
+        return cls._made(organs, options, lambda definition, out: lib.frond_model_from_stem_sections(
+            array, own, len(stems), definition, out))
 
     @classmethod
     def from_tets(cls, nodes: npt.ArrayLike, tets: npt.ArrayLike,

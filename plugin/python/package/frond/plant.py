@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from ._generated import (Capsule, Contact, Detail, Effect, Energy, Fragment, Integrator, Mechanics, PlantDef, Vector)
-from ._lib import (Array, address_of, array_out, changes_world, check, check_host, documented, ffi, flag, host,
+from ._generated import (Capsule, ChainState, Contact, Detail, Effect, Energy, Fragment, Integrator, Mechanics, PlantDef,
+                         SectionForce, Vector)
+from ._lib import (Array, address_of, array_out, changes_world, check, check_host, documented, ffi, fill, flag, host,
                    integer, lib, mask_of, need, numbers, real, refuse, row_of, to_python, vector, wrap_handle)
 from .hold import Bond, Grab
 from .thing import OfWorld, Wrench
@@ -137,6 +139,16 @@ class Plant(OfWorld):
         """Adds a force [N] on a node, for the next call of step; of a world of PyBullet's, for its next substep."""
         check(lib.frond_plant_add_force(self._handle, integer(node, "node"), vector(force, "force")))
 
+    def add_chain_load(self, chain_node: int, force: Vector = (0, 0, 0), moment: Vector = (0, 0, 0)) -> None:
+        """Adds a force [N] and a moment [N m] on a chain node, for as long as add_force does."""
+        check(lib.frond_plant_add_chain_load(self._handle, integer(chain_node, "chain_node"), vector(force, "force"),
+                                             vector(moment, "moment")))
+
+    def add_distributed_load(self, capsule: int, force_per_length: Vector) -> None:
+        """Adds a force per length [N/m] on a capsule, for as long as add_force does."""
+        check(lib.frond_plant_add_distributed_load(self._handle, integer(capsule, "capsule"),
+                                                   vector(force_per_length, "force_per_length")))
+
     @changes_world
     def break_at(self, capsule: int) -> None:
         """Breaks it at a capsule, whatever its strength."""
@@ -170,6 +182,28 @@ class Plant(OfWorld):
             raise refuse("positions and velocities are of different length")
         pointers = [ffi.NULL if array is None else ffi.from_buffer("double[]", array) for array in arrays]
         check(lib.frond_plant_set_state(self._handle, *pointers, counts.pop() if counts else self.node_count))
+
+    @property
+    def chain_node_count(self) -> int:
+        """The number of chain nodes; 0 for a stale plant."""
+        return lib.frond_plant_get_chain_node_count(self._handle)
+
+    @property
+    def chain_state(self) -> list[ChainState]:
+        """The motion of all chain nodes, of rods."""
+        count = self.chain_node_count
+        out = ffi.new("frond_chain_state[]", max(count, 1))
+        check(lib.frond_plant_get_chain_state(self._handle, out, count))
+        return [to_python(out[i]) for i in range(count)]
+
+    def set_chain_state(self, states: Sequence[ChainState]) -> None:
+        """Sets the motion of all chain nodes, as chain_state gives it."""
+        if not isinstance(states, (list, tuple)):
+            raise refuse(f"states is {states!r}; pass a list of ChainState")
+        array = ffi.new("frond_chain_state[]", max(len(states), 1))
+        for i, state in enumerate(states):
+            fill(array[i], vars(need(state, ChainState, f"state {i}")), "a chain state")
+        check(lib.frond_plant_set_chain_state(self._handle, array, len(states)))
 
     def get_plastic(self) -> Array:
         """Returns the plastic state, empty as long as nothing has yielded."""
@@ -260,6 +294,14 @@ class Plant(OfWorld):
         array, out = array_out(self.capsule_count, 0)
         check(lib.frond_plant_get_strains(self._handle, out, len(array)))
         return array
+
+    @property
+    def section_forces(self) -> list[SectionForce]:
+        """Force and moment in the middle of each capsule, of rods."""
+        count = self.capsule_count
+        out = ffi.new("frond_section_force[]", max(count, 1))
+        check(lib.frond_plant_get_section_forces(self._handle, out, count))
+        return [to_python(out[i]) for i in range(count)]
 
     @property
     def air_force(self) -> Array:

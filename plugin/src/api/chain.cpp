@@ -1,0 +1,108 @@
+// frond_plant_*: loads, state and section forces of the chain.
+#include "api/call.hpp"
+#include "api/handles.hpp"
+#include "plant/chain_state.hpp"
+#include "world/fragments.hpp"
+
+using namespace frond;
+
+namespace {
+
+int chain_node_count_of(const Plant& plant) {
+    return int(plant.model->chain.nodes.size());
+}
+
+void check_index(int index, int count, const char* name) {
+    if (index < 0 || index >= count)
+        fail(FROND_RESULT_BAD_ARGUMENT, "%s is %d; this plant has 0 .. %d", name, index, count - 1);
+}
+
+// Refuses tets, whose nodes do not turn.
+void check_moves_chain(const Plant& plant) {
+    if (!plant.follow)
+        fail(FROND_RESULT_UNSUPPORTED, "the plant is moved by tets; call frond_plant_set_mechanics with rods first");
+}
+
+ChainNodeState checked(const frond_chain_state& state) {
+    check_vec(state.position, "position [m]");
+    check_vec(state.velocity, "velocity [m/s]");
+    check_vec(state.angular_velocity, "angular_velocity [rad/s]");
+    const Quat rotation(state.rotation.w, state.rotation.x, state.rotation.y, state.rotation.z);
+    const double length = rotation.norm();
+    if (!(length > 1e-9 && length < 1e9))
+        fail(FROND_RESULT_BAD_ARGUMENT, "rotation has no direction; (0,0,0,1) turns nothing");
+    return {to_vec(state.position), rotation.normalized(), to_vec(state.velocity), to_vec(state.angular_velocity)};
+}
+
+}  // namespace
+
+extern "C" {
+
+int frond_plant_get_chain_node_count(frond_plant plant) {
+    const PlantBody* body = plant_slots().find(plant.id);
+    return body ? chain_node_count_of(*body->plant) : 0;
+}
+
+frond_result frond_plant_add_chain_load(frond_plant plant, int chain_node, frond_vec3 force, frond_vec3 moment) {
+    return call([&] {
+        PlantBody& body = get(plant);
+        check_index(chain_node, chain_node_count_of(*body.plant), "chain_node");
+        check_vec(force, "force [N]");
+        check_vec(moment, "moment [N m]");
+        add_chain_load(awaken(body), chain_node, to_vec(force), to_vec(moment));
+    });
+}
+
+frond_result frond_plant_add_distributed_load(frond_plant plant, int capsule, frond_vec3 force_per_length) {
+    return call([&] {
+        PlantBody& body = get(plant);
+        check_index(capsule, int(body.capsules().size()), "capsule");
+        check_vec(force_per_length, "force_per_length [N/m]");
+        add_distributed_load(awaken(body), size_t(capsule), to_vec(force_per_length));
+    });
+}
+
+frond_result frond_plant_get_chain_state(frond_plant plant, frond_chain_state* out, int chain_node_count) {
+    return call([&] {
+        check_pointer(out, "out");
+        const Plant& p = *look_at(get(plant)).plant;
+        check_count(chain_node_count, chain_node_count_of(p), "chain_node_count");
+        check_moves_chain(p);
+        for (const ChainNodeState& state : chain_state(p)) {
+            const Quat& turn = state.rotation;
+            *out++ = {from_vec(state.place),
+                      {turn.x(), turn.y(), turn.z(), turn.w()},
+                      from_vec(state.velocity),
+                      from_vec(state.spin)};
+        }
+    });
+}
+
+frond_result frond_plant_set_chain_state(frond_plant plant, const frond_chain_state* states, int chain_node_count) {
+    return call([&] {
+        check_pointer(states, "states");
+        PlantBody& body = get(plant);
+        check_count(chain_node_count, chain_node_count_of(*body.plant), "chain_node_count");
+        check_moves_chain(*body.plant);
+        std::vector<ChainNodeState> all;
+        for (int i = 0; i < chain_node_count; i++) all.push_back(checked(states[i]));
+        set_chain_state(awaken(body), all);
+        show(body);
+    });
+}
+
+frond_result frond_plant_get_section_forces(frond_plant plant, frond_section_force* out, int capsule_count) {
+    return call([&] {
+        check_pointer(out, "out");
+        const PlantBody& body = look_at(get(plant));
+        check_count(capsule_count, int(body.capsules().size()), "capsule_count");
+        check_moves_chain(*body.plant);
+        for (const SectionForce& f : section_forces(*body.plant)) {
+            const Vec3 wide = f.axis.cross(f.thin);
+            *out++ = {from_vec(f.axis),  from_vec(f.thin),     f.force.dot(f.axis), f.force.dot(f.thin),
+                      f.force.dot(wide), f.moment.dot(f.axis), f.moment.dot(wide),  -f.moment.dot(f.thin)};
+        }
+    });
+}
+
+}  // extern "C"

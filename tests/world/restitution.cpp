@@ -1,0 +1,75 @@
+// A ball that falls on a stem which nothing bends bounces to the square of its restitution times the height.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/stand.hpp"
+
+namespace frond::test {
+namespace restitution_tests {
+
+constexpr double BALL = 0.1, STEM = 0.05;
+
+// Returns how high the ball rises again, over how far it fell.
+double bounce(double of_stem, double of_ball, double h) {
+    Stand stand;
+    stand.h = h;
+    frond_model_def def = frond_default_model_def();
+    frond_organ_material organ = {"stem", {}};
+    must(frond_material_preset("stem", &organ.material));
+    organ.material.restitution = of_stem;
+    def.organs = &organ;
+    def.organ_count = 1;
+    def.scale = 1;
+    def.up = {0, 1, 0};
+    def.rest = FROND_REST_WITHOUT_GRAVITY;
+    const frond_stem stem = {-1, {-0.5, 0, 0}, {0.5, 0, 0}, STEM, STEM};
+    must(frond_model_from_stems(&stem, 1, &def, &stand.model));
+    frond_plant_def plant_def = stand.plant_def();
+    plant_def.mechanics = FROND_MECHANICS_ROD;
+    const frond_plant plant = stand.add(plant_def, {0, 0, 0});
+    for (int i = 0; i < frond_plant_get_node_count(plant); i++) must(frond_plant_pin(plant, i));
+    frond_rigid_def ball = frond_default_rigid_def();
+    ball.size.x = BALL;
+    ball.restitution = of_ball;
+    const double rest = STEM + BALL, from = 1;
+    ball.state.position = {0.02, rest + from, 0};
+    frond_rigid rigid = {};
+    must(frond_rigid_create(stand.world, &ball, &rigid));
+    double highest = 0;
+    bool has_met = false;
+    for (double t = 0; t < 1.2; t += h) {
+        stand.steps(1);
+        frond_rigid_state state = {};
+        must(frond_rigid_get_state(rigid, &state));
+        has_met |= state.velocity.y > 0;
+        if (has_met) highest = std::max(highest, state.position.y - rest);
+        if (has_met && state.velocity.y < 0) break;
+    }
+    return highest / from;
+}
+
+TEST(Restitution, GivesTheHeightOfABounce) {
+    for (const double e : {0.3, 0.6, 0.9}) {
+        EXPECT_NEAR(bounce(1, e, 1.0 / 960), e * e, 0.03) << e;
+        EXPECT_NEAR(bounce(e, 1, 1.0 / 960), e * e, 0.03) << e;
+        EXPECT_NEAR(bounce(1, e, 1.0 / 60), e * e, 0.15) << e;
+    }
+    // An overlap parts by up to 1 m/s.
+    EXPECT_LT(bounce(0, 1, 1.0 / 240), 0.05);
+    EXPECT_LT(bounce(1, 0, 1.0 / 240), 0.05);
+}
+
+TEST(Restitution, IsFromNoughtToOne) {
+    Stand stand;
+    frond_rigid_def ball = frond_default_rigid_def();
+    frond_rigid rigid = {};
+    for (const double wrong : {-0.1, 1.1, double(NAN)}) {
+        ball.restitution = wrong;
+        EXPECT_EQ(frond_rigid_create(stand.world, &ball, &rigid), FROND_RESULT_BAD_ARGUMENT);
+    }
+}
+
+}  // namespace restitution_tests
+}  // namespace frond::test
