@@ -38,7 +38,7 @@ struct Push {
 };
 // Sets is_off_course after a solve over h [s] from x_good and v_good, and returns whether the plant may go there: it
 // did not run away, nor gain energy that the loads and the push cannot have given. What stayed on its course is not
-// asked for its energy, unless pins or contacts push it somewhere, it starts anew, as with forces of the host, or the step has
+// asked for its energy, unless pins or contacts push it, it starts anew, as with forces of the host, or the step has
 // stages, of which one need not damp what another strained.
 bool keeps_course(Plant& plant, double h, const Push& push = {});
 

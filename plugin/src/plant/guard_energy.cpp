@@ -59,9 +59,7 @@ static bool has_energy_from_nowhere(const Plant& plant, double h, const Push& pu
 
 bool keeps_course(Plant& plant, double h, const Push& push) {
     plant.is_off_course = ends_off_course(plant, h);
-    // A cage whose nodes hardly went anywhere can have gained no more than what is allowed.
-    const bool is_pushed = push.impulse.size() > 0 && (plant.follow || !hardly_moves(plant, h));
-    const bool is_asked = plant.is_off_course || plant.starts_anew || is_pushed ||
+    const bool is_asked = plant.is_off_course || plant.starts_anew || push.impulse.size() > 0 ||
                           integrator(plant.step_settings.integrator).has_stages ||
                           is_carried(plant.motion, plant.x_good, plant.v_good);
     return !(is_asked && has_energy_from_nowhere(plant, h, push)) && !has_run_away(plant);
