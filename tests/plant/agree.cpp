@@ -84,16 +84,16 @@ Standing watch(const std::shared_ptr<const Model>& model, frond_mechanics which)
     size_t tip = 0;
     for (size_t i = 0; i < nodes.size(); i++)
         if (nodes[i].position.y() > nodes[tip].position.y()) tip = i;
-    standing.tip = plant->chain_positions[tip];
+    standing.tip = plant->view.chain_positions[tip];
     surroundings.gravity.x() = ASIDE * GRAVITY;
     for (int i = 0; i < LONG_STEPS; i++) step_plant(*plant, surroundings, LONG_STEP);
     surroundings.gravity.x() = 0;
-    plant->settings.integrator = FROND_INTEGRATOR_BDF2;
+    plant->input.settings.integrator = FROND_INTEGRATOR_BDF2;
     std::vector<double> sway;
     for (double t = 0; t < DURATION; t += H) {
         step_plant(*plant, surroundings, H);
         double sum = 0;
-        for (size_t i = 0; i < nodes.size(); i++) sum += model->chain_mass[i] * plant->chain_positions[i].x();
+        for (size_t i = 0; i < nodes.size(); i++) sum += model->chain_mass[i] * plant->view.chain_positions[i].x();
         sway.push_back(sum);
     }
     standing.frequency = main_frequency(sway, H);

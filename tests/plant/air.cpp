@@ -86,7 +86,7 @@ struct Blown {
     Vec3 mean_velocity() const {
         const VecX& mass = node_mass_of(*plant->system);
         Vec3 sum = Vec3::Zero();
-        for (int i = 0; i < mass.size(); ++i) sum += mass[i] * point(plant->motion.v, i);
+        for (int i = 0; i < mass.size(); ++i) sum += mass[i] * point(plant->state.motion.v, i);
         return plant->rotation * Vec3(sum / mass.sum());
     }
 };
@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Mechanics, EveryAir,
 
 TEST_P(EveryAir, PoleHasTheDragOfTheFormulaAndItsRootHoldsIt) {
     Blown pole(stem_model(1, 0.02, stiff(1.1)), which, wind_def(10));
-    pole.plant->settings.mass_damping = 50;
+    pole.plant->input.settings.mass_damping = 50;
     pole.run(1, 1.0 / 120);
     const double known = 0.5 * DENSITY * 1.1 * 0.04 * 1 * 100;
     const Vec3 force = air_force(*pole.plant);
@@ -189,15 +189,15 @@ TEST_P(EveryAir, PoleHasTheDragOfTheFormulaAndItsRootHoldsIt) {
     EXPECT_NEAR(force.z() / known, 0, 0.01);
 
     // The reaction at the root balances the forces of its elements and of the air.
-    VecX f = VecX::Zero(pole.plant->motion.x.size());
-    mechanics(which).add_force(elements_of(*pole.plant->system), pole.plant->motion.x, f);
-    add_attachment_force(pole.plant->loads.drags[0].attachment, pole.plant->motion.x, Vec3::Zero(), f);
-    for (const Drag& drag : pole.plant->loads.drags)
-        add_attachment_force(drag.attachment, pole.plant->motion.x, drag.force, f);
+    VecX f = VecX::Zero(pole.plant->state.motion.x.size());
+    mechanics(which).add_force(elements_of(*pole.plant->system), pole.plant->state.motion.x, f);
+    add_attachment_force(pole.plant->step.loads.drags[0].attachment, pole.plant->state.motion.x, Vec3::Zero(), f);
+    for (const Drag& drag : pole.plant->step.loads.drags)
+        add_attachment_force(drag.attachment, pole.plant->state.motion.x, drag.force, f);
     Vec3 reaction = Vec3::Zero();
     const int next = pole.plant->follow ? 2 : 1;
     for (int i = 0; i < f.size() / 3; i += next)
-        if (pole.plant->motion.pinned[size_t(i)]) reaction -= point(f, i);
+        if (pole.plant->state.motion.pinned[size_t(i)]) reaction -= point(f, i);
     EXPECT_NEAR(reaction.x() / known, -1, 0.01);
 }
 
@@ -240,7 +240,7 @@ TEST(Reconfiguration, OfABladeOfRodsFollowsThePublishedCurve) {
     for (const Reconfigured& known : PUBLISHED) {
         const double speed = std::sqrt(known.C * EI / (0.5 * DENSITY * CD * W * L * L * L));
         Blown blade(model, FROND_MECHANICS_ROD, wind_def(speed));
-        blade.plant->settings.mass_damping = 10;
+        blade.plant->input.settings.mass_damping = 10;
         blade.run(3, 1.0 / 480);
         const double R = air_force(*blade.plant).x() / (0.5 * DENSITY * CD * W * L * speed * speed);
         EXPECT_NEAR(R / known.R, 1, 0.05) << "C = " << known.C << ", R = " << R;
@@ -253,11 +253,11 @@ TEST_P(EveryAir, StillAirOnlyTakesEnergyFromASway) {
         without(model, which, wind_def(0), FROND_INTEGRATOR_TR_BDF2);
     without.surroundings.wind = nullptr;
     for (Blown* one : {&with, &without}) {
-        one->plant->settings.newton_iterations = 3;
+        one->plant->input.settings.newton_iterations = 3;
         VecX v = VecX::Zero(3 * node_count_of(*one->plant));
         for (int i = 0; i < node_count_of(*one->plant); ++i) {
             const double y = cage_places(*one->plant)[3 * i + 1];
-            if (!one->plant->pinned[size_t(i)]) v[3 * i] = 8 * y * y;
+            if (!one->plant->input.pinned[size_t(i)]) v[3 * i] = 8 * y * y;
         }
         set_state(*one->plant, nullptr, v.data());
     }
@@ -266,8 +266,9 @@ TEST_P(EveryAir, StillAirOnlyTakesEnergyFromASway) {
         with.step(1.0 / 240);
         without.step(1.0 / 240);
         double power = 0;
-        for (const Drag& drag : with.plant->loads.drags) {
-            const Vec3 velocity = attachment_velocity(drag.attachment, with.plant->motion.x, with.plant->motion.v);
+        for (const Drag& drag : with.plant->step.loads.drags) {
+            const Vec3 velocity =
+                attachment_velocity(drag.attachment, with.plant->state.motion.x, with.plant->state.motion.v);
             power += velocity.dot(drag.force - drag.damping * velocity);
         }
         EXPECT_LE(power, 0) << "step " << n;
@@ -282,8 +283,8 @@ TEST_P(EveryAir, LightLeafInAGaleIsStableAtLongSteps) {
     const auto model = sheet_model("leaf", 0.8, 0.06, leaf);
     for (frond_integrator method : {FROND_INTEGRATOR_IMPLICIT_EULER, FROND_INTEGRATOR_BDF2}) {
         Blown blade(model, which, wind_def(60, 0.3), method);
-        blade.plant->settings.mass_damping = 0.1;
-        blade.plant->settings.stiffness_damping = 0.002;
+        blade.plant->input.settings.mass_damping = 0.1;
+        blade.plant->input.settings.stiffness_damping = 0.002;
         blade.surroundings.gravity = {0, -GRAVITY, 0};
         double mean = 0;
         for (int n = 0; n < 60; ++n) {
@@ -291,8 +292,8 @@ TEST_P(EveryAir, LightLeafInAGaleIsStableAtLongSteps) {
             EXPECT_EQ(blade.plant->trouble & FROND_TROUBLE_REWOUND, 0u) << integrator(method).name << " step " << n;
             // The wind sets in at once, so that the first steps overshoot.
             const double reach = (n < 10 ? 2 : 1.5) * 0.8;
-            for (const Vec3& p : blade.plant->chain_positions) ASSERT_LT(p.norm(), reach) << "step " << n;
-            mean += blade.plant->chain_positions.back().x() / 60;
+            for (const Vec3& p : blade.plant->view.chain_positions) ASSERT_LT(p.norm(), reach) << "step " << n;
+            mean += blade.plant->view.chain_positions.back().x() / 60;
         }
         EXPECT_GT(mean, 0.25) << integrator(method).name;
     }
@@ -309,7 +310,7 @@ TEST(Air, BlownAboutALeafKeepsItsLengthInOneSolve) {
             if (speed < 12) {
                 EXPECT_EQ(blade.plant->trouble, 0u) << speed << " m/s, step " << n;
             }
-            const std::vector<Vec3>& now = blade.plant->chain_positions;
+            const std::vector<Vec3>& now = blade.plant->view.chain_positions;
             for (size_t i = 1; i < nodes.size(); ++i) {
                 const size_t parent = size_t(nodes[i].parent);
                 const double length = (nodes[i].position - nodes[parent].position).norm();
@@ -325,14 +326,14 @@ TEST(Air, WithoutOneOfBothEffectsTheOtherHalfIsLeftOut) {
     const auto model = stem_model(0.6, 0.01, plain_material(100, 1e7, 0.3, 1e-3));
     // Wind alone pushes, however fast the plant moves; drag alone ignores the wind.
     Blown pushed(model, FROND_MECHANICS_ROD, wind_def(5)), dragged(model, FROND_MECHANICS_ROD, wind_def(5));
-    pushed.plant->effects &= ~uint32_t(FROND_EFFECT_AIR_DRAG);
-    dragged.plant->effects &= ~uint32_t(FROND_EFFECT_WIND);
+    pushed.plant->input.effects &= ~uint32_t(FROND_EFFECT_AIR_DRAG);
+    dragged.plant->input.effects &= ~uint32_t(FROND_EFFECT_WIND);
     pushed.step(1.0 / 60);
     dragged.step(1.0 / 60);
-    EXPECT_GT(pushed.plant->chain_positions.back().x(), 0);
-    for (const Drag& drag : pushed.plant->loads.drags) EXPECT_TRUE(drag.damping.isZero(0));
-    EXPECT_LT((dragged.plant->motion.x - elements_of(*dragged.plant->system).modelled).norm(), 1e-12);
-    EXPECT_TRUE(dragged.plant->loads.drags.empty());
+    EXPECT_GT(pushed.plant->view.chain_positions.back().x(), 0);
+    for (const Drag& drag : pushed.plant->step.loads.drags) EXPECT_TRUE(drag.damping.isZero(0));
+    EXPECT_LT((dragged.plant->state.motion.x - elements_of(*dragged.plant->system).modelled).norm(), 1e-12);
+    EXPECT_TRUE(dragged.plant->step.loads.drags.empty());
 }
 
 TEST(Air, OffOrAbsentChangesNoBitAndAllocatesNothing) {
@@ -340,12 +341,12 @@ TEST(Air, OffOrAbsentChangesNoBitAndAllocatesNothing) {
     const auto run = [&](bool air, frond_effects without) {
         Blown blown(model, FROND_MECHANICS_ROD, wind_def(5));
         if (!air) blown.surroundings.wind = nullptr;
-        blown.plant->effects &= ~without;
+        blown.plant->input.effects &= ~without;
         blown.surroundings.gravity = {1, -GRAVITY, 0};
         blown.run(0.5, 1.0 / 60);
-        EXPECT_EQ(blown.plant->air == nullptr, !air || without != 0);
+        EXPECT_EQ(blown.plant->state.air == nullptr, !air || without != 0);
         EXPECT_EQ(air_force(*blown.plant).norm() == 0, !air || without != 0);
-        return blown.plant->motion.x;
+        return blown.plant->state.motion.x;
     };
     const VecX none = run(false, 0);
     EXPECT_EQ(run(true, FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG), none);
@@ -361,7 +362,7 @@ TEST(Air, IsSwitchedWhileAPlantStands) {
     set_mechanics(*blown.plant, FROND_MECHANICS_TET_COROTATIONAL);
     blown.run(0.2, 1.0 / 60);
     EXPECT_GT(air_force(*blown.plant).x(), 0);
-    blown.plant->effects &= ~uint32_t(FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG);
+    blown.plant->input.effects &= ~uint32_t(FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG);
     blown.step(1.0 / 60);
     EXPECT_EQ(air_force(*blown.plant).norm(), 0);
 }

@@ -98,9 +98,9 @@ struct Field {
         for (size_t i = 0; i < together.size(); i += most)
             solve_batch(together.data() + i, int(std::min(most, together.size() - i)), surroundings, H);
         for (const auto& plant : plants) {
-            const bool is_alone = plant->workspace && plant->report.ms_assembly > 0;
+            const bool is_alone = plant->step.workspace && plant->report.ms_assembly > 0;
             ++(is_alone ? alone : batched);
-            pulled += plant->workspace && !is_alone;
+            pulled += plant->step.workspace && !is_alone;
             accept_step(*plant, surroundings, H);
             clear_user_force(*plant);
         }
@@ -117,8 +117,8 @@ void disturb(Field& field, int step) {
         unpin_node(third, node_count_of(third) - 2);
     }
     if (step >= 100 && step < 110) {
-        field.plants[0]->user_force = VecX::Constant(3 * node_count_of(*field.plants[0]), 0.02);
-        field.plants[0]->has_user_force = true;
+        field.plants[0]->input.user_force = VecX::Constant(3 * node_count_of(*field.plants[0]), 0.02);
+        field.plants[0]->input.has_user_force = true;
     }
     if (step == 120) {
         const VecX x = 1.01 * cage_places(*field.plants[1]);
@@ -135,18 +135,18 @@ bool are_same_bits(const VecX& a, const VecX& b) {
 }
 
 const VecX& before(const Plant& plant) {
-    return plant.x_good.size() > 0 ? plant.x_good : plant.motion.history.x_prev;
+    return plant.step.x_good.size() > 0 ? plant.step.x_good : plant.state.motion.history.x_prev;
 }
 
 void expect_same(const Plant& a, const Plant& b) {
-    ASSERT_EQ(a.motion.x, b.motion.x);
-    ASSERT_EQ(a.motion.v, b.motion.v);
-    ASSERT_TRUE(are_same_bits(a.motion.x, b.motion.x));
-    ASSERT_TRUE(are_same_bits(a.motion.v, b.motion.v));
+    ASSERT_EQ(a.state.motion.x, b.state.motion.x);
+    ASSERT_EQ(a.state.motion.v, b.state.motion.v);
+    ASSERT_TRUE(are_same_bits(a.state.motion.x, b.state.motion.x));
+    ASSERT_TRUE(are_same_bits(a.state.motion.v, b.state.motion.v));
     ASSERT_EQ(before(a), before(b));
     ASSERT_EQ(air_force(a), air_force(b));
     ASSERT_EQ(a.trouble, b.trouble);
-    ASSERT_EQ(a.is_off_course, b.is_off_course);
+    ASSERT_EQ(a.step.is_off_course, b.step.is_off_course);
     ASSERT_EQ(plastic_of(a), plastic_of(b));
     ASSERT_NEAR(a.report.residual, b.report.residual, 1e-12);
 }
@@ -239,19 +239,19 @@ TEST(PlantBatch, GoOnPastHalfATurn) {
     for (Field* field : {&together, &apart}) {
         field->surroundings.gravity.setZero();
         for (const auto& plant : field->plants) {
-            plant->effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
-            plant->motion.x = rolled_up(*plant, FROM);
-            plant->motion.v = (rolled_up(*plant, FROM + 1e-4) - rolled_up(*plant, FROM - 1e-4)) * (RATE / 2e-4);
+            plant->input.effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
+            plant->state.motion.x = rolled_up(*plant, FROM);
+            plant->state.motion.v = (rolled_up(*plant, FROM + 1e-4) - rolled_up(*plant, FROM - 1e-4)) * (RATE / 2e-4);
             // The foot is at rest, to the last bit.
-            for (int i = 0; i < int(plant->motion.pinned.size()); i++) {
-                if (!plant->motion.pinned[size_t(i)]) continue;
-                point(plant->motion.x, i) = point(plant->motion.pin_target, i);
-                point(plant->motion.v, i).setZero();
+            for (int i = 0; i < int(plant->state.motion.pinned.size()); i++) {
+                if (!plant->state.motion.pinned[size_t(i)]) continue;
+                point(plant->state.motion.x, i) = point(plant->state.motion.pin_target, i);
+                point(plant->state.motion.v, i).setZero();
             }
             moved(*plant);
         }
     }
-    const auto end = [](const Plant& plant) { return plant.motion.x[plant.motion.x.size() - 1]; };
+    const auto end = [](const Plant& plant) { return plant.state.motion.x[plant.state.motion.x.size() - 1]; };
     for (int step = 0; step < 3; ++step) {
         together.step(true);
         apart.step(false);
@@ -261,7 +261,7 @@ TEST(PlantBatch, GoOnPastHalfATurn) {
             if (HasFatalFailure()) FAIL() << "plant " << i << " in step " << step;
             EXPECT_EQ(plant.trouble, 0u) << "plant " << i << " in step " << step;
             EXPECT_EQ(plant.report.work, 0);
-            EXPECT_TRUE(step == 0 || plant.motion.history.valid);
+            EXPECT_TRUE(step == 0 || plant.state.motion.history.valid);
             // The rotation passes half a turn and goes on.
             EXPECT_EQ(end(plant) < 0, step > 0) << end(plant) << ", plant " << i << " in step " << step;
         }

@@ -52,11 +52,11 @@ struct Swaying {
         VecX v = VecX::Zero(3 * node_count_of(*plant));
         for (int i = 0; i < node_count_of(*plant); ++i) {
             const double y = cage_places(*plant)[3 * i + 1];
-            if (!plant->pinned[size_t(i)]) v[3 * i] = 0.1 * y * y;
+            if (!plant->input.pinned[size_t(i)]) v[3 * i] = 0.1 * y * y;
         }
         set_state(*plant, nullptr, v.data());
     }
-    double tip() const { return plant->chain_positions.back().x(); }
+    double tip() const { return plant->view.chain_positions.back().x(); }
     void step() { step_plant(*plant, surroundings, H); }
 
     double energy() const {
@@ -126,9 +126,9 @@ TEST_P(EveryDamping, OrgansDampEachWhatBendsInItself) {
 TEST_P(EveryDamping, RatioOfZeroChangesNoBit) {
     const auto run = [&](double ratio, double scale) {
         Swaying swaying(stem_model(ratio, ratio, FROND_REST_WITHOUT_GRAVITY), which, scale, false);
-        swaying.plant->settings.stiffness_damping = 0.002;
+        swaying.plant->input.settings.stiffness_damping = 0.002;
         for (int n = 0; n < 50; ++n) swaying.step();
-        return swaying.plant->motion.x;
+        return swaying.plant->state.motion.x;
     };
     const VecX without = run(0, 0);
     EXPECT_EQ(run(0, 1), without);
@@ -142,9 +142,9 @@ TEST_P(EveryDamping, OneRatioOrTwoAlmostAlikeMoveAlike) {
                                     FROND_INTEGRATOR_GENERALIZED_ALPHA}) {
         const auto run = [&](double high) {
             Swaying swaying(stem_model(0.1, high, FROND_REST_WITHOUT_GRAVITY), which, 1, false);
-            swaying.plant->settings.integrator = method;
+            swaying.plant->input.settings.integrator = method;
             for (int n = 0; n < 100; ++n) swaying.step();
-            return swaying.plant->motion.x;
+            return swaying.plant->state.motion.x;
         };
         const VecX alike = run(0.1), still = run(0.3);
         EXPECT_LT((run(0.1 * (1 + 1e-9)) - alike).norm(), 1e-5 * (still - alike).norm()) << integrator(method).name;
@@ -154,12 +154,12 @@ TEST_P(EveryDamping, OneRatioOrTwoAlmostAlikeMoveAlike) {
 TEST_P(EveryDamping, DampsNothingWhereTheEffectIsOff) {
     const auto model = stem_model(0.3, 0.3, FROND_REST_WITHOUT_GRAVITY);
     Swaying off(model, which, 1, false), none(model, which, 0, false);
-    off.plant->effects &= ~uint32_t(FROND_EFFECT_DAMPING);
+    off.plant->input.effects &= ~uint32_t(FROND_EFFECT_DAMPING);
     for (int n = 0; n < 50; ++n) {
         off.step();
         none.step();
     }
-    EXPECT_EQ(off.plant->motion.x, none.plant->motion.x);
+    EXPECT_EQ(off.plant->state.motion.x, none.plant->state.motion.x);
 }
 
 }  // namespace damping_tests

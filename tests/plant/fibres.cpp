@@ -41,9 +41,9 @@ std::unique_ptr<Plant> plant_of(const std::shared_ptr<const Model>& model, frond
 
 double chain_length(const Plant& plant) {
     double sum = 0;
-    for (size_t i = 0; i < plant.chain_positions.size(); i++) {
+    for (size_t i = 0; i < plant.view.chain_positions.size(); i++) {
         const int parent = plant.model->chain.nodes[i].parent;
-        if (parent >= 0) sum += (plant.chain_positions[i] - plant.chain_positions[size_t(parent)]).norm();
+        if (parent >= 0) sum += (plant.view.chain_positions[i] - plant.view.chain_positions[size_t(parent)]).norm();
     }
     return sum;
 }
@@ -55,13 +55,13 @@ double drawn(Plant& plant, const Vec3& way, double force, double& held) {
     const int vertex = nearest_vertex(plant, plant.position + Vec3(0, LENGTH, WIDTH / 2));
     const Vec3 start = vertex_position(plant, vertex);
     Surroundings surroundings;
-    plant.grabs.push_back({vertex, start, force / way.norm(), 1});
+    plant.input.grabs.push_back({vertex, start, force / way.norm(), 1});
     for (int i = 1; i <= 180; i++) {
-        plant.grabs.back().target = start + std::min(1.0, i / 60.0) * way;
+        plant.input.grabs.back().target = start + std::min(1.0, i / 60.0) * way;
         step_plant(plant, surroundings, H);
         EXPECT_EQ(plant.trouble & FROND_TROUBLE_REWOUND, 0u) << i;
     }
-    held = grab_force(plant, plant.grabs.back()).norm();
+    held = grab_force(plant, plant.input.grabs.back()).norm();
     return chain_length(plant) / before;
 }
 
@@ -76,8 +76,8 @@ TEST_P(Pulled, BladeIsNotDrawnOut) {
     EXPECT_LT(drawn(*plant, {0, 0.2, 0}, 5, force), 1.04);
     EXPECT_GT(force, 4);
     // The rim that the hand holds stays with the blade.
-    const Vec3 tip = plant->to_world(plant->chain_positions.back());
-    EXPECT_LT((vertex_position(*plant, plant->grabs.back().vertex) - tip).norm(), 1.3 * WIDTH);
+    const Vec3 tip = plant->to_world(plant->view.chain_positions.back());
+    EXPECT_LT((vertex_position(*plant, plant->input.grabs.back().vertex) - tip).norm(), 1.3 * WIDTH);
 
     const auto rubber =
         plant_of(model, GetParam(), FROND_EFFECT_ALL & ~uint32_t(FROND_EFFECT_FIBRES | FROND_EFFECT_PLASTICITY));
@@ -88,12 +88,12 @@ TEST_P(Pulled, BladeComesBackAndStandsStill) {
     const auto plant = plant_of(blade(5e8, 3e-4), GetParam());
     double force;
     drawn(*plant, {0.3, 0.1, 0.1}, 3, force);
-    plant->grabs.clear();
+    plant->input.grabs.clear();
     Surroundings surroundings;
     for (int i = 0; i < 600; i++) step_plant(*plant, surroundings, H);
     EXPECT_EQ(plant->trouble, 0u);
     for (int i = 0; i < node_count_of(*plant); i++)
-        EXPECT_LT((point(plant->motion.x, i) - point(plant->nodes->modelled, i)).norm(), 0.01 * LENGTH) << i;
+        EXPECT_LT((point(plant->state.motion.x, i) - point(plant->nodes->modelled, i)).norm(), 0.01 * LENGTH) << i;
 }
 
 // By Hooke's law except for the slack: the cage carries a share of the pull from the start, the fibres theirs beyond
@@ -128,8 +128,8 @@ TEST_P(Pulled, SlackFibresChangeNoBit) {
         step_plant(*with, surroundings, H);
         step_plant(*without, surroundings, H);
     }
-    EXPECT_EQ(with->motion.x, without->motion.x);
-    EXPECT_GT((with->motion.x - with->nodes->modelled).norm(), 0.001);
+    EXPECT_EQ(with->state.motion.x, without->state.motion.x);
+    EXPECT_GT((with->state.motion.x - with->nodes->modelled).norm(), 0.001);
 }
 
 // Fibre forces are internal: fibres that stay taut, as under a hanging weight, do not restart the integrator in each
@@ -139,7 +139,7 @@ TEST_P(Pulled, IntegratorsLookBackBeyondTautFibres) {
     for (const frond_integrator integrator :
          {FROND_INTEGRATOR_BDF2, FROND_INTEGRATOR_SDIRK2, FROND_INTEGRATOR_GENERALIZED_ALPHA}) {
         const auto plant = plant_of(blade(3e7, 3e-4), GetParam());
-        plant->settings.integrator = integrator;
+        plant->input.settings.integrator = integrator;
         const double before = chain_length(*plant);
         Surroundings surroundings;
         surroundings.gravity = Vec3(0, 10 * GRAVITY, 0);
@@ -147,8 +147,8 @@ TEST_P(Pulled, IntegratorsLookBackBeyondTautFibres) {
         for (int i = 0; i < STEPS; i++) {
             step_plant(*plant, surroundings, H);
             taut += chain_length(*plant) > 1.03 * before;
-            begun_anew += integrator == FROND_INTEGRATOR_BDF2 ? !history_holds(plant->motion, integrator, H)
-                                                              : plant->motion.history.shaken;
+            begun_anew += integrator == FROND_INTEGRATOR_BDF2 ? !history_holds(plant->state.motion, integrator, H)
+                                                              : plant->state.motion.history.shaken;
         }
         EXPECT_GT(taut, STEPS / 2) << integrator;
         EXPECT_LT(begun_anew, STEPS / 4) << integrator;
@@ -174,7 +174,7 @@ TEST(Fibres, CarryWhatHangsOnThem) {
         def.tuning.max_substeps = substeps;
         const std::unique_ptr<Plant> plant = create_plant(blade(1e8, 0.3e-3), def);
         const int vertex = nearest_vertex(*plant, plant->position + Vec3(0, LENGTH, WIDTH / 2));
-        plant->grabs.push_back({vertex, vertex_position(*plant, vertex), 300, 1});
+        plant->input.grabs.push_back({vertex, vertex_position(*plant, vertex), 300, 1});
         Surroundings surroundings;
         surroundings.gravity = {0, -9.81, 0};
         const VecX& mass = node_mass_of(*plant->system);
@@ -182,10 +182,10 @@ TEST(Fibres, CarryWhatHangsOnThem) {
         bool is_taut = false;
         for (int i = 0; i < 20; i++) {
             step_plant(*plant, surroundings, H);
-            given += H * (grab_force(*plant, plant->grabs.back()).y() - 9.81 * mass.sum());
-            is_taut |= plant->fibre_force.size() > 0;
+            given += H * (grab_force(*plant, plant->input.grabs.back()).y() - 9.81 * mass.sum());
+            is_taut |= plant->state.fibre_force.size() > 0;
         }
-        for (int i = 0; i < mass.size(); i++) momentum += mass[i] * point(plant->motion.v, i).y();
+        for (int i = 0; i < mass.size(); i++) momentum += mass[i] * point(plant->state.motion.v, i).y();
         EXPECT_TRUE(is_taut);
         EXPECT_NEAR(momentum, given, 0.05 * 9.81 * mass.sum() * 20 * H) << substeps << " substeps";
     }

@@ -102,10 +102,10 @@ TEST(Follow, APinIsHeldAfterAChangeOfMechanicsToo) {
             if (nodes[n].y() > nodes[top].y()) top = n;
         pin_node(*plant, int(top));
         swing(*plant, 10);
-        EXPECT_EQ(plant->pin_springs.size(), is_rod ? 1u : 0u);
+        EXPECT_EQ(plant->input.pin_springs.size(), is_rod ? 1u : 0u);
         set_mechanics(*plant, is_rod ? FROND_MECHANICS_TET_COROTATIONAL : FROND_MECHANICS_ROD);
         swing(*plant, 10);
-        EXPECT_EQ(plant->pin_springs.size(), is_rod ? 0u : 1u);
+        EXPECT_EQ(plant->input.pin_springs.size(), is_rod ? 0u : 1u);
         EXPECT_LT((point(cage_places(*plant), int(top)) - nodes[top]).norm(), 1e-4);
     }
 }

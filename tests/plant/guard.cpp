@@ -43,7 +43,7 @@ Surroundings earth() {
 
 // Returns the largest distance of a node from its modelled position, in sizes of the plant.
 double away(const Plant& plant) {
-    const VecX& x = plant.motion.x;
+    const VecX& x = plant.state.motion.x;
     double most = 0;
     for (int i = 0; i < x.size() / 3; i += plant.follow ? 2 : 1)
         most = std::max(most, (point(x, i) - point(elements_of(*plant.system).modelled, i)).norm());
@@ -93,7 +93,7 @@ TEST_P(EveryShape, ScrambledComesBackWithinTwoSecondsAndKeepsNoSet) {
     EXPECT_EQ(plant->report.inverted, 0);
     EXPECT_TRUE(plastic_of(*plant).empty());
     for (int i = 0; i < 120; i++) step_plant(*plant, earth(), H);
-    EXPECT_LE(plant->recovers_for, 0);
+    EXPECT_LE(plant->state.recovers_for, 0);
 }
 
 // Bent as far as a hand bends it, none of the guards acts.
@@ -104,7 +104,7 @@ TEST_P(EveryShape, FarBentIsLeftAlone) {
         surroundings.gravity = i < 30 ? Vec3(std::min(1.0, i / 10.0) * 5 * GRAVITY, -GRAVITY, 0) : Vec3(0, -GRAVITY, 0);
         step_plant(*plant, surroundings, H);
         EXPECT_EQ(plant->trouble & (FROND_TROUBLE_RETRIED | FROND_TROUBLE_REWOUND), 0u) << i;
-        EXPECT_EQ(plant->recovers_for, 0);
+        EXPECT_EQ(plant->state.recovers_for, 0);
         if (i == 29) {
             EXPECT_GT(away(*plant), 0.1);
         }
@@ -114,15 +114,16 @@ TEST_P(EveryShape, FarBentIsLeftAlone) {
 TEST_P(EveryShape, EnergyOutOfNothingIsTold) {
     const auto plant = stem(GetParam());
     step_plant(*plant, earth(), H);
-    plant->x_good = plant->motion.x;
-    plant->v_good = plant->motion.v;
+    plant->step.x_good = plant->state.motion.x;
+    plant->step.v_good = plant->state.motion.v;
     take_workspace(*plant);         // as within a step
     constexpr double LONG = 2 * H;  // always asked for its energy
     EXPECT_TRUE(keeps_course(*plant, LONG));
-    plant->motion.v.setConstant(3);
+    plant->state.motion.v.setConstant(3);
     EXPECT_FALSE(keeps_course(*plant, LONG));
-    plant->motion.v = plant->v_good;
-    for (int i = 0; i < plant->motion.x.size() / 3; i += plant->follow ? 2 : 1) point(plant->motion.x, i) *= 1.2;
+    plant->state.motion.v = plant->step.v_good;
+    for (int i = 0; i < plant->state.motion.x.size() / 3; i += plant->follow ? 2 : 1)
+        point(plant->state.motion.x, i) *= 1.2;
     EXPECT_FALSE(keeps_course(*plant, LONG));
 }
 
@@ -132,14 +133,14 @@ TEST_P(EveryShape, StartsFromItsModelledShapeWhereSearchesFindNoWayUnlessItIsPul
         const auto plant = stem(GetParam());
         step_plant(*plant, earth(), H);
         bend(*plant);
-        plant->motion.v.setZero();
-        plant->x_good = plant->motion.x;
-        plant->v_good = plant->motion.v;
-        plant->has_user_force = is_pulled;
+        plant->state.motion.v.setZero();
+        plant->step.x_good = plant->state.motion.x;
+        plant->step.v_good = plant->state.motion.v;
+        plant->input.has_user_force = is_pulled;
         uint32_t trouble = 0;
         for (double time = 0; time < plant->rest_time; time += H) {
             plant->trouble = FROND_TROUBLE_RETRIED;
-            plant->report.converged = plant->is_off_course = false;
+            plant->report.converged = plant->step.is_off_course = false;
             watch_recovery(*plant, H);
             trouble |= plant->trouble;
         }
@@ -157,9 +158,9 @@ TEST_P(EveryShape, FadesFromThereUnlessSomethingTouchesIt) {
         const auto plant = stem(GetParam());
         step_plant(*plant, earth(), H);
         scramble(*plant, 0.4);
-        plant->is_touched = is_touched;
+        plant->state.is_touched = is_touched;
         ASSERT_TRUE(start_from_modelled(*plant));
-        EXPECT_EQ(is_over(plant->blend_out), is_touched);
+        EXPECT_EQ(is_over(plant->state.blend_out), is_touched);
     }
 }
 
@@ -168,8 +169,8 @@ TEST_P(EveryShape, StartsWithoutSetsThatKeepItFromItsModelledShape) {
     step_plant(*plant, earth(), H);
     scramble(*plant, 0.4);
     const Mechanics& row = mechanics(plant->which, 1);
-    plant->own_elements = row.copy(elements_of(*plant->system));
-    for (int i = 0; i < 200; i++) row.flow(*plant->own_elements, plant->motion.x, H);
+    plant->state.own_elements = row.copy(elements_of(*plant->system));
+    for (int i = 0; i < 200; i++) row.flow(*plant->state.own_elements, plant->state.motion.x, H);
     ASSERT_FALSE(plastic_of(*plant).empty());
     ASSERT_TRUE(start_from_modelled(*plant));
     EXPECT_TRUE(plastic_of(*plant).empty());
@@ -179,10 +180,11 @@ TEST_P(EveryShape, GoesAlongWithAFootThatIsPutElsewhere) {
     const auto plant = stem(GetParam());
     const Vec3 way(7, 1, -2);
     for (int i = 0; i < node_count_of(*plant); i++)
-        if (plant->pinned[size_t(i)]) move_pin(*plant, i, point(plant->pin_target, i) + way);
+        if (plant->input.pinned[size_t(i)]) move_pin(*plant, i, point(plant->input.pin_target, i) + way);
     step_plant(*plant, earth(), H);
-    for (int i = 0; i < plant->motion.x.size() / 3; i += plant->follow ? 2 : 1)
-        EXPECT_LT((point(plant->motion.x, i) - point(elements_of(*plant->system).modelled, i) - way).norm(), 0.02);
+    for (int i = 0; i < plant->state.motion.x.size() / 3; i += plant->follow ? 2 : 1)
+        EXPECT_LT((point(plant->state.motion.x, i) - point(elements_of(*plant->system).modelled, i) - way).norm(),
+                  0.02);
 }
 
 // Under a pull of 1e5 times its weight searches end where their work is done, and the plant comes back from there.
@@ -205,10 +207,10 @@ TEST_P(EveryShape, StepsThatNothingBearsTakeLimitedWork) {
 // Mirrored beside its foot, with inverted cells: no step recovers from that.
 TEST(Guard, WhatIsCaughtInsideOutStartsFromTheModelledShape) {
     const auto plant = stem(FROND_MECHANICS_TET_COROTATIONAL);
-    VecX& x = plant->motion.x;
+    VecX& x = plant->state.motion.x;
     for (int i = 0; i < x.size() / 3; i++)
-        if (!plant->motion.pinned[size_t(i)]) point(x, i).x() *= -1;
-    plant->motion.v.setZero();
+        if (!plant->state.motion.pinned[size_t(i)]) point(x, i).x() *= -1;
+    plant->state.motion.v.setZero();
     plant->report.inverted = 1;
     ASSERT_TRUE(start_from_modelled(*plant));
     EXPECT_LT(away(*plant), 1e-12);

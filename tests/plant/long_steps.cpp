@@ -37,8 +37,8 @@ void swing(Plant& plant, double h) {
     // Returns the largest displacement.
     const auto farthest = [&] {
         double way = 0;
-        for (int i = 0; i < plant.motion.x.size() / 3; i += 2)
-            way = std::max(way, (point(plant.motion.x, i) - point(elements_of(plant).modelled, i)).norm());
+        for (int i = 0; i < plant.state.motion.x.size() / 3; i += 2)
+            way = std::max(way, (point(plant.state.motion.x, i) - point(elements_of(plant).modelled, i)).norm());
         return way;
     };
     double most = 0;
@@ -82,10 +82,10 @@ Swung let_go(frond_integrator integrator, double h) {
     const auto plant = create_plant(build_from_stems(&stem, 1, def), undamped);
     Surroundings surroundings;
     surroundings.gravity = {80, 0, 0};
-    plant->settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
+    plant->input.settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     for (int i = 0; i < 200; i++) step_plant(*plant, surroundings, 0.05);
     surroundings.gravity.setZero();
-    plant->settings.integrator = integrator;
+    plant->input.settings.integrator = integrator;
     const double before = energy_of(*plant, Vec3::Zero()).elastic;
     Swung swung;
     for (double time = 0; time < 0.5; time += h) {

@@ -24,7 +24,7 @@ VecX bend(const std::shared_ptr<const Model>& model, frond_integrator which, int
         surroundings.gravity = {GRAVITY * std::pow(std::sin(M_PI * (i + 0.5) / steps), 4), 0, 0};
         step_plant(*plant, surroundings, DURATION / steps);
     }
-    return plant->motion.x;
+    return plant->state.motion.x;
 }
 
 TEST(Order, OfTrBdf2AndSdirk2IsTwoOnRods) {

@@ -23,8 +23,8 @@ static frond_plant_def plant_def(int order = 1) {
 
 // Moves all nodes of a plant by x -> A x + b in its own frame.
 static void deform(Plant& plant, const Mat3& A, const Vec3& b) {
-    for (int i = 0; i < plant.motion.x.size() / 3; i++)
-        point(plant.motion.x, i) = A * point(plant.nodes->modelled, i) + b;
+    for (int i = 0; i < plant.state.motion.x.size() / 3; i++)
+        point(plant.state.motion.x, i) = A * point(plant.nodes->modelled, i) + b;
     update_chain(plant);
     update_surface(plant, FROND_EFFECT_ALL);
 }
@@ -44,12 +44,12 @@ TEST_P(EveryOrder, SurfaceFollowsAnAffineMoveOfTheCageExactly) {
         const Vec3 position = A * surface.positions[v] + b;
         const Vec3 normal = (cofactor * surface.normals[v].cast<double>()).normalized();
         for (int axis = 0; axis < 3; axis++) {
-            EXPECT_NEAR(plant->surface_positions[3 * v + size_t(axis)], position[axis], 2e-6);
-            EXPECT_NEAR(plant->surface_normals[3 * v + size_t(axis)], normal[axis], 1e-5);
+            EXPECT_NEAR(plant->view.surface_positions[3 * v + size_t(axis)], position[axis], 2e-6);
+            EXPECT_NEAR(plant->view.surface_normals[3 * v + size_t(axis)], normal[axis], 1e-5);
         }
     }
     for (size_t i = 0; i < plant->model->chain.nodes.size(); i++)
-        EXPECT_LT((plant->chain_positions[i] - (A * plant->model->chain.nodes[i].position + b)).norm(), 1e-9);
+        EXPECT_LT((plant->view.chain_positions[i] - (A * plant->model->chain.nodes[i].position + b)).norm(), 1e-9);
 }
 
 TEST(Surface, OfQuadraticTetsFollowsACurvedMoveExactly) {
@@ -57,18 +57,20 @@ TEST(Surface, OfQuadraticTetsFollowsACurvedMoveExactly) {
     const auto bend = [](const Vec3& p) {
         return Vec3(p.x() + 0.4 * p.y() * p.y(), p.y() - 0.2 * p.x() * p.z(), p.z() + 0.3 * p.x() * p.y());
     };
-    for (int i = 0; i < node_count_of(*plant); i++) point(plant->motion.x, i) = bend(point(plant->nodes->modelled, i));
+    for (int i = 0; i < node_count_of(*plant); i++)
+        point(plant->state.motion.x, i) = bend(point(plant->nodes->modelled, i));
     moved(*plant);
     update_surface(*plant, FROND_EFFECT_ALL);
     const Surface& surface = plant->model->surface;
     for (size_t v = 0; v < surface.positions.size(); v++) {
         const Vec3 position = bend(surface.positions[v]), now = vertex_position(*plant, int(v));
         EXPECT_LT((now - position).norm(), 1e-12);
-        EXPECT_LT((attachment_place(vertex_attachment(*plant, int(v)), plant->motion.x) - position).norm(), 1e-12);
-        EXPECT_NEAR(plant->surface_positions[3 * v], position.x(), 1e-6);
+        EXPECT_LT((attachment_place(vertex_attachment(*plant, int(v)), plant->state.motion.x) - position).norm(),
+                  1e-12);
+        EXPECT_NEAR(plant->view.surface_positions[3 * v], position.x(), 1e-6);
     }
     for (size_t i = 0; i < plant->model->chain.nodes.size(); i++)
-        EXPECT_LT((plant->chain_positions[i] - bend(plant->model->chain.nodes[i].position)).norm(), 1e-12);
+        EXPECT_LT((plant->view.chain_positions[i] - bend(plant->model->chain.nodes[i].position)).norm(), 1e-12);
 
     // A normal is that of the bent surface, within the accuracy of the tets.
     double worst = 1;
@@ -77,7 +79,7 @@ TEST(Surface, OfQuadraticTetsFollowsACurvedMoveExactly) {
         Mat3 F;
         F << 1, 0.8 * p.y(), 0, -0.2 * p.z(), 1, -0.2 * p.x(), 0.3 * p.y(), 0.3 * p.x(), 1;
         const Vec3 expected = (F.inverse().transpose() * surface.normals[v].cast<double>()).normalized();
-        worst = std::min(worst, expected.dot(Eigen::Map<Vec3f>(&plant->surface_normals[3 * v]).cast<double>()));
+        worst = std::min(worst, expected.dot(Eigen::Map<Vec3f>(&plant->view.surface_normals[3 * v]).cast<double>()));
     }
     EXPECT_GT(worst, std::cos(0.05));
 }
@@ -98,8 +100,9 @@ TEST(Nodes, OfQuadraticTetsAreTheCagesAndThenTheMiddlesOfItsEdges) {
     for (const auto& [a, b] : edges) {
         const Vec3 middle = 0.5 * (model->cage.nodes[size_t(a)] + model->cage.nodes[size_t(b)]);
         EXPECT_LT((point(cage_places(*plant), i) - middle).norm(), 1e-15);
-        EXPECT_EQ(bool(plant->pinned[size_t(i)]), plant->pinned[size_t(a)] && plant->pinned[size_t(b)]);
-        held += plant->pinned[size_t(i++)];
+        EXPECT_EQ(bool(plant->input.pinned[size_t(i)]),
+                  plant->input.pinned[size_t(a)] && plant->input.pinned[size_t(b)]);
+        held += plant->input.pinned[size_t(i++)];
     }
     EXPECT_GT(held, 4);
 }
@@ -124,17 +127,17 @@ TEST(Surface, StandsInTheWorldWhereThePlantIsPlaced) {
     const Surface& surface = plant->model->surface;
     for (size_t v = 0; v < surface.positions.size(); v++) {
         const Vec3& rest = surface.positions[v];
-        EXPECT_NEAR(plant->surface_positions[3 * v], 5 - rest.y(), 2e-6);
-        EXPECT_NEAR(plant->surface_positions[3 * v + 1], 6 + rest.x(), 2e-6);
-        EXPECT_NEAR(plant->surface_positions[3 * v + 2], 7 + rest.z(), 2e-6);
+        EXPECT_NEAR(plant->view.surface_positions[3 * v], 5 - rest.y(), 2e-6);
+        EXPECT_NEAR(plant->view.surface_positions[3 * v + 1], 6 + rest.x(), 2e-6);
+        EXPECT_NEAR(plant->view.surface_positions[3 * v + 2], 7 + rest.z(), 2e-6);
     }
 }
 
 TEST(Root, IsHeldAtTheFootAndNowhereElse) {
     const auto plant = create_plant(small_model(), plant_def());
     int pinned = 0;
-    for (size_t i = 0; i < plant->motion.pinned.size(); i++) {
-        if (!plant->motion.pinned[i]) continue;
+    for (size_t i = 0; i < plant->state.motion.pinned.size(); i++) {
+        if (!plant->state.motion.pinned[i]) continue;
         pinned++;
         EXPECT_LT(plant->model->cage.nodes[i].y(), 0.3);
     }
@@ -142,11 +145,11 @@ TEST(Root, IsHeldAtTheFootAndNowhereElse) {
     frond_plant_def def = plant_def();
     def.root_height = -1;
     const auto loose = create_plant(small_model(), def);
-    for (uint8_t p : loose->motion.pinned) EXPECT_FALSE(p);
+    for (uint8_t p : loose->state.motion.pinned) EXPECT_FALSE(p);
     def.root_height = 0.4;
     const auto half = create_plant(small_model(), def);
-    for (size_t i = 0; i < half->motion.pinned.size(); i++)
-        EXPECT_EQ(bool(half->motion.pinned[i]),
+    for (size_t i = 0; i < half->state.motion.pinned.size(); i++)
+        EXPECT_EQ(bool(half->state.motion.pinned[i]),
                   half->model->cage.nodes[i].y() < half->model->surface.lower().y() + 0.4);
 }
 
@@ -163,12 +166,12 @@ TEST(Root, OfEveryChainIsHeldBelowTheRootHeight) {
     for (const double root_height : {0.0, 0.01, 0.02, 0.1}) {
         def.root_height = root_height;
         const auto plant = create_plant(build_from_stems(stems, 2, model), def);
-        const std::vector<Vec3> before = plant->chain_positions;
+        const std::vector<Vec3> before = plant->view.chain_positions;
         Surroundings surroundings;
         surroundings.gravity = {0, -GRAVITY, 0};
         for (int i = 0; i < 120; i++) step_plant(*plant, surroundings, 1.0 / 60);
         for (size_t i = 0; i < before.size(); i++)
-            EXPECT_LT((plant->chain_positions[i] - before[i]).norm(), 0.01)
+            EXPECT_LT((plant->view.chain_positions[i] - before[i]).norm(), 0.01)
                 << "root height " << root_height << ", node " << i;
     }
 }

@@ -50,17 +50,17 @@ struct Bending {
         surroundings.gravity = {0, -GRAVITY, 0};
         vertex = nearest_vertex(*plant, Vec3(0, 0.6, 0));
     }
-    Vec3 tip() const { return plant->chain_positions.back(); }
+    Vec3 tip() const { return plant->view.chain_positions.back(); }
     // Applies a force with strong damping, so that the plant comes to rest.
     void rest(double force) {
-        plant->settings.mass_damping = 20;
+        plant->input.settings.mass_damping = 20;
         pull(force);
         for (int n = 0; n < 240; ++n) step_plant(*plant, surroundings, H);
     }
     // Pulls by a soft spring from far away, which acts as a constant force.
     void pull(double force) {
-        plant->grabs.clear();
-        if (force != 0) plant->grabs.push_back({vertex, Vec3(force / 0.01, 0, 0), 0.01, 0});
+        plant->input.grabs.clear();
+        if (force != 0) plant->input.grabs.push_back({vertex, Vec3(force / 0.01, 0, 0), 0.01, 0});
     }
     // Returns the permanent displacement of the tip after a force was applied and removed [m].
     double set_after(double force) {
@@ -87,8 +87,8 @@ TEST_P(EveryPlasticity, NothingIsKeptOrAllocatedBelowTheYield) {
         bending.rest(force);
         elastic.rest(force);
     }
-    EXPECT_EQ(bending.plant->own_elements, nullptr);
-    EXPECT_EQ(bending.plant->motion.x, elastic.plant->motion.x);
+    EXPECT_EQ(bending.plant->state.own_elements, nullptr);
+    EXPECT_EQ(bending.plant->state.motion.x, elastic.plant->state.motion.x);
 }
 
 TEST_P(EveryPlasticity, ASetIsKeptBeyondTheYieldAndOnlyWithTheEffect) {
@@ -97,9 +97,9 @@ TEST_P(EveryPlasticity, ASetIsKeptBeyondTheYieldAndOnlyWithTheEffect) {
     EXPECT_GT(in_rods, 0.02);
     EXPECT_NEAR(set, in_rods, 0.5 * in_rods);
     Bending off(stem_model(0.02), which);
-    off.plant->effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
+    off.plant->input.effects &= ~uint32_t(FROND_EFFECT_PLASTICITY);
     EXPECT_NEAR(off.set_after(7), 0, 1e-4);
-    EXPECT_EQ(off.plant->own_elements, nullptr);
+    EXPECT_EQ(off.plant->state.own_elements, nullptr);
 }
 
 TEST_P(EveryPlasticity, StandingItKeepsItsShapeWhateverItsYield) {
@@ -123,8 +123,8 @@ TEST_P(EveryPlasticity, EnergyNeverGrowsWhileItSways) {
     Bending bending(stem_model(0.02, 0.1, FROND_REST_WITHOUT_GRAVITY), which);
     bending.surroundings.gravity.setZero();
     bending.rest(9);
-    bending.plant->settings.mass_damping = 0;
-    bending.plant->settings.integrator = FROND_INTEGRATOR_TR_BDF2;
+    bending.plant->input.settings.mass_damping = 0;
+    bending.plant->input.settings.integrator = FROND_INTEGRATOR_TR_BDF2;
     bending.pull(0);
     const auto energy = [&] {
         const frond_energy e = energy_of(*bending.plant, Vec3::Zero());
@@ -149,12 +149,12 @@ TEST_P(EveryPlasticity, WhatIsLastingIsSavedAndRestoredToTheBit) {
     ASSERT_FALSE(plastic.empty());
     set_plastic(*other.plant, plastic);
     EXPECT_EQ(plastic_of(*other.plant), plastic);
-    other.plant->settings.mass_damping = bending.plant->settings.mass_damping;
-    other.plant->grabs = bending.plant->grabs;
-    other.plant->motion = bending.plant->motion;
+    other.plant->input.settings.mass_damping = bending.plant->input.settings.mass_damping;
+    other.plant->input.grabs = bending.plant->input.grabs;
+    other.plant->state.motion = bending.plant->state.motion;
     for (int n = 0; n < 20; ++n)
         for (Bending* b : {&bending, &other}) step_plant(*b->plant, b->surroundings, H);
-    EXPECT_EQ(other.plant->motion.x, bending.plant->motion.x);
+    EXPECT_EQ(other.plant->state.motion.x, bending.plant->state.motion.x);
     EXPECT_EQ(plastic_of(*other.plant), plastic_of(*bending.plant));
     set_plastic(*other.plant, {});
     EXPECT_TRUE(plastic_of(*other.plant).empty());
@@ -166,7 +166,7 @@ TEST_P(EveryPlasticity, AStepThatIsRewoundLeavesNothing) {
     Bending bending(stem_model(0.02), which);
     bending.rest(7);
     const std::vector<double> plastic = plastic_of(*bending.plant);
-    bending.plant->motion.v.setConstant(std::numeric_limits<double>::quiet_NaN());
+    bending.plant->state.motion.v.setConstant(std::numeric_limits<double>::quiet_NaN());
     step_plant(*bending.plant, bending.surroundings, H);
     EXPECT_TRUE(bending.plant->trouble & FROND_TROUBLE_REWOUND);
     EXPECT_EQ(plastic_of(*bending.plant), plastic);

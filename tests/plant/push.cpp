@@ -27,16 +27,16 @@ std::unique_ptr<Plant> free_stem(frond_mechanics which, frond_integrator method)
 Vec3 momentum(const Plant& plant) {
     const VecX& mass = node_mass_of(*plant.system);
     Vec3 sum = Vec3::Zero();
-    for (int i = 0; i < mass.size(); i += plant.follow ? 2 : 1) sum += mass[i] * point(plant.motion.v, i);
+    for (int i = 0; i < mass.size(); i += plant.follow ? 2 : 1) sum += mass[i] * point(plant.state.motion.v, i);
     return sum;
 }
 
 // Pushes evenly, so that the stem flies without bending.
 void push(Plant& plant, const Vec3& force) {
     const int nodes = node_count_of(plant);
-    plant.user_force = VecX::Zero(3 * nodes);
-    for (int i = 0; i < nodes; i++) point(plant.user_force, i) = force / nodes;
-    plant.has_user_force = true;
+    plant.input.user_force = VecX::Zero(3 * nodes);
+    for (int i = 0; i < nodes; i++) point(plant.input.user_force, i) = force / nodes;
+    plant.input.has_user_force = true;
 }
 
 struct EveryPush : testing::TestWithParam<std::tuple<frond_mechanics, frond_integrator>> {};

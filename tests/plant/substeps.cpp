@@ -55,7 +55,7 @@ Vec3 swing(Plant& plant, double h, int* solves = nullptr) {
         EXPECT_EQ(plant.trouble & ~uint32_t(FROND_TROUBLE_NOT_CONVERGED), 0u);
         if (solves) *solves += plant.report.iterations;
     }
-    return plant.chain_positions.back();
+    return plant.view.chain_positions.back();
 }
 
 struct Substeps : testing::TestWithParam<int> {
@@ -84,12 +84,12 @@ TEST_P(Substeps, AreNoMoreThanAllowedAndOneWhereNothingMoves) {
     const std::shared_ptr<const Model> model = stem_model();
     const auto plant = stem(model, which, 4, 1e-9);
     swing(*plant, H);
-    EXPECT_EQ(plant->substeps, 4);
+    EXPECT_EQ(plant->state.substeps, 4);
     const auto still = stem(model, which, 64, 1e-7);
     Surroundings surroundings;
     surroundings.gravity = {0, -GRAVITY, 0};
     for (int n = 0; n < 5; ++n) step_plant(*still, surroundings, H);
-    EXPECT_EQ(still->substeps, 1);
+    EXPECT_EQ(still->state.substeps, 1);
     EXPECT_LE(still->report.iterations, 4);
 }
 
@@ -98,8 +98,8 @@ TEST_P(Substeps, ThatAreOffChangeNoBit) {
     const auto off = stem(model, which, 1, 1e-9), loose = stem(model, which, 64, 1);
     swing(*off, H);
     swing(*loose, H);
-    EXPECT_EQ(off->motion.x, loose->motion.x);
-    EXPECT_EQ(off->trend.rate.size(), 0);
+    EXPECT_EQ(off->state.motion.x, loose->state.motion.x);
+    EXPECT_EQ(off->state.trend.rate.size(), 0);
 }
 
 TEST_P(Substeps, MoveWhatIsHeldEvenly) {
@@ -110,14 +110,14 @@ TEST_P(Substeps, MoveWhatIsHeldEvenly) {
     const VecX from = cage_places(*plant);
     for (int n = 1; n <= 6; ++n) {
         for (int i = 0; i < node_count_of(*plant); ++i)
-            if (plant->pinned[size_t(i)]) move_pin(*plant, i, point(from, i) + Vec3(0.02 * n, 0, 0));
+            if (plant->input.pinned[size_t(i)]) move_pin(*plant, i, point(from, i) + Vec3(0.02 * n, 0, 0));
         step_plant(*plant, surroundings, H);
         for (int i = 0; i < node_count_of(*plant); ++i)
-            if (plant->pinned[size_t(i)]) {
+            if (plant->input.pinned[size_t(i)]) {
                 EXPECT_LT((point(cage_places(*plant), i) - point(from, i) - Vec3(0.02 * n, 0, 0)).norm(), 2e-4);
             }
     }
-    EXPECT_GT(plant->substeps, 1);
+    EXPECT_GT(plant->state.substeps, 1);
     EXPECT_EQ(plant->trouble & FROND_TROUBLE_REWOUND, 0u);
 }
 

@@ -15,13 +15,13 @@ frond_result frond_grab_create(frond_plant plant, frond_vec3 near_point, double 
         check_range(stiffness, 1e-9, 1e12, "stiffness [N/m]");
         Plant& p = awaken(body);
         const int vertex = nearest_vertex(p, to_vec(near_point));
-        p.grabs.push_back({vertex, grab_place(p, vertex), stiffness, 0});
-        p.grabs.back().handle = grab_slots().insert({&body, &p.grabs.back()});
-        if (!p.grabs.back().handle) {
-            p.grabs.pop_back();
+        p.input.grabs.push_back({vertex, grab_place(p, vertex), stiffness, 0});
+        p.input.grabs.back().handle = grab_slots().insert({&body, &p.input.grabs.back()});
+        if (!p.input.grabs.back().handle) {
+            p.input.grabs.pop_back();
             fail(FROND_RESULT_OUT_OF_MEMORY, "too many grabs; destroy some");
         }
-        out->id = p.grabs.back().handle;
+        out->id = p.input.grabs.back().handle;
     });
 }
 
@@ -53,8 +53,8 @@ void frond_grab_destroy(frond_grab grab) {
         if (!entry.body) return;
         wake(*entry.body);
         Plant& plant = *entry.body->plant;
-        plant.grabs.remove_if([&](const Grab& other) { return &other == entry.grab; });
-        plant.motion.history.valid = false;  // its force ends at once
+        plant.input.grabs.remove_if([&](const Grab& other) { return &other == entry.grab; });
+        plant.state.motion.history.valid = false;  // its force ends at once
     });
 }
 

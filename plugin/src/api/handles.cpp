@@ -89,7 +89,7 @@ Plant& awaken(PlantBody& body) {
 void forget(PlantBody& body) {
     for (const Bond& bond : body.world->bonds)
         if (bond.plant == &body) bond_slots().erase(bond.handle);
-    for (const Grab& grab : body.plant->grabs) grab_slots().erase(grab.handle);
+    for (const Grab& grab : body.plant->input.grabs) grab_slots().erase(grab.handle);
     for (const Rigid* fragment : body.fragment_bodies) rigid_slots().erase(fragment->handle.id);
     plant_slots().erase(body.handle.id);
 }

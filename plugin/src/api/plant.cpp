@@ -62,7 +62,7 @@ static int capsule_of(const Plant& plant, int node) {
 }
 
 static frond_effects effects_of(const PlantBody& body) {
-    return body.plant->effects & body.world->effects;
+    return body.plant->input.effects & body.world->effects;
 }
 
 // Returns the contacts of one plant, with normals and impulses as they act on it.
@@ -90,13 +90,13 @@ static void make_surface(PlantBody& body) {
     Plant& p = *body.plant;
     const World& world = *body.world;
     const double back = body.rest.asleep ? 0 : surfaces_back(world);
-    if (p.previous && (p.previous->substep != world.substep || p.previous->back != float(back))) {
-        p.previous->positions = p.surface_positions;
-        p.previous->substep = world.substep;
-        p.previous->back = float(back);
+    if (p.view.previous && (p.view.previous->substep != world.substep || p.view.previous->back != float(back))) {
+        p.view.previous->positions = p.view.surface_positions;
+        p.view.previous->substep = world.substep;
+        p.view.previous->back = float(back);
     }
-    if (p.surface_positions.empty()) update_surface(*look_at(body).plant, FROND_EFFECT_ALL, back);
-    if ((p.surface_stale || p.surface_back != float(back)) && effects_of(body) & FROND_EFFECT_SURFACE)
+    if (p.view.surface_positions.empty()) update_surface(*look_at(body).plant, FROND_EFFECT_ALL, back);
+    if ((p.view.surface_stale || p.view.surface_back != float(back)) && effects_of(body) & FROND_EFFECT_SURFACE)
         update_surface(*look_at(body).plant, effects_of(body), back);
 }
 
@@ -152,7 +152,7 @@ frond_result frond_plant_wake(frond_plant plant) {
 
 void* frond_plant_get_user(frond_plant plant) {
     const PlantBody* body = plant_slots().find(plant.id);
-    return body ? body->plant->user : nullptr;
+    return body ? body->plant->input.user : nullptr;
 }
 
 frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects) {
@@ -160,8 +160,8 @@ frond_result frond_plant_set_effects(frond_plant plant, frond_effects effects) {
         PlantBody& body = get(plant);
         check_effects(effects);
         Plant& p = awaken(body);
-        p.effects = effects;
-        p.surface_stale = true;
+        p.input.effects = effects;
+        p.view.surface_stale = true;
     });
 }
 
@@ -206,7 +206,7 @@ frond_result frond_plant_set_integrator(frond_plant plant, frond_integrator inte
     return call([&] {
         PlantBody& body = get(plant);
         check_row(number_of(integrator), FROND_INTEGRATOR_COUNT, "integrator");
-        awaken(body).settings.integrator = integrator;
+        awaken(body).input.settings.integrator = integrator;
     });
 }
 
@@ -301,9 +301,9 @@ frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force
         check_node(*body.plant, node);
         check_vec(force, "force [N]");
         Plant& p = awaken(body);
-        if (p.user_force.size() == 0) p.user_force = VecX::Zero(3 * Eigen::Index(node_count_of(p)));
-        point(p.user_force, node) += to_vec(force);
-        p.has_user_force = true;
+        if (p.input.user_force.size() == 0) p.input.user_force = VecX::Zero(3 * Eigen::Index(node_count_of(p)));
+        point(p.input.user_force, node) += to_vec(force);
+        p.input.has_user_force = true;
     });
 }
 
@@ -322,13 +322,13 @@ frond_result frond_plant_get_previous_positions(frond_plant plant, const float**
         *out = nullptr;
         PlantBody& body = get(plant);
         Plant& p = *body.plant;
-        if (!p.previous) {
-            p.previous = std::make_unique<PreviousSurface>();
-            p.previous->substep = body.world->substep;
-            p.previous->back = float(body.rest.asleep ? 0 : surfaces_back(*body.world));
+        if (!p.view.previous) {
+            p.view.previous = std::make_unique<PreviousSurface>();
+            p.view.previous->substep = body.world->substep;
+            p.view.previous->back = float(body.rest.asleep ? 0 : surfaces_back(*body.world));
         }
         make_surface(body);
-        *out = (p.previous->positions.empty() ? p.surface_positions : p.previous->positions).data();
+        *out = (p.view.previous->positions.empty() ? p.view.surface_positions : p.view.previous->positions).data();
     });
 }
 
@@ -340,11 +340,11 @@ frond_result frond_plant_get_surface(frond_plant plant, frond_surface_view* out)
         Plant& p = *body.plant;
         make_surface(body);
         const Surface& surface = p.model->surface;
-        out->positions = p.surface_positions.data();
-        out->normals = p.surface_normals.data();
+        out->positions = p.view.surface_positions.data();
+        out->normals = p.view.surface_normals.data();
         out->uvs = surface.uvs.empty() ? nullptr : surface.uvs.front().data();
         out->colors = surface.colors.empty() ? nullptr : surface.colors.front().data();
-        out->indices = (p.fragments.empty() ? surface.triangles : p.parting->triangles).front().data();
+        out->indices = (p.state.fragments.empty() ? surface.triangles : p.state.parting->triangles).front().data();
         out->vertex_count = int(surface.positions.size());
         out->triangle_count = int(surface.triangles.size());
     });
@@ -406,7 +406,7 @@ frond_result frond_plant_get_fragment(frond_plant plant, int fragment, frond_fra
         Rigid& rigid = *body.fragment_bodies[size_t(fragment)];
         if (!rigid.handle.id) rigid.handle.id = rigid_slots().insert(&rigid);
         if (!rigid.handle.id) fail(FROND_RESULT_OUT_OF_MEMORY, "too many rigid bodies; destroy some");
-        const Fragment& broken = body.plant->fragments[size_t(fragment)];
+        const Fragment& broken = body.plant->state.fragments[size_t(fragment)];
         *out = {rigid.handle, capsule_of(*body.plant, broken.node), broken.mass};
     });
 }
@@ -442,7 +442,7 @@ frond_result frond_plant_get_momentum(frond_plant plant, frond_vec3* out) {
         const Plant& p = *look_at(get(plant)).plant;
         const VecX& mass = node_mass_of(*p.system);
         Vec3 sum = Vec3::Zero();
-        for (int i = 0; i < mass.size(); i++) sum += mass[i] * point(p.motion.v, i);
+        for (int i = 0; i < mass.size(); i++) sum += mass[i] * point(p.state.motion.v, i);
         *out = from_vec(p.rotation * sum);
     });
 }

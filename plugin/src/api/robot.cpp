@@ -265,7 +265,7 @@ frond_result frond_plant_get_root_force(frond_plant plant, frond_vec3 about, fro
         PlantBody& body = look_at(get(plant));
         check_vec(about, "about [m]");
         const Plant& p = *body.plant;
-        const bool has_weight = p.effects & body.world->effects & FROND_EFFECT_GRAVITY;
+        const bool has_weight = p.input.effects & body.world->effects & FROND_EFFECT_GRAVITY;
         const Vec3 gravity = has_weight ? gravity_of(*body.world) : Vec3(Vec3::Zero());
         const Wrench held = root_force(p, gravity, body.world->effects, to_vec(about));
         if (force) *force = from_vec(held.force);

@@ -48,7 +48,7 @@ static int nearest_node(const Plant& plant, const Vec3& point) {
 }
 
 static bool has_made_surface(const Plant& plant) {
-    return !plant.surface_stale && plant.ms_surface > 0;
+    return !plant.view.surface_stale && plant.ms_surface > 0;
 }
 
 // Completes the last substep's report by sums over the plants.
@@ -61,7 +61,7 @@ static frond_report full_report(const World& world) {
         report.node_count += node_count_of(plant);
         report.tet_count += int(plant.model->cage.tets.size());
         if (has_made_surface(plant))
-            report.effects_run |= plant.effects & world.effects & (FROND_EFFECT_SURFACE | FROND_EFFECT_NORMALS);
+            report.effects_run |= plant.input.effects & world.effects & (FROND_EFFECT_SURFACE | FROND_EFFECT_NORMALS);
     }
     return report;
 }

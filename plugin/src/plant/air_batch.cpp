@@ -224,7 +224,7 @@ struct AddForces {
 
 unsigned gather_air(AirBatch& air, Batch& step, Plant* const* plants, int plant_count, const Surroundings& surroundings,
                     frond_effects effects, double h) {
-    const int lanes = step.lanes, count = int(plants[0]->chain_positions.size());
+    const int lanes = step.lanes, count = int(plants[0]->view.chain_positions.size());
     if (!surroundings.wind || !(effects & (FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG))) {
         for (NumbersInLines* drags : {&step.drag_force, &step.drag_damping}) drags->assign(drags->size(), 0);
         return 0;

@@ -65,7 +65,7 @@ struct GatherPieces {
     // Turns a vector of a segment with one of its end nodes.
     template <class S>
     FROND_INLINE Lanes3<S> turned(const Group<S>& group, const Lanes3<S>& v, int AirPiece::*end) const {
-        const double* x = plant.motion.x.data();
+        const double* x = plant.state.motion.x.data();
         const Lanes3<S> turn = {gather<S>([&](int l) { return x[6 * (group.piece[l]->*end) + 3]; }),
                                 gather<S>([&](int l) { return x[6 * (group.piece[l]->*end) + 4]; }),
                                 gather<S>([&](int l) { return x[6 * (group.piece[l]->*end) + 5]; })};
@@ -82,8 +82,8 @@ struct GatherPieces {
     }
     template <class S>
     FROND_INLINE Lanes33<S> frame_of(const Group<S>& group) const {
-        return air_frame(vector(group, plant.chain_positions, &AirPiece::node) -
-                             vector(group, plant.chain_positions, &AirPiece::parent),
+        return air_frame(vector(group, plant.view.chain_positions, &AirPiece::node) -
+                             vector(group, plant.view.chain_positions, &AirPiece::parent),
                          wide_of(group));
     }
     template <class S>
@@ -119,8 +119,8 @@ struct GatherPieces {
 
 // Finds the air's velocity at the chain nodes and relative to them.
 void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects effects) {
-    AirState& air = *plant.air;
-    const size_t count = plant.chain_positions.size();
+    AirState& air = *plant.state.air;
+    const size_t count = plant.view.chain_positions.size();
     const Mat3 to_world = plant.rotation.toRotationMatrix(), to_model = to_world.transpose();
     air.points.resize(count);
     air.wind.assign(count, frond_vec3{0, 0, 0});
@@ -128,7 +128,7 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
     air.passing.resize(count);
     if (effects & FROND_EFFECT_WIND) {
         for (size_t i = 0; i < count; i++) {
-            const Vec3 p = product(to_world, plant.chain_positions[i]) + plant.position;
+            const Vec3 p = product(to_world, plant.view.chain_positions[i]) + plant.position;
             air.points[i] = {p.x(), p.y(), p.z()};
         }
         if (!wind_velocities(*surroundings.wind, up_of(surroundings.gravity), surroundings.time, air.points, air.wind))
@@ -136,9 +136,9 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
     }
     for (size_t i = 0; i < count; i++) {
         if (effects & FROND_EFFECT_AIR_DRAG)
-            air.velocities[i] =
-                plant.follow ? Vec3(point(plant.motion.v, int(2 * i)))
-                             : attachment_velocity(chain_attachment(plant, int(i)), plant.motion.x, plant.motion.v);
+            air.velocities[i] = plant.follow ? Vec3(point(plant.state.motion.v, int(2 * i)))
+                                             : attachment_velocity(chain_attachment(plant, int(i)),
+                                                                   plant.state.motion.x, plant.state.motion.v);
         air.passing[i] = product(to_model, Vec3(air.wind[i].x, air.wind[i].y, air.wind[i].z)) - air.velocities[i];
     }
 }
@@ -146,14 +146,14 @@ void look_at_air(Plant& plant, const Surroundings& surroundings, frond_effects e
 }  // namespace
 
 void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects effects, double h) {
-    std::vector<Drag>& drags = plant.loads.drags;
-    plant.blown.setZero();
+    std::vector<Drag>& drags = plant.step.loads.drags;
+    plant.state.blown.setZero();
     if (!surroundings.wind || !(effects & (FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG))) return drags.clear();
-    if (!plant.air) {
-        plant.air = std::make_unique<AirState>();
-        plant.air->pieces = air_pieces_of(plant);
+    if (!plant.state.air) {
+        plant.state.air = std::make_unique<AirState>();
+        plant.state.air->pieces = air_pieces_of(plant);
     }
-    AirState& air = *plant.air;
+    AirState& air = *plant.state.air;
     look_at_air(plant, surroundings, effects);
 
     air.resistance.assign(air.points.size(), SixOf{});
@@ -178,9 +178,10 @@ void gather_air(Plant& plant, const Surroundings& surroundings, frond_effects ef
 }
 
 Vec3 air_force(const Plant& plant) {
-    Vec3 sum = plant.blown;
-    for (const Drag& drag : plant.loads.drags)
-        sum += drag.force - product(drag.damping, attachment_velocity(drag.attachment, plant.motion.x, plant.motion.v));
+    Vec3 sum = plant.state.blown;
+    for (const Drag& drag : plant.step.loads.drags)
+        sum += drag.force -
+               product(drag.damping, attachment_velocity(drag.attachment, plant.state.motion.x, plant.state.motion.v));
     return plant.rotation * sum;
 }
 

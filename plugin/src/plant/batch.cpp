@@ -122,16 +122,16 @@ void return_batch(WorkspacePool& pool, std::shared_ptr<PlantBatch> space) {
 
 void gather_motions(Batch& step, Plant* const* plants, int count, const Surroundings& surroundings,
                     frond_effects effects) {
-    const bool looks_back = plants[0]->looks_back;
+    const bool looks_back = plants[0]->step.looks_back;
     const auto at = [&](int lane) -> Plant& { return *plants[std::min(lane, count - 1)]; };
     const auto gather_from = [&](const auto& of, NumbersInLines& to) {
         run_in_lanes(step.lanes, Gather<decltype(of)>{of, to});
     };
-    gather_from([&](int lane) -> const VecX& { return at(lane).motion.x; }, step.x);
-    gather_from([&](int lane) -> const VecX& { return at(lane).motion.v; }, step.v);
+    gather_from([&](int lane) -> const VecX& { return at(lane).state.motion.x; }, step.x);
+    gather_from([&](int lane) -> const VecX& { return at(lane).state.motion.v; }, step.v);
     if (looks_back) {
-        gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.x_prev; }, step.x_prev);
-        gather_from([&](int lane) -> const VecX& { return at(lane).motion.history.v_prev; }, step.v_prev);
+        gather_from([&](int lane) -> const VecX& { return at(lane).state.motion.history.x_prev; }, step.x_prev);
+        gather_from([&](int lane) -> const VecX& { return at(lane).state.motion.history.v_prev; }, step.v_prev);
     }
     for (int lane = 0; lane < step.lanes; lane++) {
         const Vec3 gravity = gravity_in(at(lane), surroundings, effects);
@@ -140,17 +140,17 @@ void gather_motions(Batch& step, Plant* const* plants, int count, const Surround
 }
 
 void take_loads(Plant& plant, const Batch& step, int lane) {
-    plant.loads.drags.clear();
-    plant.loads.springs.clear();
-    plant.loads.force.resize(0);
-    for (int c = 0; c < 3; c++) plant.loads.gravity[c] = step.gravity[size_t(c * step.lanes + lane)];
+    plant.step.loads.drags.clear();
+    plant.step.loads.springs.clear();
+    plant.step.loads.force.resize(0);
+    for (int c = 0; c < 3; c++) plant.step.loads.gravity[c] = step.gravity[size_t(c * step.lanes + lane)];
 }
 
 // As is_plausible() in step.cpp.
 bool is_plausible(Plant& plant, const Batch& step, int lane, double h) {
-    take_drags(step, lane, plant.loads.drags);
+    take_drags(step, lane, plant.step.loads.drags);
     const bool keeps = keeps_course(plant, h);
-    plant.loads.drags.clear();
+    plant.step.loads.drags.clear();
     return keeps && !is_far_out(plant);
 }
 
@@ -159,19 +159,19 @@ bool is_plausible(Plant& plant, const Batch& step, int lane, double h) {
 bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& settings, bool may_be_off, bool may_pull,
                double h) {
     const Batch& step = space.step;
-    Motion& motion = plant.motion;
+    Motion& motion = plant.state.motion;
     History& history = motion.history;
     VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
     const bool is_wound = (step.wound >> lane & 1) != 0;
     const bool is_asked = may_be_off || is_wound || may_pull || step.inverted[size_t(lane)] > 0;
     if (is_asked) {
-        plant.x_good = motion.x;
-        plant.v_good = motion.v;
+        plant.step.x_good = motion.x;
+        plant.step.v_good = motion.v;
     }
     motion.x.swap(x);
     motion.v.swap(v);
     take_loads(plant, step, lane);
-    plant.is_off_course = plant.starts_anew = false;
+    plant.step.is_off_course = plant.step.starts_anew = false;
     if (is_asked && !is_plausible(plant, step, lane, h)) {
         motion.x.swap(x);
         motion.v.swap(v);
@@ -179,8 +179,8 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     }
     if (!is_asked) {
         // The start of the step is kept once, in the history.
-        plant.x_good.resize(0);
-        plant.v_good.resize(0);
+        plant.step.x_good.resize(0);
+        plant.step.v_good.resize(0);
     }
     history.x_prev.swap(x);
     history.v_prev.swap(v);
@@ -191,18 +191,18 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
         history.x_end = motion.x;
         history.v_end = motion.v;
     }
-    history.shaken = !plant.looks_back;
-    if (!plant.looks_back) {
+    history.shaken = !plant.step.looks_back;
+    if (!plant.step.looks_back) {
         history.valid = true;
         history.integrator = settings.integrator;
         history.pinned = motion.pinned;
     }
     history.h = h;
     if (is_wound) unwind(motion);
-    plant.lead = 0;
-    plant.is_sound = true;
-    plant.step_settings = settings;
-    for (int c = 0; c < 3; c++) plant.blown[c] = space.forces[size_t(c * step.lanes + lane)];
+    plant.view.lead = 0;
+    plant.step.is_sound = true;
+    plant.step.settings = settings;
+    for (int c = 0; c < 3; c++) plant.state.blown[c] = space.forces[size_t(c * step.lanes + lane)];
     return true;
 }
 
@@ -213,16 +213,16 @@ void take_factors(const Batch& step, Plant* const* plants, unsigned which) {
     for (size_t lane = 0; lane < size_t(step.lanes); lane++) {
         if (!(which >> lane & 1)) continue;
         take_workspace(*plants[lane]);
-        workspaces[lane] = plants[lane]->workspace.get();
+        workspaces[lane] = plants[lane]->step.workspace.get();
     }
     take_apart(step, workspaces.data());
 }
 
 // Pulls back a plant's taut fibres, with its own drags.
 void pull(Plant& plant, const Batch& step, int lane, frond_effects effects, double h) {
-    plant.blown.setZero();
-    take_drags(step, lane, plant.loads.drags);
-    plant.has_fibres = effects & FROND_EFFECT_FIBRES;
+    plant.state.blown.setZero();
+    take_drags(step, lane, plant.step.loads.drags);
+    plant.step.has_fibres = effects & FROND_EFFECT_FIBRES;
     finish_solving(plant, h);
 }
 
@@ -231,32 +231,34 @@ void pull(Plant& plant, const Batch& step, int lane, frond_effects effects, doub
 // Predicts whether the step continues from the history, or starts anew and damped. After a batched step the history is
 // not compared here but in goes_on(), where the job has the plant's numbers at hand.
 static bool foresee_method(Plant& plant, double h) {
-    const History& history = plant.motion.history;
-    plant.looks_back =
-        history.valid && (history.x_end.size() == 0 || history_holds(plant.motion, plant.settings.integrator, h));
-    return plant.looks_back || history.shaken;
+    const History& history = plant.state.motion.history;
+    plant.step.looks_back = history.valid && (history.x_end.size() == 0 ||
+                                              history_holds(plant.state.motion, plant.input.settings.integrator, h));
+    return plant.step.looks_back || history.shaken;
 }
 
 // Returns whether the prediction holds and the pins are at rest; after a batched step they are.
 static bool goes_on(const Plant& plant, double h) {
-    const Motion& motion = plant.motion;
-    return history_holds(motion, plant.settings.integrator, h) == plant.looks_back &&
-           ((plant.looks_back && motion.history.x_end.size() == 0) || !is_carried(motion, motion.x, motion.v));
+    const Motion& motion = plant.state.motion;
+    return history_holds(motion, plant.input.settings.integrator, h) == plant.step.looks_back &&
+           ((plant.step.looks_back && motion.history.x_end.size() == 0) || !is_carried(motion, motion.x, motion.v));
 }
 
 bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h) {
-    return !plant.modal && !plant.own_elements && !plant.workspace && !plant.is_touched && !plant.is_watched &&
-           !plant.has_user_force && plant.grabs.empty() && plant.fragments.empty() && plant.pin_springs.empty() &&
-           !plant.pins_changed && plant.recovers_for <= 0 && plant.max_substeps <= 1 && plant.fibre_give.empty() &&
-           h > 0 && h <= TRUSTED &&
-           frond::may_be_batched(*plant.system, settings_for(plant, plant.effects & surroundings.effects), h) &&
+    return !plant.state.modal && !plant.state.own_elements && !plant.step.workspace && !plant.state.is_touched &&
+           !plant.step.is_watched && !plant.input.has_user_force && plant.input.grabs.empty() &&
+           plant.state.fragments.empty() && plant.input.pin_springs.empty() && !plant.input.pins_changed &&
+           plant.state.recovers_for <= 0 && plant.input.max_substeps <= 1 && plant.state.fibre_give.empty() && h > 0 &&
+           h <= TRUSTED &&
+           frond::may_be_batched(*plant.system, settings_for(plant, plant.input.effects & surroundings.effects), h) &&
            foresee_method(plant, h);
 }
 
 bool go_alike(const Plant& a, const Plant& b) {
-    return a.system == b.system && a.effects == b.effects && a.size == b.size && a.looks_back == b.looks_back &&
-           (!a.looks_back || a.motion.history.h == b.motion.history.h) && are_alike(a.settings, b.settings) &&
-           a.motion.pinned == b.motion.pinned;
+    return a.system == b.system && a.input.effects == b.input.effects && a.size == b.size &&
+           a.step.looks_back == b.step.looks_back &&
+           (!a.step.looks_back || a.state.motion.history.h == b.state.motion.history.h) &&
+           are_alike(a.input.settings, b.input.settings) && a.state.motion.pinned == b.state.motion.pinned;
 }
 
 int most_in_batch() {
@@ -284,7 +286,7 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
     const std::shared_ptr<PlantBatch> space = take_batch(*pool);
     Batch& step = space->step;
     const System& system = *plants[0]->system;
-    const frond_effects effects = plants[0]->effects & surroundings.effects;
+    const frond_effects effects = plants[0]->input.effects & surroundings.effects;
     const SolveSettings settings = settings_for(*plants[0], effects);
     FROND_ASSERT(std::all_of(plants.begin(), plants.begin() + count,
                              [&](const Plant* plant) { return go_alike(*plants[0], *plant); }));
@@ -294,8 +296,8 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
     const unsigned bad_wind = gather_air(space->air, step, plants.data(), count, surroundings, effects, h);
     const double ms_air = timer.lap();
 
-    const double h_before = plants[0]->looks_back ? plants[0]->motion.history.h : 0;
-    unsigned alone = step_batch(step, settings, plants[0]->motion.pinned, h, h_before), far_away, off_course;
+    const double h_before = plants[0]->step.looks_back ? plants[0]->state.motion.history.h : 0;
+    unsigned alone = step_batch(step, settings, plants[0]->state.motion.pinned, h, h_before), far_away, off_course;
     run_in_lanes(step.lanes,
                  LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course});
     alone |= far_away;
@@ -316,7 +318,7 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
             continue;
         }
         plant.trouble = is_in(bad_wind) ? FROND_TROUBLE_BAD_WIND : 0;
-        plant.may_yield = is_in(may_yield | taut);
+        plant.step.may_yield = is_in(may_yield | taut);
         plant.report = {};
         plant.report.ok = true;
         plant.report.iterations = 1;

@@ -27,9 +27,10 @@ Vec3 vertex_position(const Plant& plant, int vertex) {
     if (fragment)
         return fragment->place(fragment->follow ? on_chain(*fragment->follow, fragment->x) : in_cage(fragment->cage_x));
     if (!plant.follow) return plant.to_world(in_cage(cage_places(plant)));
-    Vec3 place =
-        on_chain(*plant.follow, plant.lead > 0 ? VecX(plant.motion.x + plant.lead * plant.motion.v) : plant.motion.x);
-    if (!is_over(plant.blend_out)) place += in_cage(blend_offset(plant, plant.lead));
+    Vec3 place = on_chain(*plant.follow, plant.view.lead > 0
+                                             ? VecX(plant.state.motion.x + plant.view.lead * plant.state.motion.v)
+                                             : plant.state.motion.x);
+    if (!is_over(plant.state.blend_out)) place += in_cage(blend_offset(plant, plant.view.lead));
     return plant.to_world(place);
 }
 
@@ -50,26 +51,26 @@ int nearest_vertex(const Plant& plant, const Vec3& point) {
 static Vec3 chain_point(const Plant& plant, size_t i) {
     const Embedding& embedding = plant.model->chain_embedding;
     const int parent = plant.model->chain.nodes[i].parent;
-    const std::vector<int>& of_tet = plant.parting->of_tet;
+    const std::vector<int>& of_tet = plant.state.parting->of_tet;
     const int fragment = of_tet.empty() ? -1 : of_tet[size_t(embedding.tet[i])];
-    if (fragment < 0 || parent < 0) return bound_point(plant, embedding, i, plant.motion.x);
-    const std::vector<Vec3>& then = plant.fragments[size_t(fragment)].chain_x;
-    return plant.chain_positions[size_t(parent)] + then[i] - then[size_t(parent)];
+    if (fragment < 0 || parent < 0) return bound_point(plant, embedding, i, plant.state.motion.x);
+    const std::vector<Vec3>& then = plant.state.fragments[size_t(fragment)].chain_x;
+    return plant.view.chain_positions[size_t(parent)] + then[i] - then[size_t(parent)];
 }
 
 void update_chain(Plant& plant) {
     const size_t count = plant.model->chain.nodes.size();
-    plant.chain_positions.resize(count);
-    const VecX& x = plant.motion.x;
-    if (plant.follow && plant.fragments.empty()) {
-        for (size_t i = 0; i < count; i++) plant.chain_positions[i] = point(x, int(2 * i));
+    plant.view.chain_positions.resize(count);
+    const VecX& x = plant.state.motion.x;
+    if (plant.follow && plant.state.fragments.empty()) {
+        for (size_t i = 0; i < count; i++) plant.view.chain_positions[i] = point(x, int(2 * i));
         return;
     }
     for (size_t i = 0; i < count; i++) {
         const Fragment* fragment = fragment_of_chain_node(plant, i);
-        plant.chain_positions[i] = fragment       ? plant.to_model(fragment->place(fragment->chain_x[i]))
-                                   : plant.follow ? Vec3(point(x, int(2 * i)))
-                                                  : chain_point(plant, i);
+        plant.view.chain_positions[i] = fragment       ? plant.to_model(fragment->place(fragment->chain_x[i]))
+                                        : plant.follow ? Vec3(point(x, int(2 * i)))
+                                                       : chain_point(plant, i);
     }
 }
 
@@ -78,8 +79,8 @@ std::array<Vec3, 2> capsule_ends(const Plant& plant, size_t capsule) {
     const auto& [begin, end] = plant.model->capsules[capsule];
     const Fragment* fragment = fragment_of_chain_node(plant, size_t(end));
     return {fragment ? plant.to_model(fragment->place(fragment->chain_x[size_t(begin)]))
-                     : plant.chain_positions[size_t(begin)],
-            plant.chain_positions[size_t(end)]};
+                     : plant.view.chain_positions[size_t(begin)],
+            plant.view.chain_positions[size_t(end)]};
 }
 
 Attachment chain_attachment(const Plant& plant, int node) {

@@ -35,7 +35,7 @@ void mark_cage(const Plant& plant, Parting& parting) {
     parting.of_tet.clear();
     for (int c : capsule) parting.of_tet.push_back(parting.of_chain[size_t(c)]);
     constexpr int NONE = -2;  // no tet has been there; -1: the plant itself
-    parting.of_node.assign(plant.pinned.size(), NONE);
+    parting.of_node.assign(plant.input.pinned.size(), NONE);
     const auto mark = [&](int node, int fragment) {
         int& of = parting.of_node[size_t(node)];
         of = of == NONE ? fragment : std::min(of, fragment);
@@ -62,10 +62,10 @@ void mark_surface(const Plant& plant, Parting& parting) {
 // Returns the rotation of the fragment's cage nodes against the modelled shape.
 Mat3 turn_of(const Plant& plant, int number) {
     std::vector<Vec3> from, to;
-    for (size_t i = 0; i < plant.parting->of_node.size(); i++) {
-        if (plant.parting->of_node[i] != number) continue;
+    for (size_t i = 0; i < plant.state.parting->of_node.size(); i++) {
+        if (plant.state.parting->of_node[i] != number) continue;
         from.push_back(point(plant.nodes->modelled, int(i)));
-        to.push_back(point(plant.fragments[size_t(number)].cage_x, int(i)));
+        to.push_back(point(plant.state.fragments[size_t(number)].cage_x, int(i)));
     }
     Mat3 turn;
     Vec3 image;
@@ -88,15 +88,15 @@ void set_inertia(const Plant& plant, const VecX& mass, Fragment& fragment) {
     const SymmetricParts principal = symmetric_parts(inertia);
     Mat3 axes = principal.vectors;
     if (axes.determinant() < 0) axes.col(2) *= -1;
-    fragment.axes = plant.rotation.toRotationMatrix() * turn_of(plant, int(plant.fragments.size()) - 1) * axes;
+    fragment.axes = plant.rotation.toRotationMatrix() * turn_of(plant, int(plant.state.fragments.size()) - 1) * axes;
     fragment.moments = principal.values;
 }
 
 // Finds mass, centre and motion of the mass that left the nodes.
 void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
     const int step = plant.follow ? 2 : 1;
-    const auto place = [&](int i) { return plant.to_world(point(plant.motion.x, i)); };
-    const auto velocity = [&](int i) { return Vec3(plant.rotation * point(plant.motion.v, i)); };
+    const auto place = [&](int i) { return plant.to_world(point(plant.state.motion.x, i)); };
+    const auto velocity = [&](int i) { return Vec3(plant.rotation * point(plant.state.motion.v, i)); };
     Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
     fragment.mass = 0;
     for (int i = 0; i < mass.size(); i += step) {
@@ -108,7 +108,7 @@ void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
         // The fragment is too small to have mass in the cage.
         constexpr double LEAST = 1e-6;  // [kg]
         fragment.mass = LEAST;
-        moment = LEAST * plant.to_world(plant.chain_positions[size_t(fragment.node)]);
+        moment = LEAST * plant.to_world(plant.view.chain_positions[size_t(fragment.node)]);
     }
     FROND_ASSERT(fragment.mass > 0);
     fragment.centre = moment / fragment.mass;
@@ -122,19 +122,19 @@ void measure(const Plant& plant, const VecX& mass, Fragment& fragment) {
 
 // Puts nodes that no element holds any more to rest where they are.
 void let_rest(Plant& plant) {
-    Motion& motion = plant.motion;
-    for (size_t i = 0; i < plant.parting->of_node.size(); i++)
-        if (plant.parting->of_node[i] >= 0) plant.pinned[i] = 0;
+    Motion& motion = plant.state.motion;
+    for (size_t i = 0; i < plant.state.parting->of_node.size(); i++)
+        if (plant.state.parting->of_node[i] >= 0) plant.input.pinned[i] = 0;
     const VecX& mass = node_mass_of(*plant.system);
     const int step = plant.follow ? 2 : 1;
     for (int i = 0; i < mass.size(); i += step)
         for (int k = 0; k < step && !(mass[i] > 0); k++) point(motion.v, i + k).setZero();
     motion.history.valid = false;
-    plant.pins_changed = true;
+    plant.input.pins_changed = true;
 }
 
 const Fragment* fragment_at(const Plant& plant, const std::vector<int>& list, size_t i) {
-    return list.empty() || list[i] < 0 ? nullptr : &plant.fragments[size_t(list[i])];
+    return list.empty() || list[i] < 0 ? nullptr : &plant.state.fragments[size_t(list[i])];
 }
 
 }  // namespace
@@ -145,26 +145,26 @@ std::shared_ptr<Parting> no_parting() {
 }
 
 int find_break(const Plant& plant) {
-    return find_overload(mechanics(plant.which, plant.nodes->order), elements_of(plant), plant.motion.x);
+    return find_overload(mechanics(plant.which, plant.nodes->order), elements_of(plant), plant.state.motion.x);
 }
 
 // Takes the elements of all fragments out of the plant's system.
 static void take_away(Plant& plant) {
     std::vector<uint8_t> gone;
-    for (int fragment : plant.parting->of_chain) gone.push_back(fragment >= 0);
+    for (int fragment : plant.state.parting->of_chain) gone.push_back(fragment >= 0);
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
-    std::unique_ptr<Elements> own = plant.own_elements ? row.without(*plant.own_elements, gone) : nullptr;
+    std::unique_ptr<Elements> own = plant.state.own_elements ? row.without(*plant.state.own_elements, gone) : nullptr;
     plant.system = system_without(*plant.system, gone);
-    plant.workspace = nullptr;
+    plant.step.workspace = nullptr;
     plant.seat.leave();
     plant.seat.pool = std::make_shared<WorkspacePool>();
     plant.seat.take();
-    plant.own_elements = std::move(own);
-    plant.parting->start = plant.motion.x;
+    plant.state.own_elements = std::move(own);
+    plant.state.parting->start = plant.state.motion.x;
 }
 
 void leave_fragments(Plant& plant) {
-    if (plant.fragments.empty()) return;
+    if (plant.state.fragments.empty()) return;
     take_away(plant);
     let_rest(plant);
 }
@@ -175,28 +175,29 @@ static VecX sprung_back(const Plant& plant, int fragment) {
     constexpr double LONG = 1;  // longer than what comes off sways [s]
     constexpr int ITERATIONS = 30;
     std::vector<uint8_t> others;
-    for (int of : plant.parting->of_chain) others.push_back(of != fragment);
+    for (int of : plant.state.parting->of_chain) others.push_back(of != fragment);
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
-    const std::unique_ptr<Elements> own = plant.own_elements ? row.without(*plant.own_elements, others) : nullptr;
+    const std::unique_ptr<Elements> own =
+        plant.state.own_elements ? row.without(*plant.state.own_elements, others) : nullptr;
     const WorkspacePtr workspace = make_workspace(system_without(*plant.system, others));
     use_elements(*workspace, own.get());
-    SolveSettings settings = plant.settings;
+    SolveSettings settings = plant.input.settings;
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     settings.newton_iterations = ITERATIONS;
     settings.careful = true;
     settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     Motion motion;
-    motion.x = motion.pin_target = plant.motion.x;
+    motion.x = motion.pin_target = plant.state.motion.x;
     motion.v = VecX::Zero(motion.x.size());
-    motion.pinned.assign(plant.motion.pinned.size(), 0);
+    motion.pinned.assign(plant.state.motion.pinned.size(), 0);
     const bool ok = solve_step(*workspace, settings, Loads(), LONG, motion).ok;
-    return ok && are_finite(motion.x) ? motion.x : plant.motion.x;
+    return ok && are_finite(motion.x) ? motion.x : plant.state.motion.x;
 }
 
 // Sets the shape that the part keeps from now on.
 static void set_shape(const Plant& plant, const VecX& x, Fragment& fragment) {
     fragment.follow = plant.follow;
-    fragment.chain_x.resize(plant.chain_positions.size());
+    fragment.chain_x.resize(plant.view.chain_positions.size());
     if (plant.follow) {
         fragment.x = x;
         follow_places(*plant.follow, x, fragment.cage_x);
@@ -215,34 +216,34 @@ const Fragment& break_off(Plant& plant, int node) {
     fragment.turn = plant.rotation.toRotationMatrix();
     fragment.shift = plant.position;
     const VecX mass = node_mass_of(*plant.system);
-    const int number = int(plant.fragments.size());
-    if (plant.fragments.empty()) plant.parting = std::make_shared<Parting>();
-    mark_chain(plant, node, number, plant.parting->of_chain);
-    mark_cage(plant, *plant.parting);
-    mark_surface(plant, *plant.parting);
+    const int number = int(plant.state.fragments.size());
+    if (plant.state.fragments.empty()) plant.state.parting = std::make_shared<Parting>();
+    mark_chain(plant, node, number, plant.state.parting->of_chain);
+    mark_cage(plant, *plant.state.parting);
+    mark_surface(plant, *plant.state.parting);
     set_shape(plant, sprung_back(plant, number), fragment);
-    plant.fragments.push_back(std::move(fragment));
+    plant.state.fragments.push_back(std::move(fragment));
     take_away(plant);
-    measure(plant, mass - node_mass_of(*plant.system), plant.fragments.back());
+    measure(plant, mass - node_mass_of(*plant.system), plant.state.fragments.back());
     let_rest(plant);
     moved(plant);
-    return plant.fragments.back();
+    return plant.state.fragments.back();
 }
 
 // Moves nodes that are gone rigidly with the stump, the last node before them that is not gone.
 void carry_stumps(Plant& plant) {
-    if (!plant.follow || plant.fragments.empty()) return;
+    if (!plant.follow || plant.state.fragments.empty()) return;
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
-    const VecX& start = plant.parting->start;
-    Motion& motion = plant.motion;
+    const VecX& start = plant.state.parting->start;
+    Motion& motion = plant.state.motion;
     // A method with a history must not take this for a push.
     History& history = motion.history;
     const bool follows = history.valid && history.x_end.size() == motion.x.size();
     std::vector<int> stump(nodes.size(), -1);
     for (size_t i = 0; i < nodes.size(); i++) {
-        if (plant.parting->of_chain[i] < 0) continue;
+        if (plant.state.parting->of_chain[i] < 0) continue;
         const int parent = nodes[i].parent, node = int(2 * i);
-        stump[i] = plant.parting->of_chain[size_t(parent)] < 0 ? parent : stump[size_t(parent)];
+        stump[i] = plant.state.parting->of_chain[size_t(parent)] < 0 ? parent : stump[size_t(parent)];
         const int at = 2 * stump[i];
         const Mat3 turn =
             rotation_of<double>(point(motion.x, at + 1)) * rotation_of<double>(point(start, at + 1)).transpose();
@@ -258,13 +259,13 @@ void carry_stumps(Plant& plant) {
 }
 
 const Fragment* fragment_of_vertex(const Plant& plant, size_t vertex) {
-    return fragment_at(plant, plant.parting->of_vertex, vertex);
+    return fragment_at(plant, plant.state.parting->of_vertex, vertex);
 }
 const Fragment* fragment_of_chain_node(const Plant& plant, size_t node) {
-    return fragment_at(plant, plant.parting->of_chain, node);
+    return fragment_at(plant, plant.state.parting->of_chain, node);
 }
 const Fragment* fragment_of_node(const Plant& plant, size_t node) {
-    return fragment_at(plant, plant.parting->of_node, node);
+    return fragment_at(plant, plant.state.parting->of_node, node);
 }
 
 }  // namespace frond

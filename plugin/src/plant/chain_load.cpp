@@ -10,15 +10,16 @@
 namespace frond {
 
 static VecX& chain_load_of(Plant& plant) {
-    if (plant.chain_load.size() == 0) plant.chain_load = VecX::Zero(6 * Eigen::Index(plant.model->chain.nodes.size()));
-    return plant.chain_load;
+    if (plant.input.chain_load.size() == 0)
+        plant.input.chain_load = VecX::Zero(6 * Eigen::Index(plant.model->chain.nodes.size()));
+    return plant.input.chain_load;
 }
 
 void add_chain_load(Plant& plant, int chain_node, const Vec3& force, const Vec3& moment) {
     VecX& load = chain_load_of(plant);
     point(load, 2 * chain_node) += force;
     point(load, 2 * chain_node + 1) += moment;
-    plant.has_user_force = true;
+    plant.input.has_user_force = true;
 }
 
 void add_distributed_load(Plant& plant, size_t capsule, const Vec3& force_per_length) {
@@ -50,10 +51,10 @@ static void add_couple(const Attachment& attachment, const VecX& x, const Vec3& 
 
 void gather_chain_loads(const Plant& plant, VecX& force) {
     const Quat to_model = plant.rotation.conjugate();
-    const VecX& x = plant.motion.x;
-    for (int i = 0; i < plant.chain_load.size() / 6; i++) {
-        const Vec3 push = to_model * point(plant.chain_load, 2 * i);
-        const Vec3 moment = to_model * point(plant.chain_load, 2 * i + 1);
+    const VecX& x = plant.state.motion.x;
+    for (int i = 0; i < plant.input.chain_load.size() / 6; i++) {
+        const Vec3 push = to_model * point(plant.input.chain_load, 2 * i);
+        const Vec3 moment = to_model * point(plant.input.chain_load, 2 * i + 1);
         if (push == Vec3::Zero() && moment == Vec3::Zero()) continue;
         if (plant.follow) {
             point(force, 2 * i) += push;

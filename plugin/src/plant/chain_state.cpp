@@ -9,7 +9,7 @@ namespace frond {
 
 std::vector<ChainNodeState> chain_state(const Plant& plant) {
     std::vector<ChainNodeState> states(plant.model->chain.nodes.size());
-    const Motion& motion = plant.motion;
+    const Motion& motion = plant.state.motion;
     for (size_t i = 0; i < states.size(); i++) {
         const int place = 2 * int(i), turn = place + 1;
         const Vec3 vector = point(motion.x, turn);
@@ -25,7 +25,7 @@ std::vector<ChainNodeState> chain_state(const Plant& plant) {
 void set_chain_state(Plant& plant, const std::vector<ChainNodeState>& states) {
     end_modal(plant);
     const Quat to_model = plant.rotation.conjugate();
-    Motion& motion = plant.motion;
+    Motion& motion = plant.state.motion;
     for (size_t i = 0; i < states.size(); i++) {
         if (fragment_of_chain_node(plant, i)) continue;  // it stays with its fragment
         const int place = 2 * int(i), turn = place + 1;
@@ -41,7 +41,7 @@ void set_chain_state(Plant& plant, const std::vector<ChainNodeState>& states) {
 
 std::vector<SectionForce> section_forces(const Plant& plant) {
     const RodElements& elements = as_rods(elements_of(plant));
-    const std::vector<RodSectionForce> of_segment = rod_section_forces(elements, plant.motion.x);
+    const std::vector<RodSectionForce> of_segment = rod_section_forces(elements, plant.state.motion.x);
     std::vector<int> segment_of(plant.model->chain.nodes.size(), -1);
     for (size_t s = 0; s < of_segment.size(); s++) segment_of[size_t(elements.section[s])] = int(s);
     std::vector<SectionForce> forces;

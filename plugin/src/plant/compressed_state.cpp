@@ -20,66 +20,69 @@ void drop(VecX& numbers) {
 
 // Drops what all plants on the same foot share.
 void drop_foot(Plant& plant) {
-    const Foot& foot = *plant.foot;
-    if (plant.pinned != foot.pinned || plant.anchor != foot.anchor || plant.pin_target != foot.pin_target) return;
-    drop(plant.pinned);
-    drop(plant.anchor);
-    drop(plant.pin_target);
+    const Foot& foot = *plant.input.foot;
+    if (plant.input.pinned != foot.pinned || plant.input.anchor != foot.anchor ||
+        plant.input.pin_target != foot.pin_target)
+        return;
+    drop(plant.input.pinned);
+    drop(plant.input.anchor);
+    drop(plant.input.pin_target);
 }
 
 }  // namespace
 
 void compress(Plant& plant, double tolerance, bool keep_surface) {
-    if (plant.is_compressed || !plant.fragments.empty()) return;
+    if (plant.state.is_compressed || !plant.state.fragments.empty()) return;
     end_modal(plant);
-    plant.blend_out = {};
-    plant.lead = plant.stepped_by = 0;
+    plant.state.blend_out = {};
+    plant.view.lead = plant.state.stepped_by = 0;
     const VecX& modelled = elements_of(*plant.system).modelled;
-    FROND_ASSERT(plant.motion.x.size() == modelled.size());
-    const VecX moves = plant.motion.x - modelled;
-    if (plant.own_elements || !(moves.lpNorm<Eigen::Infinity>() <= tolerance)) {
-        plant.away.resize(size_t(moves.size()));
-        for (size_t i = 0; i < plant.away.size(); i++) plant.away[i] = float(moves[Eigen::Index(i)]);
+    FROND_ASSERT(plant.state.motion.x.size() == modelled.size());
+    const VecX moves = plant.state.motion.x - modelled;
+    if (plant.state.own_elements || !(moves.lpNorm<Eigen::Infinity>() <= tolerance)) {
+        plant.state.away.resize(size_t(moves.size()));
+        for (size_t i = 0; i < plant.state.away.size(); i++) plant.state.away[i] = float(moves[Eigen::Index(i)]);
     }
-    plant.is_compressed = true;
-    plant.workspace = nullptr;
+    plant.state.is_compressed = true;
+    plant.step.workspace = nullptr;
     plant.seat.leave();
-    plant.motion = {};
-    plant.trend = {};
-    plant.loads = {};
-    plant.blown.setZero();
-    plant.air = nullptr;
-    for (VecX* numbers : {&plant.x_good, &plant.v_good, &plant.contact_impulse, &plant.contact_correction,
-                          &plant.user_force, &plant.chain_load, &plant.cage_x})
+    plant.state.motion = {};
+    plant.state.trend = {};
+    plant.step.loads = {};
+    plant.state.blown.setZero();
+    plant.state.air = nullptr;
+    for (VecX* numbers :
+         {&plant.step.x_good, &plant.step.v_good, &plant.step.contact_impulse, &plant.step.contact_correction,
+          &plant.input.user_force, &plant.input.chain_load, &plant.view.cage_x})
         drop(*numbers);
-    plant.cage_stale = true;
-    drop(plant.chain_positions);
-    drop(plant.pin_springs);
+    plant.view.cage_stale = true;
+    drop(plant.view.chain_positions);
+    drop(plant.input.pin_springs);
     drop_foot(plant);
     if (keep_surface) return;
-    drop(plant.surface_positions);
-    drop(plant.surface_normals);
-    if (plant.previous) drop(plant.previous->positions);
-    plant.surface_stale = true;
+    drop(plant.view.surface_positions);
+    drop(plant.view.surface_normals);
+    if (plant.view.previous) drop(plant.view.previous->positions);
+    plant.view.surface_stale = true;
 }
 
 void decompress(Plant& plant) {
-    if (!plant.is_compressed) return;
-    plant.is_compressed = false;
+    if (!plant.state.is_compressed) return;
+    plant.state.is_compressed = false;
     plant.seat.take();
-    Motion& motion = plant.motion;
+    Motion& motion = plant.state.motion;
     motion.x = motion.pin_target = elements_of(*plant.system).modelled;
-    FROND_ASSERT(plant.away.empty() || plant.away.size() == size_t(motion.x.size()));
-    for (size_t i = 0; i < plant.away.size(); i++) motion.x[Eigen::Index(i)] += double(plant.away[i]);
-    drop(plant.away);
+    FROND_ASSERT(plant.state.away.empty() || plant.state.away.size() == size_t(motion.x.size()));
+    for (size_t i = 0; i < plant.state.away.size(); i++) motion.x[Eigen::Index(i)] += double(plant.state.away[i]);
+    drop(plant.state.away);
     motion.v = VecX::Zero(motion.x.size());
     motion.pinned.assign(size_t(motion.x.size() / 3), 0);
-    if (plant.pinned.empty()) {
-        plant.pinned = plant.foot->pinned;
-        plant.anchor = plant.foot->anchor;
-        plant.pin_target = plant.foot->pin_target;
+    if (plant.input.pinned.empty()) {
+        plant.input.pinned = plant.input.foot->pinned;
+        plant.input.anchor = plant.input.foot->anchor;
+        plant.input.pin_target = plant.input.foot->pin_target;
     }
-    plant.pins_changed = true;
+    plant.input.pins_changed = true;
     apply_pins(plant);
     update_chain(plant);
 }

@@ -112,36 +112,36 @@ static CageNodes make_nodes(const Cage& cage, int order) {
 static void take_mechanics(Plant& plant, frond_mechanics which) {
     plant.which = which;
     const CageNodes& nodes = *plant.nodes;
-    const std::shared_ptr<const SharedSystem> shared = shared_system(plant.model, which, plant.mass, nodes.order);
+    const std::shared_ptr<const SharedSystem> shared = shared_system(plant.model, which, plant.input.mass, nodes.order);
     // Workspaces in the pool keep their system alive, so the system must not keep the pool.
-    plant.workspace = nullptr;
+    plant.step.workspace = nullptr;
     plant.system = shared->system;
     plant.seat.leave();
     plant.seat.pool = std::shared_ptr<WorkspacePool>(shared, shared->pool.get());
     plant.seat.take();
-    plant.settings.full_damping = plant.material_damping * shared->full_damping;
+    plant.input.settings.full_damping = plant.input.material_damping * shared->full_damping;
     plant.rest_time = shared->rest_time;
-    plant.own_elements = nullptr;
+    plant.state.own_elements = nullptr;
     plant.follow = nullptr;
-    plant.modal = nullptr;
-    plant.blend_out = {};
-    plant.lead = plant.stepped_by = 0;
+    plant.state.modal = nullptr;
+    plant.state.blend_out = {};
+    plant.view.lead = plant.state.stepped_by = 0;
     plant.fibres = nullptr;
-    plant.fibre_give.clear();
-    plant.fibre_force.resize(0);
+    plant.state.fibre_give.clear();
+    plant.state.fibre_force.resize(0);
     if (!mechanics(which).moves_chain && mechanics(which).turns) plant.fibres = fibres_of(plant);
     if (mechanics(which).moves_chain)
         plant.follow = shared_of<Follow>(plant.model, nodes.order,
                                          [&] { return make_follow(*plant.model, nodes, nodes.modelled); });
     const VecX& start = elements_of(*plant.system).modelled;
-    plant.motion = {};
-    plant.motion.x = plant.motion.pin_target = start;
-    plant.motion.v = VecX::Zero(start.size());
-    plant.loads = {};
-    plant.blown.setZero();
-    plant.motion.pinned.assign(size_t(start.size() / 3), 0);
-    plant.pins_changed = plant.cage_stale = true;
-    plant.substeps = 1;
+    plant.state.motion = {};
+    plant.state.motion.x = plant.state.motion.pin_target = start;
+    plant.state.motion.v = VecX::Zero(start.size());
+    plant.step.loads = {};
+    plant.state.blown.setZero();
+    plant.state.motion.pinned.assign(size_t(start.size() / 3), 0);
+    plant.input.pins_changed = plant.view.cage_stale = true;
+    plant.state.substeps = 1;
     FROND_ASSERT(start.size() == 3 * elements_of(*plant.system).node_count);
     FROND_ASSERT(!plant.follow || plant.follow->attachments.size() == size_t(nodes.count()));
 }
@@ -197,36 +197,37 @@ std::unique_ptr<Plant> create_plant(std::shared_ptr<const Model> model, const fr
     plant->size = float(plant->model->surface.size());
     plant->nodes = shared_of<CageNodes>(plant->model, def.element_order,
                                         [&] { return make_nodes(plant->model->cage, def.element_order); });
-    plant->mass = def.tuning.mass;
-    plant->settings.integrator = def.integrator;
-    plant->settings.linear_solver = def.tuning.linear_solver;
-    plant->settings.newton_iterations = def.tuning.newton_iterations;
-    plant->settings.newton_tolerance = def.tuning.newton_tolerance;
-    plant->settings.max_iterations = def.tuning.linear_iterations;
-    plant->settings.tolerance = def.tuning.linear_tolerance;
-    plant->settings.mass_damping = def.mass_damping;
-    plant->settings.stiffness_damping = def.stiffness_damping;
-    plant->material_damping = def.material_damping;
-    plant->settings.spectral_radius = def.tuning.spectral_radius;
-    plant->max_substeps = def.tuning.max_substeps;
-    plant->substep_tolerance = def.tuning.substep_tolerance;
-    plant->effects = def.effects;
-    plant->collision = plant->model->has_own_tets ? FROND_COLLISION_CAGE : def.collision;
+    plant->input.mass = def.tuning.mass;
+    plant->input.settings.integrator = def.integrator;
+    plant->input.settings.linear_solver = def.tuning.linear_solver;
+    plant->input.settings.newton_iterations = def.tuning.newton_iterations;
+    plant->input.settings.newton_tolerance = def.tuning.newton_tolerance;
+    plant->input.settings.max_iterations = def.tuning.linear_iterations;
+    plant->input.settings.tolerance = def.tuning.linear_tolerance;
+    plant->input.settings.mass_damping = def.mass_damping;
+    plant->input.settings.stiffness_damping = def.stiffness_damping;
+    plant->input.material_damping = def.material_damping;
+    plant->input.settings.spectral_radius = def.tuning.spectral_radius;
+    plant->input.max_substeps = def.tuning.max_substeps;
+    plant->input.substep_tolerance = def.tuning.substep_tolerance;
+    plant->input.effects = def.effects;
+    plant->input.collision = plant->model->has_own_tets ? FROND_COLLISION_CAGE : def.collision;
     plant->position = Vec3(def.position.x, def.position.y, def.position.z);
     plant->rotation = Quat(def.rotation.w, def.rotation.x, def.rotation.y, def.rotation.z).normalized();
-    plant->user = def.user;
+    plant->input.user = def.user;
 
     // At rest as modelled, held by the ground.
     take_mechanics(*plant, def.mechanics);
-    plant->foot = foot_of(*plant, def.root_height);
-    plant->pinned = plant->foot->pinned;
-    plant->anchor = plant->foot->anchor;
-    plant->pin_target = plant->foot->pin_target;
-    plant->stands_on_roots = def.root_height == 0;
+    plant->input.foot = foot_of(*plant, def.root_height);
+    plant->input.pinned = plant->input.foot->pinned;
+    plant->input.anchor = plant->input.foot->anchor;
+    plant->input.pin_target = plant->input.foot->pin_target;
+    plant->input.stands_on_roots = def.root_height == 0;
     FROND_ASSERT(plant->size > 0);
     FROND_ASSERT(std::abs(plant->rotation.norm() - 1) < 1e-9);
-    FROND_ASSERT(plant->pinned.size() == size_t(node_count_of(*plant)) && plant->anchor.size() == plant->pinned.size());
-    FROND_ASSERT(plant->pin_target.size() == 3 * node_count_of(*plant));
+    FROND_ASSERT(plant->input.pinned.size() == size_t(node_count_of(*plant)) &&
+                 plant->input.anchor.size() == plant->input.pinned.size());
+    FROND_ASSERT(plant->input.pin_target.size() == 3 * node_count_of(*plant));
     apply_pins(*plant);
     moved(*plant);
     return plant;
@@ -240,23 +241,23 @@ frond_plant_def def_of(const Plant& plant) {
     def.rotation = {q.x(), q.y(), q.z(), q.w()};
     def.mechanics = plant.which;
     def.element_order = plant.nodes->order;
-    def.integrator = plant.settings.integrator;
-    def.mass_damping = plant.settings.mass_damping;
-    def.stiffness_damping = plant.settings.stiffness_damping;
-    def.material_damping = plant.material_damping;
-    def.root_height = plant.foot->root_height;
-    def.effects = plant.effects;
-    def.collision = plant.collision;
-    def.user = plant.user;
-    def.tuning.linear_solver = plant.settings.linear_solver;
-    def.tuning.linear_iterations = plant.settings.max_iterations;
-    def.tuning.linear_tolerance = plant.settings.tolerance;
-    def.tuning.mass = plant.mass;
-    def.tuning.newton_iterations = plant.settings.newton_iterations;
-    def.tuning.newton_tolerance = plant.settings.newton_tolerance;
-    def.tuning.spectral_radius = plant.settings.spectral_radius;
-    def.tuning.max_substeps = plant.max_substeps;
-    def.tuning.substep_tolerance = plant.substep_tolerance;
+    def.integrator = plant.input.settings.integrator;
+    def.mass_damping = plant.input.settings.mass_damping;
+    def.stiffness_damping = plant.input.settings.stiffness_damping;
+    def.material_damping = plant.input.material_damping;
+    def.root_height = plant.input.foot->root_height;
+    def.effects = plant.input.effects;
+    def.collision = plant.input.collision;
+    def.user = plant.input.user;
+    def.tuning.linear_solver = plant.input.settings.linear_solver;
+    def.tuning.linear_iterations = plant.input.settings.max_iterations;
+    def.tuning.linear_tolerance = plant.input.settings.tolerance;
+    def.tuning.mass = plant.input.mass;
+    def.tuning.newton_iterations = plant.input.settings.newton_iterations;
+    def.tuning.newton_tolerance = plant.input.settings.newton_tolerance;
+    def.tuning.spectral_radius = plant.input.settings.spectral_radius;
+    def.tuning.max_substeps = plant.input.max_substeps;
+    def.tuning.substep_tolerance = plant.input.substep_tolerance;
     return def;
 }
 
@@ -266,32 +267,33 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     const bool by_modes = smoothly && sways_on_its_roots(plant);
     const VecX places = cage_places(plant), velocities = cage_velocities(plant);
     // A blend-out left from an earlier change is no part of the shape; taken for one, it would never end.
-    if (smoothly) plant.blend_out = {};
-    plant.cage_stale = true;
+    if (smoothly) plant.state.blend_out = {};
+    plant.view.cage_stale = true;
     const VecX own = cage_places(plant), own_rate = cage_velocities(plant);
     if (by_modes && plant.follow) keep_only_modes(plant);
     const VecX smooth = cage_places(plant), smooth_rate = cage_velocities(plant);
     const StoredEnergy held = stored_energy(plant);
-    const bool pins_moved = plant.pins_changed;
+    const bool pins_moved = plant.input.pins_changed;
     // Plastic states carry over between mechanics of tets, and between those of the chain.
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
     const std::vector<double> plastic = keeps ? plastic_of(plant) : std::vector<double>();
     take_mechanics(plant, which);
     if (plant.follow) {
-        fit_chain(*plant.follow, *plant.model, own, plant.motion.x);
-        fit_velocities(*plant.follow, plant.motion.x, own_rate, plant.motion.v);
+        fit_chain(*plant.follow, *plant.model, own, plant.state.motion.x);
+        fit_velocities(*plant.follow, plant.state.motion.x, own_rate, plant.state.motion.v);
         if (by_modes) keep_only_modes(plant);
     } else {
-        plant.motion.x = smooth;
-        plant.motion.v = smooth_rate;
+        plant.state.motion.x = smooth;
+        plant.state.motion.v = smooth_rate;
     }
     leave_fragments(plant);
     set_plastic(plant, plastic);
     relax(plant, held, pins_moved);
     apply_pins(plant);
     moved(plant);
-    if (smoothly) begin_blend_out(plant.blend_out, places - cage_places(plant), velocities - cage_velocities(plant));
-    plant.cage_stale = true;
+    if (smoothly)
+        begin_blend_out(plant.state.blend_out, places - cage_places(plant), velocities - cage_velocities(plant));
+    plant.view.cage_stale = true;
 }
 
 }  // namespace frond

@@ -50,7 +50,7 @@ struct Row {
 void add_rows_of_grabs(const Plant& plant, std::vector<Row>& rows) {
     const Model& model = *plant.model;
     const Fibres& fibres = *plant.fibres;
-    for (const Grab& grab : plant.grabs) {
+    for (const Grab& grab : plant.input.grabs) {
         const int node = model.chain.vertex_node[size_t(grab.vertex)], fibre = fibres.of_node[size_t(node)];
         if (fibre < 0 || fragment_of_vertex(plant, size_t(grab.vertex))) continue;
         for (const int end : {node, model.chain.nodes[size_t(node)].parent}) {
@@ -64,7 +64,7 @@ void add_rows_of_grabs(const Plant& plant, std::vector<Row>& rows) {
 
 // Returns the present length of a fibre over its slack length [-].
 double drawn_out(const Plant& plant, const Fibre& fibre) {
-    const std::vector<Vec3>& places = plant.chain_positions;
+    const std::vector<Vec3>& places = plant.view.chain_positions;
     const size_t node = size_t(fibre.node), parent = size_t(plant.model->chain.nodes[node].parent);
     return (places[node] - places[parent]).norm() / fibre.length;
 }
@@ -74,14 +74,14 @@ double drawn_out(const Plant& plant, const Fibre& fibre) {
 void let_give(Plant& plant, double h) {
     constexpr double RATE = 0.02;  // [1/s]
     const std::vector<Fibre>& list = plant.fibres->list;
-    if (plant.is_entangled) plant.fibre_give.resize(list.size(), 1);
+    if (plant.state.is_entangled) plant.state.fibre_give.resize(list.size(), 1);
     bool gives = false;
-    for (size_t i = 0; i < plant.fibre_give.size(); i++) {
-        double& give = plant.fibre_give[i];
-        give = plant.is_entangled ? std::max(give, drawn_out(plant, list[i])) : std::max(1.0, give - RATE * h);
+    for (size_t i = 0; i < plant.state.fibre_give.size(); i++) {
+        double& give = plant.state.fibre_give[i];
+        give = plant.state.is_entangled ? std::max(give, drawn_out(plant, list[i])) : std::max(1.0, give - RATE * h);
         gives = gives || give > 1;
     }
-    if (!gives) plant.fibre_give.clear();
+    if (!gives) plant.state.fibre_give.clear();
 }
 
 // Finds the taut fibres and, if there are any, the nearly taut ones, which others may stretch.
@@ -92,7 +92,8 @@ std::vector<Row> find_rows(const Plant& plant) {
     bool any = false;
     for (size_t i = 0; i < list.size(); i++) {
         const Fibre& fibre = list[i];
-        const double give = plant.fibre_give.empty() ? 1 : plant.fibre_give[i], drawn = drawn_out(plant, fibre) / give;
+        const double give = plant.state.fibre_give.empty() ? 1 : plant.state.fibre_give[i],
+                     drawn = drawn_out(plant, fibre) / give;
         if (!(drawn > NEARLY) || fragment_of_chain_node(plant, size_t(fibre.node))) continue;
         any = any || drawn > 1;
         const int parent = plant.model->chain.nodes[size_t(fibre.node)].parent;
@@ -145,7 +146,7 @@ Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
                 pulls.push_back({pull.node, Mat3::Zero()});
                 pulls.back().block.col(Eigen::Index(i % 3)) = pull.along;
             }
-        if (!make_compliance(*plant.workspace, plant.settings, pulls, compliances[t])) return {};
+        if (!make_compliance(*plant.step.workspace, plant.input.settings, pulls, compliances[t])) return {};
         all.push_back(&compliances[t]);
     }
     Eigen::MatrixXd W(3 * triples, 3 * triples);
@@ -162,7 +163,7 @@ Eigen::MatrixXd couple(Plant& plant, const std::vector<Stretch>& stretches) {
 
 // Returns the impulses of pulls on all nodes.
 VecX spread(const Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls) {
-    VecX impulse = VecX::Zero(plant.motion.v.size());
+    VecX impulse = VecX::Zero(plant.state.motion.v.size());
     for (size_t i = 0; i < stretches.size(); i++)
         for (const NodePull& pull : stretches[i].pull) point(impulse, pull.node) += pulls[Eigen::Index(i)] * pull.along;
     return impulse;
@@ -170,7 +171,7 @@ VecX spread(const Plant& plant, const std::vector<Stretch>& stretches, const Vec
 
 // Finds the change of the plant's velocities by pulls. False if it has no solution.
 bool velocity_by(Plant& plant, const std::vector<Stretch>& stretches, const VecX& pulls, VecX& dv) {
-    return respond(*plant.workspace, plant.settings, spread(plant, stretches, pulls), dv);
+    return respond(*plant.step.workspace, plant.input.settings, spread(plant, stretches, pulls), dv);
 }
 
 // Stops the lengthening of rows that pull.
@@ -180,14 +181,14 @@ void stop_lengthening(Plant& plant, const std::vector<Stretch>& stretches, const
     for (Eigen::Index i = 0; i < pulls.size(); i++) {
         if (pulls[i] > 0) taut.push_back(i);
         for (const NodePull& pull : stretches[size_t(i)].pull)
-            lengthening[i] -= pull.along.dot(point(plant.motion.v, pull.node));
+            lengthening[i] -= pull.along.dot(point(plant.state.motion.v, pull.node));
     }
     const Eigen::MatrixXd among_taut = W(taut, taut);
     const VecX of_taut = lengthening(taut);
     if (!solve_one_sided(among_taut, of_taut, stops)) return;
     pulls.setZero();
     for (size_t k = 0; k < taut.size(); k++) pulls[taut[k]] = stops[Eigen::Index(k)];
-    if (velocity_by(plant, stretches, pulls, dv)) plant.motion.v += dv;
+    if (velocity_by(plant, stretches, pulls, dv)) plant.state.motion.v += dv;
 }
 
 // Pulls are internal forces, so the integrator keeps its history: started anew by implicit Euler after each step with
@@ -236,15 +237,15 @@ bool are_slack(Plant& plant) {
 // steps.
 static void pull_back(Plant& plant, double h) {
     update_chain(plant);
-    if (plant.is_entangled || !plant.fibre_give.empty()) let_give(plant, h);
+    if (plant.state.is_entangled || !plant.state.fibre_give.empty()) let_give(plant, h);
     const std::vector<Row> rows = find_rows(plant);
     if (rows.empty()) return;
     const Eigen::Index count = Eigen::Index(rows.size());
-    const bool was_shaken = plant.motion.history.shaken;
-    const double reach = reach_of(*plant.workspace);
+    const bool was_shaken = plant.state.motion.history.shaken;
+    const double reach = reach_of(*plant.step.workspace);
     VecX pulls = VecX::Zero(count), softness(count), dv;  // impulses [N s]; a row's stretch by its impulse [m/(N s)]
     for (Eigen::Index i = 0; i < count; i++) softness[i] = 1 / (reach * rows[size_t(i)].stiffness);
-    std::vector<Stretch> stretches = stretches_of(rows, plant.motion.x);
+    std::vector<Stretch> stretches = stretches_of(rows, plant.state.motion.x);
     Eigen::MatrixXd W;
     for (int round = 0; round < ROUNDS; round++) {
         W = couple(plant, stretches);
@@ -255,8 +256,8 @@ static void pull_back(Plant& plant, double h) {
         Eigen::MatrixXd soft = W;
         soft.diagonal() += softness / reach;
         if (!solve_one_sided(soft, wanted, pulls) || !velocity_by(plant, stretches, pulls - known, dv)) return;
-        add_correction(*plant.workspace, dv, plant.motion);
-        stretches = stretches_of(rows, plant.motion.x);
+        add_correction(*plant.step.workspace, dv, plant.state.motion);
+        stretches = stretches_of(rows, plant.state.motion.x);
         double wrong = 0;
         for (size_t i = 0; i < rows.size(); i++) {
             const double drawn = softness[Eigen::Index(i)] * pulls[Eigen::Index(i)];
@@ -264,14 +265,14 @@ static void pull_back(Plant& plant, double h) {
         }
         if (wrong < CLOSE) break;
     }
-    plant.fibre_force = spread(plant, stretches, pulls) / reach;
+    plant.state.fibre_force = spread(plant, stretches, pulls) / reach;
     stop_lengthening(plant, stretches, W, pulls);
-    go_on_from_here(plant.motion, was_shaken);
+    go_on_from_here(plant.state.motion, was_shaken);
 }
 
 void hold_lengths(Plant& plant, double h) {
-    plant.fibre_force.resize(0);
-    if (!plant.has_fibres || !plant.fibres || !plant.report.ok) return;
+    plant.state.fibre_force.resize(0);
+    if (!plant.step.has_fibres || !plant.fibres || !plant.report.ok) return;
     const Timer timer;
     pull_back(plant, h);
     plant.ms_fibres += timer.ms();

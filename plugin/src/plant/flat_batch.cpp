@@ -25,8 +25,8 @@ struct FindFramesOfBatch {
     FROND_INLINE void gather_places() const {
         std::array<const double*, LANES<S>> from;
         for (int lane = 0; lane < LANES<S>; lane++)
-            from[size_t(lane)] = plants[std::min(lane, count - 1)]->motion.x.data();
-        put_side_by_side<S>(from.data(), size_t(plants[0]->motion.x.size()), out.x.data());
+            from[size_t(lane)] = plants[std::min(lane, count - 1)]->state.motion.x.data();
+        put_side_by_side<S>(from.data(), size_t(plants[0]->state.motion.x.size()), out.x.data());
     }
     template <class S>
     FROND_INLINE Lanes3<S> turned(int node, const Lanes3<S>& direction) const {
@@ -59,7 +59,7 @@ struct FindFramesOfBatch {
 void look_at_chains(const Plant* const* plants, int count, const std::vector<int>& capsules,
                     const std::vector<Flat>& flats, ChainBatch& out) {
     out.lanes = lanes_for(count);
-    const size_t lanes = size_t(out.lanes), numbers = size_t(plants[0]->motion.x.size());
+    const size_t lanes = size_t(out.lanes), numbers = size_t(plants[0]->state.motion.x.size());
     make_room(out.x, numbers * lanes);
     make_room(out.turns, numbers / 6 * 9 * lanes);
     make_room(out.frames, 9 * capsules.size() * lanes);

@@ -9,7 +9,7 @@
 namespace frond {
 
 Vec3 wide_now(const Plant& plant, int node, const Vec3& modelled, const TetSpread& spread) {
-    const VecX& x = plant.motion.x;
+    const VecX& x = plant.state.motion.x;
     const int ends[2] = {plant.model->chain.nodes[size_t(node)].parent, node};
     Vec3 wide = Vec3::Zero();
     for (size_t k = 0; k < 2; k++) {
@@ -26,7 +26,7 @@ Vec3 wide_now(const Plant& plant, int node, const Vec3& modelled, const TetSprea
 bool piece_frame(const Plant& plant, int node, const Vec3& wide, const TetSpread& spread, Mat3& frame) {
     constexpr double LEAST = 1e-9;  // [m], [-]
     const int parent = plant.model->chain.nodes[size_t(node)].parent;
-    const Vec3 chord = plant.chain_positions[size_t(node)] - plant.chain_positions[size_t(parent)];
+    const Vec3 chord = plant.view.chain_positions[size_t(node)] - plant.view.chain_positions[size_t(parent)];
     if (!(chord.norm() > LEAST)) return false;
     const Vec3 axis = chord.normalized(), now = wide_now(plant, node, wide, spread);
     const Vec3 across = now - axis * axis.dot(now);
@@ -47,7 +47,7 @@ struct FindFrames {
     std::vector<Mat3>& frames;
     template <class S>
     FROND_INLINE void run() const {
-        const double* x = plant.motion.x.data();
+        const double* x = plant.state.motion.x.data();
         for (size_t i = 0; i < capsules.size(); i += size_t(LANES<S>)) {
             const auto at = [&](int lane) { return std::min(i + size_t(lane), capsules.size() - 1); };
             const auto capsule = [&](int lane) { return size_t(capsules[at(lane)]); };
@@ -57,7 +57,7 @@ struct FindFrames {
             };
             const auto place = [&](size_t end) {
                 return three([&](int l, int c) {
-                    return plant.chain_positions[size_t(plant.model->capsules[capsule(l)][end])][c];
+                    return plant.view.chain_positions[size_t(plant.model->capsules[capsule(l)][end])][c];
                 });
             };
             const auto turn = [&](size_t end) {
@@ -79,7 +79,7 @@ struct FindFrames {
 void piece_frames(const Plant& plant, const std::vector<int>& capsules, const std::vector<Flat>& flats,
                   std::vector<Mat3>& frames) {
     frames.resize(capsules.size());
-    if (plant.follow && plant.fragments.empty()) return run_in_lanes(FindFrames{plant, capsules, flats, frames});
+    if (plant.follow && plant.state.fragments.empty()) return run_in_lanes(FindFrames{plant, capsules, flats, frames});
     for (size_t i = 0; i < capsules.size(); i++) {
         const Flat& flat = flats[size_t(capsules[i])];
         if (!piece_frame(plant, plant.model->capsules[size_t(capsules[i])][1], flat.wide, flat.spread, frames[i]))

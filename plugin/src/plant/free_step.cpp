@@ -8,29 +8,29 @@
 namespace frond {
 
 FreeStep free_step(const Plant& plant) {
-    FreeStep step = {plant.motion.x,
-                     plant.motion.v,
+    FreeStep step = {plant.state.motion.x,
+                     plant.state.motion.v,
                      {},
-                     plant.motion.history.shaken,
-                     plant.motion.history.valid,
-                     plant.is_sound,
-                     plant.is_off_course,
+                     plant.state.motion.history.shaken,
+                     plant.state.motion.history.valid,
+                     plant.step.is_sound,
+                     plant.step.is_off_course,
                      plant.report,
                      plant.trouble};
-    if (plant.workspace) step.retract_from = plant.workspace->retract_from;
+    if (plant.step.workspace) step.retract_from = plant.step.workspace->retract_from;
     return step;
 }
 
 void take_back(Plant& plant, const FreeStep& step) {
-    plant.motion.x = step.x;
-    plant.motion.v = step.v;
-    plant.motion.history.shaken = step.is_shaken;
-    plant.motion.history.valid = step.has_history;
-    plant.is_sound = step.is_sound;
-    plant.is_off_course = step.is_off_course;
+    plant.state.motion.x = step.x;
+    plant.state.motion.v = step.v;
+    plant.state.motion.history.shaken = step.is_shaken;
+    plant.state.motion.history.valid = step.has_history;
+    plant.step.is_sound = step.is_sound;
+    plant.step.is_off_course = step.is_off_course;
     plant.report = step.report;
     plant.trouble = step.trouble;
-    if (plant.workspace) plant.workspace->retract_from = step.retract_from;
+    if (plant.step.workspace) plant.step.workspace->retract_from = step.retract_from;
 }
 
 bool may_go_part_of_way(const Plant& plant, double share, double h) {
@@ -38,25 +38,25 @@ bool may_go_part_of_way(const Plant& plant, double share, double h) {
     const auto energy = [&](const VecX& x) {
         return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x);
     };
-    const double most =
-        std::max(energy(plant.x_good), energy(plant.motion.x)) + node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
-    return energy(plant.x_good + share * way_of_step(plant)) <= most;
+    const double most = std::max(energy(plant.step.x_good), energy(plant.state.motion.x)) +
+                        node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
+    return energy(plant.step.x_good + share * way_of_step(plant)) <= most;
 }
 
 void go_part_of_way(Plant& plant, double share) {
-    Motion& motion = plant.motion;
-    motion.x = plant.x_good + share * way_of_step(plant);
+    Motion& motion = plant.state.motion;
+    motion.x = plant.step.x_good + share * way_of_step(plant);
     motion.v *= share;
     motion.history.valid = false;
 }
 
 double way_of_pins(const Plant& plant) {
-    if (!plant.pins_changed || plant.pinned.empty()) return 0;
+    if (!plant.input.pins_changed || plant.input.pinned.empty()) return 0;
     const VecX& places = cage_places(plant);
     double farthest = 0;
-    for (size_t n = 0; n < plant.pinned.size(); ++n)
-        if (plant.pinned[n])
-            farthest = std::max(farthest, (point(plant.pin_target, int(n)) - point(places, int(n))).norm());
+    for (size_t n = 0; n < plant.input.pinned.size(); ++n)
+        if (plant.input.pinned[n])
+            farthest = std::max(farthest, (point(plant.input.pin_target, int(n)) - point(places, int(n))).norm());
     return farthest;
 }
 

@@ -20,11 +20,11 @@ double work_of_weight(const Plant& plant, const VecX& way) {
     const VecX& mass = node_mass_of(*plant.system);
     Vec3 moved = Vec3::Zero();
     for (int i = 0; i < mass.size(); i++) moved += mass[i] * point(way, i);
-    return plant.loads.gravity.dot(moved);
+    return plant.step.loads.gravity.dot(moved);
 }
 
 double potential_energy(const Plant& plant, const VecX& x) {
-    const Loads& loads = plant.loads;
+    const Loads& loads = plant.step.loads;
     double energy = elastic_energy(plant, x) - work_of_weight(plant, x);
     if (loads.force.size() > 0) energy -= loads.force.dot(x);
     for (const Spring& spring : loads.springs)
@@ -46,22 +46,22 @@ static bool has_energy_from_nowhere(const Plant& plant, double h, const Push& pu
     const LoadWork work = work_of_loads(plant, h, impulse);
     const VecX way = way_of_step(plant);
     const double by_push = push.impulse.size() > 0 ? std::min(push.most_work, push.impulse.dot(way) / h) : 0;
-    const VecX &x = plant.motion.x, &x_good = plant.x_good;
+    const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good;
     const double given = by_push + work.forces + work.grabs + work.air + work.pins + work.error +
                          (plant.follow ? std::abs(work.air) : 0) + work_of_weight(plant, way) +
                          LIFT * lifting_energy(plant);
-    const double after = kinetic_energy(*plant.system, x, plant.motion.v) + elastic_energy(plant, x);
+    const double after = kinetic_energy(*plant.system, x, plant.state.motion.v) + elastic_energy(plant, x);
     // The energy before the step is seldom needed.
     if (after <= given) return false;
-    const double before = kinetic_energy(*plant.system, x_good, plant.v_good) + elastic_energy(plant, x_good);
+    const double before = kinetic_energy(*plant.system, x_good, plant.step.v_good) + elastic_energy(plant, x_good);
     return !(after <= given + (1 + SHARE) * before);
 }
 
 bool keeps_course(Plant& plant, double h, const Push& push) {
-    plant.is_off_course = ends_off_course(plant, h);
-    const bool is_asked = plant.is_off_course || plant.starts_anew || push.impulse.size() > 0 ||
-                          integrator(plant.step_settings.integrator).has_stages ||
-                          is_carried(plant.motion, plant.x_good, plant.v_good);
+    plant.step.is_off_course = ends_off_course(plant, h);
+    const bool is_asked = plant.step.is_off_course || plant.step.starts_anew || push.impulse.size() > 0 ||
+                          integrator(plant.step.settings.integrator).has_stages ||
+                          is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good);
     return !(is_asked && has_energy_from_nowhere(plant, h, push)) && !has_run_away(plant);
 }
 

@@ -15,7 +15,7 @@ namespace {
 // Finds the placement of the modelled shape as it is held now, or as it lies if nothing holds it. False if that is
 // undetermined.
 bool find_frame(const Plant& plant, Mat3& rotation, Vec3& shift) {
-    const Motion& motion = plant.motion;
+    const Motion& motion = plant.state.motion;
     const VecX& modelled = elements_of(*plant.system).modelled;
     const int next = plant.follow ? 2 : 1;
     std::vector<Vec3> from, to, held_from, held_to;
@@ -38,11 +38,11 @@ VecX modelled_in(const Plant& plant, const Mat3& rotation, const Vec3& shift) {
     const VecX& modelled = elements_of(*plant.system).modelled;
     const Vec3 turn = rotation_vector<double>(rotation);
     const int per_node = plant.follow ? 2 : 1;
-    VecX x = plant.motion.x;
+    VecX x = plant.state.motion.x;
     for (int i = 0; i < x.size() / 3; i++) {
         const size_t node = size_t(i / per_node);
         const bool is_gone = plant.follow ? fragment_of_chain_node(plant, node) : fragment_of_node(plant, node);
-        if (plant.motion.pinned[size_t(i)] || is_gone) continue;
+        if (plant.state.motion.pinned[size_t(i)] || is_gone) continue;
         point(x, i) = plant.follow && i % 2 == 1 ? turn : Vec3(rotation * point(modelled, i) + shift);
     }
     return x;
@@ -51,8 +51,8 @@ VecX modelled_in(const Plant& plant, const Mat3& rotation, const Vec3& shift) {
 // Drops plastic strain that would bend the modelled shape by more than its weight can: it arose where no plant can be.
 // Changes nothing and returns false if the modelled shape would not have less energy than the present one.
 bool drop_wild_sets_for_less_energy(Plant& plant, const VecX& x) {
-    const double caught = potential_energy(plant, plant.motion.x), with_sets = potential_energy(plant, x);
-    if (!plant.own_elements) return with_sets < caught;
+    const double caught = potential_energy(plant, plant.state.motion.x), with_sets = potential_energy(plant, x);
+    if (!plant.state.own_elements) return with_sets < caught;
     const std::vector<double> sets = plastic_of(plant);
     set_plastic(plant, {});
     const double without = potential_energy(plant, x);
@@ -69,7 +69,7 @@ bool is_inside_out(const Plant& plant) {
     if (plant.follow) return false;
     if (plant.report.inverted > 0) return true;
     if (plant.nodes->order == 1) return false;
-    const VecX& x = plant.motion.x;
+    const VecX& x = plant.state.motion.x;
     for (const Tet& tet : plant.model->cage.tets) {
         const Vec3 a = point(x, tet[0]);
         if (!((point(x, tet[1]) - a).dot((point(x, tet[2]) - a).cross(point(x, tet[3]) - a)) > 0)) return true;
@@ -82,24 +82,24 @@ void approach_modelled(Plant& plant, double most) {
     Mat3 rotation;
     Vec3 shift;
     if (!find_frame(plant, rotation, shift)) return;
-    const VecX from = plant.motion.x, to = modelled_in(plant, rotation, shift);
+    const VecX from = plant.state.motion.x, to = modelled_in(plant, rotation, shift);
     const VecX way = (plant.follow ? wound_as(from, to) : to) - from;
     const auto has_little_at = [&](double share) {
-        plant.motion.x = from + share * way;
+        plant.state.motion.x = from + share * way;
         return stored_energy(plant).elastic - work_of_weight(plant, share * way) <= most;
     };
     if (!has_little_at(1)) set_plastic(plant, {});
     double enough = 1;
     for (double step = 0.5; step > std::ldexp(1, -HALVINGS); step /= 2)
         if (has_little_at(enough - step)) enough -= step;
-    plant.motion.x = enough < 1 ? VecX(from + enough * way) : to;
+    plant.state.motion.x = enough < 1 ? VecX(from + enough * way) : to;
 }
 
 bool start_from_modelled(Plant& plant) {
-    if (!plant.fragments.empty()) return false;
+    if (!plant.state.fragments.empty()) return false;
     Mat3 rotation;
     Vec3 shift;
-    Motion& motion = plant.motion;
+    Motion& motion = plant.state.motion;
     if (!find_frame(plant, rotation, shift)) return false;
     const VecX x = modelled_in(plant, rotation, shift);
     if (!drop_wild_sets_for_less_energy(plant, x)) return false;
@@ -107,21 +107,22 @@ bool start_from_modelled(Plant& plant) {
     motion.x = x;
     motion.v.setZero();
     motion.history.valid = false;
-    plant.cage_stale = true;
-    plant.blend_out = {};
+    plant.view.cage_stale = true;
+    plant.state.blend_out = {};
     // Bodies touch the visible shape: a blend-out would have them bend the plant from where it no longer is.
-    if (!plant.is_touched) begin_blend_out(plant.blend_out, places - cage_places(plant), VecX::Zero(places.size()));
+    if (!plant.state.is_touched)
+        begin_blend_out(plant.state.blend_out, places - cage_places(plant), VecX::Zero(places.size()));
     return true;
 }
 
 bool hardly_moves(const Plant& plant, double h) {
     constexpr double SLOW = 0.002;  // plant sizes per second, slower than any vibration at its turning points
     const double slow = SLOW * double(plant.size);
-    return plant.v_good.lpNorm<Eigen::Infinity>() < slow && farthest_way(plant) < slow * h;
+    return plant.step.v_good.lpNorm<Eigen::Infinity>() < slow && farthest_way(plant) < slow * h;
 }
 
 bool is_caught_inside_out(const Plant& plant, double h) {
-    if (plant.follow || plant.is_pressed || (plant.report.inverted == 0 && plant.nodes->order == 1)) return false;
+    if (plant.follow || plant.step.is_pressed || (plant.report.inverted == 0 && plant.nodes->order == 1)) return false;
     return hardly_moves(plant, h) && is_inside_out(plant);
 }
 

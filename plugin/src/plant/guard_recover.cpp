@@ -46,14 +46,15 @@ bool is_lost(const Plant& plant) {
 
 // Returns whether the search failed while the plant hardly moves, though nothing pulls or presses it.
 bool found_no_way(const Plant& plant, double h) {
-    const bool is_pulled = plant.has_user_force || plant.loads.springs.size() > plant.pin_springs.size();
-    return is_lost(plant) && !is_pulled && !plant.is_pressed && hardly_moves(plant, h);
+    const bool is_pulled =
+        plant.input.has_user_force || plant.step.loads.springs.size() > plant.input.pin_springs.size();
+    return is_lost(plant) && !is_pulled && !plant.step.is_pressed && hardly_moves(plant, h);
 }
 
 }  // namespace
 
 void damp_recovering(const Plant& plant, SolveSettings& settings) {
-    if (plant.recovers_for <= 0) return;
+    if (plant.state.recovers_for <= 0) return;
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     settings.mass_damping += 2 * PI / plant.rest_time;
 }
@@ -63,23 +64,23 @@ void watch_recovery(Plant& plant, double h) {
     constexpr float CAUGHT = 0.25;  // time after which a plant that nothing pulls counts as caught, in such periods [-]
     const float sway = float(2 * plant.rest_time);
     bool ends = false;
-    if (plant.recovers_for > 0) {
+    if (plant.state.recovers_for > 0) {
         plant.trouble |= FROND_TROUBLE_RETRIED;
-        plant.recovers_for = std::max(0.0f, plant.recovers_for - float(h));
-        ends = plant.recovers_for == 0 && !plant.is_pressed;
-    } else if ((plant.is_off_course || is_lost(plant)) && holds_more_than(plant, plant.x_good, TORN)) {
-        plant.recovers_for = SWAYS * sway;
+        plant.state.recovers_for = std::max(0.0f, plant.state.recovers_for - float(h));
+        ends = plant.state.recovers_for == 0 && !plant.step.is_pressed;
+    } else if ((plant.step.is_off_course || is_lost(plant)) && holds_more_than(plant, plant.step.x_good, TORN)) {
+        plant.state.recovers_for = SWAYS * sway;
     } else {
-        plant.recovers_for = found_no_way(plant, h) ? plant.recovers_for - float(h) : 0;
+        plant.state.recovers_for = found_no_way(plant, h) ? plant.state.recovers_for - float(h) : 0;
     }
     // A plant that is still heavily strained or finds no solution by now, or rests with tets inside out, would stay so
     // for ever.
     const bool is_folded =
-        ends && (is_lost(plant) || is_inside_out(plant) || holds_more_than(plant, plant.motion.x, FOLDED));
-    const bool is_caught = -plant.recovers_for > CAUGHT * sway || is_caught_inside_out(plant, h);
+        ends && (is_lost(plant) || is_inside_out(plant) || holds_more_than(plant, plant.state.motion.x, FOLDED));
+    const bool is_caught = -plant.state.recovers_for > CAUGHT * sway || is_caught_inside_out(plant, h);
     if (!(is_folded || is_caught) || !start_from_modelled(plant)) return;
     plant.trouble |= FROND_TROUBLE_REWOUND;
-    plant.recovers_for = sway;
+    plant.state.recovers_for = sway;
 }
 
 }  // namespace frond

@@ -71,7 +71,7 @@ bool has_node(const Of& of, int count, double even, double odd, const IsOne& is_
 
 // Returns whether all positions, but not the rotations of a chain, are nearer to `from` than `distance`.
 bool are_near(const Plant& plant, const VecX& from, double distance) {
-    const VecX& x = plant.motion.x;
+    const VecX& x = plant.state.motion.x;
     const double most = distance * distance;
     const auto is_far = [&](int i) {
         return (!plant.follow || i % 2 == 0) && !((point(x, i) - point(from, i)).squaredNorm() < most);
@@ -91,18 +91,18 @@ double farthest(const Plant& plant, const VecX& x, const VecX& from) {
 
 // Returns the largest distance of a node from its modelled position at the start of the step [m].
 double reach_at_start(const Plant& plant) {
-    return farthest(plant, plant.x_good, elements_of(*plant.system).modelled);
+    return farthest(plant, plant.step.x_good, elements_of(*plant.system).modelled);
 }
 
 }  // namespace
 
 double farthest_way(const Plant& plant) {
-    return farthest(plant, plant.motion.x, plant.x_good);
+    return farthest(plant, plant.state.motion.x, plant.step.x_good);
 }
 
 bool ends_off_course(const Plant& plant, double h) {
     if (h > TRUSTED) return true;
-    const VecX &x = plant.motion.x, &x_good = plant.x_good, &v_good = plant.v_good;
+    const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good, &v_good = plant.step.v_good;
     const double far = squared(OFF_COURSE * double(plant.size));
     const double turned_far = plant.follow ? TURNED_OFF_COURSE * TURNED_OFF_COURSE : far;
     const auto is_off = [&](int i) {
@@ -118,8 +118,8 @@ bool ends_off_course(const Plant& plant, double h) {
 bool has_run_away(const Plant& plant) {
     constexpr double BACK = 2;  // displacement in a step over the distance to the modelled shape [-]
     const double size = double(plant.size);
-    return !are_near(plant, plant.x_good, FARTHEST_WAY * size) &&
-           !are_near(plant, plant.x_good, FARTHEST_WAY * size + BACK * reach_at_start(plant));
+    return !are_near(plant, plant.step.x_good, FARTHEST_WAY * size) &&
+           !are_near(plant, plant.step.x_good, FARTHEST_WAY * size + BACK * reach_at_start(plant));
 }
 
 bool is_far_out(const Plant& plant) {

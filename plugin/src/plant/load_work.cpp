@@ -19,7 +19,7 @@ namespace frond {
 namespace {
 
 Vec3 displacement(const Attachment& attachment, const Plant& plant) {
-    return attachment_place(attachment, plant.motion.x) - attachment_place(attachment, plant.x_good);
+    return attachment_place(attachment, plant.state.motion.x) - attachment_place(attachment, plant.step.x_good);
 }
 
 VecX elastic_force(const Plant& plant, const VecX& x) {
@@ -30,9 +30,9 @@ VecX elastic_force(const Plant& plant, const VecX& x) {
 
 // Adds work in the air: at the end of the step each drag's force is force - damping v.
 void add_air(const Plant& plant, LoadWork& work) {
-    for (const Drag& drag : plant.loads.drags) {
-        const Vec3 before = attachment_velocity(drag.attachment, plant.x_good, plant.v_good);
-        const Vec3 after = attachment_velocity(drag.attachment, plant.motion.x, plant.motion.v);
+    for (const Drag& drag : plant.step.loads.drags) {
+        const Vec3 before = attachment_velocity(drag.attachment, plant.step.x_good, plant.step.v_good);
+        const Vec3 after = attachment_velocity(drag.attachment, plant.state.motion.x, plant.state.motion.v);
         const Vec3 way = displacement(drag.attachment, plant);
         work.air += (drag.force - drag.damping * after).dot(way);
         work.air_error += 0.5 * std::abs((drag.damping * (after - before)).dot(way));
@@ -41,13 +41,14 @@ void add_air(const Plant& plant, LoadWork& work) {
 
 // Returns the springs of grabs, which follow those that hold pinned nodes.
 std::vector<Spring> grab_springs(const Plant& plant) {
-    return {plant.loads.springs.begin() + long(plant.pin_springs.size()), plant.loads.springs.end()};
+    return {plant.step.loads.springs.begin() + long(plant.input.pin_springs.size()), plant.step.loads.springs.end()};
 }
 
 void add_grabs(const Plant& plant, LoadWork& work) {
     for (const Spring& spring : grab_springs(plant)) {
         const Vec3 way = displacement(spring.attachment, plant);
-        const Vec3 force = spring.stiffness * (spring.target - attachment_place(spring.attachment, plant.motion.x));
+        const Vec3 force =
+            spring.stiffness * (spring.target - attachment_place(spring.attachment, plant.state.motion.x));
         work.grabs += force.dot(way);
         work.error += 0.5 * spring.stiffness * way.squaredNorm();
     }
@@ -56,9 +57,9 @@ void add_grabs(const Plant& plant, LoadWork& work) {
 // Returns which nodes pins hold: those that are pinned, and those that stiff springs hold for pinned cage nodes. Such a
 // spring's own force would be the difference of two nearly equal places.
 std::vector<uint8_t> held_nodes(const Plant& plant) {
-    std::vector<uint8_t> held = plant.motion.pinned;
-    held.resize(size_t(plant.motion.x.size() / 3));
-    for (const Spring& spring : plant.pin_springs)
+    std::vector<uint8_t> held = plant.state.motion.pinned;
+    held.resize(size_t(plant.state.motion.x.size() / 3));
+    for (const Spring& spring : plant.input.pin_springs)
         for (int k = 0; k < spring.attachment.count; k++) {
             const size_t node = size_t(spring.attachment.node[size_t(k)]);
             held[node] = 1;
@@ -69,41 +70,41 @@ std::vector<uint8_t> held_nodes(const Plant& plant) {
 
 // Returns the forces on all nodes but those that hold them, and damping proportional to stiffness.
 VecX forces_at_end(const Plant& plant, const VecX& elastic) {
-    const Motion& motion = plant.motion;
+    const Motion& motion = plant.state.motion;
     const VecX& mass = node_mass_of(*plant.system);
     VecX force = elastic;
-    if (plant.loads.force.size() > 0) force += plant.loads.force;
+    if (plant.step.loads.force.size() > 0) force += plant.step.loads.force;
     add_spring_force(grab_springs(plant), motion.x, force);
-    add_drag_force(plant.loads.drags, motion.x, motion.v, force);
+    add_drag_force(plant.step.loads.drags, motion.x, motion.v, force);
     for (int i = 0; i < mass.size(); i++)
         point(force, i) +=
-            mass[i] * (plant.loads.gravity - plant.step_settings.mass_damping * Vec3(point(motion.v, i)));
+            mass[i] * (plant.step.loads.gravity - plant.step.settings.mass_damping * Vec3(point(motion.v, i)));
     return force;
 }
 
 // Returns the force of stiffness-proportional damping per second of it, -K v, by a difference of elastic forces.
 VecX damping_per_second(const Plant& plant, const VecX& elastic) {
     constexpr double FAR = 1e-6;  // [m]
-    const double fastest = plant.motion.v.lpNorm<Eigen::Infinity>();
+    const double fastest = plant.state.motion.v.lpNorm<Eigen::Infinity>();
     if (!(fastest > 0)) return VecX::Zero(elastic.size());
     const double time = FAR / fastest;
-    return (elastic_force(plant, plant.motion.x + time * plant.motion.v) - elastic) / time;
+    return (elastic_force(plant, plant.state.motion.x + time * plant.state.motion.v) - elastic) / time;
 }
 
 // Returns the mean force on all held nodes together in the step, given the impulse of contacts.
 Vec3 mean_holding_force(const Plant& plant, double h, const Vec3& impulse) {
-    const Motion& motion = plant.motion;
+    const Motion& motion = plant.state.motion;
     const VecX& mass = node_mass_of(*plant.system);
     const int next = plant.follow ? 2 : 1;
     Vec3 momentum = -impulse, loads = Vec3::Zero();
     for (int i = 0; i < mass.size(); i += next) {
-        momentum += mass[i] * (point(motion.v, i) - point(plant.v_good, i));
-        loads += mass[i] * (plant.loads.gravity - plant.step_settings.mass_damping * Vec3(point(motion.v, i)));
-        if (plant.loads.force.size() > 0) loads += point(plant.loads.force, i);
+        momentum += mass[i] * (point(motion.v, i) - point(plant.step.v_good, i));
+        loads += mass[i] * (plant.step.loads.gravity - plant.step.settings.mass_damping * Vec3(point(motion.v, i)));
+        if (plant.step.loads.force.size() > 0) loads += point(plant.step.loads.force, i);
     }
     for (const Spring& spring : grab_springs(plant))
         loads += spring.stiffness * (spring.target - attachment_place(spring.attachment, motion.x));
-    for (const Drag& drag : plant.loads.drags)
+    for (const Drag& drag : plant.step.loads.drags)
         loads += drag.force - drag.damping * attachment_velocity(drag.attachment, motion.x, motion.v);
     return momentum / h - loads;
 }
@@ -124,10 +125,11 @@ Vec3 mean_way(const Plant& plant, const std::vector<uint8_t>& held, const VecX& 
 // from a stiffness that is not known here.
 void add_pins(const Plant& plant, double h, const Vec3& impulse, const std::vector<uint8_t>& held, const VecX& way,
               LoadWork& work) {
-    const VecX elastic = elastic_force(plant, plant.motion.x), change = elastic - elastic_force(plant, plant.x_good);
+    const VecX elastic = elastic_force(plant, plant.state.motion.x),
+               change = elastic - elastic_force(plant, plant.step.x_good);
     const VecX& mass = node_mass_of(*plant.system);
     std::vector<double> of_element;
-    double damping = damping_of(*plant.system, plant.step_settings, of_element), most = damping;
+    double damping = damping_of(*plant.system, plant.step.settings, of_element), most = damping;
     if (!of_element.empty()) {
         const auto [low, high] = std::minmax_element(of_element.begin(), of_element.end());
         damping = 0.5 * (*low + *high);
@@ -140,7 +142,7 @@ void add_pins(const Plant& plant, double h, const Vec3& impulse, const std::vect
         if (!held[size_t(i)]) continue;
         const bool is_turn = plant.follow && i % 2 == 1;
         const Vec3 own = is_turn ? Vec3(point(way, i)) : Vec3(point(way, i) - mean);
-        const Vec3 acceleration = (point(plant.motion.v, i) - point(plant.v_good, i)) / h;
+        const Vec3 acceleration = (point(plant.state.motion.v, i) - point(plant.step.v_good, i)) / h;
         const Vec3 reaction = mass[i] * acceleration - point(force, i) - damping * point(per_second, i);
         work.pins += reaction.dot(own);
         work.error += 0.5 * (std::abs(point(change, i).dot(own)) + most * std::abs(point(per_second, i).dot(own)));
@@ -156,14 +158,14 @@ bool any_moves(const std::vector<uint8_t>& held, const VecX& way) {
 // Returns the rotation of a chain node in the step [rad]; unlike the difference of rotation vectors it is one about an
 // axis in space.
 Vec3 rotation_in_step(const Plant& plant, int node) {
-    return rotation_vector<double>(rotation_of<double>(point(plant.motion.x, node)) *
-                                   rotation_of<double>(point(plant.x_good, node)).transpose());
+    return rotation_vector<double>(rotation_of<double>(point(plant.state.motion.x, node)) *
+                                   rotation_of<double>(point(plant.step.x_good, node)).transpose());
 }
 
 // A constant force works along any way, a constant moment along a turn about one axis. Turns about several do not add
 // up, which is an error of third order.
 void add_forces(const Plant& plant, const VecX& way, LoadWork& work) {
-    const VecX& force = plant.loads.force;
+    const VecX& force = plant.step.loads.force;
     if (force.size() == 0) return;
     work.forces = force.dot(way);
     for (int i = 1; plant.follow && i < way.size() / 3; i += 2) {
@@ -177,8 +179,8 @@ void add_forces(const Plant& plant, const VecX& way, LoadWork& work) {
 }  // namespace
 
 VecX way_of_step(const Plant& plant) {
-    const VecX& end = plant.motion.x;
-    return (plant.follow ? wound_as(plant.x_good, end) : end) - plant.x_good;
+    const VecX& end = plant.state.motion.x;
+    return (plant.follow ? wound_as(plant.step.x_good, end) : end) - plant.step.x_good;
 }
 
 LoadWork work_of_loads(const Plant& plant, double h, const Vec3& impulse) {

@@ -57,7 +57,7 @@ void bend_chain(const Plant& plant, const std::array<double, 2>& at, VecX& x) {
     const VecX& modelled = elements_of(*plant.system).modelled;
     x = modelled;
     for (size_t k = 0; k < 2; k++) {
-        const VecX& shape = plant.modal->modes->modes[k].shape;
+        const VecX& shape = plant.state.modal->modes->modes[k].shape;
         if (shape.size() == 0) continue;
         for (int i = 1; i < x.size() / 3; i += 2) point(x, i) += at[k] * point(shape, i);
     }
@@ -81,8 +81,8 @@ VecX rate_of(const Plant& plant, const std::array<double, 2>& at, const std::arr
 
 // Updates the air's push on the modes, which then stays constant until the next update.
 void ask_air(Plant& plant, const Surroundings& surroundings) {
-    ModalMotion& modal = *plant.modal;
-    const frond_effects effects = plant.effects & surroundings.effects;
+    ModalMotion& modal = *plant.state.modal;
+    const frond_effects effects = plant.input.effects & surroundings.effects;
     Vec3 wind = Vec3::Zero();
     if (surroundings.wind && effects & FROND_EFFECT_WIND && !modal.comes_to_rest) {
         const Vec3 p = plant.to_world(modal.modes->middle);
@@ -96,7 +96,7 @@ void ask_air(Plant& plant, const Surroundings& surroundings) {
     for (size_t k = 0; k < 2; k++) {
         const NaturalMode& mode = modal.modes->modes[k];
         if (mode.shape.size() == 0) continue;
-        const SolveSettings& s = plant.settings;
+        const SolveSettings& s = plant.input.settings;
         double push = 0;
         modal.damping[k] =
             damps ? s.mass_damping + s.stiffness_damping * mode.stiffness + s.full_damping * mode.ratio : 0;
@@ -114,9 +114,9 @@ void ask_air(Plant& plant, const Surroundings& surroundings) {
 }  // namespace
 
 void begin_modal(Plant& plant) {
-    if (plant.modal) return;
-    plant.modal = std::make_unique<ModalMotion>();
-    ModalMotion& modal = *plant.modal;
+    if (plant.state.modal) return;
+    plant.state.modal = std::make_unique<ModalMotion>();
+    ModalMotion& modal = *plant.state.modal;
     modal.modes = modal_basis_of(plant);
     const VecX& mass = node_mass_of(*plant.system);
     const VecX& modelled = elements_of(*plant.system).modelled;
@@ -124,61 +124,62 @@ void begin_modal(Plant& plant) {
         const VecX& shape = modal.modes->modes[k].shape;
         if (shape.size() == 0) continue;
         for (int i = 0; i < mass.size(); i += 2) {
-            modal.place[k] += mass[i] * point(shape, i).dot(point(plant.motion.x, i) - point(modelled, i));
-            modal.speed[k] += mass[i] * point(shape, i).dot(point(plant.motion.v, i));
+            modal.place[k] += mass[i] * point(shape, i).dot(point(plant.state.motion.x, i) - point(modelled, i));
+            modal.speed[k] += mass[i] * point(shape, i).dot(point(plant.state.motion.v, i));
         }
         modal.rest[k] = modal.place[k];
     }
     VecX x;
     bend_chain(plant, modal.place, x);
-    begin_blend_out(modal.blend_out, plant.motion.x - x, plant.motion.v - rate_of(plant, modal.place, modal.speed));
-    plant.motion.history.valid = false;
+    begin_blend_out(modal.blend_out, plant.state.motion.x - x,
+                    plant.state.motion.v - rate_of(plant, modal.place, modal.speed));
+    plant.state.motion.history.valid = false;
     plant.report = {};
     plant.report.ok = true;
-    plant.loads.drags.clear();
-    plant.blown.setZero();
-    plant.stepped_by = 0;
+    plant.step.loads.drags.clear();
+    plant.state.blown.setZero();
+    plant.state.stepped_by = 0;
 }
 
 bool sways_on_its_roots(const Plant& plant) {
-    return plant.stands_on_roots && !plant.pins_are_own && plant.fragments.empty() && plant.grabs.empty() &&
-           !plant.has_user_force;
+    return plant.input.stands_on_roots && !plant.input.pins_are_own && plant.state.fragments.empty() &&
+           plant.input.grabs.empty() && !plant.input.has_user_force;
 }
 
 void keep_only_modes(Plant& plant) {
     begin_modal(plant);
-    plant.modal->blend_out = {};
+    plant.state.modal->blend_out = {};
     end_modal(plant);
 }
 
 void pose(Plant& plant) {
-    if (!plant.modal || !plant.modal->stale) return;
-    ModalMotion& modal = *plant.modal;
+    if (!plant.state.modal || !plant.state.modal->stale) return;
+    ModalMotion& modal = *plant.state.modal;
     std::array<double, 2> at, speed;
     for (size_t k = 0; k < 2; k++) {
         const State now = state_of(modal, k);
         at[k] = now.place;
         speed[k] = now.speed;
     }
-    bend_chain(plant, at, plant.motion.x);
-    plant.motion.v = rate_of(plant, at, speed);
-    add_offset(modal.blend_out, plant.motion.x);
-    add_rate(modal.blend_out, plant.motion.v);
+    bend_chain(plant, at, plant.state.motion.x);
+    plant.state.motion.v = rate_of(plant, at, speed);
+    add_offset(modal.blend_out, plant.state.motion.x);
+    add_rate(modal.blend_out, plant.state.motion.v);
     modal.stale = false;
     moved(plant);
 }
 
 void end_modal(Plant& plant) {
-    if (!plant.modal) return;
+    if (!plant.state.modal) return;
     pose(plant);
-    plant.modal = nullptr;
+    plant.state.modal = nullptr;
 }
 
 void step_modal(Plant& plant, const Surroundings& surroundings, double h, bool ask) {
-    ModalMotion& modal = *plant.modal;
+    ModalMotion& modal = *plant.state.modal;
     plant.trouble = 0;
     modal.since += h;
-    modal.stale = plant.cage_stale = plant.surface_stale = true;
+    modal.stale = plant.view.cage_stale = plant.view.surface_stale = true;
     pass_time(modal.blend_out, h);
     if (!ask && !modal.fresh) return;
     modal.fresh = false;
@@ -193,7 +194,8 @@ void step_modal(Plant& plant, const Surroundings& surroundings, double h, bool a
 
 std::array<double, 2> modal_reach(const Plant& plant) {
     std::array<double, 2> modal;
-    for (size_t k = 0; k < 2; k++) modal[k] = state_of(*plant.modal, k).place * plant.modal->modes->modes[k].reach;
+    for (size_t k = 0; k < 2; k++)
+        modal[k] = state_of(*plant.state.modal, k).place * plant.state.modal->modes->modes[k].reach;
     return modal;
 }
 

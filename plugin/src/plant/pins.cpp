@@ -11,28 +11,28 @@
 namespace frond {
 
 bool is_pinned(const Plant& plant, int node) {
-    return (plant.pinned.empty() ? plant.foot->pinned : plant.pinned)[size_t(node)];
+    return (plant.input.pinned.empty() ? plant.input.foot->pinned : plant.input.pinned)[size_t(node)];
 }
 
 void pin_node(Plant& plant, int node) {
-    point(plant.pin_target, node) = point(cage_places(plant), node);
-    plant.pinned[size_t(node)] = 1;
-    plant.pins_changed = plant.pins_are_own = true;
+    point(plant.input.pin_target, node) = point(cage_places(plant), node);
+    plant.input.pinned[size_t(node)] = 1;
+    plant.input.pins_changed = plant.input.pins_are_own = true;
     if (plant.follow) return;
-    point(plant.motion.v, node).setZero();
-    plant.motion.history.valid = false;
-    point(plant.motion.pin_target, node) = point(plant.motion.x, node);
+    point(plant.state.motion.v, node).setZero();
+    plant.state.motion.history.valid = false;
+    point(plant.state.motion.pin_target, node) = point(plant.state.motion.x, node);
 }
 
 void unpin_node(Plant& plant, int node) {
-    plant.pinned[size_t(node)] = 0;
-    plant.pins_changed = plant.pins_are_own = true;
+    plant.input.pinned[size_t(node)] = 0;
+    plant.input.pins_changed = plant.input.pins_are_own = true;
 }
 
 void move_pin(Plant& plant, int node, const Vec3& target) {
     FROND_ASSERT(node >= 0 && node < node_count_of(plant) && target.allFinite());
-    point(plant.pin_target, node) = target;
-    plant.pins_changed = plant.pins_are_own = true;
+    point(plant.input.pin_target, node) = target;
+    plant.input.pins_changed = plant.input.pins_are_own = true;
 }
 
 // Returns a spring's stiffness, STRONG times the plant's weight over a millimetre: with it a plant counts as rigidly
@@ -51,9 +51,9 @@ struct PinGroup {
 
 static void add_to_group(const Plant& plant, int node, PinGroup& group) {
     group.nodes.push_back(node);
-    group.stands |= plant.foot->pinned[size_t(node)] != 0;
+    group.stands |= plant.input.foot->pinned[size_t(node)] != 0;
     group.from.push_back(point(plant.follow->modelled, node));
-    group.to.push_back(point(plant.pin_target, node));
+    group.to.push_back(point(plant.input.pin_target, node));
 }
 
 // Holds a chain node by the rigid motion of the group; false if that leaves its rotation undetermined.
@@ -62,7 +62,7 @@ static bool hold_chain_node(Plant& plant, int chain_node, const PinGroup& group)
     Vec3 image;
     if (!fit_rigid(group.from, group.to, plant.model->chain.nodes[size_t(chain_node)].position, rotation, image))
         return false;
-    Motion& motion = plant.motion;
+    Motion& motion = plant.state.motion;
     const int place = 2 * chain_node, turn = place + 1;
     motion.pinned[size_t(place)] = motion.pinned[size_t(turn)] = 1;
     point(motion.pin_target, place) = image;
@@ -71,21 +71,22 @@ static bool hold_chain_node(Plant& plant, int chain_node, const PinGroup& group)
 }
 
 static void pin_chain(Plant& plant) {
-    std::fill(plant.motion.pinned.begin(), plant.motion.pinned.end(), uint8_t(0));
-    plant.pin_springs.clear();
+    std::fill(plant.state.motion.pinned.begin(), plant.state.motion.pinned.end(), uint8_t(0));
+    plant.input.pin_springs.clear();
     std::map<int, PinGroup> groups;  // by chain node
     PinGroup ground;                 // all nodes that the plant stands on
-    for (size_t n = 0; n < plant.pinned.size(); n++) {
-        if (!plant.pinned[n]) continue;
+    for (size_t n = 0; n < plant.input.pinned.size(); n++) {
+        if (!plant.input.pinned[n]) continue;
         // A node that the ground does not hold may have been pinned while tets moved, and then has no anchor.
-        add_to_group(plant, int(n), groups[plant.foot->pinned[n] ? plant.anchor[n] : plant.follow->nearest[n]]);
-        if (plant.foot->pinned[n]) add_to_group(plant, int(n), ground);
+        add_to_group(plant, int(n),
+                     groups[plant.input.foot->pinned[n] ? plant.input.anchor[n] : plant.follow->nearest[n]]);
+        if (plant.input.foot->pinned[n]) add_to_group(plant, int(n), ground);
     }
     // A root with too few pinned nodes stands as the ground does.
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;
-    const double top = plant.model->surface.lower().y() + plant.foot->root_height;
+    const double top = plant.model->surface.lower().y() + plant.input.foot->root_height;
     const auto is_root = [&](size_t i) {
-        return nodes[i].parent < 0 && (plant.stands_on_roots || nodes[i].position.y() < top);
+        return nodes[i].parent < 0 && (plant.input.stands_on_roots || nodes[i].position.y() < top);
     };
     if (!ground.nodes.empty())
         for (size_t i = 0; i < nodes.size(); i++)
@@ -95,7 +96,7 @@ static void pin_chain(Plant& plant) {
         const bool stands = nodes[size_t(chain_node)].parent < 0 && (group.stands || group.nodes.empty());
         if (stands && hold_chain_node(plant, chain_node, ground)) continue;
         for (size_t k = 0; k < group.nodes.size(); k++)
-            plant.pin_springs.push_back(
+            plant.input.pin_springs.push_back(
                 {plant.follow->attachments[size_t(group.nodes[k])], group.to[k], pin_stiffness(plant)});
     }
 }
@@ -117,15 +118,15 @@ bool is_carried(const Motion& motion, const VecX& x, const VecX& v) {
 }
 
 void apply_pins(Plant& plant) {
-    FROND_ASSERT(plant.pinned.size() == size_t(node_count_of(plant)));
+    FROND_ASSERT(plant.input.pinned.size() == size_t(node_count_of(plant)));
     if (plant.follow) {
-        if (plant.pins_changed || !is_where_held(plant.motion)) pin_chain(plant);
-    } else if (plant.pins_changed) {
-        plant.pin_springs.clear();
-        plant.motion.pinned = plant.pinned;
-        plant.motion.pin_target = plant.pin_target;
+        if (plant.input.pins_changed || !is_where_held(plant.state.motion)) pin_chain(plant);
+    } else if (plant.input.pins_changed) {
+        plant.input.pin_springs.clear();
+        plant.state.motion.pinned = plant.input.pinned;
+        plant.state.motion.pin_target = plant.input.pin_target;
     }
-    plant.pins_changed = false;
+    plant.input.pins_changed = false;
 }
 
 }  // namespace frond

@@ -68,93 +68,113 @@ struct PreviousSurface {
     float back;                    // time from the last frame to the end of that substep [s]
 };
 
-// The host always sees the cage's nodes. If the mechanics move the chain, the cage follows it.
-struct Plant {
-    std::shared_ptr<const Model> model;
-    std::shared_ptr<const CageNodes> nodes;
-    frond_mechanics which;
+// Inputs: what the host asked for. Only calls of the host change them.
+struct PlantInput {
     frond_mass mass;
-    std::shared_ptr<const System> system;
-    std::unique_ptr<Elements> own_elements;  // elements of a plant that has yielded, with its plastic state; else null
-    PoolSeat seat;                           // claim to a workspace of the system's pool
-    WorkspacePtr workspace;                  // from the pool, for a step; refers to system and own elements
-    SolveSettings settings, step_settings;   // the latter without effects that are off in the running step
-    double material_damping;                 // share of the organs' damping ratios that is applied [-]
-    double substep_tolerance;                // allowed local error of a position in a step, over the plant's size [-]
-    Trend trend;                             // empty with one substep
-    double rest_time;                        // time of stillness after which the plant counts as at rest [s]
-    Vec3 position;                           // origin of the model's frame in the world [m]
-    Quat rotation;
+    SolveSettings settings;
+    double material_damping;   // share of the organs' damping ratios that is applied [-]
+    double substep_tolerance;  // allowed local error of a position in a step, over the plant's size [-]
+    int max_substeps;
+    frond_effects effects;
+    frond_collision collision = FROND_COLLISION_ORGANS;
     void* user = nullptr;
 
-    Motion motion;                         // state of the mechanics' nodes, model frame
-    std::shared_ptr<const Follow> follow;  // null if the mechanics move the cage itself
-    std::unique_ptr<ModalMotion> modal;    // state of a chain in modal motion; else null
-    BlendOut blend_out;                    // offset of the cage from where the mechanics have it
-    double lead = 0;        // time by which the drawn cage is extrapolated until the plant is stepped again [s]
-    double stepped_by = 0;  // length of the last step, from x_good to here; 0: it was put here since [s]
-    std::shared_ptr<const Fibres> fibres;  // null if none can pull
-    std::vector<double>
-        fibre_give;               // lengths at which they pull, over their own, after an entanglement; else empty [-]
-    VecX fibre_force;             // of taut fibres on the nodes in the last step, model frame [N]; empty: all are slack
-    std::vector<uint8_t> pinned;  // one per cage node
-    VecX pin_target;              // targets of pinned cage nodes, model frame [m]
-    std::vector<int> anchor;      // chain node that holds each cage node if it is pinned
+    std::vector<uint8_t> pinned;       // one per cage node
+    VecX pin_target;                   // targets of pinned cage nodes, model frame [m]
+    std::vector<int> anchor;           // chain node that holds each cage node if it is pinned
     std::vector<Spring> pin_springs;   // hold pinned cage nodes that are too few to hold a chain node
     std::shared_ptr<const Foot> foot;  // initial pinned, pin_target and anchor
-    VecX x_good, v_good;               // before the running step; empty after a healthy batched one: in the history
-    VecX contact_impulse;  // impulses of the running step's contacts on the nodes of the mechanics [N s]; empty: none
-    VecX contact_correction;        // likewise, those that move the plant without velocity
-    Loads loads;                    // loads of the running step, kept to reuse their memory
-    std::unique_ptr<AirState> air;  // null until the plant is in air
-    Vec3 blown = Vec3::Zero();      // force of the last step's air, if there are no drags to compute it from [N]
-    VecX user_force;                // on cage nodes, until the end of the host's step, world frame [N]; empty: none yet
-    VecX chain_load;  // forces and moments on chain nodes, likewise, six numbers each [N], [N m]; empty: none yet
+    bool pins_changed = true;
+    bool pins_are_own = false;     // changed by the host
+    bool stands_on_roots = false;  // held by the model's own root
+
     std::list<Grab> grabs;
+    VecX user_force;  // on cage nodes, until the end of the host's step, world frame [N]; empty: none yet
+    VecX chain_load;  // forces and moments on chain nodes, likewise, six numbers each [N], [N m]; empty: none yet
+    bool has_user_force = false;
+};
 
-    std::vector<Fragment> fragments;                  // parts that came off
+// State: what a step continues from, and a snapshot keeps.
+struct PlantState {
+    Motion motion;                           // of the mechanics' nodes, model frame
+    std::unique_ptr<ModalMotion> modal;      // of a chain in modal motion; else null
+    std::unique_ptr<Elements> own_elements;  // elements of a plant that has yielded, with its plastic state; else null
+    BlendOut blend_out;                      // offset of the cage from where the mechanics have it
+    Trend trend;                             // empty with one substep
+    int substeps = 1;                        // of the next step
+    double stepped_by = 0;  // length of the last step, from x_good to here; 0: it was put here since [s]
+    std::vector<double>
+        fibre_give;    // lengths at which fibres pull, over their own, after an entanglement; else empty [-]
+    VecX fibre_force;  // of taut fibres on the nodes in the last step, model frame [N]; empty: all are slack
+    std::unique_ptr<AirState> air;    // null until the plant is in air
+    Vec3 blown = Vec3::Zero();        // force of the last step's air, if there are no drags to compute it from [N]
+    std::vector<Fragment> fragments;  // parts that came off
     std::shared_ptr<Parting> parting = no_parting();  // its own only if there are fragments
+    // Time left to recover from a state that no admissible load can reach; if negative, time for which the plant has
+    // been caught where searches find no solution [s].
+    float recovers_for = 0;
+    bool is_touched = false;    // in contact, which is resolved over whole steps
+    bool is_entangled = false;  // deep in itself or another plant; crossed leaves come apart only by being stretched
 
-    // Data that follows the cage.
+    // Compressed state. While the plant is compressed, all members above that a step changes are empty.
+    bool is_compressed = false;
+    std::vector<float> away;  // displacements of the mechanics' nodes from the modelled shape [m]; empty: none
+};
+
+// Scratch of the running step: nothing of it outlives the step but memory.
+struct PlantStep {
+    WorkspacePtr workspace;      // from the pool; refers to system and own elements
+    SolveSettings settings;      // the plant's without effects that are off
+    Loads loads;                 // kept to reuse their memory
+    VecX x_good, v_good;         // before the step; empty after a healthy batched one: in the history
+    VecX contact_impulse;        // impulses of contacts on the nodes of the mechanics [N s]; empty: none
+    VecX contact_correction;     // likewise, those that move the plant without velocity
+    bool is_watched = false;     // near something that it may go through
+    bool is_pressed = false;     // in contact with something that may move
+    bool is_sound = true;        // the solution can be the next state
+    bool is_off_course = false;  // something ended the step off course
+    bool may_yield = true;       // it may cause yielding, as far as is known
+    bool has_fibres = false;     // it pulls back fibres
+    bool starts_anew = false;    // it has no past, since the host changed something
+    bool looks_back = false;     // it continues from its history, if it can be batched
+};
+
+// View: what follows the state for those who look at the plant.
+struct PlantView {
     std::vector<Vec3> chain_positions;                      // model frame [m]
     std::vector<float> surface_positions, surface_normals;  // world frame
     std::unique_ptr<PreviousSurface> previous;              // null: never requested
     mutable VecX cage_x;  // cage nodes if they are not the mechanics' own, model frame [m]
-
-    // Compressed state. While the plant is compressed, all members above that a step changes are empty.
-    std::vector<float> away;  // displacements of the mechanics' nodes from the modelled shape [m]; empty: none
-
-    // Small members side by side: fields have thousands of plants.
-    frond_effects effects;
-    frond_collision collision = FROND_COLLISION_ORGANS;
-    uint32_t trouble = 0;  // of the last step
-    int max_substeps;
-    int substeps = 1;           // of the next step
-    bool is_touched = false;    // in contact, which is resolved over whole steps
-    bool is_watched = false;    // near something that it may go through in the running step
-    bool is_pressed = false;    // in contact with something that may move
-    bool is_entangled = false;  // deep in itself or another plant; crossed leaves come apart only by being stretched
-    bool has_user_force = false;
-    bool pins_changed = true;
-    bool pins_are_own = false;     // changed by the host
-    bool stands_on_roots = false;  // held by the model's own root
+    mutable bool cage_stale = true;
     bool surface_stale = true;
     float surface_back = 0;  // time before the end of the last substep at which the surface is drawn [s]
-    mutable bool cage_stale = true;
-    bool is_compressed = false;
-    bool is_sound = true;        // the solution can be the next state
-    bool is_off_course = false;  // something ended the running step off course
-    bool may_yield = true;       // the running step may cause yielding, as far as is known
-    bool has_fibres = false;     // the running step pulls back fibres
-    bool starts_anew = false;    // the running step has no past, since the host changed something
-    bool looks_back = false;     // the running step continues from its history, if it can be batched
-    // Time left to recover from a state that no admissible load can reach; if negative, time for which the plant has
-    // been caught where searches find no solution [s].
-    float recovers_for = 0;
-    float size;  // diagonal of the modelled surface's box [m]
+    double lead = 0;         // time by which the drawn cage is extrapolated until the plant is stepped again [s]
+};
+
+// The host always sees the cage's nodes. If the mechanics move the chain, the cage follows it.
+struct Plant {
+    // What it is made of; changes with the mechanics alone.
+    std::shared_ptr<const Model> model;
+    std::shared_ptr<const CageNodes> nodes;
+    frond_mechanics which;
+    std::shared_ptr<const System> system;
+    std::shared_ptr<const Follow> follow;  // null if the mechanics move the cage itself
+    std::shared_ptr<const Fibres> fibres;  // null if none can pull
+    PoolSeat seat;                         // claim to a workspace of the system's pool
+    float size;                            // diagonal of the modelled surface's box [m]
+    double rest_time;                      // time of stillness after which the plant counts as at rest [s]
+
+    Vec3 position;  // origin of the model's frame in the world [m]
+    Quat rotation;
+
+    PlantInput input;
+    PlantState state;
+    PlantStep step;
+    PlantView view;
 
     // Results of the last step.
     SolveReport report;
+    uint32_t trouble = 0;
     float ms_effects = 0, ms_surface = 0, ms_normals = 0;
     // Parts of ms_effects, and further times [ms].
     float ms_user_force = 0, ms_air = 0, ms_fibres = 0, ms_plasticity = 0;

@@ -13,8 +13,8 @@ namespace frond {
 StoredEnergy stored_energy(const Plant& plant) {
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const Elements& new_ones = elements_of(*plant.system);  // plastic strain leaves the modelled shape strained
-    return {row.energy(elements_of(plant), plant.motion.x) - row.energy(new_ones, new_ones.modelled),
-            kinetic_energy(*plant.system, plant.motion.x, plant.motion.v)};
+    return {row.energy(elements_of(plant), plant.state.motion.x) - row.energy(new_ones, new_ones.modelled),
+            kinetic_energy(*plant.system, plant.state.motion.x, plant.state.motion.v)};
 }
 
 // Takes velocities over as far as the stiffness at the end of the last step lets them be.
@@ -22,18 +22,18 @@ static void take_velocities(Plant& plant, const SolveSettings& settings, const V
     VecX momentum = given;
     const VecX& mass = node_mass_of(*plant.system);
     for (int i = 0; i < mass.size(); i++) point(momentum, i) *= mass[i];
-    if (!respond(*plant.workspace, settings, momentum, plant.motion.v)) plant.motion.v.setZero();
+    if (!respond(*plant.step.workspace, settings, momentum, plant.state.motion.v)) plant.state.motion.v.setZero();
 }
 
 // Holds pinned nodes where they are now: what moved pins do is work of the next step.
 static void hold_still(Plant& plant) {
     apply_pins(plant);
-    Motion& motion = plant.motion;
+    Motion& motion = plant.state.motion;
     const int count = int(motion.pinned.size());
     for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1))
         point(motion.pin_target, i) = point(motion.x, i);
-    for (Spring& spring : plant.pin_springs) spring.target = attachment_place(spring.attachment, motion.x);
-    plant.pins_changed = true;
+    for (Spring& spring : plant.input.pin_springs) spring.target = attachment_place(spring.attachment, motion.x);
+    plant.input.pins_changed = true;
 }
 
 void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
@@ -41,10 +41,10 @@ void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
     constexpr double STEP = 1.0 / 60;            // [s]
     // Shares of the energy that lifts the plant by its size: what counts as none, and what a step's check allows [-].
     constexpr double SHARE = 0.001, ALLOWED = 0.01;
-    Motion& motion = plant.motion;
+    Motion& motion = plant.state.motion;
     const double none = SHARE * lifting_energy(plant), bound = std::max(0.0, most.elastic) + none;
     const VecX given = motion.v, start = motion.x;
-    SolveSettings settings = plant.settings;
+    SolveSettings settings = plant.input.settings;
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     Loads loads;
     if (plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
@@ -52,14 +52,14 @@ void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
         hold_still(plant);
     else
         apply_pins(plant);
-    plant.has_fibres = true;
+    plant.step.has_fibres = true;
     bool ok = true;
     int round = 0;
     for (double now = stored_energy(plant).elastic; round < ROUNDS && ok && !(now <= bound); round++) {
         take_workspace(plant);
         const VecX before = motion.x;
         motion.v.setZero();
-        plant.report = solve_step(*plant.workspace, settings, loads, STEP, motion);
+        plant.report = solve_step(*plant.step.workspace, settings, loads, STEP, motion);
         ok = plant.report.ok;
         hold_lengths(plant, STEP);
         const double next = stored_energy(plant).elastic;

@@ -14,17 +14,17 @@ struct HeldMotion {
     VecX acceleration;  // [m/s^2]; empty: none
 };
 static HeldMotion motion_of_held(const Plant& plant) {
-    const Motion& motion = plant.motion;
+    const Motion& motion = plant.state.motion;
     HeldMotion out = {motion.v, {}};
-    const bool is_known = plant.stepped_by > 0 && plant.v_good.size() == motion.v.size();
-    if (!is_known || !is_carried(motion, plant.x_good, plant.v_good)) return out;
-    out.acceleration = (motion.v - plant.v_good) / plant.stepped_by;
+    const bool is_known = plant.state.stepped_by > 0 && plant.step.v_good.size() == motion.v.size();
+    if (!is_known || !is_carried(motion, plant.step.x_good, plant.step.v_good)) return out;
+    out.acceleration = (motion.v - plant.step.v_good) / plant.state.stepped_by;
     // Methods of stages leave the mean velocity over the step.
-    const Integrator& method = integrator(plant.settings.integrator);
+    const Integrator& method = integrator(plant.input.settings.integrator);
     const int count = int(motion.pinned.size());
     if (method.has_stages && !method.looks_back)
         for (int i = next_pinned(motion, 0); i < count; i = next_pinned(motion, i + 1))
-            point(out.v, i) += 0.5 * plant.stepped_by * point(out.acceleration, i);
+            point(out.v, i) += 0.5 * plant.state.stepped_by * point(out.acceleration, i);
     return out;
 }
 
@@ -44,35 +44,35 @@ static void add_damping_force(const Plant& plant, const SolveSettings& settings,
     }
     VecX elastic = VecX::Zero(v.size()), product;
     if (of_element.empty())
-        system.row->add_stiffness(elements, plant.motion.x, Tangent::positive, damping, D);
+        system.row->add_stiffness(elements, plant.state.motion.x, Tangent::positive, damping, D);
     else
-        system.row->add_force_stiffness_and_damping(elements, plant.motion.x, of_element, elastic, K, D);
+        system.row->add_force_stiffness_and_damping(elements, plant.state.motion.x, of_element, elastic, K, D);
     D.multiply(v, product);
     f -= product;
 }
 
 // Returns all forces on nodes but weight and what accelerates them [N].
 static VecX forces_on_nodes(const Plant& plant, frond_effects effects, const VecX& v) {
-    VecX pull = VecX::Zero(plant.motion.x.size());
-    plant.system->row->add_force(elements_of(plant), plant.motion.x, pull);
-    if (plant.fibre_force.size() == pull.size()) pull += plant.fibre_force;
+    VecX pull = VecX::Zero(plant.state.motion.x.size());
+    plant.system->row->add_force(elements_of(plant), plant.state.motion.x, pull);
+    if (plant.state.fibre_force.size() == pull.size()) pull += plant.state.fibre_force;
     if (v.size() == pull.size() && !v.isZero(0)) add_damping_force(plant, settings_for(plant, effects), v, pull);
     return pull;
 }
 
 Wrench root_force(const Plant& plant, const Vec3& gravity, frond_effects effects, const Vec3& about) {
-    const VecX& x = plant.motion.x;
+    const VecX& x = plant.state.motion.x;
     const VecX& mass = node_mass_of(*plant.system);
     const Vec3 centre = plant.to_model(about), weight = plant.rotation.conjugate() * gravity;
     const HeldMotion motion = motion_of_held(plant);
-    const VecX pull = forces_on_nodes(plant, plant.effects & effects, motion.v);
+    const VecX pull = forces_on_nodes(plant, plant.input.effects & effects, motion.v);
     Wrench held;
     const auto hold = [&](const Vec3& force, const Vec3& place) {
         held.force += force;
         held.moment += (place - centre).cross(force);
     };
-    const int pinned_count = int(plant.motion.pinned.size());
-    for (int i = next_pinned(plant.motion, 0); i < pinned_count; i = next_pinned(plant.motion, i + 1)) {
+    const int pinned_count = int(plant.state.motion.pinned.size());
+    for (int i = next_pinned(plant.state.motion, 0); i < pinned_count; i = next_pinned(plant.state.motion, i + 1)) {
         Vec3 force = -point(pull, i) - mass[i] * weight;
         if (motion.acceleration.size() > 0) force += mass[i] * point(motion.acceleration, i);
         if (plant.system->row->moves_chain && i % 2 == 1)
@@ -80,7 +80,7 @@ Wrench root_force(const Plant& plant, const Vec3& gravity, frond_effects effects
         else
             hold(force, point(x, i));
     }
-    for (const Spring& spring : plant.pin_springs) {
+    for (const Spring& spring : plant.input.pin_springs) {
         const Vec3 place = attachment_place(spring.attachment, x);
         hold(spring.stiffness * (spring.target - place), place);
     }

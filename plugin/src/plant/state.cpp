@@ -8,10 +8,10 @@ namespace frond {
 frond_energy energy_of(const Plant& plant, const Vec3& gravity) {
     const VecX& mass = node_mass_of(*plant.system);
     frond_energy energy = {};
-    energy.kinetic = kinetic_energy(*plant.system, plant.motion.x, plant.motion.v);
-    energy.elastic = mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), plant.motion.x);
+    energy.kinetic = kinetic_energy(*plant.system, plant.state.motion.x, plant.state.motion.v);
+    energy.elastic = mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), plant.state.motion.x);
     for (int i = 0; i < mass.size(); i++)
-        energy.gravity -= mass[i] * gravity.dot(plant.to_world(point(plant.motion.x, i)));
+        energy.gravity -= mass[i] * gravity.dot(plant.to_world(point(plant.state.motion.x, i)));
     return energy;
 }
 
@@ -23,7 +23,7 @@ Spring grab_spring(const Plant& plant, const Grab& grab) {
 
 Vec3 grab_place(const Plant& plant, int vertex) {
     if (fragment_of_vertex(plant, size_t(vertex))) return vertex_position(plant, vertex);
-    return plant.to_world(attachment_place(vertex_attachment(plant, vertex), plant.motion.x));
+    return plant.to_world(attachment_place(vertex_attachment(plant, vertex), plant.state.motion.x));
 }
 
 Vec3 grab_force(const Plant& plant, const Grab& grab) {
@@ -33,29 +33,29 @@ Vec3 grab_force(const Plant& plant, const Grab& grab) {
 // Returns whether the nodes that the ground holds are where it held them when the plant was made.
 static bool stands_where_made(const Plant& plant, const VecX& x) {
     constexpr double NEAR = 1e-9;  // distance over the plant's size [-]
-    for (size_t n = 0; n < plant.foot->pinned.size(); n++)
-        if (plant.foot->pinned[n] &&
-            !((point(x, int(n)) - point(plant.foot->pin_target, int(n))).norm() < NEAR * double(plant.size)))
+    for (size_t n = 0; n < plant.input.foot->pinned.size(); n++)
+        if (plant.input.foot->pinned[n] &&
+            !((point(x, int(n)) - point(plant.input.foot->pin_target, int(n))).norm() < NEAR * double(plant.size)))
             return false;
     return true;
 }
 
 // Lets steps go on from a motion that was set.
 static void go_on_anew(Plant& plant) {
-    plant.motion.history.valid = plant.motion.history.shaken = false;
-    plant.blend_out = {};
-    plant.lead = plant.stepped_by = 0;
-    plant.fibre_force.resize(0);
-    plant.pins_changed = true;
+    plant.state.motion.history.valid = plant.state.motion.history.shaken = false;
+    plant.state.blend_out = {};
+    plant.view.lead = plant.state.stepped_by = 0;
+    plant.state.fibre_force.resize(0);
+    plant.input.pins_changed = true;
     apply_pins(plant);
     moved(plant);
 }
 
 void go_on_from_state(Plant& plant) {
     VecX x = cage_places(plant);
-    follow_places(*plant.follow, plant.motion.x, x);
-    plant.pins_are_own |= !stands_where_made(plant, x);
-    plant.pin_target = x;
+    follow_places(*plant.follow, plant.state.motion.x, x);
+    plant.input.pins_are_own |= !stands_where_made(plant, x);
+    plant.input.pin_target = x;
     carry_stumps(plant);
     go_on_anew(plant);
 }
@@ -63,9 +63,9 @@ void go_on_from_state(Plant& plant) {
 void set_state(Plant& plant, const double* positions, const double* velocities) {
     end_modal(plant);
     const Quat to_model = plant.rotation.conjugate();
-    Motion& motion = plant.motion;
+    Motion& motion = plant.state.motion;
     VecX x, v;
-    FROND_ASSERT(!plant.is_compressed);
+    FROND_ASSERT(!plant.state.is_compressed);
     if (positions) x = cage_places(plant);
     if (velocities) v.setZero(3 * node_count_of(plant));
     for (int i = 0; i < node_count_of(plant); i++) {
@@ -74,8 +74,8 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
         if (velocities) point(v, i) = to_model * Vec3(velocities + 3 * i);
     }
     if (positions) {
-        plant.pins_are_own |= !stands_where_made(plant, x);
-        plant.pin_target = x;
+        plant.input.pins_are_own |= !stands_where_made(plant, x);
+        plant.input.pin_target = x;
     }
     if (plant.follow) {
         if (positions) fit_chain(*plant.follow, *plant.model, x, motion.x);
@@ -89,8 +89,8 @@ void set_state(Plant& plant, const double* positions, const double* velocities) 
 }
 
 std::vector<double> plastic_of(const Plant& plant) {
-    if (!plant.own_elements) return {};
-    return mechanics(plant.which, plant.nodes->order).get_plastic(*plant.own_elements);
+    if (!plant.state.own_elements) return {};
+    return mechanics(plant.which, plant.nodes->order).get_plastic(*plant.state.own_elements);
 }
 
 void set_plastic(Plant& plant, const std::vector<double>& values) {
@@ -100,17 +100,17 @@ void set_plastic(Plant& plant, const std::vector<double>& values) {
         own = row.copy(elements_of(*plant.system));
         row.set_plastic(*own, values);
     }
-    if (plant.workspace) use_elements(*plant.workspace, own.get());
-    plant.own_elements = std::move(own);
+    if (plant.step.workspace) use_elements(*plant.step.workspace, own.get());
+    plant.state.own_elements = std::move(own);
 }
 
 const Elements& elements_of(const Plant& plant) {
-    return plant.own_elements ? *plant.own_elements : elements_of(*plant.system);
+    return plant.state.own_elements ? *plant.state.own_elements : elements_of(*plant.system);
 }
 
 std::vector<double> capsule_strains(const Plant& plant) {
     std::vector<double> of_node, strains;
-    mechanics(plant.which, plant.nodes->order).section_strains(elements_of(plant), plant.motion.x, of_node);
+    mechanics(plant.which, plant.nodes->order).section_strains(elements_of(plant), plant.state.motion.x, of_node);
     for (const auto& [begin, end] : plant.model->capsules) strains.push_back(of_node[size_t(end)]);
     return strains;
 }
@@ -120,26 +120,26 @@ int node_count_of(const Plant& plant) {
 }
 
 VecX blend_offset(const Plant& plant, double ahead) {
-    if (is_over(plant.blend_out)) return {};
+    if (is_over(plant.state.blend_out)) return {};
     VecX offset = VecX::Zero(3 * node_count_of(plant)), rate = offset;
-    add_offset(plant.blend_out, offset);
-    add_rate(plant.blend_out, rate);
+    add_offset(plant.state.blend_out, offset);
+    add_rate(plant.state.blend_out, rate);
     return offset + ahead * rate;
 }
 
 const VecX& cage_places(const Plant& plant) {
-    if (!plant.follow && is_over(plant.blend_out) && plant.lead == 0) return plant.motion.x;
-    if (plant.cage_stale) {
+    if (!plant.follow && is_over(plant.state.blend_out) && plant.view.lead == 0) return plant.state.motion.x;
+    if (plant.view.cage_stale) {
         if (plant.follow)
-            follow_places(*plant.follow, plant.motion.x, plant.cage_x);
+            follow_places(*plant.follow, plant.state.motion.x, plant.view.cage_x);
         else
-            plant.cage_x = plant.motion.x;
-        FROND_ASSERT(plant.cage_x.size() == 3 * node_count_of(plant));
-        add_offset(plant.blend_out, plant.cage_x);
-        if (plant.lead > 0) plant.cage_x += plant.lead * cage_velocities(plant);
+            plant.view.cage_x = plant.state.motion.x;
+        FROND_ASSERT(plant.view.cage_x.size() == 3 * node_count_of(plant));
+        add_offset(plant.state.blend_out, plant.view.cage_x);
+        if (plant.view.lead > 0) plant.view.cage_x += plant.view.lead * cage_velocities(plant);
     }
-    plant.cage_stale = false;
-    return plant.cage_x;
+    plant.view.cage_stale = false;
+    return plant.view.cage_x;
 }
 
 Vec3 node_place(const Plant& plant, int node) {
@@ -154,14 +154,14 @@ Vec3 node_velocity(const Plant& plant, const VecX& v, int node) {
 }
 
 VecX cage_velocities(const Plant& plant) {
-    VecX velocities = plant.motion.v;
-    if (plant.follow) follow_velocities(*plant.follow, plant.motion.x, plant.motion.v, velocities);
-    add_rate(plant.blend_out, velocities);
+    VecX velocities = plant.state.motion.v;
+    if (plant.follow) follow_velocities(*plant.follow, plant.state.motion.x, plant.state.motion.v, velocities);
+    add_rate(plant.state.blend_out, velocities);
     return velocities;
 }
 
 void moved(Plant& plant) {
-    plant.cage_stale = plant.surface_stale = true;
+    plant.view.cage_stale = plant.view.surface_stale = true;
     update_chain(plant);
 }
 

@@ -20,32 +20,32 @@ Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effe
 // Gathers the forces on nodes, gravity and springs of this step, in the model's frame.
 static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_effects effects) {
     const Quat to_model = plant.rotation.conjugate();
-    Loads& loads = plant.loads;
+    Loads& loads = plant.step.loads;
     loads.gravity = gravity_in(plant, surroundings, effects);
-    loads.springs = plant.pin_springs;
+    loads.springs = plant.input.pin_springs;
     loads.force.resize(0);
     if (!(effects & FROND_EFFECT_USER_FORCE)) return;
 
-    if (plant.has_user_force) {
+    if (plant.input.has_user_force) {
         const Mat3 turn = to_model.toRotationMatrix();
-        loads.force.setZero(plant.motion.x.size());
+        loads.force.setZero(plant.state.motion.x.size());
         gather_chain_loads(plant, loads.force);
-        for (int i = 0; i < plant.user_force.size() / 3; i++) {
-            const Vec3 force = turn * point(plant.user_force, i);
+        for (int i = 0; i < plant.input.user_force.size() / 3; i++) {
+            const Vec3 force = turn * point(plant.input.user_force, i);
             if (!plant.follow)
                 point(loads.force, i) = force;
             else if (force != Vec3::Zero())
-                add_attachment_force(plant.follow->attachments[size_t(i)], plant.motion.x, force, loads.force);
+                add_attachment_force(plant.follow->attachments[size_t(i)], plant.state.motion.x, force, loads.force);
         }
     }
-    for (const Grab& grab : plant.grabs)
+    for (const Grab& grab : plant.input.grabs)
         if (!fragment_of_vertex(plant, size_t(grab.vertex))) loads.springs.push_back(grab_spring(plant, grab));
 }
 
 // Has steps with forces of the host, and those that follow, look back on none: where a force begins or ends, bdf2 would
 // give half a step too little or too much of its momentum.
 static void drop_history_at_forces(Plant& plant) {
-    if (plant.loads.force.size() > 0) plant.motion.history.valid = plant.motion.history.shaken = false;
+    if (plant.step.loads.force.size() > 0) plant.state.motion.history.valid = plant.state.motion.history.shaken = false;
 }
 
 // Makes a part of what is strained beyond its yield plastic.
@@ -53,24 +53,25 @@ static void keep_sets(Plant& plant, double h) {
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const Elements& shared = elements_of(*plant.system);
     if (shared.yields.empty()) return;
-    if (!plant.own_elements) {
-        if (!plant.may_yield || !row.yields(shared, plant.motion.x)) return;
-        plant.own_elements = row.copy(shared);
+    if (!plant.state.own_elements) {
+        if (!plant.step.may_yield || !row.yields(shared, plant.state.motion.x)) return;
+        plant.state.own_elements = row.copy(shared);
     }
-    row.flow(*plant.own_elements, plant.motion.x, h);
+    row.flow(*plant.state.own_elements, plant.state.motion.x, h);
 }
 
 // Returns whether no node ran away, and none left its course with energy that nothing can have given. A pressed plant
 // springs far in a solve without contacts, and its energy is meaningless there; `push`: null until they are known.
 static bool is_plausible(Plant& plant, double h, const Push* push) {
-    if (push || !plant.is_touched) return keeps_course(plant, h, push ? *push : Push());
-    plant.is_off_course = ends_off_course(plant, h);
+    if (push || !plant.state.is_touched) return keeps_course(plant, h, push ? *push : Push());
+    plant.step.is_off_course = ends_off_course(plant, h);
     return !has_run_away(plant);
 }
 
 // Returns whether the solution, as moved since then, can be the next state.
 static bool is_sound(const Plant& plant) {
-    return plant.report.ok && are_finite(plant.motion.x) && are_finite(plant.motion.v) && !has_run_away(plant);
+    return plant.report.ok && are_finite(plant.state.motion.x) && are_finite(plant.state.motion.v) &&
+           !has_run_away(plant);
 }
 
 // Solves again from the start of the step by minimising its potential, in which a push is a force: no iterate has more
@@ -78,36 +79,36 @@ static bool is_sound(const Plant& plant) {
 static void minimise(Plant& plant, frond_integrator method, double h, const Push& push, bool from_rest) {
     constexpr int ITERATIONS = 30;
     constexpr int MOST_WORK = 400;  // evaluations of all forces, about the most that a search needs
-    SolveSettings settings = plant.step_settings;
+    SolveSettings settings = plant.step.settings;
     settings.most_work = MOST_WORK;
     settings.integrator = method;
     settings.newton_iterations = std::max(settings.newton_iterations, ITERATIONS);
     settings.careful = true;
     settings.from_rest = from_rest;
     plant.trouble |= FROND_TROUBLE_RETRIED;
-    Motion& motion = plant.motion;
-    motion.x = plant.x_good;
-    motion.v = plant.v_good;
-    const VecX force = plant.loads.force;
+    Motion& motion = plant.state.motion;
+    motion.x = plant.step.x_good;
+    motion.v = plant.step.v_good;
+    const VecX force = plant.step.loads.force;
     if (push.impulse.size() > 0) {
-        plant.loads.force = push.impulse / h;
-        if (force.size() > 0) plant.loads.force += force;
+        plant.step.loads.force = push.impulse / h;
+        if (force.size() > 0) plant.step.loads.force += force;
     }
     const SolveReport before = plant.report;
-    plant.report = solve_step(*plant.workspace, settings, plant.loads, h, motion);
+    plant.report = solve_step(*plant.step.workspace, settings, plant.step.loads, h, motion);
     plant.report.add_cost(before);
-    plant.loads.force = force;
+    plant.step.loads.force = force;
     motion.history.shaken = true;
 }
 
 // Goes only as far along the step as the plant gains no energy that nothing can have given.
 static void hold_back(Plant& plant, double h, const Push* push) {
     constexpr double LEAST = 0.01;  // share of the step from which on it is rewound [-]
-    Motion& motion = plant.motion;
+    Motion& motion = plant.state.motion;
     const VecX way = way_of_step(plant), v = motion.v;
     for (double share = 0.5; plant.report.ok && !is_plausible(plant, h, push); share /= 2) {
         plant.report.ok = share > LEAST;
-        motion.x = plant.x_good + share * way;
+        motion.x = plant.step.x_good + share * way;
         motion.v = share * v;
     }
 }
@@ -116,18 +117,18 @@ static void hold_back(Plant& plant, double h, const Push* push) {
 // vibrations, and if that fails too by implicit Euler. That gains no energy but by a push which no longer points where
 // it was to push, for the plant has turned: then it pushes less. `known`: null until contacts are known.
 static void solve_again(Plant& plant, double h, const Push* known) {
-    const frond_integrator own = plant.step_settings.integrator;
+    const frond_integrator own = plant.step.settings.integrator;
     // From rest, entangled rods that are bent by their leaves' tips would stay still and never part.
-    const bool from_rest = !plant.is_entangled;
+    const bool from_rest = !plant.state.is_entangled;
     Push push = known ? *known : Push();
     const Push* const pushes = known ? &push : nullptr;
     const bool was_solved = plant.report.ok;
-    const VecX x_once = plant.motion.x, v_once = plant.motion.v;
-    if (!plant.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
+    const VecX x_once = plant.state.motion.x, v_once = plant.state.motion.v;
+    if (!plant.state.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
         minimise(plant, own, h, push, from_rest);
         if (plant.report.ok && is_plausible(plant, h, pushes) && are_slack(plant)) return;
     }
-    plant.motion.history.valid = false;
+    plant.state.motion.history.valid = false;
     minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, from_rest);
     for (const double share : {0.25, 0.05, 0.0}) {
         if (push.impulse.size() == 0 || !plant.report.ok || is_plausible(plant, h, pushes)) break;
@@ -136,8 +137,8 @@ static void solve_again(Plant& plant, double h, const Push* known) {
     }
     if (was_solved && !plant.report.converged && way_of_step(plant).isZero(0)) {
         // The search found no way at all, and would find none in the next step: a part of what one solve gave is one.
-        plant.motion.x = x_once;
-        plant.motion.v = v_once;
+        plant.state.motion.x = x_once;
+        plant.state.motion.v = v_once;
         plant.report.ok = true;
     }
     hold_back(plant, h, pushes);
@@ -145,32 +146,32 @@ static void solve_again(Plant& plant, double h, const Push* known) {
 
 // Returns whether one solve predicts the displacements well. An unwound rotation vector has not turned far.
 static bool is_calm_way(const Plant& plant) {
-    const VecX& from = plant.x_good;
+    const VecX& from = plant.step.x_good;
     const auto is_calm_to = [&](const VecX& to) { return is_calm(*plant.system, from, to); };
-    return is_calm_to(plant.motion.x) || (plant.follow && is_calm_to(wound_as(from, plant.motion.x)));
+    return is_calm_to(plant.state.motion.x) || (plant.follow && is_calm_to(wound_as(from, plant.state.motion.x)));
 }
 
 SolveSettings settings_for(const Plant& plant, frond_effects effects) {
-    SolveSettings settings = plant.settings;
+    SolveSettings settings = plant.input.settings;
     if (!(effects & FROND_EFFECT_DAMPING))
         settings.mass_damping = settings.stiffness_damping = settings.full_damping = 0;
     damp_recovering(plant, settings);
     // Contacts add their response to the linear solution first.
-    settings.retracts = !plant.is_touched;
+    settings.retracts = !plant.state.is_touched;
     return settings;
 }
 
 void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
-    const frond_effects effects = plant.effects & surroundings.effects;
-    Motion& motion = plant.motion;
-    FROND_ASSERT(h > 0 && !plant.is_compressed && !plant.modal);
+    const frond_effects effects = plant.input.effects & surroundings.effects;
+    Motion& motion = plant.state.motion;
+    FROND_ASSERT(h > 0 && !plant.state.is_compressed && !plant.state.modal);
     FROND_ASSERT(motion.x.size() == 3 * elements_of(plant).node_count && motion.v.size() == motion.x.size());
     FROND_ASSERT(std::abs(plant.rotation.norm() - 1) < 1e-9);
-    plant.x_good = motion.x;
-    plant.v_good = motion.v;
+    plant.step.x_good = motion.x;
+    plant.step.v_good = motion.v;
     plant.trouble = 0;
-    plant.lead = 0;
-    plant.may_yield = true;
+    plant.view.lead = 0;
+    plant.step.may_yield = true;
 
     // Effects.
     take_workspace(plant);
@@ -181,16 +182,16 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.ms_user_force = timer.lap();
     gather_air(plant, surroundings, effects, h);
     plant.ms_air = timer.lap();
-    plant.step_settings = settings_for(plant, effects);
+    plant.step.settings = settings_for(plant, effects);
     plant.ms_effects = plant.ms_user_force + plant.ms_air;
     plant.ms_fibres = plant.ms_plasticity = 0;
-    plant.has_fibres = effects & FROND_EFFECT_FIBRES;
+    plant.step.has_fibres = effects & FROND_EFFECT_FIBRES;
 
     // Solve.
     drop_history_at_forces(plant);
-    motion.history.shaken |= plant.is_touched;
-    plant.starts_anew =
-        integrator(plant.settings.integrator).looks_back && !motion.history.valid && !motion.history.shaken;
+    motion.history.shaken |= plant.state.is_touched;
+    plant.step.starts_anew =
+        integrator(plant.input.settings.integrator).looks_back && !motion.history.valid && !motion.history.shaken;
     plant.report = solve_in_substeps(plant, h);
     if (!plant.report.ok || !is_plausible(plant, h, nullptr)) solve_again(plant, h, nullptr);
     finish_solving(plant, h);
@@ -200,7 +201,8 @@ void finish_solving(Plant& plant, double h) {
     hold_lengths(plant, h);
     // Chains have no fibres, so none of their nodes has moved since the plausibility check. A plant on its course is
     // not being stretched.
-    plant.is_sound = (plant.follow ? plant.report.ok : is_sound(plant)) && !(plant.is_off_course && is_far_out(plant));
+    plant.step.is_sound =
+        (plant.follow ? plant.report.ok : is_sound(plant)) && !(plant.step.is_off_course && is_far_out(plant));
 }
 
 // Corrects positions as far as nothing bends much and the work done on the plant stays small: contacts with conflicting
@@ -211,47 +213,47 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
     constexpr double LIFT = 0.5;     // speed of lifting the plant by its weight, for the allowed work [m/s]
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const Elements& elements = elements_of(plant);
-    const VecX x = plant.motion.x;
+    const VecX x = plant.state.motion.x;
     const double allowed = row.energy(elements, x) + node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
     for (double share = 1; share > LEAST; share /= 2) {
-        add_correction(*plant.workspace, share * dv, plant.motion);
-        if (is_calm_way(plant) && row.energy(elements, plant.motion.x) <= allowed) return;
-        plant.motion.x = x;
+        add_correction(*plant.step.workspace, share * dv, plant.state.motion);
+        if (is_calm_way(plant) && row.energy(elements, plant.state.motion.x) <= allowed) return;
+        plant.state.motion.x = x;
     }
 }
 
 void add_contacts(Plant& plant, double h) {
-    FROND_ASSERT(plant.workspace);
-    if (!plant.is_sound) return;
-    Push push = {std::move(plant.contact_impulse)};
-    const VecX shift = std::move(plant.contact_correction);
-    plant.contact_impulse.resize(0);
-    plant.contact_correction.resize(0);
+    FROND_ASSERT(plant.step.workspace);
+    if (!plant.step.is_sound) return;
+    Push push = {std::move(plant.step.contact_impulse)};
+    const VecX shift = std::move(plant.step.contact_correction);
+    plant.step.contact_impulse.resize(0);
+    plant.step.contact_correction.resize(0);
     VecX dv;
     const bool is_pushed = push.impulse.size() > 0;
-    if (is_pushed && respond(*plant.workspace, plant.settings, push.impulse, dv))
-        add_response(*plant.workspace, dv, plant.motion);
+    if (is_pushed && respond(*plant.step.workspace, plant.input.settings, push.impulse, dv))
+        add_response(*plant.step.workspace, dv, plant.state.motion);
     // What is pushed goes along with what pushes it, as far as the response is linear.
-    if (is_pushed) push.most_work = std::max(0.0, push.impulse.dot(plant.motion.v));
-    retract_step(*plant.workspace, plant.motion);
+    if (is_pushed) push.most_work = std::max(0.0, push.impulse.dot(plant.state.motion.v));
+    retract_step(*plant.step.workspace, plant.state.motion);
     if (is_pushed) push.most_work = std::min(push.most_work, std::max(0.0, push.impulse.dot(way_of_step(plant)) / h));
     // Cages are not retracted: what turns in them is inflated.
-    const bool is_bent = is_pushed && !plant.follow && !is_calm(*plant.system, plant.x_good, plant.motion.x);
+    const bool is_bent = is_pushed && !plant.follow && !is_calm(*plant.system, plant.step.x_good, plant.state.motion.x);
     // Where this is too far for the linear response, the same push is solved as a force, nonlinearly.
     if (is_bent || !is_plausible(plant, h, &push)) solve_again(plant, h, &push);
-    if (shift.size() > 0 && respond(*plant.workspace, plant.settings, shift, dv)) move_by(plant, dv, h);
-    plant.is_sound = is_sound(plant) && !is_far_out(plant);
+    if (shift.size() > 0 && respond(*plant.step.workspace, plant.input.settings, shift, dv)) move_by(plant, dv, h);
+    plant.step.is_sound = is_sound(plant) && !is_far_out(plant);
 }
 
 void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
-    const frond_effects effects = plant.effects & surroundings.effects;
-    Motion& motion = plant.motion;
+    const frond_effects effects = plant.input.effects & surroundings.effects;
+    Motion& motion = plant.state.motion;
     if (!plant.report.converged) plant.trouble |= FROND_TROUBLE_NOT_CONVERGED;
     if (plant.report.inverted > 0) plant.trouble |= FROND_TROUBLE_INVERTED;
     // Accept, or rewind to the last good state, at rest; from where that leads nowhere, start from the modelled shape.
-    if (!plant.is_sound) {
-        const bool is_stuck = plant.v_good.isZero(0);
-        motion.x = plant.x_good;
+    if (!plant.step.is_sound) {
+        const bool is_stuck = plant.step.v_good.isZero(0);
+        motion.x = plant.step.x_good;
         motion.v.setZero();
         motion.history.valid = false;
         plant.trouble |= FROND_TROUBLE_REWOUND;
@@ -261,7 +263,7 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
 
         // Where a search gave up is no place in which the plant stays.
         const bool is_lost = plant.trouble & FROND_TROUBLE_RETRIED && !plant.report.converged;
-        if (effects & FROND_EFFECT_PLASTICITY && plant.recovers_for <= 0 && !is_lost) {
+        if (effects & FROND_EFFECT_PLASTICITY && plant.state.recovers_for <= 0 && !is_lost) {
             const Timer timer;
             keep_sets(plant, h);
             plant.ms_plasticity = timer.ms();
@@ -270,24 +272,24 @@ void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
     FROND_ASSERT(are_finite(motion.x) && are_finite(motion.v));
     FROND_ASSERT(motion.x.size() == 3 * elements_of(plant).node_count);
     drop_history_at_forces(plant);
-    plant.stepped_by = h;
+    plant.state.stepped_by = h;
     carry_stumps(plant);
-    pass_time(plant.blend_out, h);
+    pass_time(plant.state.blend_out, h);
     moved(plant);
     return_workspace(plant);
 }
 
 void drop_step(Plant& plant) {
-    if (!plant.workspace) return;  // not begun, or done
-    Motion& motion = plant.motion;
-    if (plant.x_good.size() == motion.x.size()) {
-        motion.x = plant.x_good;
-        motion.v = plant.v_good;
+    if (!plant.step.workspace) return;  // not begun, or done
+    Motion& motion = plant.state.motion;
+    if (plant.step.x_good.size() == motion.x.size()) {
+        motion.x = plant.step.x_good;
+        motion.v = plant.step.v_good;
     }
     motion.history.valid = false;
-    plant.contact_impulse.resize(0);
-    plant.contact_correction.resize(0);
-    plant.stepped_by = 0;
+    plant.step.contact_impulse.resize(0);
+    plant.step.contact_correction.resize(0);
+    plant.state.stepped_by = 0;
     moved(plant);
     return_workspace(plant);
 }
@@ -298,10 +300,10 @@ void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
 }
 
 void clear_user_force(Plant& plant) {
-    if (!plant.has_user_force) return;
-    plant.user_force.setZero();
-    plant.chain_load.setZero();
-    plant.has_user_force = false;
+    if (!plant.input.has_user_force) return;
+    plant.input.user_force.setZero();
+    plant.input.chain_load.setZero();
+    plant.input.has_user_force = false;
 }
 
 }  // namespace frond

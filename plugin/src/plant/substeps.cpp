@@ -16,28 +16,28 @@ namespace {
 
 // Returns half of the largest prediction error of a free node [m]; keeps the trend for the next substep.
 double local_error(Plant& plant, const VecX& x, const VecX& v, double h) {
-    const Motion& motion = plant.motion;
-    const bool known = plant.trend.v_end.size() == v.size() && plant.trend.v_end == v;
+    const Motion& motion = plant.state.motion;
+    const bool known = plant.state.trend.v_end.size() == v.size() && plant.state.trend.v_end == v;
     const int next = plant.follow ? 2 : 1;
     double most = 0;
     for (int i = 0; i < x.size() / 3; i += next) {
         if (motion.pinned[size_t(i)]) continue;
         Vec3 miss = point(motion.x, i) - point(x, i) - h * point(v, i);
-        if (known) miss -= 0.5 * h * h * point(plant.trend.rate, i);
+        if (known) miss -= 0.5 * h * h * point(plant.state.trend.rate, i);
         most = std::max(most, miss.squaredNorm());
     }
-    plant.trend.rate = (motion.v - v) / h;
-    plant.trend.v_end = motion.v;
+    plant.state.trend.rate = (motion.v - v) / h;
+    plant.state.trend.v_end = motion.v;
     constexpr double WILD = 1e15;  // limits [m/s], [m/s^2]: a step of almost no time gives no trend
     const auto is_wild = [](const VecX& numbers) { return !(numbers.lpNorm<Eigen::Infinity>() <= WILD); };
-    if (is_wild(plant.trend.rate) || is_wild(plant.trend.v_end)) plant.trend = {};
+    if (is_wild(plant.state.trend.rate) || is_wild(plant.state.trend.v_end)) plant.state.trend = {};
     return 0.5 * std::sqrt(most);
 }
 
 // Solves all substeps, pinned nodes moving evenly; `error` is the sum of theirs. The caller pulls back the fibres of
 // the last one.
 SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
-    Motion& motion = plant.motion;
+    Motion& motion = plant.state.motion;
     const VecX from = motion.x, target = motion.pin_target;
     SolveReport sum;
     sum.ok = true;
@@ -45,7 +45,7 @@ SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
     for (int i = 1; i <= count && sum.ok; i++) {
         motion.pin_target = i < count ? VecX(from + (target - from) * (double(i) / count)) : target;
         const VecX x = motion.x, v = motion.v;
-        plant.report = solve_step(*plant.workspace, plant.step_settings, plant.loads, h / count, motion);
+        plant.report = solve_step(*plant.step.workspace, plant.step.settings, plant.step.loads, h / count, motion);
         if (i < count) hold_lengths(plant, h / count);
         const SolveReport& one = plant.report;
         error += local_error(plant, x, v, h / count);
@@ -62,25 +62,25 @@ SolveReport solve_evenly(Plant& plant, int count, double h, double& error) {
 }  // namespace
 
 SolveReport solve_in_substeps(Plant& plant, double h) {
-    if (plant.max_substeps <= 1 || plant.is_touched)
-        return solve_step(*plant.workspace, plant.step_settings, plant.loads, h, plant.motion);
+    if (plant.input.max_substeps <= 1 || plant.state.is_touched)
+        return solve_step(*plant.step.workspace, plant.step.settings, plant.step.loads, h, plant.state.motion);
     constexpr double TOO_FINE = 1.0 / 8;  // half as many substeps make four times the error
-    const double allowed = plant.substep_tolerance * plant.size;
-    FROND_ASSERT(plant.substeps >= 1 && plant.substep_tolerance >= 0);
-    const Motion start = plant.motion;
-    const Trend trend = plant.trend;
+    const double allowed = plant.input.substep_tolerance * plant.size;
+    FROND_ASSERT(plant.state.substeps >= 1 && plant.input.substep_tolerance >= 0);
+    const Motion start = plant.state.motion;
+    const Trend trend = plant.state.trend;
     SolveReport spent;
-    for (int count = plant.substeps;; count *= 2) {
+    for (int count = plant.state.substeps;; count *= 2) {
         double error = 0;
         SolveReport report = solve_evenly(plant, count, h, error);
         report.add_cost(spent);
-        if ((report.ok && error <= allowed) || 2 * count > plant.max_substeps) {
-            plant.substeps = error < TOO_FINE * allowed ? std::max(1, count / 2) : count;
+        if ((report.ok && error <= allowed) || 2 * count > plant.input.max_substeps) {
+            plant.state.substeps = error < TOO_FINE * allowed ? std::max(1, count / 2) : count;
             return report;
         }
         spent = report;
-        plant.motion = start;
-        plant.trend = trend;
+        plant.state.motion = start;
+        plant.state.trend = trend;
     }
 }
 

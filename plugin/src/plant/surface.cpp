@@ -61,7 +61,7 @@ struct PlaceVertices {
         const Embedding& embedding = plant.model->embedding;
         const std::vector<Tet>& tets = plant.model->cage.tets;
         for (size_t v = 0; v < embedding.tet.size(); v++) {
-            if (!belongs(plant.parting->of_vertex, v, drawn)) continue;
+            if (!belongs(plant.state.parting->of_vertex, v, drawn)) continue;
             const float* there = positions + 3 * v;
             FourLanes sum = {};
             if (add) sum = FourLanes{there[0], there[1], there[2], 0};
@@ -159,7 +159,7 @@ struct AddCofactors {
         int group[4], count = 0;
         const size_t tets = plant.model->cage.tets.size();
         for (size_t e = 0; e < tets; e++) {
-            if (!belongs(plant.parting->of_tet, e, drawn)) continue;
+            if (!belongs(plant.state.parting->of_tet, e, drawn)) continue;
             if (plant.nodes->order == 2) {
                 add_quadratic(e);
                 continue;
@@ -184,7 +184,7 @@ struct TurnNormals {
     FROND_INLINE void run() const {
         const Model& model = *plant.model;
         for (size_t v = 0; v < model.surface.normals.size(); v++) {
-            if (!belongs(plant.parting->of_vertex, v, drawn)) continue;
+            if (!belongs(plant.state.parting->of_vertex, v, drawn)) continue;
             const Tet& tet = model.cage.tets[size_t(model.embedding.tet[v])];
             const Vec3f& rest = model.surface.normals[v];
             FourLanes columns[3] = {};
@@ -210,11 +210,11 @@ struct TurnNormals {
 // Returns the state of the mechanics' nodes `back` before the end of the last substep. A plant that is not stepped in
 // each substep continues at its own velocities; one that was placed stands still.
 VecX state_then(const Plant& plant, double back) {
-    const Motion& motion = plant.motion;
-    if (plant.lead > 0 || plant.modal) return motion.x + (plant.lead - back) * motion.v;
-    if (plant.stepped_by == 0 || back == 0) return motion.x;
-    const VecX& before = plant.x_good.size() > 0 ? plant.x_good : motion.history.x_prev;
-    return motion.x - back / plant.stepped_by * (motion.x - (plant.follow ? wound_as(motion.x, before) : before));
+    const Motion& motion = plant.state.motion;
+    if (plant.view.lead > 0 || plant.state.modal) return motion.x + (plant.view.lead - back) * motion.v;
+    if (plant.state.stepped_by == 0 || back == 0) return motion.x;
+    const VecX& before = plant.step.x_good.size() > 0 ? plant.step.x_good : motion.history.x_prev;
+    return motion.x - back / plant.state.stepped_by * (motion.x - (plant.follow ? wound_as(motion.x, before) : before));
 }
 
 // Returns where a fragment was `back` before, as a free body moves.
@@ -232,19 +232,19 @@ void draw_in_cage(Plant& plant, const Drawn& drawn, bool with_normals, std::vect
                   std::vector<Columns>& cofactors) {
     nodes.resize(size_t(drawn.x.size() / 3));
     run_in_lanes(PlaceNodes{drawn, nodes});
-    run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.surface_positions.data(), false});
+    run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.view.surface_positions.data(), false});
     if (!with_normals) return;
     const Timer timer;
     cofactors.assign(plant.model->cage.nodes.size(), Columns());
     run_in_lanes(AddCofactors{plant, drawn, nodes, cofactors});
-    run_in_lanes(TurnNormals{plant, drawn, cofactors, plant.surface_normals.data()});
+    run_in_lanes(TurnNormals{plant, drawn, cofactors, plant.view.surface_normals.data()});
     plant.ms_normals += timer.ms();
 }
 
 void draw_on_chain(Plant& plant, const Drawn& drawn, bool with_normals) {
-    draw_skin(drawn.follow->skin,
-              {drawn.x, drawn.turn, drawn.shift, plant.parting->of_vertex, drawn.fragment, plant.model->surface.normals,
-               plant.surface_positions.data(), with_normals ? plant.surface_normals.data() : nullptr});
+    draw_skin(drawn.follow->skin, {drawn.x, drawn.turn, drawn.shift, plant.state.parting->of_vertex, drawn.fragment,
+                                   plant.model->surface.normals, plant.view.surface_positions.data(),
+                                   with_normals ? plant.view.surface_normals.data() : nullptr});
 }
 
 }  // namespace
@@ -253,13 +253,13 @@ void update_surface(Plant& plant, frond_effects effects, double back) {
     const size_t vertex_count = plant.model->surface.positions.size();
     const Timer timer;
     plant.ms_normals = 0;
-    plant.surface_positions.resize(3 * vertex_count);
-    plant.surface_normals.resize(3 * vertex_count);
+    plant.view.surface_positions.resize(3 * vertex_count);
+    plant.view.surface_normals.resize(3 * vertex_count);
     VecX x = state_then(plant, back);
-    const VecX offset = blend_offset(plant, plant.lead - back);
+    const VecX offset = blend_offset(plant, plant.view.lead - back);
     if (!plant.follow && offset.size() > 0) x += offset;
     std::vector<Drawn> list = {{-1, plant.follow.get(), x, plant.rotation.toRotationMatrix(), plant.position}};
-    for (const Fragment& fragment : plant.fragments)
+    for (const Fragment& fragment : plant.state.fragments)
         list.push_back(drawn_fragment(fragment, int(list.size()) - 1, back));
     std::vector<Quad> nodes;
     std::vector<Columns> cofactors;
@@ -273,10 +273,10 @@ void update_surface(Plant& plant, frond_effects effects, double back) {
         const Drawn drawn = {-1, nullptr, offset, list.front().turn, Vec3::Zero()};
         nodes.resize(size_t(offset.size() / 3));
         run_in_lanes(PlaceNodes{drawn, nodes});
-        run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.surface_positions.data(), true});
+        run_in_lanes(PlaceVertices{plant, drawn, nodes, plant.view.surface_positions.data(), true});
     }
-    plant.surface_stale = false;
-    plant.surface_back = float(back);
+    plant.view.surface_stale = false;
+    plant.view.surface_back = float(back);
     plant.ms_surface = timer.ms();
 }
 

@@ -44,34 +44,34 @@ Attachment cage_attachment(const ContactSide& side) {
 }
 
 bool make_touch(const Plant& plant, const Attachment& attachment, PlantTouch& touch) {
-    if (!plant.is_sound) return false;
+    if (!plant.step.is_sound) return false;
     touch.attachment = attachment;
-    touch.velocity = plant.rotation * attachment_velocity(attachment, plant.x_good, plant.motion.v);
+    touch.velocity = plant.rotation * attachment_velocity(attachment, plant.step.x_good, plant.state.motion.v);
     return true;
 }
 
 bool find_compliance(Plant& plant, PlantTouch& touch) {
-    FROND_ASSERT(plant.workspace);
+    FROND_ASSERT(plant.step.workspace);
     const Mat3 to_model = plant.rotation.conjugate().toRotationMatrix();
-    const AttachmentDerivative derivative = derivative_at(touch.attachment, plant.x_good);
+    const AttachmentDerivative derivative = derivative_at(touch.attachment, plant.step.x_good);
     std::vector<NodeBlock> pushes;
     for (size_t k = 0; k < size_t(derivative.count); k++)
         pushes.push_back({derivative.node[k], derivative.by[k].transpose() * to_model});
-    return make_compliance(*plant.workspace, plant.settings, pushes, touch.compliance);
+    return make_compliance(*plant.step.workspace, plant.input.settings, pushes, touch.compliance);
 }
 
 static void add_impulse(const Plant& plant, const PlantTouch& touch, const Vec3& impulse, VecX& sum) {
     FROND_ASSERT(impulse.allFinite());
-    if (sum.size() == 0) sum = VecX::Zero(plant.motion.v.size());
-    add_attachment_force(touch.attachment, plant.x_good, plant.rotation.conjugate() * impulse, sum);
+    if (sum.size() == 0) sum = VecX::Zero(plant.state.motion.v.size());
+    add_attachment_force(touch.attachment, plant.step.x_good, plant.rotation.conjugate() * impulse, sum);
 }
 
 void take_impulse(Plant& plant, const PlantTouch& touch, const Vec3& impulse) {
-    add_impulse(plant, touch, impulse, plant.contact_impulse);
+    add_impulse(plant, touch, impulse, plant.step.contact_impulse);
 }
 
 void take_correction(Plant& plant, const PlantTouch& touch, const Vec3& impulse) {
-    add_impulse(plant, touch, impulse, plant.contact_correction);
+    add_impulse(plant, touch, impulse, plant.step.contact_correction);
 }
 
 }  // namespace frond

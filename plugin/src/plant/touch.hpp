@@ -13,7 +13,7 @@ std::shared_ptr<const Sheath> sheath_of(const Plant& plant);
 std::shared_ptr<const SheathInCage> sheath_in_cage_of(const Plant& plant);
 // Returns whether a plant touches others by its sheath, else by its cage.
 inline bool touches_by_sheath(const Plant& plant) {
-    return plant.follow || plant.collision == FROND_COLLISION_ORGANS;
+    return plant.follow || plant.input.collision == FROND_COLLISION_ORGANS;
 }
 
 // Returns the point of a capsule's axis at `along` of its length from its first node to its second, 0..1. A push on the

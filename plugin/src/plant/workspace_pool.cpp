@@ -24,23 +24,23 @@ void PoolSeat::leave() {
 }
 
 void take_workspace(Plant& plant) {
-    if (plant.workspace) return;
+    if (plant.step.workspace) return;
     FROND_ASSERT(plant.seat.is_taken);
     {
         std::lock_guard<std::mutex> lock(plant.seat.pool->mutex);
         if (!plant.seat.pool->free.empty()) {
-            plant.workspace = std::move(plant.seat.pool->free.back());
+            plant.step.workspace = std::move(plant.seat.pool->free.back());
             plant.seat.pool->free.pop_back();
         }
     }
-    if (!plant.workspace) plant.workspace = make_workspace(plant.system);
-    use_elements(*plant.workspace, plant.own_elements.get());
+    if (!plant.step.workspace) plant.step.workspace = make_workspace(plant.system);
+    use_elements(*plant.step.workspace, plant.state.own_elements.get());
 }
 
 void return_workspace(Plant& plant) {
-    if (!plant.workspace) return;
+    if (!plant.step.workspace) return;
     std::lock_guard<std::mutex> lock(plant.seat.pool->mutex);
-    plant.seat.pool->free.push_back(std::move(plant.workspace));
+    plant.seat.pool->free.push_back(std::move(plant.step.workspace));
 }
 
 }  // namespace frond

@@ -30,15 +30,15 @@ struct Newton {
     SolveReport& report;
     const System& system;
     const Mechanics& body;
-    double rayleigh;    // workspace.damping_scale [s]
-    int iterations;     // most Newton iterations
-    bool apart;         // elements differ in damping ratio: the damping is not a multiple of the stiffness
-    bool keep_damping;  // the damping matrix is needed besides the stiffness
-    bool is_long;       // the step is longer than the period of hanging parts, and has one solve
-    bool exact;         // the first solve uses the exact stiffness, the damping still the positive one
-    bool skipped;       // the first solve was left to the line search
-    bool at_once;       // the mechanics assemble right-hand side and matrix of the only solve in one pass
-    int most_work;      // limit of report.work; 0: none
+    double rayleigh = 0;        // workspace.damping_scale [s]
+    int iterations = 1;         // most Newton iterations
+    bool apart = false;         // elements differ in damping ratio: the damping is not a multiple of the stiffness
+    bool keep_damping = false;  // the damping matrix is needed besides the stiffness
+    bool is_long = false;       // the step is longer than the period of hanging parts, and has one solve
+    bool exact = false;         // the first solve uses the exact stiffness, the damping still the positive one
+    bool skipped = false;       // the first solve was left to the line search
+    bool at_once = false;       // the mechanics assemble right-hand side and matrix of the only solve in one pass
+    int most_work = 0;          // limit of report.work; 0: none
 };
 
 // Approximate cost of a factor, in evaluations of the forces.
@@ -382,26 +382,17 @@ bool is_long_stage(const System& system, double step) {
 }
 
 bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stage, SolveReport& report) {
-    const int iterations = stage.iterations > 0 ? stage.iterations : input.settings.newton_iterations;
-    const double b = workspace.damping_scale;
-    const bool apart = !workspace.element_damping.empty();
-    const bool is_long = is_long_stage(*workspace.system, stage.step) && iterations == 1;
-    Newton n = {workspace,
-                input,
-                stage,
-                report,
-                *workspace.system,
-                *workspace.system->row,
-                b,
-                iterations,
-                apart,
-                apart || (b > 0 &&
-                          (iterations > 1 || is_long || workspace.system->row->needs_search || input.settings.careful)),
-                is_long,
-                is_long,
-                false,
-                workspace.system->row->add_ahead && iterations == 1 && !is_long && !input.settings.careful,
-                input.settings.careful && input.settings.most_work > 0 ? report.work + input.settings.most_work : 0};
+    const System& system = *workspace.system;
+    const SolveSettings& settings = input.settings;
+    Newton n = {workspace, input, stage, report, system, *system.row};
+    n.rayleigh = workspace.damping_scale;
+    n.iterations = stage.iterations > 0 ? stage.iterations : settings.newton_iterations;
+    n.apart = !workspace.element_damping.empty();
+    n.is_long = n.exact = is_long_stage(system, stage.step) && n.iterations == 1;
+    n.keep_damping =
+        n.apart || (n.rayleigh > 0 && (n.iterations > 1 || n.is_long || n.body.needs_search || settings.careful));
+    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.is_long && !settings.careful;
+    if (settings.careful && settings.most_work > 0) n.most_work = report.work + settings.most_work;
     workspace.v = workspace.v_start;
     workspace.reach = stage.step;
     workspace.retract_from.resize(0);

@@ -13,16 +13,17 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 double stored_at_start(const Plant& plant) {
-    if (plant.x_good.size() != plant.motion.x.size()) return INFINITY;
-    const bool is_driven = plant.has_user_force || !plant.grabs.empty() || !plant.pin_springs.empty() ||
-                           is_carried(plant.motion, plant.x_good, plant.v_good);
+    if (plant.step.x_good.size() != plant.state.motion.x.size()) return INFINITY;
+    const bool is_driven = plant.input.has_user_force || !plant.input.grabs.empty() ||
+                           !plant.input.pin_springs.empty() ||
+                           is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good);
     if (is_driven) return INFINITY;
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
-    const VecX &mass = node_mass_of(*plant.system), &v = plant.v_good;
+    const VecX &mass = node_mass_of(*plant.system), &v = plant.step.v_good;
     double kinetic = 0;
     for (Eigen::Index i = 0; i < mass.size() && 3 * i < v.size(); i++)
         kinetic += 0.5 * mass[i] * point(v, int(i)).squaredNorm();
-    return row.energy(elements_of(plant), plant.x_good) + kinetic;
+    return row.energy(elements_of(plant), plant.step.x_good) + kinetic;
 }
 
 double share_within(const std::vector<BodyPush>& pushes, const std::function<double()>& allowed) {

@@ -32,7 +32,7 @@ double rebound_speed(const Contact& contact, const Touch& touch, double h) {
 }
 
 bool rubs(const World& world, const PlantBody& body) {
-    return world.effects & body.plant->effects & FROND_EFFECT_FRICTION;
+    return world.effects & body.plant->input.effects & FROND_EFFECT_FRICTION;
 }
 
 double mass_of(const PlantBody* body) {
@@ -133,7 +133,7 @@ void add_row(Bond& bond, double h, std::vector<ContactRow>& rows) {
     row.touch.is_bond = true;
     row.touch.normal = Vec3::UnitY();
     row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
-    row.touch.wanted = SHARE / h * (place - plant.to_world(attachment_place(attachment, plant.x_good)));
+    row.touch.wanted = SHARE / h * (place - plant.to_world(attachment_place(attachment, plant.step.x_good)));
     if (row.touch.wanted.norm() > FASTEST) row.touch.wanted *= FASTEST / row.touch.wanted.norm();
     row.touch.bias_velocity = row.touch.friction = 0;
     row.impulse = &bond.impulse;

@@ -52,7 +52,7 @@ frond_mechanics mechanics_for(const PlantBody& body, frond_detail detail) {
 // Returns whether a plant has this detail. After sleep it has no modal motion, whatever it had before.
 bool is_given(const PlantBody& body, frond_detail detail) {
     const Plant& plant = *body.plant;
-    return is_simulated(detail) == !plant.modal && plant.which == mechanics_for(body, detail);
+    return is_simulated(detail) == !plant.state.modal && plant.which == mechanics_for(body, detail);
 }
 
 // Changes the plant's detail, from its present shape and motion.
@@ -63,8 +63,8 @@ void give(PlantBody& body, frond_detail wanted) {
     set_mechanics(plant, mechanics_for(body, wanted), true);
     if (!is_simulated(wanted)) {
         begin_modal(plant);
-        plant.modal->comes_to_rest = wanted == FROND_DETAIL_STILL;
-        plant.modal->fresh = true;
+        plant.state.modal->comes_to_rest = wanted == FROND_DETAIL_STILL;
+        plant.state.modal->fresh = true;
     }
     if (is_simulated(wanted) != is_simulated(level.now)) level.pending = level.ms = 0;
     body.rest.places.resize(0);

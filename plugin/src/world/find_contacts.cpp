@@ -23,7 +23,7 @@ bool pushes(const btCollisionObject& object) {
 }
 
 bool takes_part(const World& world, const PlantBody* body) {
-    return body && body->world == &world && (world.effects & body->plant->effects & FROND_EFFECT_RIGID_CONTACT);
+    return body && body->world == &world && (world.effects & body->plant->input.effects & FROND_EFFECT_RIGID_CONTACT);
 }
 
 bool may_collide(const PlantBody& body, const btCollisionObject& object) {
@@ -107,7 +107,7 @@ void add_manifold(World& world, const btPersistentManifold& manifold, double h, 
     if (!takes_part(world, body) || PlantBody::of(other) || !pushes(*other) || is_plane(*other)) return;
     if (body->rest.asleep && !is_moving(*other)) return;
     // Modal plants are only checked for touch: their last pose is near enough.
-    if (!body->plant->modal) look_at(*body);
+    if (!body->plant->state.modal) look_at(*body);
     std::vector<int> plates;  // plates whose corners have been added
     for (int i = 0; i < manifold.getNumContacts(); i++) {
         const btManifoldPoint& p = manifold.getContactPoint(i);
@@ -189,7 +189,8 @@ int way_along(const Contact& contact) {
     constexpr double ALONG = 0.5;  // cosine
     const Plant& plant = *contact.plant->plant;
     const auto& [begin, end] = plant.model->capsules[size_t(contact.capsule)];
-    const Vec3 outward = plant.rotation * (plant.chain_positions[size_t(end)] - plant.chain_positions[size_t(begin)]);
+    const Vec3 outward =
+        plant.rotation * (plant.view.chain_positions[size_t(end)] - plant.view.chain_positions[size_t(begin)]);
     const double along = contact.normal.dot(outward), least = ALONG * outward.norm();
     return along > least ? 1 : along < -least ? -1 : 0;
 }
@@ -199,9 +200,10 @@ int how_held(const Plant& plant, int capsule) {
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
     const std::vector<uint8_t> path = path_down(plant, end);
     int held = 0;
-    for (size_t n = 0; n < plant.pinned.size(); n++) {
-        const int anchor = plant.anchor[n];
-        if (plant.pinned[n] && path[size_t(anchor)]) held = std::max(held, anchor == begin || anchor == end ? 2 : 1);
+    for (size_t n = 0; n < plant.input.pinned.size(); n++) {
+        const int anchor = plant.input.anchor[n];
+        if (plant.input.pinned[n] && path[size_t(anchor)])
+            held = std::max(held, anchor == begin || anchor == end ? 2 : 1);
     }
     return held;
 }

@@ -46,13 +46,13 @@ bool may_meet(const World& world, const PlantBody& body, const btCollisionObject
 
 // Returns whether a node is held and so cannot be pushed.
 bool is_held_node(const Plant& plant, int node) {
-    return plant.follow && plant.motion.pinned[2 * size_t(node)];
+    return plant.follow && plant.state.motion.pinned[2 * size_t(node)];
 }
 
 // Returns the height below which a chain node is reported: it may reach the plane within two steps [m].
 double reach_of(const Plant& plant, const Plane& plane, int node, double h) {
-    if (plane.moves || plant.modal) return MOVING;
-    const Motion& motion = plant.motion;
+    if (plane.moves || plant.state.modal) return MOVING;
+    const Motion& motion = plant.state.motion;
     const Vec3 velocity = plant.follow ? Vec3(point(motion.v, 2 * node))
                                        : attachment_velocity(chain_attachment(plant, node), motion.x, motion.v);
     return std::min(NEAR + 2 * h * std::max(0.0, -plane.normal.dot(velocity)), FAR);
@@ -68,7 +68,7 @@ void add_at_node(PlantBody& body, int capsule, double along, double reach, const
     Mat3 frame;
     const bool is_flat = flat.half_width > 0 && piece_frame(plant, end, flat.wide, flat.spread, frame);
     const double rim = is_flat ? flat.half_width - flat.half_thickness : 0;
-    const Vec3 node = plant.chain_positions[size_t(along > 0 ? end : begin)];
+    const Vec3 node = plant.view.chain_positions[size_t(along > 0 ? end : begin)];
     for (const double side : {-1.0, 1.0}) {
         if (!is_flat && side > 0) break;
         const double across = is_flat ? side * rim : 0.0;
@@ -101,7 +101,8 @@ void add_pieces(PlantBody& body, const Plane& plane, double h, std::vector<Conta
         for (const double along : {0.0, 1.0}) {
             const int node = along > 0 ? end : begin;
             if (along == 0 && !is_root) continue;
-            if (plane.height(plant.chain_positions[size_t(node)]) - wide >= FAR || is_held_node(plant, node)) continue;
+            if (plane.height(plant.view.chain_positions[size_t(node)]) - wide >= FAR || is_held_node(plant, node))
+                continue;
             if (is_apart(body, int(i), plane.object) || is_between_pieces(body, int(i), plane.normal_in_world))
                 continue;
             add_at_node(body, int(i), along, reach_of(plant, plane, node, h), plane, contacts);
@@ -115,8 +116,8 @@ void add_plane_contacts(World& world, btCollisionObject& object, double h, std::
     const bool moves = is_moving(object);
     const auto add = [&](PlantBody& body) {
         // Modal plants are only checked against planes that move.
-        if (!takes_part(world, &body) || (body.plant->modal && !moves) || !may_meet(world, body, object)) return;
-        if (!body.plant->modal) look_at(body);
+        if (!takes_part(world, &body) || (body.plant->state.modal && !moves) || !may_meet(world, body, object)) return;
+        if (!body.plant->state.modal) look_at(body);
         add_pieces(body, plane_for(*body.plant, object, moves), h, contacts);
     };
     if (!moves)

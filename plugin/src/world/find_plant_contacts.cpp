@@ -16,8 +16,8 @@ namespace {
 void place_nodes(const PlantBody& body, double h, VecX& now, VecX& then) {
     const Plant& plant = *body.plant;
     if (plant.follow) {
-        follow_places(body.sheath->follow, plant.motion.x, now);
-        follow_places(body.sheath->follow, plant.motion.x + h * plant.motion.v, then);
+        follow_places(body.sheath->follow, plant.state.motion.x, now);
+        follow_places(body.sheath->follow, plant.state.motion.x + h * plant.state.motion.v, then);
         return;
     }
     const VecX &cage = cage_places(plant), cage_then = cage + h * cage_velocities(plant);
@@ -45,8 +45,8 @@ void place_shape(const PlantBody& body, size_t number, double h, PlantSearch::Sh
     const Plant& plant = *body.plant;
     shape.axes.clear();
     for (const auto& [begin, end] : plant.model->capsules)
-        shape.axes.push_back(
-            {plant.to_world(plant.chain_positions[size_t(begin)]), plant.to_world(plant.chain_positions[size_t(end)])});
+        shape.axes.push_back({plant.to_world(plant.view.chain_positions[size_t(begin)]),
+                              plant.to_world(plant.view.chain_positions[size_t(end)])});
     VecX now, then;
     place_nodes(body, h, now, then);
     const Mat3 turn = plant.rotation.toRotationMatrix();
@@ -141,7 +141,7 @@ std::vector<StripPath> strip_paths(const World& world, const std::vector<PlantBo
     VecX then;
     for (size_t i = 0; i < island.size(); i++) {
         auto& [before, after] = memory.corners[i];
-        const Motion& motion = island[i]->plant->motion;
+        const Motion& motion = island[i]->plant->state.motion;
         place_corners(*island[i], motion.x, before);
         then = motion.x + h * motion.v;
         place_corners(*island[i], then, after);
@@ -284,7 +284,7 @@ void take_attachments(PlantContact& contact) {
                                  : touches_by_sheath(plant)
                                      ? sheath_attachment(*body.in_cage, *plant.model, *plant.nodes, side)
                                      : cage_attachment(side);
-        places[k] = plant.to_world(attachment_place(contact.attachments[k], plant.motion.x));
+        places[k] = plant.to_world(attachment_place(contact.attachments[k], plant.state.motion.x));
     }
     contact.between = places[0] - places[1];
 }
@@ -301,7 +301,7 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     const std::vector<PlantContact> last = std::move(world.plant_contacts);
     world.plant_contacts.clear();
     world.plant_island_count = 0;
-    for (PlantBody* body : world.awake) body->plant->is_watched = false;
+    for (PlantBody* body : world.awake) body->plant->step.is_watched = false;
     Timer timer;
     // Awake plants get their colliders in advance: the broad phase sees them as wide as their cages or sheaths.
     bool any = false;
@@ -323,7 +323,7 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     world.plant_island_count = islands.size();
     for (size_t i = 0; i < islands.size(); i++)
         for (size_t k = 0; k < islands[i].size(); k++)
-            islands[i][k]->plant->is_watched = found[i].near[k] && !islands[i][k]->rest.asleep;
+            islands[i][k]->plant->step.is_watched = found[i].near[k] && !islands[i][k]->rest.asleep;
     for (const Found& of : found) {
         contacts.insert(contacts.end(), of.contacts.begin(), of.contacts.end());
         world.profile.ms_broad += of.ms_broad;

@@ -10,7 +10,8 @@ namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
 bool touches_others(const World& world, const PlantBody& body, frond_effects effect) {
-    return world.effects & body.plant->effects & effect && !body.capsules().empty() && body.plant->fragments.empty();
+    return world.effects & body.plant->input.effects & effect && !body.capsules().empty() &&
+           body.plant->state.fragments.empty();
 }
 
 namespace {
@@ -18,8 +19,8 @@ namespace {
 // Returns how far a plant may go in the step at its speed, or carried by its pins [m].
 double reach_of(const Plant& plant, double h) {
     double fastest = 0;
-    for (int i = 0; i < plant.motion.v.size() / 3; i += plant.follow ? 2 : 1)
-        fastest = std::max(fastest, point(plant.motion.v, i).squaredNorm());
+    for (int i = 0; i < plant.state.motion.v.size() / 3; i += plant.follow ? 2 : 1)
+        fastest = std::max(fastest, point(plant.state.motion.v, i).squaredNorm());
     return std::max(h * std::sqrt(fastest), way_of_pins(plant));
 }
 
@@ -28,7 +29,7 @@ void add_far_meetings(World& world, double h, std::vector<std::array<int, 2>>& m
     constexpr double FAR = 0.02;  // [m]
     const std::vector<PlantBody*> awake = world.awake;
     for (PlantBody* body : awake) {
-        if (body->plant->modal || !body->getBroadphaseHandle() ||
+        if (body->plant->state.modal || !body->getBroadphaseHandle() ||
             !touches_others(world, *body, FROND_EFFECT_PLANT_CONTACT))
             continue;
         const double reach = reach_of(*body->plant, h);

@@ -95,7 +95,7 @@ void carry_fragments(PlantBody& body) {
         const Rigid& rigid = *body.fragment_bodies[k];
         const btTransform& now = rigid.body->getWorldTransform();
         const Mat3 turn = matrix_from_bullet(now.getBasis());
-        Fragment& fragment = body.plant->fragments[k];
+        Fragment& fragment = body.plant->state.fragments[k];
         fragment.turn = turn * rigid.grown_turn;
         fragment.centre = from_bullet(now.getOrigin());
         fragment.shift = turn * rigid.grown_shift + fragment.centre;
@@ -107,10 +107,10 @@ void carry_fragments(PlantBody& body) {
 // Pulls by implicit Euler, so that a stiff spring is stable.
 void pull_fragments(PlantBody& body, double h) {
     const Plant& plant = *body.plant;
-    for (const Grab& grab : plant.grabs) {
+    for (const Grab& grab : plant.input.grabs) {
         const Fragment* fragment = fragment_of_vertex(plant, size_t(grab.vertex));
         if (!fragment) continue;
-        btRigidBody& rigid = *body.fragment_bodies[size_t(fragment - plant.fragments.data())]->body;
+        btRigidBody& rigid = *body.fragment_bodies[size_t(fragment - plant.state.fragments.data())]->body;
         const Vec3 point = vertex_position(plant, grab.vertex);
         const btVector3 arm = to_bullet(point) - rigid.getCenterOfMassPosition();
         const Vec3 way = grab.target - point - h * from_bullet(rigid.getVelocityInLocalPoint(arm));

@@ -17,14 +17,14 @@ namespace {
 constexpr double NEAREST = 0.25, OF_BEFORE = 0.5;
 
 bool moves(const PlantBody& body) {
-    return body.level.is_due && !body.rest.asleep && !body.plant->modal &&
-           body.plant->x_good.size() == body.plant->motion.x.size();
+    return body.level.is_due && !body.rest.asleep && !body.plant->state.modal &&
+           body.plant->step.x_good.size() == body.plant->state.motion.x.size();
 }
 
 // The ways that an island's plants went; empty if none of them is watched.
 std::vector<StripPath> paths_of(PlantSearch& memory) {
     std::vector<StripPath> paths;
-    const auto is_watched = [](const PlantBody* body) { return body->plant->is_watched && moves(*body); };
+    const auto is_watched = [](const PlantBody* body) { return body->plant->step.is_watched && moves(*body); };
     if (std::none_of(memory.island.begin(), memory.island.end(), is_watched)) return paths;
     memory.corners.resize(std::max(memory.corners.size(), memory.island.size()));
     for (size_t i = 0; i < memory.island.size(); i++) {
@@ -32,12 +32,12 @@ std::vector<StripPath> paths_of(PlantSearch& memory) {
         take_collider(body);
         auto& [before, after] = memory.corners[i];
         const bool steps = moves(body);
-        place_corners(body, steps ? body.plant->x_good : body.plant->motion.x, before);
+        place_corners(body, steps ? body.plant->step.x_good : body.plant->state.motion.x, before);
         if (steps)
-            place_corners(body, body.plant->motion.x, after);
+            place_corners(body, body.plant->state.motion.x, after);
         else
             after = before;
-        const bool with_itself = body.world->effects & body.plant->effects & FROND_EFFECT_SELF_CONTACT;
+        const bool with_itself = body.world->effects & body.plant->input.effects & FROND_EFFECT_SELF_CONTACT;
         paths.push_back({&body, before.data(), after.data(), with_itself});
     }
     return paths;
@@ -115,7 +115,7 @@ bool is_carried_on(const Contact& contact) {
 double behind(const Contact& contact, double h) {
     const Plant& plant = *contact.plant->plant;
     const Attachment at = attachment_of(contact);
-    const Vec3 way = attachment_place(at, plant.motion.x) - attachment_place(at, plant.x_good);
+    const Vec3 way = attachment_place(at, plant.state.motion.x) - attachment_place(at, plant.step.x_good);
     return contact.normal.dot(h * velocity_at(*contact.other, contact.on_other) - plant.rotation * way) - contact.gap;
 }
 

@@ -15,8 +15,8 @@ double sum_of(const frond_energy& energy) {
 // Returns the energy of a plant over that of its modelled shape, so that all its mechanics count from one zero. Modal
 // plants have none.
 frond_energy energy_in(const World& world, const Plant& plant, Ledger::Entry& entry) {
-    if (plant.modal) return {};
-    const bool has_weight = plant.effects & world.effects & FROND_EFFECT_GRAVITY;
+    if (plant.state.modal) return {};
+    const bool has_weight = plant.input.effects & world.effects & FROND_EFFECT_GRAVITY;
     const Vec3 gravity = has_weight ? gravity_of(world) : Vec3(Vec3::Zero());
     const Elements& whole = elements_of(*plant.system);
     const VecX& mass = node_mass_of(*plant.system);
@@ -35,30 +35,31 @@ frond_energy energy_in(const World& world, const Plant& plant, Ledger::Entry& en
 double recount(const World& world, const PlantBody& body, Ledger::Entry& entry) {
     const double before = sum_of(entry.energy);
     entry.energy = energy_in(world, *body.plant, entry);
-    entry.is_modal = body.plant->modal != nullptr;
+    entry.is_modal = body.plant->state.modal != nullptr;
     return sum_of(entry.energy) - before;
 }
 
 // Returns whether the plant takes a step in the running substep.
 bool is_stepped(const PlantBody& body) {
-    return body.level.is_due && !body.plant->modal;
+    return body.level.is_due && !body.plant->state.modal;
 }
 
 // Adds the work of an impulse [N s], as a force over the plant's step, at an attachment; world frame.
 void add_impulse(const PlantBody& body, const Attachment& attachment, const Vec3& impulse, double& work) {
     const Plant& plant = *body.plant;
     if (impulse.isZero(0) || !is_stepped(body)) return;
-    const Vec3 way = attachment_place(attachment, plant.motion.x) - attachment_place(attachment, plant.x_good);
+    const Vec3 way =
+        attachment_place(attachment, plant.state.motion.x) - attachment_place(attachment, plant.step.x_good);
     work += impulse.dot(plant.rotation * way) / body.level.pending;
 }
 
 // Adds the work of plants that were put elsewhere with their pins before they were solved: nothing but their height
 // changed.
 void add_jump(const Plant& plant, const VecX& before, double& work) {
-    if (before.size() != plant.x_good.size() || are_same(before, plant.x_good)) return;
+    if (before.size() != plant.step.x_good.size() || are_same(before, plant.step.x_good)) return;
     const VecX& mass = node_mass_of(*plant.system);
     for (int i = 0; i < mass.size(); i++)
-        work -= mass[i] * plant.loads.gravity.dot(point(plant.x_good, i) - point(before, i));
+        work -= mass[i] * plant.step.loads.gravity.dot(point(plant.step.x_good, i) - point(before, i));
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ void count_calls(World& world) {
         entry.is_there = true;
         if (is_new || !body->rest.asleep || body->is_looked_at)
             ledger.sums.calls += recount(world, look_at(*body), entry);
-        entry.fragments = body->plant->fragments.size();
+        entry.fragments = body->plant->state.fragments.size();
     }
     for (auto it = ledger.plants.begin(); it != ledger.plants.end();) {
         if (!it->second.is_there) ledger.sums.calls -= sum_of(it->second.energy);
@@ -83,11 +84,11 @@ void count_calls(World& world) {
 void begin_work(World& world) {
     for (PlantBody* body : world.awake) {
         Ledger::Entry& entry = world.ledger->plants[body->handle.id];
-        const bool was_modal = entry.is_modal, is_modal = body->plant->modal != nullptr;
+        const bool was_modal = entry.is_modal, is_modal = body->plant->state.modal != nullptr;
         const bool has_changed = entry.system != body->plant->system || is_modal != was_modal;
         const double change = has_changed ? recount(world, *body, entry) : 0;
         if (is_modal || was_modal) world.ledger->sums.calls += change;
-        entry.x = body->plant->motion.x;
+        entry.x = body->plant->state.motion.x;
         entry.impulse.setZero();
     }
 }
@@ -130,9 +131,9 @@ void count_work(World& world) {
 void count_what_came_off(World& world) {
     for (PlantBody* body : world.awake) {
         Ledger::Entry& entry = world.ledger->plants[body->handle.id];
-        if (entry.fragments == body->plant->fragments.size()) continue;
+        if (entry.fragments == body->plant->state.fragments.size()) continue;
         world.ledger->sums.fragments += recount(world, *body, entry);
-        entry.fragments = body->plant->fragments.size();
+        entry.fragments = body->plant->state.fragments.size();
     }
 }
 

@@ -15,8 +15,8 @@ double radius_of(const PlantBody& body, int capsule) {
 OnCore nearest_on_core(const PlantBody& body, int capsule, const Vec3& p) {
     const Plant& plant = *body.plant;
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
-    const Vec3 a = plant.to_world(plant.chain_positions[size_t(begin)]);
-    const Vec3 axis = plant.to_world(plant.chain_positions[size_t(end)]) - a;
+    const Vec3 a = plant.to_world(plant.view.chain_positions[size_t(begin)]);
+    const Vec3 axis = plant.to_world(plant.view.chain_positions[size_t(end)]) - a;
     const double square = axis.squaredNorm();
     const double along = square > 0 ? std::clamp((p - a).dot(axis) / square, 0.0, 1.0) : 0.0;
     OnCore core = {a + along * axis, along, 0};
@@ -91,7 +91,7 @@ bool is_between_pieces(const PlantBody& body, int capsule, const Vec3& normal) {
     if (body.hull->flats[size_t(capsule)].half_width == 0) return false;
     const Plant& plant = *body.plant;
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
-    const Vec3 axis = plant.chain_positions[size_t(end)] - plant.chain_positions[size_t(begin)];
+    const Vec3 axis = plant.view.chain_positions[size_t(end)] - plant.view.chain_positions[size_t(begin)];
     const double along = (plant.rotation * axis).dot(normal), least = ALONG * axis.norm();
     if (std::abs(along) < least) return false;
     const std::vector<ChainNode>& nodes = plant.model->chain.nodes;

@@ -53,8 +53,8 @@ void place_plant(PlantBody& body, const Vec3& position, const Quat& rotation) {
     carry_fragments(body);
     plant.position = position;
     plant.rotation = rotation;
-    plant.surface_stale = true;
-    if (plant.previous) plant.previous->positions.clear();
+    plant.view.surface_stale = true;
+    if (plant.view.previous) plant.view.previous->positions.clear();
     body.setWorldTransform(btTransform(quat_to_bullet(rotation), to_bullet(position)));
     body.setInterpolationWorldTransform(body.getWorldTransform());
     enter_anew(body);
@@ -77,8 +77,8 @@ void reset_plant(PlantBody& body) {
     remove_fragments(world, body);
     made->position = body.plant->position;
     made->rotation = body.plant->rotation;
-    made->grabs.splice(made->grabs.end(), body.plant->grabs);
-    if (body.plant->previous) made->previous = std::make_unique<PreviousSurface>();
+    made->input.grabs.splice(made->input.grabs.end(), body.plant->input.grabs);
+    if (body.plant->view.previous) made->view.previous = std::make_unique<PreviousSurface>();
     body.plant = std::move(made);
     body.level = {};
     body.level.own = body.plant->which;

@@ -190,8 +190,8 @@ void move_capsules(PlantBody& body) {
     std::vector<Mat3> frames;
     piece_frames(plant, hull.plate_capsule, hull.flats, frames);
     auto& shape = static_cast<PlantShape&>(*body.compound());
-    if (plant.fragments.empty())
-        return place_pieces(shape, hull, {plant.chain_positions.data(), plant.model->capsules, frames});
+    if (plant.state.fragments.empty())
+        return place_pieces(shape, hull, {plant.view.chain_positions.data(), plant.model->capsules, frames});
     std::vector<Vec3> places;
     std::vector<std::array<int, 2>> ends;
     for (size_t i = 0; i < plant.model->capsules.size(); i++) {
@@ -209,7 +209,7 @@ void move_capsules(PlantBody* const* bodies, int count) {
     const Hull& hull = *bodies[0]->hull;
     for (int i = 0; i < count; i++) {
         PlantBody& body = *bodies[i];
-        if (count == 1 || !body.plant->follow || !body.plant->fragments.empty() || body.hull.get() != &hull) {
+        if (count == 1 || !body.plant->follow || !body.plant->state.fragments.empty() || body.hull.get() != &hull) {
             move_capsules(body);
             continue;
         }

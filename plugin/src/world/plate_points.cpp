@@ -55,8 +55,8 @@ std::vector<Vec3> points_over_plate(const PlantBody& body, int capsule, const bt
     if (!other.getCollisionShape()->isConvex() || !piece_frame(plant, end, flat.wide, flat.spread, piece)) return {};
     Mat3 frame;
     frame << plant.rotation * piece.col(2), plant.rotation * piece.col(0), plant.rotation * piece.col(1);
-    const Vec3 a = plant.to_world(plant.chain_positions[size_t(begin)]);
-    const Vec3 b = plant.to_world(plant.chain_positions[size_t(end)]), middle = 0.5 * (a + b);
+    const Vec3 a = plant.to_world(plant.view.chain_positions[size_t(begin)]);
+    const Vec3 b = plant.to_world(plant.view.chain_positions[size_t(end)]), middle = 0.5 * (a + b);
     const double facing = towards.dot(frame.col(2));
     if (std::abs(facing) < FACING) return {};
 

@@ -146,8 +146,8 @@ std::vector<btRigidBody*> give_to_bodies(const World& world, Given& given) {
     for (size_t i = 0; i < pushes.impulses.size(); i++) {
         if (rows[i].plants[1] || pushes.impulses[i].isZero(0)) continue;
         const Plant& plant = *rows[i].plants[0]->plant;
-        const bool pushes_back = world.effects & plant.effects & FROND_EFFECT_TWO_WAY;
-        if (!pushes_back || !plant.is_sound) continue;
+        const bool pushes_back = world.effects & plant.input.effects & FROND_EFFECT_TWO_WAY;
+        if (!pushes_back || !plant.step.is_sound) continue;
         all.push_back({&rows[i].contact_body, -pushes.impulses[i]});
         if (rows[i].contact_body.rigid) pushed.push_back(rows[i].contact_body.rigid);
     }
@@ -230,7 +230,8 @@ void respond_to_contacts(World& world, double h) {
     if (!response.find) return;
     std::vector<PlantBody*> waiting;
     for (PlantBody* body : world.awake)
-        if ((body->plant->is_watched || body->plant->is_touched) && body->level.is_due && !body->plant->modal)
+        if ((body->plant->step.is_watched || body->plant->state.is_touched) && body->level.is_due &&
+            !body->plant->state.modal)
             waiting.push_back(body);
     std::vector<FreeStep> steps;
     for (const PlantBody* body : waiting) steps.push_back(free_step(*body->plant));

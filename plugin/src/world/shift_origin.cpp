@@ -40,14 +40,14 @@ void shift_floats(std::vector<float>& places, const Vec3& origin) {
 void shift_plant(World& world, PlantBody& body, const Vec3& origin) {
     Plant& plant = *body.plant;
     plant.position -= origin;
-    for (Fragment& fragment : plant.fragments) {
+    for (Fragment& fragment : plant.state.fragments) {
         fragment.centre -= origin;
         fragment.shift -= origin;
     }
-    for (Grab& grab : plant.grabs) grab.target -= origin;
-    shift_floats(plant.surface_positions, origin);
-    if (plant.previous) shift_floats(plant.previous->positions, origin);
-    plant.surface_stale = true;
+    for (Grab& grab : plant.input.grabs) grab.target -= origin;
+    shift_floats(plant.view.surface_positions, origin);
+    if (plant.view.previous) shift_floats(plant.view.previous->positions, origin);
+    plant.view.surface_stale = true;
     if (body.rest.contacts) {
         auto contacts = std::make_shared<LastContacts>(*body.rest.contacts);
         shift_contacts(contacts->with_bodies, contacts->with_plants, origin);

@@ -31,7 +31,7 @@ void wake_blown(World& world) {
     const size_t count = world.bodies.size(), here = std::min((count + TURNS - 1) / TURNS, MOST);
     for (size_t i = 0; i < here; i++) {
         PlantBody& body = *world.bodies[world.turn++ % count];
-        const frond_effects effects = world.effects & body.plant->effects;
+        const frond_effects effects = world.effects & body.plant->input.effects;
         if (!body.rest.asleep || !(effects & FROND_EFFECT_WIND) || is_still(world, body)) continue;
         asked.push_back(&body);
         points.push_back(middle_of(body));
@@ -66,9 +66,9 @@ void fall_asleep(World& world, PlantBody& body) {
     Plant& plant = *body.plant;
     FROND_ASSERT(!body.rest.asleep);
     pose(plant);
-    plant.motion.v.setZero();
-    plant.motion.history.valid = false;
-    plant.is_watched = false;
+    plant.state.motion.v.setZero();
+    plant.state.motion.history.valid = false;
+    plant.step.is_watched = false;
     auto contacts = std::make_shared<LastContacts>();
     for (const Contact& contact : world.contacts)
         if (contact.plant == &body) contacts->with_bodies.push_back(contact);
@@ -82,7 +82,7 @@ void fall_asleep(World& world, PlantBody& body) {
     body.forceActivationState(ISLAND_SLEEPING);
     compress(plant, world.sleep_distance, false);
     if (!body.rest.contacts) {
-        if (plant.is_compressed && plant.away.empty()) share_shape(body);
+        if (plant.state.is_compressed && plant.state.away.empty()) share_shape(body);
         hide(body);
     }
     if (!world.wind) return;
@@ -102,7 +102,7 @@ void compress_looked_at(World& world) {
 PlantBody& look_at(PlantBody& body) {
     Plant& plant = *body.plant;
     pose(plant);
-    if (!plant.is_compressed) return body;
+    if (!plant.state.is_compressed) return body;
     decompress(plant);
     if (!body.is_looked_at) body.world->looked_at.push_back(&body);
     body.is_looked_at = true;
@@ -185,11 +185,12 @@ void watch(const World& world, PlantBody& body, double h) {
     const Plant& plant = *body.plant;
     Rest& rest = body.rest;
     VecX modal(2);
-    if (plant.modal) modal = Eigen::Map<const Eigen::Vector2d>(modal_reach(plant).data());
-    const VecX& x = plant.modal ? modal : plant.motion.x;
-    const bool blends_out = !is_over(plant.blend_out) || (plant.modal && !is_over(plant.modal->blend_out));
-    const bool stirs = plant.has_user_force || plant.trouble & FROND_TROUBLE_REWOUND || plant.recovers_for > 0 ||
-                       !plant.fragments.empty() || blends_out;
+    if (plant.state.modal) modal = Eigen::Map<const Eigen::Vector2d>(modal_reach(plant).data());
+    const VecX& x = plant.state.modal ? modal : plant.state.motion.x;
+    const bool blends_out =
+        !is_over(plant.state.blend_out) || (plant.state.modal && !is_over(plant.state.modal->blend_out));
+    const bool stirs = plant.input.has_user_force || plant.trouble & FROND_TROUBLE_REWOUND ||
+                       plant.state.recovers_for > 0 || !plant.state.fragments.empty() || blends_out;
     if (!stirs && are_within(x, rest.places, world.sleep_distance)) {
         rest.still += h;
         return;

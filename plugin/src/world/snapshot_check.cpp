@@ -62,7 +62,7 @@ struct Becomes {
 };
 Becomes becomes(const Plant& plant, frond_mechanics which) {
     const auto system =
-        which == plant.which ? plant.system : make_system(plant.model, which, plant.mass, plant.nodes->order);
+        which == plant.which ? plant.system : make_system(plant.model, which, plant.input.mass, plant.nodes->order);
     return {system, &mechanics(which, plant.nodes->order), 3 * Eigen::Index(elements_of(*system).node_count)};
 }
 
@@ -140,9 +140,9 @@ void check_blend_out(const BlendOut& blend_out, Eigen::Index numbers) {
 void check_fragments(const SavedPlant& saved, const PlantBody& body) {
     const Plant& plant = *body.plant;
     if (saved.fragments.empty()) return;  // a plant that broke since is whole again
-    bool alike = saved.fragments.size() == plant.fragments.size();
+    bool alike = saved.fragments.size() == plant.state.fragments.size();
     for (size_t i = 0; alike && i < saved.fragments.size(); i++)
-        alike = saved.fragments[i].node == plant.fragments[i].node;
+        alike = saved.fragments[i].node == plant.state.fragments[i].node;
     if (!alike)
         fail(FROND_RESULT_BAD_ARGUMENT,
              "plant %d is not broken at the capsules at which it was; call frond_plant_reset and "
@@ -181,7 +181,7 @@ void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_c
              "plant %d is of another model, place or setting than in the snapshot; make the same plants in "
              "the same order",
              body.index);
-    check_count(saved.grab_targets.size(), plant.grabs.size(), "grabs on a plant");
+    check_count(saved.grab_targets.size(), plant.input.grabs.size(), "grabs on a plant");
     check_fragments(saved, body);
     const Becomes become = becomes(plant, saved.which);
     check_motion(saved, become);
@@ -198,7 +198,7 @@ void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_c
         check_blend_out(modal.blend_out, become.numbers);
     }
     for (const Vec3& target : saved.grab_targets) check_numbers(target, "grabs", LARGEST_COORDINATE);
-    if (saved.substeps < 1 || saved.substeps > plant.max_substeps) damaged("substeps");
+    if (saved.substeps < 1 || saved.substeps > plant.input.max_substeps) damaged("substeps");
     if (saved.level.every < 1 || saved.level.every > 64) damaged("detail");
     check_numbers(std::array{saved.lead, double(saved.recovers_for), saved.still, saved.level.pending,
                              double(saved.level.distance), saved.level.disturbed},

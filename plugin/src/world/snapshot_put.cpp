@@ -52,7 +52,7 @@ void put_touches(const World& world, const SavedTouches& saved, std::vector<Cont
 
 void put_modal(const SavedModal& saved, Plant& plant) {
     begin_modal(plant);
-    ModalMotion& modal = *plant.modal;
+    ModalMotion& modal = *plant.state.modal;
     modal.place = saved.place;
     modal.speed = saved.speed;
     modal.rest = saved.rest;
@@ -69,34 +69,34 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     end_modal(plant);
     set_mechanics(plant, saved.which);
     if (!saved.modal.empty()) put_modal(saved.modal.front(), plant);
-    plant.pinned = std::move(saved.pinned);
-    plant.pin_target = std::move(saved.pin_target);
-    plant.anchor = std::move(saved.anchor);
-    plant.pins_changed = true;
+    plant.input.pinned = std::move(saved.pinned);
+    plant.input.pin_target = std::move(saved.pin_target);
+    plant.input.anchor = std::move(saved.anchor);
+    plant.input.pins_changed = true;
     apply_pins(plant);  // makes the pins' springs; the rest is in the motion
-    plant.motion = std::move(saved.motion);
-    plant.trend = std::move(saved.trend);
-    plant.blend_out = std::move(saved.blend_out);
-    plant.lead = saved.lead;
-    plant.stepped_by = 0;
-    if (saved.has_own_elements || plant.own_elements) set_plastic(plant, saved.plastic);
+    plant.state.motion = std::move(saved.motion);
+    plant.state.trend = std::move(saved.trend);
+    plant.state.blend_out = std::move(saved.blend_out);
+    plant.view.lead = saved.lead;
+    plant.state.stepped_by = 0;
+    if (saved.has_own_elements || plant.state.own_elements) set_plastic(plant, saved.plastic);
     const size_t fibres = plant.fibres ? plant.fibres->list.size() : 0;
-    plant.fibre_give = saved.fibre_give.size() == fibres ? std::move(saved.fibre_give) : std::vector<double>();
-    plant.pins_changed = saved.pins_changed;
-    plant.pins_are_own = saved.pins_are_own;
-    plant.fibre_force = std::move(saved.fibre_force);
-    plant.has_user_force = saved.has_user_force;
-    plant.user_force = std::move(saved.user_force);
-    plant.chain_load = std::move(saved.chain_load);
-    plant.is_touched = saved.is_touched;
-    plant.is_entangled = saved.is_entangled;
-    plant.substeps = saved.substeps;
-    plant.recovers_for = saved.recovers_for;
+    plant.state.fibre_give = saved.fibre_give.size() == fibres ? std::move(saved.fibre_give) : std::vector<double>();
+    plant.input.pins_changed = saved.pins_changed;
+    plant.input.pins_are_own = saved.pins_are_own;
+    plant.state.fibre_force = std::move(saved.fibre_force);
+    plant.input.has_user_force = saved.has_user_force;
+    plant.input.user_force = std::move(saved.user_force);
+    plant.input.chain_load = std::move(saved.chain_load);
+    plant.state.is_touched = saved.is_touched;
+    plant.state.is_entangled = saved.is_entangled;
+    plant.state.substeps = saved.substeps;
+    plant.state.recovers_for = saved.recovers_for;
     size_t i = 0;
-    for (Grab& grab : plant.grabs) grab.target = saved.grab_targets[i++];
+    for (Grab& grab : plant.input.grabs) grab.target = saved.grab_targets[i++];
     for (size_t k = 0; k < saved.fragments.size(); k++) {
         const SavedFragment& from = saved.fragments[k];
-        Fragment& fragment = plant.fragments[k];
+        Fragment& fragment = plant.state.fragments[k];
         fragment.turn = from.turn;
         fragment.shift = from.shift;
         fragment.centre = from.centre;
@@ -152,7 +152,7 @@ void put_rigid(const SavedRigid& saved, Rigid& rigid) {
 void put_snapshot(World& world, Snapshot snapshot) {
     world.gravity_ahead = {};  // no gravity is left to be cancelled
     for (size_t i = 0; i < snapshot.plants.size(); i++)
-        if (snapshot.plants[i].fragments.empty() && !world.bodies[i]->plant->fragments.empty())
+        if (snapshot.plants[i].fragments.empty() && !world.bodies[i]->plant->state.fragments.empty())
             reset_plant(*world.bodies[i]);
     for (const auto& body : world.bodies) wake(*body);
     world.time = snapshot.time;

@@ -61,29 +61,29 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     SavedPlant saved = {};
     saved.kind = kind_of(plant);
     saved.which = plant.which;
-    saved.motion = with_end(plant.motion);
-    saved.trend = plant.trend;
-    saved.blend_out = plant.blend_out;
-    saved.lead = plant.lead;
-    if (plant.modal) take_modal(*plant.modal, saved);
-    saved.has_own_elements = plant.own_elements != nullptr;
+    saved.motion = with_end(plant.state.motion);
+    saved.trend = plant.state.trend;
+    saved.blend_out = plant.state.blend_out;
+    saved.lead = plant.view.lead;
+    if (plant.state.modal) take_modal(*plant.state.modal, saved);
+    saved.has_own_elements = plant.state.own_elements != nullptr;
     saved.plastic = plastic_of(plant);
-    saved.fibre_give = plant.fibre_give;
-    saved.fibre_force = plant.fibre_force;
-    saved.pinned = plant.pinned;
-    saved.pin_target = plant.pin_target;
-    saved.anchor = plant.anchor;
-    saved.pins_changed = plant.pins_changed;
-    saved.pins_are_own = plant.pins_are_own;
-    saved.has_user_force = plant.has_user_force;
-    saved.user_force = plant.user_force;
-    saved.chain_load = plant.chain_load;
-    saved.is_touched = plant.is_touched;
-    saved.is_entangled = plant.is_entangled;
-    saved.substeps = plant.substeps;
-    saved.recovers_for = plant.recovers_for;
-    for (const Grab& grab : plant.grabs) saved.grab_targets.push_back(grab.target);
-    for (const Fragment& f : plant.fragments)
+    saved.fibre_give = plant.state.fibre_give;
+    saved.fibre_force = plant.state.fibre_force;
+    saved.pinned = plant.input.pinned;
+    saved.pin_target = plant.input.pin_target;
+    saved.anchor = plant.input.anchor;
+    saved.pins_changed = plant.input.pins_changed;
+    saved.pins_are_own = plant.input.pins_are_own;
+    saved.has_user_force = plant.input.has_user_force;
+    saved.user_force = plant.input.user_force;
+    saved.chain_load = plant.input.chain_load;
+    saved.is_touched = plant.state.is_touched;
+    saved.is_entangled = plant.state.is_entangled;
+    saved.substeps = plant.state.substeps;
+    saved.recovers_for = plant.state.recovers_for;
+    for (const Grab& grab : plant.input.grabs) saved.grab_targets.push_back(grab.target);
+    for (const Fragment& f : plant.state.fragments)
         saved.fragments.push_back({f.node, f.turn, f.shift, f.centre, f.velocity, f.angular_velocity});
 
     saved.new_for = body.new_for;
@@ -132,7 +132,7 @@ uint64_t kind_of(const Plant& plant) {
         hash = hash * 31 + checksum_of(static_cast<const uint8_t*>(bytes), size);
     };
     const Model& model = *plant.model;
-    const SolveSettings& s = plant.settings;
+    const SolveSettings& s = plant.input.settings;
     add(model.cage.nodes.data(), model.cage.nodes.size() * sizeof(Vec3));
     add(model.cage.tets.data(), model.cage.tets.size() * sizeof(Tet));
     for (const ChainNode& node : model.chain.nodes) add(node.position.data(), sizeof(Vec3));
@@ -140,12 +140,12 @@ uint64_t kind_of(const Plant& plant) {
     add(&mass, sizeof mass);
     add(plant.position.data(), sizeof(Vec3));
     add(plant.rotation.coeffs().data(), 4 * sizeof(double));
-    const int choices[] = {int(s.integrator),   int(s.linear_solver), int(plant.mass),   plant.nodes->order,
-                           s.newton_iterations, s.max_iterations,     plant.max_substeps};
+    const int choices[] = {int(s.integrator),   int(s.linear_solver), int(plant.input.mass),   plant.nodes->order,
+                           s.newton_iterations, s.max_iterations,     plant.input.max_substeps};
     add(choices, sizeof choices);
-    const double numbers[] = {s.newton_tolerance,     s.tolerance,       s.mass_damping,
-                              s.stiffness_damping,    s.spectral_radius, plant.material_damping,
-                              plant.substep_tolerance};
+    const double numbers[] = {s.newton_tolerance,           s.tolerance,       s.mass_damping,
+                              s.stiffness_damping,          s.spectral_radius, plant.input.material_damping,
+                              plant.input.substep_tolerance};
     add(numbers, sizeof numbers);
     return hash;
 }

@@ -34,15 +34,15 @@ static void add_effect(World& world, frond_effects effect, double ms) {
 static void add_to_report(World& world, const Plant& plant) {
     frond_report& report = world.report;
     report.trouble |= plant.trouble;
-    if (plant.modal) return;
+    if (plant.state.modal) return;
     report.solver_iterations += plant.report.iterations;
     report.residual = std::max(report.residual, plant.report.residual);
     world.profile.ms_effects += plant.ms_effects;
     world.profile.ms_assembly += plant.report.ms_assembly;
     world.profile.ms_solve += plant.report.ms_solve;
-    const frond_effects effects = plant.effects & world.effects;
+    const frond_effects effects = plant.input.effects & world.effects;
     report.effects_run |= effects & (FROND_EFFECT_GRAVITY | FROND_EFFECT_DAMPING);
-    if (effects & FROND_EFFECT_USER_FORCE && (plant.has_user_force || !plant.grabs.empty()))
+    if (effects & FROND_EFFECT_USER_FORCE && (plant.input.has_user_force || !plant.input.grabs.empty()))
         add_effect(world, FROND_EFFECT_USER_FORCE, plant.ms_user_force);
     const frond_effects air = effects & (FROND_EFFECT_WIND | FROND_EFFECT_AIR_DRAG);
     if (world.wind && air) {
@@ -64,7 +64,7 @@ namespace {
 
 bool any_wants(const World& world, frond_effects effect) {
     return std::any_of(world.awake.begin(), world.awake.end(),
-                       [&](const PlantBody* body) { return body->plant->effects & world.effects & effect; });
+                       [&](const PlantBody* body) { return body->plant->input.effects & world.effects & effect; });
 }
 
 // Numbers the plants that are awake, in the order in which they came into the world.
@@ -112,27 +112,28 @@ void note_touches(World& world) {
 // Marks the plants that contacts and bonds push.
 void mark_pushed(World& world) {
     for (const Contact& contact : world.contacts) {
-        contact.plant->plant->is_touched = true;
-        contact.plant->plant->is_pressed |= !contact.other->isStaticObject();
+        contact.plant->plant->state.is_touched = true;
+        contact.plant->plant->step.is_pressed |= !contact.other->isStaticObject();
     }
     for (const PlantContact& contact : world.plant_contacts)
         for (PlantBody* body : contact.plants) {
-            body->plant->is_touched = true;
-            body->plant->is_pressed |= contact.plants[0] != contact.plants[1];
-            body->plant->is_entangled |= contact.depth > ENTANGLED;
+            body->plant->state.is_touched = true;
+            body->plant->step.is_pressed |= contact.plants[0] != contact.plants[1];
+            body->plant->state.is_entangled |= contact.depth > ENTANGLED;
         }
-    for (const Bond& bond : world.bonds) bond.plant->plant->is_touched = bond.plant->plant->is_pressed = true;
+    for (const Bond& bond : world.bonds)
+        bond.plant->plant->state.is_touched = bond.plant->plant->step.is_pressed = true;
 }
 
 // Returns whether a plant's step ends only when those of others are known.
 bool waits(const Plant& plant) {
-    return plant.is_touched || plant.is_watched;
+    return plant.state.is_touched || plant.step.is_watched;
 }
 
 // Drops contacts of modal plants, and of plants whose detail changed after their contacts were found; marks plants that
 // others push, which are stepped now.
 void mark_touched(World& world) {
-    const auto sways = [](const PlantBody* body) { return body->plant->modal != nullptr; };
+    const auto sways = [](const PlantBody* body) { return body->plant->state.modal != nullptr; };
     world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(),
                                         [&](const Contact& contact) { return sways(contact.plant); }),
                          world.contacts.end());
@@ -142,12 +143,12 @@ void mark_touched(World& world) {
                                               }),
                                world.plant_contacts.end());
     for (PlantBody* body : world.awake) {
-        body->plant->is_touched = body->plant->is_pressed = body->plant->is_entangled = false;
+        body->plant->state.is_touched = body->plant->step.is_pressed = body->plant->state.is_entangled = false;
         body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;
     }
     if (response_row(world.response).find) mark_pushed(world);
     for (PlantBody* body : world.awake)
-        if (waits(*body->plant) || body->plant->has_user_force) body->level.is_due = true;
+        if (waits(*body->plant) || body->plant->input.has_user_force) body->level.is_due = true;
 }
 
 // Takes the rest of a step, of one plant or of a batch, when no contact is left to push them; plants that may break
@@ -162,7 +163,7 @@ void finish(const World& world, PlantBody* const* bodies, int count, const Surro
         body.level.ms += float((body.level.ms > 0 ? LATELY : 1) * (ms - double(body.level.ms)));
     }
     const Timer timer;
-    if (!(bodies[0]->plant->effects & world.effects & FROND_EFFECT_BREAKING)) move_capsules(bodies, count);
+    if (!(bodies[0]->plant->input.effects & world.effects & FROND_EFFECT_BREAKING)) move_capsules(bodies, count);
     const float ms_capsules = float(timer.ms() / count);
     for (int i = 0; i < count; i++) {
         bodies[i]->level.ms_capsules = ms_capsules;
@@ -190,10 +191,10 @@ void sway(const World& world, PlantBody& body, const Surroundings& surroundings,
 
 // Takes a plant's own part of the substep, which is independent of all others.
 void step_alone(const World& world, PlantBody& body, const Surroundings& surroundings, double h) {
-    if (body.plant->modal) return sway(world, body, surroundings, h);
+    if (body.plant->state.modal) return sway(world, body, surroundings, h);
     if (!body.level.is_due) {
-        body.plant->lead = body.level.pending;
-        body.plant->cage_stale = body.plant->surface_stale = true;
+        body.plant->view.lead = body.level.pending;
+        body.plant->view.cage_stale = body.plant->view.surface_stale = true;
         return;
     }
     solve_plant(*body.plant, surroundings, body.level.pending);
@@ -227,8 +228,8 @@ std::vector<StepJob> share_out(const World& world, const Surroundings& surroundi
     std::vector<StepJob> jobs;
     std::vector<size_t> open;  // jobs whose batch is not full
     for (PlantBody* body : world.awake) {
-        if (!body->plant->modal) body->level.pending += h;
-        const bool is_due = !body->plant->modal && body->level.is_due;
+        if (!body->plant->state.modal) body->level.pending += h;
+        const bool is_due = !body->plant->state.modal && body->level.is_due;
         auto found = open.end();
         if (is_due && !world.ledger && may_be_batched(*body->plant, surroundings, body->level.pending)) {
             found = std::find_if(open.begin(), open.end(), [&](size_t i) { return goes_with(jobs[i], *body); });
@@ -254,7 +255,7 @@ void settle(World& world, PlantBody& body, btCollisionWorld& collision_world) {
     report.detail_count[body.level.now]++;
     if (!body.level.is_due) return;
     add_to_report(world, *body.plant);
-    if (!body.plant->modal && body.plant->effects & world.effects & FROND_EFFECT_BREAKING) {
+    if (!body.plant->state.modal && body.plant->input.effects & world.effects & FROND_EFFECT_BREAKING) {
         const Timer timer;
         report.broken_count += break_overloaded(world, body);
         move_capsules(body);
@@ -285,7 +286,7 @@ void carry_what_came_off(World& world, double h) {
     for (PlantBody* body : world.awake) {
         if (body->fragment_bodies.empty()) continue;
         carry_fragments(*body);
-        if (body->plant->effects & world.effects & FROND_EFFECT_USER_FORCE) pull_fragments(*body, h);
+        if (body->plant->input.effects & world.effects & FROND_EFFECT_USER_FORCE) pull_fragments(*body, h);
     }
 }
 
@@ -294,7 +295,7 @@ void handle_contacts(World& world, double h) {
     let_go_of_gone(world);
     frond_report& report = world.report;
     const bool any_watched = std::any_of(world.awake.begin(), world.awake.end(),
-                                         [](const PlantBody* body) { return body->plant->is_watched; });
+                                         [](const PlantBody* body) { return body->plant->step.is_watched; });
     if (!world.contacts.empty() || !world.plant_contacts.empty() || !world.bonds.empty() || any_watched) {
         BT_PROFILE("frond respond");
         respond_to_contacts(world, h);
@@ -310,7 +311,7 @@ void handle_contacts(World& world, double h) {
 void finish_touched(World& world, const Surroundings& surroundings) {
     std::vector<PlantBody*> touched;
     for (PlantBody* body : world.awake)
-        if (waits(*body->plant) && body->level.is_due && !body->plant->modal) touched.push_back(body);
+        if (waits(*body->plant) && body->level.is_due && !body->plant->state.modal) touched.push_back(body);
     run_jobs(world, touched.size(), [&](size_t i) { finish(world, *touched[i], surroundings); });
 }
 
@@ -399,11 +400,11 @@ uint64_t state_hash(World& world) {
     };
     for (const std::unique_ptr<PlantBody>& body : world.bodies) {
         look_at(*body);
-        add(body->plant->motion.x);
-        add(body->plant->motion.v);
+        add(body->plant->state.motion.x);
+        add(body->plant->state.motion.v);
         add(plastic_of(*body->plant));
         for (size_t k = 0; k < body->fragment_bodies.size(); k++) {
-            const Fragment& fragment = body->plant->fragments[k];
+            const Fragment& fragment = body->plant->state.fragments[k];
             const btRigidBody& rigid = *body->fragment_bodies[k]->body;
             add(fragment.turn);
             add(fragment.shift);

@@ -44,12 +44,12 @@ ObjectMotion backwards(ObjectMotion motion) {
 PlantMotion motion_of(const PlantBody& body, double h) {
     const Plant& plant = *body.plant;
     PlantMotion motion;
-    motion.ways.assign(plant.chain_positions.size(), Vec3::Zero());
+    motion.ways.assign(plant.view.chain_positions.size(), Vec3::Zero());
     if (body.rest.asleep) return motion;
     for (size_t n = 0; n < motion.ways.size(); n++) {
-        const Vec3 velocity =
-            plant.follow ? Vec3(point(plant.motion.v, 2 * int(n)))
-                         : attachment_velocity(chain_attachment(plant, int(n)), plant.motion.x, plant.motion.v);
+        const Vec3 velocity = plant.follow ? Vec3(point(plant.state.motion.v, 2 * int(n)))
+                                           : attachment_velocity(chain_attachment(plant, int(n)), plant.state.motion.x,
+                                                                 plant.state.motion.v);
         motion.ways[n] = h * (plant.rotation * velocity);
         motion.farthest = std::max(motion.farthest, motion.ways[n].norm());
     }
@@ -63,7 +63,8 @@ MovingShape moving_piece(const PlantBody& body, const PlantMotion& motion, int c
                          body.getWorldTransform() * compound->getChildTransform(child)};
     const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
     const Vec3 &first = motion.ways[size_t(begin)], &second = motion.ways[size_t(end)];
-    const Vec3 axis = plant.rotation * (plant.chain_positions[size_t(end)] - plant.chain_positions[size_t(begin)]);
+    const Vec3 axis =
+        plant.rotation * (plant.view.chain_positions[size_t(end)] - plant.view.chain_positions[size_t(begin)]);
     piece.way = 0.5 * (first + second);
     if (axis.squaredNorm() > 0) piece.turn = axis.cross(second - first) / axis.squaredNorm();
     return piece;

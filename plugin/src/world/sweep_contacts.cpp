@@ -20,8 +20,8 @@ namespace {
 // Returns the greatest speed of a node [m/s].
 double fastest_node(const Plant& plant) {
     double most = 0;
-    for (int i = 0; i < plant.motion.v.size() / 3; i += plant.follow ? 2 : 1)
-        most = std::max(most, point(plant.motion.v, i).squaredNorm());
+    for (int i = 0; i < plant.state.motion.v.size() / 3; i += plant.follow ? 2 : 1)
+        most = std::max(most, point(plant.state.motion.v, i).squaredNorm());
     return std::sqrt(most);
 }
 
@@ -52,7 +52,8 @@ bool are_in_line(const Plant& plant, int capsule, int other) {
     if (capsule == other) return true;
     if (a[1] != b[0] && a[0] != b[1]) return false;
     const auto axis = [&](const std::array<int, 2>& ends) {
-        return Vec3((plant.chain_positions[size_t(ends[1])] - plant.chain_positions[size_t(ends[0])]).normalized());
+        return Vec3(
+            (plant.view.chain_positions[size_t(ends[1])] - plant.view.chain_positions[size_t(ends[0])]).normalized());
     };
     return axis(a).dot(axis(b)) > STRAIGHT;
 }
@@ -118,7 +119,7 @@ std::vector<PlantBody*> plants_near(Search& search, const btCollisionObject& obj
     box.widen(search.fastest);
     std::vector<PlantBody*> plants;
     for (PlantBody* body : plants_in(search.world, box.lower, box.upper)) {
-        if (!takes_part(search.world, body) || body->plant->modal || !may_meet(*body, object)) continue;
+        if (!takes_part(search.world, body) || body->plant->state.modal || !may_meet(*body, object)) continue;
         if (!moves && (body->rest.asleep || motion_in(search, *body).farthest < far)) continue;
         plants.push_back(&look_at(*body));
     }
@@ -133,9 +134,9 @@ void put_back_if_passed(const Search& search, const std::vector<PlantBody*>& pla
     constexpr double PASSED = 0.005;  // depth from which a body is put back [m]
     double met = 1;
     for (PlantBody* body : plants) {
-        if (!(search.world.effects & body->plant->effects & FROND_EFFECT_TWO_WAY)) continue;
+        if (!(search.world.effects & body->plant->input.effects & FROND_EFFECT_TWO_WAY)) continue;
         PlantMotion still;
-        still.ways.assign(body->plant->chain_positions.size(), Vec3::Zero());
+        still.ways.assign(body->plant->view.chain_positions.size(), Vec3::Zero());
         find_hits(*body, still, rigid, past, [&](const Hit& hit) {
             const double passed = -(1 - hit.impact.time) * hit.impact.normal.dot(hit.shape.way);
             // A body that was there when the step began has not come through.
@@ -230,7 +231,7 @@ void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const 
     if (bodies.empty()) return;
     Search search = {world, h, last, contacts};
     for (const PlantBody* body : world.awake)
-        if (!body->plant->modal) search.fastest = std::max(search.fastest, h * fastest_node(*body->plant));
+        if (!body->plant->state.modal) search.fastest = std::max(search.fastest, h * fastest_node(*body->plant));
     for (const Sweeper& body : bodies) sweep(search, *body.object, body.is_new);
 }
 
