@@ -117,7 +117,7 @@ void disturb(Field& field, int step) {
         unpin_node(third, node_count_of(third) - 2);
     }
     if (step >= 100 && step < 110) {
-        field.plants[0]->input.user_force = VecX::Constant(3 * node_count_of(*field.plants[0]), 0.02);
+        forces_of(*field.plants[0]).on_nodes = VecX::Constant(3 * node_count_of(*field.plants[0]), 0.02);
         field.plants[0]->input.has_user_force = true;
     }
     if (step == 120) {

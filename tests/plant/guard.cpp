@@ -136,6 +136,7 @@ TEST_P(EveryShape, StartsFromItsModelledShapeWhereSearchesFindNoWayUnlessItIsPul
         plant->state.motion.v.setZero();
         plant->step.x_good = plant->state.motion.x;
         plant->step.v_good = plant->state.motion.v;
+        forces_of(*plant) = {};
         plant->input.has_user_force = is_pulled;
         uint32_t trouble = 0;
         for (double time = 0; time < plant->rest_time; time += H) {

@@ -34,8 +34,8 @@ Vec3 momentum(const Plant& plant) {
 // Pushes evenly, so that the stem flies without bending.
 void push(Plant& plant, const Vec3& force) {
     const int nodes = node_count_of(plant);
-    plant.input.user_force = VecX::Zero(3 * nodes);
-    for (int i = 0; i < nodes; i++) point(plant.input.user_force, i) = force / nodes;
+    forces_of(plant).on_nodes = VecX::Zero(3 * nodes);
+    for (int i = 0; i < nodes; i++) point(plant.input.forces->on_nodes, i) = force / nodes;
     plant.input.has_user_force = true;
 }
 

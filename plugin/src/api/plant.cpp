@@ -301,8 +301,9 @@ frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force
         check_node(*body.plant, node);
         check_vec(force, "force [N]");
         Plant& p = awaken(body);
-        if (p.input.user_force.size() == 0) p.input.user_force = VecX::Zero(3 * Eigen::Index(node_count_of(p)));
-        point(p.input.user_force, node) += to_vec(force);
+        VecX& forces = forces_of(p).on_nodes;
+        if (forces.size() == 0) forces = VecX::Zero(3 * Eigen::Index(node_count_of(p)));
+        point(forces, node) += to_vec(force);
         p.input.has_user_force = true;
     });
 }

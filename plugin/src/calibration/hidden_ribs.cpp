@@ -1,7 +1,7 @@
 // A leaf that a file shows as a bare sheet is carried by a midrib in life. Plants make it as thick as its load asks, so
 // that it bends about equally along its length; it is thickest at the base, where many drawn leaves are narrowest. So
-// where a sheet of a chosen material could not carry itself, a round rib of that thickness is put into its sections:
-// of a midrib's tissue, and never thicker than a share of the leaf's width at its widest.
+// where an organ of a chosen material could by far not carry itself, a round rib of that thickness is put into its
+// sections: of a midrib's tissue, and never thicker than a share of the leaf's width at its widest.
 #include "calibration/hidden_ribs.hpp"
 
 #include <algorithm>
@@ -47,7 +47,12 @@ Turns find_turns(const Model& model) {
 
 namespace {
 
-// Sheets whose ribs may be thickened, with the sizes that limit them.
+// Leaves have midribs, and stalks go on within fruits; petals are stiff by the pressure of their water.
+bool hides_a_rib(const Organ& organ) {
+    return organ.kind == "blade" || organ.kind == "fruit";
+}
+
+// Organs whose ribs may be thickened, with the sizes that limit them.
 struct Sheet {
     bool may_grow = false;
     double widest = 0, begin = INFINITY, end = 0;  // [m]; the last two along the chain from the root
@@ -56,7 +61,7 @@ struct Sheet {
 std::vector<Sheet> list_sheets(const Model& model, const std::vector<double>& load) {
     std::vector<Sheet> sheets(model.organs.size());
     for (size_t o = 0; o < sheets.size(); o++)
-        sheets[o].may_grow = load[o] > 0 && is_sheet(model.organs[o]) && !model.organs[o].material_given &&
+        sheets[o].may_grow = load[o] > 0 && hides_a_rib(model.organs[o]) && !model.organs[o].material_given &&
                              std::count(model.chain.rib_of.begin(), model.chain.rib_of.end(), int(o)) == 0;
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];

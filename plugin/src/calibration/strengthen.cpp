@@ -124,10 +124,11 @@ WeakOrgan strengthen(Model& model) {
     // Ribs are looked for before tissue is made stiffer: those that weight needs, then thicker ones, since what it does
     // beside bending counts, too.
     constexpr int ROUNDS = 3;
+    constexpr double VARIES = 3;  // factor by which tissue of one kind differs: no rib is needed to explain it [-]
     std::vector<double> load(stiffer.size(), 0.0);
     for (int round = 0; round < ROUNDS; round++) {
         for (size_t o = 0; o < load.size(); o++)
-            if (stiffer[o] > 1) load[o] = std::max(1.0, load[o] * stiffer[o]);
+            if (stiffer[o] > (load[o] > 0 ? 1 : VARIES)) load[o] = std::max(1.0, load[o] * stiffer[o]);
         if (!grow_hidden_ribs(model, load, LARGEST_TURN / SAFETY)) break;
         find_stiffer(model);
         if (std::all_of(stiffer.begin(), stiffer.end(), [](double factor) { return factor <= 1; })) break;

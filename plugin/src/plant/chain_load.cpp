@@ -10,9 +10,9 @@
 namespace frond {
 
 static VecX& chain_load_of(Plant& plant) {
-    if (plant.input.chain_load.size() == 0)
-        plant.input.chain_load = VecX::Zero(6 * Eigen::Index(plant.model->chain.nodes.size()));
-    return plant.input.chain_load;
+    VecX& load = forces_of(plant).on_chain;
+    if (load.size() == 0) load = VecX::Zero(6 * Eigen::Index(plant.model->chain.nodes.size()));
+    return load;
 }
 
 void add_chain_load(Plant& plant, int chain_node, const Vec3& force, const Vec3& moment) {
@@ -52,9 +52,10 @@ static void add_couple(const Attachment& attachment, const VecX& x, const Vec3& 
 void gather_chain_loads(const Plant& plant, VecX& force) {
     const Quat to_model = plant.rotation.conjugate();
     const VecX& x = plant.state.motion.x;
-    for (int i = 0; i < plant.input.chain_load.size() / 6; i++) {
-        const Vec3 push = to_model * point(plant.input.chain_load, 2 * i);
-        const Vec3 moment = to_model * point(plant.input.chain_load, 2 * i + 1);
+    const VecX& given = plant.input.forces->on_chain;
+    for (int i = 0; i < given.size() / 6; i++) {
+        const Vec3 push = to_model * point(given, 2 * i);
+        const Vec3 moment = to_model * point(given, 2 * i + 1);
         if (push == Vec3::Zero() && moment == Vec3::Zero()) continue;
         if (plant.follow) {
             point(force, 2 * i) += push;

@@ -51,9 +51,9 @@ void compress(Plant& plant, double tolerance, bool keep_surface) {
     plant.step.loads = {};
     plant.state.blown.setZero();
     plant.state.air = nullptr;
-    for (VecX* numbers :
-         {&plant.step.x_good, &plant.step.v_good, &plant.step.contact_impulse, &plant.step.contact_correction,
-          &plant.input.user_force, &plant.input.chain_load, &plant.view.cage_x})
+    plant.input.forces = nullptr;
+    for (VecX* numbers : {&plant.step.x_good, &plant.step.v_good, &plant.step.contact_impulse,
+                          &plant.step.contact_correction, &plant.view.cage_x})
         drop(*numbers);
     plant.view.cage_stale = true;
     drop(plant.view.chain_positions);

@@ -68,13 +68,21 @@ struct PreviousSurface {
     float back;                    // time from the last frame to the end of that substep [s]
 };
 
+// Forces of the host until the end of its step, world frame.
+struct HostForces {
+    VecX on_nodes;  // on cage nodes [N]; empty: none yet
+    VecX on_chain;  // forces and moments on chain nodes, six numbers each [N], [N m]; empty: none yet
+};
+// Returns them, made first if there are none yet.
+HostForces& forces_of(Plant& plant);
+
 // Inputs: what the host asked for. Only calls of the host change them.
 struct PlantInput {
-    frond_mass mass;
     SolveSettings settings;
     double material_damping;   // share of the organs' damping ratios that is applied [-]
     double substep_tolerance;  // allowed local error of a position in a step, over the plant's size [-]
     int max_substeps;
+    frond_mass mass;
     frond_effects effects;
     frond_collision collision = FROND_COLLISION_ORGANS;
     void* user = nullptr;
@@ -84,14 +92,13 @@ struct PlantInput {
     std::vector<int> anchor;           // chain node that holds each cage node if it is pinned
     std::vector<Spring> pin_springs;   // hold pinned cage nodes that are too few to hold a chain node
     std::shared_ptr<const Foot> foot;  // initial pinned, pin_target and anchor
+
+    std::list<Grab> grabs;
+    std::unique_ptr<HostForces> forces;  // null: none yet
+    bool has_user_force = false;
     bool pins_changed = true;
     bool pins_are_own = false;     // changed by the host
     bool stands_on_roots = false;  // held by the model's own root
-
-    std::list<Grab> grabs;
-    VecX user_force;  // on cage nodes, until the end of the host's step, world frame [N]; empty: none yet
-    VecX chain_load;  // forces and moments on chain nodes, likewise, six numbers each [N], [N m]; empty: none yet
-    bool has_user_force = false;
 };
 
 // State: what a step continues from, and a snapshot keeps.
@@ -101,7 +108,6 @@ struct PlantState {
     std::unique_ptr<Elements> own_elements;  // elements of a plant that has yielded, with its plastic state; else null
     BlendOut blend_out;                      // offset of the cage from where the mechanics have it
     Trend trend;                             // empty with one substep
-    int substeps = 1;                        // of the next step
     double stepped_by = 0;  // length of the last step, from x_good to here; 0: it was put here since [s]
     std::vector<double>
         fibre_give;    // lengths at which fibres pull, over their own, after an entanglement; else empty [-]
@@ -110,15 +116,16 @@ struct PlantState {
     Vec3 blown = Vec3::Zero();        // force of the last step's air, if there are no drags to compute it from [N]
     std::vector<Fragment> fragments;  // parts that came off
     std::shared_ptr<Parting> parting = no_parting();  // its own only if there are fragments
+    int substeps = 1;                                 // of the next step
     // Time left to recover from a state that no admissible load can reach; if negative, time for which the plant has
     // been caught where searches find no solution [s].
     float recovers_for = 0;
     bool is_touched = false;    // in contact, which is resolved over whole steps
     bool is_entangled = false;  // deep in itself or another plant; crossed leaves come apart only by being stretched
-
-    // Compressed state. While the plant is compressed, all members above that a step changes are empty.
     bool is_compressed = false;
-    std::vector<float> away;  // displacements of the mechanics' nodes from the modelled shape [m]; empty: none
+    // Compressed state, while all members above that a step changes are empty: displacements of the mechanics' nodes
+    // from the modelled shape [m]; empty: none.
+    std::vector<float> away;
 };
 
 // Scratch of the running step: nothing of it outlives the step but memory.
@@ -156,13 +163,13 @@ struct Plant {
     // What it is made of; changes with the mechanics alone.
     std::shared_ptr<const Model> model;
     std::shared_ptr<const CageNodes> nodes;
-    frond_mechanics which;
     std::shared_ptr<const System> system;
     std::shared_ptr<const Follow> follow;  // null if the mechanics move the cage itself
     std::shared_ptr<const Fibres> fibres;  // null if none can pull
     PoolSeat seat;                         // claim to a workspace of the system's pool
-    float size;                            // diagonal of the modelled surface's box [m]
-    double rest_time;                      // time of stillness after which the plant counts as at rest [s]
+    frond_mechanics which;
+    float size;        // diagonal of the modelled surface's box [m]
+    double rest_time;  // time of stillness after which the plant counts as at rest [s]
 
     Vec3 position;  // origin of the model's frame in the world [m]
     Quat rotation;

@@ -30,8 +30,9 @@ static void gather_loads(Plant& plant, const Surroundings& surroundings, frond_e
         const Mat3 turn = to_model.toRotationMatrix();
         loads.force.setZero(plant.state.motion.x.size());
         gather_chain_loads(plant, loads.force);
-        for (int i = 0; i < plant.input.user_force.size() / 3; i++) {
-            const Vec3 force = turn * point(plant.input.user_force, i);
+        const VecX& given = plant.input.forces->on_nodes;
+        for (int i = 0; i < given.size() / 3; i++) {
+            const Vec3 force = turn * point(given, i);
             if (!plant.follow)
                 point(loads.force, i) = force;
             else if (force != Vec3::Zero())
@@ -299,10 +300,15 @@ void step_plant(Plant& plant, const Surroundings& surroundings, double h) {
     accept_step(plant, surroundings, h);
 }
 
+HostForces& forces_of(Plant& plant) {
+    if (!plant.input.forces) plant.input.forces = std::make_unique<HostForces>();
+    return *plant.input.forces;
+}
+
 void clear_user_force(Plant& plant) {
     if (!plant.input.has_user_force) return;
-    plant.input.user_force.setZero();
-    plant.input.chain_load.setZero();
+    plant.input.forces->on_nodes.setZero();
+    plant.input.forces->on_chain.setZero();
     plant.input.has_user_force = false;
 }
 

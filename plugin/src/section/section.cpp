@@ -240,23 +240,21 @@ double hole_share(const Organ& organ) {
     return is_sheet(organ) ? 0 : organ.material.hollow * organ.material.hollow;
 }
 
-// Wood goes on within a crown, and a stalk within what it bears: it carries them as below them, and thins towards their
-// ends.
-static void carry_loads(const Chain& chain, const std::vector<Organ>& organs, std::vector<Section>& sections) {
+// Wood goes on within a crown: it carries the crown as the branch below does, and thins towards the crown's end.
+static void carry_crowns(const Chain& chain, const std::vector<Organ>& organs, std::vector<Section>& sections) {
     constexpr double AT_END = 0.3;  // radius of the wood there, over that where it enters the crown
-    const auto is_load = [&](const ChainNode& node) {
-        if (node.organ < 0) return false;
-        const Organ& organ = organs[size_t(node.organ)];
-        return (organ.kind == "crown" || organ.kind == "fruit") && !organ.material_given;
+    const auto is_crown = [&](const ChainNode& node) {
+        return node.organ >= 0 && organs[size_t(node.organ)].kind == "crown" &&
+               !organs[size_t(node.organ)].material_given;
     };
     std::vector<double> farthest(organs.size(), 0.0), bending(chain.nodes.size(), 0.0), begin(bending);
     for (const ChainNode& node : chain.nodes)
-        if (is_load(node)) farthest[size_t(node.organ)] = std::max(farthest[size_t(node.organ)], node.distance);
+        if (is_crown(node)) farthest[size_t(node.organ)] = std::max(farthest[size_t(node.organ)], node.distance);
     for (size_t i = 0; i < chain.nodes.size(); i++) {
         const ChainNode& node = chain.nodes[i];
-        if (!is_load(node) || node.parent < 0) continue;
+        if (!is_crown(node) || node.parent < 0) continue;
         const size_t parent = size_t(node.parent);
-        const bool goes_on = is_load(chain.nodes[parent]);
+        const bool goes_on = is_crown(chain.nodes[parent]);
         bending[i] = goes_on ? bending[parent] : sections[parent].bending_thin();
         begin[i] = goes_on ? begin[parent] : chain.nodes[parent].distance;
         if (chain.nodes[parent].parent < 0) bending[i] = 0;
@@ -330,7 +328,7 @@ std::vector<Section> measure_sections(const Surface& surface, const Topology& to
         if (ribs[i].organ >= 0)
             add_drawn_rib(ribs[i], organs[size_t(ribs[i].organ)], frames[i], spreads[i].middle, sections[i]);
     }
-    carry_loads(chain, organs, sections);
+    carry_crowns(chain, organs, sections);
     hold_roots(chain, organs, sections);
     return sections;
 }

@@ -86,8 +86,8 @@ void put_plant(SavedPlant& saved, PlantBody& body) {
     plant.input.pins_are_own = saved.pins_are_own;
     plant.state.fibre_force = std::move(saved.fibre_force);
     plant.input.has_user_force = saved.has_user_force;
-    plant.input.user_force = std::move(saved.user_force);
-    plant.input.chain_load = std::move(saved.chain_load);
+    plant.input.forces = nullptr;
+    if (saved.has_user_force) forces_of(plant) = {std::move(saved.user_force), std::move(saved.chain_load)};
     plant.state.is_touched = saved.is_touched;
     plant.state.is_entangled = saved.is_entangled;
     plant.state.substeps = saved.substeps;

@@ -76,8 +76,10 @@ SavedPlant take_plant(const World& world, const PlantBody& body) {
     saved.pins_changed = plant.input.pins_changed;
     saved.pins_are_own = plant.input.pins_are_own;
     saved.has_user_force = plant.input.has_user_force;
-    saved.user_force = plant.input.user_force;
-    saved.chain_load = plant.input.chain_load;
+    if (plant.input.forces) {
+        saved.user_force = plant.input.forces->on_nodes;
+        saved.chain_load = plant.input.forces->on_chain;
+    }
     saved.is_touched = plant.state.is_touched;
     saved.is_entangled = plant.state.is_entangled;
     saved.substeps = plant.state.substeps;
