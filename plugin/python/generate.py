@@ -22,9 +22,10 @@ TYPES = {"double": "float", "float": "float", "int": "int", "uint32_t": "int", "
          "const char*": "str", "frond_effects": "Effect", "frond_plant": "Plant | None", "frond_rigid": "Rigid",
          "frond_range": "Range"}
 # Fields that are parameters of their own.
-SEPARATE = {"frond_model_def": ("organs", "organ_count"), "frond_picture_def": ("width", "height"),
+SEPARATE = {"frond_model_def": ("organs", "organ_count", "correction_count"),
+            "frond_organ_correction": ("organ",), "frond_picture_def": ("width", "height"),
             "frond_film_def": ("width", "height")}
-GIVEN = {"frond_vec3": "Vector", "frond_quat": "Vector", "frond_color": "Vector", "frond_effects": "Effect | int",
+GIVEN = {"const frond_organ_correction*": "Mapping[str, OrganCorrectionOptions]", "frond_vec3": "Vector", "frond_quat": "Vector", "frond_color": "Vector", "frond_effects": "Effect | int",
          "frond_picture_camera": "PictureCameraOptions | PictureCamera"}
 
 
@@ -130,7 +131,8 @@ def write_structs(structs, comments, enums):
             continue
         is_def = name.endswith("_def") or name in ("frond_picture_scene",)
         is_given = is_def or name in ("frond_material", "frond_tuning", "frond_contact_tuning", "frond_rigid_state",
-                                      "frond_picture_camera", "frond_stem", "frond_stem_section")
+                                      "frond_picture_camera", "frond_stem", "frond_stem_section",
+                                      "frond_organ_correction")
         if is_given:
             out += [f"class {camel(name)}Options(TypedDict, total=False):", docstring(name, comments)]
             for field, kind, count in fields:
@@ -160,7 +162,7 @@ def main():
     results, struct_lines = write_structs(structs, comments, names)
     lines = ['"""Written by generate.py from the C headers; do not edit."""', "# fmt: off",
              "from __future__ import annotations", "",
-             "from collections.abc import Sequence", "from dataclasses import dataclass",
+             "from collections.abc import Mapping, Sequence", "from dataclasses import dataclass",
              "from enum import IntEnum, IntFlag",
              "from typing import TYPE_CHECKING, NamedTuple, TypedDict, Union", "",
              "import numpy as np", "import numpy.typing as npt", "",

@@ -64,6 +64,19 @@ def test_materials_are_given_by_name_dict_or_object():
     assert frond.default_material() == frond.material_preset("stem")
 
 
+def test_organs_are_corrected(tmp_path):
+    names = {organ.name: organ.kind for organ in frond.Model("corn").organs}
+    assert names["silk_1"] == "flower"
+    corrected = frond.Model("corn", corrections={"silk_1": {"leave_out": True}, "tassel": {"kind": "flower"}})
+    organs = {organ.name: organ.kind for organ in corrected.organs}
+    assert "silk_1" not in organs and organs["tassel"] == "flower"
+    for wrong in ({"silk_1": {"kind": "antenna"}}, {"silk_1": {"colour": 1}}, {"nothing": {"leave_out": True}}, 3):
+        with pytest.raises(frond.Error):
+            frond.Model("corn", corrections=wrong)
+    with pytest.raises(frond.Error):
+        frond.Model("corn", corrections_file=tmp_path / "missing.frond.json")
+
+
 def test_arrays_of_a_model_outlive_it():
     model = frond.Model.from_stems(STEMS)
     cage, chain, expected = model.cage, model.chain, model.cage.nodes.copy()

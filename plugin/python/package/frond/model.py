@@ -140,6 +140,8 @@ class Model:
 
     @staticmethod
     def _def(organs: Any, options: Any) -> tuple[Any, Any]:
+        options = dict(options)
+        corrections, file = options.pop("corrections", None), options.pop("corrections_file", None)
         definition = make_def("model", "M", options)
         if organs is not None and not isinstance(organs, Mapping):
             raise refuse(f"organs is {organs!r}; pass a dict of materials by the name or kind of an organ")
@@ -150,7 +152,20 @@ class Model:
             materials[i].organ = kept[-1]
             materials[i].material = material_struct(material)[0]
         definition.organs, definition.organ_count = materials, len(kept)
-        return definition, (kept, materials)
+        if corrections is not None and not isinstance(corrections, Mapping):
+            raise refuse(f"corrections is {corrections!r}; pass a dict of OrganCorrectionOptions by an organ's name")
+        rows = ffi.new("frond_organ_correction[]", max(len(corrections or ()), 1))
+        for row, (organ, correction) in zip(rows, (corrections or {}).items()):
+            fields = {"organ": organ, **as_options(correction, f"the correction of {organ!r}")}
+            for name in {"organ", "kind", "parent"} & fields.keys():
+                kept.append(ffi.new("char[]", str(fields.pop(name)).encode()))
+                setattr(row, name, kept[-1])
+            fill(row, fields, "a correction")
+        definition.corrections, definition.correction_count = rows, len(corrections or ())
+        if file is not None:
+            kept.append(ffi.new("char[]", path_of(file, "corrections_file")))
+            definition.corrections_file = kept[-1]
+        return definition, (kept, materials, rows)
 
     def _take(self, make: Any, kept: Any) -> None:
         out = ffi.new("frond_model *")
