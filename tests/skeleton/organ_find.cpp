@@ -88,18 +88,20 @@ TEST(OrganNames, AreReadInSeveralSpellingsAndLanguages) {
     for (const auto& [name, kind] : cases) EXPECT_EQ(read_name(name).kind, kind) << name;
 }
 
-TEST(OrganNames, OfASpeciesMeanTheFruitOnlyBesideOtherParts) {
+using Kinds = std::vector<std::string>;
+
+// Returns the kinds of parts with these names and materials.
+Kinds kinds(std::initializer_list<std::pair<const char*, const char*>> parts) {
     Surface surface;
-    const auto kinds = [&](std::initializer_list<std::pair<const char*, const char*>> parts) {
-        surface.parts.clear();
-        for (const auto& [name, material] : parts) {
-            surface.parts.emplace_back();
-            surface.parts.back().name = name;
-            surface.parts.back().material = material;
-        }
-        return kinds_by_name(surface);
-    };
-    using Kinds = std::vector<std::string>;
+    for (const auto& [name, material] : parts) {
+        surface.parts.emplace_back();
+        surface.parts.back().name = name;
+        surface.parts.back().material = material;
+    }
+    return kinds_by_name(surface);
+}
+
+TEST(OrganNames, OfASpeciesMeanTheFruitOnlyBesideOtherParts) {
     EXPECT_EQ(kinds({{"tomato", ""}}), Kinds({""}));
     EXPECT_EQ(kinds({{"flower", ""}}), Kinds({""}));
     EXPECT_EQ(kinds({{"tomato_1", ""}, {"tomato_2", ""}}), Kinds({"", ""}));
@@ -111,17 +113,6 @@ TEST(OrganNames, OfASpeciesMeanTheFruitOnlyBesideOtherParts) {
 }
 
 TEST(OrganNames, ThatAllPartsShareAreThePlants) {
-    Surface surface;
-    const auto kinds = [&](std::initializer_list<std::pair<const char*, const char*>> parts) {
-        surface.parts.clear();
-        for (const auto& [name, material] : parts) {
-            surface.parts.emplace_back();
-            surface.parts.back().name = name;
-            surface.parts.back().material = material;
-        }
-        return kinds_by_name(surface);
-    };
-    using Kinds = std::vector<std::string>;
     EXPECT_EQ(kinds({{"Flowers", "Green"}, {"Flowers", "Cyan"}}), Kinds({"", ""}));
     EXPECT_EQ(kinds({{"BushBerries_1", "Green"}, {"BushBerries_1", "Berry"}}), Kinds({"", "fruit"}));
     EXPECT_EQ(kinds({{"FlowerPot6", "GroundFlowerPot6"},

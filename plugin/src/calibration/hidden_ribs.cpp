@@ -53,25 +53,25 @@ bool hides_a_rib(const Organ& organ) {
 }
 
 // Organs whose ribs may be thickened, with the sizes that limit them.
-struct Sheet {
+struct Bearer {
     bool may_grow = false;
     double widest = 0, begin = INFINITY, end = 0;  // [m]; the last two along the chain from the root
 };
 
-std::vector<Sheet> list_sheets(const Model& model, const std::vector<double>& load) {
-    std::vector<Sheet> sheets(model.organs.size());
-    for (size_t o = 0; o < sheets.size(); o++)
-        sheets[o].may_grow = load[o] > 0 && hides_a_rib(model.organs[o]) && !model.organs[o].material_given &&
-                             std::count(model.chain.rib_of.begin(), model.chain.rib_of.end(), int(o)) == 0;
+std::vector<Bearer> list_bearers(const Model& model, const std::vector<double>& load) {
+    std::vector<Bearer> bearers(model.organs.size());
+    for (size_t o = 0; o < bearers.size(); o++)
+        bearers[o].may_grow = load[o] > 0 && hides_a_rib(model.organs[o]) && !model.organs[o].material_given &&
+                              std::count(model.chain.rib_of.begin(), model.chain.rib_of.end(), int(o)) == 0;
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
         if (node.parent < 0 || node.organ < 0) continue;
-        Sheet& sheet = sheets[size_t(node.organ)];
-        sheet.widest = std::max(sheet.widest, model.sections[i].width);
-        sheet.begin = std::min(sheet.begin, node.distance - model.sections[i].length);
-        sheet.end = std::max(sheet.end, node.distance);
+        Bearer& bearer = bearers[size_t(node.organ)];
+        bearer.widest = std::max(bearer.widest, model.sections[i].width);
+        bearer.begin = std::min(bearer.begin, node.distance - model.sections[i].length);
+        bearer.end = std::max(bearer.end, node.distance);
     }
-    return sheets;
+    return bearers;
 }
 
 }  // namespace
@@ -79,20 +79,20 @@ std::vector<Sheet> list_sheets(const Model& model, const std::vector<double>& lo
 bool grow_hidden_ribs(Model& model, const std::vector<double>& load, double turn) {
     constexpr double MOST = 0.2;  // diameter of a rib over the width of its leaf: petioles of narrow leaves are thicker
     const Turns turns = find_turns(model);
-    const std::vector<Sheet> sheets = list_sheets(model, load);
+    const std::vector<Bearer> bearers = list_bearers(model, load);
     bool grown = false;
     for (size_t i = 0; i < model.chain.nodes.size(); i++) {
         const ChainNode& node = model.chain.nodes[i];
         if (node.parent < 0 || node.organ < 0) continue;
-        const Sheet& sheet = sheets[size_t(node.organ)];
-        if (!sheet.may_grow) continue;
+        const Bearer& bearer = bearers[size_t(node.organ)];
+        if (!bearer.may_grow) continue;
         grown = true;
         Section& section = model.sections[i];
         const Material& rib = *material_preset("midrib");
         const double young = std::max(rib.young, section.young);
-        const double most = young * PI * frond::pow(MOST * sheet.widest, 4) / 64;
+        const double most = young * PI * frond::pow(MOST * bearer.widest, 4) / 64;
         const double moment = load[size_t(node.organ)] * turns.moment[i];
-        const double bending = std::min(moment * (sheet.end - sheet.begin) / turn, most);
+        const double bending = std::min(moment * (bearer.end - bearer.begin) / turn, most);
         section.inertia_thin = std::max(section.inertia_thin, bending / section.young);
         section.inertia_wide = std::max(section.inertia_wide, section.inertia_thin);
         section.torsion = std::max(section.torsion, bending / rib.twist_to_bend / section.shear);

@@ -66,10 +66,9 @@ static void check_strength(const Model& model, const WeakOrgan& weak, double mos
     if (weak.factor <= most) return;
     fail(FROND_RESULT_BAD_GEOMETRY,
          "%s, a %s, cannot carry its weight in the shape it was modelled in: it would have to be %.3g times stiffer, "
-         "and "
-         "def.allow_stiffening is %.3g. The plant is %.3g m high, weighs %.3g kg and has %d roots: if that is wrong, "
-         "set "
-         "scale or up; if %s is no %s, set its kind; if it is, set its density, young or thickness; or allow it",
+         "and def.allow_stiffening is %.3g. The plant is %.3g m high, weighs %.3g kg and has %d roots: if that is "
+         "wrong, set scale or up; if %s is no %s, set its kind; if it is, set its density, young or thickness; or "
+         "allow it",
          weak.name.c_str(), weak.kind.c_str(), weak.factor, most, model.surface.height(), model.mass(),
          model.chain.root_count(), weak.name.c_str(), weak.kind.c_str());
 }
