@@ -161,7 +161,7 @@ ImpulseReport find_impulses(const std::vector<Touch>& touches, const CouplingTab
                             const ImpulseLimits& limits, std::vector<Vec3>& impulses, double unfelt) {
     impulses.resize(touches.size(), Vec3::Zero());
     FROND_ASSERT(std::all_of(touches.begin(), touches.end(), [](const Touch& touch) {
-        return touch.is_bond || (touch.friction >= 0 && std::abs(touch.normal.squaredNorm() - 1) < 1e-6);
+        return touch.is_bond || (touch.friction >= 0 && std::abs(touch.normal.squaredNorm() - 1) < 1e-5);
     }));
     std::vector<int> place(touches.size(), 0);
     ImpulseReport report;

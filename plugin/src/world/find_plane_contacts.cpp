@@ -31,7 +31,7 @@ struct Plane {
 Plane plane_for(const Plant& plant, btCollisionObject& object, bool moves) {
     const auto& shape = static_cast<const btStaticPlaneShape&>(*object.getCollisionShape());
     const btTransform& frame = object.getWorldTransform();
-    const Vec3 normal = from_bullet(frame.getBasis() * shape.getPlaneNormal());
+    const Vec3 normal = from_bullet(frame.getBasis() * shape.getPlaneNormal()).normalized();
     const double offset =
         normal.dot(plant.position - from_bullet(frame.getOrigin())) - double(shape.getPlaneConstant());
     return {object, normal, plant.rotation.conjugate() * normal, offset, moves};

@@ -37,6 +37,12 @@ void check_size(const VecX& numbers, Eigen::Index size, const char* what, bool m
     check_numbers(numbers, what);
 }
 
+// Checks a contact's direction and its coefficient of friction.
+void check_surface(const Vec3& normal, double friction, const char* what) {
+    constexpr double SLACK = 1e-5;  // [-], of Bullet's single precision
+    if (!(std::abs(normal.squaredNorm() - 1) <= SLACK) || friction < 0) damaged(what);
+}
+
 bool are_flags(const std::vector<uint8_t>& bytes) {
     return std::all_of(bytes.begin(), bytes.end(), [](uint8_t byte) { return byte <= 1; });
 }
@@ -86,6 +92,7 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
         if (PlantBody::of(objects[c.other])) damaged("contacts");
         for (const Vec3& v : {c.on_plant, c.on_other, c.normal, c.impulse}) check_numbers(v, "contacts");
         check_numbers(std::array{c.along, c.across, c.gap, c.friction}, "contacts");
+        check_surface(c.normal, c.friction, "contacts");
     }
     for (const SavedPlantContact& saved : touches.with_plants) {
         const PlantContact& c = saved.contact;
@@ -103,8 +110,9 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
             if (!is_sound(c.attachments[k], int(becomes(plant, which).numbers / 3))) damaged("contacts of plants");
             check_numbers(side.weights, "contacts of plants");
         }
-        for (const Vec3& v : {c.between, c.point, c.normal, c.impulse}) check_numbers(v, "contacts");
+        for (const Vec3& v : {c.between, c.point, c.normal, c.impulse}) check_numbers(v, "contacts of plants");
         check_numbers(std::array{c.depth, c.friction}, "contacts of plants");
+        check_surface(c.normal, c.friction, "contacts of plants");
     }
 }
 
