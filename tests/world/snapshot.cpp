@@ -206,6 +206,22 @@ TEST(Snapshot, GoesBackOverOtherMechanicsAndDetail) {
     EXPECT_EQ(garden.run(20), first);
 }
 
+// What touched at the time of the other mechanics is of points that no longer move the plant.
+TEST(Snapshot, IsTakenRightAfterAChangeOfMechanics) {
+    for (frond_mechanics becomes : {FROND_MECHANICS_ROD, FROND_MECHANICS_TET_COROTATIONAL}) {
+        Garden garden;
+        garden.run(5);
+        frond_report report = {};
+        ASSERT_EQ(frond_world_get_report(garden.world, &report), FROND_OK);
+        ASSERT_GT(report.plant_contact_count, 0);
+        for (frond_plant plant : garden.plants) ASSERT_EQ(frond_plant_set_mechanics(plant, becomes), FROND_OK);
+        const std::vector<char> bytes = garden.save();
+        const std::vector<uint64_t> first = garden.run(20);
+        ASSERT_EQ(garden.restore(bytes), FROND_OK) << frond_last_error();
+        EXPECT_EQ(garden.run(20), first);
+    }
+}
+
 TEST(Snapshot, GoesBackToWhatWasBentForGood) {
     Garden garden(1);
     for (int i = 0; i < 60; i++) {

@@ -13,6 +13,8 @@ namespace frond {
 namespace {
 
 constexpr double LARGEST_NUMBER = 1e18;  // of moduli, densities and the like, in their units
+constexpr double LARGEST_MOMENT =
+    LARGEST_COORDINATE * LARGEST_COORDINATE * LARGEST_COORDINATE * LARGEST_COORDINATE;  // [m^4]
 
 void need(bool holds, const char* what) {
     if (!holds) fail_cooked(what);
@@ -107,9 +109,11 @@ void check_section(const Section& section) {
     need(is_in(section.axis.norm(), 1 - 1e-6, 1 + 1e-6) && is_in(section.thin.norm(), 1 - 1e-6, 1 + 1e-6) &&
              std::abs(section.axis.dot(section.thin)) < 1e-6,
          "a section has no axes");
-    for (double value : {section.length, section.area, section.inertia_thin, section.inertia_wide, section.torsion,
-                         section.thickness, section.width, section.density, section.young, section.shear})
+    for (double value : {section.length, section.area, section.thickness, section.width, section.density, section.young,
+                         section.shear})
         need(is_positive(value), "a section's number is out of range");
+    for (double moment : {section.inertia_thin, section.inertia_wide, section.torsion})
+        need(moment > 0 && moment <= LARGEST_MOMENT, "a section's moment of area is out of range");
     need(std::abs(section.taper) <= LARGEST_TAPER, "a section tapers too much");
 }
 

@@ -1,5 +1,6 @@
 // In: plants in their places, and the pairs of Bullet's broad phase. Out: contacts of their cages and sheaths.
 #include <algorithm>
+#include <iterator>
 
 #include "core/timer.hpp"
 #include "world/agree_on_sides.hpp"
@@ -298,7 +299,8 @@ bool may_touch(const World& world, const PlantContact& contact) {
 
 std::vector<PlantContact> find_plant_contacts(World& world, double h) {
     std::vector<PlantContact> contacts;
-    const std::vector<PlantContact> last = std::move(world.plant_contacts);
+    std::vector<PlantContact> last;  // what a change of mechanics made void is left out
+    std::copy_if(world.plant_contacts.begin(), world.plant_contacts.end(), std::back_inserter(last), is_by_the_same);
     world.plant_contacts.clear();
     world.plant_island_count = 0;
     for (PlantBody* body : world.awake) body->plant->step.is_watched = false;

@@ -87,8 +87,7 @@ void doubt_what_is_deeper(const World& world, const std::vector<const PlantConta
                           std::vector<PlantContact>& contacts) {
     constexpr double NEAR = 0.1, CALM = 0.005, SLACK = 0.002;  // [m]
     std::multimap<Key, const PlantContact*> known;
-    for (const PlantContact* before : last)
-        if (is_by_the_same(*before)) known.emplace(key_of(*before), before);
+    for (const PlantContact* before : last) known.emplace(key_of(*before), before);
     for (PlantContact& contact : contacts) {
         if (!memory_of(world, contact).doubts || contact.depth <= SLACK) continue;
         bool is_new = true;
@@ -135,7 +134,7 @@ void keep_what_pushes(const PlacedIsland& island, const std::vector<const PlantC
     };
     for (const PlantContact* before : last) {
         const bool pushed = before->depth > 0 || !before->impulse.isZero(0);
-        if (!pushed || !may_touch(island.world, *before) || !is_by_the_same(*before)) continue;
+        if (!pushed || !may_touch(island.world, *before)) continue;
         if (PlantContact* again = find_again(*before)) {
             again->impulse += before->impulse;
             continue;

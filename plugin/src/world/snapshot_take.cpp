@@ -38,7 +38,7 @@ SavedTouches take_touches(const World& world, const std::vector<Contact>& with_b
                                        c.on_plant, c.on_other, c.normal, c.impulse});
     }
     for (const PlantContact& c : with_plants)
-        touches.with_plants.push_back({{c.plants[0]->index, c.plants[1]->index}, c});
+        if (is_by_the_same(c)) touches.with_plants.push_back({{c.plants[0]->index, c.plants[1]->index}, c});
     return touches;
 }
 
