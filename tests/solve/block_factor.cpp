@@ -7,7 +7,7 @@
 
 #include "mechanics/mechanics.hpp"
 #include "solve/front_batch.hpp"
-#include "solve/tree_batch.hpp"
+#include "solve/tree_factor.hpp"
 #include "support/dense.hpp"
 #include "support/meshes.hpp"
 
@@ -94,15 +94,17 @@ void expect_lanes_as_alone(const BlockPattern& pattern, size_t lanes, Dice& dice
     BlockMatrix A;
     A.pattern = &pattern;
     A.values = side_by_side(matrices);
-    TreeBatch tree;
+    TreeFactor tree;
     FrontBatch fronts;
     const bool is_tree = shared.plan.tree.has_value();
     const unsigned failed = is_tree ? factorize(*shared.plan.tree, A, tree) : factorize(shared.plan.fronts, A, fronts);
     EXPECT_EQ(failed, 1u << wrong);
-    NumbersInLines x;
+    NumbersInLines x = side_by_side(right_sides);
     VecX x_own;
-    is_tree ? solve(*shared.plan.tree, tree, side_by_side(right_sides), x)
-            : solve(shared.plan.fronts, fronts, side_by_side(right_sides), x);
+    if (is_tree)
+        solve(*shared.plan.tree, tree, x.data());
+    else
+        solve(shared.plan.fronts, fronts, side_by_side(right_sides), x);
     for (size_t lane = 0; lane < lanes; ++lane) {
         if (lane == wrong) continue;
         const Eigen::Map<const VecX, 0, Eigen::InnerStride<>> found(x.data() + lane, solutions[lane].size(),

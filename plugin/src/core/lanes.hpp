@@ -104,6 +104,9 @@ FROND_INLINE std::enable_if_t<!std::is_arithmetic_v<Mask>, bool> any(const Mask&
     return all != 0;
 }
 // Returns a bit for each lane in which the mask is true.
+FROND_INLINE unsigned bits_of(bool mask) {
+    return mask;
+}
 template <class Mask>
 FROND_INLINE unsigned bits_of(const Mask& mask) {
     unsigned bits = 0;

@@ -26,6 +26,8 @@ extern template BlockPattern make_block_pattern(int, const std::vector<std::arra
 struct BlockMatrix {
     const BlockPattern* pattern = nullptr;
     NumbersInLines values;  // 9 a block, column-major; block (i, j) of the lower triangle, i >= j
+    // Returns how many matrices these are: a batch has each value once a lane.
+    int lanes() const { return int(values.size() / (9 * size_t(pattern->block_count()))); }
     // Sets the pattern and resizes the values; allocates only the first time.
     void set_pattern(const BlockPattern& new_pattern);
     void set_zero();

@@ -308,7 +308,8 @@ unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<u
 
     if (system.plan.tree) {
         lost |= factorize(*system.plan.tree, a.A, a.tree);
-        solve(*system.plan.tree, a.tree, a.rhs, a.dv);
+        a.dv = a.rhs;
+        solve(*system.plan.tree, a.tree, a.dv.data());
     } else {
         lost |= factorize(system.plan.fronts, a.A, a.fronts);
         solve(system.plan.fronts, a.fronts, a.rhs, a.dv);

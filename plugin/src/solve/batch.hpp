@@ -7,7 +7,7 @@
 #include "solve/front_batch.hpp"
 #include "solve/linear_solver.hpp"
 #include "solve/solve.hpp"
-#include "solve/tree_batch.hpp"
+#include "solve/tree_factor.hpp"
 
 namespace frond {
 
@@ -31,7 +31,7 @@ struct Batch {
     std::vector<uint8_t> held, filled;
     std::vector<double> element_damping;
     BlockMatrix A;
-    TreeBatch tree;
+    TreeFactor tree;
     FrontBatch fronts;
 };
 
@@ -45,6 +45,9 @@ void make_room(Batch& batch, std::shared_ptr<const System> system, int lanes);
 // h_before is 0. Pinned nodes stay where they are. Returns a bit for each lane that has to be stepped alone.
 unsigned step_batch(Batch& batch, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,
                     double h_before);
+// Computes |b - A x| / |b| of each lane; `left` is scratch.
+void relative_residuals(const BlockMatrix& A, const NumbersInLines& b, const NumbersInLines& x, NumbersInLines& left,
+                        double* out);
 // Fills each lane's workspace, if any, with what respond() and make_compliance() need; only for plans of fronts.
 void take_apart(const Batch& batch, Workspace* const* workspaces);
 

@@ -16,12 +16,14 @@ BlockPlan make_block_plan(const BlockPattern& pattern) {
 
 bool factorize(BlockFactor& factor, const BlockMatrix& A) {
     const BlockPlan& plan = *factor.plan;
-    return plan.tree ? factorize(*plan.tree, A, factor.tree) : factorize(plan.fronts, A, factor.fronts);
+    return plan.tree ? factorize(*plan.tree, A, factor.tree) == 0 : factorize(plan.fronts, A, factor.fronts);
 }
 
 void solve(BlockFactor& factor, const VecX& b, VecX& x) {
     const BlockPlan& plan = *factor.plan;
-    return plan.tree ? solve(*plan.tree, factor.tree, b, x) : solve(plan.fronts, factor.fronts, b, x);
+    if (!plan.tree) return solve(plan.fronts, factor.fronts, b, x);
+    x = b;
+    solve(*plan.tree, factor.tree, x.data());
 }
 
 void half_solve(BlockFactor& factor, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance) {

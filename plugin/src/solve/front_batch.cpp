@@ -317,7 +317,7 @@ struct BatchRoom {
 
 unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontBatch& factor) {
     static thread_local BatchRoom room;
-    const size_t lanes = A.values.size() / (9 * size_t(A.pattern->block_count()));
+    const size_t lanes = size_t(A.lanes());
     factor.lanes = int(lanes);
     make_large_enough(room.updates, lanes * plan.update_size);
     make_large_enough(room.products, lanes * plan.largest);

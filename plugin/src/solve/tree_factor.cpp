@@ -1,250 +1,315 @@
-// In: a symmetric matrix over pairs of nodes connected as a tree. Out: its factors L D L^T and solutions.
+// In: symmetric matrices over pairs of nodes connected as a tree. Out: their factors L D L^T and solutions.
 //
 // A tree eliminated from the tips to the root has no fill (Parter 1961, "The use of linear graphs in Gauss
 // elimination"), so that the factor is dense blocks of six by six: each pair's own, and one to its parent.
+//
+// One matrix has the six numbers of a row side by side in registers; several have a register for each number, with one
+// matrix a lane. The algorithm takes a row by strips, which are the whole row or one number of it.
 #include "solve/tree_factor.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
-#include "core/assert.hpp"
 #include "core/lanes.hpp"
 
 namespace frond {
 
 namespace {
 
-using Block = double[SIX][SIX];
-
-// Six numbers in registers.
+// A row of one matrix.
 template <class S>
-struct Six;
+struct Row;
 template <>
-struct Six<TwoLanes> {
+struct Row<TwoLanes> {
     TwoLanes a, b, c;
-    FROND_INLINE explicit Six(const double* from)
-        : a(load<TwoLanes>(from)), b(load<TwoLanes>(from + 2)), c(load<TwoLanes>(from + 4)) {}
+    FROND_INLINE static Row from(const double* at) {
+        return {load<TwoLanes>(at), load<TwoLanes>(at + 2), load<TwoLanes>(at + 4)};
+    }
+    template <class Value>
+    FROND_INLINE static Row of(const Value& value) {
+        return {TwoLanes{value(0), value(1)}, TwoLanes{value(2), value(3)}, TwoLanes{value(4), value(5)}};
+    }
     FROND_INLINE void put(double* to) const { store(a, to), store(b, to + 2), store(c, to + 4); }
-    FROND_INLINE void take_off(double times, const Six& x) { a -= times * x.a, b -= times * x.b, c -= times * x.c; }
-    FROND_INLINE void scale(double by) { a *= by, b *= by, c *= by; }
-    FROND_INLINE double dot(const Six& x) const {
+    FROND_INLINE double operator[](int i) const { return i < 2 ? a[i] : i < 4 ? b[i - 2] : c[i - 4]; }
+    FROND_INLINE Row operator-(const Row& x) const { return {a - x.a, b - x.b, c - x.c}; }
+    FROND_INLINE Row operator*(double by) const { return {a * by, b * by, c * by}; }
+    FROND_INLINE double dot(const Row& x) const {
         const TwoLanes sum = (a * x.a + b * x.b) + c * x.c;
         return sum[0] + sum[1];
     }
 };
 template <>
-struct Six<FourLanes> {
+struct Row<FourLanes> {
     FourLanes a;
     TwoLanes c;
-    FROND_INLINE explicit Six(const double* from) : a(load<FourLanes>(from)), c(load<TwoLanes>(from + 4)) {}
+    FROND_INLINE static Row from(const double* at) { return {load<FourLanes>(at), load<TwoLanes>(at + 4)}; }
+    template <class Value>
+    FROND_INLINE static Row of(const Value& value) {
+        return {FourLanes{value(0), value(1), value(2), value(3)}, TwoLanes{value(4), value(5)}};
+    }
     FROND_INLINE void put(double* to) const { store(a, to), store(c, to + 4); }
-    FROND_INLINE void take_off(double times, const Six& x) { a -= times * x.a, c -= times * x.c; }
-    FROND_INLINE void scale(double by) { a *= by, c *= by; }
-    FROND_INLINE double dot(const Six& x) const {
+    FROND_INLINE double operator[](int i) const { return i < 4 ? a[i] : c[i - 4]; }
+    FROND_INLINE Row operator-(const Row& x) const { return {a - x.a, c - x.c}; }
+    FROND_INLINE Row operator*(double by) const { return {a * by, c * by}; }
+    FROND_INLINE double dot(const Row& x) const {
         const FourLanes by = a * x.a;
         const TwoLanes sum = (TwoLanes{by[0], by[1]} + TwoLanes{by[2], by[3]}) + c * x.c;
         return sum[0] + sum[1];
     }
 };
 
-// Puts a 3x3 block of a matrix, which is stored by columns, at (r, c) of a 6x6 block.
-void put(const BlockMatrix& A, int slot, int r, int c, Block& out) {
-    const double* from = A.values.data() + 9 * size_t(std::max(slot, 0));
-    for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i) out[r + i][c + j] = slot < 0 ? 0.0 : from[i + 3 * j];
+// An entry of a matrix: a number of a block, which is stored by columns.
+struct Entry {
+    int slot, number;
+};
+// Returns entry (r, c) of a pair's own block; only its upper triangle counts.
+FROND_INLINE Entry own_entry(const TreePlan::Pair& pair, int r, int c) {
+    if (r >= 3) return {pair.own[2], r - 3 + 3 * (c % 3)};
+    return c < 3 ? Entry{pair.own[0], r + 3 * c} : Entry{pair.own[1], 3 * r + c - 3};
+}
+FROND_INLINE Entry link_entry(const TreePlan::Pair& pair, int r, int c) {
+    return {pair.link[size_t(r / 3 + c / 3 * 2)], r % 3 + c % 3 * 3};
 }
 
-// The same, transposed.
-void put_transposed(const BlockMatrix& A, int slot, int r, int c, Block& out) {
-    const double* from = A.values.data() + 9 * size_t(std::max(slot, 0));
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) out[r + i][c + j] = slot < 0 ? 0.0 : from[3 * i + j];
-}
-
-// Factorizes a pair's own block, of which only the upper triangle counts, to L' and D.
+// Numbers of one matrix: a strip is a row.
 template <class S>
-FROND_INLINE bool factorize_own(TreeFactor::Pair& pair) {
-    Block& a = pair.own;
-    for (int k = 0; k < SIX; ++k) {
-        const double d = pair.pivot[k] = a[k][k];
-        if (!(d > 0) || !std::isfinite(d)) return false;
-        const double inverse = pair.inverse[k] = 1 / d;
-        Six<S> row(a[k]);
-        for (int r = k + 1; r < SIX; ++r) {
-            Six<S> below(a[r]);
-            below.take_off(a[k][r] * inverse, row);
-            below.put(a[r]);
-        }
-        row.scale(inverse);
-        row.put(a[k]);
-        for (int c = 0; c <= k; ++c) a[k][c] = 0;
+struct OfOne {
+    using Number = double;
+    using Strip = Row<S>;
+    static constexpr int LANES = 1, STRIPS = 1;
+    FROND_INLINE static int first_from(int) { return 0; }
+    FROND_INLINE static Number number(const Strip* row, int c) { return (*row)[c]; }
+    template <class Where>
+    FROND_INLINE static Strip entries(const BlockMatrix& A, const Where& where, int) {
+        return Strip::of([&](int c) FROND_INLINED {
+            const Entry entry = where(c);
+            return entry.slot < 0 ? 0.0 : A.values[size_t(9 * entry.slot + entry.number)];
+        });
     }
-    return true;
-}
+    FROND_INLINE static Strip strip(const double* row, int) { return Strip::from(row); }
+    FROND_INLINE static void put(const Strip& strip, double* row, int) { strip.put(row); }
+    // A pair's six numbers.
+    struct Vector {
+        double* at;
+        FROND_INLINE explicit Vector(double* at) : at(at) {}
+        FROND_INLINE Number& operator[](int k) { return at[k]; }
+        FROND_INLINE void take_off(Number times, const double* row, int) {
+            (Strip::from(at) - Strip::from(row) * times).put(at);
+        }
+        FROND_INLINE Number dot(const double* row) const { return Strip::from(at).dot(Strip::from(row)); }
+        FROND_INLINE void put() const {}
+    };
+};
 
-// Eliminates a pair with the block C to its parent: subtracts C' A^-1 C from the parent's own; C becomes D^-1 L^-1 C.
+// Numbers of several matrices, one a lane: a strip is one number of a row.
 template <class S>
-FROND_INLINE void eliminate(TreeFactor::Pair& pair, Block& parent) {
-    Block &C = pair.to_parent, over;
-    for (int k = 0; k < SIX; ++k) {
-        Six<S> row(C[k]);
-        for (int r = k + 1; r < SIX; ++r) {
-            Six<S> below(C[r]);
-            below.take_off(pair.own[k][r], row);
-            below.put(C[r]);
+struct OfSeveral {
+    using Number = S;
+    using Strip = S;
+    static constexpr int LANES = frond::LANES<S>, STRIPS = SIX;
+    FROND_INLINE static int first_from(int column) { return column; }
+    FROND_INLINE static Number number(const Strip* row, int c) { return row[c]; }
+    template <class Where>
+    FROND_INLINE static Strip entries(const BlockMatrix& A, const Where& where, int c) {
+        alignas(LINE) static constexpr double ZERO[MOST_LANES] = {};
+        const Entry entry = where(c);
+        return load<S>(entry.slot < 0 ? ZERO : A.values.data() + LANES * size_t(9 * entry.slot + entry.number));
+    }
+    FROND_INLINE static Strip strip(const double* row, int c) { return load<S>(row + LANES * c); }
+    FROND_INLINE static void put(const Strip& strip, double* row, int c) { store(strip, row + LANES * c); }
+    struct Vector {
+        double* to;
+        S at[SIX];
+        FROND_INLINE explicit Vector(double* from) : to(from) {
+            for (int c = 0; c < SIX; ++c) at[c] = strip(from, c);
         }
-        row.scale(pair.inverse[k]);
-        row.put(over[k]);
-    }
-    for (int r = 0; r < SIX; ++r) {
-        Six<S> row(parent[r]);
-        for (int k = 0; k < SIX; ++k) row.take_off(over[k][r], Six<S>(C[k]));
-        row.put(parent[r]);
-    }
-    for (int k = 0; k < SIX; ++k) Six<S>(over[k]).put(C[k]);
-}
+        FROND_INLINE Number& operator[](int k) { return at[k]; }
+        // `own` is the place of `times`, where the row is zero.
+        FROND_INLINE void take_off(const Number& times, const double* row, int own) {
+#pragma GCC unroll 6
+            for (int c = 0; c < SIX; ++c)
+                if (c != own) at[c] -= times * strip(row, c);
+        }
+        // Sums in the order of a row's registers.
+        FROND_INLINE Number dot(const double* row) const {
+            S by[SIX];
+            for (int c = 0; c < SIX; ++c) by[c] = at[c] * strip(row, c);
+            return ((by[0] + by[2]) + by[4]) + ((by[1] + by[3]) + by[5]);
+        }
+        FROND_INLINE void put() const {
+            for (int c = 0; c < SIX; ++c) OfSeveral::put(at[c], to, c);
+        }
+    };
+};
 
+// All loops are unrolled: only then do six numbers stay in registers.
+template <template <class> class Of>
 struct FactorizeTree {
     const TreePlan& plan;
     const BlockMatrix& A;
     TreeFactor& factor;
-    bool& ok;
+    unsigned& failed;
+
+    template <class O>
+    FROND_INLINE double* row(size_t pair, int first, int r) const {
+        return factor.numbers.data() + O::LANES * (TreeFactor::NUMBERS * pair + size_t(first + SIX * r));
+    }
+    // Returns a strip of a pair's own block, with the children eliminated so far.
+    template <class O>
+    FROND_INLINE typename O::Strip own_now(size_t i, int r, int s) const {
+        if (factor.begun[i]) return O::strip(row<O>(i, TreeFactor::OWN, r), s);
+        return O::entries(
+            A, [&](int c) FROND_INLINED { return own_entry(plan.pairs[i], r, c); }, s);
+    }
+    // Factorizes a pair's own block to L' and D.
+    template <class O>
+    FROND_INLINE void factorize_own(size_t i, typename O::Strip (&own)[SIX][O::STRIPS],
+                                    typename O::Number (&inverse)[SIX], typename O::Number& sound) const {
+        using Number = typename O::Number;
+#pragma GCC unroll 6
+        for (int r = 0; r < SIX; ++r)
+#pragma GCC unroll 6
+            for (int s = O::first_from(r); s < O::STRIPS; ++s) own[r][s] = own_now<O>(i, r, s);
+#pragma GCC unroll 6
+        for (int k = 0; k < SIX; ++k) {
+            const Number d = O::number(own[k], k);
+            inverse[k] = 1.0 / d;
+            // The pivot is above zero and finite: an infinite one would make this product NaN.
+            sound = select(inverse[k] > 0.0, select(d * inverse[k] > 0.0, sound, Number{}), Number{});
+#pragma GCC unroll 6
+            for (int r = k + 1; r < SIX; ++r) {
+                const Number times = O::number(own[k], r) * inverse[k];
+#pragma GCC unroll 6
+                for (int s = O::first_from(r); s < O::STRIPS; ++s) own[r][s] = own[r][s] - own[k][s] * times;
+            }
+            double* to = row<O>(i, TreeFactor::OWN, k);
+#pragma GCC unroll 6
+            for (int s = O::first_from(k); s < O::STRIPS; ++s) {
+                own[k][s] = own[k][s] * inverse[k];
+                O::put(own[k][s], to, s);
+            }
+#pragma GCC unroll 6
+            for (int c = 0; c <= k; ++c) store(Number{}, to + O::LANES * c);
+            store(inverse[k], row<O>(i, TreeFactor::INVERSE, 0) + O::LANES * k);
+            if constexpr (O::LANES == 1) factor.pivot[Eigen::Index(SIX * i) + k] = d;
+        }
+    }
+    // Eliminates a pair with its block C to the parent, strip by strip: takes C' A^-1 C off the parent's own block.
+    template <class O>
+    FROND_INLINE void eliminate(size_t i, const typename O::Strip (&own)[SIX][O::STRIPS],
+                                const typename O::Number (&inverse)[SIX]) const {
+        const TreePlan::Pair& place = plan.pairs[i];
+        typename O::Strip C[SIX][O::STRIPS], over[SIX][O::STRIPS];
+#pragma GCC unroll 6
+        for (int s = 0; s < O::STRIPS; ++s) {
+            typename O::Strip y[SIX];
+#pragma GCC unroll 6
+            for (int r = 0; r < SIX; ++r)
+                y[r] = O::entries(
+                    A, [&](int c) FROND_INLINED { return link_entry(place, r, c); }, s);
+#pragma GCC unroll 6
+            for (int k = 0; k < SIX; ++k) {
+#pragma GCC unroll 6
+                for (int r = k + 1; r < SIX; ++r) y[r] = y[r] - y[k] * O::number(own[k], r);
+                C[k][s] = y[k];
+                over[k][s] = y[k] * inverse[k];
+                O::put(over[k][s], row<O>(i, TreeFactor::TO_PARENT, k), s);
+            }
+        }
+#pragma GCC unroll 6
+        for (int r = 0; r < SIX; ++r)
+#pragma GCC unroll 6
+            for (int s = O::first_from(r); s < O::STRIPS; ++s) {
+                typename O::Strip sum = own_now<O>(size_t(place.parent), r, s);
+#pragma GCC unroll 6
+                for (int k = 0; k < SIX; ++k) sum = sum - C[k][s] * O::number(over[k], r);
+                O::put(sum, row<O>(size_t(place.parent), TreeFactor::OWN, r), s);
+            }
+        factor.begun[size_t(place.parent)] = 1;
+    }
     template <class S>
     FROND_INLINE void run() const {
-        ok = false;
-        for (size_t i = 0; i < plan.pairs.size(); ++i) {
-            Block& own = factor.pairs[i].own;
-            put(A, plan.pairs[i].own[0], 0, 0, own);
-            put_transposed(A, plan.pairs[i].own[1], 0, 3, own);
-            put(A, plan.pairs[i].own[2], 3, 3, own);
-            for (int r = 3; r < SIX; ++r)
-                for (int c = 0; c < 3; ++c) own[r][c] = 0;
-        }
+        using O = Of<S>;
+        typename O::Number sound = 1.0 + typename O::Number{};
         for (size_t i = plan.pairs.size(); i-- > 0;) {
-            const TreePlan::Pair& place = plan.pairs[i];
-            TreeFactor::Pair& pair = factor.pairs[i];
-            if (!factorize_own<S>(pair)) return;
-            if (place.parent < 0) continue;
-            for (int k = 0; k < 4; ++k) put(A, place.link[size_t(k)], 3 * (k % 2), 3 * (k / 2), pair.to_parent);
-            eliminate<S>(pair, factor.pairs[size_t(place.parent)].own);
+            typename O::Strip own[SIX][O::STRIPS];
+            typename O::Number inverse[SIX];
+            factorize_own<O>(i, own, inverse, sound);
+            if (plan.pairs[i].parent >= 0) eliminate<O>(i, own, inverse);
         }
-        ok = true;
+        failed = bits_of(sound == 0.0);
     }
 };
 
+template <template <class> class Of>
 struct SolveTree {
     const TreePlan& plan;
     const TreeFactor& factor;
     double* y;
-    template <class S>
+
+    template <class O>
+    FROND_INLINE const double* row(size_t pair, int first, int r) const {
+        return factor.numbers.data() + O::LANES * (TreeFactor::NUMBERS * pair + size_t(first + SIX * r));
+    }
+    template <class O>
+    FROND_INLINE typename O::Vector of(size_t pair) const {
+        return typename O::Vector(y + O::LANES * SIX * pair);
+    }
+    template <class O>
     FROND_INLINE void down() const {
         for (size_t i = plan.pairs.size(); i-- > 0;) {
-            const TreeFactor::Pair& pair = factor.pairs[i];
-            double* own = y + SIX * i;
-            for (int k = 0; k + 1 < SIX; ++k) {
-                Six<S> rest(own);
-                rest.take_off(own[k], Six<S>(pair.own[k]));
-                rest.put(own);
-            }
+            typename O::Vector own = of<O>(i);
+#pragma GCC unroll 6
+            for (int k = 0; k + 1 < SIX; ++k) own.take_off(own[k], row<O>(i, TreeFactor::OWN, k), k);
+            own.put();
             if (plan.pairs[i].parent < 0) continue;
-            double* parent = y + SIX * size_t(plan.pairs[i].parent);
-            Six<S> sum(parent);
-            for (int k = 0; k < SIX; ++k) sum.take_off(own[k], Six<S>(pair.to_parent[k]));
-            sum.put(parent);
+            typename O::Vector parent = of<O>(size_t(plan.pairs[i].parent));
+#pragma GCC unroll 6
+            for (int k = 0; k < SIX; ++k) parent.take_off(own[k], row<O>(i, TreeFactor::TO_PARENT, k), -1);
+            parent.put();
         }
     }
-    template <class S>
+    template <class O>
     FROND_INLINE void up() const {
         for (size_t i = 0; i < plan.pairs.size(); ++i) {
-            const TreeFactor::Pair& pair = factor.pairs[i];
-            double* own = y + SIX * i;
-            for (int k = 0; k < SIX; ++k) own[k] *= pair.inverse[k];
+            typename O::Vector own = of<O>(i);
+            const double* inverse = row<O>(i, TreeFactor::INVERSE, 0);
+            for (int k = 0; k < SIX; ++k) own[k] = own[k] * load<typename O::Number>(inverse + O::LANES * k);
             if (plan.pairs[i].parent >= 0) {
-                const Six<S> parent(y + SIX * size_t(plan.pairs[i].parent));
-                for (int k = 0; k < SIX; ++k) own[k] -= parent.dot(Six<S>(pair.to_parent[k]));
+                const typename O::Vector parent = of<O>(size_t(plan.pairs[i].parent));
+#pragma GCC unroll 6
+                for (int k = 0; k < SIX; ++k) own[k] = own[k] - parent.dot(row<O>(i, TreeFactor::TO_PARENT, k));
             }
-            for (int k = SIX - 1; k-- > 0;) own[k] -= Six<S>(own).dot(Six<S>(pair.own[k]));
+#pragma GCC unroll 6
+            for (int k = SIX - 2; k >= 0; --k) own[k] = own[k] - own.dot(row<O>(i, TreeFactor::OWN, k));
+            own.put();
         }
     }
     template <class S>
     FROND_INLINE void run() const {
-        down<S>();
-        up<S>();
+        down<Of<S>>();
+        up<Of<S>>();
     }
 };
 
 }  // namespace
 
-std::optional<TreePlan> make_tree_plan(const BlockPattern& pattern) {
-    if (pattern.node_count == 0 || pattern.node_count % 2) return std::nullopt;
-    TreePlan plan;
-    plan.pairs.assign(size_t(pattern.node_count) / 2, {-1, {-1, -1, -1}, {-1, -1, -1, -1}});
-    for (int j = 0; j < pattern.node_count; ++j)
-        for (int k = pattern.start[size_t(j)]; k < pattern.start[size_t(j) + 1]; ++k) {
-            const int i = pattern.row[size_t(k)];
-            TreePlan::Pair& pair = plan.pairs[size_t(i) / 2];
-            if (i / 2 == j / 2) {
-                pair.own[size_t(i % 2 + j % 2)] = k;
-                continue;
-            }
-            if (pair.parent >= 0 && pair.parent != j / 2) return std::nullopt;
-            pair.parent = j / 2;
-            pair.link[size_t(i % 2 + 2 * (j % 2))] = k;
-        }
-    return plan;
+unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeFactor& factor) {
+    factor.lanes = A.lanes();
+    make_room(factor.numbers, size_t(factor.lanes) * TreeFactor::NUMBERS * plan.pairs.size());
+    factor.begun.assign(plan.pairs.size(), 0);
+    unsigned failed = 0;
+    if (factor.lanes == 1) {
+        factor.pivot.resize(SIX * Eigen::Index(plan.pairs.size()));
+        run_in_lanes(FactorizeTree<OfOne>{plan, A, factor, failed});
+    } else {
+        run_in_lanes(factor.lanes, FactorizeTree<OfSeveral>{plan, A, factor, failed});
+    }
+    return failed;
 }
 
-bool factorize(const TreePlan& plan, const BlockMatrix& A, TreeFactor& factor) {
-    factor.pairs.resize(plan.pairs.size());
-    bool ok = false;
-    run_in_lanes(FactorizeTree{plan, A, factor, ok});
-    return ok;
-}
-
-void solve(const TreePlan& plan, const TreeFactor& factor, const VecX& b, VecX& x) {
-    FROND_ASSERT(factor.pairs.size() == plan.pairs.size() && b.size() == SIX * Eigen::Index(plan.pairs.size()));
-    x = b;
-    run_in_lanes(SolveTree{plan, factor, x.data()});
-}
-
-void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<NodeBlock>& right_side,
-                NodeCompliance& compliance) {
-    const size_t count = plan.pairs.size();
-    if (factor.reached.size() != count) {
-        factor.reached.assign(count, 0);
-        factor.sparse.setZero(3, Eigen::Index(SIX * count));
-    }
-    // Only pairs on the paths from the given ones to their roots are not zero.
-    std::vector<int> path;
-    for (const NodeBlock& given : right_side) {
-        FROND_ASSERT(given.node >= 0 && size_t(given.node) < 2 * count);
-        for (int r = 0; r < 3; ++r) factor.sparse.col(3 * given.node + r) += given.block.row(r).transpose();
-        for (int i = given.node / 2; i >= 0 && !factor.reached[size_t(i)]; i = plan.pairs[size_t(i)].parent) {
-            factor.reached[size_t(i)] = 1;
-            path.push_back(i);
-        }
-    }
-    std::sort(path.begin(), path.end(), std::greater<>());
-    compliance.rows.clear();
-    compliance.left.resize(3, SIX * Eigen::Index(path.size()));
-    compliance.right.resize(3, SIX * Eigen::Index(path.size()));
-    for (const int i : path) {
-        const TreeFactor::Pair& pair = factor.pairs[size_t(i)];
-        const int parent = plan.pairs[size_t(i)].parent;
-        auto own = factor.sparse.middleCols<SIX>(SIX * Eigen::Index(i));
-        for (int r = 0; r < SIX; ++r) {
-            for (int k = 0; k < r; ++k) own.col(r) -= pair.own[k][r] * own.col(k);
-            const Eigen::Index at = Eigen::Index(compliance.rows.size());
-            compliance.left.col(at) = own.col(r);
-            compliance.right.col(at) = own.col(r) / pair.pivot[r];
-            compliance.rows.push_back(SIX * (int(count) - 1 - i) + r);
-            for (int c = 0; parent >= 0 && c < SIX; ++c)
-                factor.sparse.col(SIX * Eigen::Index(parent) + c) -= pair.to_parent[r][c] * own.col(r);
-        }
-        own.setZero();
-        factor.reached[size_t(i)] = 0;
-    }
+void solve(const TreePlan& plan, const TreeFactor& factor, double* x) {
+    if (factor.lanes == 1)
+        run_in_lanes(SolveTree<OfOne>{plan, factor, x});
+    else
+        run_in_lanes(factor.lanes, SolveTree<OfSeveral>{plan, factor, x});
 }
 
 }  // namespace frond

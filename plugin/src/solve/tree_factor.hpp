@@ -22,23 +22,25 @@ std::optional<TreePlan> make_tree_plan(const BlockPattern& pattern);
 
 constexpr int SIX = 6;  // numbers of a pair
 
-// Pairs are eliminated from the last to the first; a row of the factor is one of a pair's six numbers, in that order.
+// Factors of one matrix, or of several of one pattern, one a lane; each the same to the last bit as alone. Pairs are
+// eliminated from the last to the first; a row of the factor is one of a pair's six numbers, in that order.
 struct TreeFactor {
-    // Row by row: a pair's own L', zero up to its unit diagonal, L' to its parent, and D.
-    struct Pair {
-        double own[6][6], to_parent[6][6];
-        double pivot[6], inverse[6];
-    };
-    std::vector<Pair> pairs;
+    // Offsets and count of a pair's numbers: its own L', row by row, zero up to its unit diagonal; L' to its parent;
+    // and 1 / D.
+    static constexpr int OWN = 0, TO_PARENT = SIX * SIX, INVERSE = 2 * SIX * SIX, NUMBERS = INVERSE + SIX;
+    int lanes = 1;
+    NumbersInLines numbers;        // of each pair, each once a lane
+    VecX pivot;                    // D, of one matrix only
+    std::vector<uint8_t> begun;    // scratch: one a pair, whether a child was eliminated
     std::vector<uint8_t> reached;  // scratch of half-solves; zero between them
     Eigen::Matrix3Xd sparse;       // likewise
 };
 
-// Returns false if a pivot is not above zero: A is not positive definite.
-bool factorize(const TreePlan& plan, const BlockMatrix& A, TreeFactor& factor);
-// Computes x = A^-1 b with the matrix factorized last.
-void solve(const TreePlan& plan, const TreeFactor& factor, const VecX& b, VecX& x);
-// See half_solve() in block_factor.hpp.
+// Returns a bit for each lane of which a pivot is not above zero: A is not positive definite.
+unsigned factorize(const TreePlan& plan, const BlockMatrix& A, TreeFactor& factor);
+// Turns right-hand sides into solutions of A x = b with the matrices factorized last.
+void solve(const TreePlan& plan, const TreeFactor& factor, double* x);
+// See half_solve() in block_factor.hpp; of one matrix only.
 void half_solve(const TreePlan& plan, TreeFactor& factor, const std::vector<NodeBlock>& right_side,
                 NodeCompliance& compliance);
 
