@@ -5,7 +5,6 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/weigh.hpp"
-#include "core/assert.hpp"
 #include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -115,7 +114,7 @@ static std::shared_ptr<const Model> build(Surface surface, const frond_model_def
     model->ms_chain = timer.ms();
     build_body(*model, def);
     model->ms_total = total.ms();
-    FROND_ASSERT(is_whole(*model));
+    refuse_faults(*model);
     return model;
 }
 
@@ -154,7 +153,7 @@ std::shared_ptr<const Model> build_from_stems(const frond_stem* stems, int stem_
     model->ms_chain = timer.ms();
     build_body(*model, def);
     model->ms_total = total.ms();
-    FROND_ASSERT(is_whole(*model));
+    refuse_faults(*model);
     return model;
 }
 
@@ -169,7 +168,7 @@ std::shared_ptr<const Model> build_from_tets(TetMesh mesh, const frond_model_def
     finish(*model);
     take_materials(*model);
     model->ms_total = total.ms();
-    FROND_ASSERT(is_whole(*model));
+    refuse_faults(*model);
     return model;
 }
 

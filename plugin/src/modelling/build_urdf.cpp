@@ -1,6 +1,5 @@
 #include "modelling/build_urdf.hpp"
 
-#include "core/assert.hpp"
 #include "core/decompose.hpp"
 #include "core/error.hpp"
 #include "core/timer.hpp"
@@ -133,7 +132,7 @@ static std::shared_ptr<const Model> build(const UrdfTree& tree, const frond_mode
     if (is_upright) model->surface.up = Vec3::UnitZ();
     build_body(*model, def);
     model->ms_total = total.ms();
-    FROND_ASSERT(is_whole(*model));
+    refuse_faults(*model);
     return model;
 }
 

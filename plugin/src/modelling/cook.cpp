@@ -99,7 +99,8 @@ static std::shared_ptr<const Model> read_cooked(const uint8_t* bytes, size_t cou
     Archive archive(bytes, count, COOKED_WORDS);
     archive(*model);
     if (!archive.is_at_end()) fail_cooked("it is longer than what it holds");
-    check_cooked(*model);
+    const std::string fault = find_fault(*model);
+    if (!fault.empty()) fail_cooked(fault);
     list_chain(*model);
     model->ms_import = model->ms_total = timer.ms();
     return model;

@@ -20,10 +20,10 @@ std::shared_ptr<const Model> load_cooked(const std::string& path);
 
 // Visits all that is kept of a model.
 void visit(Archive& archive, Model& model);
-// Throws FILE_FORMAT unless indices, sizes and numbers are such as plants can be made of.
-void check_cooked(const Model& model);
-// Returns whether a model passes these checks, as each that is built has to.
-bool is_whole(const Model& model);
+// Returns what keeps plants from being made of a model: an index, a size or a number that is out of range. Empty: none.
+std::string find_fault(const Model& model);
+// Throws BAD_GEOMETRY for a model with a fault.
+void refuse_faults(const Model& model);
 // Throws FILE_FORMAT for a damaged model, in words for the reader.
 [[noreturn]] void fail_cooked(const std::string& what);
 

@@ -1,4 +1,4 @@
-// Checks of a cooked model: whatever its bytes are, plants that are made of it index within its arrays and divide by
+// Checks of a model: whatever it was made of, plants that are made of it index within its arrays and divide by
 // nothing that is zero.
 #include <cmath>
 
@@ -16,8 +16,12 @@ constexpr double LARGEST_NUMBER = 1e18;  // of moduli, densities and the like, i
 constexpr double LARGEST_MOMENT =
     LARGEST_COORDINATE * LARGEST_COORDINATE * LARGEST_COORDINATE * LARGEST_COORDINATE;  // [m^4]
 
+struct Fault {
+    std::string text;
+};
+
 void need(bool holds, const char* what) {
-    if (!holds) fail_cooked(what);
+    if (!holds) throw Fault{what};
 }
 bool is_index(int value, size_t count) {
     return value >= 0 && size_t(value) < count;
@@ -100,7 +104,7 @@ void check_organs(const Model& model) {
         try {
             check_material(organ.material, organ.kind);
         } catch (const Error& error) {
-            fail_cooked(error.what());
+            throw Fault{error.what()};
         }
     }
 }
@@ -210,22 +214,27 @@ void check_rest_shapes(const Model& model) {
 
 }  // namespace
 
-void check_cooked(const Model& model) {
-    check_organs(model);
-    check_surface(model);
-    check_topology(model);
-    check_chain(model);
-    check_cage(model);
-    check_rest_shapes(model);
+std::string find_fault(const Model& model) {
+    try {
+        check_organs(model);
+        check_surface(model);
+        check_topology(model);
+        check_chain(model);
+        check_cage(model);
+        check_rest_shapes(model);
+        return {};
+    } catch (const Fault& fault) {
+        return fault.text;
+    }
 }
 
-bool is_whole(const Model& model) {
-    try {
-        check_cooked(model);
-        return true;
-    } catch (const Error&) {
-        return false;
-    }
+void refuse_faults(const Model& model) {
+    const std::string fault = find_fault(model);
+    if (!fault.empty())
+        fail(FROND_RESULT_BAD_GEOMETRY,
+             "no plant can be made of this: %s. The plant is %.3g m high and weighs %.3g kg: if that is wrong, set "
+             "scale or the materials",
+             fault.c_str(), model.surface.height(), model.mass());
 }
 
 }  // namespace frond
