@@ -5,9 +5,8 @@
 
 #include <algorithm>
 
+#include "core/lanes.hpp"
 #include "mechanics/mechanics.hpp"
-#include "solve/front_batch.hpp"
-#include "solve/tree_factor.hpp"
 #include "support/dense.hpp"
 #include "support/meshes.hpp"
 
@@ -79,7 +78,7 @@ NumbersInLines side_by_side(const std::vector<Numbers>& from) {
 
 // Compares lanes with single factors; one of the matrices is not positive definite.
 void expect_lanes_as_alone(const BlockPattern& pattern, size_t lanes, Dice& dice) {
-    const Factored shared(pattern);
+    Factored shared(pattern);
     const size_t wrong = size_t(dice.uniform(0, double(lanes) - 1e-9));
     std::vector<NumbersInLines> matrices;
     std::vector<VecX> right_sides, solutions(lanes);
@@ -94,28 +93,21 @@ void expect_lanes_as_alone(const BlockPattern& pattern, size_t lanes, Dice& dice
     BlockMatrix A;
     A.pattern = &pattern;
     A.values = side_by_side(matrices);
-    TreeFactor tree;
-    FrontBatch fronts;
-    const bool is_tree = shared.plan.tree.has_value();
-    const unsigned failed = is_tree ? factorize(*shared.plan.tree, A, tree) : factorize(shared.plan.fronts, A, fronts);
-    EXPECT_EQ(failed, 1u << wrong);
+    EXPECT_EQ(factorize_lanes(shared.factor, A), 1u << wrong);
     NumbersInLines x = side_by_side(right_sides);
-    VecX x_own;
-    if (is_tree)
-        solve(*shared.plan.tree, tree, x.data());
-    else
-        solve(shared.plan.fronts, fronts, side_by_side(right_sides), x);
+    solve(shared.factor, x.data());
     for (size_t lane = 0; lane < lanes; ++lane) {
         if (lane == wrong) continue;
         const Eigen::Map<const VecX, 0, Eigen::InnerStride<>> found(x.data() + lane, solutions[lane].size(),
                                                                     Eigen::InnerStride<>(Eigen::Index(lanes)));
         ASSERT_EQ(VecX(found), solutions[lane]) << lane << " of " << lanes;
-        if (is_tree) continue;
-        FrontFactor own;
+        if (shared.plan.tree) continue;
+        Factored own(pattern);
         std::vector<FrontFactor*> out(lanes);
-        out[lane] = &own;
-        take_apart(fronts, out.data());
-        solve(shared.plan.fronts, own, right_sides[lane], x_own);
+        out[lane] = &own.factor.fronts;
+        take_apart(shared.factor.fronts, out.data());
+        VecX x_own;
+        solve(own.factor, right_sides[lane], x_own);
         ASSERT_EQ(x_own, solutions[lane]) << lane << " of " << lanes;
     }
 }

@@ -272,6 +272,7 @@ void make_room(Batch& a, std::shared_ptr<const System> system, int lanes) {
     make_room(a.drag_force, 3 * drags * size_t(lanes));
     make_room(a.drag_damping, 6 * drags * size_t(lanes));
     a.A.pattern = &pattern;
+    a.factor.plan = &a.system->plan;
     make_room(a.A.values, 9 * size_t(lanes) * pattern.row.size());
 }
 
@@ -306,14 +307,9 @@ unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<u
     else
         run_in_lanes(a.lanes, FormPlaces{a, method.step, mass});
 
-    if (system.plan.tree) {
-        lost |= factorize(*system.plan.tree, a.A, a.tree);
-        a.dv = a.rhs;
-        solve(*system.plan.tree, a.tree, a.dv.data());
-    } else {
-        lost |= factorize(system.plan.fronts, a.A, a.fronts);
-        solve(system.plan.fronts, a.fronts, a.rhs, a.dv);
-    }
+    lost |= factorize_lanes(a.factor, a.A);
+    a.dv = a.rhs;
+    solve(a.factor, a.dv.data());
     relative_residuals(a.A, a.rhs, a.dv, a.way, a.residual.data());
     run_in_lanes(a.lanes, Move{a, method.step});
     if (system.row->batch->retract) {
@@ -333,7 +329,7 @@ void take_apart(const Batch& a, Workspace* const* workspaces) {
         workspace->held = a.held;
         workspace->reach = a.reach;
     }
-    take_apart(a.fronts, factors.data());
+    take_apart(a.factor.fronts, factors.data());
 }
 
 }  // namespace frond

@@ -4,10 +4,9 @@
 #pragma once
 
 #include "core/lanes.hpp"
-#include "solve/front_batch.hpp"
+#include "solve/block_factor.hpp"
 #include "solve/linear_solver.hpp"
 #include "solve/solve.hpp"
-#include "solve/tree_factor.hpp"
 
 namespace frond {
 
@@ -31,8 +30,7 @@ struct Batch {
     std::vector<uint8_t> held, filled;
     std::vector<double> element_damping;
     BlockMatrix A;
-    TreeFactor tree;
-    FrontBatch fronts;
+    BlockFactor factor;
 };
 
 // Returns whether plants of such a system can be batched, with such settings, in steps of h [s].

@@ -14,16 +14,23 @@ BlockPlan make_block_plan(const BlockPattern& pattern) {
     return plan;
 }
 
-bool factorize(BlockFactor& factor, const BlockMatrix& A) {
+unsigned factorize_lanes(BlockFactor& factor, const BlockMatrix& A) {
     const BlockPlan& plan = *factor.plan;
-    return plan.tree ? factorize(*plan.tree, A, factor.tree) == 0 : factorize(plan.fronts, A, factor.fronts);
+    return plan.tree ? factorize(*plan.tree, A, factor.tree) : factorize(plan.fronts, A, factor.fronts);
+}
+
+bool factorize(BlockFactor& factor, const BlockMatrix& A) {
+    return factorize_lanes(factor, A) == 0;
+}
+
+void solve(BlockFactor& factor, double* x) {
+    const BlockPlan& plan = *factor.plan;
+    return plan.tree ? solve(*plan.tree, factor.tree, x) : solve(plan.fronts, factor.fronts, x);
 }
 
 void solve(BlockFactor& factor, const VecX& b, VecX& x) {
-    const BlockPlan& plan = *factor.plan;
-    if (!plan.tree) return solve(plan.fronts, factor.fronts, b, x);
     x = b;
-    solve(*plan.tree, factor.tree, x.data());
+    solve(factor, x.data());
 }
 
 void half_solve(BlockFactor& factor, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance) {

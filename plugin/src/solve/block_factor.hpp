@@ -14,15 +14,18 @@ struct BlockPlan {
 };
 BlockPlan make_block_plan(const BlockPattern& pattern);
 
-// Factor of one matrix. The plan must outlive it.
+// Factor of one matrix, or of several, one a lane. The plan must outlive it.
 struct BlockFactor {
     const BlockPlan* plan = nullptr;
     TreeFactor tree;
     FrontFactor fronts;
 };
-// Returns false if a pivot is not above zero: A is not positive definite.
+// Returns a bit for each lane of which a pivot is not above zero: A is not positive definite.
+unsigned factorize_lanes(BlockFactor& factor, const BlockMatrix& A);
+// Factorizes one matrix. Returns false if it is not positive definite.
 bool factorize(BlockFactor& factor, const BlockMatrix& A);
-// Computes x = A^-1 b with the matrix factorized last.
+// Turns right-hand sides into solutions of A x = b with the matrices factorized last.
+void solve(BlockFactor& factor, double* x);
 void solve(BlockFactor& factor, const VecX& b, VecX& x);
 // Does half of a solve: with A = P' L D L' P and a right-hand side B of few nodes, finds the rows of L^-1 P B that are
 // not zero, and these over D.

@@ -2,7 +2,7 @@
 // indefinite sparse symmetric linear equations").
 #pragma once
 
-#include "core/lanes.hpp"
+#include "core/lines.hpp"
 #include "mechanics/block_matrix.hpp"
 #include "solve/node_compliance.hpp"
 
@@ -50,27 +50,23 @@ inline int stride_of(const Front& front) {
     return padded(front.own) + padded(front.rows);
 }
 
-// Returns the numbers of quads as an array.
-inline double* numbers_of(std::vector<Quad>& quads) {
-    return reinterpret_cast<double*>(quads.data());
-}
-inline const double* numbers_of(const std::vector<Quad>& quads) {
-    return reinterpret_cast<const double*>(quads.data());
-}
-
+// Factors of one matrix, or of several of one pattern, one a lane; each the same to the last bit as alone.
 struct FrontFactor {
-    std::vector<Quad> columns;  // L below its unit diagonal, zero elsewhere
-    VecX pivot, inverse;        // D and 1/D, in elimination order
-    VecX ordered, front;        // scratch of solves: the whole vector, and one front's rows
-    Eigen::Matrix3Xd sparse;    // scratch of half-solves; zero between them
+    int lanes = 1;
+    NumbersInLines columns;         // L below its unit diagonal, zero in the four rows above; each number once a lane
+    NumbersInLines pivot, inverse;  // D and 1/D, in elimination order
+    NumbersInLines ordered, front;  // scratch of solves: the whole vector, and one front's rows
+    Eigen::Matrix3Xd sparse;        // scratch of half-solves; zero between them
     std::vector<uint8_t> reached;
 };
 
-// Returns false if a pivot is not above zero: A is not positive definite.
-bool factorize(const FrontPlan& plan, const BlockMatrix& A, FrontFactor& factor);
-// Computes x = A^-1 b with the matrix factorized last.
-void solve(const FrontPlan& plan, FrontFactor& factor, const VecX& b, VecX& x);
-// See half_solve() in block_factor.hpp.
+// Returns a bit for each lane of which a pivot is not above zero: A is not positive definite.
+unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontFactor& factor);
+// Turns right-hand sides into solutions of A x = b with the matrices factorized last.
+void solve(const FrontPlan& plan, FrontFactor& factor, double* x);
+// Copies each lane's factor to its own place in `out`, if it has one.
+void take_apart(const FrontFactor& factor, FrontFactor* const* out);
+// See half_solve() in block_factor.hpp; of one matrix only.
 void half_solve(const FrontPlan& plan, FrontFactor& factor, const std::vector<NodeBlock>& right_side,
                 NodeCompliance& compliance);
 
