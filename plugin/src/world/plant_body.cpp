@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "batch/flat.hpp"
 #include "collide/cover.hpp"
 #include "core/lanes.hpp"
-#include "plant/flat_batch.hpp"
 #include "world/convert.hpp"
 #include "world/detection.hpp"
 #include "world/plant_shape.hpp"

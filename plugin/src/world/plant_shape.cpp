@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "batch/flat.hpp"
 #include "core/decompose.hpp"
 #include "core/lanes.hpp"
-#include "plant/flat_batch.hpp"
 #include "world/convert.hpp"
 #include "world/world.hpp"
 

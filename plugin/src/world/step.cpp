@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "batch/plants.hpp"
 #include "core/assert.hpp"
 #include "core/timer.hpp"
-#include "plant/batch.hpp"
 #include "world/convert.hpp"
 #include "world/detection.hpp"
 #include "world/fragments.hpp"

@@ -1,6 +1,6 @@
 // Batched plants move exactly as each alone does, to the last bit, in lanes of any width, whatever happens to one of
 // them.
-#include "plant/batch.hpp"
+#include "batch/plants.hpp"
 
 #include <gtest/gtest.h>
 

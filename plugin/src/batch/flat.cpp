@@ -1,14 +1,14 @@
 // In: several plants. Out: the frames that flat_place.cpp finds for one.
-#include "plant/flat_batch.hpp"
+#include "batch/flat.hpp"
 
 #include <algorithm>
 #include <array>
 
+#include "batch/step.hpp"
 #include "core/lanes_of_plants.hpp"
 #include "plant/air_push.hpp"
 #include "plant/flat.hpp"
 #include "plant/plant.hpp"
-#include "solve/batch.hpp"
 
 namespace frond {
 

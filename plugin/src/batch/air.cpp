@@ -1,5 +1,5 @@
 // In: a batch of plants and the air of their world. Out: drags on their chain nodes, as in air_gather.cpp.
-#include "plant/air_batch.hpp"
+#include "batch/air.hpp"
 
 #include <algorithm>
 

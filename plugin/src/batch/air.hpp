@@ -1,8 +1,8 @@
 // Air around plants that are stepped as a batch.
 #pragma once
 
+#include "batch/step.hpp"
 #include "plant/plant.hpp"
-#include "solve/batch.hpp"
 
 namespace frond {
 

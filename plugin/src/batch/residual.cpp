@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "batch/step.hpp"
 #include "core/lanes.hpp"
-#include "solve/batch.hpp"
 
 namespace frond {
 

@@ -1,18 +1,18 @@
 // In: plants that may share a batch and a time h. Out: what solve_plant() finds for each. They are gathered into lanes,
 // solved, checked, and handed out again. A plant whose step is not acceptable is put back to its start and stepped
 // alone.
-#include "plant/batch.hpp"
+#include "batch/plants.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "batch/air.hpp"
 #include "core/assert.hpp"
 #include "core/elementary.hpp"
 #include "core/lanes.hpp"
 #include "core/lanes_of_plants.hpp"
 #include "core/timer.hpp"
 #include "mechanics/attachment_lanes.hpp"
-#include "plant/air_batch.hpp"
 #include "plant/guard.hpp"
 #include "solve/system.hpp"
 
