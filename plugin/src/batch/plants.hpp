@@ -1,4 +1,4 @@
-// Batch: steps of plants of one model taken together, a plant per lane (solve/batch.hpp), with the same results to the
+// Batch: steps of plants of one model taken together, a plant per lane (batch/step.hpp), with the same results to the
 // last bit as each alone.
 #pragma once
 
