@@ -45,6 +45,29 @@ bool error_names(const char* word) {
     return std::string(frond_last_error()).find(word) != std::string::npos;
 }
 
+// A tree of organs: each grows out of another one, and the plant stands on at least one.
+TEST(Organs, KnowWhatTheyGrowOutOf) {
+    const frond_model_def def = frond_default_model_def();
+    frond_model model = {};
+    ASSERT_EQ(frond_model_load(CORN.c_str(), &def, &model), FROND_OK) << frond_last_error();
+    frond_model_info info;
+    ASSERT_EQ(frond_model_get_info(model, &info), FROND_OK);
+    int standing = 0;
+    for (int i = 0; i < info.organ_count; i++) {
+        frond_organ organ, below;
+        ASSERT_EQ(frond_model_get_organ(model, i, &organ), FROND_OK);
+        ASSERT_GE(organ.parent, -1);
+        ASSERT_LT(organ.parent, info.organ_count);
+        standing += organ.parent < 0;
+        if (std::string(organ.kind) != "blade") continue;
+        ASSERT_GE(organ.parent, 0) << organ.name;
+        ASSERT_EQ(frond_model_get_organ(model, organ.parent, &below), FROND_OK);
+        EXPECT_STREQ(below.kind, "stem") << organ.name;
+    }
+    EXPECT_EQ(standing, 1);
+    frond_model_destroy(model);
+}
+
 TEST(Corrections, ChangeKindsAndLeaveOrgansOut) {
     const Loaded found = load(frond_default_model_def());
     ASSERT_EQ(found.kinds.at("blade_1"), "blade");
