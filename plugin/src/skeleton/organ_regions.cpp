@@ -34,8 +34,9 @@ constexpr double SLIVER = 8;           // largest area of a sliver, in squares o
 struct Subtree {
     double area = 0, flux = 0, far = 0;
     Vec3 normal = Vec3::Zero();
-    Eigen::AlignedBox3d box;
-    double alike = 0;  // area of slabs of its form and part that are connected to it [m^2]
+    Vec3 sum = Vec3::Zero();     // as Piece
+    Mat3 square = Mat3::Zero();  // as Piece
+    double alike = 0;            // area of slabs of its form and part that are connected to it [m^2]
 };
 
 struct Finder {
@@ -83,14 +84,16 @@ void sum_subtrees(Finder& finder) {
         own.alike += finder.piece(*at).area;
         own.flux += slab.flux;
         own.normal += slab.normal;
-        own.box.extend(slab.box);
+        own.sum += finder.piece(*at).sum;
+        own.square += finder.piece(*at).square;
         own.far = std::max(own.far, finder.piece(*at).far);
         if (!finder.same_mesh(*at)) continue;
         Subtree& parent = finder.subtrees[size_t(slab.parent)];
         parent.area += own.area;
         parent.flux += own.flux;
         parent.normal += own.normal;
-        parent.box.extend(own.box);
+        parent.sum += own.sum;
+        parent.square += own.square;
         parent.far = std::max(parent.far, own.far);
         if (finder.alike(*at)) parent.alike += own.alike;
     }
@@ -99,15 +102,17 @@ void sum_subtrees(Finder& finder) {
 // Returns the volume of the solid that begins with a slab, or 0 if what begins there is none [m^3].
 double solid_volume(const Finder& finder, int i) {
     const Subtree& tree = finder.subtrees[size_t(i)];
-    const Vec3 size = tree.box.sizes();
-    if (!(tree.area > 0) || size.minCoeff() < SOLID_ROUND * size.maxCoeff()) return 0;
+    if (!(tree.area > 0)) return 0;
+    const Vec3 centre = tree.sum / tree.area;
+    const Vec3 spread = symmetric_values(Mat3(tree.square / tree.area - centre * centre.transpose()));
+    if (!(spread[0] > squared(SOLID_ROUND) * spread[2])) return 0;
     const bool on_neck = finder.same_mesh(i);
     const double neck = finder.neck_radius(i);
-    const double wide = 0.5 * (size.sum() - size.minCoeff() - size.maxCoeff());
-    const double widest = std::min(wide, std::sqrt(tree.area / (4 * PI)));
+    // A ball's spread along each axis is a third of its radius squared; the stub of a tube is no wider than its neck.
+    const double widest = std::min(std::sqrt(3 * spread[1]), std::sqrt(tree.area / (4 * PI)));
     // What stands on the ground by itself stands broadly.
     if (finder.slab(i).parent < 0 ? finder.foot_radius(i) < SOLID_NECK * widest : neck > SOLID_NECK * widest) return 0;
-    const Vec3 from = on_neck ? finder.link(i).middle : tree.box.center();
+    const Vec3 from = on_neck ? finder.link(i).middle : Vec3(centre + finder.cut.bands.origin);
     const double volume = std::abs(tree.flux - from.dot(tree.normal)) / 3, area = tree.area + PI * neck * neck;
     // The normals of a closed surface add up to nothing but its neck.
     if (tree.normal.norm() > SOLID_OPEN * tree.area + 1.3 * PI * neck * neck) return 0;

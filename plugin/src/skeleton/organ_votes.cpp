@@ -2,6 +2,7 @@
 // Each region collects votes, and the kind with most of them wins; no single one decides against all others:
 //   its part is named after a kind                          3 for that kind, its material 2.5; 1 if all are named so
 //   it is a sheet                                           2 for a blade
+//   it is a flower by its place (organ_heads.cpp)           2 for a flower
 //   it is a tube                                            2 for a stem, or a branch if the plant is higher than 3 m
 //   it is a solid at a thin neck                            2 for a fruit, or 3 for a crown if it is large
 //   it is a solid at the foot that bears leaves             3 for a root
@@ -21,7 +22,9 @@
 
 #include "core/elementary.hpp"
 #include "skeleton/organ_clues.hpp"
+#include "skeleton/organ_heads.hpp"
 #include "skeleton/organ_join.hpp"
+#include "skeleton/organ_look.hpp"
 #include "skeleton/organ_regions.hpp"
 
 namespace frond {
@@ -34,24 +37,6 @@ constexpr double CROWN_SHARE = 0.25;   // least size of a crown, as a share of t
 constexpr double AT_FOOT = 0.1;        // share of the height up to which things stand on the ground
 constexpr double PETIOLE_THIN = 0.75;  // largest radius of a petiole, as a share of that of what it grows out of
 constexpr int FEW_LEAVES = 9;          // most leaves on a petiole
-
-bool is_green(const std::array<float, 4>& color) {
-    return color[1] > 1.1f * color[0] && color[1] > 1.3f * color[2];
-}
-bool is_brown(const std::array<float, 4>& color) {
-    return color[0] > color[1] && color[1] >= color[2] && color[0] < 0.35f && color[0] < 4 * color[1];
-}
-bool is_bright(const std::array<float, 4>& color) {
-    const float most = std::max({color[0], color[1], color[2]}), least = std::min({color[0], color[1], color[2]});
-    return !is_green(color) && !is_brown(color) && (most - least > 0.15f || least > 0.75f);
-}
-
-// Returns whether a texture is a PNG with an alpha channel.
-bool has_alpha(const Texture& texture) {
-    constexpr size_t COLOR_TYPE = 25;
-    return texture.bytes.size() > COLOR_TYPE && texture.bytes[1] == 'P' && texture.bytes[2] == 'N' &&
-           (texture.bytes[COLOR_TYPE] == 4 || texture.bytes[COLOR_TYPE] == 6);
-}
 
 // Makes unnamed green parts of a plant with wood blades: they are foliage, however solid they were drawn.
 void find_foliage(const Surface& surface, std::vector<std::string>& named) {
@@ -128,6 +113,7 @@ struct Voter {
     std::vector<int> leaves = {};     // by region, sheets that grow out of it and what it bears
     std::vector<int> borne = {};      // by region, those that grow out of it and do not stand beside it
     std::vector<int> others = {};     // by region, solids and tubes that bear no leaf likewise
+    Heads heads = {};
 };
 
 // Returns whether a region and all that it grows out of, down to the ground, are one mesh.
@@ -213,6 +199,11 @@ void vote_by_shape(const Voter& voter, size_t r, Ballot& ballot) {
         ballot.add("crown", 3, sized("large round solid,", size.maxCoeff(), size.minCoeff()));
     else if (surrounds_wood(voter, region))
         ballot.add("crown", 3, sized("foliage around wood,", size.maxCoeff(), size.minCoeff()));
+    else if (voter.heads.flower[r])
+        ballot.add("flower", 2, sized("flower at a stem's end,", size.maxCoeff(), size.minCoeff()));
+    else if (voter.heads.swollen[r])
+        ballot.add(is_crown(voter, region) ? "crown" : "fruit", 2,
+                   sized("thicker than what bears it,", region.length, 2 * region.radius()));
     else if (region.form == Form::SHEET)
         ballot.add("blade", 2, sized("sheet", region.length, region.length > 0 ? region.area / region.length : 0));
     else if (is_grass(voter, r))
@@ -273,13 +264,15 @@ void count_leaves(Voter& voter) {
     voter.borne.assign(voter.regions.size(), 0);
     for (size_t r = voter.regions.size(); r-- > 0;) {
         const Region& region = voter.regions[r];
-        if (region.form == Form::SHEET) voter.leaves[r]++;
+        const bool is_head = voter.heads.flower[r] || voter.heads.swollen[r] || region.form == Form::SOLID;
+        if (voter.heads.hair_of[r] >= 0) continue;
+        if (region.form == Form::SHEET && !is_head) voter.leaves[r]++;
         if (region.parent < 0) continue;
         voter.borne[size_t(region.parent)] += !stands(region, voter.foot, voter.height);
         // Veins are no stems.
         const bool is_vein =
             region.form == Form::TUBE && region.radius() < 0.8 * voter.regions[size_t(region.parent)].radius();
-        if (region.form == Form::SOLID || (region.form == Form::TUBE && voter.leaves[r] == 0 && !is_vein))
+        if (is_head || (region.form == Form::TUBE && voter.leaves[r] == 0 && !is_vein))
             voter.others[size_t(region.parent)]++;
         voter.leaves[size_t(region.parent)] += voter.leaves[r];
         voter.others[size_t(region.parent)] += voter.others[r];
@@ -317,15 +310,24 @@ FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std
                 surface.size(),
                 height > TREE_HEIGHT ? "branch" : "stem"};
     voter.has_wood = std::find(named.begin(), named.end(), "branch") != named.end();
+    voter.heads = find_heads(cut.regions, voter.foot, height);
     count_leaves(voter);
     for (size_t r = 0; r < cut.regions.size(); r++) voter.bare += is_bare(voter, r);
     voter.trust = weigh_names(surface, named);
     voter.crown = share_of_crowns(cut, crowns);
     find_bright_parts(voter);
     std::vector<FoundOrgan> found;
-    for (size_t r = 0; r < cut.regions.size(); r++) found.push_back(vote(voter, r));
+    for (size_t r = 0; r < cut.regions.size(); r++) {
+        // What bears a hair comes before it.
+        const int bearer = voter.heads.hair_of[r];
+        const bool is_hair = bearer >= 0 && named[size_t(cut.regions[r].part)].empty();
+        found.push_back(is_hair ? found[size_t(bearer)] : vote(voter, r));
+    }
 
     UnionFind sets = join_regions(surface, cut.regions, found);
+    for (size_t r = 0; r < cut.regions.size(); r++)
+        if (const int bearer = voter.heads.hair_of[r]; bearer >= 0 && found[r].kind == found[size_t(bearer)].kind)
+            sets.join(int(r), bearer);
     FoundOrgans out;
     std::vector<int> number(cut.regions.size(), -1);
     std::vector<double> largest;
