@@ -127,7 +127,9 @@ void mark_whorl(Seeker& seeker, int stem, const std::vector<int>& borne) {
         if (near.size() > whorl.size()) whorl = near;
     }
     const auto petals = std::count_if(whorl.begin(), whorl.end(), [&](int r) { return seeker.is_sheet(r); });
-    if (size_t(petals) < FEWEST_PETALS) return;
+    // Leaves stand in whorls along all of a stem.
+    const auto sheets = std::count_if(borne.begin(), borne.end(), [&](int r) { return seeker.is_sheet(r); });
+    if (size_t(petals) < FEWEST_PETALS || 2 * petals <= sheets) return;
     for (int r : whorl)
         if (seeker.region(r).form != Form::TUBE) seeker.heads.flower[size_t(r)] = 1;
 }

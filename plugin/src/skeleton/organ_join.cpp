@@ -65,6 +65,22 @@ void join_stems(const std::vector<Region>& regions, const std::vector<FoundOrgan
     }
 }
 
+// Joins slivers of crowns to the crown of their mesh and part that is largest.
+void join_crowns(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
+    constexpr double SLIVER_OF_CROWN = 0.02;  // area over that of the largest
+    std::map<std::pair<int, int>, int> largest;
+    for (size_t r = 0; r < regions.size(); r++) {
+        if (found[r].kind != "crown") continue;
+        int& best = largest.emplace(std::make_pair(regions[r].component, regions[r].part), int(r)).first->second;
+        if (regions[r].area > regions[size_t(best)].area) best = int(r);
+    }
+    for (size_t r = 0; r < regions.size(); r++) {
+        if (found[r].kind != "crown") continue;
+        const int crown = largest.at({regions[r].component, regions[r].part});
+        if (regions[r].area < SLIVER_OF_CROWN * regions[size_t(crown)].area) sets.join(int(r), crown);
+    }
+}
+
 // Joins hairs: awns, silk and the like, sheets far smaller than the plant's leaves, that hang on the same region.
 void join_hairs(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
     constexpr double FAR_SMALLER = 0.05;  // area over that of the largest leaf
@@ -107,6 +123,7 @@ UnionFind join_regions(const Surface& surface, const std::vector<Region>& region
     for (size_t r = 0; r < regions.size(); r++)
         if (belongs_to_parent(surface, regions, found, r, foot, height)) sets.join(int(r), regions[r].parent);
     join_petals(regions, found, sets);
+    join_crowns(regions, found, sets);
     join_stems(regions, found, sets);
     join_hairs(regions, found, sets);
     join_clusters(regions, found, surface.size(), sets);

@@ -113,6 +113,7 @@ struct Voter {
     std::vector<int> leaves = {};     // by region, sheets that grow out of it and what it bears
     std::vector<int> borne = {};      // by region, those that grow out of it and do not stand beside it
     std::vector<int> others = {};     // by region, solids and tubes that bear no leaf likewise
+    std::vector<char> bears = {};     // by region, whether it is a sheet that bears what no leaf does
     Heads heads = {};
 };
 
@@ -136,7 +137,8 @@ bool is_grass(const Voter& voter, size_t r) {
 bool is_rooted_tuber(const Voter& voter, size_t r) {
     constexpr double LOW = 0.3;  // largest height above the ground at which one begins, as a share of the plant's
     const Region& region = voter.regions[r];
-    if (voter.height > TREE_HEIGHT || region.box.min().y() > voter.foot + LOW * voter.height) return false;
+    if (voter.height > TREE_HEIGHT || region.box.min().y() > voter.foot + LOW * voter.height || voter.crown[r] > 0.5)
+        return false;
     if (region.form == Form::SOLID) return region.tubes + region.sheets > 0 && reaches_ground(voter, r);
     // A tube that stands on its point, thick at its upper end, out of which thin ones grow.
     const double length = region.box.sizes().y();
@@ -204,7 +206,7 @@ void vote_by_shape(const Voter& voter, size_t r, Ballot& ballot) {
     else if (voter.heads.swollen[r])
         ballot.add(is_crown(voter, region) ? "crown" : "fruit", 2,
                    sized("thicker than what bears it,", region.length, 2 * region.radius()));
-    else if (region.form == Form::SHEET)
+    else if (region.form == Form::SHEET && !voter.bears[r])
         ballot.add("blade", 2, sized("sheet", region.length, region.length > 0 ? region.area / region.length : 0));
     else if (is_grass(voter, r))
         ballot.add("blade", 2, sized("one of many alike on the ground,", region.length, 2 * region.radius()));
@@ -212,7 +214,7 @@ void vote_by_shape(const Voter& voter, size_t r, Ballot& ballot) {
         ballot.add("petiole", 2.5, sized("thin tube with a leaf at its end,", region.length, 2 * region.radius()));
     else if (is_thick_leaf(voter, region))
         ballot.add("blade", 2, sized("flat tube that bears nothing,", region.length, 2 * region.radius()));
-    else if (region.form == Form::TUBE)
+    else if (region.form == Form::TUBE || voter.bears[r])
         ballot.add(voter.tube, 2, sized("tube", region.length, 2 * region.radius()));
     else if (region.parent < 0)
         ballot.add(voter.tube, 2, sized("solid that stands by itself,", size.maxCoeff(), size.minCoeff()));
@@ -266,7 +268,7 @@ void count_leaves(Voter& voter) {
         const Region& region = voter.regions[r];
         const bool is_head = voter.heads.flower[r] || voter.heads.swollen[r] || region.form == Form::SOLID;
         if (voter.heads.hair_of[r] >= 0) continue;
-        if (region.form == Form::SHEET && !is_head) voter.leaves[r]++;
+        if (region.form == Form::SHEET && !is_head && !voter.bears[r]) voter.leaves[r]++;
         if (region.parent < 0) continue;
         voter.borne[size_t(region.parent)] += !stands(region, voter.foot, voter.height);
         // Veins are no stems.
@@ -276,6 +278,18 @@ void count_leaves(Voter& voter) {
             voter.others[size_t(region.parent)]++;
         voter.leaves[size_t(region.parent)] += voter.leaves[r];
         voter.others[size_t(region.parent)] += voter.others[r];
+    }
+}
+
+// Finds sheets that bear tubes and solids of their mesh, larger than themselves: coarse or flared pieces of stems.
+void find_bearing(Voter& voter) {
+    std::vector<double> solid(voter.regions.size(), 0.0);  // area of what grows out of it and is no sheet
+    voter.bears.assign(voter.regions.size(), 0);
+    for (size_t r = voter.regions.size(); r-- > 0;) {
+        const Region& region = voter.regions[r];
+        voter.bears[r] = region.form == Form::SHEET && solid[r] > region.area;
+        if (region.same_mesh && region.parent >= 0)
+            solid[size_t(region.parent)] += solid[r] + (region.form == Form::SHEET ? 0 : region.area);
     }
 }
 
@@ -310,6 +324,7 @@ FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std
                 surface.size(),
                 height > TREE_HEIGHT ? "branch" : "stem"};
     voter.has_wood = std::find(named.begin(), named.end(), "branch") != named.end();
+    find_bearing(voter);
     voter.heads = find_heads(cut.regions, voter.foot, height);
     count_leaves(voter);
     for (size_t r = 0; r < cut.regions.size(); r++) voter.bare += is_bare(voter, r);
@@ -321,7 +336,12 @@ FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std
         // What bears a hair comes before it.
         const int bearer = voter.heads.hair_of[r];
         const bool is_hair = bearer >= 0 && named[size_t(cut.regions[r].part)].empty();
-        found.push_back(is_hair ? found[size_t(bearer)] : vote(voter, r));
+        const Region& region = cut.regions[r];
+        // The edge of a crown is no leaf.
+        const bool is_edge = region.form == Form::SHEET && region.same_mesh && region.parent >= 0 &&
+                             found[size_t(region.parent)].kind == "crown" &&
+                             cut.regions[size_t(region.parent)].part == region.part;
+        found.push_back(is_hair ? found[size_t(bearer)] : is_edge ? found[size_t(region.parent)] : vote(voter, r));
     }
 
     UnionFind sets = join_regions(surface, cut.regions, found);
