@@ -62,6 +62,14 @@ double typical_leaf(const std::vector<Region>& regions) {
     return 0;
 }
 
+double longest_side(const Region& region) {
+    return region.box.sizes().maxCoeff();
+}
+
+bool is_borne_in_middle(const Region& region) {
+    return (region.begin - region.middle).norm() < IN_MIDDLE * longest_side(region);
+}
+
 void find_swollen(Seeker& seeker) {
     std::vector<double> largest_borne(seeker.regions.size(), 0.0);
     for (const Region& region : seeker.regions)
@@ -72,7 +80,8 @@ void find_swollen(Seeker& seeker) {
         if (region.form != Form::TUBE || region.parent < 0 || region.same_mesh || !seeker.ends(int(r))) continue;
         const Region& bearer = seeker.region(region.parent);
         seeker.heads.swollen[r] = bearer.form == Form::TUBE && region.radius() > SWOLLEN * bearer.radius() &&
-                                  region.flatness() < ROUND && largest_borne[r] < OF_BEARER * region.area;
+                                  (region.flatness() < ROUND || is_borne_in_middle(region)) &&
+                                  largest_borne[r] < OF_BEARER * region.area;
     }
 }
 
@@ -102,12 +111,8 @@ void find_hairs(Seeker& seeker) {
         if (const int bearer = seeker.heads.hair_of[r]; bearer >= 0) together[size_t(bearer)] += seeker.regions[r].area;
     for (size_t r = 0; r < hairs.size(); r++) {
         const int head = seeker.heads.hair_of[r] >= 0 ? seeker.heads.hair_of[r] : int(r);
-        if (together[size_t(head)] > seeker.region(head).area) seeker.heads.flower[r] = 1;
+        if (seeker.height < TALLEST && together[size_t(head)] > seeker.region(head).area) seeker.heads.flower[r] = 1;
     }
-}
-
-double longest_side(const Region& region) {
-    return region.box.sizes().maxCoeff();
 }
 
 // Marks a whorl of sheets at the end of a stem, and the solids in its middle.
@@ -146,7 +151,24 @@ bool is_flower(const Seeker& seeker, int r) {
     const Vec3 centre = region.sum / region.area;
     const Vec3 spread = symmetric_values(Mat3(region.square / region.area - centre * centre.transpose()));
     const bool is_round = spread[1] > 0.5 * spread[2], is_cup = spread[0] > squared(CUP_DEPTH) * spread[2];
-    return is_cup || (is_round && (region.begin - region.middle).norm() < IN_MIDDLE * width);
+    return is_cup || (is_round && is_borne_in_middle(region));
+}
+
+// Marks what stands on a sheet in its middle, much smaller than it: the flower of a water lily.
+void mark_on_leaf(Seeker& seeker, int leaf, const std::vector<int>& borne) {
+    const Vec3 middle = seeker.region(leaf).box.center();
+    const double width = longest_side(seeker.region(leaf));
+    std::vector<int> parts;
+    for (int r : borne) {
+        const Region& region = seeker.region(r);
+        if (region.same_mesh || region.area > OF_LEAF * seeker.region(leaf).area) continue;
+        if ((region.begin - middle).norm() < IN_MIDDLE * width) parts.push_back(r);
+    }
+    if (parts.size() < FEWEST_PETALS) return;
+    for (int r : parts) seeker.heads.flower[size_t(r)] = 1;
+    for (size_t r = 0; r < seeker.regions.size(); r++)
+        if (const int bearer = seeker.regions[r].parent; seeker.regions[r].same_mesh && bearer >= 0 && bearer != leaf)
+            seeker.heads.flower[r] = seeker.heads.flower[r] || seeker.heads.flower[size_t(bearer)];
 }
 
 void find_flowers(Seeker& seeker) {
@@ -156,6 +178,7 @@ void find_flowers(Seeker& seeker) {
             borne[size_t(bearer)].push_back(int(r));
     for (size_t r = 0; r < borne.size(); r++) {
         if (seeker.heads.hair_of[r] < 0 && is_flower(seeker, int(r))) seeker.heads.flower[r] = 1;
+        if (seeker.is_sheet(int(r))) mark_on_leaf(seeker, int(r), borne[r]);
         if (seeker.regions[r].form == Form::TUBE && borne[r].size() >= FEWEST_PETALS && borne[r].size() <= MOST_PETALS)
             mark_whorl(seeker, int(r), borne[r]);
     }

@@ -161,13 +161,16 @@ bool is_petiole(const Voter& voter, size_t r) {
         return false;
     if (region.parent < 0 || stands(region, voter.foot, voter.height)) return voter.leaves[r] == 1;
     const Region& parent = voter.regions[size_t(region.parent)];
+    // A leaf bears no stem, but stalks of other leaves that begin near it.
+    if (parent.form == Form::SHEET && !region.same_mesh && !voter.bears[size_t(region.parent)])
+        return voter.leaves[r] <= 1;
     return voter.leaves[r] > 0 && voter.leaves[r] <= FEW_LEAVES &&
            (parent.form == Form::SOLID || region.radius() < PETIOLE_THIN * parent.radius());
 }
 
 // Returns whether a tube is a small leaf drawn thick: flat, and nothing grows out of it.
 bool is_thick_leaf(const Voter& voter, const Region& region) {
-    constexpr double WIDER = 1.9, SMALL = 0.4;
+    constexpr double WIDER = 1.55, SMALL = 0.4;
     return region.form == Form::TUBE && region.parent >= 0 && !region.same_mesh &&
            region.tubes + region.sheets + region.solids == 0 && region.box.diagonal().norm() < SMALL * voter.size &&
            region.flatness() > WIDER;
@@ -183,6 +186,29 @@ bool surrounds_wood(const Voter& voter, const Region& region) {
                AROUND * std::max(size.x(), size.z()) &&
            size.norm() > LARGE_ENOUGH * voter.size && region.normal.norm() < CLOSED * region.area &&
            region.box.min().y() > voter.foot + AT_FOOT * voter.height;
+}
+
+// Returns whether a solid is a bush with fruits on it.
+bool bears_fruit(const Voter& voter, const Region& region) {
+    constexpr int SOME = 3;
+    return region.parent < 0 && region.solids >= SOME && region.tubes + region.sheets == 0 &&
+           voter.height > CROWN_HEIGHT;
+}
+
+// Returns whether a solid stands upright on the ground: the trunk of a cactus.
+bool is_post(const Voter& voter, const Region& region) {
+    constexpr double UPRIGHT = 1.5, LOW = 0.2;
+    const Vec3 size = region.box.sizes();
+    return region.begin.y() < voter.foot + AT_FOOT * voter.height && size.y() > UPRIGHT * std::max(size.x(), size.z());
+}
+
+// Returns whether a solid is a long piece thinner than the stem that it grows out of: the arm of a cactus.
+bool is_arm(const Voter& voter, const Region& region) {
+    constexpr double LONG = 2.5, THINNER = 0.8;
+    if (region.parent < 0 || region.same_mesh) return false;
+    const Region& parent = voter.regions[size_t(region.parent)];
+    return parent.form != Form::SHEET && region.length > 2 * LONG * region.radius() &&
+           region.radius() < THINNER * parent.radius();
 }
 
 bool is_crown(const Voter& voter, const Region& region) {
@@ -216,7 +242,9 @@ void vote_by_shape(const Voter& voter, size_t r, Ballot& ballot) {
         ballot.add("blade", 2, sized("flat tube that bears nothing,", region.length, 2 * region.radius()));
     else if (region.form == Form::TUBE || voter.bears[r])
         ballot.add(voter.tube, 2, sized("tube", region.length, 2 * region.radius()));
-    else if (region.parent < 0)
+    else if (bears_fruit(voter, region))
+        ballot.add("crown", 3, sized("solid that bears others,", size.maxCoeff(), size.minCoeff()));
+    else if (region.parent < 0 || is_post(voter, region) || is_arm(voter, region))
         ballot.add(voter.tube, 2, sized("solid that stands by itself,", size.maxCoeff(), size.minCoeff()));
     else if (is_crown(voter, region))
         ballot.add("crown", 3, sized("large solid at a thin neck,", size.maxCoeff(), size.minCoeff()));
@@ -271,6 +299,7 @@ void count_leaves(Voter& voter) {
         if (region.form == Form::SHEET && !is_head && !voter.bears[r]) voter.leaves[r]++;
         if (region.parent < 0) continue;
         voter.borne[size_t(region.parent)] += !stands(region, voter.foot, voter.height);
+        if (stands(region, voter.foot, voter.height)) continue;
         // Veins are no stems.
         const bool is_vein =
             region.form == Form::TUBE && region.radius() < 0.8 * voter.regions[size_t(region.parent)].radius();
