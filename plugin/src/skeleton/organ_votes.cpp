@@ -171,7 +171,7 @@ bool is_petiole(const Voter& voter, size_t r) {
 // Returns whether a tube is a small leaf drawn thick: flat, and nothing grows out of it.
 bool is_thick_leaf(const Voter& voter, const Region& region) {
     constexpr double WIDER = 1.55, SMALL = 0.4;
-    return region.form == Form::TUBE && region.parent >= 0 && !region.same_mesh &&
+    return region.form == Form::TUBE && region.parent >= 0 && !region.same_mesh && voter.height < TREE_HEIGHT &&
            region.tubes + region.sheets + region.solids == 0 && region.box.diagonal().norm() < SMALL * voter.size &&
            region.flatness() > WIDER;
 }
@@ -186,6 +186,19 @@ bool surrounds_wood(const Voter& voter, const Region& region) {
                AROUND * std::max(size.x(), size.z()) &&
            size.norm() > LARGE_ENOUGH * voter.size && region.normal.norm() < CLOSED * region.area &&
            region.box.min().y() > voter.foot + AT_FOOT * voter.height;
+}
+
+// Returns whether a sheet of a tree lies around its trunk, as wide one way as the other: a tier of a fir.
+bool surrounds_trunk(const Voter& voter, size_t r) {
+    constexpr double AROUND = 0.2, LARGE = 0.15, ROUND = 0.6;
+    const Region& region = voter.regions[r];
+    int trunk = region.parent;
+    while (trunk >= 0 && voter.regions[size_t(trunk)].form != Form::TUBE) trunk = voter.regions[size_t(trunk)].parent;
+    if (voter.height < TREE_HEIGHT || region.form != Form::SHEET || trunk < 0) return false;
+    const Vec3 size = region.box.sizes(), away = region.box.center() - voter.regions[size_t(trunk)].box.center();
+    const double width = std::max(size.x(), size.z());
+    return hypot(away.x(), away.z()) < AROUND * width && std::min(size.x(), size.z()) > ROUND * width &&
+           size.norm() > LARGE * voter.size;
 }
 
 // Returns whether a solid is a bush with fruits on it.
@@ -225,7 +238,7 @@ void vote_by_shape(const Voter& voter, size_t r, Ballot& ballot) {
         ballot.add("root", 3, sized("solid at the foot that bears leaves,", size.maxCoeff(), size.minCoeff()));
     else if (voter.crown[r] > 0.5 && voter.height > CROWN_HEIGHT && !(region.form == Form::TUBE && region.solids > 0))
         ballot.add("crown", 3, sized("large round solid,", size.maxCoeff(), size.minCoeff()));
-    else if (surrounds_wood(voter, region))
+    else if (surrounds_wood(voter, region) || surrounds_trunk(voter, r))
         ballot.add("crown", 3, sized("foliage around wood,", size.maxCoeff(), size.minCoeff()));
     else if (voter.heads.flower[r])
         ballot.add("flower", 2, sized("flower at a stem's end,", size.maxCoeff(), size.minCoeff()));
