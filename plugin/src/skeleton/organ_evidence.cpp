@@ -23,7 +23,6 @@ static bool reaches_ground(const Evidence& plant, size_t r) {
     return plant.regions[r].box.min().y() < plant.foot + AT_FOOT * plant.height;
 }
 
-// Returns whether a tube is a blade of grass: it stands among others that bear nothing, too.
 static bool is_bare(const Evidence& plant, size_t r) {
     const Region& region = plant.regions[r];
     return region.form != Form::SOLID && stands(region, plant.foot, plant.height) && plant.borne[r] <= 1;

@@ -108,11 +108,16 @@ static FoundOrgans find_in_parts(const Surface& surface, const Topology& topolog
 // Returns the first triangle with the corners of each: leaves are often drawn with two faces in one place, and some
 // exporters write each triangle both ways round.
 static std::vector<int> find_twins(const Topology& topology) {
-    std::map<Triangle, int> first;
-    std::vector<int> twin;
+    std::vector<std::pair<Triangle, int>> sorted;
     for (Triangle corners : topology.triangles) {
         std::sort(corners.begin(), corners.end());
-        twin.push_back(first.emplace(corners, int(twin.size())).first->second);
+        sorted.push_back({corners, int(sorted.size())});
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<int> twin(sorted.size());
+    for (size_t i = 0; i < sorted.size(); i++) {
+        const bool is_new = i == 0 || sorted[i - 1].first != sorted[i].first;
+        twin[size_t(sorted[i].second)] = is_new ? sorted[i].second : twin[size_t(sorted[i - 1].second)];
     }
     return twin;
 }

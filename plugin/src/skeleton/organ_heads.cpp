@@ -1,10 +1,10 @@
 // Organ heads. In: regions. Out: which are parts of flowers, ears and fruits.
 // 1. A round tube that ends, much thicker than the tube that bears it, is swollen: an ear, a cob, a cucumber.
 // 2. Sheets far smaller than the plant's leaves, some on one bearer, are its hairs: awns, silk, spikelets; so are husks
-//    and sepals, small beside the fruit that bears them. Where they are larger together than their bearer, they are
-//    petals, and it is a flower.
+//    and sepals, small beside the fruit that bears them, and crumbs of a damaged mesh. Where hairs are larger together
+//    than their bearer, they are petals, and it is a flower.
 // 3. Sheets that radiate from one place at the end of a stem, much shorter than it, are a flower's petals; so is one
-//    round sheet that is borne in its middle, or a cup.
+//    round sheet that is borne in its middle, or a cup. What stands in the middle of a leaf is a flower, too.
 #include "skeleton/organ_heads.hpp"
 
 #include <algorithm>
@@ -21,6 +21,7 @@ namespace {
 constexpr double SWOLLEN = 1.5;      // least radius of an ear or a fruit over that of its bearer
 constexpr double ROUND = 1.6;        // largest flatness of one
 constexpr double OF_LEAF = 0.05;     // largest area of a hair over that of a typical leaf
+constexpr double CRUMB = 0.002;      // largest area of what is no organ over that of a typical leaf
 constexpr double OF_BEARER = 0.2;    // largest area of a husk over that of its fruit
 constexpr size_t FEWEST_HAIRS = 2;   // one small sheet by itself is a young leaf
 constexpr size_t FEWEST_PETALS = 4;  // in a whorl
@@ -95,6 +96,10 @@ void find_hairs(Seeker& seeker) {
     for (size_t r = 0; r < seeker.regions.size(); r++) {
         if (!seeker.is_sheet(int(r)) || !seeker.ends(int(r))) continue;
         int bearer = seeker.regions[r].parent;
+        if (bearer >= 0 && seeker.regions[r].area < CRUMB * leaf) {
+            seeker.heads.hair_of[r] = bearer;
+            continue;
+        }
         while (bearer >= 0 && seeker.is_sheet(bearer)) bearer = seeker.region(bearer).parent;
         if (bearer < 0 || seeker.on_ground(bearer)) continue;
         const double area = seeker.regions[r].area;

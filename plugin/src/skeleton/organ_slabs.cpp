@@ -55,22 +55,24 @@ std::vector<int> find_feet(const Topology& topology) {
     const double size = box.diagonal().norm();
     std::vector<int> feet = {find_foot(topology)};
     const Vec3 foot = topology.points[size_t(feet[0])];
+    const auto is_low = [&](int point) {
+        const Vec3 way = topology.points[size_t(point)] - foot;
+        return std::abs(way.y()) <= LEVEL * size && way.norm() <= NEAR * size;
+    };
+    std::vector<std::array<int, 2>> edges;
+    for (const Triangle& corners : topology.triangles)
+        for (size_t k = 0; k < 3; k++)
+            if (is_low(corners[k]) && is_low(corners[(k + 1) % 3])) edges.push_back({corners[k], corners[(k + 1) % 3]});
     std::vector<char> known(topology.points.size(), 0);
     known[size_t(feet[0])] = 1;
     for (bool grown = true; grown;) {
         grown = false;
-        for (const Triangle& corners : topology.triangles)
-            for (size_t k = 0; k < 3; k++) {
-                const int from = corners[k];
-                if (!known[size_t(from)]) continue;
-                for (int to : corners) {
-                    const Vec3 way = topology.points[size_t(to)] - foot;
-                    if (known[size_t(to)] || std::abs(way.y()) > LEVEL * size || way.norm() > NEAR * size) continue;
-                    known[size_t(to)] = 1;
-                    feet.push_back(to);
-                    grown = true;
-                }
-            }
+        for (const auto& [a, b] : edges) {
+            if (known[size_t(a)] == known[size_t(b)]) continue;
+            feet.push_back(known[size_t(a)] ? b : a);
+            known[size_t(feet.back())] = 1;
+            grown = true;
+        }
     }
     return feet;
 }
