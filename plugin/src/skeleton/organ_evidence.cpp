@@ -38,7 +38,7 @@ bool is_rooted_tuber(const Evidence& plant, size_t r) {
     const Region& region = plant.regions[r];
     if (plant.height > TREE_HEIGHT || region.box.min().y() > plant.foot + LOW * plant.height || plant.crown[r] > 0.5)
         return false;
-    if (region.form == Form::SOLID) return region.tubes + region.sheets > 0 && reaches_ground(plant, r);
+    if (region.form == Form::SOLID) return plant.leaves[r] > 0 && reaches_ground(plant, r);
     // A tube that stands on its point, thick at its upper end, out of which thin ones grow.
     const double length = region.box.sizes().y();
     return region.form == Form::TUBE && region.parent < 0 && region.tubes + region.sheets > 0 &&
@@ -168,13 +168,22 @@ static void count_leaves(Evidence& plant) {
     }
 }
 
-// Finds sheets that bear tubes and solids of their mesh, larger than themselves: coarse or flared pieces of stems.
+// Returns whether a sheet of a mesh is a patch of colour on the stem that it is a part of.
+static bool is_patch(const Region& patch, const Region& stem) {
+    if (patch.form != Form::SHEET || stem.form != Form::TUBE || !patch.same_mesh || patch.part == stem.part)
+        return false;
+    const Vec3 margin = Vec3::Constant(0.2 * stem.radius());
+    return Eigen::AlignedBox3d(stem.box.min() - margin, stem.box.max() + margin).contains(patch.box);
+}
+
+// Finds sheets that bear tubes and solids of their mesh, larger than themselves, and patches: pieces of stems.
 static void find_bearing(Evidence& plant) {
     std::vector<double> solid(plant.regions.size(), 0.0);  // area of what grows out of it and is no sheet
     plant.bears.assign(plant.regions.size(), 0);
     for (size_t r = plant.regions.size(); r-- > 0;) {
         const Region& region = plant.regions[r];
-        plant.bears[r] = region.form == Form::SHEET && solid[r] > region.area;
+        plant.bears[r] = (region.form == Form::SHEET && solid[r] > region.area) ||
+                         (region.parent >= 0 && is_patch(region, plant.regions[size_t(region.parent)]));
         if (region.same_mesh && region.parent >= 0)
             solid[size_t(region.parent)] += solid[r] + (region.form == Form::SHEET ? 0 : region.area);
     }

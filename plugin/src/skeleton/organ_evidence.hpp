@@ -21,7 +21,7 @@ struct Evidence {
     std::vector<int> leaves = {};     // by region, sheets that grow out of it and what it bears
     std::vector<int> borne = {};      // by region, those that grow out of it and do not stand beside it
     std::vector<int> others = {};     // by region, solids and tubes that bear no leaf likewise
-    std::vector<char> bears = {};     // by region, whether it is a sheet that bears what no leaf does
+    std::vector<char> bears = {};     // by region, whether it is a sheet but a piece of a stem
     Heads heads = {};
 };
 

@@ -1,8 +1,8 @@
 // Organ heads. In: regions. Out: which are parts of flowers, ears and fruits.
 // 1. A round tube that ends, much thicker than the tube that bears it, is swollen: an ear, a cob, a cucumber.
 // 2. Sheets far smaller than the plant's leaves, some on one bearer, are its hairs: awns, silk, spikelets; so are husks
-//    and sepals, small beside the fruit that bears them, and crumbs of a damaged mesh. Where hairs are larger together
-//    than their bearer, they are petals, and it is a flower.
+//    and sepals, small beside the fruit that bears them, spines of a solid, and crumbs of a damaged mesh. Where hairs
+//    are larger together than their bearer, they are petals, and it is a flower.
 // 3. Sheets that radiate from one place at the end of a stem, much shorter than it, are a flower's petals; so is one
 //    round sheet that is borne in its middle, or a cup. What stands in the middle of a leaf is a flower, too.
 #include "skeleton/organ_heads.hpp"
@@ -18,21 +18,23 @@ namespace frond {
 
 namespace {
 
-constexpr double SWOLLEN = 1.5;      // least radius of an ear or a fruit over that of its bearer
-constexpr double ROUND = 1.6;        // largest flatness of one
-constexpr double OF_LEAF = 0.05;     // largest area of a hair over that of a typical leaf
-constexpr double CRUMB = 0.002;      // largest area of what is no organ over that of a typical leaf
-constexpr double OF_BEARER = 0.2;    // largest area of a husk over that of its fruit
-constexpr size_t FEWEST_HAIRS = 2;   // one small sheet by itself is a young leaf
-constexpr size_t FEWEST_PETALS = 4;  // in a whorl
-constexpr size_t MOST_PETALS = 200;  // on one stem; beyond that it is no plant but a meadow
-constexpr double TALLEST = 3;        // higher plants end in leaves, as palms do [m]
-constexpr double SHORT_PETAL = 0.4;  // largest length of a petal over that of its stem
-constexpr double TOGETHER = 0.2;     // largest gap between the feet of petals, over a petal's length
-constexpr double AT_END = 0.6;       // share of a stem's height from which on its end begins
-constexpr double SMALL_HEAD = 0.75;  // largest width of a flower that is one sheet, over the height of its foot
-constexpr double IN_MIDDLE = 0.2;    // largest distance of its foot from its middle, over its width
-constexpr double CUP_DEPTH = 0.45;   // least spread of a cup along its thinnest axis, over that along its widest
+constexpr double SWOLLEN = 1.5;        // least radius of an ear or a fruit over that of its bearer
+constexpr double ROUND = 1.6;          // largest flatness of one
+constexpr double OF_LEAF = 0.05;       // largest area of a hair over that of a typical leaf
+constexpr double CRUMB = 0.002;        // largest area of what is no organ over that of a typical leaf
+constexpr double OF_BEARER = 0.2;      // largest area of a husk over that of its fruit
+constexpr double OF_SPINE = 0.01;      // largest area of a spine over that of its bearer
+constexpr size_t FEWEST_HAIRS = 2;     // one small sheet by itself is a young leaf
+constexpr size_t FEWEST_PETALS = 4;    // in a whorl
+constexpr size_t MOST_PETALS = 200;    // on one stem; beyond that it is no plant but a meadow
+constexpr double TALLEST = 3;          // higher plants end in leaves, as palms do [m]
+constexpr double SHORT_PETAL = 0.4;    // largest length of a petal over that of its stem
+constexpr double LONGEST_PETAL = 0.5;  // [m]
+constexpr double TOGETHER = 0.2;       // largest gap between the feet of petals, over a petal's length
+constexpr double AT_END = 0.6;         // share of a stem's height from which on its end begins
+constexpr double SMALL_HEAD = 0.75;    // largest width of a flower that is one sheet, over the height of its foot
+constexpr double IN_MIDDLE = 0.2;      // largest distance of its foot from its middle, over its width
+constexpr double CUP_DEPTH = 0.45;     // least spread of a cup along its thinnest axis, over that along its widest
 
 struct Seeker {
     const std::vector<Region>& regions;
@@ -86,6 +88,14 @@ void find_swollen(Seeker& seeker) {
     }
 }
 
+// Returns whether a region is a tube much smaller than the solid that it stands on, and bears nothing.
+bool is_spine(const Seeker& seeker, int r) {
+    const Region& region = seeker.region(r);
+    const Region& bearer = seeker.region(region.parent);
+    return region.form == Form::TUBE && !region.same_mesh && seeker.ends(r) && region.sheets == 0 &&
+           bearer.form == Form::SOLID && region.area < OF_SPINE * bearer.area;
+}
+
 // Finds sheets that are hairs of what bears them, by way of other ones.
 void find_hairs(Seeker& seeker) {
     const double leaf = typical_leaf(seeker.regions);
@@ -94,8 +104,9 @@ void find_hairs(Seeker& seeker) {
     for (size_t r = 0; r < fruit.size(); r++)
         fruit[r] = seeker.heads.swollen[r] || seeker.regions[r].form == Form::SOLID;
     for (size_t r = 0; r < seeker.regions.size(); r++) {
-        if (!seeker.is_sheet(int(r)) || !seeker.ends(int(r))) continue;
         int bearer = seeker.regions[r].parent;
+        if (bearer >= 0 && is_spine(seeker, int(r))) hairs[size_t(bearer)].push_back(int(r));
+        if (!seeker.is_sheet(int(r)) || !seeker.ends(int(r))) continue;
         if (bearer >= 0 && seeker.regions[r].area < CRUMB * leaf) {
             seeker.heads.hair_of[r] = bearer;
             continue;
@@ -127,7 +138,8 @@ void mark_whorl(Seeker& seeker, int stem, const std::vector<int>& borne) {
     std::vector<int> whorl;
     for (int one : borne) {
         const Region& petal = seeker.region(one);
-        if (!seeker.is_sheet(one) || petal.begin.y() < end || longest_side(petal) > SHORT_PETAL * bearer.length)
+        if (!seeker.is_sheet(one) || petal.begin.y() < end ||
+            longest_side(petal) > std::min(LONGEST_PETAL, SHORT_PETAL * bearer.length))
             continue;
         std::vector<int> near;
         for (int other : borne)
