@@ -99,15 +99,15 @@ class Variants : public testing::TestWithParam<int> {};
 static const struct {
     const char* name;
     Change change;
-    double leaves;  // least share of files with the right number of them
+    double kinds, leaves;  // least shares that are right
 } CHANGES[] = {
-    {"mirrored", mirror, 0.85},
-    {"turned", turn, 0.85},
-    {"turned_over", turn_some_over, 0.85},
-    {"drawn_twice", draw_twice, 0.85},
-    {"jittered", jitter, 0.85},
-    {"torn_apart", tear_apart, 0.85},
-    {"five_percent_lost", lose_some, 0.75},
+    {"mirrored", mirror, 0.88, 0.85},
+    {"turned", turn, 0.88, 0.85},
+    {"turned_over", turn_some_over, 0.88, 0.85},
+    {"drawn_twice", draw_twice, 0.9, 0.85},
+    {"jittered", jitter, 0.88, 0.85},
+    {"torn_apart", tear_apart, 0.88, 0.85},
+    {"five_percent_lost", lose_some, 0.75, 0.6},
 };
 
 TEST_P(Variants, HaveTheSameOrgans) {
@@ -125,7 +125,7 @@ TEST_P(Variants, HaveTheSameOrgans) {
         }
         std::printf("%s, %s: kinds right %.3f, count of leaves %.3f\n", one.name, bare ? "bare" : "as they are", kinds,
                     leaves);
-        EXPECT_GT(kinds, 0.86);
+        EXPECT_GT(kinds, one.kinds);
         EXPECT_GT(leaves, one.leaves);
     }
 }

@@ -38,7 +38,7 @@ bool is_rooted_tuber(const Evidence& plant, size_t r) {
     const Region& region = plant.regions[r];
     if (plant.height > TREE_HEIGHT || region.box.min().y() > plant.foot + LOW * plant.height || plant.crown[r] > 0.5)
         return false;
-    if (region.form == Form::SOLID) return plant.leaves[r] > 0 && reaches_ground(plant, r);
+    if (region.form == Form::SOLID) return plant.growths[r] > 0 && reaches_ground(plant, r);
     // A tube that stands on its point, thick at its upper end, out of which thin ones grow.
     const double length = region.box.sizes().y();
     return region.form == Form::TUBE && region.parent < 0 && region.tubes + region.sheets > 0 &&
@@ -150,12 +150,14 @@ static void count_leaves(Evidence& plant) {
     plant.leaves.assign(plant.regions.size(), 0);
     plant.others.assign(plant.regions.size(), 0);
     plant.borne.assign(plant.regions.size(), 0);
+    plant.growths.assign(plant.regions.size(), 0);
     for (size_t r = plant.regions.size(); r-- > 0;) {
         const Region& region = plant.regions[r];
         const bool is_head = plant.heads.flower[r] || plant.heads.swollen[r] || region.form == Form::SOLID;
         if (plant.heads.hair_of[r] >= 0) continue;
         if (region.form == Form::SHEET && !is_head && !plant.bears[r]) plant.leaves[r]++;
         if (region.parent < 0) continue;
+        plant.growths[size_t(region.parent)] += region.form != Form::SOLID;
         plant.borne[size_t(region.parent)] += !stands(region, plant.foot, plant.height);
         if (stands(region, plant.foot, plant.height)) continue;
         // Veins are no stems.

@@ -20,6 +20,7 @@ struct Evidence {
     std::vector<double> crown = {};   // by region, share of its triangles that belong to round solids
     std::vector<int> leaves = {};     // by region, sheets that grow out of it and what it bears
     std::vector<int> borne = {};      // by region, those that grow out of it and do not stand beside it
+    std::vector<int> growths = {};    // by region, tubes and sheets that grow out of it and are no hairs
     std::vector<int> others = {};     // by region, solids and tubes that bear no leaf likewise
     std::vector<char> bears = {};     // by region, whether it is a sheet but a piece of a stem
     Heads heads = {};

@@ -75,7 +75,7 @@ void join_stems(const std::vector<Region>& regions, const std::vector<FoundOrgan
 
 // Joins slivers of crowns to the crown of their mesh and part that is largest.
 void join_crowns(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
-    constexpr double SLIVER_OF_CROWN = 0.02;  // area over that of the largest
+    constexpr double SLIVER_OF_CROWN = 0.1;  // area over that of the largest
     std::map<std::pair<int, int>, int> largest;
     for (size_t r = 0; r < regions.size(); r++) {
         if (found[r].kind != "crown") continue;

@@ -135,6 +135,22 @@ FoundOrgan vote(const Evidence& plant, size_t r) {
     return ballot.result();
 }
 
+// Makes sheets crowns that are of one mesh and part with a much larger one: edges and torn pieces of it, no leaves.
+void give_edges_to_crowns(const std::vector<Region>& regions, std::vector<FoundOrgan>& found) {
+    constexpr double LARGER = 4;
+    std::map<std::pair<int, int>, size_t> crowns;  // the largest of each mesh and part
+    for (size_t r = 0; r < regions.size(); r++) {
+        if (found[r].kind != "crown") continue;
+        size_t& crown = crowns.emplace(std::make_pair(regions[r].component, regions[r].part), r).first->second;
+        if (regions[r].area > regions[crown].area) crown = r;
+    }
+    for (size_t r = 0; r < regions.size(); r++) {
+        const auto crown = crowns.find({regions[r].component, regions[r].part});
+        if (crown == crowns.end() || found[r].kind != "blade" || regions[r].form != Form::SHEET) continue;
+        if (regions[crown->second].area > LARGER * regions[r].area) found[r] = found[crown->second];
+    }
+}
+
 }  // namespace
 
 FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std::vector<std::string> named,
@@ -150,13 +166,9 @@ FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std
         // What bears a hair comes before it.
         const int bearer = plant.heads.hair_of[r];
         const bool is_hair = bearer >= 0 && named[size_t(cut.regions[r].part)].empty();
-        const Region& region = cut.regions[r];
-        // The edge of a crown is no leaf.
-        const bool is_edge = region.form == Form::SHEET && region.same_mesh && region.parent >= 0 &&
-                             found[size_t(region.parent)].kind == "crown" &&
-                             cut.regions[size_t(region.parent)].part == region.part;
-        found.push_back(is_hair ? found[size_t(bearer)] : is_edge ? found[size_t(region.parent)] : vote(plant, r));
+        found.push_back(is_hair ? found[size_t(bearer)] : vote(plant, r));
     }
+    give_edges_to_crowns(cut.regions, found);
 
     UnionFind sets = join_regions(surface, cut.regions, found);
     for (size_t r = 0; r < cut.regions.size(); r++)
