@@ -105,7 +105,8 @@ bool bears_fruit(const Evidence& plant, const Region& region) {
 bool is_post(const Evidence& plant, const Region& region) {
     constexpr double UPRIGHT = 2.5, LOW = 0.2;
     const Vec3 size = region.box.sizes();
-    return region.begin.y() < plant.foot + LOW * plant.height && size.y() > UPRIGHT * std::max(size.x(), size.z());
+    return region.box.min().y() < plant.foot + AT_FOOT * plant.height &&
+           region.begin.y() < plant.foot + LOW * plant.height && size.y() > UPRIGHT * std::max(size.x(), size.z());
 }
 
 bool is_arm(const Evidence& plant, const Region& region) {
