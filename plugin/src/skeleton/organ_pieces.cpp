@@ -10,17 +10,11 @@ namespace frond {
 
 namespace {
 
-constexpr double STALK = 0.2;  // largest area and length of a stalk over those of its fruit
-constexpr double SLIVER = 8;   // largest area of a sliver, in squares of the tube's radius that it lies on
+constexpr double SLIVER = 8;  // largest area of a sliver, in squares of the tube's radius that it lies on
 
 // Finds the regions that are too small to be told apart from what they grow out of: caps of tubes, joints, knots, the
 // narrow tip and the stiff middle of a leaf.
 void join_slivers(const std::vector<Region>& regions, std::vector<int>& into) {
-    // The thin end of a fruit, or the stalk drawn with it.
-    const auto is_stalk = [](const Region& solid, const Region& tube) {
-        return solid.form == Form::SOLID && tube.form == Form::TUBE && tube.parent >= 0 &&
-               tube.area < STALK * solid.area && tube.length < STALK * solid.length;
-    };
     const auto is_cap = [](const Region& sheet, const Region& tube) {
         return sheet.form == Form::SHEET && tube.form != Form::SHEET &&
                sheet.area < SLIVER * squared(tube.begin_radius);
@@ -35,8 +29,7 @@ void join_slivers(const std::vector<Region>& regions, std::vector<int>& into) {
         const Region& parent = regions[p];
         if (region.part != parent.part || region.form == parent.form) continue;
         // The lower end of a tube, closed by a cap.
-        if (into[p] == int(p) && children[p] == 1 && !parent.same_mesh &&
-            (is_cap(parent, region) || is_stalk(region, parent))) {
+        if (into[p] == int(p) && children[p] == 1 && is_cap(parent, region) && !parent.same_mesh) {
             into[p] = int(r);
             continue;
         }

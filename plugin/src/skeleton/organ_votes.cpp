@@ -116,7 +116,9 @@ void vote_by_look(const Evidence& plant, size_t r, Ballot& ballot) {
         if (ballot.votes.count("crown")) ballot.add("crown", -2.5, "");
     } else if (is_bright(part.color) && plant.leaves[r] <= (region.form == Form::SHEET) &&
                plant.bright[size_t(region.part)] > 0) {
-        if (region.form != Form::SOLID)
+        if (region.form == Form::TUBE && region.solids > 0)
+            ballot.add("stem", 0.3, "bright, but bears a solid");
+        else if (region.form != Form::SOLID)
             ballot.add("flower", 2.5, "bright");
         else
             ballot.add("fruit", 1, "bright");
