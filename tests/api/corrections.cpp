@@ -58,7 +58,9 @@ TEST(Organs, KnowWhatTheyGrowOutOf) {
     int standing = 0, steps = 0;
     for (const frond_organ& organ : organs) {
         standing += organ.parent < 0;
-        if (organ.parent < 0) EXPECT_STREQ(organ.kind, "stem");
+        if (organ.parent < 0) {
+            EXPECT_STREQ(organ.kind, "stem");
+        }
         const frond_organ* below = &organ;
         for (steps = 0; below->parent >= 0 && steps < info.organ_count; steps++) {
             ASSERT_LT(below->parent, info.organ_count);
