@@ -5,6 +5,7 @@
 //   it is a flower by its place (organ_heads.cpp)           2 for a flower
 //   it is a tube                                            2 for a stem, or a branch if the plant is higher than 3 m
 //   it is a solid at a thin neck                            2 for a fruit, or 3 for a crown if it is large
+//   it is a tube much thicker than what bears it            2 for a fruit, or a crown if it is large
 //   it is a solid at the foot that bears leaves             3 for a root
 //   it is a thin tube at whose end one leaf or few are      2.5 for a petiole
 //   it is green                                             0.5 for a blade, 0.3 for a stem
@@ -114,11 +115,11 @@ void vote_by_look(const Evidence& plant, size_t r, Ballot& ballot) {
     } else if (is_brown(part.color)) {
         ballot.add("branch", 1, "brown");
         if (ballot.votes.count("crown")) ballot.add("crown", -2.5, "");
+    } else if (region.form == Form::TUBE && region.solids > 0) {
+        return;  // the stalk of a fruit has its colour
     } else if (is_bright(part.color) && plant.leaves[r] <= (region.form == Form::SHEET) &&
                plant.bright[size_t(region.part)] > 0) {
-        if (region.form == Form::TUBE && region.solids > 0)
-            ballot.add("stem", 0.3, "bright, but bears a solid");
-        else if (region.form != Form::SOLID)
+        if (region.form != Form::SOLID)
             ballot.add("flower", 2.5, "bright");
         else
             ballot.add("fruit", 1, "bright");
