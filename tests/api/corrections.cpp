@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "support/stems.hpp"
 
@@ -43,6 +44,32 @@ Loaded load_with(const frond_organ_correction& correction) {
 
 bool error_names(const char* word) {
     return std::string(frond_last_error()).find(word) != std::string::npos;
+}
+
+// A tree of organs: by what they grow out of, all come down to the stem that stands on the ground.
+TEST(Organs, KnowWhatTheyGrowOutOf) {
+    const frond_model_def def = frond_default_model_def();
+    frond_model model = {};
+    ASSERT_EQ(frond_model_load(CORN.c_str(), &def, &model), FROND_OK) << frond_last_error();
+    frond_model_info info;
+    ASSERT_EQ(frond_model_get_info(model, &info), FROND_OK);
+    std::vector<frond_organ> organs(size_t(info.organ_count));
+    for (int i = 0; i < info.organ_count; i++) ASSERT_EQ(frond_model_get_organ(model, i, &organs[size_t(i)]), FROND_OK);
+    int standing = 0, steps = 0;
+    for (const frond_organ& organ : organs) {
+        standing += organ.parent < 0;
+        if (organ.parent < 0) {
+            EXPECT_STREQ(organ.kind, "stem");
+        }
+        const frond_organ* below = &organ;
+        for (steps = 0; below->parent >= 0 && steps < info.organ_count; steps++) {
+            ASSERT_LT(below->parent, info.organ_count);
+            below = &organs[size_t(below->parent)];
+        }
+        EXPECT_EQ(below->parent, -1) << organ.name;
+    }
+    EXPECT_EQ(standing, 1);
+    frond_model_destroy(model);
 }
 
 TEST(Corrections, ChangeKindsAndLeaveOrgansOut) {

@@ -28,8 +28,10 @@ struct Found {
     double ms = 0;    // time for organs [ms]
 };
 
-// Loads a file and finds its organs: as it is, or bare, as one part without a name, a material or a colour.
-Found find(const Row& row, bool bare);
+// Loads a file: as it is, or bare, as one part without a name, a material or a colour.
+Surface load(const Row& row, bool bare);
+// Finds the organs of a file's surface.
+Found find(const Row& row, Surface surface);
 
 // Organs of a kind are right as far as their number is: the smaller of what is seen and found, and the larger.
 struct Score {

@@ -50,7 +50,7 @@ std::string path_of(const Row& row) {
     return FOLDER + row.file;
 }
 
-Found find(const Row& row, bool bare) {
+Surface load(const Row& row, bool bare) {
     Surface surface = import_surface(path_of(row), {});
     if (bare) {
         surface.parts.assign(1, Part());
@@ -58,6 +58,10 @@ Found find(const Row& row, bool bare) {
         surface.textures.clear();
         surface.colors.clear();
     }
+    return surface;
+}
+
+Found find(const Row& row, Surface surface) {
     Topology topology = make_topology(surface);
     const Timer timer;
     const std::vector<Organ> organs = find_organs(surface, topology, nullptr, 0);

@@ -44,6 +44,7 @@ nlohmann::ordered_json describe_organ(const frond_organ& organ) {
             {"kind", organ.kind},
             {"why", organ.why},
             {"certainty", organ.certainty},
+            {"parent", organ.parent},
             {"material", describe_material(organ.material)},
             {"capsules", organ.capsule_count},
             {"length", organ.length},

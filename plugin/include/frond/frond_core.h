@@ -385,6 +385,7 @@ typedef struct frond_organ {
     frond_range torsion;      /* GJ [N m^2] */
     const char* why;  /* what speaks for its kind: "sheet of 0.1 by 0.03 m; named blade"; "" if the caller said so */
     double certainty; /* of its kind [-]; 0: another one is as likely, 1: nothing speaks for another one */
+    int parent;       /* index of the organ that it grows out of; -1: it stands on the ground, or has no capsules */
 } frond_organ;
 
 /* Returns the default settings of a model. */

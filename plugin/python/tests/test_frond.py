@@ -54,6 +54,9 @@ def test_models_come_from_all_sources(corn, tmp_path):
     assert frond.Model.from_bytes(corn.to_bytes()).info.mass == corn.info.mass == cooked.info.mass
     assert len(corn.textures) == corn.info.texture_count and corn.textures[0].bytes[:4] == b"\x89PNG"
     assert {part.kind for part in corn.parts} >= {"stem", "blade"}
+    organs = corn.organs
+    assert all(organs[organ.parent].kind == "stem" for organ in organs if organ.kind == "blade")
+    assert any(organ.parent == -1 for organ in organs)
 
 
 def test_materials_are_given_by_name_dict_or_object():

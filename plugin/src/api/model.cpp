@@ -288,6 +288,7 @@ frond_result frond_model_get_organ(frond_model model, int organ, frond_organ* ou
         view.kind = o.kind.c_str();
         view.why = o.why.c_str();
         view.certainty = o.certainty;
+        view.parent = m.organ_parents[size_t(organ)];
         view.material = o.material;
         describe_sections(m, organ, view);
     });

@@ -2,6 +2,7 @@
 // joining.
 #pragma once
 
+#include <cstddef>
 #include <numeric>
 #include <utility>
 #include <vector>

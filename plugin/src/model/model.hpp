@@ -48,6 +48,7 @@ struct Model {
     bool calibrated = false;            // tet_young is fitted, for order 1 only; else it is the material's
     bool stands_as_modelled = false;    // under GRAVITY; else the modelled shape is the rest shape
     std::vector<std::array<int, 2>> capsules;  // chain nodes at the two ends; a root alone is both ends
+    std::vector<int> organ_parents;            // organ that each organ grows out of; -1: the ground, or nothing
     Cage cage;
     bool has_own_tets = false;        // the cage are the caller's own tets, the plant's true shape
     Embedding embedding;              // surface vertices in the cage

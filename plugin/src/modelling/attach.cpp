@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cage/tet_geometry.hpp"
+#include "skeleton/organ_correct.hpp"
 
 namespace frond {
 
@@ -93,6 +94,7 @@ static void list_capsules(Model& model) {
 
 void list_chain(Model& model) {
     list_capsules(model);
+    model.organ_parents = find_parents(model.chain, model.organs.size());
     for (const ChainNode& node : model.chain.nodes) {
         for (int axis = 0; axis < 3; axis++) model.chain_view.positions.push_back(node.position[axis]);
         model.chain_view.radii.push_back(node.radius);

@@ -79,13 +79,13 @@ static void visit(Archive& a, CageReport& report) {
     a(min_dihedral, max_dihedral, min_volume, volume, contained, attachment_error);
 }
 
-// Capsules and the view of the chain follow from the chain; what it took to build the model is of no use to one that is
-// loaded.
+// Capsules, parents of organs and the view of the chain follow from the chain; what it took to build the model is of no
+// use to one that is loaded.
 void visit(Archive& a, Model& model) {
     auto& [surface, topology, organs, chain, chain_view, sections, exact_sections, chain_mass, organ_stiffer,
-           calibrated, stands_as_modelled, capsules, cage, has_own_tets, embedding, chain_embedding, tet_density,
-           tet_young, tet_poisson, root, rest_shapes, stiffening_factor, cage_report, ms_import, ms_cage, ms_chain,
-           ms_total] = model;
+           calibrated, stands_as_modelled, capsules, organ_parents, cage, has_own_tets, embedding, chain_embedding,
+           tet_density, tet_young, tet_poisson, root, rest_shapes, stiffening_factor, cage_report, ms_import, ms_cage,
+           ms_chain, ms_total] = model;
     a(surface, topology, organs, chain, sections, exact_sections, chain_mass, organ_stiffer, calibrated,
       stands_as_modelled, cage, has_own_tets, embedding, chain_embedding, tet_density, tet_young, tet_poisson, root,
       *rest_shapes, stiffening_factor, cage_report);

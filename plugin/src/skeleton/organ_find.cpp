@@ -105,6 +105,47 @@ static FoundOrgans find_in_parts(const Surface& surface, const Topology& topolog
     return found;
 }
 
+// Returns the first triangle with the corners of each: leaves are often drawn with two faces in one place, and some
+// exporters write each triangle both ways round.
+static std::vector<int> find_twins(const Topology& topology) {
+    std::vector<std::pair<Triangle, int>> sorted;
+    for (Triangle corners : topology.triangles) {
+        std::sort(corners.begin(), corners.end());
+        sorted.push_back({corners, int(sorted.size())});
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<int> twin(sorted.size());
+    for (size_t i = 0; i < sorted.size(); i++) {
+        const bool is_new = i == 0 || sorted[i - 1].first != sorted[i].first;
+        twin[size_t(sorted[i].second)] = is_new ? sorted[i].second : twin[size_t(sorted[i - 1].second)];
+    }
+    return twin;
+}
+
+// Finds the organs of the triangles that have no twin before them; the twins are of the same ones.
+static FoundOrgans find_in_singles(const Surface& surface, const Topology& topology) {
+    const std::vector<int> twin = find_twins(topology);
+    std::vector<int> number(twin.size(), -1);  // among the singles
+    Surface single = surface;
+    single.triangles.clear();
+    for (Part& part : single.parts) {
+        const int begin = part.first_triangle, end = begin + part.triangle_count;
+        part.first_triangle = int(single.triangles.size());
+        for (int t = begin; t < end; t++) {
+            if (twin[size_t(t)] != t) continue;
+            number[size_t(t)] = int(single.triangles.size());
+            single.triangles.push_back(surface.triangles[size_t(t)]);
+        }
+        part.triangle_count = int(single.triangles.size()) - part.first_triangle;
+    }
+    if (single.triangles.size() == surface.triangles.size()) return find_in_parts(surface, topology);
+    FoundOrgans found = find_in_parts(single, make_topology(single));
+    std::vector<int> organ_of;
+    for (int t : twin) organ_of.push_back(found.organ_of[size_t(number[size_t(t)])]);
+    found.organ_of = std::move(organ_of);
+    return found;
+}
+
 template <typename T>
 static void reorder(std::vector<T>& values, const std::vector<int>& order) {
     std::vector<T> moved(values.size());
@@ -254,7 +295,7 @@ std::vector<Organ> find_organs(Surface& surface, Topology& topology, const frond
         surface.parts.emplace_back();
         surface.parts.back().triangle_count = int(surface.triangles.size());
     }
-    const FoundOrgans found = find_in_parts(surface, topology);
+    const FoundOrgans found = find_in_singles(surface, topology);
     split_parts(surface, topology, found.organ_of);
     std::vector<Organ> organs = name_organs(surface, found.organs);
     override_materials(organs, overrides, override_count);

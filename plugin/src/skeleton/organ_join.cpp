@@ -38,7 +38,13 @@ bool belongs_to_parent(const Surface& surface, const std::vector<Region>& region
     return region.same_mesh && kind == "blade" && region.form != regions[p].form;
 }
 
-// Joins the parts of a flower: those that are near each other, by their size.
+// Returns the tube that bears a region, by way of others; -1: none.
+int stem_of(const std::vector<Region>& regions, int r) {
+    for (r = regions[size_t(r)].parent; r >= 0 && regions[size_t(r)].form != Form::TUBE;) r = regions[size_t(r)].parent;
+    return r;
+}
+
+// Joins the parts of a flower: those on one stem that are near each other, by their size.
 void join_petals(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
     constexpr double NEAR = 0.15;
     constexpr size_t MOST = 2000;  // beyond that it is no plant with flowers but a meadow
@@ -50,7 +56,9 @@ void join_petals(const std::vector<Region>& regions, const std::vector<FoundOrga
         for (size_t k = 0; k < i; k++) {
             const Region &a = regions[size_t(petals[i])], &b = regions[size_t(petals[k])];
             const double size = std::min(a.box.diagonal().norm(), b.box.diagonal().norm());
-            if (a.box.exteriorDistance(b.box) < NEAR * size) sets.join(petals[i], petals[k]);
+            if (a.box.exteriorDistance(b.box) < NEAR * size &&
+                stem_of(regions, petals[i]) == stem_of(regions, petals[k]))
+                sets.join(petals[i], petals[k]);
         }
 }
 
@@ -65,6 +73,22 @@ void join_stems(const std::vector<Region>& regions, const std::vector<FoundOrgan
     }
 }
 
+// Joins slivers of crowns to the crown of their mesh and part that is largest.
+void join_crowns(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
+    constexpr double SLIVER_OF_CROWN = 0.1;  // area over that of the largest
+    std::map<std::pair<int, int>, int> largest;
+    for (size_t r = 0; r < regions.size(); r++) {
+        if (found[r].kind != "crown") continue;
+        int& best = largest.emplace(std::make_pair(regions[r].component, regions[r].part), int(r)).first->second;
+        if (regions[r].area > regions[size_t(best)].area) best = int(r);
+    }
+    for (size_t r = 0; r < regions.size(); r++) {
+        if (found[r].kind != "crown") continue;
+        const int crown = largest.at({regions[r].component, regions[r].part});
+        if (regions[r].area < SLIVER_OF_CROWN * regions[size_t(crown)].area) sets.join(int(r), crown);
+    }
+}
+
 // Joins hairs: awns, silk and the like, sheets far smaller than the plant's leaves, that hang on the same region.
 void join_hairs(const std::vector<Region>& regions, const std::vector<FoundOrgan>& found, UnionFind& sets) {
     constexpr double FAR_SMALLER = 0.05;  // area over that of the largest leaf
@@ -73,7 +97,9 @@ void join_hairs(const std::vector<Region>& regions, const std::vector<FoundOrgan
         if (found[r].kind == "blade") largest = std::max(largest, regions[r].area);
     std::map<std::pair<int, int>, int> first;  // by parent and part
     for (size_t r = 0; r < regions.size(); r++) {
-        if (found[r].kind != "blade" || regions[r].parent < 0 || regions[r].area > FAR_SMALLER * largest) continue;
+        const bool is_hair = found[r].kind == "blade" && regions[r].parent >= 0 &&
+                             regions[r].tubes + regions[r].sheets + regions[r].solids == 0;
+        if (!is_hair || regions[r].area > FAR_SMALLER * largest) continue;
         const auto [at, fresh] = first.emplace(std::make_pair(regions[r].parent, regions[r].part), int(r));
         if (!fresh) sets.join(int(r), at->second);
     }
@@ -107,6 +133,7 @@ UnionFind join_regions(const Surface& surface, const std::vector<Region>& region
     for (size_t r = 0; r < regions.size(); r++)
         if (belongs_to_parent(surface, regions, found, r, foot, height)) sets.join(int(r), regions[r].parent);
     join_petals(regions, found, sets);
+    join_crowns(regions, found, sets);
     join_stems(regions, found, sets);
     join_hairs(regions, found, sets);
     join_clusters(regions, found, surface.size(), sets);

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/decompose.hpp"
 #include "core/elementary.hpp"
@@ -19,23 +18,23 @@ namespace frond {
 
 namespace {
 
-constexpr double SOLID_COMPACT = 0.2;  // least 36 pi V^2 / A^3 of a solid: a ball has 1, a cube 0.52
-constexpr double SOLID_ROUND = 0.3;    // least width of a solid over its length
-constexpr double SOLID_NECK = 0.62;    // largest radius of a solid's neck over that of a ball of its area
-constexpr double SOLID_OPEN = 0.12;    // largest hole in a solid beside its neck, as a share of its area
-constexpr double ALL_OF_IT = 0.85;     // share of a solid's volume beyond a place farther out at its neck
-constexpr double SAME_NECK = 1.15;     // radius of the neck there, over that at the place before
-constexpr double OF_BRANCH = 0.25;     // least area of a sheet's branch over that of the largest branch
-constexpr double OF_BASE = 0.5;        // largest area of the base of branching sheets over that of a branch
-constexpr double SHORT_BRANCH = 1.5;   // in lengths of a slab: shorter branches of tubes are knots
-constexpr double SLIVER = 8;           // largest area of a sliver, in squares of the tube's radius that it lies on
+constexpr double SOLID_FULL = 0.35;   // least volume over that of an ellipsoid that is as spread out: a ball has 1
+constexpr double SOLID_ROUND = 0.3;   // least width of a solid over its length
+constexpr double SOLID_NECK = 0.62;   // largest radius of a solid's neck over that of a ball of its area
+constexpr double SOLID_OPEN = 0.12;   // largest hole in a solid beside its neck, as a share of its area
+constexpr double ALL_OF_IT = 0.85;    // share of a solid's volume beyond a place farther out at its neck
+constexpr double SAME_NECK = 1.15;    // radius of the neck there, over that at the place before
+constexpr double OF_BRANCH = 0.25;    // least area of a sheet's branch over that of the largest branch
+constexpr double OF_BASE = 0.5;       // largest area of the base of branching sheets over that of a branch
+constexpr double SHORT_BRANCH = 1.5;  // in lengths of a slab: shorter branches of tubes are knots
 
 // What grows out of a slab, itself included, within its mesh.
 struct Subtree {
     double area = 0, flux = 0, far = 0;
     Vec3 normal = Vec3::Zero();
-    Eigen::AlignedBox3d box;
-    double alike = 0;  // area of slabs of its form and part that are connected to it [m^2]
+    Vec3 sum = Vec3::Zero();     // as Piece
+    Mat3 square = Mat3::Zero();  // as Piece
+    double alike = 0;            // area of slabs of its form and part that are connected to it [m^2]
 };
 
 struct Finder {
@@ -83,14 +82,16 @@ void sum_subtrees(Finder& finder) {
         own.alike += finder.piece(*at).area;
         own.flux += slab.flux;
         own.normal += slab.normal;
-        own.box.extend(slab.box);
+        own.sum += finder.piece(*at).sum;
+        own.square += finder.piece(*at).square;
         own.far = std::max(own.far, finder.piece(*at).far);
         if (!finder.same_mesh(*at)) continue;
         Subtree& parent = finder.subtrees[size_t(slab.parent)];
         parent.area += own.area;
         parent.flux += own.flux;
         parent.normal += own.normal;
-        parent.box.extend(own.box);
+        parent.sum += own.sum;
+        parent.square += own.square;
         parent.far = std::max(parent.far, own.far);
         if (finder.alike(*at)) parent.alike += own.alike;
     }
@@ -99,19 +100,22 @@ void sum_subtrees(Finder& finder) {
 // Returns the volume of the solid that begins with a slab, or 0 if what begins there is none [m^3].
 double solid_volume(const Finder& finder, int i) {
     const Subtree& tree = finder.subtrees[size_t(i)];
-    const Vec3 size = tree.box.sizes();
-    if (!(tree.area > 0) || size.minCoeff() < SOLID_ROUND * size.maxCoeff()) return 0;
+    if (!(tree.area > 0)) return 0;
+    const Vec3 centre = tree.sum / tree.area;
+    const Vec3 spread = symmetric_values(Mat3(tree.square / tree.area - centre * centre.transpose()));
+    if (!(spread[0] > squared(SOLID_ROUND) * spread[2])) return 0;
     const bool on_neck = finder.same_mesh(i);
     const double neck = finder.neck_radius(i);
-    const double wide = 0.5 * (size.sum() - size.minCoeff() - size.maxCoeff());
-    const double widest = std::min(wide, std::sqrt(tree.area / (4 * PI)));
+    // A ball's spread along each axis is a third of its radius squared; the stub of a tube is no wider than its neck.
+    const double widest = std::min(std::sqrt(3 * spread[1]), std::sqrt(tree.area / (4 * PI)));
     // What stands on the ground by itself stands broadly.
     if (finder.slab(i).parent < 0 ? finder.foot_radius(i) < SOLID_NECK * widest : neck > SOLID_NECK * widest) return 0;
-    const Vec3 from = on_neck ? finder.link(i).middle : tree.box.center();
-    const double volume = std::abs(tree.flux - from.dot(tree.normal)) / 3, area = tree.area + PI * neck * neck;
+    const Vec3 from = on_neck ? finder.link(i).middle : Vec3(centre + finder.cut.bands.origin);
+    const double volume = std::abs(tree.flux - from.dot(tree.normal)) / 3;
     // The normals of a closed surface add up to nothing but its neck.
     if (tree.normal.norm() > SOLID_OPEN * tree.area + 1.3 * PI * neck * neck) return 0;
-    return 36 * PI * squared(volume) > SOLID_COMPACT * frond::pow(area, 3) ? volume : 0;
+    const double outline = 4.0 / 3 * PI * std::sqrt(27 * std::max(0.0, spread.prod()));
+    return volume > SOLID_FULL * outline ? volume : 0;
 }
 
 // Finds the slabs with which solids may begin, and their volumes. A solid begins as far out as it can without losing
@@ -233,65 +237,6 @@ void take_in(Region& into, const Region& from) {
     into.box.extend(from.box);
 }
 
-// Finds the regions that are too small to be told apart from what they grow out of: caps of tubes, joints, knots, the
-// narrow tip and the stiff middle of a leaf.
-void join_slivers(const std::vector<Region>& regions, std::vector<int>& into) {
-    const auto is_cap = [](const Region& sheet, const Region& tube) {
-        return sheet.form == Form::SHEET && tube.form != Form::SHEET &&
-               sheet.area < SLIVER * squared(tube.begin_radius);
-    };
-    std::vector<int> children(regions.size(), 0);
-    for (const Region& region : regions)
-        if (region.parent >= 0) children[size_t(region.parent)]++;
-    for (size_t r = 0; r < regions.size(); r++) {
-        const Region& region = regions[r];
-        if (region.parent < 0 || !region.same_mesh) continue;
-        const size_t p = size_t(region.parent);
-        const Region& parent = regions[p];
-        if (region.part != parent.part || region.form == parent.form) continue;
-        // The lower end of a tube, closed by a cap.
-        if (into[p] == int(p) && children[p] == 1 && is_cap(parent, region) && !parent.same_mesh) {
-            into[p] = int(r);
-            continue;
-        }
-        const Region& whole = regions[size_t(into[p])];
-        const bool is_end = region.form == Form::SHEET && parent.form == Form::TUBE && children[r] == 0 &&
-                            region.area < SLIVER * squared(parent.radius());
-        const bool is_tip = region.form == Form::TUBE && parent.form == Form::SHEET && children[r] <= 1 &&
-                            region.length < 2 * parent.length && region.area < parent.area;
-        const bool goes_on = region.form == Form::SHEET && parent.form == Form::TUBE && whole.form == Form::SHEET &&
-                             into[p] != int(p) && children[p] == 1;
-        if (is_end || is_tip || goes_on) into[r] = into[p];
-    }
-}
-
-bool are_two_faces(const Region& a, const Region& b) {
-    const Vec3 size = a.box.sizes(), other = b.box.sizes();
-    const double across = a.box.diagonal().norm();
-    return a.component != b.component && a.part == b.part && std::abs(a.area - b.area) < 0.15 * a.area &&
-           (a.middle - b.middle).norm() < 0.06 * across && (size - other).cwiseAbs().maxCoeff() < 0.1 * across &&
-           a.normal.normalized().cross(b.normal.normalized()).norm() < 0.3;
-}
-
-// Finds sheets that are the other face of an earlier one.
-void join_faces(const std::vector<Region>& regions, std::vector<int>& into) {
-    std::vector<int> sheets;
-    for (size_t r = 0; r < regions.size(); r++)
-        if (regions[r].form == Form::SHEET && into[r] == int(r)) sheets.push_back(int(r));
-    std::sort(sheets.begin(), sheets.end(), [&](int a, int b) {
-        const double xa = regions[size_t(a)].middle.x(), xb = regions[size_t(b)].middle.x();
-        return xa != xb ? xa < xb : a < b;
-    });
-    for (size_t i = 0; i < sheets.size(); i++)
-        for (size_t k = i + 1; k < sheets.size(); k++) {
-            const Region &a = regions[size_t(sheets[i])], &b = regions[size_t(sheets[k])];
-            if (b.middle.x() - a.middle.x() > 0.06 * a.box.diagonal().norm()) break;
-            if (into[size_t(sheets[i])] != sheets[i] || into[size_t(sheets[k])] != sheets[k] || !are_two_faces(a, b))
-                continue;
-            into[size_t(std::max(sheets[i], sheets[k]))] = std::min(sheets[i], sheets[k]);
-        }
-}
-
 }  // namespace
 
 double Region::flatness() const {
@@ -308,10 +253,7 @@ Regions find_regions(const Surface& surface, const Topology& topology) {
     grow_regions(finder);
 
     std::vector<Region>& regions = finder.regions;
-    std::vector<int> into(regions.size());
-    std::iota(into.begin(), into.end(), 0);
-    join_slivers(regions, into);
-    join_faces(regions, into);
+    const std::vector<int> into = join_pieces(regions);
     const auto last = [&](int r) {
         while (into[size_t(r)] != r) r = into[size_t(r)];
         return r;
@@ -322,6 +264,14 @@ Regions find_regions(const Surface& surface, const Topology& topology) {
         if (last(int(r)) != int(r)) continue;
         number[r] = int(out.regions.size());
         out.regions.push_back(regions[r]);
+        // It grows where the first of those that joined it does.
+        Region& region = out.regions.back();
+        for (int below = region.parent; below >= 0 && last(below) == int(r); below = regions[size_t(below)].parent) {
+            const Region& first = regions[size_t(below)];
+            region.parent = first.parent;
+            region.same_mesh = first.same_mesh;
+            region.begin = first.begin;
+        }
     }
     for (size_t r = 0; r < regions.size(); r++) {
         const int own = last(int(r));
@@ -331,7 +281,6 @@ Regions find_regions(const Surface& surface, const Topology& topology) {
     for (size_t r = 0; r < out.regions.size(); r++) {
         Region& region = out.regions[r];
         if (region.parent >= 0) region.parent = number[size_t(region.parent)];
-        if (region.parent == int(r)) region.parent = -1;
         if (region.parent < 0) continue;
         Region& parent = out.regions[size_t(region.parent)];
         (region.form == Form::TUBE ? parent.tubes : region.form == Form::SHEET ? parent.sheets : parent.solids)++;

@@ -35,6 +35,8 @@ struct Regions {
     std::vector<int> region_of;   // by triangle
 };
 
+// Returns for each region the one that it is a piece of, or itself: slivers and second faces.
+std::vector<int> join_pieces(const std::vector<Region>& regions);
 Regions find_regions(const Surface& surface, const Topology& topology);
 
 }  // namespace frond

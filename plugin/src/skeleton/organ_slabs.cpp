@@ -46,6 +46,37 @@ int find_foot(const Topology& topology) {
     return foot;
 }
 
+// Returns the points around the foot on the ground, along edges: the lower end of a stem, from all around which the
+// bands of distance rise alike.
+std::vector<int> find_feet(const Topology& topology) {
+    constexpr double LEVEL = 0.01, NEAR = 0.1;  // shares of the plant's size
+    Eigen::AlignedBox3d box;
+    for (const Vec3& point : topology.points) box.extend(point);
+    const double size = box.diagonal().norm();
+    std::vector<int> feet = {find_foot(topology)};
+    const Vec3 foot = topology.points[size_t(feet[0])];
+    const auto is_low = [&](int point) {
+        const Vec3 way = topology.points[size_t(point)] - foot;
+        return std::abs(way.y()) <= LEVEL * size && way.norm() <= NEAR * size;
+    };
+    std::vector<std::array<int, 2>> edges;
+    for (const Triangle& corners : topology.triangles)
+        for (size_t k = 0; k < 3; k++)
+            if (is_low(corners[k]) && is_low(corners[(k + 1) % 3])) edges.push_back({corners[k], corners[(k + 1) % 3]});
+    std::vector<char> known(topology.points.size(), 0);
+    known[size_t(feet[0])] = 1;
+    for (bool grown = true; grown;) {
+        grown = false;
+        for (const auto& [a, b] : edges) {
+            if (known[size_t(a)] == known[size_t(b)]) continue;
+            feet.push_back(known[size_t(a)] ? b : a);
+            known[size_t(feet.back())] = 1;
+            grown = true;
+        }
+    }
+    return feet;
+}
+
 // Stretches the distances within small components, so that they too are cut into enough bands. Returns the factor of
 // each component.
 std::vector<double> stretch(const Topology& topology, double height, std::vector<double>& distance) {
@@ -159,7 +190,7 @@ void smooth(const Bands& bands, std::vector<Slab>& slabs) {
 
 Slabs cut_slabs(const Surface& surface, const Topology& topology) {
     Slabs out;
-    std::vector<int> roots = {find_foot(topology)};
+    std::vector<int> roots = find_feet(topology);
     std::vector<double> distance = measure_distances(topology, roots);
     const double farthest = *std::max_element(distance.begin(), distance.end());
     const double height = farthest > 0 ? farthest / SLICES : 1;

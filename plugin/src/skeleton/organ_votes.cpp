@@ -2,8 +2,10 @@
 // Each region collects votes, and the kind with most of them wins; no single one decides against all others:
 //   its part is named after a kind                          3 for that kind, its material 2.5; 1 if all are named so
 //   it is a sheet                                           2 for a blade
+//   it is a flower by its place (organ_heads.cpp)           2 for a flower
 //   it is a tube                                            2 for a stem, or a branch if the plant is higher than 3 m
 //   it is a solid at a thin neck                            2 for a fruit, or 3 for a crown if it is large
+//   it is a tube much thicker than what bears it            2 for a fruit, or a crown if it is large
 //   it is a solid at the foot that bears leaves             3 for a root
 //   it is a thin tube at whose end one leaf or few are      2.5 for a petiole
 //   it is green                                             0.5 for a blade, 0.3 for a stem
@@ -14,44 +16,17 @@
 #include "skeleton/organ_votes.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <map>
 
-#include "core/elementary.hpp"
 #include "skeleton/organ_clues.hpp"
+#include "skeleton/organ_evidence.hpp"
 #include "skeleton/organ_join.hpp"
-#include "skeleton/organ_regions.hpp"
+#include "skeleton/organ_look.hpp"
 
 namespace frond {
 
 namespace {
-
-constexpr double TREE_HEIGHT = 3;      // higher plants are held by wood [m]
-constexpr double CROWN_HEIGHT = 0.4;   // lower plants have no crown [m]
-constexpr double CROWN_SHARE = 0.25;   // least size of a crown, as a share of the plant's
-constexpr double AT_FOOT = 0.1;        // share of the height up to which things stand on the ground
-constexpr double PETIOLE_THIN = 0.75;  // largest radius of a petiole, as a share of that of what it grows out of
-constexpr int FEW_LEAVES = 9;          // most leaves on a petiole
-
-bool is_green(const std::array<float, 4>& color) {
-    return color[1] > 1.1f * color[0] && color[1] > 1.3f * color[2];
-}
-bool is_brown(const std::array<float, 4>& color) {
-    return color[0] > color[1] && color[1] >= color[2] && color[0] < 0.35f && color[0] < 4 * color[1];
-}
-bool is_bright(const std::array<float, 4>& color) {
-    const float most = std::max({color[0], color[1], color[2]}), least = std::min({color[0], color[1], color[2]});
-    return !is_green(color) && !is_brown(color) && (most - least > 0.15f || least > 0.75f);
-}
-
-// Returns whether a texture is a PNG with an alpha channel.
-bool has_alpha(const Texture& texture) {
-    constexpr size_t COLOR_TYPE = 25;
-    return texture.bytes.size() > COLOR_TYPE && texture.bytes[1] == 'P' && texture.bytes[2] == 'N' &&
-           (texture.bytes[COLOR_TYPE] == 4 || texture.bytes[COLOR_TYPE] == 6);
-}
 
 // Makes unnamed green parts of a plant with wood blades: they are foliage, however solid they were drawn.
 void find_foliage(const Surface& surface, std::vector<std::string>& named) {
@@ -61,28 +36,6 @@ void find_foliage(const Surface& surface, std::vector<std::string>& named) {
         const bool has_color = part.texture < 0 && part.color != Part().color;
         if (named[i].empty() && has_color && is_green(part.color)) named[i] = "blade";
     }
-}
-
-std::vector<double> share_of_crowns(const Regions& cut, const std::vector<char>& crowns) {
-    std::vector<double> in(cut.regions.size(), 0.0), all(in);
-    for (size_t t = 0; t < crowns.size(); t++) {
-        all[size_t(cut.region_of[t])] += 1;
-        if (crowns[t]) in[size_t(cut.region_of[t])] += 1;
-    }
-    for (size_t r = 0; r < in.size(); r++) in[r] = all[r] > 0 ? in[r] / all[r] : 0;
-    return in;
-}
-
-// Returns the weight of each part's name. If all parts have the same name, that is the plant's, such as a leaf's on all
-// of a bean.
-std::vector<double> weigh_names(const Surface& surface, const std::vector<std::string>& named) {
-    constexpr double NODE = 3, MATERIAL = 2.5, SAME = 1;
-    const bool differ =
-        std::any_of(named.begin(), named.end(), [&](const std::string& one) { return one != named[0]; });
-    std::vector<double> weights;
-    for (size_t i = 0; i < named.size(); i++)
-        weights.push_back(!differ ? SAME : read_name(surface.parts[i].name).kind == named[i] ? NODE : MATERIAL);
-    return weights;
 }
 
 struct Ballot {
@@ -114,128 +67,45 @@ std::string sized(const char* text, double a, double b) {
     return line;
 }
 
-struct Voter {
-    const Surface& surface;
-    const std::vector<Region>& regions;
-    const std::vector<std::string>& named;
-    double foot, height, size;
-    std::string tube;                 // kind of tubes
-    bool has_wood = false;            // a part is named after wood
-    int bare = 0;                     // number of meshes on the ground that bear nothing
-    std::vector<double> bright = {};  // by part
-    std::vector<double> trust = {};   // by part, weight of its name
-    std::vector<double> crown = {};   // by region, share of its triangles that belong to round solids
-    std::vector<int> leaves = {};     // by region, sheets that grow out of it and what it bears
-    std::vector<int> borne = {};      // by region, those that grow out of it and do not stand beside it
-    std::vector<int> others = {};     // by region, solids and tubes that bear no leaf likewise
-};
-
-// Returns whether a region and all that it grows out of, down to the ground, are one mesh.
-bool reaches_ground(const Voter& voter, size_t r) {
-    while (voter.regions[r].same_mesh && voter.regions[r].parent >= 0) r = size_t(voter.regions[r].parent);
-    return voter.regions[r].box.min().y() < voter.foot + AT_FOOT * voter.height;
-}
-
-// Returns whether a tube is a blade of grass: it stands among others that bear nothing, too.
-bool is_bare(const Voter& voter, size_t r) {
-    const Region& region = voter.regions[r];
-    return region.form != Form::SOLID && stands(region, voter.foot, voter.height) && voter.borne[r] <= 1;
-}
-bool is_grass(const Voter& voter, size_t r) {
-    constexpr int TUFT = 5;
-    const Region& region = voter.regions[r];
-    return is_bare(voter, r) && region.form == Form::TUBE && voter.height < TREE_HEIGHT && voter.bare >= TUFT;
-}
-
-bool is_rooted_tuber(const Voter& voter, size_t r) {
-    constexpr double LOW = 0.3;  // largest height above the ground at which one begins, as a share of the plant's
-    const Region& region = voter.regions[r];
-    if (voter.height > TREE_HEIGHT || region.box.min().y() > voter.foot + LOW * voter.height) return false;
-    if (region.form == Form::SOLID) return region.tubes + region.sheets > 0 && reaches_ground(voter, r);
-    // A tube that stands on its point, thick at its upper end, out of which thin ones grow.
-    const double length = region.box.sizes().y();
-    return region.form == Form::TUBE && region.parent < 0 && region.tubes + region.sheets > 0 &&
-           region.begin_radius < 0.35 * region.radius() && length < 16 * region.radius() &&
-           region.middle.y() > region.box.min().y() + 0.5 * length && length > 0.3 * voter.height;
-}
-
-// Returns whether a tube is the point of a tuber.
-bool is_point(const Voter& voter, size_t r) {
-    for (size_t k = 0; k < voter.regions.size() && voter.regions[r].parent < 0; k++)
-        if (voter.regions[k].parent == int(r) && voter.regions[k].same_mesh && voter.regions[k].form == Form::SOLID)
-            return voter.regions[r].tubes + voter.regions[r].sheets == 0 && is_rooted_tuber(voter, k);
-    return false;
-}
-
-bool is_petiole(const Voter& voter, size_t r) {
-    const Region& region = voter.regions[r];
-    if (region.form != Form::TUBE || voter.tube == "branch" || voter.others[r] > 0 || region.length > 0.6 * voter.size)
-        return false;
-    if (region.parent < 0 || stands(region, voter.foot, voter.height)) return voter.leaves[r] == 1;
-    const Region& parent = voter.regions[size_t(region.parent)];
-    return voter.leaves[r] > 0 && voter.leaves[r] <= FEW_LEAVES &&
-           (parent.form == Form::SOLID || region.radius() < PETIOLE_THIN * parent.radius());
-}
-
-// Returns whether a tube is a small leaf drawn thick: flat, and nothing grows out of it.
-bool is_thick_leaf(const Voter& voter, const Region& region) {
-    constexpr double WIDER = 1.9, SMALL = 0.4;
-    return region.form == Form::TUBE && region.parent >= 0 && !region.same_mesh &&
-           region.tubes + region.sheets + region.solids == 0 && region.box.diagonal().norm() < SMALL * voter.size &&
-           region.flatness() > WIDER;
-}
-
-// Returns whether a region is foliage around wood: of a part named after leaves, closed, wide and large.
-bool surrounds_wood(const Voter& voter, const Region& region) {
-    constexpr double ROUND_ENOUGH = 0.25, LARGE_ENOUGH = 0.15, CLOSED = 0.5, AROUND = 0.2;
-    const Vec3 size = region.box.sizes(), middle = region.box.center();
-    return voter.has_wood && voter.named[size_t(region.part)] == "blade" &&
-           size.minCoeff() > ROUND_ENOUGH * size.maxCoeff() &&
-           hypot(middle.x() - region.begin.x(), middle.z() - region.begin.z()) <
-               AROUND * std::max(size.x(), size.z()) &&
-           size.norm() > LARGE_ENOUGH * voter.size && region.normal.norm() < CLOSED * region.area &&
-           region.box.min().y() > voter.foot + AT_FOOT * voter.height;
-}
-
-bool is_crown(const Voter& voter, const Region& region) {
-    constexpr double WIDE = 0.2;  // least width over the plant's height
+void vote_by_shape(const Evidence& plant, size_t r, Ballot& ballot) {
+    const Region& region = plant.regions[r];
     const Vec3 size = region.box.sizes();
-    return size.norm() > CROWN_SHARE * voter.size && voter.height > CROWN_HEIGHT &&
-           std::max(size.x(), size.z()) > WIDE * voter.height;
-}
-
-void vote_by_shape(const Voter& voter, size_t r, Ballot& ballot) {
-    const Region& region = voter.regions[r];
-    const Vec3 size = region.box.sizes();
-    if (is_rooted_tuber(voter, r) || is_point(voter, r))
+    if (is_rooted_tuber(plant, r) || is_point(plant, r))
         ballot.add("root", 3, sized("solid at the foot that bears leaves,", size.maxCoeff(), size.minCoeff()));
-    else if (voter.crown[r] > 0.5 && voter.height > CROWN_HEIGHT && !(region.form == Form::TUBE && region.solids > 0))
+    else if (plant.crown[r] > 0.5 && plant.height > CROWN_HEIGHT && !(region.form == Form::TUBE && region.solids > 0))
         ballot.add("crown", 3, sized("large round solid,", size.maxCoeff(), size.minCoeff()));
-    else if (surrounds_wood(voter, region))
+    else if (surrounds_wood(plant, region) || surrounds_trunk(plant, r))
         ballot.add("crown", 3, sized("foliage around wood,", size.maxCoeff(), size.minCoeff()));
-    else if (region.form == Form::SHEET)
+    else if (plant.heads.flower[r])
+        ballot.add("flower", 2, sized("flower at a stem's end,", size.maxCoeff(), size.minCoeff()));
+    else if (plant.heads.swollen[r])
+        ballot.add(is_crown(plant, region) ? "crown" : "fruit", 2,
+                   sized("thicker than what bears it,", region.length, 2 * region.radius()));
+    else if (region.form == Form::SHEET && !plant.bears[r])
         ballot.add("blade", 2, sized("sheet", region.length, region.length > 0 ? region.area / region.length : 0));
-    else if (is_grass(voter, r))
+    else if (is_grass(plant, r))
         ballot.add("blade", 2, sized("one of many alike on the ground,", region.length, 2 * region.radius()));
-    else if (is_petiole(voter, r))
+    else if (is_petiole(plant, r))
         ballot.add("petiole", 2.5, sized("thin tube with a leaf at its end,", region.length, 2 * region.radius()));
-    else if (is_thick_leaf(voter, region))
+    else if (is_thick_leaf(plant, region))
         ballot.add("blade", 2, sized("flat tube that bears nothing,", region.length, 2 * region.radius()));
-    else if (region.form == Form::TUBE)
-        ballot.add(voter.tube, 2, sized("tube", region.length, 2 * region.radius()));
-    else if (region.parent < 0)
-        ballot.add(voter.tube, 2, sized("solid that stands by itself,", size.maxCoeff(), size.minCoeff()));
-    else if (is_crown(voter, region))
+    else if (region.form == Form::TUBE || plant.bears[r])
+        ballot.add(plant.tube, 2, sized("tube", region.length, 2 * region.radius()));
+    else if (bears_fruit(plant, region))
+        ballot.add("crown", 3, sized("solid that bears others,", size.maxCoeff(), size.minCoeff()));
+    else if (region.parent < 0 || is_post(plant, region) || is_arm(plant, region))
+        ballot.add(plant.tube, 2, sized("solid that stands by itself,", size.maxCoeff(), size.minCoeff()));
+    else if (is_crown(plant, region))
         ballot.add("crown", 3, sized("large solid at a thin neck,", size.maxCoeff(), size.minCoeff()));
     else
         ballot.add("fruit", 2, sized("solid at a thin neck,", size.maxCoeff(), size.minCoeff()));
 }
 
-void vote_by_look(const Voter& voter, size_t r, Ballot& ballot) {
-    const Region& region = voter.regions[r];
-    const Part& part = voter.surface.parts[size_t(region.part)];
+void vote_by_look(const Evidence& plant, size_t r, Ballot& ballot) {
+    const Region& region = plant.regions[r];
+    const Part& part = plant.surface.parts[size_t(region.part)];
     if (part.texture >= 0) {
-        if (has_alpha(voter.surface.textures[size_t(part.texture)])) ballot.add("blade", 1, "texture with alpha");
+        if (has_alpha(plant.surface.textures[size_t(part.texture)])) ballot.add("blade", 1, "texture with alpha");
         return;
     }
     if (part.color == Part().color) return;
@@ -245,8 +115,10 @@ void vote_by_look(const Voter& voter, size_t r, Ballot& ballot) {
     } else if (is_brown(part.color)) {
         ballot.add("branch", 1, "brown");
         if (ballot.votes.count("crown")) ballot.add("crown", -2.5, "");
-    } else if (is_bright(part.color) && voter.leaves[r] <= (region.form == Form::SHEET) &&
-               voter.bright[size_t(region.part)] > 0) {
+    } else if (region.form == Form::TUBE && region.solids > 0) {
+        return;  // the stalk of a fruit has its colour
+    } else if (is_bright(part.color) && plant.leaves[r] <= (region.form == Form::SHEET) &&
+               plant.bright[size_t(region.part)] > 0) {
         if (region.form != Form::SOLID)
             ballot.add("flower", 2.5, "bright");
         else
@@ -254,49 +126,32 @@ void vote_by_look(const Voter& voter, size_t r, Ballot& ballot) {
     }
 }
 
-FoundOrgan vote(const Voter& voter, size_t r) {
+FoundOrgan vote(const Evidence& plant, size_t r) {
     Ballot ballot;
-    vote_by_shape(voter, r, ballot);
-    const std::string& kind = voter.named[size_t(voter.regions[r].part)];
+    vote_by_shape(plant, r, ballot);
+    const std::string& kind = plant.named[size_t(plant.regions[r].part)];
     // A solid crown is foliage, whatever it is called.
     const bool foliage = kind == "blade" && ballot.votes.count("crown");
     if (!kind.empty())
-        ballot.add(foliage ? "crown" : kind, voter.trust[size_t(voter.regions[r].part)], "named " + kind);
-    vote_by_look(voter, r, ballot);
+        ballot.add(foliage ? "crown" : kind, plant.trust[size_t(plant.regions[r].part)], "named " + kind);
+    vote_by_look(plant, r, ballot);
     return ballot.result();
 }
 
-// Counts what each region bears.
-void count_leaves(Voter& voter) {
-    voter.leaves.assign(voter.regions.size(), 0);
-    voter.others.assign(voter.regions.size(), 0);
-    voter.borne.assign(voter.regions.size(), 0);
-    for (size_t r = voter.regions.size(); r-- > 0;) {
-        const Region& region = voter.regions[r];
-        if (region.form == Form::SHEET) voter.leaves[r]++;
-        if (region.parent < 0) continue;
-        voter.borne[size_t(region.parent)] += !stands(region, voter.foot, voter.height);
-        // Veins are no stems.
-        const bool is_vein =
-            region.form == Form::TUBE && region.radius() < 0.8 * voter.regions[size_t(region.parent)].radius();
-        if (region.form == Form::SOLID || (region.form == Form::TUBE && voter.leaves[r] == 0 && !is_vein))
-            voter.others[size_t(region.parent)]++;
-        voter.leaves[size_t(region.parent)] += voter.leaves[r];
-        voter.others[size_t(region.parent)] += voter.others[r];
+// Makes sheets crowns that are of one mesh and part with a much larger one: edges and torn pieces of it, no leaves.
+void give_edges_to_crowns(const std::vector<Region>& regions, std::vector<FoundOrgan>& found) {
+    constexpr double LARGER = 4;
+    std::map<std::pair<int, int>, size_t> crowns;  // the largest of each mesh and part
+    for (size_t r = 0; r < regions.size(); r++) {
+        if (found[r].kind != "crown") continue;
+        size_t& crown = crowns.emplace(std::make_pair(regions[r].component, regions[r].part), r).first->second;
+        if (regions[r].area > regions[crown].area) crown = r;
     }
-}
-
-// Bright parts are flowers or fruit only beside more of something else, else the plant has the colour of its season.
-void find_bright_parts(Voter& voter) {
-    std::vector<double> area(voter.surface.parts.size(), 0.0);
-    double bright = 0, all = 0;
-    for (const Region& region : voter.regions) {
-        const Part& part = voter.surface.parts[size_t(region.part)];
-        area[size_t(region.part)] += region.area;
-        all += region.area;
-        if (part.texture < 0 && part.color != Part().color && is_bright(part.color)) bright += region.area;
+    for (size_t r = 0; r < regions.size(); r++) {
+        const auto crown = crowns.find({regions[r].component, regions[r].part});
+        if (crown == crowns.end() || found[r].kind != "blade" || regions[r].form != Form::SHEET) continue;
+        if (regions[crown->second].area > LARGER * regions[r].area) found[r] = found[crown->second];
     }
-    voter.bright.assign(area.size(), bright < 0.8 * all ? 1 : 0);
 }
 
 }  // namespace
@@ -308,24 +163,20 @@ FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std
     for (size_t t = 0; t < sheets.size(); t++) sheets[t] = cut.regions[size_t(cut.region_of[t])].form == Form::SHEET;
     find_cards(surface, topology, sheets, named);
     find_foliage(surface, named);
-    const double height = surface.height();
-    Voter voter{surface,
-                cut.regions,
-                named,
-                surface.lower().y(),
-                height,
-                surface.size(),
-                height > TREE_HEIGHT ? "branch" : "stem"};
-    voter.has_wood = std::find(named.begin(), named.end(), "branch") != named.end();
-    count_leaves(voter);
-    for (size_t r = 0; r < cut.regions.size(); r++) voter.bare += is_bare(voter, r);
-    voter.trust = weigh_names(surface, named);
-    voter.crown = share_of_crowns(cut, crowns);
-    find_bright_parts(voter);
+    const Evidence plant = gather_evidence(surface, cut, named, crowns);
     std::vector<FoundOrgan> found;
-    for (size_t r = 0; r < cut.regions.size(); r++) found.push_back(vote(voter, r));
+    for (size_t r = 0; r < cut.regions.size(); r++) {
+        // What bears a hair comes before it.
+        const int bearer = plant.heads.hair_of[r];
+        const bool is_hair = bearer >= 0 && named[size_t(cut.regions[r].part)].empty();
+        found.push_back(is_hair ? found[size_t(bearer)] : vote(plant, r));
+    }
+    give_edges_to_crowns(cut.regions, found);
 
     UnionFind sets = join_regions(surface, cut.regions, found);
+    for (size_t r = 0; r < cut.regions.size(); r++)
+        if (const int bearer = plant.heads.hair_of[r]; bearer >= 0 && found[r].kind == found[size_t(bearer)].kind)
+            sets.join(int(r), bearer);
     FoundOrgans out;
     std::vector<int> number(cut.regions.size(), -1);
     std::vector<double> largest;
