@@ -19,26 +19,34 @@ struct Stem {
     double cell = 0;    // size of the cage's cells [m]; 0: Frond's choice
     double hollow = 0;  // hollow share of the radius
     double young = 1e9;
+    int pieces = 1;  // parts in a row as which it is given
     static constexpr double DENSITY = 1000;
 
     double length() const { return (end - begin).norm(); }
     Vec3 axis() const { return (end - begin).normalized(); }
+    Vec3 at(double s) const { return begin + s * (end - begin); }
+    double radius(double s) const { return radius_begin + s * (radius_end - radius_begin); }
     double bending(double s) const {  // E I at a share of the length [N m^2]
-        const double r = radius_begin + s * (radius_end - radius_begin);
+        const double r = radius(s);
         return young * M_PI * std::pow(r, 4) / 4 * (1 - std::pow(hollow, 4));
     }
     double weight(double s) const {  // [kg/m]
-        const double r = radius_begin + s * (radius_end - radius_begin);
+        const double r = radius(s);
         return DENSITY * M_PI * r * r * (1 - hollow * hollow);
     }
 };
 
 static std::shared_ptr<const Model> build(const Stem& stem) {
-    const frond_stem given = {-1,
-                              {stem.begin.x(), stem.begin.y(), stem.begin.z()},
-                              {stem.end.x(), stem.end.y(), stem.end.z()},
-                              stem.radius_begin,
-                              stem.radius_end};
+    std::vector<frond_stem> given;
+    for (int i = 0; i < stem.pieces; i++) {
+        const double from = double(i) / stem.pieces, to = double(i + 1) / stem.pieces;
+        const Vec3 begin = stem.at(from), end = stem.at(to);
+        given.push_back({i - 1,
+                         {begin.x(), begin.y(), begin.z()},
+                         {end.x(), end.y(), end.z()},
+                         stem.radius(from),
+                         stem.radius(to)});
+    }
     frond_model_def def = model_def();
     frond_organ_material organ = {"stem", *material_preset("stem")};
     organ.material.young = stem.young;
@@ -49,7 +57,7 @@ static std::shared_ptr<const Model> build(const Stem& stem) {
     def.organ_count = 1;
     def.cage_size = stem.cell;
     def.rest = FROND_REST_WITHOUT_GRAVITY;
-    return build_from_stems(&given, 1, def);
+    return build_from_stems(given.data(), stem.pieces, def);
 }
 
 // Displacement of the end of a clamped beam under a force of one newton on it, and under its own weight, taken across
@@ -135,6 +143,10 @@ static const Stem STEMS[] = {
     {"cells_longer_than_thick", {0, 0, 0}, {0, 1, 0}, 0.04, 0.04, 0.13},
     {"cells_twice_as_long", {0, 0, 0}, {0, 1, 0}, 0.025, 0.025, 0.1},
     {"tilted_in_coarse_cells", {0.1, 0, 0}, {0.6, 0.7, 0.3}, 0.03, 0.03, 0.1},
+    {"two_pieces", {0, 0, 0}, {0, 1, 0}, 0.01, 0.01, 0, 0, 1e9, 2},
+    {"ten_pieces", {0, 0, 0}, {0, 1, 0}, 0.01, 0.01, 0, 0, 1e9, 10},
+    {"ten_pieces_in_coarse_cells", {0, 0, 0}, {0, 1, 0}, 0.01, 0.01, 0.06, 0, 1e9, 10},
+    {"tapered_in_five_pieces", {0, 0, 0}, {0, 1, 0}, 0.02, 0.008, 0, 0, 1e9, 5},
 };
 
 struct EveryStem : testing::TestWithParam<Stem> {};
