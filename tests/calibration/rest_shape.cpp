@@ -1,6 +1,8 @@
 // The shape without gravity: weight bends it to the modelled shape, and organs that are too soft are identified.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "calibration/calibration.hpp"
 #include "calibration/rest_system.hpp"
 #include "mechanics/tet_element.hpp"
@@ -90,6 +92,74 @@ TEST(Strengthen, FindsTheOrganThatGivesWay) {
         } else if (y > 0.95) {
             EXPECT_LT(stiffer, 1.1) << y;
         }
+    }
+}
+
+// Returns a stem with two boughs.
+std::vector<frond_stem> boughs() {
+    return {{-1, {0, 0, 0}, {0, 0.5, 0}, 0.012, 0.01},
+            {0, {0, 0.5, 0}, {0.05, 1, 0}, 0.01, 0.006},
+            {0, {0, 0.5, 0}, {-0.4, 0.8, 0.1}, 0.008, 0.004}};
+}
+
+double largest_unbalance(const Model& model, frond_mechanics which) {
+    const auto own = mechanics(which).make(model, which);
+    const TetElements& elements = static_cast<const TetElements&>(*own);
+    VecX x(elements.rest_positions.size()), f = VecX::Zero(x.size());
+    for (size_t i = 0; i < model.cage.nodes.size(); i++) point(x, int(i)) = model.cage.nodes[i];
+    double weight = 0;
+    for (size_t e = 0; e < elements.tets.size(); e++)
+        for (int corner : elements.tets[e]) {
+            f[3 * corner + 1] -= 9.81 * elements.density[e] * elements.volume[e] / 4;
+            weight += 9.81 * elements.density[e] * elements.volume[e] / 4;
+        }
+    mechanics(which).add_force(elements, x, f);
+    double largest = 0;
+    for (size_t i = 0; i < model.root.size(); i++)
+        if (!model.root[i]) largest = std::max(largest, point(f, int(i)).norm());
+    return largest / weight;
+}
+
+TEST(RestShape, BalancesWeightInTheModelledShapeForEveryMechanics) {
+    const std::vector<frond_stem> stems = boughs();
+    const auto model = build_from_stems(stems.data(), int(stems.size()), model_def());
+    EXPECT_LT(model->stiffening_factor, 1.7);
+    for (int which = 0; which < FROND_MECHANICS_ROD; which++) {
+        ensure_rest_shape(*model, frond_mechanics(which), 1);
+        ASSERT_GT(model->rest_shapes->positions[0][size_t(which)].size(), 0) << frond_mechanics(which);
+        EXPECT_LT(largest_unbalance(*model, frond_mechanics(which)), 1e-6) << frond_mechanics(which);
+    }
+}
+
+TEST(RestShape, StiffensAPlantThatCannotCarryItselfAndSaysSo) {
+    std::vector<frond_stem> stems = boughs();
+    frond_model_def def = model_def();
+    frond_organ_material organ = {"stem", *material_preset("stem")};
+    organ.material.young = 1e5;
+    def.organs = &organ;
+    def.organ_count = 1;
+    const auto model = build_from_stems(stems.data(), int(stems.size()), def);
+    EXPECT_GT(model->stiffening_factor, 1);
+    EXPECT_LT(largest_unbalance(*model, FROND_MECHANICS_TET_COROTATIONAL), 1e-6);
+}
+
+// Greenhill (1881): a column of weight w per length buckles above w L^3 / EI = 7.8373. The factor by which a softer
+// column is stiffened must bring it to that limit, to the step of the search and the tolerance of the calibration.
+TEST(RestShape, FindsGreenhillsLimit) {
+    const double length = 1, radius = 0.01;
+    const double inertia = M_PI * std::pow(radius, 4) / 4;
+    const double weight = material_preset("stem")->density * M_PI * radius * radius * 9.81;
+    const double limit = weight * std::pow(length, 3) / (7.8373 * inertia);  // Young's modulus [Pa]
+    for (double share : {0.3, 3.0}) {
+        const frond_stem stem = {-1, {0, 0, 0}, {0, length, 0}, radius, radius};
+        frond_model_def def = model_def();
+        frond_organ_material organ = {"stem", *material_preset("stem")};
+        organ.material.young = share * limit;
+        def.organs = &organ;
+        def.organ_count = 1;
+        const auto model = build_from_stems(&stem, 1, def);
+        // A given material becomes as stiff as it must be to stand, plus two per cent.
+        EXPECT_NEAR(model->organ_stiffer.front(), std::max(1.0, 1.02 / share), 0.03 / share) << share;
     }
 }
 

@@ -3,6 +3,7 @@
 // the organ in the cage, held where it grows out of another one, bends as the rod with its true section would.
 #include <cmath>
 
+#include "calibration/beams.hpp"
 #include "calibration/calibrate_together.hpp"
 #include "calibration/calibration.hpp"
 #include "calibration/fit_moduli.hpp"
@@ -37,13 +38,15 @@ static void take_moduli(Model& model, const LoneOrgan& lone) {
 
 void calibrate(Model& model, int order) {
     take_materials(model);  // the rule of mixtures, to begin with
-    const std::vector<int> hangs = hang_tets(model);
+    Model beams = join_beams(model);
+    const std::vector<int> hangs = hang_tets(beams);
     std::vector<char> alone;
-    for (LoneOrgan& lone : take_organs(model)) {
-        alone.push_back(lone.is_sound() && fit_moduli(lone, model, hangs, order));
-        if (alone.back()) take_moduli(model, lone);
+    for (LoneOrgan& lone : take_organs(beams)) {
+        alone.push_back(lone.is_sound() && fit_moduli(lone, beams, hangs, order));
+        if (alone.back()) take_moduli(beams, lone);
     }
-    calibrate_together(model, alone, order);
+    calibrate_together(beams, alone, order);
+    model.tet_young = std::move(beams.tet_young);
     model.calibrated = true;
 }
 
