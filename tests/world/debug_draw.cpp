@@ -63,7 +63,8 @@ TEST(DebugDraw, ShowsCageAndContactsWhereTheyAre) {
     bool has_node = false;
     std::vector<double> xyz(size_t(3 * cage.node_count));
     ASSERT_EQ(frond_plant_get_state(small.plant, xyz.data(), nullptr, cage.node_count), FROND_OK);
-    const btVector3 last(btScalar(xyz[xyz.size() - 3]), btScalar(xyz[xyz.size() - 2]), btScalar(xyz[xyz.size() - 1]));
+    const btVector3 last = {btScalar(xyz[xyz.size() - 3]), btScalar(xyz[xyz.size() - 2]),
+                            btScalar(xyz[xyz.size() - 1])};
     for (const btVector3& end : drawer.ends) has_node |= (end - last).length() < btScalar(1e-5);
     EXPECT_TRUE(has_node);
 }

@@ -1,17 +1,24 @@
-// Plants give the same bits on every processor and by any compiler: state hashes after ten seconds, recorded once.
+// Plants give the same bits on every processor, by any compiler and with any number of threads: state hashes after ten
+// seconds, recorded once.
 // Where results are changed on purpose, take the numbers that a failure reports.
 #include <LinearMath/btScalar.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <thread>
+#include <vector>
 
+#include "core/lanes.hpp"
 #include "frond/frond.h"
 #include "support/must.hpp"
 
 namespace same_bits_tests {
 
+using frond::lanes_of_processor;
+using frond::most_lanes;
 using frond::test::must;
 
 constexpr double H = 1.0 / 60;
@@ -47,16 +54,31 @@ const Row ROWS[] = {
      0x6d9675259dc09587},
 };
 
-class SameBits : public ::testing::TestWithParam<Row> {};
+// A host's threads. A browser's page has one, and takes the jobs from the last to the first.
+void parallel_for(int count, frond_job_fn* job, void* data, void* user) {
+#ifdef __EMSCRIPTEN__
+    (void)user;
+    for (int i = count; i-- > 0;) job(data, i);
+#else
+    std::atomic<int> next{0};
+    const auto work = [&] {
+        for (int i = next++; i < count; i = next++) job(data, i);
+    };
+    std::vector<std::thread> others;
+    for (int i = 1; i < *static_cast<const int*>(user); i++) others.emplace_back(work);
+    work();
+    for (std::thread& other : others) other.join();
+#endif
+}
 
-TEST_P(SameBits, AreThereAfterTenSeconds) {
-    const Row& row = GetParam();
-    const frond_world_def world_def = frond_default_world_def();
-    const frond_model_def model_def = frond_default_model_def();
+frond_world make_world(const Row& row, frond_model model, int* threads) {
+    frond_world_def world_def = frond_default_world_def();
+    if (*threads > 1) {
+        world_def.parallel_for = parallel_for;
+        world_def.parallel_user = threads;
+    }
     frond_world world = {};
-    frond_model model = {};
     must(frond_world_create(&world_def, &world));
-    must(frond_model_load((std::string(FROND_SOURCE_DIR "/models/") + row.file).c_str(), &model_def, &model));
     for (int i = 0; i < row.plants; i++) {
         frond_plant_def def = frond_default_plant_def();
         def.mechanics = row.mechanics;
@@ -79,7 +101,15 @@ TEST_P(SameBits, AreThereAfterTenSeconds) {
     wind.profile = row.profile;
     wind.velocity = {row.wind, 0, 0};
     must(frond_world_set_wind(world, &wind));
+    return world;
+}
 
+// Steps a scene, and compares its bits with the recorded ones.
+void expect_bits(const Row& row, int threads) {
+    const frond_model_def model_def = frond_default_model_def();
+    frond_model model = {};
+    must(frond_model_load((std::string(FROND_SOURCE_DIR "/models/") + row.file).c_str(), &model_def, &model));
+    const frond_world world = make_world(row, model, &threads);
     int contacts = 0;
     for (int step = 0; step < STEPS; step++) {
         must(frond_world_step(world, H));
@@ -95,6 +125,33 @@ TEST_P(SameBits, AreThereAfterTenSeconds) {
     EXPECT_EQ(hash, sizeof(btScalar) == sizeof(double) ? row.hash_in_double : row.hash) << both;
     frond_world_destroy(world);
     frond_model_destroy(model);
+}
+
+class SameBits : public ::testing::TestWithParam<Row> {
+protected:
+    void TearDown() override { most_lanes() = lanes_of_processor(); }
+};
+
+TEST_P(SameBits, AreThereAfterTenSeconds) {
+    expect_bits(GetParam(), 1);
+}
+
+// On x86-64 the registers of older processors: of SSE2, and of AVX2.
+TEST_P(SameBits, AreThereInNarrowerLanes) {
+    for (int lanes = 2; lanes < lanes_of_processor(); lanes *= 2) {
+        SCOPED_TRACE(lanes);
+        most_lanes() = lanes;
+        expect_bits(GetParam(), 1);
+    }
+}
+
+// A lone plant is one job.
+TEST(SameBitsOfSeveral, AreThereWithTwoToFourThreads) {
+    for (const Row& row : ROWS)
+        for (int threads = 2; row.plants > 1 && threads <= 4; threads++) {
+            SCOPED_TRACE(std::string(row.name) + " " + std::to_string(threads));
+            expect_bits(row, threads);
+        }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SameBits, ::testing::ValuesIn(ROWS),

@@ -100,7 +100,7 @@ EMSCRIPTEN_KEEPALIVE int garden_open(int scene, int mechanics, int integrator, u
     frond_world_destroy(garden.world);
     garden.plant_count = garden.ball_count = 0;
     garden.walker.id = garden.grab.id = 0;
-    garden.model = scene == SCENE_CUCUMBER ? MODEL_CUCUMBER : MODEL_CORN;
+    garden.model = scene == SCENE_CUCUMBER ? MODEL_CUCUMBER : scene == SCENE_FIELD ? MODEL_FIELD_CORN : MODEL_CORN;
     garden.mechanics = (frond_mechanics)mechanics;
     garden.integrator = (frond_integrator)integrator;
     garden.effects = effects;

@@ -5,7 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { MODEL_CORN, MODEL_CUCUMBER, MODEL_COUNT };
+/* The field's corn has 41 capsules, as that of tools/scenes/field.cpp; the other has 165. */
+enum { MODEL_CORN, MODEL_CUCUMBER, MODEL_FIELD_CORN, MODEL_COUNT };
 enum { SCENE_CORN, SCENE_CUCUMBER, SCENE_ROW, SCENE_FIELD, SCENE_COUNT };
 
 int garden_failed(void);

@@ -303,7 +303,10 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
     alone |= far_away;
     air_forces(step, space->forces);
     const bool has_yields = (effects & FROND_EFFECT_PLASTICITY) && !system.elements->yields.empty();
-    const unsigned may_yield = has_yields ? system.row->batch->may_yield(*system.elements, step.x_end) : 0;
+    const auto look_for_yields = system.row->batch->may_yield;
+    const unsigned may_yield = !has_yields       ? 0
+                               : look_for_yields ? look_for_yields(*system.elements, step.x_end)
+                                                 : step.may_yield;
     const unsigned taut = find_taut(step, *plants[0], effects);
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
     run_in_lanes(step.lanes, HandOut{step.v_end, space->v});

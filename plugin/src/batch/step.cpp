@@ -300,7 +300,7 @@ unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<u
     system.row->batch->set_ahead(
         elements, a.x_from,
         {a.way.data(), a.v_start.data(), method.step, a.element_damping.empty() ? damping : 0, a.element_damping},
-        a.elastic, a.A, a.filled, a.inverted.data());
+        a.elastic, a.A, a.filled, a.seen, a.inverted.data());
     const double mass = 1 + method.step * settings.mass_damping;
     if (turns)
         run_in_lanes(a.lanes, FormPairs{a, method.step, mass});
@@ -313,7 +313,7 @@ unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<u
     relative_residuals(a.A, a.rhs, a.dv, a.way, a.residual.data());
     run_in_lanes(a.lanes, Move{a, method.step});
     if (system.row->batch->retract) {
-        system.row->batch->retract(elements, a.x_from, a.x_end, a.held, a.retracted);
+        a.may_yield = system.row->batch->retract(elements, a.x_from, a.x_end, a.held, a.seen, a.retracted);
         run_in_lanes(a.lanes, TakeRetracted{a, method.step});
     }
     run_in_lanes(a.lanes, Finish{a, pinned, turns, lost});

@@ -24,9 +24,10 @@ struct Batch {
     std::array<int, MOST_LANES> inverted;  // number of inverted tets where forces were evaluated
     double reach = 0;                      // see Workspace [s]
     unsigned wound = 0;  // lanes with a rotation vector longer than half a turn, or nearly so, a bit each: see unwind()
+    unsigned may_yield = 0;  // see BatchMechanics::retract
 
     // Scratch of the step.
-    NumbersInLines v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia, retracted;
+    NumbersInLines v_start, x_from, x_base, v_base, way, elastic, rhs, dv, inertia, retracted, seen;
     std::vector<uint8_t> held, filled;
     std::vector<double> element_damping;
     BlockMatrix A;

@@ -12,16 +12,36 @@ namespace frond {
 
 namespace {
 
-// Returns the arm of node k, rotated with it.
-Vec3 turned_arm(const Attachment& attachment, int k, const VecX& x) {
-    return rotation_of<double>(point(x, attachment.node[size_t(k)] + 1)) * attachment.arm[size_t(k)];
-}
-
 // Returns the derivative of the point by the rotation vector of node k.
 Mat3 turn_derivative(const Attachment& attachment, int k, const VecX& x) {
-    return -cross_matrix<double>(turned_arm(attachment, k, x)) *
-           rate_matrix<double>(point(x, attachment.node[size_t(k)] + 1));
+    const Vec3 turn = point(x, attachment.node[size_t(k)] + 1);
+    return -cross_matrix<double>(rotation_of<double>(turn) * attachment.arm[size_t(k)]) * rate_matrix<double>(turn);
 }
+
+// Places attachments one after the other. Those that follow each other mostly hang on the same nodes, whose rotation is
+// then found once.
+class LastTurns {
+public:
+    explicit LastTurns(const VecX& x) : x(x) {}
+    Vec3 place_of(const Attachment& attachment) {
+        Vec3 place = Vec3::Zero();
+        for (size_t k = 0; k < size_t(attachment.count); ++k) {
+            place += attachment.weight[k] * point(x, attachment.node[k]);
+            if (attachment.turns) place += turn_of(k, attachment.node[k]) * attachment.arm[k];
+        }
+        return place;
+    }
+
+private:
+    const Mat3& turn_of(size_t k, int node) {
+        if (nodes[k] != node) turns[k] = rotation_of<double>(point(x, node + 1));
+        nodes[k] = node;
+        return turns[k];
+    }
+    const VecX& x;
+    std::array<int, 2> nodes = {-1, -1};
+    std::array<Mat3, 2> turns;
+};
 
 }  // namespace
 
@@ -57,18 +77,15 @@ bool is_sound(const Attachment& attachment, int node_count) {
 }
 
 Vec3 attachment_place(const Attachment& attachment, const VecX& x) {
-    Vec3 place = Vec3::Zero();
-    for (int k = 0; k < attachment.count; ++k) {
-        place += attachment.weight[size_t(k)] * point(x, attachment.node[size_t(k)]);
-        if (attachment.turns) place += turned_arm(attachment, k, x);
-    }
-    return place;
+    LastTurns turns(x);
+    return turns.place_of(attachment);
 }
 
 void attachment_places(const std::vector<Attachment>& attachments, const VecX& x, const Mat3& turn, const Vec3& shift,
                        std::vector<Vec3>& out) {
+    LastTurns turns(x);
     out.resize(attachments.size());
-    for (size_t i = 0; i < out.size(); ++i) out[i] = turn * attachment_place(attachments[i], x) + shift;
+    for (size_t i = 0; i < out.size(); ++i) out[i] = turn * turns.place_of(attachments[i]) + shift;
 }
 
 Vec3 attachment_velocity(const Attachment& attachment, const VecX& x, const VecX& v) {

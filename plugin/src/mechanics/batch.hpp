@@ -7,6 +7,9 @@
 
 namespace frond {
 
+// Share of a limit beyond which a lane is left to its plant's own check: rounding differs between lanes and one by one.
+constexpr double NEARLY = 1 - 1e-9;
+
 // Returns the number of lanes of batched node data.
 inline int lanes_of(const Elements& body, const NumbersInLines& x) {
     return int(x.size()) / (3 * body.node_count);

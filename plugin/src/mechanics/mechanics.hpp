@@ -85,18 +85,19 @@ struct Ahead {
 // Functions on a batch of plants: each number of a vector or a matrix is stored once a lane (core/lanes.hpp), and
 // results are the same as for each plant alone.
 struct BatchMechanics {
-    // Sets f and A to what Mechanics::add_ahead adds, whatever they held; `filled` is scratch. Writes each lane's
-    // number of inverted tets to `inverted`.
+    // Sets f and A to what Mechanics::add_ahead adds, whatever they held; `filled` is scratch, and `seen` what
+    // retract() needs of it again. Writes each lane's number of inverted tets to `inverted`.
     void (*set_ahead)(const Elements& elements, const NumbersInLines& x, const Ahead& ahead, NumbersInLines& f,
-                      BlockMatrix& A, std::vector<uint8_t>& filled, int* inverted);
+                      BlockMatrix& A, std::vector<uint8_t>& filled, NumbersInLines& seen, int* inverted);
     // Computes rotary inertia as in Mechanics, row by row; null: no node rotates.
     void (*rotary_inertia)(const Elements& elements, const NumbersInLines& x, NumbersInLines& out);
     // Return a bit for each lane in which is_calm() fails over that part of the displacement, or yields() holds, or
     // that is so close to such a limit that its plant has to be checked alone.
     unsigned (*not_calm)(const Elements& elements, const NumbersInLines& from, const NumbersInLines& to, double part);
-    unsigned (*may_yield)(const Elements& elements, const NumbersInLines& x);
-    void (*retract)(const Elements& elements, const NumbersInLines& from, const NumbersInLines& end,
-                    const std::vector<uint8_t>& held, NumbersInLines& out) = nullptr;
+    unsigned (*may_yield)(const Elements& elements, const NumbersInLines& x);  // null: retract() finds it on its way
+    // As in Mechanics, after set_ahead() at `from`. Returns what may_yield() would return at the end.
+    unsigned (*retract)(const Elements& elements, const NumbersInLines& from, const NumbersInLines& end,
+                        const std::vector<uint8_t>& held, const NumbersInLines& seen, NumbersInLines& out) = nullptr;
 };
 
 // x is in the frame of the rest positions, so a plant's rotation in the world does not strain it.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mechanics/rod_groups.hpp"
+#include "mechanics/rod_look.hpp"
 
 namespace frond {
 
@@ -17,6 +18,7 @@ struct Assemble {
     BlockMatrix* D = nullptr;
     const Ahead* ahead = nullptr;
     std::vector<uint8_t>* filled = nullptr;  // in batches: blocks of K that are filled already
+    double* looks = nullptr;                 // in batches: a RodLook of each segment, for Retract
 
     template <class S>
     FROND_INLINE Lanes3<S> move(const Pieces<S>& pieces, int RodSegment::*end, int first, const S& c) const {
@@ -56,6 +58,7 @@ struct Assemble {
             if (K) {
                 const S c = damping ? pieces.own(*damping) : S{};
                 const RodChange<S> change = change_of(at.piece, rate_a, rate_b, at.bent);
+                if (looks) RodLook<S>::of(at.piece, at.bent, change).store(looks, s);
                 Lanes33<S> blocks[10];
                 positive_stiffness(at.piece, change, blocks);
                 const double step = ahead ? ahead->step : 1;

@@ -7,9 +7,6 @@ namespace frond {
 
 namespace {
 
-// Share of a limit beyond which a lane is left to the plant's own check, which is exact to the last bit.
-constexpr double NEARLY = 1 - 1e-9;
-
 struct FindInertiaOfBatch {
     const RodElements& elements;
     const NumbersInLines& x;
@@ -48,35 +45,15 @@ struct FindWild {
     }
 };
 
-struct FindYielding {
-    const RodElements& elements;
-    const NumbersInLines& x;
-    unsigned& yielding;
-    template <class S>
-    FROND_INLINE void run() const {
-        S within = constant<S>(1);
-        LastEnd<S> last;
-        for (size_t s = 0; s < elements.segments.size(); ++s) {
-            if (!(elements.yields[s].strain > 0)) continue;
-            const PieceOfSeveral<S> pieces(elements.segments, s);
-            const Placed<S> at = last.place(pieces, x.data());
-            last.go_on(pieces, at);
-            const S wide = pieces.rod.reach_wide * at.bent.curvature.y,
-                    thin = pieces.rod.reach_thin * at.bent.curvature.z;
-            const S most = sqrt(S(wide * wide + thin * thin));
-            within = select(most < elements.yields[s].strain * NEARLY, within, S{});
-        }
-        yielding = bits_of(within == 0.0);
-    }
-};
-
 void set_ahead(const Elements& body, const NumbersInLines& x, const Ahead& ahead, NumbersInLines& f, BlockMatrix& A,
-               std::vector<uint8_t>& filled, int* inverted) {
+               std::vector<uint8_t>& filled, NumbersInLines& seen, int* inverted) {
     const int lanes = lanes_of(body, x);
+    make_room(seen, RodLook<double>::NUMBERS * size_t(lanes) * as_rods(body).segments.size());
     filled.assign(size_t(body.pattern.block_count()), 0);
     f.assign(x.size(), 0);
     Assemble<PieceOfSeveral> job = to_add_ahead<PieceOfSeveral>(as_rods(body), x.data(), ahead, f.data(), A);
     job.filled = &filled;
+    job.looks = seen.data();
     run_in_lanes(lanes, job);
     leave_no_gaps(lanes, filled, A);
     std::fill_n(inverted, lanes, 0);
@@ -93,16 +70,10 @@ unsigned not_calm(const Elements& body, const NumbersInLines& from, const Number
     return wild;
 }
 
-unsigned may_yield(const Elements& body, const NumbersInLines& x) {
-    unsigned yielding = 0;
-    run_in_lanes(lanes_of(body, x), FindYielding{as_rods(body), x, yielding});
-    return yielding;
-}
-
 }  // namespace
 
 const BatchMechanics& rod_batch() {
-    static const BatchMechanics ROW = {set_ahead, rotary_inertia, not_calm, may_yield, retract_rods_of_batch};
+    static const BatchMechanics ROW = {set_ahead, rotary_inertia, not_calm, nullptr, retract_rods_of_batch};
     return ROW;
 }
 

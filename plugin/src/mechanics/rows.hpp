@@ -41,8 +41,8 @@ void rod_section_strains(const Elements&, const VecX& x, std::vector<double>& ou
 std::unique_ptr<Elements> without_rods(const Elements&, const std::vector<uint8_t>& gone);
 bool rods_are_calm(const Elements&, const VecX& from, const VecX& to);
 void retract_rods(const Elements&, const VecX& from, const VecX& end, const std::vector<uint8_t>& held, VecX& out);
-void retract_rods_of_batch(const Elements&, const NumbersInLines& from, const NumbersInLines& end,
-                           const std::vector<uint8_t>& held, NumbersInLines& out);
+unsigned retract_rods_of_batch(const Elements&, const NumbersInLines& from, const NumbersInLines& end,
+                               const std::vector<uint8_t>& held, const NumbersInLines& seen, NumbersInLines& out);
 // Trust bounds of rods in is_calm(): rotation of a node [rad], and change of a segment's chord over its length [-].
 constexpr double LARGEST_TURN = 0.35, LARGEST_STRETCH = 0.5;
 const BatchMechanics& rod_batch();

@@ -80,7 +80,7 @@ struct TetBatch {
     }
     // BatchMechanics::set_ahead.
     static void set_ahead(const Elements& body, const NumbersInLines& x, const Ahead& ahead, NumbersInLines& f,
-                          BlockMatrix& A, std::vector<uint8_t>& filled, int* inverted) {
+                          BlockMatrix& A, std::vector<uint8_t>& filled, NumbersInLines&, int* inverted) {
         const int lanes = lanes_of(body, x);
         filled.assign(size_t(body.pattern.block_count()), 0);
         f.assign(x.size(), 0);

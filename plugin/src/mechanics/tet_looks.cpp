@@ -11,8 +11,6 @@ namespace frond {
 
 namespace {
 
-constexpr double NEARLY_MOST = 1 - 1e-9;  // rounding, which differs between lanes and one by one [-]
-
 struct OfOne {
     template <class>
     using Tets = FourTets;
@@ -32,7 +30,7 @@ struct LookForWild {
     FROND_INLINE void run() const {
         using Tets = typename Of::template Tets<Width>;
         using S = typename Tets::S;
-        constexpr double MOST = LARGEST_CHANGE * LARGEST_CHANGE * NEARLY_MOST;  // [-]
+        constexpr double MOST = LARGEST_CHANGE * LARGEST_CHANGE * NEARLY;  // [-]
         S calm = constant<S>(1);
         for (size_t first = 0; first < elements.tets.size(); first += Tets::TETS) {
             const Tets tets(elements, first);

@@ -5,6 +5,8 @@
 #include <emmintrin.h>
 #elif defined(__aarch64__)
 #include <arm_neon.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #endif
 
 #include <cmath>
@@ -62,6 +64,8 @@ FROND_INLINE TwoLanes sqrt(const TwoLanes& a) {
     return _mm_sqrt_pd(a);
 #elif defined(__aarch64__)
     return vsqrtq_f64(a);
+#elif defined(__wasm_simd128__)
+    return TwoLanes(wasm_f64x2_sqrt(v128_t(a)));
 #else
     return TwoLanes{std::sqrt(a[0]), std::sqrt(a[1])};
 #endif
