@@ -112,8 +112,7 @@ std::vector<double> spread_over_capsules(const Model& model) {
     for (size_t e = 0; e < hangs.size(); e++) {
         const Tet& tet = model.cage.tets[e];
         const double mass = model.tet_density[e] * tet_volume(model.cage.nodes, tet);
-        const OnCapsule on =
-            go_along(chain, children, model.cage.tet_organ[e], hangs[e], tet_centre(model.cage, tet));
+        const OnCapsule on = go_along(chain, children, model.cage.tet_organ[e], hangs[e], tet_centre(model.cage, tet));
         masses[size_t(on.from)] += (1 - on.along) * mass;
         masses[size_t(on.to)] += on.along * mass;
     }
@@ -167,7 +166,7 @@ void give_mass(Model& model) {
         organs[size_t(cage.tet_organ[e])] += model.tet_density[e] * tet_volume(cage.nodes, cage.tets[e]);
     }
     if (!model.exact_sections) {
-        model.chain_mass = spread_over_capsules(model);
+        model.chain_mass = model.has_own_tets ? spread_over_capsules(model) : weigh(model, hang_tets(model)).mass;
         return;
     }
     const std::vector<double> exact = weigh_sections(model);

@@ -129,8 +129,8 @@ void apply_pins(Plant& plant) {
     plant.input.pins_changed = false;
 }
 
-// Far from its target a spring pulls where the derivative of its place no longer points, and by its stiffness every step
-// would end as far off on another side, for ever.
+// Far from its target a spring pulls where the derivative of its place no longer points, and by its stiffness every
+// step would end as far off on another side, for ever.
 void lead_pin_springs(Plant& plant) {
     constexpr double NEAR = 0.5;  // way along which the derivative holds, over the mean length of a capsule [-]
     const Chain& chain = plant.model->chain;
