@@ -19,6 +19,45 @@ struct WeighedPlant : testing::TestWithParam<const char*> {
         return model->tet_density[e] * tet_volume(model->cage.nodes, model->cage.tets[e]);
     }
 };
+// Expects the chain to have the mass of the tets, and its centre where theirs is.
+void expect_same_centre(const Model& model) {
+    constexpr double OFF = 0.02;  // over the plant's height: what a cage is to one side of its organs [-]
+    Vec3 tets = Vec3::Zero(), chain = tets;
+    double mass = 0;
+    for (size_t e = 0; e < model.cage.tets.size(); e++) {
+        const Tet& tet = model.cage.tets[e];
+        for (int corner : tet)
+            tets += model.tet_density[e] * tet_volume(model.cage.nodes, tet) / 4 * model.cage.nodes[size_t(corner)];
+    }
+    for (size_t i = 0; i < model.chain.nodes.size(); i++) {
+        EXPECT_GE(model.chain_mass[i], 0);
+        mass += model.chain_mass[i];
+        chain += model.chain_mass[i] * model.chain.nodes[i].position;
+    }
+    EXPECT_NEAR(mass, model.mass(), 1e-9 * model.mass());
+    const double height = model.surface.upper().y() - model.surface.lower().y();
+    EXPECT_LT((chain - tets).norm() / model.mass(), OFF * height);
+}
+
+// A square tower of one cube, cut into six tets, a layer.
+TetMesh tower(int layers) {
+    constexpr double WIDE = 0.1, HIGH = 1;  // [m]
+    TetMesh mesh;
+    mesh.regions = {"stem"};
+    for (int layer = 0; layer <= layers; layer++)
+        for (int corner = 0; corner < 4; corner++)
+            mesh.nodes.push_back({WIDE * (corner % 2), HIGH * layer / layers, WIDE * (corner / 2)});
+    for (int layer = 0; layer < layers; layer++)
+        for (const Tet& tet :
+             {Tet{0, 1, 3, 7}, Tet{0, 3, 2, 7}, Tet{0, 2, 6, 7}, Tet{0, 6, 4, 7}, Tet{0, 4, 5, 7}, Tet{0, 5, 1, 7}}) {
+            Tet raised = tet;
+            for (int& node : raised) node += 4 * layer;
+            mesh.tets.push_back(raised);
+            mesh.tet_region.push_back(0);
+        }
+    return mesh;
+}
+
 INSTANTIATE_TEST_SUITE_P(Weigh, WeighedPlant, testing::Values("corn", "cucumber"),
                          [](const auto& info) { return std::string(info.param); });
 
@@ -54,6 +93,17 @@ TEST_P(WeighedPlant, GivesOrgansOfTheChainTheMassOfTheirTets) {
         if (chain[o] == 0) left_out += tets[o];
     }
     EXPECT_LT(left_out, 0.05 * whole);
+}
+
+TEST_P(WeighedPlant, CarriesTheMassOfItsTetsWhereTheyAre) {
+    expect_same_centre(*model);
+}
+
+TEST(WeighedTets, AreCarriedWhereTheyAreHoweverCoarse) {
+    for (const int layers : {1, 2, 3, 6, 12}) {
+        SCOPED_TRACE(layers);
+        expect_same_centre(*build_from_tets(tower(layers), model_def()));
+    }
 }
 
 TEST_P(WeighedPlant, WeighsTheSameInAllMechanics) {

@@ -65,6 +65,60 @@ Weights weigh(const Model& model, const std::vector<int>& hangs) {
     return weights;
 }
 
+// A place along a capsule of the chain, or at a root that has none of that organ.
+struct OnCapsule {
+    int from, to;
+    double along = 0, distance = INFINITY;  // share of the length [-], of the place from there [m]
+};
+
+static OnCapsule nearest_on(const Chain& chain, int to, const Vec3& place) {
+    const int from = chain.nodes[size_t(to)].parent;
+    const Vec3& begin = chain.nodes[size_t(from)].position;
+    const Vec3 axis = chain.nodes[size_t(to)].position - begin;
+    const double square = axis.squaredNorm();
+    const double along = square > 0 ? std::clamp((place - begin).dot(axis) / square, 0.0, 1.0) : 1;
+    return {from, to, along, (begin + along * axis - place).norm()};
+}
+
+// Goes along the capsules of an organ from a node to where they are nearest to a place.
+static OnCapsule go_along(const Chain& chain, const std::vector<std::vector<int>>& children, int organ, int node,
+                          const Vec3& place) {
+    OnCapsule best = {node, node};
+    for (bool is_nearer = true; is_nearer;) {
+        is_nearer = false;
+        const auto take_if_nearer = [&](int to) {
+            const ChainNode& end = chain.nodes[size_t(to)];
+            if (end.parent < 0 || (end.organ != organ && to != node)) return;
+            const OnCapsule on = nearest_on(chain, to, place);
+            if (!(on.distance < best.distance)) return;
+            best = on;
+            is_nearer = true;
+        };
+        for (const int at : {best.from, best.to}) {
+            take_if_nearer(at);
+            for (const int child : children[size_t(at)]) take_if_nearer(child);
+        }
+    }
+    return best;
+}
+
+std::vector<double> spread_over_capsules(const Model& model) {
+    const Chain& chain = model.chain;
+    std::vector<std::vector<int>> children(chain.nodes.size());
+    for (size_t i = 0; i < chain.nodes.size(); i++)
+        if (chain.nodes[i].parent >= 0) children[size_t(chain.nodes[i].parent)].push_back(int(i));
+    const std::vector<int> hangs = hang_tets(model);
+    std::vector<double> masses(chain.nodes.size(), 0.0);
+    for (size_t e = 0; e < hangs.size(); e++) {
+        const Tet& tet = model.cage.tets[e];
+        const double mass = model.tet_density[e] * tet_volume(model.cage.nodes, tet);
+        const OnCapsule on = go_along(chain, children, model.cage.tet_organ[e], hangs[e], tet_centre(model.cage, tet));
+        masses[size_t(on.from)] += (1 - on.along) * mass;
+        masses[size_t(on.to)] += on.along * mass;
+    }
+    return masses;
+}
+
 // Returns the mass of each organ by its sections [kg]; sets that of each chain node, by the capsules' centres of mass.
 static std::vector<double> weigh_sections(Model& model) {
     std::vector<double> organs(model.organs.size(), 0.0);
@@ -112,7 +166,7 @@ void give_mass(Model& model) {
         organs[size_t(cage.tet_organ[e])] += model.tet_density[e] * tet_volume(cage.nodes, cage.tets[e]);
     }
     if (!model.exact_sections) {
-        model.chain_mass = weigh(model, hang_tets(model)).mass;
+        model.chain_mass = model.has_own_tets ? spread_over_capsules(model) : weigh(model, hang_tets(model)).mass;
         return;
     }
     const std::vector<double> exact = weigh_sections(model);

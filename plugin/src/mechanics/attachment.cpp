@@ -43,6 +43,34 @@ private:
     std::array<Mat3, 2> turns;
 };
 
+// Returns the second derivative of g . (R a) by the rotation vector v of R. By the square q of its angle
+//   R a = c a + s (v x a) + h (v . a) v,  c = cos,  s = sin / angle,  h = (1 - cos) / q,
+// whose derivatives by q follow from 2 c' = -s, 2 q s' = c - s and q h' = s / 2 - h.
+Mat3 turn_second_derivative(const Vec3& v, const Vec3& a, const Vec3& g) {
+    constexpr double SMALL = 1e-4;  // [rad^2]
+    const double q = v.squaredNorm(), half = std::sqrt(q) / 2;
+    double s = 1, ds = -1.0 / 6, dds = 1.0 / 60, h = 0.5, dh = -1.0 / 24, ddh = 1.0 / 360;
+    if (q > SMALL) {
+        const double c = cos(2 * half);
+        s = sin(2 * half) / (2 * half);
+        h = 2 * sin(half) * sin(half) / q;
+        ds = (c - s) / (2 * q);
+        dds = (-s / 2 - 3 * ds) / (2 * q);
+        dh = (s / 2 - h) / q;
+        ddh = (ds / 2 - 2 * dh) / q;
+    }
+    const auto both = [](const Vec3& left, const Vec3& right) {
+        const Mat3 one = left * right.transpose();
+        return Mat3(one + one.transpose());
+    };
+    const Vec3 moment = a.cross(g);
+    const double along = g.dot(v) * a.dot(v);
+    const double first = -0.5 * s * g.dot(a) + ds * v.dot(moment) + dh * along;
+    const double second = -0.5 * ds * g.dot(a) + dds * v.dot(moment) + ddh * along;
+    return 2 * first * Mat3::Identity() + 4 * second * v * v.transpose() + 2 * ds * both(v, moment) +
+           2 * dh * both(v, a.dot(v) * g + g.dot(v) * a) + h * both(g, a);
+}
+
 }  // namespace
 
 AttachmentDerivative derivative_at(const Attachment& attachment, const VecX& x) {
@@ -132,6 +160,15 @@ void add_attachment_block(const Attachment& attachment, const VecX& x, const Mat
             FROND_ASSERT(slot >= 0);
             A.block(slot) += d.by[size_t(r)].transpose() * block * d.by[size_t(c)];
         }
+}
+
+void add_attachment_turning(const Attachment& attachment, const VecX& x, const Vec3& force, double scale,
+                            BlockMatrix& A) {
+    for (int k = 0; attachment.turns && k < attachment.count; ++k) {
+        const int node = attachment.node[size_t(k)] + 1;
+        A.block(A.pattern->slot(node, node)) -=
+            scale * turn_second_derivative(point(x, node), attachment.arm[size_t(k)], force);
+    }
 }
 
 void add_attachment_stiffness(const Attachment& attachment, const VecX& x, double stiffness, BlockMatrix& A) {

@@ -35,6 +35,10 @@ Vec3 attachment_velocity(const Attachment& attachment, const VecX& x, const VecX
 void add_attachment_force(const Attachment& attachment, const VecX& x, const Vec3& force, VecX& f);
 // Adds J^T B J, J the derivative of the point by the nodes at x, B symmetric [N/m] or [N s/m].
 void add_attachment_block(const Attachment& attachment, const VecX& x, const Mat3& block, BlockMatrix& A);
+// Adds the stiffness that a force at the point gives to arms which turn, times a scale: minus the derivative of
+// add_attachment_force().
+void add_attachment_turning(const Attachment& attachment, const VecX& x, const Vec3& force, double scale,
+                            BlockMatrix& A);
 // Adds stiffness [N/m] times J^T J, which is positive semi-definite.
 void add_attachment_stiffness(const Attachment& attachment, const VecX& x, double stiffness, BlockMatrix& A);
 

@@ -38,7 +38,7 @@ void move_pin(Plant& plant, int node, const Vec3& target) {
 // Returns a spring's stiffness, STRONG times the plant's weight over a millimetre: with it a plant counts as rigidly
 // held.
 static double pin_stiffness(const Plant& plant) {
-    constexpr double STRONG = 1e7;  // weights of the plant for a millimetre [-]
+    constexpr double STRONG = 1e5;  // weights of the plant for a millimetre [-]
     return STRONG * std::max(node_mass_of(*plant.system).sum(), 1e-6) * GRAVITY / 1e-3;
 }
 
@@ -127,6 +127,22 @@ void apply_pins(Plant& plant) {
         plant.state.motion.pin_target = plant.input.pin_target;
     }
     plant.input.pins_changed = false;
+}
+
+// Far from its target a spring pulls where the derivative of its place no longer points, and by its stiffness every
+// step would end as far off on another side, for ever.
+void lead_pin_springs(Plant& plant) {
+    constexpr double NEAR = 0.5;  // way along which the derivative holds, over the mean length of a capsule [-]
+    const Chain& chain = plant.model->chain;
+    const double capsules = double(chain.nodes.size()) - chain.root_count();
+    if (!(capsules > 0)) return;
+    const double most = NEAR * chain.length() / capsules;
+    for (Spring& spring : plant.input.pin_springs) {
+        const Vec3 place = attachment_place(spring.attachment, plant.state.motion.x), way = spring.target - place;
+        if (!(way.norm() > most)) continue;
+        spring.target = place + most / way.norm() * way;
+        plant.input.pins_changed = true;
+    }
 }
 
 }  // namespace frond

@@ -35,6 +35,7 @@ struct Newton {
     bool apart = false;         // elements differ in damping ratio: the damping is not a multiple of the stiffness
     bool keep_damping = false;  // the damping matrix is needed besides the stiffness
     bool is_long = false;       // the step is longer than the period of hanging parts, and has one solve
+    bool is_pulled = false;     // springs pull at rods, and the step has one solve
     bool exact = false;         // the first solve uses the exact stiffness, the damping still the positive one
     bool skipped = false;       // the first solve was left to the line search
     bool at_once = false;       // the mechanics assemble right-hand side and matrix of the only solve in one pass
@@ -182,7 +183,7 @@ void add_mass(const Masses& masses, double scale, BlockMatrix& A) {
 
 // Forms A = (1 + step a) M + step^2 K + step b K_damping + springs + drags. `first`: K is the one at the start of the
 // step, of which the damping is a multiple unless elements differ in damping ratio.
-void form_matrix(Newton& n, bool first) {
+void form_matrix(Newton& n, bool first, Tangent tangent) {
     BlockMatrix& A = n.w.A;
     const double step = n.stage.step, mass = 1 + step * n.input.settings.mass_damping;
     const bool alike = first && !n.apart && !n.exact;
@@ -193,7 +194,7 @@ void form_matrix(Newton& n, bool first) {
         for (size_t k = 0; k < A.values.size(); ++k) A.values[k] += step * n.rayleigh * n.w.damping.values[k];
     add_mass(n.system.masses, mass, A);
     add_inertia(n.w, mass);
-    add_spring_stiffness(n.input.loads.springs, n.w.x, step * step, A);
+    add_spring_stiffness(n.input.loads.springs, n.w.x, tangent, step * step, A);
     add_drag_damping(n.input.loads.drags, n.w.x, step, A);
 }
 
@@ -233,7 +234,7 @@ bool find_direction(Newton& n, Tangent& tangent, const VecX& rhs) {
         n.w.A.set_zero();
         move(n, n.w.v);
         n.body.add_stiffness(*n.w.elements, n.w.x, tangent, 1, n.w.A);
-        form_matrix(n, false);
+        form_matrix(n, false, tangent);
         hold(n);
         n.report.ms_assembly += timer.lap();
         const bool ok = solve_linear(n);
@@ -293,7 +294,7 @@ double skip_first(Newton& n) {
         n.most_work = most > 0 ? n.report.work + most : 0;
     }
     n.skipped = true;
-    if (n.input.settings.from_rest) stand_still_if_better(n);
+    if (n.input.settings.from_rest || n.is_pulled) stand_still_if_better(n);
     const double norm = residual_at(n, n.w.v, n.w.rhs_stage);
     n.report.ms_assembly += timer.lap();
     return std::isfinite(norm) ? norm : -1;
@@ -313,7 +314,7 @@ double solve_first(Newton& n) {
         n.report.ms_assembly += timer.lap();
         return skip_first(n);
     }
-    form_matrix(n, true);
+    form_matrix(n, true, n.exact ? Tangent::exact : Tangent::positive);
     hold(n);
     const double norm = free_norm(n, n.w.rhs);
     n.report.ms_assembly += timer.lap();
@@ -326,8 +327,8 @@ double solve_first(Newton& n) {
     if (!ok) return -1;
     constexpr double LEAST = 1.0 / 64;  // smallest share to which a solve is shortened for the trust bound [-]
     double part = 1;
+    if ((n.is_pulled || (n.is_long && !n.exact)) && !ends_calmly(n, 1)) return skip_first(n);
     while (n.exact && part > LEAST && !ends_calmly(n, part)) part *= 0.5;
-    if (n.is_long && !n.exact && !ends_calmly(n, 1)) return skip_first(n);
     n.w.v += part * n.w.dv;
     retract(n, linearized_from(n), n.w.v);
     return norm;
@@ -348,7 +349,7 @@ bool iterate(Newton& n, double first) {
     VecX& rhs = w.rhs_stage;
     double norm = residual_at(n, w.v, rhs);
     n.report.ms_assembly += timer.lap();
-    const double most = s.careful ? potential_at(n, w.v) : INFINITY;
+    const double most = s.careful || n.is_pulled ? potential_at(n, w.v) : INFINITY;
     Tangent tangent = Tangent::exact;
     bool has_moved = !n.skipped;
     for (int iteration = 1;; ++iteration) {
@@ -388,10 +389,12 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     n.rayleigh = workspace.damping_scale;
     n.iterations = stage.iterations > 0 ? stage.iterations : settings.newton_iterations;
     n.apart = !workspace.element_damping.empty();
-    n.is_long = n.exact = is_long_stage(system, stage.step) && n.iterations == 1;
+    n.is_pulled = system.row->moves_chain && !input.loads.springs.empty() && n.iterations == 1;
+    n.is_long = is_long_stage(system, stage.step) && n.iterations == 1;
+    n.exact = n.is_long || n.is_pulled;
     n.keep_damping =
-        n.apart || (n.rayleigh > 0 && (n.iterations > 1 || n.is_long || n.body.needs_search || settings.careful));
-    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.is_long && !settings.careful;
+        n.apart || (n.rayleigh > 0 && (n.iterations > 1 || n.exact || n.body.needs_search || settings.careful));
+    n.at_once = n.body.add_ahead && n.iterations == 1 && !n.exact && !settings.careful;
     if (settings.careful && settings.most_work > 0) n.most_work = report.work + settings.most_work;
     workspace.v = workspace.v_start;
     workspace.reach = stage.step;

@@ -26,8 +26,14 @@ void add_spring_force(const std::vector<Spring>& springs, const VecX& x, VecX& f
                              spring.stiffness * (spring.target - attachment_place(spring.attachment, x)), f);
 }
 
-void add_spring_stiffness(const std::vector<Spring>& springs, const VecX& x, double scale, BlockMatrix& A) {
-    for (const Spring& spring : springs) add_attachment_stiffness(spring.attachment, x, scale * spring.stiffness, A);
+void add_spring_stiffness(const std::vector<Spring>& springs, const VecX& x, Tangent tangent, double scale,
+                          BlockMatrix& A) {
+    for (const Spring& spring : springs) {
+        add_attachment_stiffness(spring.attachment, x, scale * spring.stiffness, A);
+        if (tangent == Tangent::positive) continue;
+        const Vec3 force = spring.stiffness * (spring.target - attachment_place(spring.attachment, x));
+        add_attachment_turning(spring.attachment, x, force, scale, A);
+    }
 }
 
 }  // namespace frond
