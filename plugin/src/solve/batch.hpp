@@ -45,7 +45,7 @@ void make_room(Batch& batch, std::shared_ptr<const System> system, int lanes);
 // h_before is 0. Pinned nodes stay where they are. Returns a bit for each lane that has to be stepped alone.
 unsigned step_batch(Batch& batch, const SolveSettings& settings, const std::vector<uint8_t>& pinned, double h,
                     double h_before);
-// Returns whether a batch of such a system can be taken apart: plans of trees cannot.
+// Returns whether a batch of a system that may be batched can be taken apart: plans of trees cannot.
 bool can_be_taken_apart(const System& system);
 // Fills each lane's workspace, if any, with what respond() and make_compliance() need.
 void take_apart(const Batch& batch, Workspace* const* workspaces);

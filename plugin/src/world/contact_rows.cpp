@@ -57,10 +57,12 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
                                                : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
     if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
         row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);
-    row.touch.bias_velocity += contact.lacking / h;
+    row.touch.bias_velocity += contact.shortfall.lacking / h;
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;
     row.impulse = &contact.impulse;
+    row.pushed_on = &contact.pushed_on;
+    contact.pushed_on = row.contact_body.velocity;
     rows.push_back(std::move(row));
 }
 
@@ -97,7 +99,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Co
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
     const double room = std::max(0.0, SLOP - contact.depth) / h;
-    row.touch.bias_velocity = -room + contact.lacking / h;
+    row.touch.bias_velocity = -room + contact.shortfall.lacking / h;
     const double way = h * (row.touch.bias_velocity - row.touch.velocity.dot(contact.normal));
     for (size_t k = 0; k < 2; k++)
         if (drop_levers(way, contact.attachments[k]) &&
