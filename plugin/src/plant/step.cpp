@@ -223,10 +223,11 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
     }
 }
 
-// Solves again in another workspace: the responses that follow in this step are by the factor of the step without
-// contacts, from which all contacts' velocities are. By the factor of the state to which a push drove the plant, which
-// may be stiffer by far, the next push would be as much larger.
+// Solves a chain again in another workspace: the responses that follow in this step are by the factor of the step
+// without contacts, from which all contacts' velocities are. A chain that a push has thrown far may be stiffer there by
+// far, and the next push would be as much larger. A cage stiffens as it bends, which foretells what the next push does.
 static void solve_again_aside(Plant& plant, double h, const Push& push) {
+    if (!plant.follow) return solve_again(plant, h, &push);
     WorkspacePtr without = std::move(plant.step.workspace);
     take_workspace(plant);
     solve_again(plant, h, &push);

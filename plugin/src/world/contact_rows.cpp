@@ -99,7 +99,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Co
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
     const double room = std::max(0.0, SLOP - contact.depth) / h;
-    row.touch.bias_velocity = -room + contact.shortfall.lacking / h;
+    row.touch.bias_velocity = -room + contact.lacking / h;
     const double way = h * (row.touch.bias_velocity - row.touch.velocity.dot(contact.normal));
     for (size_t k = 0; k < 2; k++)
         if (drop_levers(way, contact.attachments[k]) &&

@@ -100,7 +100,7 @@ void add_missed(const std::vector<StripPath>& paths, const Miss& miss, std::vect
         const StripPath &a = paths[size_t(miss.pair.a)], &b = paths[size_t(miss.pair.b)];
         const double apart = known.normal.dot(point_on(a.core_after(miss.pair.strip_a).at, known.sides[0].weights) -
                                               point_on(b.core_after(miss.pair.strip_b).at, known.sides[1].weights));
-        known.shortfall.ask_for(std::max(0.0, miss.thick - apart));
+        known.lacking += std::max(0.0, miss.thick - apart);
         return;
     }
     contacts.push_back(contact);

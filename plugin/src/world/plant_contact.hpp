@@ -17,7 +17,7 @@ struct PlantContact {
     Vec3 point;                   // point on the first, world frame [m]
     Vec3 normal;                  // exit direction of the first from the second
     double depth;                 // depth of the overlap [m]; below zero they are apart
-    Shortfall shortfall;          // of the responses found so far in this step
+    double lacking = 0;           // by how much the response found so far in this step left it too near [m]
     double friction;              // combined coefficient of both [-]
     bool by_strips = false;       // found by the distance of their cores, not by overlapping tets
     int missed = 0;               // substeps since the search last found it
