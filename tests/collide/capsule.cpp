@@ -1,11 +1,10 @@
-// Distances of capsules and triangles, with FCL as referee, and times of contact, with small time steps as referee.
+// Distances of capsules and triangles, with FCL as referee.
 // Wrong results of FCL 0.7 that these tests avoid:
 // - scenes of millimetres: absolute tolerances make it miss most collisions of capsules with triangles; scenes here
 //   have size 1, and results within 1e-5 of touching are not judged;
 // - penetration depth, which is often off by more than 5 %: only distance and overlap are compared;
 // - fcl::distance and fcl::collide do not support a capsule against a triangle, report it on stderr and return the
-//   largest double: its own GJK (GJKSolver_indep) is called directly;
-// - fcl::conservativeAdvancement misses contacts: small time steps judge moving shapes.
+//   largest double: its own GJK (GJKSolver_indep) is called directly.
 #include "collide/capsule.hpp"
 
 #include <gtest/gtest.h>
@@ -157,97 +156,6 @@ TEST(Capsule, DegenerateTrianglesAreAsFarAwayAsTheRefereeSays) {
         expect_same_as_referee(a, Corners{flat[0], flat[0], flat[0]});
         expect_same_as_referee(Capsule{a.begin, a.begin, a.radius}, flat);
     }
-}
-
-// Moves a shape, and interpolates between two shapes of one kind.
-Capsule moved(const Capsule& capsule, const Vec3& begin, const Vec3& end) {
-    return {capsule.begin + begin, capsule.end + end, capsule.radius};
-}
-Capsule between(const Capsule& before, const Capsule& after, double time) {
-    return {before.begin + time * (after.begin - before.begin), before.end + time * (after.end - before.end),
-            before.radius};
-}
-Corners between(const Corners& before, const Corners& after, double time) {
-    Corners now;
-    for (size_t k = 0; k < 3; ++k) now[k] = before[k] + time * (after[k] - before[k]);
-    return now;
-}
-
-// Checks the impact with small time steps: if the steps see a contact, it is found, no later than by them; at the time
-// found the shapes touch, and before it the steps see them apart.
-template <class Other>
-void expect_impact(const Capsule& a0, const Capsule& a1, const Other& b0, const Other& b1, int& hits) {
-    constexpr int STEPS = 400;
-    constexpr double TOUCHING = 1e-5;
-    const std::optional<Impact> impact = first_impact(a0, a1, b0, b1);
-    const auto gap_at = [&](double time) { return gap_between(between(a0, a1, time), between(b0, b1, time)).distance; };
-    hits += impact.has_value();
-    if (impact && impact->time > 0) {
-        ASSERT_LE(impact->time, 1);
-        EXPECT_NEAR(gap_at(impact->time), 0, TOUCHING);
-        EXPECT_NEAR(impact->gap.distance, gap_at(impact->time), 1e-12);
-    }
-    for (int step = 0; step <= STEPS; ++step) {
-        const double time = double(step) / STEPS;
-        if (impact && time >= impact->time) break;
-        ASSERT_GT(gap_at(time), 0) << "at " << time;
-    }
-}
-
-TEST(Capsule, MovingCapsulesMeetWhenSmallStepsSaySo) {
-    Dice dice(5);
-    int hits = 0;
-    for (int n = 0; n < 2000; ++n) {
-        const Capsule a = random_capsule(dice), b = random_capsule(dice);
-        const Vec3 way = dice.uniform(0.3, 3) * (b.begin - a.begin) + random_point(dice, 0.5);
-        const Vec3 other = random_point(dice, 0.5);
-        // Straight on, and with rotation and stretching.
-        expect_impact(a, moved(a, way, way), b, moved(b, other, other), hits);
-        expect_impact(a, moved(a, way, way + random_point(dice, 1)), b, random_capsule(dice), hits);
-    }
-    EXPECT_GT(hits, 1000);
-    EXPECT_LT(hits, 3500);
-}
-
-TEST(Capsule, MovingCapsulesMeetTrianglesWhenSmallStepsSaySo) {
-    Dice dice(6);
-    int hits = 0;
-    for (int n = 0; n < 1500; ++n) {
-        const Capsule a = random_capsule(dice);
-        const Corners b = random_triangle(dice);
-        const Vec3 way = dice.uniform(0.3, 3) * (b[0] - a.begin) + random_point(dice, 0.5);
-        expect_impact(a, moved(a, way, way), b, b, hits);
-        expect_impact(a, moved(a, way, way + random_point(dice, 1)), b, random_triangle(dice), hits);
-    }
-    EXPECT_GT(hits, 500);
-    EXPECT_LT(hits, 2500);
-}
-
-TEST(Capsule, TimesOfContactAreThoseOfTheFormula) {
-    // A ball of 5 cm at 20 m/s in a step of 1/60 s goes through a stem of 1 cm, which small steps hardly see.
-    const Capsule stem = {{0, 0, 0}, {0, 1, 0}, 0.005}, ball = {{-0.2, 0.5, 0}, {-0.2, 0.5, 0}, 0.025};
-    const Vec3 way(20.0 / 60, 0, 0);
-    const auto hit = first_impact(ball, moved(ball, way, way), stem, stem);
-    ASSERT_TRUE(hit);
-    EXPECT_NEAR(hit->time, (0.2 - 0.03) / way.x(), 1e-5);
-    EXPECT_LT((hit->gap.normal - Vec3(-1, 0, 0)).norm(), 1e-9);
-    // Thin shapes: a needle through a needle and through a face, at any speed.
-    const Capsule needle = {{-1, -1e-3, 0}, {-1, 1e-3, 0}, 1e-6}, other = {{0, 0, -1e-3}, {0, 0, 1e-3}, 1e-6};
-    for (const double far : {2.0, 2e3, 2e6}) {
-        const Vec3 on(far, 0, 0);
-        const auto thin = first_impact(needle, moved(needle, on, on), other, other);
-        ASSERT_TRUE(thin);
-        EXPECT_NEAR(thin->time * far, 1, 1e-5);
-        const Corners face = {Vec3(0, -1, -1), Vec3(0, 1, -1), Vec3(0, 0, 1)};
-        const auto through = first_impact(needle, moved(needle, on, on), face, face);
-        ASSERT_TRUE(through);
-        EXPECT_NEAR(through->time * far, 1, 1e-5);
-    }
-    // Past each other at a hair's breadth, at rest, and overlapping from the start.
-    const Capsule past = moved(ball, Vec3(0, 0, 0.03001), Vec3(0, 0, 0.03001));
-    EXPECT_FALSE(first_impact(past, moved(past, way, way), stem, stem));
-    EXPECT_FALSE(first_impact(ball, ball, stem, stem));
-    EXPECT_EQ(first_impact(stem, moved(stem, way, way), stem, stem)->time, 0);
 }
 
 }  // namespace capsule_tests

@@ -33,7 +33,7 @@ TEST(Sweeps, PlantsPassThroughNoPlants) {
 TEST(Sweeps, BodiesPassThroughNoPlantsAtModerateSpeeds) {
     expect_none_passes({Meeting::WALL, Meeting::WIRE, Meeting::PLATE}, {0.2, 0.5}, 1.0 / 60);
     expect_none_passes({Meeting::WALL, Meeting::WIRE, Meeting::PLATE}, {2}, 1.0 / 240);
-    expect_none_passes({Meeting::BALL}, {0.5, 5}, 1.0 / 60);
+    expect_none_passes({Meeting::BALL}, {0.5, 5, 50}, 1.0 / 60);
 }
 
 // What passes by more than half of the plant's size in a step is reported.

@@ -122,7 +122,8 @@ struct Row {
     frond_model model = {};
     std::vector<frond_plant> plants;
 
-    explicit Row(bool is_batched, frond_mechanics which = FROND_MECHANICS_ROD) {
+    explicit Row(bool is_batched, frond_mechanics which = FROND_MECHANICS_ROD, double apart = 0.7,
+                 bool is_touching = false) {
         frond_model_def model_def = frond_default_model_def();
         model_def.capsule_height = 0.4;
         EXPECT_EQ(frond_model_load(FROND_SOURCE_DIR "/models/corn/corn.obj", &model_def, &model), FROND_OK);
@@ -134,8 +135,8 @@ struct Row {
         for (int i = 0; i < COUNT; i++) {
             frond_plant_def plant_def = frond_default_plant_def();
             plant_def.mechanics = which;
-            plant_def.effects &= ~uint32_t(FROND_EFFECT_PLANT_CONTACT);
-            plant_def.position = {0.7 * i, 0, 0};
+            if (!is_touching) plant_def.effects &= ~uint32_t(FROND_EFFECT_PLANT_CONTACT);
+            plant_def.position = {apart * i, 0, 0};
             plant_def.rotation = {0, std::sin(0.4 * i), 0, std::cos(0.4 * i)};
             if (!is_batched) plant_def.tuning.linear_tolerance *= 1 + 1e-3 * i;
             plants.emplace_back();
@@ -213,6 +214,22 @@ TEST_P(BatchBy, PlantsThatGoBackToASnapshotGoTheSameWayAgain) {
     ASSERT_EQ(frond_world_restore(batched.world, bytes.data(), bytes.size()), FROND_OK) << frond_last_error();
     step(batched, 20);
     EXPECT_EQ(batched.hash(), alone.hash());
+}
+
+// Plants that touch wait for each other's contacts, with their own factors from the batch.
+TEST_P(BatchBy, PlantsThatTouchGoAsEachAlone) {
+    constexpr double APART = 0.25;  // [m]
+    Row batched(true, GetParam(), APART, true), alone(false, GetParam(), APART, true);
+    int contacts = 0;
+    for (int k = 0; k < 60; k++) {
+        for (const Row* row : {&batched, &alone})
+            ASSERT_EQ(frond_world_step(row->world, H), FROND_OK) << frond_last_error();
+        ASSERT_EQ(batched.hash(), alone.hash()) << "step " << k;
+        frond_report report = {};
+        ASSERT_EQ(frond_world_get_report(batched.world, &report), FROND_OK);
+        contacts += report.plant_contact_count;
+    }
+    EXPECT_GT(contacts, 100);
 }
 
 // Cages near the viewer and rods farther away are batched separately while the viewer comes and goes.

@@ -96,8 +96,7 @@ void Laws::after_step(std::map<int, Standing>& plants, const Loads& loads, doubl
         if (checks(Law::FINITE)) check_finite(plant);
         if (checks(Law::FAR)) check_places(plant, loads);
         if (checks(Law::STRETCH) && moves_chain(plant))
-            check_lengths(plant, loads,
-                          loads.has_bodies || plants.size() > 1 || plant.def.effects & FROND_EFFECT_SELF_CONTACT);
+            check_lengths(plant, loads, loads.has_bodies || plants.size() > 1);
     }
     if (checks(Law::ENERGY)) check_energy(plants, dt);
     if (checks(Law::WORK)) check_work(plants);

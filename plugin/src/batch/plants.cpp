@@ -148,22 +148,26 @@ void take_loads(Plant& plant, const Batch& step, int lane) {
 
 // As is_plausible() in step.cpp.
 bool is_plausible(Plant& plant, const Batch& step, int lane, double h) {
+    if (plant.state.is_touched) {
+        plant.step.is_off_course = ends_off_course(plant, h);
+        return !has_run_away(plant) && !is_far_out(plant);
+    }
     take_drags(step, lane, plant.step.loads.drags);
     const bool keeps = keeps_course(plant, h);
     plant.step.loads.drags.clear();
     return keeps && !is_far_out(plant);
 }
 
-// Leaves in the plant all that solve_plant() leaves of a healthy step. False, with the motion unchanged: the plant has
-// to be stepped alone.
-bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& settings, bool may_be_off, bool may_pull,
+// Leaves in the plant all that solve_plant() leaves of a healthy step; `goes_on`: fibres or contacts move it from
+// there. False, with the motion unchanged: the plant has to be stepped alone.
+bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& settings, bool may_be_off, bool goes_on,
                double h) {
     const Batch& step = space.step;
     Motion& motion = plant.state.motion;
     History& history = motion.history;
     VecX &x = space.x[size_t(lane)], &v = space.v[size_t(lane)];
     const bool is_wound = (step.wound >> lane & 1) != 0;
-    const bool is_asked = may_be_off || is_wound || may_pull || step.inverted[size_t(lane)] > 0;
+    const bool is_asked = may_be_off || is_wound || goes_on || step.inverted[size_t(lane)] > 0;
     if (is_asked) {
         plant.step.x_good = motion.x;
         plant.step.v_good = motion.v;
@@ -184,10 +188,10 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     }
     history.x_prev.swap(x);
     history.v_prev.swap(v);
-    // Until the next step only its fibres can move the plant without dropping its history.
+    // Until the next step only its fibres and contacts can move the plant without dropping its history.
     history.x_end.resize(0);
     history.v_end.resize(0);
-    if (may_pull) {
+    if (goes_on) {
         history.x_end = motion.x;
         history.v_end = motion.v;
     }
@@ -206,7 +210,7 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     return true;
 }
 
-// Gives plants whose fibres pull their own factors.
+// Gives plants whose steps go on by themselves their own factors.
 void take_factors(const Batch& step, Plant* const* plants, unsigned which) {
     if (which == 0) return;
     std::array<Workspace*, MOST_LANES> workspaces = {};
@@ -218,8 +222,8 @@ void take_factors(const Batch& step, Plant* const* plants, unsigned which) {
     take_apart(step, workspaces.data());
 }
 
-// Pulls back a plant's taut fibres, with its own drags.
-void pull(Plant& plant, const Batch& step, int lane, frond_effects effects, double h) {
+// Pulls back a plant's taut fibres, and leaves it ready for contacts, with its own drags.
+void go_on_alone(Plant& plant, const Batch& step, int lane, frond_effects effects, double h) {
     plant.state.blown.setZero();
     take_drags(step, lane, plant.step.loads.drags);
     plant.step.has_fibres = effects & FROND_EFFECT_FIBRES;
@@ -228,13 +232,20 @@ void pull(Plant& plant, const Batch& step, int lane, frond_effects effects, doub
 
 }  // namespace
 
+// Returns the lanes whose plants wait for those of others, a bit each.
+static unsigned find_waiting(Plant* const* plants, int count) {
+    unsigned waiting = 0;
+    for (int lane = 0; lane < count; lane++) waiting |= unsigned(waits(*plants[lane])) << lane;
+    return waiting;
+}
+
 // Predicts whether the step continues from the history, or starts anew and damped. After a batched step the history is
 // not compared here but in goes_on(), where the job has the plant's numbers at hand.
 static bool foresee_method(Plant& plant, double h) {
     const History& history = plant.state.motion.history;
     plant.step.looks_back = history.valid && (history.x_end.size() == 0 ||
                                               history_holds(plant.state.motion, plant.input.settings.integrator, h));
-    return plant.step.looks_back || history.shaken;
+    return plant.step.looks_back || history.shaken || plant.state.is_touched;
 }
 
 // Returns whether the prediction holds and the pins are at rest; after a batched step they are.
@@ -245,13 +256,12 @@ static bool goes_on(const Plant& plant, double h) {
 }
 
 bool may_be_batched(Plant& plant, const Surroundings& surroundings, double h) {
-    return !plant.state.modal && !plant.state.own_elements && !plant.step.workspace && !plant.state.is_touched &&
-           !plant.step.is_watched && !plant.input.has_user_force && plant.input.grabs.empty() &&
-           plant.state.fragments.empty() && plant.input.pin_springs.empty() && !plant.input.pins_changed &&
-           plant.state.recovers_for <= 0 && plant.input.max_substeps <= 1 && plant.state.fibre_give.empty() && h > 0 &&
-           h <= TRUSTED &&
+    return !plant.state.modal && !plant.state.own_elements && !plant.step.workspace && !plant.input.has_user_force &&
+           plant.input.grabs.empty() && plant.state.fragments.empty() && plant.input.pin_springs.empty() &&
+           !plant.input.pins_changed && plant.state.recovers_for <= 0 && plant.input.max_substeps <= 1 &&
+           plant.state.fibre_give.empty() && h > 0 && h <= TRUSTED &&
            frond::may_be_batched(*plant.system, settings_for(plant, plant.input.effects & surroundings.effects), h) &&
-           foresee_method(plant, h);
+           (!waits(plant) || can_be_taken_apart(*plant.system)) && foresee_method(plant, h);
 }
 
 bool go_alike(const Plant& a, const Plant& b) {
@@ -307,21 +317,21 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
     const unsigned may_yield = !has_yields       ? 0
                                : look_for_yields ? look_for_yields(*system.elements, step.x_end)
                                                  : step.may_yield;
-    const unsigned taut = find_taut(step, *plants[0], effects);
+    const unsigned going_on = find_taut(step, *plants[0], effects) | find_waiting(plants.data(), count);
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
     run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
-    take_factors(step, plants.data(), taut & ~alone & ((1u << count) - 1));
+    take_factors(step, plants.data(), going_on & ~alone & ((1u << count) - 1));
     const double ms_solve = timer.lap();
 
     for (int lane = 0; lane < count; lane++) {
         Plant& plant = *plants[size_t(lane)];
         const auto is_in = [&](unsigned bits) { return (bits >> lane & 1) != 0; };
-        if (is_in(alone) || !take_step(plant, *space, lane, settings, is_in(off_course), is_in(taut), h)) {
+        if (is_in(alone) || !take_step(plant, *space, lane, settings, is_in(off_course), is_in(going_on), h)) {
             solve_plant(plant, surroundings, h);
             continue;
         }
         plant.trouble = is_in(bad_wind) ? FROND_TROUBLE_BAD_WIND : 0;
-        plant.step.may_yield = is_in(may_yield | taut);
+        plant.step.may_yield = is_in(may_yield | going_on);
         plant.report = {};
         plant.report.ok = true;
         plant.report.iterations = 1;
@@ -330,7 +340,7 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
         plant.report.ms_solve = float(ms_solve / count);
         plant.ms_air = plant.ms_effects = float(ms_air / count);
         plant.ms_user_force = plant.ms_fibres = plant.ms_plasticity = 0;
-        if (is_in(taut)) pull(plant, step, lane, effects, h);
+        if (is_in(going_on)) go_on_alone(plant, step, lane, effects, h);
     }
     return_batch(*pool, space);
 }

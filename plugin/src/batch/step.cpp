@@ -320,6 +320,10 @@ unsigned step_batch(Batch& a, const SolveSettings& settings, const std::vector<u
     return lost;
 }
 
+bool can_be_taken_apart(const System& system) {
+    return !system.plan.tree && !system.row->batch->retract;
+}
+
 void take_apart(const Batch& a, Workspace* const* workspaces) {
     std::array<FrontFactor*, MOST_LANES> factors;
     for (size_t lane = 0; lane < size_t(a.lanes); ++lane) {
@@ -328,6 +332,7 @@ void take_apart(const Batch& a, Workspace* const* workspaces) {
         if (!workspace) continue;
         workspace->held = a.held;
         workspace->reach = a.reach;
+        workspace->retract_from.resize(0);
     }
     take_apart(a.factor.fronts, factors.data());
 }

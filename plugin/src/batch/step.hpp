@@ -47,7 +47,9 @@ unsigned step_batch(Batch& batch, const SolveSettings& settings, const std::vect
 // Computes |b - A x| / |b| of each lane; `left` is scratch.
 void relative_residuals(const BlockMatrix& A, const NumbersInLines& b, const NumbersInLines& x, NumbersInLines& left,
                         double* out);
-// Fills each lane's workspace, if any, with what respond() and make_compliance() need; only for plans of fronts.
+// Returns whether a batch of a system that may be batched can be taken apart: plans of trees cannot.
+bool can_be_taken_apart(const System& system);
+// Fills each lane's workspace, if any, with what respond() and make_compliance() need.
 void take_apart(const Batch& batch, Workspace* const* workspaces);
 
 }  // namespace frond

@@ -1,7 +1,5 @@
-// Conservative advancement (Mirtich 1996, "Impulse-based Dynamic Simulation of Rigid Body Systems") of shapes whose
-// corners move along straight lines: they stay apart as long as all corners of the one stay beyond all corners of the
-// other along the line between the nearest points, and the corners' paths give the time at which that ends. So time
-// never steps over a contact.
+// Conservative advancement (Mirtich 1996, "Impulse-based Dynamic Simulation of Rigid Body Systems") of moving shapes:
+// at their gap, motion bounds the time for which they certainly stay apart, so that time never steps over a contact.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +19,8 @@ Points<COUNT> at_time(const Points<COUNT>& before, const Points<COUNT>& after, d
     return now;
 }
 
+// A bound for shapes whose corners move along straight lines: they stay apart as long as all corners of the one stay
+// beyond all corners of the other along the line between the nearest points.
 // Returns the time until which no corner of a is nearer than `radius` to one of b along the normal; beyond 1 if none
 // ever is.
 template <size_t A, size_t B>
@@ -37,12 +37,11 @@ double apart_until(double time, const Vec3& normal, double radius, const Points<
 }
 
 // Advances to the first time at which gap_at(time).distance is at most `tolerance`, and calls found(time, gap) then.
-// Returns whether there is one. `radius`: the sum of both shapes' radii, by which their corners' gaps are larger. Where
-// shapes slide past each other at hardly more, steps become short; after `most` of them they count as touching, which
-// errs on the safe side.
-template <size_t A, size_t B, class GapAt, class Found>
-bool advance(const Points<A>& a_before, const Points<A>& a_after, const Points<B>& b_before, const Points<B>& b_after,
-             double radius, double tolerance, int most, GapAt&& gap_at, Found&& found) {
+// Returns whether there is one. until(time, gap): the time until which they stay apart for certain. Where shapes slide
+// past each other at hardly more, steps become short; after `most` of them they count as touching, which errs on the
+// safe side.
+template <class GapAt, class Until, class Found>
+bool advance(double tolerance, int most, GapAt&& gap_at, Until&& until, Found&& found) {
     double time = 0;
     for (int step = 0;; ++step) {
         const auto gap = gap_at(time);
@@ -50,10 +49,8 @@ bool advance(const Points<A>& a_before, const Points<A>& a_after, const Points<B
             found(time, gap);
             return true;
         }
-        const Points<A> a_now = at_time(a_before, a_after, time);
-        const Points<B> b_now = at_time(b_before, b_after, time);
-        time = std::max(time, apart_until(time, gap.normal, radius, a_now, a_after, b_now, b_after));
-        if (time > 1) return false;
+        time = std::max(time, until(time, gap));
+        if (!(time <= 1)) return false;
     }
 }
 

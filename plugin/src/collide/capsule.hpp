@@ -1,8 +1,6 @@
-// Capsule: the bodies of a plant's chain, and queries about them (section 3.3.1 of Lu, Guo, Zhao, Li: "Physical Model
-// for Interactive Deformation of 3D Plant"): how far apart they are, and when they meet while they move.
+// Capsule: the bodies of a plant's chain, and how far apart they are (section 3.3.1 of Lu, Guo, Zhao, Li: "Physical
+// Model for Interactive Deformation of 3D Plant").
 #pragma once
-
-#include <optional>
 
 #include "surface/triangle_distance.hpp"
 
@@ -26,19 +24,5 @@ Gap gap_between(const Capsule& a, const Capsule& b);
 // Computes the gap of a capsule and a triangle. A capsule whose axis passes through the face is as deep as its exit on
 // the nearer side. Triangles without area are segments or points.
 Gap gap_between(const Capsule& a, const Corners& b);
-
-// First contact of moving shapes.
-struct Impact {
-    double time;  // share of the step, 0..1 [-]; 0 where they overlap from the start
-    Gap gap;      // gap at that time
-};
-
-// Finds the first contact of shapes whose ends, or corners, each move along a straight line at constant speed from
-// `before` to `after`; radii are those before. Returns nothing where they do not meet. No contact is missed: time is
-// approached from below until the surfaces are within a millionth of their sizes.
-std::optional<Impact> first_impact(const Capsule& a_before, const Capsule& a_after, const Capsule& b_before,
-                                   const Capsule& b_after);
-std::optional<Impact> first_impact(const Capsule& a_before, const Capsule& a_after, const Corners& b_before,
-                                   const Corners& b_after);
 
 }  // namespace frond

@@ -30,8 +30,12 @@ std::optional<StripImpact> first_impact(const StripCore& a_before, const StripCo
                 impact = StripImpact{time, gap};
                 impact->gap.distance += near;
             };
-            advance(part_of(a_before, i), part_of(a_after, i), part_of(b_before, k), part_of(b_after, k), near,
-                    TOLERANCE * near, MOST_STEPS, gap_at, keep_first);
+            const auto until = [&](double time, const StripGap& gap) {
+                const Points<3> of_a = part_of(a_after, i), of_b = part_of(b_after, k);
+                return apart_until(time, gap.normal, near, at_time(part_of(a_before, i), of_a, time), of_a,
+                                   at_time(part_of(b_before, k), of_b, time), of_b);
+            };
+            advance(TOLERANCE * near, MOST_STEPS, gap_at, until, keep_first);
         }
     return impact;
 }

@@ -212,6 +212,10 @@ SolveReport solve_in_substeps(Plant& plant, double h);
 // Return gravity in the model's frame [m/s^2] and the settings of the running step.
 Vec3 gravity_in(const Plant& plant, const Surroundings& surroundings, frond_effects effects);
 SolveSettings settings_for(const Plant& plant, frond_effects effects);
+// Returns whether a plant's step ends only when those of others are known.
+inline bool waits(const Plant& plant) {
+    return plant.state.is_touched || plant.step.is_watched;
+}
 // Adds contact_impulse and contact_correction, if there are any, to the solved step of a plant in contact: only then
 // does its energy show whether the step went wrong.
 void add_contacts(Plant& plant, double h);

@@ -224,6 +224,18 @@ static void move_by(Plant& plant, const VecX& dv, double h) {
     }
 }
 
+// Solves a chain again in another workspace: the responses that follow in this step are by the factor of the step
+// without contacts, from which all contacts' velocities are. A chain that a push has thrown far may be stiffer there by
+// far, and the next push would be as much larger. A cage stiffens as it bends, which foretells what the next push does.
+static void solve_again_aside(Plant& plant, double h, const Push& push) {
+    if (!plant.follow) return solve_again(plant, h, &push);
+    WorkspacePtr without = std::move(plant.step.workspace);
+    take_workspace(plant);
+    solve_again(plant, h, &push);
+    return_workspace(plant);
+    plant.step.workspace = std::move(without);
+}
+
 void add_contacts(Plant& plant, double h) {
     FROND_ASSERT(plant.step.workspace);
     if (!plant.step.is_sound) return;
@@ -242,7 +254,7 @@ void add_contacts(Plant& plant, double h) {
     // Cages are not retracted: what turns in them is inflated.
     const bool is_bent = is_pushed && !plant.follow && !is_calm(*plant.system, plant.step.x_good, plant.state.motion.x);
     // Where this is too far for the linear response, the same push is solved as a force, nonlinearly.
-    if (is_bent || !is_plausible(plant, h, &push)) solve_again(plant, h, &push);
+    if (is_bent || !is_plausible(plant, h, &push)) solve_again_aside(plant, h, push);
     if (shift.size() > 0 && respond(*plant.step.workspace, plant.input.settings, shift, dv)) move_by(plant, dv, h);
     plant.step.is_sound = is_sound(plant) && !is_far_out(plant);
 }

@@ -59,10 +59,12 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
                          : parting_speed(-contact.gap, SLOP, h, SHARE, row.contact_body.rigid ? FASTEST_FREE : FASTEST);
     if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
         row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);
-    row.touch.bias_velocity += contact.lacking / h;
+    row.touch.bias_velocity += contact.shortfall.lacking / h;
     row.touch.friction = rubs(world, *contact.plant) ? contact.friction : 0;
     row.touch.depth = -contact.gap;
     row.impulse = &contact.impulse;
+    row.pushed_on = &contact.pushed_on;
+    contact.pushed_on = row.contact_body.velocity;
     rows.push_back(std::move(row));
 }
 

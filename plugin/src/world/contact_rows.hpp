@@ -15,7 +15,8 @@ struct ContactRow {
     std::array<size_t, 2> sides = {};  // their indices among all sides of that plant
     ContactBody contact_body;          // the other side, if that is no plant
     Touch touch;
-    Vec3* impulse;  // the contact's own
+    Vec3* impulse;              // the contact's own
+    Vec3* pushed_on = nullptr;  // likewise; null where no body is on the other side
 };
 
 // Makes the rows of an island for a step of h [s]; wakes sleeping bodies that plants push.

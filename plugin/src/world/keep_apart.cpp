@@ -111,28 +111,40 @@ bool is_carried_on(const Contact& contact) {
     return contact.other->isKinematicObject() && !velocity_at(*contact.other, contact.on_other).isZero(0);
 }
 
-// Returns by how much a plant is still in the way of a kinematic body at the end of the step [m].
+// Returns whether something free is about to meet the plant there. What overlaps parts from it slowly.
+bool comes(const Contact& contact) {
+    return !contact.other->isStaticOrKinematicObject() && contact.gap >= 0;
+}
+
+// Returns by how much a plant is still in the way of a body, once both are pushed, at the end of the step [m].
 double behind(const Contact& contact, double h) {
     const Plant& plant = *contact.plant->plant;
     const Attachment at = attachment_of(contact);
     const Vec3 way = attachment_place(at, plant.state.motion.x) - attachment_place(at, plant.step.x_good);
-    return contact.normal.dot(h * velocity_at(*contact.other, contact.on_other) - plant.rotation * way) - contact.gap;
+    return contact.normal.dot(h * contact.pushed_on - plant.rotation * way) - contact.gap;
 }
 
-// Has a contact ask for more where the plant's response, which is linear, leaves it in the way of a kinematic body, as
-// long as that helps.
+// Has a contact ask for more where the plant's response, which is linear, leaves it in the way of a body that is led or
+// comes, as long as that helps: what the plant cannot do, a free body does.
 bool ask_for_more(Contact& contact, double h) {
-    constexpr double NO_MATTER = 0.001, SHARE = 0.3, HELPS = 0.8;  // [m], over the radius, over the last time [-]
-    if (!is_carried_on(contact) || !moves(*contact.plant)) return false;
+    constexpr double NO_MATTER = 0.001, SHARE = 0.3;  // [m], over the radius [-]
+    if (!(is_carried_on(contact) || comes(contact)) || !moves(*contact.plant)) return false;
     const double now = behind(contact, h);
     if (now < std::max(NO_MATTER, SHARE * radius_of(*contact.plant, contact.capsule))) return false;
-    const bool helps = now < HELPS * contact.behind;
-    contact.behind = now;
-    if (helps) contact.lacking += now;
-    return helps;
+    return contact.shortfall.ask_for(now);
 }
 
 }  // namespace
+
+bool Shortfall::ask_for(double now) {
+    constexpr double HELPS = 0.98, LEAST = 0.05;  // over what was left; share of what was asked that is done [-]
+    const bool helps = now < HELPS * left;
+    const double done = asked > 0 ? std::clamp((left - now) / asked, LEAST, 1.0) : 1;
+    left = now;
+    asked = helps ? now / done : 0;
+    lacking += asked;
+    return helps;
+}
 
 bool find_missed_contacts(World& world, double h) {
     bool any = false;

@@ -120,6 +120,18 @@ struct Given {
     Pushes pushes;
 };
 
+// Computes how fast bodies go on once they are pushed.
+void go_on(Given& given) {
+    for (Row& at : given.rows) {
+        if (!at.pushed_on) continue;
+        *at.pushed_on = at.contact_body.velocity;
+        for (size_t i = 0; i < given.rows.size(); i++)
+            if (are_one_body(at, given.rows[i]))
+                *at.pushed_on -=
+                    compliance_between(at.contact_body, given.rows[i].contact_body) * given.pushes.impulses[i];
+    }
+}
+
 // Applies the rows' impulses to the plants.
 void give_to_plants(const ContactIsland& island, Given& given) {
     auto& [rows, pushes] = given;
@@ -217,6 +229,7 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
     std::iota(table.islands[0].begin(), table.islands[0].end(), 0);
     response.find(touches, table, settings, pushes);
     limit_gain(island, given);
+    go_on(given);
     give_to_plants(island, given);
     return given;
 }

@@ -9,6 +9,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
+#include "collide/advance.hpp"
 #include "world/convert.hpp"
 
 namespace frond {
@@ -32,21 +33,31 @@ std::optional<ShapeImpact> first_impact(const MovingShape& a, const MovingShape&
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver depth;
     btGjkPairDetector detector(&a.shape, &b.shape, &simplex, &depth);
-    double time = 0;
-    for (int step = 0;; step++) {
+    struct ShapeGap {
+        double distance;  // [m]
+        Vec3 normal, on_b;
+        double approach;  // upper bound of the speed along the normal [m a step]
+    };
+    const auto gap_at = [&](double time) -> ShapeGap {
         btGjkPairDetector::ClosestPointInput input;
         input.m_transformA = a.at(time);
         input.m_transformB = b.at(time);
         btPointCollector nearest;
         detector.getClosestPoints(input, nearest, nullptr);
-        if (!nearest.m_hasResult) return std::nullopt;
-        const Vec3 normal = from_bullet(nearest.m_normalOnBInWorld), on_b = from_bullet(nearest.m_pointInWorld);
-        const double gap = double(nearest.m_distance), approach = normal.dot(b.way - a.way) + turning;
-        if (!(approach > 0)) return std::nullopt;
-        if (gap <= TOUCH || step == MOST_STEPS) return ShapeImpact{time, normal, on_b + gap * normal, on_b};
-        time += gap / approach;
-        if (!(time <= 1)) return std::nullopt;
-    }
+        if (!nearest.m_hasResult) return {INFINITY, Vec3::Zero(), Vec3::Zero(), 0};
+        const Vec3 normal = from_bullet(nearest.m_normalOnBInWorld);
+        return {double(nearest.m_distance), normal, from_bullet(nearest.m_pointInWorld),
+                normal.dot(b.way - a.way) + turning};
+    };
+    const auto until = [](double time, const ShapeGap& gap) {
+        return gap.approach > 0 ? time + gap.distance / gap.approach : INFINITY;
+    };
+    std::optional<ShapeImpact> impact;
+    advance(TOUCH, MOST_STEPS, gap_at, until, [&](double time, const ShapeGap& gap) {
+        // What touches and parts does not meet.
+        if (gap.approach > 0) impact = ShapeImpact{time, gap.normal, gap.on_b + gap.distance * gap.normal, gap.on_b};
+    });
+    return impact;
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -125,11 +125,6 @@ void mark_pushed(World& world) {
         bond.plant->plant->state.is_touched = bond.plant->plant->step.is_pressed = true;
 }
 
-// Returns whether a plant's step ends only when those of others are known.
-bool waits(const Plant& plant) {
-    return plant.state.is_touched || plant.step.is_watched;
-}
-
 // Drops contacts of modal plants, and of plants whose detail changed after their contacts were found; marks plants that
 // others push, which are stepped now.
 void mark_touched(World& world) {
@@ -213,7 +208,10 @@ void run_job(const World& world, const StepJob& job, const Surroundings& surroun
     std::array<Plant*, MOST_LANES> plants;
     for (int i = 0; i < job.count; i++) plants[size_t(i)] = job.bodies[size_t(i)]->plant.get();
     solve_batch(plants.data(), job.count, surroundings, job.bodies[0]->level.pending);
-    finish(world, job.bodies.data(), job.count, surroundings);
+    std::array<PlantBody*, MOST_LANES> done;
+    const auto end = std::copy_if(job.bodies.begin(), job.bodies.begin() + job.count, done.begin(),
+                                  [](const PlantBody* body) { return !waits(*body->plant); });
+    if (end != done.begin()) finish(world, done.data(), int(end - done.begin()), surroundings);
 }
 
 // Returns whether a plant can be batched with those of a job.
