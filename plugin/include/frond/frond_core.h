@@ -548,7 +548,8 @@ FROND_API int frond_plant_get_capsule_count(frond_plant plant);
 FROND_API frond_result frond_plant_pin(frond_plant plant, int node);
 /* Lets a pinned cage node go. */
 FROND_API frond_result frond_plant_unpin(frond_plant plant, int node);
-/* Moves a pinned node [m] within the next step. BAD_ARGUMENT if it is not pinned. */
+/* Moves a pinned node [m] within the next step; of rods that one or two nodes hold, by at most half the mean length of
+ * a capsule in each step. BAD_ARGUMENT if it is not pinned. */
 FROND_API frond_result frond_plant_move_pin(frond_plant plant, int node, frond_vec3 position);
 /* Adds a force [N] on a node for the next frond_world_step (all its substeps) only. Forces on one node add up. */
 FROND_API frond_result frond_plant_add_force(frond_plant plant, int node, frond_vec3 force);

@@ -16,9 +16,9 @@ struct Weights {
 };
 Weights weigh(const Model& model, const std::vector<int>& hangs);
 
-// Returns the mass that each chain node carries of the tets [kg]: that of a tet is on the two ends of the capsule beside
-// its centre, of its organ's, so that its centre of mass along the capsule is right. For the caller's own tets, which
-// may be longer than capsules; those of a lattice hold tissue anywhere, and where it is the vertices tell (hang_tets).
+// Returns the mass that each chain node carries of the tets [kg]: a tet's mass is on the two ends of the capsule beside
+// its centre, of its organ's, so that its centre along the capsule is right. For the caller's own tets, which may be
+// longer than capsules. Those of a lattice hold tissue anywhere; their vertices tell where (hang_tets).
 std::vector<double> spread_over_capsules(const Model& model);
 
 // Sets tet_density from the materials and how full the tets are, and chain_mass. Where the sections are known exactly

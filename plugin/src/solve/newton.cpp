@@ -8,6 +8,8 @@
 // Without the stiffness that tension adds, hanging parts of rods swing ever farther in steps longer than their period.
 // The one solve of such a step takes the exact stiffness, and is shortened to the trust bound; if that has no factor
 // and the positive one leads beyond the bound, a line search takes over.
+// What springs pull taut swings as fast in any step: it takes the exact stiffness too, and a line search takes over
+// wherever the solve leads beyond the bound.
 //
 // D = mass_damping M + stiffness_damping K plus each element's own damping times its part of K, K being the positive
 // stiffness at the start of the step: it never adds energy and does not resist rotation as a whole.

@@ -132,7 +132,7 @@ class Plant(OfWorld):
         check(lib.frond_plant_unpin(self._handle, integer(node, "node")))
 
     def move_pin(self, node: int, position: Vector) -> None:
-        """Moves a pinned node [m] within the next step."""
+        """Moves a pinned node [m] within the next step; of rods that one or two nodes hold, half a capsule a step."""
         check(lib.frond_plant_move_pin(self._handle, integer(node, "node"), vector(position, "position")))
 
     def add_force(self, node: int, force: Vector) -> None:
