@@ -135,8 +135,8 @@ TEST_P(MultiBody, GainsNoEnergyFromPlants) {
         contacts += report.contact_count;
         const double gained = chain.energy_after - chain.energy_before, now = energy_of(plants);
         ASSERT_LT(gained + now - of_plants, NO_MATTER) << i;
-        ASSERT_LT(chain.energy(), 1.2 * start) << i;
         lost -= gained;
+        ASSERT_GT(lost, -0.01 * start) << i;
         of_plants = now;
     }
     EXPECT_GT(contacts, 50);

@@ -111,9 +111,11 @@ bool is_carried_on(const Contact& contact) {
     return contact.other->isKinematicObject() && !velocity_at(*contact.other, contact.on_other).isZero(0);
 }
 
-// Returns whether something free is about to meet the plant there. What overlaps parts from it slowly.
+// Returns whether a free body is about to meet the plant there. What overlaps parts from it slowly; links would turn
+// what is asked beyond a linear response into spin.
 bool comes(const Contact& contact) {
-    return !contact.other->isStaticOrKinematicObject() && contact.gap >= 0;
+    const btRigidBody* rigid = btRigidBody::upcast(contact.other);
+    return rigid && !rigid->isStaticOrKinematicObject() && contact.gap >= 0;
 }
 
 // Returns by how much a plant is still in the way of a body, once both are pushed, at the end of the step [m].
