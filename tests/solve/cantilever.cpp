@@ -145,7 +145,7 @@ void scramble(Rig& rig, uint64_t seed) {
         if (rig.motion.pinned[size_t(i)]) continue;
         // One by one: compilers are free in the order of arguments.
         const double z = dice.uniform(0, length), y = dice.uniform(0, 0.1), x = dice.uniform(0, 0.1);
-        point(rig.motion.x, i) = {x, y, z};
+        point(rig.motion.x, i) = Vec3(x, y, z);
     }
 }
 
