@@ -131,18 +131,20 @@ void apply_pins(Plant& plant) {
 
 // Far from its target a spring pulls where the derivative of its place no longer points, and by its stiffness every
 // step would end as far off on another side, for ever.
-void lead_pin_springs(Plant& plant) {
+bool lead_pin_springs(Plant& plant) {
     constexpr double NEAR = 0.5;  // way along which the derivative holds, over the mean length of a capsule [-]
     const Chain& chain = plant.model->chain;
     const double capsules = double(chain.nodes.size()) - chain.root_count();
-    if (!(capsules > 0)) return;
+    if (!(capsules > 0)) return false;
+    bool any = false;
     const double most = NEAR * chain.length() / capsules;
     for (Spring& spring : plant.input.pin_springs) {
         const Vec3 place = attachment_place(spring.attachment, plant.state.motion.x), way = spring.target - place;
         if (!(way.norm() > most)) continue;
         spring.target = place + most / way.norm() * way;
-        plant.input.pins_changed = true;
+        plant.input.pins_changed = any = true;
     }
+    return any;
 }
 
 }  // namespace frond

@@ -306,8 +306,9 @@ void unpin_node(Plant& plant, int node);
 void move_pin(Plant& plant, int node, const Vec3& target);
 // Transfers the pins to the nodes of the mechanics.
 void apply_pins(Plant& plant);
-// Lets the springs of pins that were put far away pull only part of that way in the coming step.
-void lead_pin_springs(Plant& plant);
+// Lets the springs of pins that were put far away pull only part of that way in the coming step. Returns whether there
+// are such.
+bool lead_pin_springs(Plant& plant);
 // Returns whether the held nodes of a chain are at their targets.
 bool is_where_held(const Motion& motion);
 // Returns whether held nodes are on their way from x to their targets, or have moved before: v is not zero. A foot that

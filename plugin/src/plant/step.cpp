@@ -179,7 +179,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     Timer timer;
     apply_pins(plant);
     if (jump_with_pins(plant, JUMP)) plant.trouble |= FROND_TROUBLE_PASSED;
-    lead_pin_springs(plant);
+    plant.step.loads.springs_are_far = lead_pin_springs(plant);
     gather_loads(plant, surroundings, effects);
     plant.ms_user_force = timer.lap();
     gather_air(plant, surroundings, effects, h);

@@ -8,8 +8,8 @@
 // Without the stiffness that tension adds, hanging parts of rods swing ever farther in steps longer than their period.
 // The one solve of such a step takes the exact stiffness, and is shortened to the trust bound; if that has no factor
 // and the positive one leads beyond the bound, a line search takes over.
-// What springs pull taut swings as fast in any step: it takes the exact stiffness too, and a line search takes over
-// wherever the solve leads beyond the bound.
+// What springs pull taut from afar swings as fast in any step: it takes the exact stiffness too, and a line search
+// takes over wherever the solve leads beyond the bound.
 //
 // D = mass_damping M + stiffness_damping K plus each element's own damping times its part of K, K being the positive
 // stiffness at the start of the step: it never adds energy and does not resist rotation as a whole.
@@ -37,7 +37,7 @@ struct Newton {
     bool apart = false;         // elements differ in damping ratio: the damping is not a multiple of the stiffness
     bool keep_damping = false;  // the damping matrix is needed besides the stiffness
     bool is_long = false;       // the step is longer than the period of hanging parts, and has one solve
-    bool is_pulled = false;     // springs pull at rods, and the step has one solve
+    bool is_pulled = false;     // springs pull at rods from afar, and the step has one solve
     bool exact = false;         // the first solve uses the exact stiffness, the damping still the positive one
     bool skipped = false;       // the first solve was left to the line search
     bool at_once = false;       // the mechanics assemble right-hand side and matrix of the only solve in one pass
@@ -391,7 +391,7 @@ bool solve_stage(Workspace& workspace, const StepInput& input, const Stage& stag
     n.rayleigh = workspace.damping_scale;
     n.iterations = stage.iterations > 0 ? stage.iterations : settings.newton_iterations;
     n.apart = !workspace.element_damping.empty();
-    n.is_pulled = system.row->moves_chain && !input.loads.springs.empty() && n.iterations == 1;
+    n.is_pulled = system.row->moves_chain && input.loads.springs_are_far && n.iterations == 1;
     n.is_long = is_long_stage(system, stage.step) && n.iterations == 1;
     n.exact = n.is_long || n.is_pulled;
     n.keep_damping =

@@ -81,6 +81,7 @@ struct Loads {
     VecX force;                   // node_count*3, empty: none [N]
     Vec3 gravity = Vec3::Zero();  // [m/s^2]; applied through the mass matrix
     std::vector<Spring> springs;
+    bool springs_are_far = false;  // some pull from farther than their derivative holds for: see lead_pin_springs()
     std::vector<Drag> drags;
 };
 
