@@ -60,8 +60,8 @@ bool pushes(const btCollisionObject& object);
 bool takes_part(const World& world, const PlantBody* body);
 // Returns whether neither side ignores the other, apart from their groups and PlantBody's own exclusions.
 bool may_collide(const PlantBody& body, const btCollisionObject& object);
-// Returns whether a body passes over the joints of a stem's segments, as a rigid body does. Links of a multi-body,
-// which many points press at once, gain energy where contacts change their segment.
+// Returns whether a body passes over the joints of a stem's segments, as a free rigid body does. Bodies that something
+// leads, kinematic ones and links, push whatever they meet, so that nothing slips through them.
 bool slides(const btCollisionObject& object);
 // Returns whether the object is an infinite plane.
 bool is_plane(const btCollisionObject& object);

@@ -31,7 +31,7 @@ bool may_collide(const PlantBody& body, const btCollisionObject& object) {
 }
 
 bool slides(const btCollisionObject& object) {
-    return btRigidBody::upcast(&object) != nullptr;
+    return btRigidBody::upcast(&object) && !object.isStaticOrKinematicObject();
 }
 
 bool is_plane(const btCollisionObject& object) {
@@ -61,24 +61,9 @@ bool is_outside(const Vec3& way, const Vec3& towards) {
     return way.dot(towards) > SIDEWAYS * way.norm();
 }
 
-// Returns how a push along a normal is to a stem: 1 along it and away from its root, -1 towards the root, 0 across.
-int way_along(const Plant& plant, int capsule, const Vec3& normal) {
-    constexpr double ALONG = 0.5;  // cosine
-    const auto& [begin, end] = plant.model->capsules[size_t(capsule)];
-    const Vec3 outward =
-        plant.rotation * (plant.view.chain_positions[size_t(end)] - plant.view.chain_positions[size_t(begin)]);
-    const double along = normal.dot(outward), least = ALONG * outward.norm();
-    return along > least ? 1 : along < -least ? -1 : 0;
-}
-int way_along(const Contact& contact) {
-    return way_along(*contact.plant->plant, contact.capsule, contact.normal);
-}
-
 // Makes the contact of a body's point with a capsule; an infinite gap means none.
 Contact contact_at(PlantBody& body, int capsule, btCollisionObject& other, const Vec3& on_other, const Vec3& towards) {
-    // What pushes across a stem passes over the joints of its segments; what pushes along it, as a floor does, stays.
-    if (slides(other) && way_along(*body.plant, capsule, towards) == 0 &&
-        is_outside(nearest_on_core(body, capsule, on_other).point - on_other, towards)) {
+    if (slides(other) && is_outside(nearest_on_core(body, capsule, on_other).point - on_other, towards)) {
         const int under = piece_under(body, capsule, on_other);
         if (!is_apart(body, under, other)) capsule = under;
     }
@@ -197,6 +182,17 @@ std::vector<uint8_t> path_down(const Plant& plant, int chain_node) {
     std::vector<uint8_t> path(nodes.size(), 0);
     for (int i = chain_node; i >= 0; i = nodes[size_t(i)].parent) path[size_t(i)] = 1;
     return path;
+}
+
+// Returns how a body pushes a stem: 1 along it and away from its root, -1 towards the root, 0 across.
+int way_along(const Contact& contact) {
+    constexpr double ALONG = 0.5;  // cosine
+    const Plant& plant = *contact.plant->plant;
+    const auto& [begin, end] = plant.model->capsules[size_t(contact.capsule)];
+    const Vec3 outward =
+        plant.rotation * (plant.view.chain_positions[size_t(end)] - plant.view.chain_positions[size_t(begin)]);
+    const double along = contact.normal.dot(outward), least = ALONG * outward.norm();
+    return along > least ? 1 : along < -least ? -1 : 0;
 }
 
 // Returns how pins hold a capsule: 2 at one of its own nodes, 1 farther down towards the root, 0 not at all.
