@@ -19,6 +19,9 @@ constexpr Limit LIMITS[] = {
     {"soft", FROND_MECHANICS_SPRING_CHAIN, ANY,
      "what its weight crushes falls into its own segments at full speed, on its course, and is not asked for its "
      "energy"},
+    {"soft", FROND_MECHANICS_ROD, ANY,
+     "what its weight crushes falls into its own segments at full speed, on its course, and is not asked for its "
+     "energy"},
     {"gravity_1e5_g", FROND_MECHANICS_TET_LINEAR, ANY,
      "what resists in proportion gives way in proportion: 1e5 times as far as by its weight"},
     {"dropped", FROND_MECHANICS_TET_LINEAR, ANY,
