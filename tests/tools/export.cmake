@@ -3,16 +3,7 @@
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
 
-function(run result)
-    execute_process(COMMAND ${FROND} ${ARGN} OUTPUT_VARIABLE text ERROR_VARIABLE errors RESULT_VARIABLE status)
-    set(${result} "${text}${errors}" PARENT_SCOPE)
-    set(status ${status} PARENT_SCOPE)
-endfunction()
-function(expect text pattern)
-    if(NOT "${text}" MATCHES "${pattern}")
-        message(FATAL_ERROR "expected \"${pattern}\" in:\n${text}")
-    endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run_command.cmake)
 
 foreach(ending glb gltf obj ply)
     run(said export ${CORN} --out ${OUT}/corn.${ending} --at 0.1)

@@ -13,6 +13,7 @@
 #include "core/lanes_of_plants.hpp"
 #include "core/timer.hpp"
 #include "mechanics/attachment_lanes.hpp"
+#include "mechanics/batch.hpp"
 #include "plant/guard.hpp"
 #include "solve/system.hpp"
 
@@ -63,7 +64,6 @@ struct LookAtWays {
     unsigned &far_away, &off_course;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr double NEARLY = 1 - 1e-9;  // rounding, which differs between lanes and one by one [-]
         const double far = squared(OFF_COURSE * size) * NEARLY;
         const double turned = TURNED_OFF_COURSE * TURNED_OFF_COURSE * NEARLY;
         S near = constant<S>(1), on_course = near;
@@ -87,7 +87,6 @@ struct LookForTaut {
     unsigned& taut;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr double NEARLY = 1 - 1e-9;  // rounding, which differs between lanes and one by one [-]
         S slack = constant<S>(1);
         for (const Fibre& fibre : fibres.list) {
             const size_t node = size_t(fibre.node), parent = size_t(chain.nodes[node].parent);
@@ -146,16 +145,11 @@ void take_loads(Plant& plant, const Batch& step, int lane) {
     for (int c = 0; c < 3; c++) plant.step.loads.gravity[c] = step.gravity[size_t(c * step.lanes + lane)];
 }
 
-// As is_plausible() in step.cpp.
 bool is_plausible(Plant& plant, const Batch& step, int lane, double h) {
-    if (plant.state.is_touched) {
-        plant.step.is_off_course = ends_off_course(plant, h);
-        return !has_run_away(plant) && !is_far_out(plant);
-    }
     take_drags(step, lane, plant.step.loads.drags);
-    const bool keeps = keeps_course(plant, h);
+    const bool plausible = is_plausible(plant, h, nullptr);
     plant.step.loads.drags.clear();
-    return keeps && !is_far_out(plant);
+    return plausible && !is_far_out(plant);
 }
 
 // Leaves in the plant all that solve_plant() leaves of a healthy step; `goes_on`: fibres or contacts move it from

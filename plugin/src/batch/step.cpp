@@ -7,6 +7,7 @@
 
 #include "core/lanes.hpp"
 #include "mechanics/attachment_lanes.hpp"
+#include "mechanics/batch.hpp"
 #include "solve/integrator.hpp"
 #include "solve/workspace.hpp"
 
@@ -228,7 +229,6 @@ struct Finish {
     unsigned& lost;
     template <class S>
     FROND_INLINE void run() const {
-        constexpr double NEARLY = 1 - 1e-9;  // rounding, which differs between lanes and one by one [-]
         S sound = constant<S>(1), within = sound;
         for (int i = 0; i < a.system->elements->node_count; ++i) {
             if (pinned[size_t(i)]) {

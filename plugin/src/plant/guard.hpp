@@ -41,6 +41,9 @@ struct Push {
 // asked for its energy, unless pins or contacts push it, it starts anew, as with forces of the host, or the step has
 // stages, of which one need not damp what another strained.
 bool keeps_course(Plant& plant, double h, const Push& push = {});
+// Returns whether no node ran away, and none left its course with energy that nothing can have given. A pressed plant
+// springs far in a solve without contacts, and its energy is meaningless there; `push`: null until they are known.
+bool is_plausible(Plant& plant, double h, const Push* push);
 
 // Translates a plant with its pins, between solves, if they were put farther away than `least` times its size.
 bool jump_with_pins(Plant& plant, double least);

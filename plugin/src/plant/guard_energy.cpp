@@ -65,4 +65,10 @@ bool keeps_course(Plant& plant, double h, const Push& push) {
     return !(is_asked && has_energy_from_nowhere(plant, h, push)) && !has_run_away(plant);
 }
 
+bool is_plausible(Plant& plant, double h, const Push* push) {
+    if (push || !plant.state.is_touched) return keeps_course(plant, h, push ? *push : Push());
+    plant.step.is_off_course = ends_off_course(plant, h);
+    return !has_run_away(plant);
+}
+
 }  // namespace frond

@@ -132,6 +132,7 @@ void apply_pins(Plant& plant) {
 // Far from its target a spring pulls where the derivative of its place no longer points, and by its stiffness every
 // step would end as far off on another side, for ever.
 bool lead_pin_springs(Plant& plant) {
+    if (plant.input.pin_springs.empty()) return false;
     constexpr double NEAR = 0.5;  // way along which the derivative holds, over the mean length of a capsule [-]
     const Chain& chain = plant.model->chain;
     const double capsules = double(chain.nodes.size()) - chain.root_count();

@@ -61,14 +61,6 @@ static void keep_sets(Plant& plant, double h) {
     row.flow(*plant.state.own_elements, plant.state.motion.x, h);
 }
 
-// Returns whether no node ran away, and none left its course with energy that nothing can have given. A pressed plant
-// springs far in a solve without contacts, and its energy is meaningless there; `push`: null until they are known.
-static bool is_plausible(Plant& plant, double h, const Push* push) {
-    if (push || !plant.state.is_touched) return keeps_course(plant, h, push ? *push : Push());
-    plant.step.is_off_course = ends_off_course(plant, h);
-    return !has_run_away(plant);
-}
-
 // Returns whether the solution, as moved since then, can be the next state.
 static bool is_sound(const Plant& plant) {
     return plant.report.ok && are_finite(plant.state.motion.x) && are_finite(plant.state.motion.v) &&

@@ -125,6 +125,9 @@ static std::vector<int> find_twins(const Topology& topology) {
 // Finds the organs of the triangles that have no twin before them; the twins are of the same ones.
 static FoundOrgans find_in_singles(const Surface& surface, const Topology& topology) {
     const std::vector<int> twin = find_twins(topology);
+    bool has_twins = false;
+    for (size_t t = 0; t < twin.size(); t++) has_twins |= twin[t] != int(t);
+    if (!has_twins) return find_in_parts(surface, topology);
     std::vector<int> number(twin.size(), -1);  // among the singles
     Surface single = surface;
     single.triangles.clear();
@@ -138,7 +141,6 @@ static FoundOrgans find_in_singles(const Surface& surface, const Topology& topol
         }
         part.triangle_count = int(single.triangles.size()) - part.first_triangle;
     }
-    if (single.triangles.size() == surface.triangles.size()) return find_in_parts(surface, topology);
     FoundOrgans found = find_in_parts(single, make_topology(single));
     std::vector<int> organ_of;
     for (int t : twin) organ_of.push_back(found.organ_of[size_t(number[size_t(t)])]);
