@@ -3,7 +3,7 @@ cmake_minimum_required(VERSION 3.21)
 # what it shares with the library; Eigen and Bullet stay out of the C headers, and examples and tools see public headers only, but
 # for tools/kernels, which measures the inside.
 set(errors "")
-set(order ${ORDER} world api)
+set(order ${ORDER} world contact step api)
 file(GLOB folders RELATIVE ${SOURCE}/plugin/src ${SOURCE}/plugin/src/*)
 foreach(folder IN LISTS folders)
     if(NOT folder IN_LIST order AND NOT folder STREQUAL importer AND IS_DIRECTORY ${SOURCE}/plugin/src/${folder})

@@ -171,6 +171,10 @@ PlantBody::PlantBody(btSoftBodyWorldInfo* info, World* world, std::unique_ptr<Pl
     m_checkCollideWith = true;  // call checkCollideWithOverride
 }
 
+bool is_plane(const btCollisionObject& object) {
+    return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
+}
+
 bool PlantBody::checkCollideWithOverride(const btCollisionObject* other) const {
     const bool is_step = is_for_step(*world->bullet);
     if ((is_step && is_plane(*other)) || of(other) || !btSoftBody::checkCollideWithOverride(other)) return false;

@@ -95,6 +95,8 @@ struct PlantBody : btSoftBody {
     static const PlantBody* of(const btCollisionObject* object) { return dynamic_cast<const PlantBody*>(object); }
 };
 
+// Returns whether the object is an infinite plane.
+bool is_plane(const btCollisionObject& object);
 // Forgets a plant whose object the host deletes.
 void host_deleted(PlantBody& body);
 // Switch to the hull's shape as modelled, or to one of the plant's own that moves.

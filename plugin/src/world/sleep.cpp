@@ -11,7 +11,6 @@
 
 #include "core/assert.hpp"
 #include "core/union_find.hpp"
-#include "world/contact_body.hpp"
 #include "world/convert.hpp"
 #include "world/show.hpp"
 #include "world/world.hpp"
@@ -51,13 +50,6 @@ bool are_within(const VecX& a, const VecX& b, double distance) {
         if (!((a - b).segment(begin, end - begin).lpNorm<Eigen::Infinity>() <= distance)) return false;
     }
     return true;
-}
-
-// Returns whether a body touches the plant, or may within two steps of h [s] at its speed.
-bool meets(const Contact& contact, double h) {
-    constexpr double NEAR = 0.001;  // [m]
-    const Vec3 velocity = make_contact_body(*contact.other, contact.on_other, h).velocity;
-    return contact.gap < NEAR + 2 * h * velocity.norm();
 }
 
 }  // namespace
@@ -158,27 +150,6 @@ void wake_by_world(World& world) {
     for (const Bond& bond : world.bonds)
         if (bond.plant->rest.asleep && (!bond.body || is_moving(*bond.body))) wake(*bond.plant);
     if (world.wind) wake_blown(world);
-}
-
-void wake_touched(World& world, double h) {
-    for (const Contact& contact : world.contacts)
-        if (contact.plant->rest.asleep && is_moving(*contact.other) && meets(contact, h) &&
-            !is_still(world, *contact.plant))
-            wake(*contact.plant);
-    for (const PlantContact& contact : world.plant_contacts) {
-        const auto& [first, second] = contact.plants;
-        PlantBody& sleeper = first->rest.asleep ? *first : *second;
-        if (contact.depth > 0 && first->rest.asleep != second->rest.asleep && !is_still(world, sleeper)) wake(sleeper);
-    }
-    const auto sleeps = [](const PlantBody* body) { return body->rest.asleep; };
-    const auto of_sleeper = [&](const Contact& contact) { return sleeps(contact.plant); };
-    world.contacts.erase(std::remove_if(world.contacts.begin(), world.contacts.end(), of_sleeper),
-                         world.contacts.end());
-    const auto with_sleeper = [&](const PlantContact& contact) {
-        return std::any_of(contact.plants.begin(), contact.plants.end(), sleeps);
-    };
-    world.plant_contacts.erase(std::remove_if(world.plant_contacts.begin(), world.plant_contacts.end(), with_sleeper),
-                               world.plant_contacts.end());
 }
 
 void watch(const World& world, PlantBody& body, double h) {

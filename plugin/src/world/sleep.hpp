@@ -33,10 +33,9 @@ frond_vec3 middle_of(const PlantBody& body);  // middle of its box [m]
 // Wakes plants whose boxes overlap that of an object which is about to leave.
 void wake_neighbours(World& world, const btCollisionObject& leaving);
 
-// Wake plants in a substep: first by changes of gravity, effects and air, and by bonds to bodies that move; then by
-// contacts that were found. The second removes contacts of plants that sleep on.
+// Wakes plants by changes of gravity, effects and air, and by bonds to bodies that move. What contacts wake is known
+// once they are found (step/touch.cpp).
 void wake_by_world(World& world);
-void wake_touched(World& world, double h);
 // Returns whether a body may push a sleeper.
 bool is_moving(btCollisionObject& object);
 

@@ -2,6 +2,7 @@
 #include "world/world.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <set>
 
@@ -144,6 +145,24 @@ bool is_held(const World& world) {
     for (const auto& robot : world.robots)
         for (const RobotLink& link : robot->links) held |= is_in(link.collider.get());
     return held;
+}
+
+Vec3 gravity_of(const World& world) {
+    return from_bullet(world.bullet->getGravity());
+}
+
+int number_of(World& world, PlantBody& body) {
+    if (body.number >= 0) return body.number;
+    body.number = int(world.taking_part.size());
+    world.taking_part.push_back(&body);
+    return body.number;
+}
+
+void advance(World& world, double dt) {
+    const int substeps = int(std::ceil(dt / world.max_substep - 1e-9));
+    if (substeps > 0) limit_motors(world, dt / substeps);
+    for (int i = 0; i < substeps; i++) world.bullet->stepSimulation(btScalar(dt / substeps), 0);
+    for (PlantBody* body : world.awake) clear_user_force(*body->plant);
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -1,10 +1,10 @@
 // In: plants in their places, and the pairs of Bullet's broad phase. Out: groups of plants that may touch in the step.
 #include <algorithm>
 
+#include "contact/find_plant_contacts.hpp"
 #include "core/union_find.hpp"
 #include "world/convert.hpp"
 #include "world/show.hpp"
-#include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

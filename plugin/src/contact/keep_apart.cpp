@@ -1,11 +1,13 @@
 // In: the steps that plants took with the contacts that were known before. Out: contacts of what went through others in
 // spite of them, or, if nothing helps, shorter steps. The ways of corners count as straight.
+#include "contact/keep_apart.hpp"
+
 #include <algorithm>
 
 #include "collide/strip_cull.hpp"
-#include "world/contact_body.hpp"
-#include "world/piece.hpp"
-#include "world/strip_search.hpp"
+#include "contact/contact_body.hpp"
+#include "contact/piece.hpp"
+#include "contact/strip_search.hpp"
 #include "world/world.hpp"
 
 namespace frond {
@@ -137,16 +139,6 @@ bool ask_for_more(Contact& contact, double h) {
 }
 
 }  // namespace
-
-bool Shortfall::ask_for(double now) {
-    constexpr double HELPS = 0.98, LEAST = 0.05;  // over what was left; share of what was asked that is done [-]
-    const bool helps = now < HELPS * left;
-    const double done = asked > 0 ? std::clamp((left - now) / asked, LEAST, 1.0) : 1;
-    left = now;
-    asked = helps ? now / done : 0;
-    lacking += asked;
-    return helps;
-}
 
 bool find_missed_contacts(World& world, double h) {
     bool any = false;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/piece.hpp"
+#include "contact/piece.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

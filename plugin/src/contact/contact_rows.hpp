@@ -1,9 +1,9 @@
 // Rows: contacts and bonds as equations of the response.
 #pragma once
 
+#include "contact/contact_body.hpp"
+#include "contact/contact_island.hpp"
 #include "plant/touch.hpp"
-#include "world/contact_body.hpp"
-#include "world/contact_island.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

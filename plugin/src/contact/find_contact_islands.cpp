@@ -4,9 +4,9 @@
 
 #include <unordered_map>
 
+#include "contact/contact_island.hpp"
 #include "core/assert.hpp"
 #include "core/union_find.hpp"
-#include "world/contact_island.hpp"
 #include "world/world.hpp"
 
 namespace frond {

@@ -1,12 +1,12 @@
 // In: contacts of the last substep, and those found in this one. Out: both together.
-#include "world/remember_contacts.hpp"
+#include "contact/remember_contacts.hpp"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "collide/contact_gap.hpp"
-#include "world/world.hpp"
+#include "contact/find_plant_contacts.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

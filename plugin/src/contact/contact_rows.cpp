@@ -1,5 +1,5 @@
 // In: contacts and bonds. Out: their rows.
-#include "world/contact_rows.hpp"
+#include "contact/contact_rows.hpp"
 
 #include <algorithm>
 
@@ -8,12 +8,6 @@
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
-
-Attachment attachment_of(const Contact& contact) {
-    FROND_ASSERT(contact.capsule >= 0 && size_t(contact.capsule) < contact.plant->hull->flats.size());
-    const Flat& flat = contact.plant->hull->flats[size_t(contact.capsule)];
-    return flat_attachment(*contact.plant->plant, contact.capsule, flat, contact.along, contact.across);
-}
 
 namespace {
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/find_contacts.hpp"
+#include "contact/piece.hpp"
+#include "contact/sweep.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
-#include "world/piece.hpp"
 #include "world/show.hpp"
-#include "world/sweep.hpp"
-#include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

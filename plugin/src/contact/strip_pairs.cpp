@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "collide/sweep.hpp"
-#include "world/strip_search.hpp"
+#include "contact/strip_search.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

@@ -3,8 +3,8 @@
 
 #include <functional>
 
+#include "contact/shape_impact.hpp"
 #include "world/plant_body.hpp"
-#include "world/shape_impact.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

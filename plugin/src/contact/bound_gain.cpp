@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/contact_body.hpp"
+#include "contact/contact_body.hpp"
 #include "world/world.hpp"
 
 namespace frond {

@@ -1,12 +1,13 @@
 // In: plants in their places, and the pairs of Bullet's broad phase. Out: contacts of their cages and sheaths.
+#include "contact/find_plant_contacts.hpp"
+
 #include <algorithm>
 #include <iterator>
 
+#include "contact/agree_on_sides.hpp"
+#include "contact/remember_contacts.hpp"
+#include "contact/strip_search.hpp"
 #include "core/timer.hpp"
-#include "world/agree_on_sides.hpp"
-#include "world/remember_contacts.hpp"
-#include "world/strip_search.hpp"
-#include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -265,15 +266,6 @@ std::vector<std::vector<const PlantContact*>> sort_by_island(const World& world,
 }
 
 }  // namespace
-
-bool is_by_the_same(const PlantContact& contact) {
-    for (size_t k = 0; k < 2; k++) {
-        const Plant& plant = *contact.plants[k]->plant;
-        if (contact.on_chain[k] != (plant.follow != nullptr) || contact.by_sheath[k] != touches_by_sheath(plant))
-            return false;
-    }
-    return true;
-}
 
 void take_attachments(PlantContact& contact) {
     std::array<Vec3, 2> places;

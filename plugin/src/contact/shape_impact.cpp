@@ -2,7 +2,7 @@
 //
 // While the gap is g along a normal, and the shapes approach along it at no more than v, they stay apart for g / v. A
 // turning shape approaches by no more than its rate of turning times the distance of its farthest point.
-#include "world/shape_impact.hpp"
+#include "contact/shape_impact.hpp"
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>

@@ -2,18 +2,19 @@
 //
 // Bullet keeps contact points of earlier substeps, whose side on the plant is stale since capsules move within their
 // compound. So only the point on the other body is used; its distance from the capsule is computed anew.
+#include "contact/find_contacts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <tuple>
 
-#include "world/contact_body.hpp"
+#include "contact/contact_body.hpp"
+#include "contact/piece.hpp"
+#include "contact/plate.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
-#include "world/piece.hpp"
-#include "world/plate.hpp"
 #include "world/show.hpp"
-#include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -32,10 +33,6 @@ bool may_collide(const PlantBody& body, const btCollisionObject& object) {
 
 bool slides(const btCollisionObject& object) {
     return btRigidBody::upcast(&object) && !object.isStaticOrKinematicObject();
-}
-
-bool is_plane(const btCollisionObject& object) {
-    return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
 
 namespace {

@@ -2,9 +2,9 @@
 // side that faces the plate, clipped by the plate (Sutherland, Hodgman 1974, "Reentrant polygon clipping").
 #include <cmath>
 
+#include "contact/plate.hpp"
 #include "core/elementary.hpp"
 #include "world/convert.hpp"
-#include "world/plate.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

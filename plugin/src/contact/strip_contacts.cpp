@@ -7,8 +7,8 @@
 #include <map>
 
 #include "collide/strip_cull.hpp"
-#include "world/strip_search.hpp"
-#include "world/world.hpp"
+#include "contact/find_plant_contacts.hpp"
+#include "contact/strip_search.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

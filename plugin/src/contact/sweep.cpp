@@ -1,5 +1,5 @@
 // In: an object and a plant, and how each moves in a step. Out: the pieces of the plant that it meets.
-#include "world/sweep.hpp"
+#include "contact/sweep.hpp"
 
 #include <BulletCollision/CollisionShapes/btConcaveShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/piece.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
-#include "world/piece.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

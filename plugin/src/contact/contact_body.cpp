@@ -1,4 +1,4 @@
-#include "world/contact_body.hpp"
+#include "contact/contact_body.hpp"
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 

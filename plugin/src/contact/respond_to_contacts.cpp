@@ -3,12 +3,13 @@
 // A plant's compliance is the inverse of its own implicit system, so that resting, pushing and stacking need no
 // penalties: a stem bears within the step what it can bear. Bodies have already moved when plants step, so an impulse
 // changes their next motion; both sides of a contact advance from the places at which it was found.
+#include "contact/respond_to_contacts.hpp"
+
 #include <algorithm>
 #include <numeric>
 
-#include "world/contact_rows.hpp"
-#include "world/strip_search.hpp"
-#include "world/world.hpp"
+#include "contact/contact_rows.hpp"
+#include "contact/keep_apart.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
+#include "contact/find_contacts.hpp"
+#include "contact/piece.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
-#include "world/piece.hpp"
-#include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

@@ -1,5 +1,5 @@
 // In: contacts of the last substep and of this one. Out: this substep's contacts whose regions agree on a side.
-#include "world/agree_on_sides.hpp"
+#include "contact/agree_on_sides.hpp"
 
 #include <algorithm>
 #include <map>

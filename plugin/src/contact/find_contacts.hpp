@@ -1,0 +1,37 @@
+// Finding the contacts of plants with the bodies of the Bullet world.
+#pragma once
+
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+// Finds contacts from Bullet's manifolds, with planes, and of whatever moves so fast that it would pass through before
+// Bullet detects it. `last`: those of the last step.
+std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& last, double h);
+
+// A body that may be swept against plants, no plane; `is_new`: it was not there in the last substep.
+struct Sweeper {
+    btCollisionObject* object;
+    bool is_new;
+};
+// Adds the contacts of bodies and plants that would pass through each other in the step, and drops those that would
+// push them on. Puts a free body that has passed a plant back to where they met.
+void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const std::vector<Contact>& last, double h,
+                        std::vector<Contact>& contacts);
+
+// Returns whether an object pushes plants: triggers and the like do not, characters do.
+bool pushes(const btCollisionObject& object);
+// Returns whether bodies may push the plant; false for null.
+bool takes_part(const World& world, const PlantBody* body);
+// Returns whether neither side ignores the other, apart from their groups and PlantBody's own exclusions.
+bool may_collide(const PlantBody& body, const btCollisionObject& object);
+// Returns whether a body passes over the joints of a stem's segments, as a free rigid body does. Bodies that something
+// leads, kinematic ones and links, push whatever they meet, so that nothing slips through them.
+bool slides(const btCollisionObject& object);
+// Adds the contacts of an infinite plane with the plants that Bullet's broad phase pairs with it; its narrow phase
+// skips these pairs.
+void add_plane_contacts(World& world, btCollisionObject& plane, double h, std::vector<Contact>& contacts);
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
