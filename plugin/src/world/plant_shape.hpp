@@ -31,6 +31,7 @@ struct PlantShape : btCompoundShape {
     std::vector<btDbvtNode*> inner;
     int growths = 0;
     // Boxes of the children in that tree, somewhat wider than they are: lower x, y, z and padding, then upper likewise.
+    static constexpr size_t ROOM = 8, UPPER = 4;  // numbers of a child's box; where its upper corner begins
     std::vector<btScalar> room;
 
     ~PlantShape() override;
