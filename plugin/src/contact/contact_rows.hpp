@@ -4,6 +4,7 @@
 #include "contact/contact_body.hpp"
 #include "contact/contact_island.hpp"
 #include "plant/touch.hpp"
+#include "solve/impulses.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {

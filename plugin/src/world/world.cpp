@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "world/convert.hpp"
 #include "world/detection.hpp"
 #include "world/fragments.hpp"
 #include "world/own_bullet.hpp"
