@@ -106,6 +106,26 @@ unsigned find_taut(const Batch& step, const Plant& plant, frond_effects effects)
     return taut;
 }
 
+// Finds lanes in which an element may be strained beyond its yield strain. Rods' retraction has measured that already.
+unsigned find_yielding(const Batch& step, frond_effects effects) {
+    const System& system = *step.system;
+    if (!(effects & FROND_EFFECT_PLASTICITY) || system.elements->yields.empty()) return 0;
+    const auto look = system.row->batch->may_yield;
+    return look ? look(*system.elements, step.x_end) : step.may_yield;
+}
+
+// Reports a plant's share of the step: one solve, and its part of the times [ms].
+void report_step(Plant& plant, const Batch& step, int lane, double ms_air, double ms_solve) {
+    plant.report = {};
+    plant.report.ok = true;
+    plant.report.iterations = 1;
+    plant.report.inverted = step.inverted[size_t(lane)];
+    plant.report.residual = step.residual[size_t(lane)];
+    plant.report.ms_solve = float(ms_solve);
+    plant.ms_air = plant.ms_effects = float(ms_air);
+    plant.ms_user_force = plant.ms_fibres = plant.ms_plasticity = 0;
+}
+
 std::shared_ptr<PlantBatch> take_batch(WorkspacePool& pool) {
     std::lock_guard<std::mutex> lock(pool.mutex);
     if (pool.batch.empty()) return std::make_shared<PlantBatch>();
@@ -289,7 +309,6 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
     const std::shared_ptr<WorkspacePool> pool = plants[0]->seat.pool;
     const std::shared_ptr<PlantBatch> space = take_batch(*pool);
     Batch& step = space->step;
-    const System& system = *plants[0]->system;
     const frond_effects effects = plants[0]->input.effects & surroundings.effects;
     const SolveSettings settings = settings_for(*plants[0], effects);
     FROND_ASSERT(std::all_of(plants.begin(), plants.begin() + count,
@@ -306,11 +325,7 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
                  LookAtWays{step, double(plants[0]->size), h, bool(plants[0]->follow), far_away, off_course});
     alone |= far_away;
     air_forces(step, space->forces);
-    const bool has_yields = (effects & FROND_EFFECT_PLASTICITY) && !system.elements->yields.empty();
-    const auto look_for_yields = system.row->batch->may_yield;
-    const unsigned may_yield = !has_yields       ? 0
-                               : look_for_yields ? look_for_yields(*system.elements, step.x_end)
-                                                 : step.may_yield;
+    const unsigned may_yield = find_yielding(step, effects);
     const unsigned going_on = find_taut(step, *plants[0], effects) | find_waiting(plants.data(), count);
     run_in_lanes(step.lanes, HandOut{step.x_end, space->x});
     run_in_lanes(step.lanes, HandOut{step.v_end, space->v});
@@ -326,14 +341,7 @@ void solve_batch(Plant* const* given, int given_count, const Surroundings& surro
         }
         plant.trouble = is_in(bad_wind) ? FROND_TROUBLE_BAD_WIND : 0;
         plant.step.may_yield = is_in(may_yield | going_on);
-        plant.report = {};
-        plant.report.ok = true;
-        plant.report.iterations = 1;
-        plant.report.inverted = step.inverted[size_t(lane)];
-        plant.report.residual = step.residual[size_t(lane)];
-        plant.report.ms_solve = float(ms_solve / count);
-        plant.ms_air = plant.ms_effects = float(ms_air / count);
-        plant.ms_user_force = plant.ms_fibres = plant.ms_plasticity = 0;
+        report_step(plant, step, lane, ms_air / count, ms_solve / count);
         if (is_in(going_on)) go_on_alone(plant, step, lane, effects, h);
     }
     return_batch(*pool, space);
