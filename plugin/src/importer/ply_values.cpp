@@ -160,8 +160,8 @@ void read_ply_list(PlyCursor& cursor, const PlyProperty& property, const PlyElem
                    std::vector<double>& values) {
     const double count = read_ply_value(cursor, property.count_type, element, index);
     const size_t left = cursor.bytes.size() - cursor.at,
-                 smallest = cursor.is_text ? 2 : PLY_TYPE_SIZE[int(property.type)];
-    if (!(count >= 0) || count != std::floor(count) || count > double((left + 1) / smallest))
+                 smallest = cursor.is_text ? 2 : PLY_TYPE_SIZE[int(property.type)], most = (left + 1) / smallest;
+    if (!(count >= 0) || count != std::floor(count) || count > double(most))
         fail(FROND_RESULT_FILE_FORMAT,
              "the file is cut off or damaged: \"%s\" %zu of %zu has a list of %g values, and %zu bytes are left",
              element.name.c_str(), index, element.count, count, left);

@@ -137,7 +137,7 @@ static Color color_of(const aiColor4D& color, bool is_linear) {
     for (size_t i = 0; i < 4; ++i) {
         float value = channels[i] >= 0 ? std::min(channels[i], 1.0f) : 0.0f;
         if (is_linear && i < 3) value = srgb_of(value);
-        out[i] = uint8_t(255 * value + 0.5f);
+        out[i] = uint8_t(std::lround(255 * value));
     }
     return out;
 }

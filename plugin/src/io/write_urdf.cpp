@@ -3,13 +3,15 @@
 // organs weigh what their cage does.
 #include "io/write_urdf.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <iterator>
 
 #include "cage/tet_geometry.hpp"
 #include "core/decompose.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "skeleton/organ_correct.hpp"
 
 namespace frond {
 
@@ -88,7 +90,9 @@ std::string link_text(const Model& model, size_t node, const std::string& name, 
         "ixy=\"0\" ixz=\"0\" iyy=\"%.9g\" iyz=\"0\" izz=\"%.9g\"/>\n    </inertial>\n",
         centre.c_str(), mass, across, across, around);
     const Material* grass = material_preset("grass_" + organ.kind);
-    const bool is_grass = grass && std::memcmp(grass, &organ.material, sizeof *grass) == 0;
+    const bool is_grass =
+        grass && std::all_of(std::begin(MATERIAL_FIELDS), std::end(MATERIAL_FIELDS),
+                             [&](const auto& field) { return grass->*field.field == organ.material.*field.field; });
     text += text_of(
         "    <frond organ=\"%s\" material=\"%s%s\" name=\"%s\" mass=\"%.9g\" stretching=\"%.9g\" bending=\"%.9g %.9g\" "
         "twisting=\"%.9g\" taper=\"%.9g\"/>\n",

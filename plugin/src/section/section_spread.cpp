@@ -50,7 +50,7 @@ struct Sharer {
         list.push_back({(a + b + c) / 3, area * 3 / 4});
     }
 
-    void share(Vec3 a, Vec3 b, Vec3 c) {
+    void share(const Vec3& a, const Vec3& b, const Vec3& c) {
         // Renames the corners so that a to b is the longest edge.
         const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
         if (bc > ab && bc >= ca) return share(b, c, a);

@@ -213,11 +213,9 @@ void grow_regions(Finder& finder) {
         // Twigs that go on within a crown are of another part than it.
         const bool in_solid = finder.same_mesh(i) && same_part && solid[size_t(parent)];
         solid[size_t(i)] = in_solid || finder.volume[size_t(i)] > 0;
-        int number = -1;
-        if (in_solid)
-            number = finder.region[size_t(parent)];
-        else if (!solid[size_t(i)] && finder.alike(i) && !is_own_branch(finder, i, leaders[size_t(parent)]))
-            number = finder.region[size_t(parent)];
+        const bool goes_on =
+            in_solid || (!solid[size_t(i)] && finder.alike(i) && !is_own_branch(finder, i, leaders[size_t(parent)]));
+        int number = goes_on ? finder.region[size_t(parent)] : -1;
         const Form form = solid[size_t(i)] ? Form::SOLID : finder.slab(i).is_sheet ? Form::SHEET : Form::TUBE;
         if (number < 0) number = begin_region(finder, i, form);
         add_slab(finder, i, number);

@@ -176,7 +176,7 @@ static void orient(Topology& topology) {
             const size_t t = size_t(patch[i]);
             const Triangle& corner = topology.triangles[t];
             const Vec3& a = topology.points[size_t(corner[0])];
-            area[size_t(topology.turned[t])] +=
+            area[topology.turned[t] ? 1 : 0] +=
                 (topology.points[size_t(corner[1])] - a).cross(topology.points[size_t(corner[2])] - a).norm();
             for (const auto& [other, alike] : next[t]) {
                 if (seen[size_t(other)]) continue;

@@ -31,6 +31,12 @@ struct TakeBack {
 template <class Base, class Owner>
 using Loan = std::unique_ptr<Lent<Base, Owner>, TakeBack>;
 
+// Leaves an object to the host, which is deleting it.
+template <class Base, class Owner>
+void leave_to_host(Loan<Base, Owner>& object) {
+    static_cast<void>(object.release());
+}
+
 template <class Base, class Owner, class... Arguments>
 Loan<Base, Owner> lend(Owner& owner, Arguments&&... arguments) {
     return Loan<Base, Owner>(new Lent<Base, Owner>(&owner, std::forward<Arguments>(arguments)...));

@@ -77,7 +77,7 @@ void forget_body(World& world, const btCollisionObject& body) {
 
 void host_deleted(Rigid& rigid, btRigidBody& body) {
     World& world = *rigid.world;
-    rigid.body.release();
+    leave_to_host(rigid.body);
     forget_body(world, body);
     if (world.release.rigid) world.release.rigid(rigid);
     rigid.handle = {};

@@ -200,14 +200,14 @@ static void lose_part(Robot& robot) {
 }
 
 void host_deleted(Robot& robot, btMultiBody&) {
-    robot.body.release();
+    leave_to_host(robot.body);
     lose_part(robot);
 }
 
 void host_deleted(Robot& robot, btMultiBodyLinkCollider& collider) {
     for (size_t i = 0; i < robot.links.size(); i++) {
         if (robot.links[i].collider.get() != &collider) continue;
-        robot.links[i].collider.release();
+        leave_to_host(robot.links[i].collider);
         if (robot.body && i == 0) robot.body->setBaseCollider(nullptr);
         if (robot.body && i > 0) robot.body->getLink(int(i) - 1).m_collider = nullptr;
     }
@@ -217,8 +217,8 @@ void host_deleted(Robot& robot, btMultiBodyLinkCollider& collider) {
 
 void host_deleted(Robot& robot, btMultiBodyConstraint& constraint) {
     for (RobotLink& link : robot.links) {
-        if (link.motor.get() == &constraint) link.motor.release();
-        if (link.limit.get() == &constraint) link.limit.release();
+        if (link.motor.get() == &constraint) leave_to_host(link.motor);
+        if (link.limit.get() == &constraint) leave_to_host(link.limit);
     }
     lose_part(robot);
 }

@@ -135,7 +135,7 @@ void host_deleted(PlantBody& body) {
         other->rest.contacts = std::move(contacts);
     }
     world.effects_before = ~world.effects;
-    take_out(world, &body).release();
+    static_cast<void>(take_out(world, &body).release());  // the host deletes it
 }
 
 bool is_held(const World& world) {
