@@ -46,7 +46,9 @@ public:
     template <class T>
     void numbers(T* values, size_t count) {
         static_assert(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
-        const char kind = std::is_floating_point_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u';
+        // Letters have a sign on some processors only; their bytes are the same.
+        constexpr bool has_sign = std::is_signed_v<T> || std::is_same_v<T, char>;
+        const char kind = std::is_floating_point_v<T> ? 'f' : has_sign ? 'i' : 'u';
         copy(values, sizeof(T), count, kind);
     }
     bool is_reading() const { return mode == Mode::READ; }

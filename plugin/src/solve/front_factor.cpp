@@ -2,6 +2,7 @@
 //
 // A front's columns are eliminated three at a time, and its update is formed from all of them at once. Both subtract
 // products of columns from rows, a tile of rows by three columns in registers.
+#include "core/borrowed.hpp"
 #include "core/lanes_of_plants.hpp"
 #include "solve/front_rows.hpp"
 
@@ -220,9 +221,9 @@ struct FactorizeFronts {
 struct TakeApart {
     const NumbersInLines& numbers;
     double* const* out;
+    NumbersInLines& nowhere;  // workspace: what no one asks for
     template <class S>
     FROND_INLINE void run() const {
-        static thread_local NumbersInLines nowhere;
         const size_t count = numbers.size() / size_t(LANES<S>);
         if (nowhere.size() < count) nowhere.resize(count);
         double* to[LANES<S>];
@@ -231,10 +232,15 @@ struct TakeApart {
     }
 };
 
+struct FactorRoom {
+    NumbersInLines updates, products;
+};
+
 }  // namespace
 
 unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontFactor& factor) {
-    static thread_local NumbersInLines updates, products;
+    Borrowed<FactorRoom> room;
+    NumbersInLines &updates = room->updates, &products = room->products;
     const size_t lanes = size_t(A.lanes()), beyond = size_t(ROWS_AT_ONCE);  // a corner reads a row too many
     factor.lanes = int(lanes);
     if (updates.size() < lanes * plan.update_size + beyond) updates.resize(lanes * plan.update_size + beyond);
@@ -252,6 +258,7 @@ unsigned factorize(const FrontPlan& plan, const BlockMatrix& A, FrontFactor& fac
 }
 
 void take_apart(const FrontFactor& factor, FrontFactor* const* out) {
+    Borrowed<NumbersInLines> nowhere;
     for (NumbersInLines FrontFactor::*numbers : {&FrontFactor::columns, &FrontFactor::pivot, &FrontFactor::inverse}) {
         const NumbersInLines& from = factor.*numbers;
         double* to[MOST_LANES] = {};
@@ -261,7 +268,7 @@ void take_apart(const FrontFactor& factor, FrontFactor* const* out) {
             own.resize(from.size() / size_t(factor.lanes) + size_t(ROWS_AT_ONCE));
             to[lane] = own.data();
         }
-        run_in_lanes(factor.lanes, TakeApart{from, to});
+        run_in_lanes(factor.lanes, TakeApart{from, to, *nowhere});
     }
 }
 

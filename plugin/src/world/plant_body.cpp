@@ -4,6 +4,7 @@
 
 #include "batch/flat.hpp"
 #include "collide/cover.hpp"
+#include "core/borrowed.hpp"
 #include "core/lanes.hpp"
 #include "world/convert.hpp"
 #include "world/detection.hpp"
@@ -221,9 +222,9 @@ void move_capsules(PlantBody* const* bodies, int count) {
         shapes[size_t(batched++)] = static_cast<PlantShape*>(body.compound());
     }
     if (batched == 0) return;
-    thread_local ChainBatch chains;
-    look_at_chains(plants.data(), batched, hull.plate_capsule, hull.flats, chains);
-    place_pieces(shapes.data(), batched, hull, plants[0]->model->capsules, chains);
+    Borrowed<ChainBatch> chains;
+    look_at_chains(plants.data(), batched, hull.plate_capsule, hull.flats, *chains);
+    place_pieces(shapes.data(), batched, hull, plants[0]->model->capsules, *chains);
 }
 
 // Returns by how much capsules around the regions of a collider at rest are wider than the chain's, at most [m].
