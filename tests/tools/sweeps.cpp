@@ -36,6 +36,21 @@ TEST(Sweeps, BodiesPassThroughNoPlantsAtModerateSpeeds) {
     expect_none_passes({Meeting::BALL}, {0.5, 5, 50}, 1.0 / 60);
 }
 
+// A stem that swings back meets a ball where neither was foreseen, and Bullet looks before a ball moves.
+TEST(Sweeps, BallsPassThroughNoStemsAtAnySpeed) {
+    expect_none_passes({Meeting::BALL}, {10, 20, 100}, 1.0 / 60);
+    expect_none_passes({Meeting::BALL}, {5, 10, 20}, 1.0 / 30);
+}
+
+// What a kinematic body passes in one step, it does not pass in silence.
+TEST(Sweeps, WhatIsLeftBehindSaysSo) {
+    for (const Meeting meeting : {Meeting::WALL, Meeting::WIRE, Meeting::PLATE})
+        for (const double speed : {2.0, 10.0}) {
+            const Sweep sweep = {meeting, FROND_MECHANICS_TET_COROTATIONAL, speed, 1.0 / 60};
+            EXPECT_NE(run_sweep(sweep).text, "passes in silence") << told(sweep);
+        }
+}
+
 // What passes by more than half of the plant's size in a step is reported.
 TEST(Sweeps, WhatIsOutOfReachSaysSo) {
     const Sweep sweep = {Meeting::STEM, FROND_MECHANICS_ROD, 100, 1.0 / 30};

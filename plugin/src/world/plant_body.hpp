@@ -95,6 +95,11 @@ struct PlantBody : btSoftBody {
     static const PlantBody* of(const btCollisionObject* object) { return dynamic_cast<const PlantBody*>(object); }
 };
 
+// Returns whether a plant has been stepped in the running substep.
+inline bool has_step(const PlantBody& body) {
+    return body.level.is_due && !body.rest.asleep && !body.plant->state.modal &&
+           body.plant->step.x_good.size() == body.plant->state.motion.x.size();
+}
 // Forgets a plant whose object the host deletes.
 void host_deleted(PlantBody& body);
 // Switch to the hull's shape as modelled, or to one of the plant's own that moves.

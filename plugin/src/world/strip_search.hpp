@@ -2,6 +2,7 @@
 #pragma once
 
 #include "world/plant_contact.hpp"
+#include "world/swept_body.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -45,13 +46,13 @@ StripContacts find_strip_contacts(const std::vector<StripPath>& paths, const std
 // How far the corners of two plants may stray from the foreseen ways, before pairs have to be found anew [m].
 constexpr double STRAY = 0.003;
 
-// Looks at the ways that watched plants went with the contacts that are known. Where strips went through each other, or
-// nearly, it adds contacts or has those that are known ask for more. Returns whether it did.
-bool find_missed_contacts(World& world, double h);
+// Looks at the ways that watched plants went with the contacts that are known. Where strips, or bodies, went through
+// them, or nearly, it adds contacts or has those that are known ask for more.
+Missed find_missed_contacts(World& world, double h);
 // Reports plants that a kinematic body has come past, whatever was asked of their contacts.
 void tell_what_is_behind(World& world, double h);
-// Has islands in which strips still go through each other go only as far along the step as none does.
-void hold_back_what_passes(World& world, double h);
+// Returns the share of the step's way that an island's plants may go until strips would go through each other.
+double way_until_crossing(PlantSearch& memory);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond
