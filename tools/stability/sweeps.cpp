@@ -13,8 +13,8 @@ namespace frond::stability {
 
 namespace {
 
-// Displacements in a step from which on bodies are known to pass [m].
-constexpr double ROD_KNOWN = 0.03, TET_KNOWN = 0.015;
+// Displacement in a step from which on kinematic bodies are known to pass, and to say so [m].
+constexpr double KNOWN = 0.07;
 // A plant of 1 m whose middle is met, from before it to behind it, and how long all is watched from there [m], [s].
 constexpr double TALL = 1, MEETS_AT = 0.487, BEFORE = 0.05, BEHIND = 0.2;
 constexpr double THIN = 0.005, LEAF_HALF_WIDTH = 0.03;
@@ -303,7 +303,7 @@ bool is_known_to_pass(const Sweep& sweep) {
         case Meeting::WALL:
         case Meeting::WIRE:
         case Meeting::PLATE:
-            return way > (sweep.mechanics == FROND_MECHANICS_ROD ? ROD_KNOWN : TET_KNOWN);
+            return way > KNOWN;
         default:
             return false;
     }

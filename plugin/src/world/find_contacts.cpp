@@ -102,7 +102,7 @@ void add_contact(PlantBody& body, int capsule, btCollisionObject& other, const V
 bool has_changed_sides(const PlantBody& body, int child, const btCollisionObject& other, const Vec3& towards,
                        double h) {
     constexpr double FAR = 0.005;  // motion from which on they are swept anyhow [m]
-    if (child < 0 || !other.getCollisionShape()->isConvex() || other.isKinematicObject()) return false;
+    if (child < 0 || !other.getCollisionShape()->isConvex() || !slides(other)) return false;
     if (!motion_of(other, h).is_far(FAR)) return false;
     const auto* compound = static_cast<const btCompoundShape*>(body.getCollisionShape());
     const Vec3 side = side_of(static_cast<const btConvexShape&>(*other.getCollisionShape()), other.getWorldTransform(),

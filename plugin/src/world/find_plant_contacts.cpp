@@ -95,6 +95,26 @@ PlantContact contact_of(const CageContact& found, const PlantSearch& memory, con
     return contact;
 }
 
+// Keeps each plant's deepest contacts: they suffice where plants overlap completely, and each contact is coupled with
+// all others of its plants, so that cost grows with the square of their number. Returns whether others were dropped.
+bool keep_deepest(size_t plant_count, std::vector<PlantContact>& contacts) {
+    constexpr int MOST = 100;  // contacts per plant
+    const size_t all = contacts.size();
+    if (all <= MOST) return false;
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [](const PlantContact& a, const PlantContact& b) { return a.depth > b.depth; });
+    std::vector<int> count(plant_count, 0);
+    const auto is_too_many = [&](const PlantContact& contact) {
+        int &first = count[size_t(contact.plants[0]->number)], &second = count[size_t(contact.plants[1]->number)];
+        if (first >= MOST || second >= MOST) return true;
+        first++;
+        second++;
+        return false;
+    };
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_too_many), contacts.end());
+    return contacts.size() < all;
+}
+
 // Contacts of one island, and the time of the search [ms].
 struct Found {
     std::vector<PlantContact> contacts;
@@ -312,6 +332,7 @@ std::vector<PlantContact> find_plant_contacts(World& world, double h) {
         world.profile.ms_hash += of.ms_hash;
         world.profile.ms_narrow += of.ms_narrow;
     }
+    if (keep_deepest(world.taking_part.size(), contacts)) world.report.trouble |= FROND_TROUBLE_CROWDED;
     return contacts;
 }
 

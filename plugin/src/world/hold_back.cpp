@@ -90,7 +90,6 @@ void group_plants(World& world, Groups& groups) {
 
 // Joins bodies with the plants that they push or go through, if these push them.
 void group_bodies(World& world, double h, Groups& groups) {
-    constexpr double WHOLE = 2;  // over the radius: all of a stem's thickness [-]
     for (size_t i = 0; i < world.swept.size(); i++) {
         const SweptBody& swept = world.swept[i];
         const int member = int(world.taking_part.size() + i);
@@ -101,7 +100,7 @@ void group_bodies(World& world, double h, Groups& groups) {
         find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), most = most_depth(body, hit), before = depth_before(hit);
             if (!is_free || !pushes_back(world, body)) {
-                if (after > WHOLE * radius_of(body, hit.capsule)) world.report.trouble |= FROND_TROUBLE_PASSED;
+                if (after > radius_of(body, hit.capsule)) world.report.trouble |= FROND_TROUBLE_PASSED;
                 return;
             }
             if (after <= most) return;
@@ -126,7 +125,7 @@ double go_share(const std::vector<PlantBody*>& plants, double share, double h) {
 
 }  // namespace
 
-void add_passed_contacts(World& world, double h, Crowd& crowd, Missed& missed) {
+void add_passed_contacts(World& world, double h, Missed& missed) {
     constexpr double NO_MATTER = 0.001, SHARE = 0.3;  // [m], over the radius [-]
     std::vector<Contact> contacts = world.contacts;
     for (const SweptBody& swept : world.swept)
@@ -134,10 +133,7 @@ void add_passed_contacts(World& world, double h, Crowd& crowd, Missed& missed) {
             const double after = depth_after(hit), deeper = after - depth_before(hit);
             if (deeper <= std::max(NO_MATTER, SHARE * radius_of(body, hit.capsule))) return;
             missed.any |= after > most_depth(body, hit);
-            if (crowd.has_room(body) && add_hit(world, body, swept, hit, contacts)) {
-                crowd.admits(contacts.back());
-                missed.any = missed.is_asked = true;
-            }
+            if (add_hit(world, body, swept, hit, contacts)) missed.any = missed.is_asked = true;
         });
     world.contacts = std::move(contacts);
 }

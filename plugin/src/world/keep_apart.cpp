@@ -87,10 +87,8 @@ bool is_between(const PlantContact& known, const PlantContact& contact) {
            known.sides[1].nodes == contact.sides[1].nodes;
 }
 
-// Adds a contact, or has the known one of the same strips that points the same way ask for what is lacking. False if
-// there is no room for it.
-bool add_missed(const std::vector<StripPath>& paths, const Miss& miss, Crowd& crowd,
-                std::vector<PlantContact>& contacts) {
+// Adds a contact, or has the known one of the same strips that points the same way ask for what is lacking.
+void add_missed(const std::vector<StripPath>& paths, const Miss& miss, std::vector<PlantContact>& contacts) {
     constexpr double ALIKE = 0.9;  // cosine
     PlantContact contact = contact_of(paths, miss.pair, miss.impact.time, miss.impact.gap);
     for (PlantContact& known : contacts) {
@@ -99,11 +97,9 @@ bool add_missed(const std::vector<StripPath>& paths, const Miss& miss, Crowd& cr
         const double apart = known.normal.dot(point_on(a.core_after(miss.pair.strip_a).at, known.sides[0].weights) -
                                               point_on(b.core_after(miss.pair.strip_b).at, known.sides[1].weights));
         known.lacking += std::max(0.0, miss.thick - apart);
-        return true;
+        return;
     }
-    if (!crowd.admits(contact)) return false;
     contacts.push_back(contact);
-    return true;
 }
 
 // Returns whether a kinematic body moves there. What rests in a plant parts from it slowly, as any other body.
@@ -151,30 +147,26 @@ bool Shortfall::ask_for(double now) {
 
 Missed find_missed_contacts(World& world, double h) {
     Missed missed;
-    Crowd crowd(world);
     for (Contact& contact : world.contacts) missed.is_asked |= ask_for_more(contact, h);
     missed.any = missed.is_asked;
-    add_passed_contacts(world, h, crowd, missed);
+    add_passed_contacts(world, h, missed);
     for (size_t i = 0; i < world.plant_island_count; i++) {
         PlantSearch& memory = *world.plant_searches[i];
         const std::vector<StripPath> paths = paths_of(memory);
         if (paths.empty()) continue;
         for (const Miss& miss : misses_of(memory, paths, 1)) {
-            missed.any = true;
-            if (add_missed(paths, miss, crowd, world.plant_contacts))
-                missed.is_asked = true;
-            else
-                world.report.trouble |= FROND_TROUBLE_CROWDED;
+            add_missed(paths, miss, world.plant_contacts);
+            missed.any = missed.is_asked = true;
         }
     }
     return missed;
 }
 
 void tell_what_is_behind(World& world, double h) {
-    constexpr double WHOLE = 2;  // over the radius: all of a stem's thickness [-]
+    // Beyond a stem's axis, a thin body is on its other side.
     for (const Contact& contact : world.contacts)
         if (is_carried_on(contact) && has_step(*contact.plant) &&
-            behind(contact, h) > WHOLE * radius_of(*contact.plant, contact.capsule))
+            behind(contact, h) > radius_of(*contact.plant, contact.capsule))
             world.report.trouble |= FROND_TROUBLE_PASSED;
 }
 

@@ -231,16 +231,7 @@ struct Waiting {
     std::vector<PlantBody*> bodies;
     std::vector<FreeStep> steps;
     std::vector<TouchedPlant> touched;  // by the plants' numbers
-    double most_solves = 0;             // of single nodes, after which no response is tried again
 };
-
-// Returns how often the plants' nodes were solved in the last response and before it.
-static double solves_of(const Waiting& waiting) {
-    double solves = 0;
-    for (const PlantBody* body : waiting.bodies)
-        solves += double(body->plant->report.iterations) * elements_of(*body->plant).node_count;
-    return solves;
-}
 
 static Waiting find_waiting(const World& world) {
     Waiting waiting;
@@ -250,9 +241,6 @@ static Waiting find_waiting(const World& world) {
             waiting.bodies.push_back(body);
             waiting.steps.push_back(free_step(*body->plant));
         }
-    // A step takes no more than some steps without contacts do, or as much as nobody minds.
-    constexpr double MORE = 10, NO_MATTER = 20000;
-    waiting.most_solves = std::max(NO_MATTER, MORE * solves_of(waiting));
     return waiting;
 }
 
@@ -275,7 +263,6 @@ void respond_to_contacts(World& world, double h) {
     Waiting waiting = find_waiting(world);
     std::vector<Given> given;
     std::vector<HeldBody> held;
-    double solves = 0;  // of single nodes
     for (int round = 1;; round++) {
         const std::vector<ContactIsland> islands = find_contact_islands(world);
         given.clear();
@@ -284,8 +271,7 @@ void respond_to_contacts(World& world, double h) {
                  [&](size_t i) { given[i] = respond_in(world, response, islands[i], h, waiting.touched); });
         const Missed missed = find_missed_contacts(world, h);
         if (!missed.any) break;
-        solves += solves_of(waiting);
-        if (!missed.is_asked || round == MOST || solves > waiting.most_solves) {
+        if (!missed.is_asked || round == MOST) {
             held = hold_back_what_passes(world, h);
             break;
         }

@@ -8,7 +8,6 @@
 #include "core/assert.hpp"
 #include "core/timer.hpp"
 #include "world/convert.hpp"
-#include "world/crowd.hpp"
 #include "world/detection.hpp"
 #include "world/fragments.hpp"
 #include "world/robot.hpp"
@@ -138,7 +137,6 @@ void mark_touched(World& world) {
                                                   return sways(c.plants[0]) || sways(c.plants[1]) || !is_by_the_same(c);
                                               }),
                                world.plant_contacts.end());
-    keep_deepest(world);
     for (PlantBody* body : world.awake) {
         body->plant->state.is_touched = body->plant->step.is_pressed = body->plant->state.is_entangled = false;
         body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;

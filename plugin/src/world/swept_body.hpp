@@ -1,7 +1,6 @@
 // SweptBody: a body that moves so fast past plants, or past which they move so fast, that Bullet may see nothing of it.
 #pragma once
 
-#include "world/crowd.hpp"
 #include "world/sweep.hpp"
 
 namespace frond {
@@ -26,8 +25,8 @@ struct Missed {
     bool any = false, is_asked = false;
 };
 // Looks at the ways that waiting plants went with the contacts that are known, and that bodies will go once these have
-// pushed them. Where a body goes through a plant, it adds a contact, if there is room.
-void add_passed_contacts(World& world, double h, Crowd& crowd, Missed& missed);
+// pushed them. Where a body goes through a plant, it adds a contact.
+void add_passed_contacts(World& world, double h, Missed& missed);
 
 // A free body that goes only a share of its way.
 struct HeldBody {
