@@ -32,8 +32,24 @@ TEST(Sweeps, PlantsPassThroughNoPlants) {
 
 TEST(Sweeps, BodiesPassThroughNoPlantsAtModerateSpeeds) {
     expect_none_passes({Meeting::WALL, Meeting::WIRE, Meeting::PLATE}, {0.2, 0.5}, 1.0 / 60);
+    expect_none_passes({Meeting::WALL, Meeting::WIRE, Meeting::PLATE}, {2}, 1.0 / 60);
     expect_none_passes({Meeting::WALL, Meeting::WIRE, Meeting::PLATE}, {2}, 1.0 / 240);
     expect_none_passes({Meeting::BALL}, {0.5, 5, 50}, 1.0 / 60);
+}
+
+// A stem that swings back meets a ball where neither was foreseen, and Bullet looks before a ball moves.
+TEST(Sweeps, BallsPassThroughNoStemsAtAnySpeed) {
+    expect_none_passes({Meeting::BALL}, {10, 20, 100}, 1.0 / 60);
+    expect_none_passes({Meeting::BALL}, {5, 10, 20}, 1.0 / 30);
+}
+
+// What gets past a kinematic body does not do so in silence.
+TEST(Sweeps, WhatIsLeftBehindSaysSo) {
+    for (const Meeting meeting : {Meeting::WALL, Meeting::WIRE, Meeting::PLATE})
+        for (const double dt : {1.0 / 60, 1.0 / 30}) {
+            const Sweep sweep = {meeting, FROND_MECHANICS_TET_COROTATIONAL, dt < 0.02 ? 10.0 : 5.0, dt};
+            EXPECT_NE(run_sweep(sweep).text, "passes in silence") << told(sweep);
+        }
 }
 
 // What passes by more than half of the plant's size in a step is reported.

@@ -123,7 +123,57 @@ ContactFigures measure_field(int plants, const BenchOptions& options) {
     return figures;
 }
 
+// Steps of a field of eight plants: settled, and while a kinematic box as large as a car goes through it.
+struct BoxFigures {
+    std::vector<double> settled, driven;  // [ms]
+    uint32_t trouble = 0;
+};
+
+BoxFigures measure_box(const BenchOptions& options) {
+    constexpr int WARM_UP = 30, SETTLED = 20;
+    constexpr double SPEED = 20, FROM = -5, TO = 5;  // [m/s], [m]
+    std::vector<std::string> assignments = options.assignments;
+    assignments.insert(assignments.end(), {"plants=8", "sleep_distance=0"});
+    const Casting casting = cast("corn_field");
+    Play play(casting, settings_of(casting, assignments));
+    BoxFigures figures;
+    const auto time_step = [&](std::vector<double>& ms) {
+        play.step();
+        frond_profile profile;
+        must(frond_world_get_profile(play.stage.world, &profile));
+        ms.push_back(profile.ms_step);
+    };
+    for (int i = 0; i < WARM_UP; i++) play.step();
+    for (int i = 0; i < SETTLED; i++) time_step(figures.settled);
+    frond_rigid_def def = frond_default_rigid_def();
+    def.shape = FROND_SHAPE_BOX;
+    def.size = {2.25, 0.75, 0.9};
+    def.mass = 0;
+    def.state.position = {FROM, 0.9, 0};
+    frond_rigid box = {};
+    must(frond_rigid_create(play.stage.world, &def, &box));
+    const double way = SPEED * play.stage.settings.dt;
+    for (frond_rigid_state state = def.state; state.position.x < TO; state.position.x += way) {
+        must(frond_rigid_set_state(box, &state));
+        time_step(figures.driven);
+        frond_report report;
+        must(frond_world_get_report(play.stage.world, &report));
+        figures.trouble |= report.trouble;
+    }
+    return figures;
+}
+
+void print_box(const BenchOptions& options) {
+    const BoxFigures box = measure_box(options);
+    const double settled = median(box.settled), driven = median(box.driven), worst = quantile(box.driven, 1);
+    std::printf(
+        "a box of 20 m/s through eight: settled %.2f, median %.2f (%.1f times), worst %.2f (%.1f times) ms; "
+        "trouble 0x%x\n",
+        settled, driven, driven / settled, worst, worst / settled, box.trouble);
+}
+
 void bench_contact(const BenchOptions& options) {
+    if (options.box) return print_box(options);
     constexpr int COUNTS[] = {1, 2, 4, 8, 17};
     std::vector<ContactFigures> all;
     for (const int plants : COUNTS)
@@ -172,6 +222,8 @@ void add_bench(CLI::App& app) {
     contact->add_option("--rounds", contact_options->rounds, "steps, default 20")->check(CLI::Range(1, 100000));
     contact->add_option("--most", contact_options->most, "plants, default 17")->check(CLI::Range(4, 17));
     contact->add_flag("--csv", contact_options->csv, "print CSV");
+    contact->add_flag("--box", contact_options->box, "a kinematic box as large as a car through eight plants instead")
+        ->excludes("--csv");
     contact->add_option("--set", contact_options->assignments, "key=value, may be repeated; see frond run --help");
     auto solver_options = std::make_shared<BenchOptions>();
     solver_options->most = 20000;

@@ -13,7 +13,8 @@ struct BenchOptions {
     int rounds = 20;
     int most = 17;  // largest number of plants, leaves or tets
     bool csv = false;
-    std::string out;  // folder for diagrams; empty: no diagrams
+    bool box = false;  // a box goes through the plants
+    std::string out;   // folder for diagrams; empty: no diagrams
     std::vector<std::string> assignments;
 };
 

@@ -13,8 +13,8 @@ namespace frond::stability {
 
 namespace {
 
-// Displacements in a step from which on bodies are known to pass [m].
-constexpr double ROD_KNOWN = 0.03, TET_KNOWN = 0.015, BALL_KNOWN = 0.1;
+// Displacement in a step from which on kinematic bodies are known to pass, and to say so [m].
+constexpr double KNOWN = 0.07;
 // A plant of 1 m whose middle is met, from before it to behind it, and how long all is watched from there [m], [s].
 constexpr double TALL = 1, MEETS_AT = 0.487, BEFORE = 0.05, BEHIND = 0.2;
 constexpr double THIN = 0.005, LEAF_HALF_WIDTH = 0.03;
@@ -258,7 +258,8 @@ const MeetingRow& row_of(Meeting meeting) {
     return TABLE[size_t(meeting)];
 }
 
-// Runs until what comes has gone its way, and a while longer; returns the crossings.
+// Runs until what comes has gone its way, and a while longer; returns the crossings. A free body has moved by the time
+// a plant steps, so where it is then the plant is where it was before.
 int run(Range& range) {
     const Sweep& sweep = range.sweep;
     const double way = BEHIND - range.start, after = 0.25;
@@ -268,11 +269,13 @@ int run(Range& range) {
     range.bench.step(sweep.dt);  // Bullet takes a new kinematic body for one that has come from elsewhere
     Core standing = range.standing(), came = range.coming();
     const double from = came.front()[0].x;
+    Core stood = standing;  // before the step
     for (int i = 1; i <= steps; i++) {
         if (range.carry) range.carry(range.start + sweep.speed * sweep.dt * std::min(i, coming));
         range.bench.step(sweep.dt);
-        const Core standing_now = range.standing(), came_now = range.coming();
+        const Core stands = range.standing(), standing_now = range.carry ? stands : stood, came_now = range.coming();
         count += crossings(standing, standing_now, came, came_now);
+        stood = stands;
         standing = standing_now;
         came = came_now;
     }
@@ -300,9 +303,7 @@ bool is_known_to_pass(const Sweep& sweep) {
         case Meeting::WALL:
         case Meeting::WIRE:
         case Meeting::PLATE:
-            return way > (sweep.mechanics == FROND_MECHANICS_ROD ? ROD_KNOWN : TET_KNOWN);
-        case Meeting::BALL:
-            return way > BALL_KNOWN;
+            return way > KNOWN;
         default:
             return false;
     }

@@ -23,7 +23,7 @@ struct Sweep {
 bool may_pass(const Sweep& sweep);
 // Green: it did not pass; grey: it passed, as it may; red: it passed in silence or without need, or worse.
 Verdict run_sweep(const Sweep& sweep);
-// Returns whether a body is known to pass now and then: kinematic ones from some centimetres in a step on.
+// Returns whether a body is known to pass now and then, and to say so: kinematic ones from 7 cm in a step on.
 bool is_known_to_pass(const Sweep& sweep);
 
 // The whole table, 0.1 to 100 m/s, or the quick sample of it.

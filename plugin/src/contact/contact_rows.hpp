@@ -13,8 +13,8 @@ inline namespace FROND_BULLET_PRECISION {
 struct ContactRow {
     std::array<PlantBody*, 2> plants = {};  // the second is null where a body is on the other side
     std::array<PlantTouch, 2> touches;
-    std::array<size_t, 2> sides = {};  // their indices among all sides of that plant
-    ContactBody contact_body;          // the other side, if that is no plant
+    std::array<size_t, 2> places = {};  // their indices among the touches of that plant
+    ContactBody contact_body;           // the other side, if that is no plant
     Touch touch;
     Vec3* impulse;              // the contact's own
     Vec3* pushed_on = nullptr;  // likewise; null where no body is on the other side

@@ -93,6 +93,20 @@ void add_contact(PlantBody& body, int capsule, btCollisionObject& other, const V
     contacts.push_back(contact);
 }
 
+// Returns whether a free body has come to the other side of a segment since Bullet looked: that was before the body
+// moved, with the plant where it is now.
+bool has_changed_sides(const PlantBody& body, int child, const btCollisionObject& other, const Vec3& towards,
+                       double h) {
+    constexpr double FAR = 0.005;  // motion from which on they are swept anyhow [m]
+    if (child < 0 || !other.getCollisionShape()->isConvex() || !slides(other)) return false;
+    if (!motion_of(other, h).is_far(FAR)) return false;
+    const auto* compound = static_cast<const btCompoundShape*>(body.getCollisionShape());
+    const Vec3 side = side_of(static_cast<const btConvexShape&>(*other.getCollisionShape()), other.getWorldTransform(),
+                              static_cast<const btConvexShape&>(*compound->getChildShape(child)),
+                              body.getWorldTransform() * compound->getChildTransform(child));
+    return side.dot(towards) > 0;
+}
+
 // Adds a manifold's contacts. Manifolds of planes are skipped: they were made for queries between steps.
 void add_manifold(World& world, const btPersistentManifold& manifold, double h, std::vector<Contact>& contacts) {
     auto* first = const_cast<btCollisionObject*>(manifold.getBody0());
@@ -114,6 +128,7 @@ void add_manifold(World& world, const btPersistentManifold& manifold, double h, 
         const int capsule = child < 0 ? nearest_capsule(*body, from_bullet(on_other)) : body->hull->capsule_of(child);
         if (capsule < 0 || is_apart(*body, capsule, *other)) continue;
         const Vec3 towards = (plant_first ? 1.0 : -1.0) * from_bullet(p.m_normalWorldOnB);
+        if (has_changed_sides(*body, child, *other, towards, h)) continue;
         add_contact(*body, capsule, *other, from_bullet(on_other), towards, h, contacts);
         const bool is_flat = body->hull->flats[size_t(capsule)].half_width > 0;
         if (!is_flat || std::find(plates.begin(), plates.end(), capsule) != plates.end()) continue;

@@ -20,6 +20,9 @@ struct Sweeper {
 void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const std::vector<Contact>& last, double h,
                         std::vector<Contact>& contacts);
 
+// Returns whether the impulses on a plant act on bodies as well: one whose step fails is rewound, and then pushes
+// nothing.
+bool pushes_back(const World& world, const PlantBody& body);
 // Returns whether an object pushes plants: triggers and the like do not, characters do.
 bool pushes(const btCollisionObject& object);
 // Returns whether bodies may push the plant; false for null.

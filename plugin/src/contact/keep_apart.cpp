@@ -1,5 +1,5 @@
 // In: the steps that plants took with the contacts that were known before. Out: contacts of what went through others in
-// spite of them, or, if nothing helps, shorter steps. The ways of corners count as straight.
+// spite of them, and how far none does. The ways of corners count as straight.
 #include "contact/keep_apart.hpp"
 
 #include <algorithm>
@@ -18,22 +18,17 @@ namespace {
 // How near cores may come, over how thick they are together, and over how near they were [-].
 constexpr double NEAREST = 0.25, OF_BEFORE = 0.5;
 
-bool moves(const PlantBody& body) {
-    return body.level.is_due && !body.rest.asleep && !body.plant->state.modal &&
-           body.plant->step.x_good.size() == body.plant->state.motion.x.size();
-}
-
 // The ways that an island's plants went; empty if none of them is watched.
 std::vector<StripPath> paths_of(PlantSearch& memory) {
     std::vector<StripPath> paths;
-    const auto is_watched = [](const PlantBody* body) { return body->plant->step.is_watched && moves(*body); };
+    const auto is_watched = [](const PlantBody* body) { return body->plant->step.is_watched && has_step(*body); };
     if (std::none_of(memory.island.begin(), memory.island.end(), is_watched)) return paths;
     memory.corners.resize(std::max(memory.corners.size(), memory.island.size()));
     for (size_t i = 0; i < memory.island.size(); i++) {
         PlantBody& body = *memory.island[i];
         take_collider(body);
         auto& [before, after] = memory.corners[i];
-        const bool steps = moves(body);
+        const bool steps = has_step(body);
         place_corners(body, steps ? body.plant->step.x_good : body.plant->state.motion.x, before);
         if (steps)
             place_corners(body, body.plant->state.motion.x, after);
@@ -72,7 +67,7 @@ std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPa
     if (strayed) anew = find_strip_pairs(paths, 0);
     for (const StripPair& pair : strayed ? anew : memory.pairs) {
         const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
-        if (!moves(*a.body) || !moves(*b.body)) continue;  // a response needs the steps of both
+        if (!has_step(*a.body) || !has_step(*b.body)) continue;  // a response needs the steps of both
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
@@ -113,11 +108,10 @@ bool is_carried_on(const Contact& contact) {
     return contact.other->isKinematicObject() && !velocity_at(*contact.other, contact.on_other).isZero(0);
 }
 
-// Returns whether a free body is about to meet the plant there. What overlaps parts from it slowly; links would turn
-// what is asked beyond a linear response into spin.
-bool comes(const Contact& contact) {
+// Returns whether a free body is there. Links would turn what is asked beyond a linear response into spin.
+bool is_free(const Contact& contact) {
     const btRigidBody* rigid = btRigidBody::upcast(contact.other);
-    return rigid && !rigid->isStaticOrKinematicObject() && contact.gap >= 0;
+    return rigid && !rigid->isStaticOrKinematicObject();
 }
 
 // Returns by how much a plant is still in the way of a body, once both are pushed, at the end of the step [m].
@@ -128,63 +122,52 @@ double behind(const Contact& contact, double h) {
     return contact.normal.dot(h * contact.pushed_on - plant.rotation * way) - contact.gap;
 }
 
-// Has a contact ask for more where the plant's response, which is linear, leaves it in the way of a body that is led or
-// comes, as long as that helps: what the plant cannot do, a free body does.
+// Has a contact ask for more where the plant's response, which is linear, leaves it in the way of a body that is led,
+// or of a free one, as long as that helps: what the plant cannot do, a free body does. Free bodies that overlap it
+// already part from it slowly, but come no deeper.
 bool ask_for_more(Contact& contact, double h) {
     constexpr double NO_MATTER = 0.001, SHARE = 0.3;  // [m], over the radius [-]
-    if (!(is_carried_on(contact) || comes(contact)) || !moves(*contact.plant)) return false;
-    const double now = behind(contact, h);
+    const bool is_led = is_carried_on(contact);
+    if (!(is_led || is_free(contact)) || !has_step(*contact.plant)) return false;
+    const double now = behind(contact, h) + (is_led ? 0 : std::min(contact.gap, 0.0));
     if (now < std::max(NO_MATTER, SHARE * radius_of(*contact.plant, contact.capsule))) return false;
     return contact.shortfall.ask_for(now);
 }
 
 }  // namespace
 
-bool find_missed_contacts(World& world, double h) {
-    bool any = false;
-    for (Contact& contact : world.contacts) any |= ask_for_more(contact, h);
+Missed find_missed_contacts(World& world, double h) {
+    Missed missed;
+    for (Contact& contact : world.contacts) missed.is_asked |= ask_for_more(contact, h);
+    missed.any = missed.is_asked;
+    add_passed_contacts(world, h, missed);
     for (size_t i = 0; i < world.plant_island_count; i++) {
         PlantSearch& memory = *world.plant_searches[i];
         const std::vector<StripPath> paths = paths_of(memory);
         if (paths.empty()) continue;
         for (const Miss& miss : misses_of(memory, paths, 1)) {
             add_missed(paths, miss, world.plant_contacts);
-            any = true;
+            missed.any = missed.is_asked = true;
         }
     }
-    return any;
+    return missed;
 }
 
 void tell_what_is_behind(World& world, double h) {
-    constexpr double WHOLE = 2;  // over the radius: all of a stem's thickness [-]
+    // Beyond a stem's axis, a thin body is on its other side.
     for (const Contact& contact : world.contacts)
-        if (is_carried_on(contact) && moves(*contact.plant) &&
-            behind(contact, h) > WHOLE * radius_of(*contact.plant, contact.capsule))
+        if (is_carried_on(contact) && has_step(*contact.plant) &&
+            behind(contact, h) > radius_of(*contact.plant, contact.capsule))
             world.report.trouble |= FROND_TROUBLE_PASSED;
 }
 
-void hold_back_what_passes(World& world, double h) {
+double way_until_crossing(PlantSearch& memory) {
     constexpr double WITHIN = 0.4, SAFE = 0.95;  // over what is allowed before; over the time to there [-]
-    for (size_t i = 0; i < world.plant_island_count; i++) {
-        PlantSearch& memory = *world.plant_searches[i];
-        const std::vector<StripPath> paths = paths_of(memory);
-        if (paths.empty()) continue;
-        double share = 1;
-        for (const Miss& miss : misses_of(memory, paths, WITHIN)) share = std::min(share, SAFE * miss.impact.time);
-        if (share == 1) continue;
-        // All by one share, or they would go through each other on ways that none of them went.
-        const auto may_go = [&](const PlantBody* body) {
-            return !moves(*body) || may_go_part_of_way(*body->plant, share, h);
-        };
-        constexpr double LEAST = 0.01;
-        while (share > LEAST && !std::all_of(memory.island.begin(), memory.island.end(), may_go)) share /= 2;
-        if (share <= LEAST) share = 0;
-        for (PlantBody* body : memory.island)
-            if (moves(*body)) {
-                go_part_of_way(*body->plant, share);
-                body->plant->trouble |= FROND_TROUBLE_HELD_BACK;
-            }
-    }
+    const std::vector<StripPath> paths = paths_of(memory);
+    double share = 1;
+    if (paths.empty()) return share;
+    for (const Miss& miss : misses_of(memory, paths, WITHIN)) share = std::min(share, SAFE * miss.impact.time);
+    return share;
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -1,18 +1,44 @@
 // What the response known so far leaves undone: contacts that ask for more, and plants that are held back.
 #pragma once
 
+#include "contact/sweep.hpp"
 #include "world/world.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// Looks at the ways that watched plants went with the contacts that are known. Where strips went through each other, or
-// nearly, it adds contacts or has those that are known ask for more. Returns whether it did.
-bool find_missed_contacts(World& world, double h);
+// Whether something went through another thing in spite of all contacts, and whether the next response is asked for
+// more.
+struct Missed {
+    bool any = false, is_asked = false;
+};
+// Looks at the ways that watched plants went with the contacts that are known. Where strips, or bodies, went through
+// them, or nearly, it adds contacts or has those that are known ask for more.
+Missed find_missed_contacts(World& world, double h);
 // Reports plants that a kinematic body has come past, whatever was asked of their contacts.
 void tell_what_is_behind(World& world, double h);
-// Has islands in which strips still go through each other go only as far along the step as none does.
-void hold_back_what_passes(World& world, double h);
+// Returns the share of the step's way that an island's plants may go until strips would go through each other.
+double way_until_crossing(PlantSearch& memory);
+
+// Adds the contact of a hit, unless one like it is known. Returns whether it did; a kinematic body's replaces those
+// that push the other way.
+bool add_hit(World& world, PlantBody& body, const SweptBody& swept, const Hit& hit, std::vector<Contact>& contacts);
+
+// Looks at the ways that waiting plants went with the contacts that are known, and that bodies will go once these have
+// pushed them. Where a body goes through a plant, it adds a contact.
+void add_passed_contacts(World& world, double h, Missed& missed);
+
+// A free body that goes only a share of its way.
+struct HeldBody {
+    btRigidBody* rigid;
+    double share;  // of its way in the step [-]
+};
+// Has plants that still go through each other, or free bodies that go through plants, go only as far along the step as
+// none does, with all that they touch. Returns the bodies, whose motion is known once they are pushed. Reports plants
+// through which kinematic bodies go, which nothing holds back.
+std::vector<HeldBody> hold_back_what_passes(World& world, double h);
+// Puts a free body back by what it may not go of its way in a step of h [s], at most as fast as it had the energy for.
+void put_back(World& world, const HeldBody& held, double h);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -10,18 +10,30 @@
 
 #include "contact/contact_rows.hpp"
 #include "contact/keep_apart.hpp"
+#include "contact/strip_search.hpp"
+#include "contact/touched_plant.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
+
+bool pushes_back(const World& world, const PlantBody& body) {
+    return world.effects & body.plant->input.effects & FROND_EFFECT_TWO_WAY && body.plant->step.is_sound;
+}
 
 namespace {
 
 using Row = ContactRow;
 
-void find_compliances(std::vector<Row>& rows) {
-    const auto has_none = [](Row& row) {
-        for (size_t k = 0; k < 2; k++)
-            if (row.plants[k] && !find_compliance(*row.plants[k]->plant, row.touches[k])) return true;
+// Finds where rows touch their plants; drops those of plants that have no compliance.
+void find_touches(std::vector<TouchedPlant>& touched, std::vector<Row>& rows) {
+    const auto has_none = [&](Row& row) {
+        for (size_t k = 0; k < 2; k++) {
+            if (!row.plants[k]) continue;
+            TouchedPlant& at = touched[size_t(row.plants[k]->number)];
+            const int place = find_touch(at, *row.plants[k]->plant, row.touches[k].attachment);
+            if (place < 0) return true;
+            row.places[k] = size_t(place);
+        }
         return false;
     };
     rows.erase(std::remove_if(rows.begin(), rows.end(), has_none), rows.end());
@@ -31,22 +43,19 @@ void find_compliances(std::vector<Row>& rows) {
 struct Sides {
     std::vector<int> rows;
     std::vector<double> signs;
-    std::vector<const NodeCompliance*> compliances;
-    std::vector<std::vector<Mat3>> known;  // compliances of all sides to one of them, empty until requested
+    std::vector<size_t> places;  // among the plant's touches
 };
 
-std::vector<Sides> sort_by_plant(size_t plant_count, std::vector<Row>& rows) {
+std::vector<Sides> sort_by_plant(size_t plant_count, const std::vector<Row>& rows) {
     std::vector<Sides> sides(plant_count);
     for (size_t i = 0; i < rows.size(); i++)
         for (size_t k = 0; k < 2; k++) {
             if (!rows[i].plants[k]) continue;
             Sides& of = sides[size_t(rows[i].plants[k]->place)];
-            rows[i].sides[k] = of.rows.size();
             of.rows.push_back(int(i));
             of.signs.push_back(k == 0 ? 1 : -1);
-            of.compliances.push_back(&rows[i].touches[k].compliance);
+            of.places.push_back(rows[i].places[k]);
         }
-    for (Sides& of : sides) of.known.resize(of.rows.size());
     return sides;
 }
 
@@ -57,43 +66,27 @@ bool are_one_body(const Row& a, const Row& b) {
     return a.contact_body.rigid && a.contact_body.rigid == b.contact_body.rigid;
 }
 
-// Compliances between touches, computed on request.
+// Couplings of rows, computed on request.
 struct Coupler {
     const std::vector<Row>& rows;
+    std::vector<TouchedPlant>& touched;
     std::vector<Sides> plants;
     std::vector<std::vector<Coupling>> known;
-    Eigen::Matrix3Xd spread;
-    std::vector<const NodeCompliance*> asked;
-    std::vector<Mat3> blocks;
 };
-
-// Returns the compliances of all sides of a plant to side `by`. Where that of `by` to the other side is known, it is
-// transposed, as A^-1 is symmetric.
-const std::vector<Mat3>& compliances_of(Coupler& coupler, Sides& sides, size_t by) {
-    std::vector<Mat3>& compliances = sides.known[by];
-    if (!compliances.empty()) return compliances;
-    coupler.asked.clear();
-    for (size_t i = 0; i < sides.rows.size(); i++)
-        if (sides.known[i].empty()) coupler.asked.push_back(sides.compliances[i]);
-    coupler.blocks.assign(coupler.asked.size(), Mat3::Zero());
-    add_compliances(coupler.asked, *sides.compliances[by], coupler.spread, coupler.blocks);
-    std::vector<Mat3> found(sides.rows.size());
-    for (size_t i = 0, next = 0; i < found.size(); i++)
-        found[i] = sides.known[i].empty() ? coupler.blocks[next++] : Mat3(sides.known[i][by].transpose());
-    return compliances = std::move(found);
-}
 
 // Adds the couplings of a row to the other rows of its plants.
 void couple_by_plants(Coupler& coupler, int by, std::vector<Coupling>& row) {
     const Row& at = coupler.rows[size_t(by)];
     for (size_t k = 0; k < 2; k++) {
         if (!at.plants[k]) continue;
-        Sides& sides = coupler.plants[size_t(at.plants[k]->place)];
-        const std::vector<Mat3>& compliances = compliances_of(coupler, sides, at.sides[k]);
+        const Sides& sides = coupler.plants[size_t(at.plants[k]->place)];
+        const std::vector<Mat3>& compliances =
+            compliances_to(coupler.touched[size_t(at.plants[k]->number)], at.places[k]);
         const double sign = k == 0 ? 1 : -1;
-        for (size_t i = 0; i < sides.rows.size(); i++)
-            if (!compliances[i].isZero(0))
-                row.push_back({sides.rows[i], sign * sides.signs[i] * compliances[i].transpose()});
+        for (size_t i = 0; i < sides.rows.size(); i++) {
+            const Mat3& compliance = compliances[sides.places[i]];
+            if (!compliance.isZero(0)) row.push_back({sides.rows[i], sign * sides.signs[i] * compliance.transpose()});
+        }
     }
 }
 
@@ -155,12 +148,8 @@ std::vector<btRigidBody*> give_to_bodies(const World& world, Given& given) {
     auto& [rows, pushes] = given;
     std::vector<btRigidBody*> pushed;
     std::vector<BodyPush> all;
-    // A plant whose step fails is rewound, and then pushes nothing.
     for (size_t i = 0; i < pushes.impulses.size(); i++) {
-        if (rows[i].plants[1] || pushes.impulses[i].isZero(0)) continue;
-        const Plant& plant = *rows[i].plants[0]->plant;
-        const bool pushes_back = world.effects & plant.input.effects & FROND_EFFECT_TWO_WAY;
-        if (!pushes_back || !plant.step.is_sound) continue;
+        if (rows[i].plants[1] || pushes.impulses[i].isZero(0) || !pushes_back(world, *rows[i].plants[0])) continue;
         all.push_back({&rows[i].contact_body, -pushes.impulses[i]});
         if (rows[i].contact_body.rigid) pushed.push_back(rows[i].contact_body.rigid);
     }
@@ -206,7 +195,8 @@ void limit_gain(const ContactIsland& island, Given& given) {
 }
 
 // Finds the impulses of an island and applies them to its plants.
-Given respond_in(const World& world, const ResponseRow& response, const ContactIsland& island, double h) {
+Given respond_in(const World& world, const ResponseRow& response, const ContactIsland& island, double h,
+                 std::vector<TouchedPlant>& touched) {
     Given given;
     auto& [rows, pushes] = given;
     take_inertias(island);
@@ -216,14 +206,14 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
         rows.clear();
         return given;
     }
-    find_compliances(rows);
+    find_touches(touched, rows);
     std::vector<Touch> touches;
     for (const Row& row : rows) touches.push_back(row.touch);
     ResponseSettings settings = world.response_settings;
     settings.h = h;
     for (const Row& row : rows) pushes.impulses.push_back(*row.impulse);
-    Coupler coupler = {
-        rows, sort_by_plant(island.plants.size(), rows), std::vector<std::vector<Coupling>>(rows.size()), {}, {}, {}};
+    Coupler coupler = {rows, touched, sort_by_plant(island.plants.size(), rows),
+                       std::vector<std::vector<Coupling>>(rows.size())};
     CouplingTable table;
     table.row = [&](int row) -> const std::vector<Coupling>& { return couple(coupler, row); };
     table.islands.emplace_back(rows.size());
@@ -237,34 +227,61 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
 
 }  // namespace
 
+// Plants whose step may still change, and their steps without contacts.
+struct Waiting {
+    std::vector<PlantBody*> bodies;
+    std::vector<FreeStep> steps;
+    std::vector<TouchedPlant> touched;  // by the plants' numbers
+};
+
+static Waiting find_waiting(const World& world) {
+    Waiting waiting;
+    waiting.touched.resize(world.taking_part.size());
+    for (PlantBody* body : world.awake)
+        if (waits(*body->plant) && body->level.is_due && !body->plant->state.modal) {
+            waiting.bodies.push_back(body);
+            waiting.steps.push_back(free_step(*body->plant));
+        }
+    return waiting;
+}
+
+// Takes the response back. What was solved again in its workspace has another factor, as it would foretell the next
+// push.
+static void take_back(Waiting& waiting) {
+    for (size_t i = 0; i < waiting.bodies.size(); i++) {
+        Plant& plant = *waiting.bodies[i]->plant;
+        if (!plant.follow && plant.trouble & FROND_TROUBLE_RETRIED)
+            waiting.touched[size_t(waiting.bodies[i]->number)] = {};
+        take_back(plant, waiting.steps[i]);
+    }
+}
+
 void respond_to_contacts(World& world, double h) {
-    // Responses in a step: the response is linear, so that some may go through others in spite of it.
+    // Responses in a step: they are linear, so that some may go through others in spite of them.
     constexpr int MOST = 5;
     const ResponseRow& response = response_row(world.response);
     if (!response.find) return;
-    std::vector<PlantBody*> waiting;
-    for (PlantBody* body : world.awake)
-        if ((body->plant->step.is_watched || body->plant->state.is_touched) && body->level.is_due &&
-            !body->plant->state.modal)
-            waiting.push_back(body);
-    std::vector<FreeStep> steps;
-    for (const PlantBody* body : waiting) steps.push_back(free_step(*body->plant));
+    Waiting waiting = find_waiting(world);
     std::vector<Given> given;
+    std::vector<HeldBody> held;
     for (int round = 1;; round++) {
         const std::vector<ContactIsland> islands = find_contact_islands(world);
         given.clear();
         given.resize(islands.size());
-        run_jobs(world, islands.size(), [&](size_t i) { given[i] = respond_in(world, response, islands[i], h); });
-        if (!find_missed_contacts(world, h)) break;
-        if (round == MOST) {
-            hold_back_what_passes(world, h);
+        run_jobs(world, islands.size(),
+                 [&](size_t i) { given[i] = respond_in(world, response, islands[i], h, waiting.touched); });
+        const Missed missed = find_missed_contacts(world, h);
+        if (!missed.any) break;
+        if (!missed.is_asked || round == MOST) {
+            held = hold_back_what_passes(world, h);
             break;
         }
-        for (size_t i = 0; i < waiting.size(); i++) take_back(*waiting[i]->plant, steps[i]);
+        take_back(waiting);
     }
     tell_what_is_behind(world, h);
     for (Given& of : given)
         for (btRigidBody* body : give_to_bodies(world, of)) give_gravity(world.gravity_ahead, *body, h);
+    for (const HeldBody& body : held) put_back(world, body, h);
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -9,6 +9,8 @@
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
+#include <cmath>
+
 #include "collide/advance.hpp"
 #include "world/convert.hpp"
 
@@ -26,36 +28,54 @@ static double reach_of(const btConvexShape& shape) {
     return double(centre.length() + radius);
 }
 
+namespace {
+
+// Nearest points of two shapes, by Bullet's GJK and, where they overlap, EPA.
+struct ShapeGap {
+    double distance = INFINITY;  // [m]
+    Vec3 normal = Vec3::Zero(), on_b = Vec3::Zero();
+};
+
+struct GapFinder {
+    btVoronoiSimplexSolver simplex;
+    btGjkEpaPenetrationDepthSolver depth;
+    btGjkPairDetector detector;
+    GapFinder(const btConvexShape& a, const btConvexShape& b) : detector(&a, &b, &simplex, &depth) {}
+    ShapeGap find(const btTransform& a, const btTransform& b) {
+        btGjkPairDetector::ClosestPointInput input;
+        input.m_transformA = a;
+        input.m_transformB = b;
+        btPointCollector nearest;
+        detector.getClosestPoints(input, nearest, nullptr);
+        if (!nearest.m_hasResult) return {};
+        return {double(nearest.m_distance), from_bullet(nearest.m_normalOnBInWorld),
+                from_bullet(nearest.m_pointInWorld)};
+    }
+};
+
+}  // namespace
+
+Vec3 side_of(const btConvexShape& a, const btTransform& at_a, const btConvexShape& b, const btTransform& at_b) {
+    return GapFinder(a, b).find(at_a, at_b).normal;
+}
+
 std::optional<ShapeImpact> first_impact(const MovingShape& a, const MovingShape& b) {
     constexpr double TOUCH = 2e-4;  // gap at which shapes count as touching; Bullet's is known no better [m]
     constexpr int MOST_STEPS = 64;  // shapes that slide past each other for so long count as touching
     const double turning = a.turn.norm() * reach_of(a.shape) + b.turn.norm() * reach_of(b.shape);
-    btVoronoiSimplexSolver simplex;
-    btGjkEpaPenetrationDepthSolver depth;
-    btGjkPairDetector detector(&a.shape, &b.shape, &simplex, &depth);
-    struct ShapeGap {
-        double distance;  // [m]
-        Vec3 normal, on_b;
-        double approach;  // upper bound of the speed along the normal [m a step]
+    GapFinder finder(a.shape, b.shape);
+    const auto gap_at = [&](double time) { return finder.find(a.at(time), b.at(time)); };
+    // An upper bound of the speed along the normal [m a step].
+    const auto approach = [&](const ShapeGap& gap) {
+        return std::isfinite(gap.distance) ? gap.normal.dot(b.way - a.way) + turning : 0;
     };
-    const auto gap_at = [&](double time) -> ShapeGap {
-        btGjkPairDetector::ClosestPointInput input;
-        input.m_transformA = a.at(time);
-        input.m_transformB = b.at(time);
-        btPointCollector nearest;
-        detector.getClosestPoints(input, nearest, nullptr);
-        if (!nearest.m_hasResult) return {INFINITY, Vec3::Zero(), Vec3::Zero(), 0};
-        const Vec3 normal = from_bullet(nearest.m_normalOnBInWorld);
-        return {double(nearest.m_distance), normal, from_bullet(nearest.m_pointInWorld),
-                normal.dot(b.way - a.way) + turning};
-    };
-    const auto until = [](double time, const ShapeGap& gap) {
-        return gap.approach > 0 ? time + gap.distance / gap.approach : INFINITY;
+    const auto until = [&](double time, const ShapeGap& gap) {
+        return approach(gap) > 0 ? time + gap.distance / approach(gap) : INFINITY;
     };
     std::optional<ShapeImpact> impact;
     advance(TOUCH, MOST_STEPS, gap_at, until, [&](double time, const ShapeGap& gap) {
         // What touches and parts does not meet.
-        if (gap.approach > 0) impact = ShapeImpact{time, gap.normal, gap.on_b + gap.distance * gap.normal, gap.on_b};
+        if (approach(gap) > 0) impact = ShapeImpact{time, gap.normal, gap.on_b + gap.distance * gap.normal, gap.on_b};
     });
     return impact;
 }

@@ -33,5 +33,9 @@ struct ShapeImpact {
 // btContinuousConvexCollision gives up after a number of iterations).
 std::optional<ShapeImpact> first_impact(const MovingShape& a, const MovingShape& b);
 
+// Returns the direction from b to a between their nearest points, or in which they part on the shortest way; zero if
+// there is none.
+Vec3 side_of(const btConvexShape& a, const btTransform& at_a, const btConvexShape& b, const btTransform& at_b);
+
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -56,6 +56,21 @@ PlantMotion motion_of(const PlantBody& body, double h) {
     return motion;
 }
 
+PlantMotion motion_in_step(const PlantBody& body) {
+    const Plant& plant = *body.plant;
+    PlantMotion motion;
+    motion.ways.assign(plant.view.chain_positions.size(), Vec3::Zero());
+    if (!has_step(body)) return motion;
+    for (size_t n = 0; n < motion.ways.size(); n++) {
+        const auto place = [&](const VecX& x) {
+            return plant.follow ? Vec3(point(x, 2 * int(n))) : attachment_place(chain_attachment(plant, int(n)), x);
+        };
+        motion.ways[n] = plant.rotation * (place(plant.state.motion.x) - place(plant.step.x_good));
+        motion.farthest = std::max(motion.farthest, motion.ways[n].norm());
+    }
+    return motion;
+}
+
 MovingShape moving_piece(const PlantBody& body, const PlantMotion& motion, int child, int capsule) {
     const Plant& plant = *body.plant;
     const auto* compound = static_cast<const btCompoundShape*>(body.getCollisionShape());
@@ -148,8 +163,10 @@ void for_each_child(PlantBody& body, const Box& box, const std::function<void(in
     if (tree && tree->m_root) tree->collideTV(tree->m_root, btDbvtVolume::FromMM(local.lower, local.upper), take_leaf);
 }
 
-void find_hits(PlantBody& body, const PlantMotion& of_plant, const btCollisionObject& object,
-               const ObjectMotion& of_object, const std::function<void(const Hit&)>& take) {
+// Calls `take` for the pieces of a plant that may come near an object's shapes.
+static void for_each_meeting(PlantBody& body, const PlantMotion& of_plant, const btCollisionObject& object,
+                             const ObjectMotion& of_object,
+                             const std::function<void(int capsule, const MovingShape&, const MovingShape&)>& take) {
     Box plant_box;
     body.compound()->getAabb(body.getWorldTransform(), plant_box.lower, plant_box.upper);
     plant_box.widen(of_plant.farthest);
@@ -162,14 +179,36 @@ void find_hits(PlantBody& body, const PlantMotion& of_plant, const btCollisionOb
             const MovingShape piece = moving_piece(body, of_plant, child, capsule);
             const double turned = shape.turn.norm() + piece.turn.norm();
             if ((shape.way - piece.way).norm() + turned < SLOW * radius_of(body, capsule)) return;
-            // The plant may go on, or be held back.
-            const MovingShape still = {piece.shape, piece.from};
-            if (const auto impact = first_impact(shape, piece))
-                take({capsule, piece, shape, *impact});
-            else if (const auto other = first_impact(shape, still))
-                take({capsule, still, shape, *other});
+            take(capsule, piece, shape);
         });
     });
+}
+
+void find_hits(PlantBody& body, const PlantMotion& of_plant, const btCollisionObject& object,
+               const ObjectMotion& of_object, const std::function<void(const Hit&)>& take) {
+    for_each_meeting(body, of_plant, object, of_object,
+                     [&](int capsule, const MovingShape& piece, const MovingShape& shape) {
+                         if (const auto impact = first_impact(shape, piece)) take({capsule, piece, shape, *impact});
+                     });
+}
+
+void find_foreseen_hits(PlantBody& body, const PlantMotion& of_plant, const btCollisionObject& object,
+                        const ObjectMotion& of_object, const std::function<void(const Hit&)>& take) {
+    for_each_meeting(body, of_plant, object, of_object,
+                     [&](int capsule, const MovingShape& piece, const MovingShape& shape) {
+                         const MovingShape still = {piece.shape, piece.from};
+                         if (const auto impact = first_impact(shape, piece))
+                             take({capsule, piece, shape, *impact});
+                         else if (const auto other = first_impact(shape, still))
+                             take({capsule, still, shape, *other});
+                     });
+}
+
+double depth_after(const Hit& hit) {
+    const auto end_of = [&](const MovingShape& shape, const Vec3& point) {
+        return from_bullet(shape.at(1) * (shape.at(hit.impact.time).inverse() * to_bullet(point)));
+    };
+    return -hit.impact.normal.dot(end_of(hit.shape, hit.impact.on_a) - end_of(hit.piece, hit.impact.on_b));
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -4,29 +4,25 @@
 #include <functional>
 
 #include "contact/shape_impact.hpp"
-#include "world/plant_body.hpp"
+#include "world/swept_body.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-// Where an object begins, and how far it moves.
-struct ObjectMotion {
-    btTransform from;
-    Vec3 way = Vec3::Zero(), turn = Vec3::Zero();  // [m], [rad]
-    // Returns whether it moves by more than `far` [m], or turns by more than that [rad].
-    bool is_far(double far) const { return way.norm() > far || turn.norm() > far; }
-};
 // Returns the motion in h [s] from where the object is, at its present velocity; none for static and sleeping ones.
 ObjectMotion motion_of(const btCollisionObject& object, double h);
 // Returns the same motion, ending where the object is.
 ObjectMotion backwards(ObjectMotion motion);
 
-// Displacements of a plant's chain nodes in a step if nothing touches it, world frame [m].
+// Displacements of a plant's chain nodes in a step, world frame [m].
 struct PlantMotion {
     std::vector<Vec3> ways;
     double farthest = 0;
 };
+// Returns them as they are if nothing touches the plant.
 PlantMotion motion_of(const PlantBody& body, double h);
+// Returns them as the step that is solved but not yet accepted has them; none where there is no such step.
+PlantMotion motion_in_step(const PlantBody& body);
 // Returns the motion of a plant's capsule or plate.
 MovingShape moving_piece(const PlantBody& body, const PlantMotion& motion, int child, int capsule);
 
@@ -51,9 +47,15 @@ struct Hit {
     const MovingShape& shape;
     ShapeImpact impact;
 };
-// Calls `take` for all impacts of an object with a plant that goes on as it moves, or else stays where it is.
+// Calls `take` for all impacts of an object with a plant that goes on as it moves.
 void find_hits(PlantBody& body, const PlantMotion& of_plant, const btCollisionObject& object,
                const ObjectMotion& of_object, const std::function<void(const Hit&)>& take);
+// Does the same, and for pieces that are not met like that, but would be if they stayed where they are: the plant may
+// be held back.
+void find_foreseen_hits(PlantBody& body, const PlantMotion& of_plant, const btCollisionObject& object,
+                        const ObjectMotion& of_object, const std::function<void(const Hit&)>& take);
+// Returns how deep a hit's points are in each other at the end of the step [m].
+double depth_after(const Hit& hit);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "contact/find_contacts.hpp"
+#include "contact/keep_apart.hpp"
 #include "contact/piece.hpp"
 #include "contact/sweep.hpp"
 #include "world/convert.hpp"
@@ -60,7 +61,8 @@ bool are_in_line(const Plant& plant, int capsule, int other) {
 
 // Adds a contact unless one like it is known. A kinematic body's contacts that push a piece in line the other way go:
 // they were found when one had passed the other. Free bodies are put back instead.
-void add(const Contact& contact, std::vector<Contact>& contacts) {
+// Returns whether it was added.
+bool add(const Contact& contact, std::vector<Contact>& contacts) {
     constexpr double LIKE = 0.5;  // cosine
     const auto is_of_both = [&](const Contact& c) {
         return c.plant == contact.plant && c.capsule == contact.capsule && c.other == contact.other;
@@ -74,7 +76,9 @@ void add(const Contact& contact, std::vector<Contact>& contacts) {
                are_in_line(*contact.plant->plant, contact.capsule, c.capsule);
     };
     if (pushes_on) contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_against), contacts.end());
-    if (std::none_of(contacts.begin(), contacts.end(), is_like)) contacts.push_back(contact);
+    if (std::any_of(contacts.begin(), contacts.end(), is_like)) return false;
+    contacts.push_back(contact);
+    return true;
 }
 
 // Returns whether Bullet's filters let the two meet; sleepers count with the filter that they had before they hid.
@@ -190,20 +194,6 @@ void keep_sides(Search& search, PlantBody& body, btCollisionObject& object, cons
     });
 }
 
-void add_hits(Search& search, PlantBody& body, btCollisionObject& object, const ObjectMotion& motion) {
-    constexpr double LIMIT = 0.5;  // displacement that no step can give a plant, over its size [-]
-    find_hits(body, motion_in(search, body), object, motion, [&](const Hit& hit) {
-        Contact contact = contact_of(body, object, hit);
-        contact.is_inside = slides(object) && is_in_joint(body, hit.capsule, contact.on_plant);
-        // Overlaps with free bodies are for Bullet's own contacts to end.
-        if (!object.isKinematicObject()) contact.gap = std::max(0.0, contact.gap);
-        if (object.isKinematicObject() && contact.normal.dot(motion.way) > LIMIT * double(body.plant->size))
-            search.world.report.trouble |= FROND_TROUBLE_PASSED;
-        else
-            add(contact, search.contacts);
-    });
-}
-
 void sweep(Search& search, btCollisionObject& object, bool is_new) {
     ObjectMotion motion = motion_of(object, search.h);
     // Bullet takes a new kinematic body for one that has come from the world's origin.
@@ -218,16 +208,34 @@ void sweep(Search& search, btCollisionObject& object, bool is_new) {
         put_back_if_passed(search, plants, *rigid, past);
         motion.from = object.getWorldTransform();
     }
+    const SweptBody swept = {&object, motion, plants};
     for (PlantBody* body : plants) {
-        add_hits(search, *body, object, motion);
+        find_foreseen_hits(*body, motion_in(search, *body), object, motion,
+                           [&](const Hit& hit) { add_hit(search.world, *body, swept, hit, search.contacts); });
         if (object.isKinematicObject()) keep_sides(search, *body, object, motion);
     }
+    if (!plants.empty()) search.world.swept.push_back(swept);
 }
 
 }  // namespace
 
+bool add_hit(World& world, PlantBody& body, const SweptBody& swept, const Hit& hit, std::vector<Contact>& contacts) {
+    constexpr double LIMIT = 0.5;  // displacement that no step can give a plant, over its size [-]
+    Contact contact = contact_of(body, *swept.object, hit);
+    contact.is_inside = slides(*swept.object) && is_in_joint(body, hit.capsule, contact.on_plant);
+    const bool is_led = swept.object->isKinematicObject();
+    if (is_led && contact.normal.dot(swept.motion.way) > LIMIT * double(body.plant->size)) {
+        world.report.trouble |= FROND_TROUBLE_PASSED;
+        return false;
+    }
+    // Overlaps with free bodies are for Bullet's own contacts to end.
+    if (!is_led) contact.gap = std::max(0.0, contact.gap);
+    return add(contact, contacts);
+}
+
 void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const std::vector<Contact>& last, double h,
                         std::vector<Contact>& contacts) {
+    world.swept.clear();
     if (bodies.empty()) return;
     Search search = {world, h, last, contacts};
     for (const PlantBody* body : world.awake)

@@ -50,14 +50,14 @@ bool make_touch(const Plant& plant, const Attachment& attachment, PlantTouch& to
     return true;
 }
 
-bool find_compliance(Plant& plant, PlantTouch& touch) {
+bool find_compliance(Plant& plant, const Attachment& attachment, NodeCompliance& compliance) {
     FROND_ASSERT(plant.step.workspace);
     const Mat3 to_model = plant.rotation.conjugate().toRotationMatrix();
-    const AttachmentDerivative derivative = derivative_at(touch.attachment, plant.step.x_good);
+    const AttachmentDerivative derivative = derivative_at(attachment, plant.step.x_good);
     std::vector<NodeBlock> pushes;
     for (size_t k = 0; k < size_t(derivative.count); k++)
         pushes.push_back({derivative.node[k], derivative.by[k].transpose() * to_model});
-    return make_compliance(*plant.step.workspace, plant.input.settings, pushes, touch.compliance);
+    return make_compliance(*plant.step.workspace, plant.input.settings, pushes, compliance);
 }
 
 static void add_impulse(const Plant& plant, const PlantTouch& touch, const Vec3& impulse, VecX& sum) {

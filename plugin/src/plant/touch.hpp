@@ -27,13 +27,13 @@ Attachment cage_attachment(const ContactSide& side);
 // A contact point of a plant, between the two halves of a step.
 struct PlantTouch {
     Attachment attachment;
-    Vec3 velocity;              // at the end of the step, without contact, world frame [m/s]
-    NodeCompliance compliance;  // to impulses along the world's axes
+    Vec3 velocity;  // at the end of the step, without contact, world frame [m/s]
 };
-// Sets all but the compliance, which takes longer by far. False if the step failed.
+// False if the step failed.
 bool make_touch(const Plant& plant, const Attachment& attachment, PlantTouch& touch);
-// Finds the compliance; false if there is none. It is zero where all nodes of the attachment are pinned.
-bool find_compliance(Plant& plant, PlantTouch& touch);
+// Finds the compliance to impulses along the world's axes; false if there is none. It is zero where all nodes of the
+// attachment are pinned.
+bool find_compliance(Plant& plant, const Attachment& attachment, NodeCompliance& compliance);
 // Adds an impulse at a touch [N s], world frame, to plant.contact_impulse.
 void take_impulse(Plant& plant, const PlantTouch& touch, const Vec3& impulse);
 // Does the same in plant.contact_correction, which moves the plant without giving it velocity.

@@ -117,6 +117,8 @@ void mark_touched(World& world) {
         body->level.is_due = (world.substep + uint64_t(body->index)) % uint64_t(body->level.every) == 0;
     }
     if (response_row(world.response).find) mark_pushed(world);
+    for (const SweptBody& swept : world.swept)
+        for (PlantBody* body : swept.plants) body->plant->step.is_watched |= !body->rest.asleep;
     for (PlantBody* body : world.awake)
         if (waits(*body->plant) || body->plant->input.has_user_force) body->level.is_due = true;
 }

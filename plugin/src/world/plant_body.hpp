@@ -95,6 +95,11 @@ struct PlantBody : btSoftBody {
     static const PlantBody* of(const btCollisionObject* object) { return dynamic_cast<const PlantBody*>(object); }
 };
 
+// Returns whether a plant has been stepped in the running substep.
+inline bool has_step(const PlantBody& body) {
+    return body.level.is_due && !body.rest.asleep && !body.plant->state.modal &&
+           body.plant->step.x_good.size() == body.plant->state.motion.x.size();
+}
 // Returns whether the object is an infinite plane.
 bool is_plane(const btCollisionObject& object);
 // Forgets a plant whose object the host deletes.

@@ -18,6 +18,7 @@
 #include "world/near_children.hpp"
 #include "world/plant_contact.hpp"
 #include "world/rigid.hpp"
+#include "world/swept_body.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -79,6 +80,7 @@ struct World final : btActionInterface {
     frond_profile profile = {};                                // likewise
     Events events;
     std::unique_ptr<Ledger> ledger;  // null: the host has not requested it
+    std::vector<SweptBody> swept;    // in the running substep
 
     World(std::unique_ptr<OwnBullet> own, btDynamicsWorld* bullet, const frond_world_def& def);
     ~World() override;

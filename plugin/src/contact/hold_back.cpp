@@ -1,0 +1,173 @@
+// In: the steps that plants took, and bodies as they go on once contacts have pushed them. Out: contacts of what bodies
+// went through in spite of those that were known, or, if nothing helps, shorter steps.
+#include "contact/keep_apart.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/piece.hpp"
+#include "contact/strip_search.hpp"
+#include "core/union_find.hpp"
+#include "world/convert.hpp"
+#include "world/world.hpp"
+
+namespace frond {
+inline namespace FROND_BULLET_PRECISION {
+
+namespace {
+
+// Returns a rigid body that contacts push; null for any other object.
+btRigidBody* free_rigid(btCollisionObject& object) {
+    btRigidBody* rigid = btRigidBody::upcast(&object);
+    return rigid && !rigid->isStaticOrKinematicObject() ? rigid : nullptr;
+}
+
+// Returns how a body goes on in the step of h [s], with its gravity, once contacts and bonds have pushed it.
+ObjectMotion pushed_motion(const World& world, const SweptBody& swept, double h) {
+    ObjectMotion motion = swept.motion;
+    const btRigidBody* rigid = free_rigid(*swept.object);
+    if (!rigid) return motion;
+    const Vec3 centre = from_bullet(rigid->getCenterOfMassPosition());
+    motion.way += h * h * from_bullet(rigid->getGravity());
+    const auto push = [&](const PlantBody& by, const Vec3& impulse, const Vec3& at) {
+        if (!pushes_back(world, by)) return;
+        motion.way += h * double(rigid->getInvMass()) * impulse;
+        motion.turn +=
+            h * from_bullet(rigid->getInvInertiaTensorWorld() * to_bullet((at - centre).cross(impulse).eval()));
+    };
+    for (const Contact& contact : world.contacts)
+        if (contact.other == rigid) push(*contact.plant, -contact.impulse, contact.on_other);
+    for (const Bond& bond : world.bonds)
+        if (bond.body == rigid) push(*bond.plant, -bond.impulse, place_on_body(bond));
+    return motion;
+}
+
+// Calls `take` for each hit of a body, as it goes on, with the plants whose steps may still change.
+void find_hits_in_step(const World& world, const SweptBody& swept, double h,
+                       const std::function<void(PlantBody&, const Hit&)>& take) {
+    // Links would need the motion of the whole robot.
+    if (!btRigidBody::upcast(swept.object)) return;
+    const ObjectMotion motion = pushed_motion(world, swept, h);
+    for (PlantBody* body : swept.plants)
+        if (waits(*body->plant) && has_step(*body))
+            find_hits(*body, motion_in_step(*body), *swept.object, motion, [&](const Hit& hit) { take(*body, hit); });
+}
+
+// Returns how deep the pieces of a hit are in each other where they first touch [m].
+double depth_before(const Hit& hit) {
+    return std::max(0.0, -hit.impact.normal.dot(hit.impact.on_a - hit.impact.on_b));
+}
+
+// Returns how deep they may be at the end: until a stem's axis is reached. What is deeper already comes no deeper [m].
+double most_depth(const PlantBody& body, const Hit& hit) {
+    return std::max(radius_of(body, hit.capsule), depth_before(hit));
+}
+
+// Groups of what goes on by one share: plants by their numbers, then swept bodies.
+struct Groups {
+    UnionFind sets;
+    std::vector<std::pair<int, double>> shares;  // of members [-]
+    void hold(int member, double share) { shares.push_back({member, share}); }
+    // Returns each group's share, by its first member.
+    std::vector<double> least() {
+        std::vector<double> least(sets.parent.size(), 1);
+        for (const auto& [member, share] : shares) {
+            double& of = least[size_t(sets.find(member))];
+            of = std::min(of, share);
+        }
+        return least;
+    }
+};
+
+// Joins plants that are held back together, or they would go through each other on ways that none of them went.
+void group_plants(World& world, Groups& groups) {
+    for (size_t i = 0; i < world.plant_island_count; i++) {
+        PlantSearch& memory = *world.plant_searches[i];
+        for (const PlantBody* body : memory.island) groups.sets.join(memory.island[0]->number, body->number);
+        const double share = way_until_crossing(memory);
+        if (share < 1) groups.hold(memory.island[0]->number, share);
+    }
+}
+
+// Joins bodies with the plants that they push or go through, if these push them.
+void group_bodies(World& world, double h, Groups& groups) {
+    for (size_t i = 0; i < world.swept.size(); i++) {
+        const SweptBody& swept = world.swept[i];
+        const int member = int(world.taking_part.size() + i);
+        const bool is_free = free_rigid(*swept.object);
+        for (const Contact& contact : world.contacts)
+            if (is_free && contact.other == swept.object && pushes_back(world, *contact.plant))
+                groups.sets.join(contact.plant->number, member);
+        find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
+            const double after = depth_after(hit), most = most_depth(body, hit), before = depth_before(hit);
+            if (!is_free || !pushes_back(world, body)) {
+                if (after > radius_of(body, hit.capsule)) world.report.trouble |= FROND_TROUBLE_PASSED;
+                return;
+            }
+            if (after <= most) return;
+            groups.sets.join(body.number, member);
+            groups.hold(member, hit.impact.time + (1 - hit.impact.time) * (most - before) / (after - before));
+        });
+    }
+}
+
+// Has plants go a share of their way, halved while that strains them. Returns the share.
+double go_share(const std::vector<PlantBody*>& plants, double share, double h) {
+    constexpr double LEAST = 0.01;  // [-]
+    const auto may_go = [&](const PlantBody* body) { return may_go_part_of_way(*body->plant, share, h); };
+    while (share > LEAST && !std::all_of(plants.begin(), plants.end(), may_go)) share /= 2;
+    if (share <= LEAST) share = 0;
+    for (PlantBody* body : plants) {
+        go_part_of_way(*body->plant, share);
+        body->plant->trouble |= FROND_TROUBLE_HELD_BACK;
+    }
+    return share;
+}
+
+}  // namespace
+
+void add_passed_contacts(World& world, double h, Missed& missed) {
+    constexpr double NO_MATTER = 0.001, SHARE = 0.3;  // [m], over the radius [-]
+    std::vector<Contact> contacts = world.contacts;
+    for (const SweptBody& swept : world.swept)
+        find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
+            const double after = depth_after(hit), deeper = after - depth_before(hit);
+            if (deeper <= std::max(NO_MATTER, SHARE * radius_of(body, hit.capsule))) return;
+            missed.any |= after > most_depth(body, hit);
+            if (add_hit(world, body, swept, hit, contacts)) missed.any = missed.is_asked = true;
+        });
+    world.contacts = std::move(contacts);
+}
+
+std::vector<HeldBody> hold_back_what_passes(World& world, double h) {
+    const size_t plant_count = world.taking_part.size();
+    Groups groups = {UnionFind(plant_count + world.swept.size()), {}};
+    group_plants(world, groups);
+    group_bodies(world, h, groups);
+    std::vector<double> shares = groups.least();
+    std::vector<std::vector<PlantBody*>> plants(shares.size());
+    for (PlantBody* body : world.taking_part)
+        if (has_step(*body)) plants[size_t(groups.sets.find(body->number))].push_back(body);
+    for (size_t i = 0; i < shares.size(); i++)
+        if (shares[i] < 1) shares[i] = go_share(plants[i], shares[i], h);
+    std::vector<HeldBody> held;
+    for (size_t i = 0; i < world.swept.size(); i++) {
+        const double share = shares[size_t(groups.sets.find(int(plant_count + i)))];
+        if (share < 1) held.push_back({btRigidBody::upcast(world.swept[i].object), share});
+    }
+    return held;
+}
+
+void put_back(World& world, const HeldBody& held, double h) {
+    btRigidBody& rigid = *held.rigid;
+    const Vec3 velocity = from_bullet(rigid.getLinearVelocity()), turning = from_bullet(rigid.getAngularVelocity());
+    const Vec3 back = -(1 - held.share) * h * velocity;
+    rigid.proceedToTransform(moved(rigid.getWorldTransform(), back, -(1 - held.share) * h * turning, 1));
+    world.bullet->updateSingleAabb(&rigid);
+    // What rises by that is paid from its speed.
+    const double square = velocity.squaredNorm(), left = square + 2 * from_bullet(rigid.getGravity()).dot(back);
+    if (left < square) rigid.setLinearVelocity(to_bullet(std::sqrt(std::max(0.0, left / square)) * velocity));
+}
+
+}  // namespace FROND_BULLET_PRECISION
+}  // namespace frond
