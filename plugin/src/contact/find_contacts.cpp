@@ -12,6 +12,7 @@
 #include "contact/contact_body.hpp"
 #include "contact/piece.hpp"
 #include "contact/plate.hpp"
+#include "contact/sweep.hpp"
 #include "world/convert.hpp"
 #include "world/fragments.hpp"
 #include "world/show.hpp"
@@ -220,8 +221,8 @@ int how_held(const Plant& plant, int capsule) {
     return held;
 }
 
-// Drops contacts by which a static or kinematic body pushes a held stem along its own axis: they would only stretch the
-// stem, or compress it where it passes through the body and is held beyond. Contacts farther up the stem go with them.
+}  // namespace
+
 void drop_what_draws_out(std::vector<Contact>& contacts) {
     constexpr double AXIS = 0.9;  // depth from which the axis counts as reached, over the radius [-]
     std::vector<Contact> useless;
@@ -248,6 +249,8 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
     };
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), draws_out), contacts.end());
 }
+
+namespace {
 
 // Drops contacts with round ends within a stem whose next segment the body touches: they would catch what slides along.
 void drop_what_is_inside(std::vector<Contact>& contacts) {

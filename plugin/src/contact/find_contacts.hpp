@@ -20,6 +20,10 @@ struct Sweeper {
 void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const std::vector<Contact>& last, double h,
                         std::vector<Contact>& contacts);
 
+// Drops contacts by which a static or kinematic body pushes a held stem along its own axis: they would only stretch the
+// stem, or compress it where it passes through the body and is held beyond. Contacts farther up the stem go with them.
+void drop_what_draws_out(std::vector<Contact>& contacts);
+
 // Returns whether the impulses on a plant act on bodies as well: one whose step fails is rewound, and then pushes
 // nothing.
 bool pushes_back(const World& world, const PlantBody& body);

@@ -128,14 +128,18 @@ double go_share(const std::vector<PlantBody*>& plants, double share, double h) {
 
 void add_passed_contacts(World& world, double h, Missed& missed) {
     constexpr double NO_MATTER = 0.001, SHARE = 0.3;  // [m], over the radius [-]
+    bool any = false;
     std::vector<Contact> contacts = world.contacts;
     for (const SweptBody& swept : world.swept)
         find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), deeper = after - depth_before(hit);
             if (deeper <= std::max(NO_MATTER, SHARE * radius_of(body, hit.capsule))) return;
             missed.any |= after > most_depth(body, hit);
-            if (add_hit(world, body, swept, hit, contacts)) missed.any = missed.is_asked = true;
+            any |= add_hit(world, body, swept, hit, contacts);
         });
+    if (!any) return;
+    drop_what_draws_out(contacts);
+    if (contacts.size() > world.contacts.size()) missed.any = missed.is_asked = true;
     world.contacts = std::move(contacts);
 }
 
