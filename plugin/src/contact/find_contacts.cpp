@@ -250,9 +250,8 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), draws_out), contacts.end());
 }
 
-namespace {
+namespace {}  // namespace
 
-// Drops contacts with round ends within a stem whose next segment the body touches: they would catch what slides along.
 void drop_what_is_inside(std::vector<Contact>& contacts) {
     std::vector<Contact> outside;
     std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(outside),
@@ -266,8 +265,6 @@ void drop_what_is_inside(std::vector<Contact>& contacts) {
     };
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_hidden), contacts.end());
 }
-
-}  // namespace
 
 std::vector<Contact> find_contacts(World& world, const std::vector<Contact>& last, double h) {
     std::vector<Contact> contacts;

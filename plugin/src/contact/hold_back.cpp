@@ -139,6 +139,7 @@ void add_passed_contacts(World& world, double h, Missed& missed) {
         });
     if (!any) return;
     drop_what_draws_out(contacts);
+    drop_what_is_inside(contacts);
     if (contacts.size() > world.contacts.size()) missed.any = missed.is_asked = true;
     world.contacts = std::move(contacts);
 }
