@@ -1,5 +1,6 @@
 // Sections of what a mesh does not show: wood within crowns, and the soil that holds roots.
 #include <algorithm>
+#include <cmath>
 
 #include "core/elementary.hpp"
 #include "section/section_parts.hpp"
@@ -31,6 +32,11 @@ void carry_crowns(const Chain& chain, const std::vector<Organ>& organs, std::vec
         section.inertia_thin = std::max(section.inertia_thin, wood / section.young);
         section.inertia_wide = std::max(section.inertia_wide, wood / section.young);
         section.torsion = std::max(section.torsion, wood / material_preset("branch")->twist_to_bend / section.shear);
+        // EA of a round rod by its EI; the foliage around it weighs what it did.
+        const double area = 2 * std::sqrt(PI * material_preset("branch")->young * wood) / section.young;
+        if (area <= section.area) continue;
+        section.density *= section.area / area;
+        section.area = area;
     }
 }
 
