@@ -130,7 +130,7 @@ TEST(Stiffening, NeedsConsent) {
     frond_model_def def = frond_default_model_def();
     frond_model model = {};
     EXPECT_EQ(frond_model_from_stems(stems, 2, &def, &model), FROND_RESULT_BAD_GEOMETRY);
-    EXPECT_TRUE(error_names("stem_0, a stem") && error_names("allow_stiffening is 10")) << frond_last_error();
+    EXPECT_TRUE(error_names("stem_0, a stem") && error_names("allow_stiffening is 3")) << frond_last_error();
     EXPECT_EQ(model.id, 0u);
     def.allow_stiffening = INFINITY;
     ASSERT_EQ(frond_model_from_stems(stems, 2, &def, &model), FROND_OK) << frond_last_error();

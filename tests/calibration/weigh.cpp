@@ -6,6 +6,7 @@
 #include "cage/tet_geometry.hpp"
 #include "calibration/calibration.hpp"
 #include "calibration/weigh.hpp"
+#include "modelling/build.hpp"
 #include "solve/solve.hpp"
 #include "support/model_def.hpp"
 
@@ -56,6 +57,37 @@ TetMesh tower(int layers) {
             mesh.tet_region.push_back(0);
         }
     return mesh;
+}
+
+// A leaf of 5 by 20 cm, drawn with two faces `thickness` apart; the last of its twelve triangles may be missing.
+Surface drawn_leaf(double thickness, bool whole) {
+    Surface surface;
+    for (int corner = 0; corner < 8; corner++)
+        surface.positions.push_back({0.05 * (corner & 1), 0.2 * (corner >> 1 & 1), thickness * (corner >> 2)});
+    surface.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                         {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    if (!whole) surface.triangles.pop_back();
+    surface.parts.emplace_back();
+    surface.parts[0].name = "leaf";
+    surface.parts[0].triangle_count = int(surface.triangles.size());
+    surface.normals.assign(surface.positions.size(), Vec3f::UnitZ());
+    return surface;
+}
+
+TEST(Weigh, ALeafByItsFacesHoweverThickItWasDrawn) {
+    frond_model_def def = model_def();
+    def.rest = FROND_REST_WITHOUT_GRAVITY;
+    const Material& blade = *material_preset("blade");
+    const double face = 0.05 * 0.2 * blade.thickness * blade.density;
+    EXPECT_NEAR(build_from_surface(drawn_leaf(5e-4, true), def)->mass(), 0.05 * 0.2 * 5e-4 * blade.density,
+                0.05 * face);
+    for (const bool whole : {true, false})
+        EXPECT_NEAR(build_from_surface(drawn_leaf(4e-3, whole), def)->mass(), 2 * face, 0.25 * face) << whole;
+    frond_organ_material given = {"leaf", blade};
+    def.organs = &given;
+    def.organ_count = 1;
+    EXPECT_NEAR(build_from_surface(drawn_leaf(4e-3, true), def)->mass(), 0.05 * 0.2 * 4e-3 * blade.density,
+                0.05 * face);
 }
 
 INSTANTIATE_TEST_SUITE_P(Weigh, WeighedPlant, testing::Values("corn", "cucumber"),

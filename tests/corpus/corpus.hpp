@@ -20,6 +20,8 @@ struct Row {
 
 // Reads tests/corpus/seen.csv.
 std::vector<Row> read_seen();
+// FROND_CORPUS=Corn leaves only files with that in their names to the long tests, and prints their organs.
+bool is_wanted(const Row& row);
 std::string path_of(const Row& row);
 
 struct Found {

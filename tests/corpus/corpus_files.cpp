@@ -46,6 +46,11 @@ static int seen_as(const std::string& kind) {
     return kind == "support" ? int(SUPPORTS) : -1;
 }
 
+bool is_wanted(const Row& row) {
+    const char* wanted = std::getenv("FROND_CORPUS");
+    return !wanted || row.file.find(wanted) != std::string::npos;
+}
+
 std::string path_of(const Row& row) {
     return FOLDER + row.file;
 }
@@ -67,9 +72,7 @@ Found find(const Row& row, Surface surface) {
     const std::vector<Organ> organs = find_organs(surface, topology, nullptr, 0);
     Found found;
     found.ms = timer.ms();
-    // FROND_CORPUS=Corn prints what was found in files with that in their names.
-    const char* wanted = std::getenv("FROND_CORPUS");
-    if (wanted && row.file.find(wanted) != std::string::npos)
+    if (std::getenv("FROND_CORPUS") && is_wanted(row))
         for (const Part& part : surface.parts) {
             const Organ& organ = organs[size_t(part.organ)];
             std::printf("    %-10s %4d triangles, %.2f sure: %s\n", organ.kind.c_str(), part.triangle_count,

@@ -10,8 +10,8 @@
 namespace frond {
 namespace materials_tests {
 
-const char* const KINDS[] = {"stem",   "petiole", "blade",   "midrib",  "peduncle",   "flower",     "fruit",
-                             "branch", "root",    "tendril", "support", "grass_stem", "grass_blade"};
+const char* const KINDS[] = {"stem",   "petiole", "blade",   "midrib",  "peduncle",   "flower",      "fruit",
+                             "branch", "root",    "tendril", "support", "grass_stem", "cereal_stem", "grass_blade"};
 
 std::string refusal(const Material& material) {
     try {

@@ -254,9 +254,9 @@ typedef struct frond_organ_material {
 /* Returns the material that an organ of unknown kind has, a stem's: the preset "stem". */
 FROND_API frond_material frond_default_material(void);
 /* Looks up published values for the kinds "stem", "petiole", "blade", "midrib", "peduncle", "flower", "fruit",
- * "branch", "root", "tendril", "crown" (foliage drawn as a solid) and "support" (stakes, pots), and for "grass_stem"
- * and "grass_blade", given to stems and blades whose name or material names a grass. Sources stand in
- * plugin/src/skeleton/materials.cpp. BAD_ARGUMENT names the kinds there are. */
+ * "branch", "root", "tendril", "crown" (foliage drawn as a solid) and "support" (stakes, pots), and for "grass_stem",
+ * "grass_blade" and "cereal_stem", given to stems and blades whose name or material names a grass or a small cereal.
+ * Sources stand in plugin/src/skeleton/materials.cpp. BAD_ARGUMENT names the kinds there are. */
 FROND_API frond_result frond_material_preset(const char* kind, frond_material* out);
 
 /* What a person says about an organ where Frond's guess is wrong: see frond_model_def.corrections. */
@@ -285,7 +285,7 @@ typedef struct frond_model_def {
                                          * for one that no organ has */
     int organ_count;
     /* Largest factor by which organs may be made stiffer than their materials so that the plant carries itself [-], 1
-     * and more, default 10. Leaves first get the midribs that a file does not show. A plant that needs more is
+     * and more, default 3. Leaves first get the midribs that a file does not show. A plant that needs more is
      * BAD_GEOMETRY, with a text that names the organ and what to set; INFINITY takes any plant, with a warning. */
     double allow_stiffening;
     /* Corrections of organs, BAD_ARGUMENT for one of an organ that is not found. For mesh files they come on top of

@@ -36,7 +36,7 @@ static frond_wind_def wind_def() {
 static frond_model_def model_def() {
     frond_model_def def = {};
     def.cage_smoothness = CageOptions().smoothness;
-    def.allow_stiffening = 10;
+    def.allow_stiffening = 3;
     return def;
 }
 

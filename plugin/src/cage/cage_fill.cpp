@@ -142,6 +142,7 @@ static void fill_copy(Filler& filler, int copy, size_t patch, double amount) {
 static void fill_skin(Filler& filler, size_t patch, std::vector<Slice>& slices,
                       const std::vector<std::pair<CellIndex, int>>& copies_by_cell) {
     const double cell_size = filler.draft.voxels.lattice.cell_size;
+    const double full = filler.draft.patches.patches[patch].tissue / filler.draft.patches.patches[patch].volume;
     std::stable_sort(slices.begin(), slices.end(), [](const Slice& a, const Slice& b) {
         if (a.cell[0] != b.cell[0]) return a.cell[0] < b.cell[0];
         return a.cell[1] != b.cell[1] ? a.cell[1] < b.cell[1] : a.cell[2] > b.cell[2];
@@ -162,7 +163,7 @@ static void fill_skin(Filler& filler, size_t patch, std::vector<Slice>& slices,
         const bool goes_on = i < slices.size() && slices[i].cell[0] == first[0] && slices[i].cell[1] == first[1];
         const int end = goes_on ? slices[i].cell[2] : first[2] - 1;
         for (int z = first[2]; z > end; --z) {
-            const double amount = z == first[2] ? volume : above * cell_size * cell_size * cell_size;
+            const double amount = full * (z == first[2] ? volume : above * cell_size * cell_size * cell_size);
             if (!(amount > 0)) {
                 filler.left[patch] += amount;
                 continue;

@@ -166,7 +166,7 @@ static double close_holes(const Topology& topology, const std::vector<int>& tria
     return area;
 }
 
-static void measure(const Topology& topology, const std::vector<int>& members, const Material& material, bool oriented,
+static void measure(const Topology& topology, const std::vector<int>& members, const Organ& organ, bool oriented,
                     double hole_area, Patches& patches, Patch& patch) {
     // The volume is computed about a point nearby, for precision.
     const Vec3 origin = topology.points[size_t(topology.triangles[size_t(members[0])][0])];
@@ -183,9 +183,10 @@ static void measure(const Topology& topology, const std::vector<int>& members, c
     patch.area = area;
     patch.solid = oriented && members.size() >= 4 && area > 0 && hole_area < LARGEST_HOLE * area && volume != 0;
     // A leaf with two faces is a sheet drawn twice if they are closer together than half its thickness.
-    const double sheet = area * material.thickness * (patch.solid ? 0.5 : 1);
+    const double sheet = area * organ.material.thickness * (patch.solid ? 0.5 : 1);
     patch.filled = patch.solid && std::abs(volume) >= 0.5 * sheet;
-    patch.tissue = patch.filled ? std::abs(volume) : sheet;
+    patch.volume = patch.filled ? std::abs(volume) : 0;
+    patch.tissue = patch.filled ? std::min(patch.volume, 0.5 * area * solid_thickness(organ)) : sheet;
     if (!patch.solid) patch.caps.clear();
     if (!patch.solid || volume > 0) return;
     for (int t : members) patches.flipped[size_t(t)] ^= 1;
@@ -207,7 +208,7 @@ Patches make_patches(const Topology& topology, const std::vector<int>& triangle_
         Patch patch;
         patch.organ = triangle_organ[t];
         const double hole_area = oriented ? close_holes(topology, triangle_organ, members, patches, loop, patch) : 0;
-        measure(topology, members, organs[size_t(patch.organ)].material, oriented, hole_area, patches, patch);
+        measure(topology, members, organs[size_t(patch.organ)], oriented, hole_area, patches, patch);
         patches.patches.push_back(std::move(patch));
     }
     return patches;

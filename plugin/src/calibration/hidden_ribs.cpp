@@ -27,12 +27,15 @@ Turns find_turns(const Model& model) {
             if (nodes[i].parent < 0) continue;
             const size_t parent = size_t(nodes[i].parent);
             const Section& section = model.sections[i];
-            const Vec3 M = moment[i] - (0.5 * (nodes[i].position + nodes[parent].position)).cross(force[i]);
+            const Vec3 middle = 0.5 * (nodes[i].position + nodes[parent].position);
+            force[parent] += force[i];
+            moment[parent] += moment[i];
+            // What hangs is not turned over by a push: its weight brings it back.
+            const Vec3 M = moment[i] - middle.cross(force[i]);
+            if (axis != 1 && M.dot(Vec3::UnitY().cross(load)) < 0) continue;
             curvature[i] = frond::hypot(M.dot(section.wide()) / section.bending_thin(),
                                         M.dot(section.thin) / section.bending_wide());
             turns.moment[i] = std::max(turns.moment[i], M.norm());
-            force[parent] += force[i];
-            moment[parent] += moment[i];
         }
         for (size_t i = 0; i < nodes.size(); i++) {
             if (nodes[i].parent < 0) continue;
@@ -47,9 +50,9 @@ Turns find_turns(const Model& model) {
 
 namespace {
 
-// Leaves have midribs, and stalks go on within fruits; petals are stiff by the pressure of their water.
+// Leaves have midribs, petals have veins, and stalks go on within fruits.
 bool hides_a_rib(const Organ& organ) {
-    return organ.kind == "blade" || organ.kind == "fruit";
+    return is_sheet(organ) || organ.kind == "fruit";
 }
 
 // Organs whose ribs may be thickened, with the sizes that limit them.

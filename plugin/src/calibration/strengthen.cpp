@@ -77,11 +77,16 @@ void add_work_of_rods(const Model& model, const RodElements& all, frond_mechanic
     }
 }
 
-std::vector<double> organ_masses(const Model& model) {
-    std::vector<double> masses(model.organs.size(), 0.0);
-    for (size_t i = 0; i < model.chain.nodes.size(); i++)
-        masses[size_t(std::max(model.chain.nodes[i].organ, 0))] += model.chain_mass[i];
-    return masses;
+// Returns the largest mass that hangs on a capsule of each organ [kg].
+std::vector<double> borne_masses(const Model& model) {
+    std::vector<double> beyond = model.chain_mass, borne(model.organs.size(), 0.0);
+    for (size_t i = beyond.size(); i-- > 0;) {
+        const ChainNode& node = model.chain.nodes[i];
+        double& most = borne[size_t(std::max(node.organ, 0))];
+        most = std::max(most, beyond[i]);
+        if (node.parent >= 0) beyond[size_t(node.parent)] += beyond[i];
+    }
+    return borne;
 }
 
 }  // namespace
@@ -134,14 +139,12 @@ WeakOrgan strengthen(Model& model) {
         if (std::all_of(stiffer.begin(), stiffer.end(), [](double factor) { return factor <= 1; })) break;
     }
 
-    // Organs of negligible weight, silk and hairs, are not reported.
+    // Organs that carry next to nothing, silk and hairs, are not reported; a thin petiole carries its leaf.
     constexpr double WORTH_A_WORD = 0.02;  // share of the plant's mass [-]
-    const std::vector<double> masses = organ_masses(model);
-    double whole = 0;
-    for (double mass : masses) whole += mass;
+    const std::vector<double> borne = borne_masses(model);
     WeakOrgan weak;
     for (size_t o = 0; o < stiffer.size(); o++)
-        if (masses[o] >= WORTH_A_WORD * whole && stiffer[o] > weak.factor)
+        if (borne[o] >= WORTH_A_WORD * model.mass() && stiffer[o] > weak.factor)
             weak = {model.organs[o].name, model.organs[o].kind, stiffer[o]};
     return weak;
 }

@@ -135,34 +135,15 @@ static std::vector<double> weigh_sections(Model& model) {
     return organs;
 }
 
-// Returns the density of each organ's sections over that of its material: leaves drawn too thick hold air.
-static std::vector<double> find_lightness(const Model& model) {
-    std::vector<double> light(model.organs.size(), 0.0), full(light);
-    for (size_t i = 0; i < model.chain.nodes.size(); i++) {
-        const ChainNode& node = model.chain.nodes[i];
-        if (node.parent < 0 || node.organ < 0 || !is_sheet(model.organs[size_t(node.organ)])) continue;
-        const double volume = model.sections[i].area * model.sections[i].length;
-        light[size_t(node.organ)] += volume * model.sections[i].density;
-        full[size_t(node.organ)] += volume * model.organs[size_t(node.organ)].material.density;
-    }
-    for (size_t o = 0; o < light.size(); o++)
-        light[o] = full[o] > 0 && std::count(model.chain.rib_of.begin(), model.chain.rib_of.end(), int(o)) == 0
-                       ? std::min(1.0, light[o] / full[o])
-                       : 1;
-    return light;
-}
-
 void give_mass(Model& model) {
     const Cage& cage = model.cage;
     FROND_ASSERT(model.sections.size() == model.chain.nodes.size());
     FROND_ASSERT(cage.tet_organ.size() == cage.tets.size() && cage.tet_fill.size() == cage.tets.size());
-    const std::vector<double> lightness = find_lightness(model);
     model.tet_density.resize(cage.tets.size());
     std::vector<double> organs(model.organs.size(), 0.0);
     for (size_t e = 0; e < cage.tets.size(); e++) {
         const Organ& organ = model.organs[size_t(cage.tet_organ[e])];
-        model.tet_density[e] =
-            organ.material.density * cage.tet_fill[e] * (1 - hole_share(organ)) * lightness[size_t(cage.tet_organ[e])];
+        model.tet_density[e] = organ.material.density * cage.tet_fill[e] * (1 - hole_share(organ));
         organs[size_t(cage.tet_organ[e])] += model.tet_density[e] * tet_volume(cage.nodes, cage.tets[e]);
     }
     if (!model.exact_sections) {

@@ -187,6 +187,8 @@ void place_surface(Surface& surface, const ImportOptions& options) {
         scale_surface(surface, options);
         clean_surface(surface);
     }
+    if (const int count = fill_lost_triangles(surface))
+        warn("%d triangles that the mesh had lost were put back between their neighbours", count);
     fetch_surface(surface);
     surface.placed = true;
 }

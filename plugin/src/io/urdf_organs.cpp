@@ -8,16 +8,16 @@
 
 namespace frond {
 
-// Returns whether a name is a kind of organ. "grass_stem" is only a material of stems.
+// Returns whether a name is a kind of organ. "grass_stem" and the like are only materials of stems.
 static bool is_kind(const std::string& name) {
-    return material_preset(name) && name.compare(0, 6, "grass_") != 0;
+    return material_preset(name) && name.compare(0, 6, "grass_") != 0 && name.compare(0, 7, "cereal_") != 0;
 }
 
 static void check(const UrdfLink& link) {
     if (!link.organ.empty() && !is_kind(link.organ))
         fail(FROND_RESULT_BAD_ARGUMENT,
-             "link \"%.64s\": there is no organ \"%.64s\"; there are %s (grass_* as material only)", link.name.c_str(),
-             link.organ.c_str(), material_kinds().c_str());
+             "link \"%.64s\": there is no organ \"%.64s\"; there are %s (grass_* and cereal_* as materials only)",
+             link.name.c_str(), link.organ.c_str(), material_kinds().c_str());
     if (!link.organ_material.empty() && !material_preset(link.organ_material))
         fail(FROND_RESULT_BAD_ARGUMENT, "link \"%.64s\": there is no material \"%.64s\"; there are %s",
              link.name.c_str(), link.organ_material.c_str(), material_kinds().c_str());

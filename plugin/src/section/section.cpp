@@ -95,6 +95,15 @@ std::vector<double> measure_gaps(const std::vector<Organ>& organs, const Chain& 
     return middle;
 }
 
+// Takes the section of another capsule, rotated to lie across the own axis.
+void take_section(const Section& from, Section& section) {
+    const Vec3 across = from.thin - from.thin.dot(section.axis) * section.axis;
+    section.thin = across.norm() > 0.1 ? Vec3(across.normalized()) : Vec3(section.axis.unitOrthogonal());
+    section.area = from.area;
+    section.inertia_thin = from.inertia_thin;
+    section.inertia_wide = from.inertia_wide;
+}
+
 // Fills area and second moments of a capsule's outline, without its hole. Returns whether they are exact. An outline
 // that is much smaller than the surface around the capsule belongs to a corner that happens to be cut, and is not used.
 bool fill_outline(const ChainNode& node, const Organ& organ, double gap, const Spread& spread, const Outline& outline,
@@ -131,19 +140,31 @@ bool fill_outline(const ChainNode& node, const Organ& organ, double gap, const S
         return false;
     }
     if (node.parent >= 0) {
-        // A capsule to which no surface is nearest takes its parent's section, rotated to lie across its own axis.
-        const Section& parent = before[size_t(node.parent)];
-        const Vec3 across = parent.thin - parent.thin.dot(section.axis) * section.axis;
-        section.thin = across.norm() > 0.1 ? Vec3(across.normalized()) : Vec3(section.axis.unitOrthogonal());
-        section.area = parent.area;
-        section.inertia_thin = parent.inertia_thin;
-        section.inertia_wide = parent.inertia_wide;
+        // No surface is nearest to it.
+        take_section(before[size_t(node.parent)], section);
         return false;
     }
     section.thin = section.axis.unitOrthogonal();
     section.area = PI * node.radius * node.radius;
     section.inertia_thin = section.inertia_wide = section.area * node.radius * node.radius / 4;
     return false;
+}
+
+// Petioles are drawn to a point where their leaf begins, but go on there as its midrib: as thick as before the point.
+void continue_petioles(const Chain& chain, const std::vector<Organ>& organs, std::vector<char>& exact,
+                       std::vector<Section>& sections) {
+    constexpr double POINT = 0.25;  // area over that of the capsule before [-]
+    std::vector<char> bears(sections.size(), 0);
+    for (const ChainNode& node : chain.nodes)
+        if (node.parent >= 0 && chain.nodes[size_t(node.parent)].organ != node.organ) bears[size_t(node.parent)] = 1;
+    for (size_t i = 0; i < sections.size(); i++) {
+        const ChainNode& node = chain.nodes[i];
+        if (!bears[i] || node.parent < 0 || node.organ < 0 || organs[size_t(node.organ)].kind != "petiole") continue;
+        const size_t before = size_t(node.parent);
+        if (chain.nodes[before].organ != node.organ || sections[i].area >= POINT * sections[before].area) continue;
+        take_section(sections[before], sections[i]);
+        exact[i] = exact[before];
+    }
 }
 
 // A surface of few triangles gives ragged sections: each that is not exact becomes the mean with its neighbours of the
@@ -195,10 +216,7 @@ void finish_section(const Organ& organ, Section& section) {
     section.area *= 1 - hole;
     for (double* moment : {&section.inertia_thin, &section.inertia_wide, &section.torsion}) *moment *= 1 - hole * hole;
     section.density = material.density;
-    // Artists draw leaves thicker than they are: beyond this a chosen material's tissue holds air.
-    constexpr double SOLID_LEAF = 3e-3;  // [m]
-    if (is_sheet(organ) && !organ.material_given && section.thickness > SOLID_LEAF)
-        section.density *= SOLID_LEAF / section.thickness;
+    if (section.thickness > solid_thickness(organ)) section.density *= solid_thickness(organ) / section.thickness;
     section.young = material.young;
     section.shear = material.young / (2 * (1 + material.poisson));
     if (material.twist_to_bend > 0)
@@ -240,59 +258,6 @@ double hole_share(const Organ& organ) {
     return is_sheet(organ) ? 0 : organ.material.hollow * organ.material.hollow;
 }
 
-// Wood goes on within a crown: it carries the crown as the branch below does, and thins towards the crown's end.
-static void carry_crowns(const Chain& chain, const std::vector<Organ>& organs, std::vector<Section>& sections) {
-    constexpr double AT_END = 0.3;  // radius of the wood there, over that where it enters the crown
-    const auto is_crown = [&](const ChainNode& node) {
-        return node.organ >= 0 && organs[size_t(node.organ)].kind == "crown" &&
-               !organs[size_t(node.organ)].material_given;
-    };
-    std::vector<double> farthest(organs.size(), 0.0), bending(chain.nodes.size(), 0.0), begin(bending);
-    for (const ChainNode& node : chain.nodes)
-        if (is_crown(node)) farthest[size_t(node.organ)] = std::max(farthest[size_t(node.organ)], node.distance);
-    for (size_t i = 0; i < chain.nodes.size(); i++) {
-        const ChainNode& node = chain.nodes[i];
-        if (!is_crown(node) || node.parent < 0) continue;
-        const size_t parent = size_t(node.parent);
-        const bool goes_on = is_crown(chain.nodes[parent]);
-        bending[i] = goes_on ? bending[parent] : sections[parent].bending_thin();
-        begin[i] = goes_on ? begin[parent] : chain.nodes[parent].distance;
-        if (chain.nodes[parent].parent < 0) bending[i] = 0;
-        const double way = farthest[size_t(node.organ)] - begin[i];
-        const double share = way > 0 ? std::clamp((node.distance - begin[i]) / way, 0.0, 1.0) : 1;
-        const double wood = bending[i] * frond::pow(1 - (1 - AT_END) * share, 4);
-        Section& section = sections[i];
-        section.inertia_thin = std::max(section.inertia_thin, wood / section.young);
-        section.inertia_wide = std::max(section.inertia_wide, wood / section.young);
-        section.torsion = std::max(section.torsion, wood / material_preset("branch")->twist_to_bend / section.shear);
-    }
-}
-
-// A swollen root stands in the soil, which holds the thin part below its widest place as that would.
-static void hold_roots(const Chain& chain, const std::vector<Organ>& organs, std::vector<Section>& sections) {
-    std::vector<size_t> widest(organs.size(), 0);
-    const auto is_root = [&](size_t i) {
-        const ChainNode& node = chain.nodes[i];
-        return node.parent >= 0 && node.organ >= 0 && organs[size_t(node.organ)].kind == "root";
-    };
-    for (size_t i = 0; i < sections.size(); i++) {
-        if (!is_root(i)) continue;
-        size_t& most = widest[size_t(chain.nodes[i].organ)];
-        if (!is_root(most) || sections[i].inertia_thin > sections[most].inertia_thin) most = i;
-    }
-    for (size_t most : widest) {
-        if (!is_root(most)) continue;
-        size_t i = most;
-        while (chain.nodes[i].parent >= 0) i = size_t(chain.nodes[i].parent);
-        if (chain.nodes[i].organ != chain.nodes[most].organ) continue;
-        for (i = most; is_root(i); i = size_t(chain.nodes[i].parent)) {
-            sections[i].inertia_thin = sections[most].inertia_thin;
-            sections[i].inertia_wide = sections[most].inertia_wide;
-            sections[i].torsion = sections[most].torsion;
-        }
-    }
-}
-
 std::vector<Section> measure_sections(const Surface& surface, const Topology& topology,
                                       const std::vector<Organ>& organs, const Chain& chain) {
     const std::vector<CapsuleFrame> frames = make_frames(chain);
@@ -322,6 +287,7 @@ std::vector<Section> measure_sections(const Surface& surface, const Topology& to
         const double gap = chain.nodes[i].organ < 0 ? 0 : gaps[size_t(chain.nodes[i].organ)];
         exact[i] = fill_outline(chain.nodes[i], organ_of(i), gap, spreads[i], outlines[i], sections, sections[i]);
     }
+    continue_petioles(chain, organs, exact, sections);
     smooth_sections(chain, exact, sections);
     for (size_t i = 0; i < sections.size(); i++) {
         finish_section(organ_of(i), sections[i]);

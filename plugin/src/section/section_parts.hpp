@@ -58,6 +58,11 @@ double squareness(double area, double inertia_thin, double inertia_wide);
 // end. All that is drawn there carries these.
 std::vector<char> find_hearts(const Chain& chain);
 
+// Add to finished sections what a mesh does not show: the wood that carries a crown goes on in it, and soil holds a
+// swollen root where it thins below.
+void carry_crowns(const Chain& chain, const std::vector<Organ>& organs, std::vector<Section>& sections);
+void hold_roots(const Chain& chain, const std::vector<Organ>& organs, std::vector<Section>& sections);
+
 // Lists the chain nodes on the ways between those that a triangle's corners are assigned to, without these: a long
 // triangle of a coarse mesh passes capsules at which it has no corner.
 void list_nodes_between(const Chain& chain, const Triangle& triangle, std::vector<int>& nodes);

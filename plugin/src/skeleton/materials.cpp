@@ -51,6 +51,8 @@
 //       break at 2-8 MPa in thick and 18-30 MPa in fine ones.
 //   [23] Klimm, Schmier, Bohn, Kleiser, Thielen, Speck 2021, J. Exp. Bot.: passion-flower tendrils bear up to 2 N.
 //   [24] Zhang and others 2016, BioResources 11(3): maize rind is elastic-plastic, strength in tension 80-178 MPa.
+//   [25] O'Dogherty, Huber, Dyson, Marshall 1995, J. Agric. Eng. Res. 62(2), 133-142, doi 10.1006/jaer.1995.1072: wheat
+//       straw, Young's modulus 4.8-6.6 GPa, strength in tension 21-31 MPa.
 #include <cmath>
 
 #include "core/error.hpp"
@@ -87,6 +89,10 @@ static const MaterialRow MATERIALS[] = {
     // estimate, the rind breaks at a strain of 1.1-1.3 % [3], [24], the whole stalk with it. Twist as the tulip's, a
     // monocot's round stem [12]. Friction [17]. Damping and creep lie between those of herbs and wood.
     {"grass_stem", {950, 1.5e9, 0.30, 1.0e-3, 0, 8.3, 0.05, 0.45, 0.008, 3e-4, 1.8e7, BY_SHAPE, NONE, NONE}},
+    // Culms of small cereals: hollow, with the least modulus of wheat's straw [25], as they are green. The rest as
+    // above,
+    // the strength by the strain at which maize breaks: straw, at 31 MPa, is more brittle.
+    {"cereal_stem", {950, 4.8e9, 0.30, 0.5e-3, 0.7, 8.3, 0.05, 0.45, 0.008, 3e-4, 5.6e7, BY_SHAPE, NONE, NONE}},
     // Chosen: between veins [5] and stems [1]; carries a blade with the safety factors of [7]. Twist: the two dicots of
     // [7]. Strength: estimate, breaks at the strain of stems [1].
     {"petiole", {980, 1.5e8, 0.30, 1.0e-3, 0, 12, 0.06, 0.45, 0.022, HERB_CREEP, 5e6, BY_SHAPE, NONE, NONE}},
@@ -136,6 +142,13 @@ const Material* material_preset(const std::string& kind) {
 
 bool is_sheet(const Organ& organ) {
     return organ.kind == "blade" || organ.kind == "flower";
+}
+
+// A leaf weighs the same with one face or two. A flower may be a head, of bracts, disc and seeds.
+double solid_thickness(const Organ& organ) {
+    constexpr double HEAD = 3e-3;  // [m]
+    if (!is_sheet(organ) || organ.material_given) return INFINITY;
+    return organ.kind == "blade" ? 2 * organ.material.thickness : HEAD;
 }
 
 std::string material_kinds() {

@@ -28,6 +28,9 @@ void check_material(const Material& material, const std::string& who);
 
 // Returns whether an organ is a sheet: a blade or a flower.
 bool is_sheet(const Organ& organ);
+// Returns the largest thickness of an organ that is all tissue [m]. Artists draw leaves thicker than they are: what is
+// drawn between two faces farther apart holds air. A given material fills what is drawn, and so does what is no sheet.
+double solid_thickness(const Organ& organ);
 
 // Finds organs: a part whose node is named after one is that organ; others are cut into sheets, tubes and solids, which
 // votes of shape, place, name, material, colour and texture tell to be leaves, stems, fruits ... (organ_votes.cpp).

@@ -15,6 +15,7 @@ NameClue read_name(const std::string& name);
 // Returns whether a name means a grass ("maize_blade", "wheat culm"), whose stems and blades are stiffer than those of
 // herbs.
 bool names_a_grass(const std::string& name);
+bool names_a_cereal(const std::string& name);
 // Returns whether a name means a bush ("BushBerries"): a round solid that stands on the ground may then be foliage.
 bool names_a_bush(const std::string& name);
 // Returns whether names mean a herb or a pot plant, and none a tree: it grows to some metres at most.

@@ -211,6 +211,10 @@ bool names_a_grass(const std::string& name) {
                            "reed", "bamboo", "cane", "cereal", "culm", "mais", "weizen", "gras"});
 }
 
+bool names_a_cereal(const std::string& name) {
+    return has_word(name, {"wheat", "barley", "rye", "oat", "rice", "cereal", "weizen"});
+}
+
 bool names_a_bush(const std::string& name) {
     return has_word(name, {"bush", "shrub", "hedge", "busch", "strauch", "hecke", "arbusto", "arbuste", "buisson"});
 }

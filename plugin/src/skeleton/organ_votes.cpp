@@ -154,6 +154,22 @@ void give_edges_to_crowns(const std::vector<Region>& regions, std::vector<FoundO
     }
 }
 
+// Makes petioles whose sheet turned out to be a flower its stem.
+void give_stems_to_flowers(const Evidence& plant, std::vector<FoundOrgan>& found) {
+    std::vector<char> bears_leaf(found.size(), 0), bears_flower(found.size(), 0);
+    for (size_t r = found.size(); r-- > 0;) {
+        const int parent = plant.regions[r].parent;
+        if (parent < 0) continue;
+        bears_leaf[size_t(parent)] |= bears_leaf[r] || found[r].kind == "blade";
+        bears_flower[size_t(parent)] |= bears_flower[r] || found[r].kind == "flower";
+    }
+    for (size_t r = 0; r < found.size(); r++)
+        if (found[r].kind == "petiole" && bears_flower[r] && !bears_leaf[r]) {
+            found[r].kind = plant.tube;
+            found[r].why += "; bears a flower";
+        }
+}
+
 }  // namespace
 
 FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std::vector<std::string> named,
@@ -172,6 +188,7 @@ FoundOrgans vote_on_organs(const Surface& surface, const Topology& topology, std
         found.push_back(is_hair ? found[size_t(bearer)] : vote(plant, r));
     }
     give_edges_to_crowns(cut.regions, found);
+    give_stems_to_flowers(plant, found);
 
     UnionFind sets = join_regions(surface, cut.regions, found);
     for (size_t r = 0; r < cut.regions.size(); r++)

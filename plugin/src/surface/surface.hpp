@@ -51,6 +51,8 @@ struct Surface {
 // they are missing; keeps the order of the rest. Throws BAD_GEOMETRY if nothing is left, if array sizes do not agree or
 // if there are more faces than a plant can have.
 void clean_surface(Surface& surface);
+// Puts back single triangles that a cleaned surface lost within a mesh; returns how many.
+int fill_lost_triangles(Surface& surface);
 // Makes normals for the vertices flagged in `missing`: smooth over all triangles at the same position, weighted by
 // area.
 void make_normals(Surface& surface, const std::vector<char>& missing);
