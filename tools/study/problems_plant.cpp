@@ -33,6 +33,7 @@ ModelPtr plant_model(const PlantCase& plant, const Setup& setup, frond_rest rest
         constexpr double HEIGHT = 2.1;  // approximate height of both plants [m]
         frond_model_def def = frond_default_model_def();
         def.rest = rest;
+        def.allow_stiffening = INFINITY;  // coarse chains and cages are measured, too
         (chain ? def.capsule_height : def.cage_size) = HEIGHT / setup.resolution;
         model = load_plant(plant, def);
     }

@@ -50,9 +50,9 @@ Turns find_turns(const Model& model) {
 
 namespace {
 
-// Leaves have midribs, petals have veins, and stalks go on within fruits.
+// Leaves have midribs, and stalks go on within fruits; petals are stiff by the pressure of their water.
 bool hides_a_rib(const Organ& organ) {
-    return is_sheet(organ) || organ.kind == "fruit";
+    return organ.kind == "blade" || organ.kind == "fruit";
 }
 
 // Organs whose ribs may be thickened, with the sizes that limit them.
