@@ -252,7 +252,8 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
 
 namespace {}  // namespace
 
-void drop_what_is_inside(std::vector<Contact>& contacts) {
+// Drops contacts with round ends within a stem whose next segment the body touches: they would catch what slides along.
+static void drop_what_is_inside(std::vector<Contact>& contacts) {
     std::vector<Contact> outside;
     std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(outside),
                  [](const Contact& contact) { return !contact.is_inside; });

@@ -23,8 +23,6 @@ void add_swept_contacts(World& world, const std::vector<Sweeper>& bodies, const 
 // Drops contacts by which a static or kinematic body pushes a held stem along its own axis: they would only stretch the
 // stem, or compress it where it passes through the body and is held beyond. Contacts farther up the stem go with them.
 void drop_what_draws_out(std::vector<Contact>& contacts);
-// Drops contacts with round ends within a stem whose next segment the body touches: they would catch what slides along.
-void drop_what_is_inside(std::vector<Contact>& contacts);
 
 // Returns whether the impulses on a plant act on bodies as well: one whose step fails is rewound, and then pushes
 // nothing.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/find_contacts.hpp"
 #include "contact/piece.hpp"
 #include "contact/strip_search.hpp"
 #include "core/union_find.hpp"
@@ -124,6 +125,17 @@ double go_share(const std::vector<PlantBody*>& plants, double share, double h) {
     return share;
 }
 
+// Returns whether a body that lies on a stem comes to the round end of the next segment, which is inside the stem: it
+// would catch there.
+bool slides_over_joint(const World& world, const PlantBody& body, const SweptBody& swept, const Hit& hit) {
+    constexpr double LIES = 0.001;  // gap [m]
+    if (!slides(*swept.object) || !is_in_joint(body, hit.capsule, hit.impact.on_a)) return false;
+    return std::any_of(world.contacts.begin(), world.contacts.end(), [&](const Contact& contact) {
+        return contact.plant == &body && contact.other == swept.object && contact.gap < LIES &&
+               are_joined(*body.plant, contact.capsule, hit.capsule);
+    });
+}
+
 }  // namespace
 
 void add_passed_contacts(World& world, double h, Missed& missed) {
@@ -134,12 +146,12 @@ void add_passed_contacts(World& world, double h, Missed& missed) {
         find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), deeper = after - depth_before(hit);
             if (deeper <= std::max(NO_MATTER, SHARE * radius_of(body, hit.capsule))) return;
+            if (slides_over_joint(world, body, swept, hit)) return;
             missed.any |= after > most_depth(body, hit);
             any |= add_hit(world, body, swept, hit, contacts);
         });
     if (!any) return;
     drop_what_draws_out(contacts);
-    drop_what_is_inside(contacts);
     if (contacts.size() > world.contacts.size()) missed.any = missed.is_asked = true;
     world.contacts = std::move(contacts);
 }
