@@ -52,8 +52,8 @@ enum {
     /* Cause: a kinematic body moved against a plant so far in one step that it came to a stem's axis, or pins moved by
      * more than the plant's size. Effect: the one may pass through the other. Remedy: shorter steps. */
     FROND_TROUBLE_PASSED = 1 << 4,
-    /* Cause: parts of plants, or free bodies, moved against each other so fast, or were pressed so hard, that no response
-     * kept them apart. Effect: they went only a part of the step's way, pins as well, so that nothing passed.
+    /* Cause: parts of plants, or free bodies, moved against each other so fast, or were pressed so hard, that no
+     * response kept them apart. Effect: they went only a part of the step's way, pins as well, so that nothing passed.
      * Remedy: shorter steps. */
     FROND_TROUBLE_HELD_BACK = 1 << 5,
     /* Cause: a plant had more than 100 contacts with plants, as where cages were made in each other. Effect: its
