@@ -353,6 +353,6 @@ def test_worlds_are_freed_when_nothing_refers_to_them(stem):
 def test_warnings_go_where_they_are_sent():
     heard = []
     frond.set_log(heard.append)
-    frond.Model("wheat")  # a stem is made stiffer
+    frond.Model("wheat", scale=2, allow_stiffening=10)  # twice as large, its stems are made stiffer
     frond.set_log(None)
     assert any("stiffer" in text for text in heard)
