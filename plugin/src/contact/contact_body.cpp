@@ -49,6 +49,10 @@ static void prepare_link(ContactBody& contact_body) {
     }
 }
 
+bool is_free(const btCollisionObject& object) {
+    return btRigidBody::upcast(&object) && !object.isStaticOrKinematicObject();
+}
+
 void wake(btCollisionObject& object, const Vec3& normal, const Vec3& plant_velocity) {
     constexpr double SLOW = 0.02;  // speed of the plant up to which a body that rests on it sleeps on [m/s]
     if (object.isActive() || object.isStaticOrKinematicObject()) return;

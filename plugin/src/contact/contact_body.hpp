@@ -24,6 +24,8 @@ struct ContactBody {
     std::array<std::vector<btScalar>, 3> jacobian, unit_responses;  // a multi-body's, for each axis of the world
 };
 
+// Returns whether an object is a rigid body that contacts push: neither static nor kinematic, and no link.
+bool is_free(const btCollisionObject& object);
 // Wakes a sleeping body if the plant moves towards it; `normal` points to the plant.
 void wake(btCollisionObject& object, const Vec3& normal, const Vec3& plant_velocity);
 // Returns the velocity of a rigid body at a point; zero for other objects [m/s].

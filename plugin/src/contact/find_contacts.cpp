@@ -33,7 +33,7 @@ bool may_collide(const PlantBody& body, const btCollisionObject& object) {
 }
 
 bool slides(const btCollisionObject& object) {
-    return btRigidBody::upcast(&object) && !object.isStaticOrKinematicObject();
+    return is_free(object);
 }
 
 namespace {
@@ -249,8 +249,6 @@ void drop_what_draws_out(std::vector<Contact>& contacts) {
     };
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(), draws_out), contacts.end());
 }
-
-namespace {}  // namespace
 
 // Drops contacts with round ends within a stem whose next segment the body touches: they would catch what slides along.
 static void drop_what_is_inside(std::vector<Contact>& contacts) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/contact_body.hpp"
 #include "contact/find_contacts.hpp"
 #include "contact/piece.hpp"
 #include "contact/strip_search.hpp"
@@ -17,17 +18,11 @@ inline namespace FROND_BULLET_PRECISION {
 
 namespace {
 
-// Returns a rigid body that contacts push; null for any other object.
-btRigidBody* free_rigid(btCollisionObject& object) {
-    btRigidBody* rigid = btRigidBody::upcast(&object);
-    return rigid && !rigid->isStaticOrKinematicObject() ? rigid : nullptr;
-}
-
 // Returns how a body goes on in the step of h [s], with its gravity, once contacts and bonds have pushed it.
 ObjectMotion pushed_motion(const World& world, const SweptBody& swept, double h) {
     ObjectMotion motion = swept.motion;
-    const btRigidBody* rigid = free_rigid(*swept.object);
-    if (!rigid) return motion;
+    if (!is_free(*swept.object)) return motion;
+    const btRigidBody* rigid = btRigidBody::upcast(swept.object);
     const Vec3 centre = from_bullet(rigid->getCenterOfMassPosition());
     motion.way += h * h * from_bullet(rigid->getGravity());
     const auto push = [&](const PlantBody& by, const Vec3& impulse, const Vec3& at) {
@@ -95,13 +90,13 @@ void group_bodies(World& world, double h, Groups& groups) {
     for (size_t i = 0; i < world.swept.size(); i++) {
         const SweptBody& swept = world.swept[i];
         const int member = int(world.taking_part.size() + i);
-        const bool is_free = free_rigid(*swept.object);
+        const bool is_pushed = is_free(*swept.object);
         for (const Contact& contact : world.contacts)
-            if (is_free && contact.other == swept.object && pushes_back(world, *contact.plant))
+            if (is_pushed && contact.other == swept.object && pushes_back(world, *contact.plant))
                 groups.sets.join(contact.plant->number, member);
         find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), most = most_depth(body, hit), before = depth_before(hit);
-            if (!is_free || !pushes_back(world, body)) {
+            if (!is_pushed || !pushes_back(world, body)) {
                 if (after > radius_of(body, hit.capsule)) world.report.trouble |= FROND_TROUBLE_PASSED;
                 return;
             }
@@ -139,13 +134,12 @@ bool slides_over_joint(const World& world, const PlantBody& body, const SweptBod
 }  // namespace
 
 void add_passed_contacts(World& world, double h, Missed& missed) {
-    constexpr double NO_MATTER = 0.001, SHARE = 0.3;  // [m], over the radius [-]
     bool any = false;
     std::vector<Contact> contacts = world.contacts;
     for (const SweptBody& swept : world.swept)
         find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
             const double after = depth_after(hit), deeper = after - depth_before(hit);
-            if (deeper <= std::max(NO_MATTER, SHARE * radius_of(body, hit.capsule))) return;
+            if (deeper <= least_miss(body, hit.capsule)) return;
             if (slides_over_joint(world, body, swept, hit)) return;
             missed.any |= after > most_depth(body, hit);
             any |= add_hit(world, body, swept, hit, contacts);

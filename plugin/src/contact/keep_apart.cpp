@@ -108,12 +108,6 @@ bool is_carried_on(const Contact& contact) {
     return contact.other->isKinematicObject() && !velocity_at(*contact.other, contact.on_other).isZero(0);
 }
 
-// Returns whether a free body is there. Links would turn what is asked beyond a linear response into spin.
-bool is_free(const Contact& contact) {
-    const btRigidBody* rigid = btRigidBody::upcast(contact.other);
-    return rigid && !rigid->isStaticOrKinematicObject();
-}
-
 // Returns by how much a plant is still in the way of a body, once both are pushed, at the end of the step [m].
 double behind(const Contact& contact, double h) {
     const Plant& plant = *contact.plant->plant;
@@ -124,17 +118,21 @@ double behind(const Contact& contact, double h) {
 
 // Has a contact ask for more where the plant's response, which is linear, leaves it in the way of a body that is led,
 // or of a free one, as long as that helps: what the plant cannot do, a free body does. Free bodies that overlap it
-// already part from it slowly, but come no deeper.
+// already part from it slowly, but come no deeper. Links would turn what is asked beyond a linear response into spin.
 bool ask_for_more(Contact& contact, double h) {
-    constexpr double NO_MATTER = 0.001, SHARE = 0.3;  // [m], over the radius [-]
     const bool is_led = is_carried_on(contact);
-    if (!(is_led || is_free(contact)) || !has_step(*contact.plant)) return false;
+    if (!(is_led || is_free(*contact.other)) || !has_step(*contact.plant)) return false;
     const double now = behind(contact, h) + (is_led ? 0 : std::min(contact.gap, 0.0));
-    if (now < std::max(NO_MATTER, SHARE * radius_of(*contact.plant, contact.capsule))) return false;
+    if (now < least_miss(*contact.plant, contact.capsule)) return false;
     return contact.shortfall.ask_for(now);
 }
 
 }  // namespace
+
+double least_miss(const PlantBody& body, int capsule) {
+    constexpr double NO_MATTER = 0.001, SHARE = 0.3;  // [m], over the radius [-]
+    return std::max(NO_MATTER, SHARE * radius_of(body, capsule));
+}
 
 Missed find_missed_contacts(World& world, double h) {
     Missed missed;

@@ -12,6 +12,8 @@ inline namespace FROND_BULLET_PRECISION {
 struct Missed {
     bool any = false, is_asked = false;
 };
+// Returns how deep a body goes into a segment before that counts as missed [m].
+double least_miss(const PlantBody& body, int capsule);
 // Looks at the ways that watched plants went with the contacts that are known. Where strips, or bodies, went through
 // them, or nearly, it adds contacts or has those that are known ask for more.
 Missed find_missed_contacts(World& world, double h);
