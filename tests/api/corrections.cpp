@@ -76,6 +76,9 @@ TEST(Corrections, ChangeKindsAndLeaveOrgansOut) {
     const Loaded found = load(frond_default_model_def());
     ASSERT_EQ(found.kinds.at("blade_1"), "blade");
     EXPECT_EQ(load_with({"blade_1", "branch", nullptr, false, false}).kinds.at("blade_1"), "branch");
+    // The presets of families are of kinds.
+    EXPECT_EQ(load_with({"blade_1", "grass_stem", nullptr, false, false}).kinds.at("blade_1"), "stem");
+    EXPECT_EQ(load_with({"blade_1", "cereal_stem", nullptr, false, false}).kinds.at("blade_1"), "stem");
     const Loaded less = load_with({"blade_1", nullptr, nullptr, false, true});
     EXPECT_EQ(less.info.organ_count, found.info.organ_count - 1);
     EXPECT_EQ(less.kinds.count("blade_1"), 0u);

@@ -37,3 +37,29 @@ TEST(WrittenUrdf, IsTheSamePlantWhenItIsReadAgain) {
     EXPECT_EQ(frond_model_write_urdf({}, file.c_str()), FROND_RESULT_BAD_HANDLE);
     frond_model_destroy(corn);
 }
+
+// A culm's strength and damping are its material's, which the file names.
+TEST(WrittenUrdf, NamesTheMaterialsOfFamilies) {
+    const UrdfFolder folder;
+    const frond_model_def def = frond_default_model_def();
+    frond_model wheat = {};
+    ASSERT_EQ(frond_model_load(FROND_SOURCE_DIR "/models/wheat/wheat.obj", &def, &wheat), FROND_OK)
+        << frond_last_error();
+    frond_model_info info;
+    ASSERT_EQ(frond_model_get_info(wheat, &info), FROND_OK);
+    const std::string file = folder.path + "/wheat.urdf";
+    ASSERT_EQ(frond_model_write_urdf(wheat, file.c_str()), FROND_OK) << frond_last_error();
+    const Loaded again(file);
+    int culms = 0;
+    for (int i = 0; i < info.organ_count; i++) {
+        frond_organ organ;
+        ASSERT_EQ(frond_model_get_organ(wheat, i, &organ), FROND_OK);
+        if (organ.capsule_count == 0) continue;
+        const frond_material& other = again.organs.at(organ.name).material;
+        EXPECT_EQ(other.strength, organ.material.strength) << organ.name;
+        EXPECT_EQ(other.damping_ratio, organ.material.damping_ratio) << organ.name;
+        culms += std::string(organ.kind) == "stem";
+    }
+    EXPECT_GT(culms, 0);
+    frond_model_destroy(wheat);
+}

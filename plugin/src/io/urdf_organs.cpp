@@ -10,7 +10,7 @@ namespace frond {
 
 // Returns whether a name is a kind of organ. "grass_stem" and the like are only materials of stems.
 static bool is_kind(const std::string& name) {
-    return material_preset(name) && name.compare(0, 6, "grass_") != 0 && name.compare(0, 7, "cereal_") != 0;
+    return material_preset(name) && kind_of_preset(name) == name;
 }
 
 static void check(const UrdfLink& link) {
@@ -34,9 +34,7 @@ static std::string kind_of(const UrdfLink& link, const std::string& material, co
 
 static const Material& material_of(const UrdfLink& link, const std::string& material, const std::string& kind) {
     if (!link.organ_material.empty()) return *material_preset(link.organ_material);
-    const bool is_grass = names_a_grass(link.name) || names_a_grass(material);
-    const Material* grass = is_grass ? material_preset("grass_" + kind) : nullptr;
-    return grass ? *grass : *material_preset(kind);
+    return preset_by_names(kind, link.name, material);
 }
 
 void name_organs(const UrdfTree& tree, const std::vector<int>& link_of_part, Surface& surface,

@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "cage/tet_geometry.hpp"
 #include "core/decompose.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
-#include "skeleton/organ_correct.hpp"
 
 namespace frond {
 
@@ -89,14 +87,10 @@ std::string link_text(const Model& model, size_t node, const std::string& name, 
         "    <inertial>\n      <origin xyz=\"%s\"/>\n      <mass value=\"%.9g\"/>\n      <inertia ixx=\"%.9g\" "
         "ixy=\"0\" ixz=\"0\" iyy=\"%.9g\" iyz=\"0\" izz=\"%.9g\"/>\n    </inertial>\n",
         centre.c_str(), mass, across, across, around);
-    const Material* grass = material_preset("grass_" + organ.kind);
-    const bool is_grass =
-        grass && std::all_of(std::begin(MATERIAL_FIELDS), std::end(MATERIAL_FIELDS),
-                             [&](const auto& field) { return grass->*field.field == organ.material.*field.field; });
     text += text_of(
-        "    <frond organ=\"%s\" material=\"%s%s\" name=\"%s\" mass=\"%.9g\" stretching=\"%.9g\" bending=\"%.9g %.9g\" "
+        "    <frond organ=\"%s\" material=\"%s\" name=\"%s\" mass=\"%.9g\" stretching=\"%.9g\" bending=\"%.9g %.9g\" "
         "twisting=\"%.9g\" taper=\"%.9g\"/>\n",
-        organ.kind.c_str(), is_grass ? "grass_" : "", organ.kind.c_str(), escaped(organ.name).c_str(),
+        organ.kind.c_str(), preset_of(organ).c_str(), escaped(organ.name).c_str(),
         mass_factor * section.density * section.area, section.young * section.area,
         section.young * section.inertia_thin, section.young * section.inertia_wide, section.shear * section.torsion,
         section.taper);

@@ -21,6 +21,12 @@ struct Organ {
 
 // Returns published values by kind; null if there is no such kind.
 const Material* material_preset(const std::string& kind);
+// Returns the kind that a preset is for: "stem" for "grass_stem", which is a material of stems only.
+std::string kind_of_preset(const std::string& preset);
+// Returns a kind's preset, that of a family of plants where names of the part or of its material tell one.
+const Material& preset_by_names(const std::string& kind, const std::string& name, const std::string& material);
+// Returns the preset that an organ's material is, of a family or of its kind; its kind's where it is none.
+std::string preset_of(const Organ& organ);
 // Returns "stem, petiole, blade ...", for error texts.
 std::string material_kinds();
 // Fails with BAD_ARGUMENT, naming `who`, unless every number is finite and in range.

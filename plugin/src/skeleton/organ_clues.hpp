@@ -12,8 +12,8 @@ struct NameClue {
 
 // Interprets one name of a node or material, whole words only, in the common languages of model files.
 NameClue read_name(const std::string& name);
-// Returns whether a name means a grass ("maize_blade", "wheat culm"), whose stems and blades are stiffer than those of
-// herbs.
+// Return whether a name means a grass ("maize_blade", "wheat culm"), whose stems and blades are stiffer than those of
+// herbs, or a small cereal, whose stems are hollow.
 bool names_a_grass(const std::string& name);
 bool names_a_cereal(const std::string& name);
 // Returns whether a name means a bush ("BushBerries"): a round solid that stands on the ground may then be foliage.

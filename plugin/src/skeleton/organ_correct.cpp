@@ -21,8 +21,7 @@ size_t find_organ(const std::vector<Organ>& organs, const std::string& name, con
 
 // Gives an organ a kind with its preset, "blade" or "grass_blade"; one that it has already changes nothing.
 void take_kind(const std::string& wanted, Organ& organ) {
-    const std::string grass = "grass_";
-    const std::string kind = wanted.compare(0, grass.size(), grass) == 0 ? wanted.substr(grass.size()) : wanted;
+    const std::string kind = kind_of_preset(wanted);
     const Material* preset = material_preset(wanted);
     if (!preset)
         fail(FROND_RESULT_BAD_ARGUMENT, "the kind of organ \"%s\" is corrected to \"%s\"; use %s", organ.name.c_str(),

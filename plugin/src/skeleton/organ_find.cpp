@@ -214,14 +214,7 @@ static std::vector<Organ> name_organs(Surface& surface, const std::vector<FoundO
             do name = one.kind + "_" + std::to_string(++counters[one.kind]);
             while (!taken.insert(name).second);
         }
-        const Material* own = material_preset(one.kind);
-        const auto refine = [&](const char* family, bool (*names)(const std::string&)) {
-            if (!names(part.name) && !names(part.material)) return;
-            if (const Material* finer = material_preset(family + one.kind)) own = finer;
-        };
-        refine("grass_", names_a_grass);
-        refine("cereal_", names_a_cereal);
-        organs.push_back({name, one.kind, *own});
+        organs.push_back({name, one.kind, preset_by_names(one.kind, part.name, part.material)});
         organs.back().why = one.why;
         organs.back().certainty = one.certainty;
     }
