@@ -1,7 +1,7 @@
 // The table of responses: overlapping bodies separate, and bodies that only touch gain no energy.
 #include <gtest/gtest.h>
 
-#include "solve/impulses.hpp"
+#include "solve/position_correction.hpp"
 #include "support/meshes.hpp"
 
 namespace frond::test {
@@ -51,15 +51,14 @@ TEST(Response, NoRowGivesEnergyToBodiesThatOnlyTouch) {
                 ResponseSettings settings;
                 settings.stiffness = stiffness;
                 settings.h = 1.0 / 60;
-                Pushes pushes;
-                response.find(bodies.touches, coupling_table(bodies.coupling), settings, pushes);
-                ASSERT_EQ(pushes.impulses.size(), bodies.touches.size());
-                EXPECT_LT(bodies.gain(pushes.impulses), 1e-5) << response.name << " " << stiffness;
-                EXPECT_TRUE(pushes.corrections.empty());
+                std::vector<Vec3> impulses;
+                response.find(bodies.touches, coupling_table(bodies.coupling), settings, impulses);
+                ASSERT_EQ(impulses.size(), bodies.touches.size());
+                EXPECT_LT(bodies.gain(impulses), 1e-5) << response.name << " " << stiffness;
                 for (size_t i = 0; i < bodies.touches.size(); i++) {
-                    const double push = pushes.impulses[i].dot(bodies.touches[i].normal);
+                    const double push = impulses[i].dot(bodies.touches[i].normal);
                     EXPECT_GE(push, 0);
-                    EXPECT_LE((pushes.impulses[i] - push * bodies.touches[i].normal).norm(), 0.4 * push + 1e-9);
+                    EXPECT_LE((impulses[i] - push * bodies.touches[i].normal).norm(), 0.4 * push + 1e-9);
                 }
             }
     }
@@ -72,21 +71,20 @@ TEST(Response, PartsTwoBodiesThatOverlapAtRest) {
     const std::vector<std::vector<Coupling>> own = {{{0, 2 * Mat3::Identity()}}};
     ResponseSettings settings;
     settings.h = 1.0 / 60;
-    Pushes pushes;
+    std::vector<Vec3> impulses;
     // Position corrections separate them without giving velocity.
-    response_row(FROND_RESPONSE_IMPULSE).find({touch}, coupling_table(own), settings, pushes);
-    EXPECT_NEAR(pushes.impulses[0].norm(), 0, 1e-12);
-    EXPECT_NEAR(2 * pushes.corrections[0].y(), 0.12, 1e-9);
+    EXPECT_NEAR(2 * correct_positions({touch}, coupling_table(own), settings.limits)[0].y(), 0.12, 1e-9);
+    response_row(FROND_RESPONSE_IMPULSE).find({touch}, coupling_table(own), settings, impulses);
+    EXPECT_NEAR(impulses[0].norm(), 0, 1e-12);
     const ResponseRow& penalty = response_row(FROND_RESPONSE_PENALTY);
-    penalty.find({touch}, coupling_table(own), settings, pushes);
-    EXPECT_NEAR(pushes.impulses[0].norm(), 0, 1e-12);
-    EXPECT_NEAR(2 * pushes.corrections[0].y(), 0.12, 1e-9);
+    penalty.find({touch}, coupling_table(own), settings, impulses);
+    EXPECT_NEAR(impulses[0].norm(), 0, 1e-12);
     // Without corrections a spring separates them, no faster than 0.3 m/s however stiff it is.
     touch.least_correction = Touch::NO_CORRECTION;
     settings.stiffness = 1e12;
-    penalty.find({touch}, coupling_table(own), settings, pushes);
-    EXPECT_TRUE(pushes.corrections.empty());
-    EXPECT_NEAR(2 * pushes.impulses[0].y(), 0.3, 1e-6);
+    EXPECT_TRUE(correct_positions({touch}, coupling_table(own), settings.limits).empty());
+    penalty.find({touch}, coupling_table(own), settings, impulses);
+    EXPECT_NEAR(2 * impulses[0].y(), 0.3, 1e-6);
     EXPECT_EQ(response_row(FROND_RESPONSE_NONE).find, nullptr);
 }
 
@@ -94,10 +92,9 @@ TEST(Response, WhatCannotPartDoesNotPushWithoutEnd) {
     std::vector<Touch> touches(2, Touch{Vec3::UnitY(), Vec3::Zero(), 0, 0});
     for (Touch& touch : touches) touch.depth = 0.01, touch.least_correction = 0.12, touch.most_correction = 0.1;
     const std::vector<std::vector<Coupling>> own = {{{0, 1e-3 * Mat3::Identity()}}, {{1, 2 * Mat3::Identity()}}};
-    Pushes pushes;
-    response_row(FROND_RESPONSE_IMPULSE).find(touches, coupling_table(own), {}, pushes);
-    EXPECT_NEAR(pushes.corrections[0].y(), 0.1, 1e-12);
-    EXPECT_NEAR(pushes.corrections[1].y(), 0.06, 1e-9);
+    const std::vector<Vec3> corrections = correct_positions(touches, coupling_table(own), {});
+    EXPECT_NEAR(corrections[0].y(), 0.1, 1e-12);
+    EXPECT_NEAR(corrections[1].y(), 0.06, 1e-9);
 }
 
 TEST(Impulses, OfBodiesThatHaveNothingToDoWithEachOtherAreFoundApart) {

@@ -31,7 +31,7 @@ TEST_P(OnePlace, LetsPlantsPartAboveTheirFeet) {
         double h, duration, feet;  // [s], [s], [m]
     };
     for (const auto& [place, h, duration, feet] :
-         {Placing{{0.01, 0, 0.003}, 1.0 / 60, 3, 0.2}, Placing{{0, 0, 0}, 1.0 / 240, 1.5, 0.3}}) {
+         {Placing{{0.01, 0, 0.003}, 1.0 / 60, 3, 0.2}, Placing{{0, 0, 0}, 1.0 / 240, 3, 0.3}}) {
         def.position = {0, 0, 0};
         SmallWorld small(def, 0, FROND_REST_STANDS_AS_MODELLED);
         def.position = place;

@@ -36,7 +36,7 @@ double mass_of(const PlantBody* body) {
 // Adds the row of a contact with a body. Bodies have already moved, so overlaps are removed by velocities; of free
 // bodies, which keep them and may be deep in a stem after a fall, by so slow ones that nobody sees them bounce.
 void add_row(const World& world, Contact& contact, double h, std::vector<ContactRow>& rows) {
-    constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 1, FASTEST_FREE = 0.1;  // [m], [-], [m/s], [m/s]
+    constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 0.1, FASTEST_LED = 1;  // [m], [-], [m/s], [m/s]
     Plant& plant = *contact.plant->plant;
     ContactRow row;
     row.plants[0] = contact.plant;
@@ -47,10 +47,9 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
     // What a kinematic body has moved against in this step is to get out of its way at once.
     const double lag = contact.other->isKinematicObject() ? row.contact_body.velocity.norm() : 0;
-    row.touch.bias_velocity =
-        contact.gap >= 0 ? -contact.gap / h
-        : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST + lag)
-                         : parting_speed(-contact.gap, SLOP, h, SHARE, row.contact_body.rigid ? FASTEST_FREE : FASTEST);
+    row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
+                              : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST_LED + lag)
+                                               : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
     if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
         row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);
     row.touch.bias_velocity += contact.shortfall.lacking / h;
@@ -81,10 +80,12 @@ bool drop_levers(double way, Attachment& attachment) {
     return true;
 }
 
+constexpr double PLANT_SLOP = 0.0002;  // overlap that plants keep [m]
+
 // Adds the row of a contact of plants. They part by position correction: cages may overlap by half a leaf when they are
 // made, and velocities would make them fly.
 void add_row(const World& world, PlantContact& contact, double h, std::vector<ContactRow>& rows) {
-    constexpr double SLOP = 0.0002, SHARE = 0.4, FASTEST = 0.5;  // [m], [-], [m/s]
+    constexpr double SHARE = 0.4, FASTEST = 0.1, FASTEST_CAGES = 0.5;  // [-], [m/s]
     // Limit of a position correction, over the lighter plant's weight [-]. Without it, feet that cannot part would use
     // up all work that position correction may do, and nothing else would part.
     constexpr double STRONG = 0.4;
@@ -94,7 +95,7 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Co
         if (!make_touch(*contact.plants[k]->plant, contact.attachments[k], row.touches[k])) return;
     row.touch.normal = contact.normal;
     row.touch.velocity = row.touches[0].velocity - row.touches[1].velocity;
-    const double room = std::max(0.0, SLOP - contact.depth) / h;
+    const double room = std::max(0.0, PLANT_SLOP - contact.depth) / h;
     row.touch.bias_velocity = -room + contact.lacking / h;
     const double way = h * (row.touch.bias_velocity - row.touch.velocity.dot(contact.normal));
     for (size_t k = 0; k < 2; k++)
@@ -106,10 +107,24 @@ void add_row(const World& world, PlantContact& contact, double h, std::vector<Co
     if (world.response != FROND_RESPONSE_PENALTY)
         row.touch.most_correction =
             h * STRONG * GRAVITY * std::min(mass_of(contact.plants[0]), mass_of(contact.plants[1]));
-    row.touch.least_correction = room > 0 ? -room : parting_speed(contact.depth, SLOP, h, SHARE, FASTEST);
+    row.touch.least_correction =
+        room > 0 ? -room
+                 : parting_speed(contact.depth, PLANT_SLOP, h, SHARE, contact.by_strips ? FASTEST : FASTEST_CAGES);
+    row.touch.least_correction += contact.lacking_place / h;
     row.touch.friction = rubs(world, *contact.plants[0]) && rubs(world, *contact.plants[1]) ? contact.friction : 0;
     row.touch.depth = contact.depth;
     row.impulse = &contact.impulse;
+    rows.push_back(std::move(row));
+}
+
+// Adds the row of a contact with a body for a correction of positions, which brings the plant no deeper into the body.
+void add_correction_row(const Contact& contact, double h, std::vector<ContactRow>& rows) {
+    ContactRow row;
+    row.plants[0] = contact.plant;
+    if (!make_touch(*contact.plant->plant, attachment_of(contact), row.touches[0])) return;
+    row.touch.normal = contact.normal;
+    const double nearer = contact.normal.dot(contact.pushed_on - row.touches[0].velocity);
+    row.touch.least_correction = std::min(0.0, nearer - contact.gap / h);
     rows.push_back(std::move(row));
 }
 
@@ -146,6 +161,15 @@ std::vector<ContactRow> make_rows(const World& world, const ContactIsland& islan
     for (Contact* contact : island.with_bodies) add_row(world, *contact, h, rows);
     for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
     for (Bond* bond : island.bonds) add_row(*bond, h, rows);
+    return rows;
+}
+
+std::vector<ContactRow> make_correction_rows(const World& world, const ContactIsland& island, double h) {
+    std::vector<ContactRow> rows;
+    const auto has_to_part = [](const PlantContact* contact) { return contact->depth > PLANT_SLOP; };
+    if (std::none_of(island.with_plants.begin(), island.with_plants.end(), has_to_part)) return rows;
+    for (PlantContact* contact : island.with_plants) add_row(world, *contact, h, rows);
+    for (Contact* contact : island.with_bodies) add_correction_row(*contact, h, rows);
     return rows;
 }
 

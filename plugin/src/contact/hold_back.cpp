@@ -150,6 +150,13 @@ void add_passed_contacts(World& world, double h, Missed& missed) {
     world.contacts = std::move(contacts);
 }
 
+void add_plants_in_bodies(const World& world, double h, std::vector<PlantBody*>& plants) {
+    for (const SweptBody& swept : world.swept)
+        find_hits_in_step(world, swept, h, [&](PlantBody& body, const Hit& hit) {
+            if (depth_after(hit) > most_depth(body, hit)) plants.push_back(&body);
+        });
+}
+
 std::vector<HeldBody> hold_back_what_passes(World& world, double h) {
     const size_t plant_count = world.taking_part.size();
     Groups groups = {UnionFind(plant_count + world.swept.size()), {}};

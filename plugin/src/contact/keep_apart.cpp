@@ -58,9 +58,13 @@ struct Miss {
     double thick;  // [m]
 };
 
+// From which nearness of their cores on, over their thickness, pairs are in each other, and may come out on either side
+// [-]: what impulses move, and what is moved to part the plants.
+constexpr double CROSSED = 1e-6, DEEP = NEAREST;
+
 // Finds pairs that come too near each other, nearer than `share` of what they may.
-std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPath>& paths, double share) {
-    constexpr double CROSSED = 1e-6;  // [m]
+std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPath>& paths, double share,
+                            double crossed) {
     std::vector<Miss> misses;
     std::vector<StripPair> anew;
     const bool strayed = have_strayed(memory, paths);
@@ -73,7 +77,7 @@ std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPa
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;
         if (stay_apart(core_a, a_after, core_b, b_after, NEAREST * thick)) continue;
         const StripGap before = gap_between(core_a, core_b);
-        if (before.distance < CROSSED) continue;
+        if (before.distance < crossed * thick) continue;
         const double near = share * std::min(NEAREST * thick, OF_BEFORE * before.distance);
         const auto impact = first_impact(core_a, a_after, core_b, b_after, near, before);
         if (!impact) continue;
@@ -83,13 +87,25 @@ std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPa
     return misses;
 }
 
+// Calls `take` for each miss of the world's plants.
+void for_each_miss(World& world, double crossed,
+                   const std::function<void(const std::vector<StripPath>& paths, const Miss& miss)>& take) {
+    for (size_t i = 0; i < world.plant_island_count; i++) {
+        const std::vector<StripPath> paths = paths_of(*world.plant_searches[i]);
+        if (paths.empty()) continue;
+        for (const Miss& miss : misses_of(*world.plant_searches[i], paths, 1, crossed)) take(paths, miss);
+    }
+}
+
 bool is_between(const PlantContact& known, const PlantContact& contact) {
     return known.by_strips && known.plants == contact.plants && known.sides[0].nodes == contact.sides[0].nodes &&
            known.sides[1].nodes == contact.sides[1].nodes;
 }
 
 // Adds a contact, or has the known one of the same strips that points the same way ask for what is lacking.
-void add_missed(const std::vector<StripPath>& paths, const Miss& miss, std::vector<PlantContact>& contacts) {
+// Returns whether the next response may differ by that.
+bool add_missed(const std::vector<StripPath>& paths, const Miss& miss, double PlantContact::*lacking,
+                std::vector<PlantContact>& contacts) {
     constexpr double ALIKE = 0.9;  // cosine
     PlantContact contact = contact_of(paths, miss.pair, miss.impact.time, miss.impact.gap);
     for (PlantContact& known : contacts) {
@@ -97,10 +113,12 @@ void add_missed(const std::vector<StripPath>& paths, const Miss& miss, std::vect
         const StripPath &a = paths[size_t(miss.pair.a)], &b = paths[size_t(miss.pair.b)];
         const double apart = known.normal.dot(point_on(a.core_after(miss.pair.strip_a).at, known.sides[0].weights) -
                                               point_on(b.core_after(miss.pair.strip_b).at, known.sides[1].weights));
-        known.lacking += std::max(0.0, miss.thick - apart);
-        return;
+        if (lacking == &PlantContact::lacking && !known.may_ask) return false;
+        known.*lacking += std::max(0.0, miss.thick - apart);
+        return true;
     }
     contacts.push_back(contact);
+    return true;
 }
 
 // Returns whether a kinematic body moves there. What rests in a plant parts from it slowly, as any other body.
@@ -139,15 +157,17 @@ Missed find_missed_contacts(World& world, double h) {
     for (Contact& contact : world.contacts) missed.is_asked |= ask_for_more(contact, h);
     missed.any = missed.is_asked;
     add_passed_contacts(world, h, missed);
-    for (size_t i = 0; i < world.plant_island_count; i++) {
-        PlantSearch& memory = *world.plant_searches[i];
-        const std::vector<StripPath> paths = paths_of(memory);
-        if (paths.empty()) continue;
-        for (const Miss& miss : misses_of(memory, paths, 1)) {
-            add_missed(paths, miss, world.plant_contacts);
-            missed.any = missed.is_asked = true;
-        }
-    }
+    const Missed of_plants = add_missed_contacts(world, &PlantContact::lacking);
+    return {missed.any || of_plants.any, missed.is_asked || of_plants.is_asked};
+}
+
+Missed add_missed_contacts(World& world, double PlantContact::*lacking) {
+    Missed missed;
+    for_each_miss(world, lacking == &PlantContact::lacking ? CROSSED : DEEP,
+                  [&](const std::vector<StripPath>& paths, const Miss& miss) {
+                      missed.any = true;
+                      missed.is_asked |= add_missed(paths, miss, lacking, world.plant_contacts);
+                  });
     return missed;
 }
 
@@ -159,12 +179,21 @@ void tell_what_is_behind(World& world, double h) {
             world.report.trouble |= FROND_TROUBLE_PASSED;
 }
 
+std::vector<PlantBody*> find_crossing_plants(World& world, double h) {
+    std::vector<PlantBody*> plants;
+    add_plants_in_bodies(world, h, plants);
+    for_each_miss(world, DEEP, [&](const std::vector<StripPath>& paths, const Miss& miss) {
+        for (const int of : {miss.pair.a, miss.pair.b}) plants.push_back(paths[size_t(of)].body);
+    });
+    return plants;
+}
+
 double way_until_crossing(PlantSearch& memory) {
     constexpr double WITHIN = 0.4, SAFE = 0.95;  // over what is allowed before; over the time to there [-]
     const std::vector<StripPath> paths = paths_of(memory);
     double share = 1;
     if (paths.empty()) return share;
-    for (const Miss& miss : misses_of(memory, paths, WITHIN)) share = std::min(share, SAFE * miss.impact.time);
+    for (const Miss& miss : misses_of(memory, paths, WITHIN, CROSSED)) share = std::min(share, SAFE * miss.impact.time);
     return share;
 }
 

@@ -17,8 +17,15 @@ double least_miss(const PlantBody& body, int capsule);
 // Looks at the ways that watched plants went with the contacts that are known. Where strips, or bodies, went through
 // them, or nearly, it adds contacts or has those that are known ask for more.
 Missed find_missed_contacts(World& world, double h);
+// Does so where plants went through plants, or nearly. `lacking`: of what the contacts ask for more.
+Missed add_missed_contacts(World& world, double PlantContact::*lacking);
 // Reports plants that a kinematic body has come past, whatever was asked of their contacts.
 void tell_what_is_behind(World& world, double h);
+// Returns the plants that go through each other, or through bodies that move fast, on their ways in the step; some
+// twice.
+std::vector<PlantBody*> find_crossing_plants(World& world, double h);
+// Adds those that go through a body.
+void add_plants_in_bodies(const World& world, double h, std::vector<PlantBody*>& plants);
 // Returns the share of the step's way that an island's plants may go until strips would go through each other.
 double way_until_crossing(PlantSearch& memory);
 

@@ -6,12 +6,11 @@
 #include "contact/respond_to_contacts.hpp"
 
 #include <algorithm>
-#include <numeric>
 
-#include "contact/contact_rows.hpp"
+#include "contact/coupled_rows.hpp"
 #include "contact/keep_apart.hpp"
+#include "contact/part_plants.hpp"
 #include "contact/strip_search.hpp"
-#include "contact/touched_plant.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
@@ -22,86 +21,6 @@ bool pushes_back(const World& world, const PlantBody& body) {
 
 namespace {
 
-using Row = ContactRow;
-
-// Finds where rows touch their plants; drops those of plants that have no compliance.
-void find_touches(std::vector<TouchedPlant>& touched, std::vector<Row>& rows) {
-    const auto has_none = [&](Row& row) {
-        for (size_t k = 0; k < 2; k++) {
-            if (!row.plants[k]) continue;
-            TouchedPlant& at = touched[size_t(row.plants[k]->number)];
-            const int place = find_touch(at, *row.plants[k]->plant, row.touches[k].attachment);
-            if (place < 0) return true;
-            row.places[k] = size_t(place);
-        }
-        return false;
-    };
-    rows.erase(std::remove_if(rows.begin(), rows.end(), has_none), rows.end());
-}
-
-// Sides of rows that are one plant's: as a row's first plant, or with the opposite sign as its second.
-struct Sides {
-    std::vector<int> rows;
-    std::vector<double> signs;
-    std::vector<size_t> places;  // among the plant's touches
-};
-
-std::vector<Sides> sort_by_plant(size_t plant_count, const std::vector<Row>& rows) {
-    std::vector<Sides> sides(plant_count);
-    for (size_t i = 0; i < rows.size(); i++)
-        for (size_t k = 0; k < 2; k++) {
-            if (!rows[i].plants[k]) continue;
-            Sides& of = sides[size_t(rows[i].plants[k]->place)];
-            of.rows.push_back(int(i));
-            of.signs.push_back(k == 0 ? 1 : -1);
-            of.places.push_back(rows[i].places[k]);
-        }
-    return sides;
-}
-
-bool are_one_body(const Row& a, const Row& b) {
-    if (a.plants[1] || b.plants[1]) return false;
-    if (a.contact_body.link && b.contact_body.link)
-        return a.contact_body.link->m_multiBody == b.contact_body.link->m_multiBody;
-    return a.contact_body.rigid && a.contact_body.rigid == b.contact_body.rigid;
-}
-
-// Couplings of rows, computed on request.
-struct Coupler {
-    const std::vector<Row>& rows;
-    std::vector<TouchedPlant>& touched;
-    std::vector<Sides> plants;
-    std::vector<std::vector<Coupling>> known;
-};
-
-// Adds the couplings of a row to the other rows of its plants.
-void couple_by_plants(Coupler& coupler, int by, std::vector<Coupling>& row) {
-    const Row& at = coupler.rows[size_t(by)];
-    for (size_t k = 0; k < 2; k++) {
-        if (!at.plants[k]) continue;
-        const Sides& sides = coupler.plants[size_t(at.plants[k]->place)];
-        const std::vector<Mat3>& compliances =
-            compliances_to(coupler.touched[size_t(at.plants[k]->number)], at.places[k]);
-        const double sign = k == 0 ? 1 : -1;
-        for (size_t i = 0; i < sides.rows.size(); i++) {
-            const Mat3& compliance = compliances[sides.places[i]];
-            if (!compliance.isZero(0)) row.push_back({sides.rows[i], sign * sides.signs[i] * compliance.transpose()});
-        }
-    }
-}
-
-const std::vector<Coupling>& couple(Coupler& coupler, int by) {
-    std::vector<Coupling>& row = coupler.known[size_t(by)];
-    if (!row.empty()) return row;
-    couple_by_plants(coupler, by, row);
-    const Row& at = coupler.rows[size_t(by)];
-    for (size_t i = 0; i < coupler.rows.size(); i++)
-        if (are_one_body(at, coupler.rows[i]))
-            row.push_back({int(i), compliance_between(at.contact_body, coupler.rows[i].contact_body)});
-    if (row.empty()) row.push_back({by, Mat3::Zero()});
-    return row;
-}
-
 // Adds contacts to the steps of all plants, also of those that nothing pushes: their solution without contacts then
 // stands.
 void end_steps(const ContactIsland& island) {
@@ -110,47 +29,45 @@ void end_steps(const ContactIsland& island) {
 
 // Rows of an island and their impulses.
 struct Given {
-    std::vector<Row> rows;
-    Pushes pushes;
+    std::vector<ContactRow> rows;
+    std::vector<Vec3> impulses;
 };
 
 // Computes how fast bodies go on once they are pushed.
 void go_on(Given& given) {
-    for (Row& at : given.rows) {
+    for (ContactRow& at : given.rows) {
         if (!at.pushed_on) continue;
         *at.pushed_on = at.contact_body.velocity;
         for (size_t i = 0; i < given.rows.size(); i++)
             if (are_one_body(at, given.rows[i]))
-                *at.pushed_on -=
-                    compliance_between(at.contact_body, given.rows[i].contact_body) * given.pushes.impulses[i];
+                *at.pushed_on -= compliance_between(at.contact_body, given.rows[i].contact_body) * given.impulses[i];
     }
 }
 
 // Applies the rows' impulses to the plants.
 void give_to_plants(const ContactIsland& island, Given& given) {
-    auto& [rows, pushes] = given;
-    const auto to_plants = [&](const Row& row, const Vec3& impulse, auto take) {
-        if (impulse.isZero(0)) return;
-        take(*row.plants[0]->plant, row.touches[0], impulse);
-        if (row.plants[1]) take(*row.plants[1]->plant, row.touches[1], -impulse);
-    };
+    auto& [rows, impulses] = given;
     for (size_t i = 0; i < rows.size(); i++) {
-        *rows[i].impulse = pushes.impulses[i];
-        to_plants(rows[i], pushes.impulses[i],
-                  [](Plant& p, const PlantTouch& touch, const Vec3& impulse) { take_impulse(p, touch, impulse); });
-        if (!pushes.corrections.empty()) to_plants(rows[i], pushes.corrections[i], take_correction);
+        *rows[i].impulse = impulses[i];
+        if (impulses[i].isZero(0)) continue;
+        for (size_t k = 0; k < 2; k++) {
+            if (!rows[i].plants[k]) continue;
+            Plant& plant = *rows[i].plants[k]->plant;
+            add_impulse(plant, rows[i].touches[k], k == 0 ? impulses[i] : Vec3(-impulses[i]),
+                        plant.step.contact_impulse);
+        }
     }
     end_steps(island);
 }
 
 // Applies the rows' impulses to the bodies. Returns the rigid ones among them.
 std::vector<btRigidBody*> give_to_bodies(const World& world, Given& given) {
-    auto& [rows, pushes] = given;
+    auto& [rows, impulses] = given;
     std::vector<btRigidBody*> pushed;
     std::vector<BodyPush> all;
-    for (size_t i = 0; i < pushes.impulses.size(); i++) {
-        if (rows[i].plants[1] || pushes.impulses[i].isZero(0) || !pushes_back(world, *rows[i].plants[0])) continue;
-        all.push_back({&rows[i].contact_body, -pushes.impulses[i]});
+    for (size_t i = 0; i < impulses.size(); i++) {
+        if (rows[i].plants[1] || impulses[i].isZero(0) || !pushes_back(world, *rows[i].plants[0])) continue;
+        all.push_back({&rows[i].contact_body, -impulses[i]});
         if (rows[i].contact_body.rigid) pushed.push_back(rows[i].contact_body.rigid);
     }
     take_impulses(all);
@@ -177,8 +94,8 @@ void limit_gain(const ContactIsland& island, Given& given) {
     std::vector<BodyPush> on_bodies;
     for (size_t i = 0; i < given.rows.size(); i++) {
         const ContactBody& body = given.rows[i].contact_body;
-        if (given.rows[i].plants[1] || given.pushes.impulses[i].isZero(0)) continue;
-        if (body.rigid || body.link) on_bodies.push_back({&body, -given.pushes.impulses[i]});
+        if (given.rows[i].plants[1] || given.impulses[i].isZero(0)) continue;
+        if (body.rigid || body.link) on_bodies.push_back({&body, -given.impulses[i]});
     }
     if (on_bodies.empty()) return;
     const double share = share_within(on_bodies, [&] {
@@ -191,34 +108,61 @@ void limit_gain(const ContactIsland& island, Given& given) {
     if (share == 1) return;
     for (size_t i = 0; i < given.rows.size(); i++)
         if (!given.rows[i].plants[1] && (given.rows[i].contact_body.rigid || given.rows[i].contact_body.link))
-            given.pushes.impulses[i] *= share;
+            given.impulses[i] *= share;
+}
+
+// Returns the energy that impulses between plants give to their steps [J]. Without asking for more it is none.
+double gain_between_plants(const CoupledRows& coupled, const std::vector<Vec3>& impulses) {
+    const std::vector<ContactRow>& rows = coupled.rows();
+    const CouplingTable table = coupled.table();
+    std::vector<Vec3> changes(rows.size(), Vec3::Zero());  // of the velocities
+    for (size_t i = 0; i < rows.size(); i++)
+        if (!impulses[i].isZero(0))
+            for (const Coupling& by : table.row(int(i)))
+                changes[size_t(by.other)] += by.block.transpose() * impulses[i];
+    double gain = 0;
+    for (size_t i = 0; i < rows.size(); i++)
+        if (rows[i].plants[1]) gain += impulses[i].dot(rows[i].touch.velocity + 0.5 * changes[i]);
+    return gain;
+}
+
+// Has the contacts of plants no longer ask for more if that would give energy to the plants: their steps are shortened
+// instead. Returns whether it did.
+bool stop_asking(const ContactIsland& island, const CoupledRows& coupled, const std::vector<Vec3>& impulses, double h) {
+    const auto asks = [](const PlantContact* contact) { return contact->lacking > 0; };
+    if (std::none_of(island.with_plants.begin(), island.with_plants.end(), asks)) return false;
+    double most = 0;
+    for (const PlantBody* body : island.plants) most += parting_work(*body->plant, h);
+    if (gain_between_plants(coupled, impulses) <= most) return false;
+    for (PlantContact* contact : island.with_plants) {
+        contact->lacking = 0;
+        contact->may_ask = false;
+    }
+    return true;
 }
 
 // Finds the impulses of an island and applies them to its plants.
 Given respond_in(const World& world, const ResponseRow& response, const ContactIsland& island, double h,
                  std::vector<TouchedPlant>& touched) {
     Given given;
-    auto& [rows, pushes] = given;
+    auto& [rows, impulses] = given;
     take_inertias(island);
-    rows = make_rows(world, island, h);
-    if (all_wait(rows, h)) {
-        end_steps(island);
-        rows.clear();
-        return given;
+    for (bool again = true; again;) {
+        rows = make_rows(world, island, h);
+        if (all_wait(rows, h)) {
+            end_steps(island);
+            rows.clear();
+            return given;
+        }
+        const CoupledRows coupled(std::move(rows), island.plants.size(), touched);
+        rows = coupled.rows();
+        ResponseSettings settings = world.response_settings;
+        settings.h = h;
+        impulses.clear();
+        for (const ContactRow& row : rows) impulses.push_back(*row.impulse);
+        response.find(coupled.touches(), coupled.table(), settings, impulses);
+        again = stop_asking(island, coupled, impulses, h);
     }
-    find_touches(touched, rows);
-    std::vector<Touch> touches;
-    for (const Row& row : rows) touches.push_back(row.touch);
-    ResponseSettings settings = world.response_settings;
-    settings.h = h;
-    for (const Row& row : rows) pushes.impulses.push_back(*row.impulse);
-    Coupler coupler = {rows, touched, sort_by_plant(island.plants.size(), rows),
-                       std::vector<std::vector<Coupling>>(rows.size())};
-    CouplingTable table;
-    table.row = [&](int row) -> const std::vector<Coupling>& { return couple(coupler, row); };
-    table.islands.emplace_back(rows.size());
-    std::iota(table.islands[0].begin(), table.islands[0].end(), 0);
-    response.find(touches, table, settings, pushes);
     limit_gain(island, given);
     go_on(given);
     give_to_plants(island, given);
@@ -279,6 +223,7 @@ void respond_to_contacts(World& world, double h) {
         take_back(waiting);
     }
     tell_what_is_behind(world, h);
+    part_plants(world, h, waiting.touched);
     for (Given& of : given)
         for (btRigidBody* body : give_to_bodies(world, of)) give_gravity(world.gravity_ahead, *body, h);
     for (const HeldBody& body : held) put_back(world, body, h);

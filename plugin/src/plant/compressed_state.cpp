@@ -52,8 +52,7 @@ void compress(Plant& plant, double tolerance, bool keep_surface) {
     plant.state.blown.setZero();
     plant.state.air = nullptr;
     plant.input.forces = nullptr;
-    for (VecX* numbers : {&plant.step.x_good, &plant.step.v_good, &plant.step.contact_impulse,
-                          &plant.step.contact_correction, &plant.view.cage_x})
+    for (VecX* numbers : {&plant.step.x_good, &plant.step.v_good, &plant.step.contact_impulse, &plant.view.cage_x})
         drop(*numbers);
     plant.view.cage_stale = true;
     drop(plant.view.chain_positions);

@@ -40,7 +40,7 @@ double lifting_energy(const Plant& plant) {
 static bool has_energy_from_nowhere(const Plant& plant, double h, const Push& push) {
     // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-]. The air's
     // work on a chain that turns is known as well as its order alone.
-    constexpr double SHARE = 0.05, LIFT = 0.01;
+    constexpr double SHARE = 0.01, LIFT = 0.01;
     Vec3 impulse = Vec3::Zero();
     for (int i = 0; i < push.impulse.size() / 3; i += plant.follow ? 2 : 1) impulse += point(push.impulse, i);
     const LoadWork work = work_of_loads(plant, h, impulse);

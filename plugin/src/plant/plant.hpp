@@ -135,7 +135,6 @@ struct PlantStep {
     Loads loads;                 // kept to reuse their memory
     VecX x_good, v_good;         // before the step; empty after a healthy batched one: in the history
     VecX contact_impulse;        // impulses of contacts on the nodes of the mechanics [N s]; empty: none
-    VecX contact_correction;     // likewise, those that move the plant without velocity
     bool is_watched = false;     // near something that it may go through
     bool is_pressed = false;     // in contact with something that may move
     bool is_sound = true;        // the solution can be the next state
@@ -216,9 +215,15 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects);
 inline bool waits(const Plant& plant) {
     return plant.state.is_touched || plant.step.is_watched;
 }
-// Adds contact_impulse and contact_correction, if there are any, to the solved step of a plant in contact: only then
-// does its energy show whether the step went wrong.
+// Adds contact_impulse, if there is any, to the solved step of a plant in contact: only then does its energy show
+// whether the step went wrong.
 void add_contacts(Plant& plant, double h);
+// Returns the work that parting it from what it overlaps may do on it in a step of h [s]: it lifts the plant slowly
+// [J].
+double parting_work(const Plant& plant, double h);
+// Moves it by impulses on its nodes [N s], without velocity, as far as that does little work on it. Returns the way of
+// the nodes [m]; empty: none.
+VecX correct_position(Plant& plant, const VecX& impulses, double h);
 // The solved step without contacts, to which contacts may be added anew.
 struct FreeStep {
     VecX x, v, retract_from;

@@ -199,21 +199,27 @@ void finish_solving(Plant& plant, double h) {
         (plant.follow ? plant.report.ok : is_sound(plant)) && !(plant.step.is_off_course && is_far_out(plant));
 }
 
+double parting_work(const Plant& plant, double h) {
+    constexpr double SPEED = 0.1;  // [m/s]
+    return node_mass_of(*plant.system).sum() * GRAVITY * SPEED * h;
+}
+
 // Corrects positions as far as nothing bends much and the work done on the plant stays small: contacts with conflicting
 // corrections would compress it like a spring. The rest is left to the next steps; even of an excessive correction a
 // little is applied, or thick stems would never part.
-static void move_by(Plant& plant, const VecX& dv, double h) {
+static VecX move_by(Plant& plant, const VecX& dv, double h) {
     constexpr double LEAST = 0.002;  // share [-]
-    constexpr double LIFT = 0.5;     // speed of lifting the plant by its weight, for the allowed work [m/s]
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const Elements& elements = elements_of(plant);
     const VecX x = plant.state.motion.x;
-    const double allowed = row.energy(elements, x) + node_mass_of(*plant.system).sum() * GRAVITY * LIFT * h;
+    const double allowed = row.energy(elements, x) + parting_work(plant, h);
     for (double share = 1; share > LEAST; share /= 2) {
         add_correction(*plant.step.workspace, share * dv, plant.state.motion);
-        if (is_calm_way(plant) && row.energy(elements, plant.state.motion.x) <= allowed) return;
+        if (is_calm_way(plant) && row.energy(elements, plant.state.motion.x) <= allowed)
+            return plant.state.motion.x - x;
         plant.state.motion.x = x;
     }
+    return {};
 }
 
 // Solves a chain again in another workspace: the responses that follow in this step are by the factor of the step
@@ -232,9 +238,7 @@ void add_contacts(Plant& plant, double h) {
     FROND_ASSERT(plant.step.workspace);
     if (!plant.step.is_sound) return;
     Push push = {std::move(plant.step.contact_impulse)};
-    const VecX shift = std::move(plant.step.contact_correction);
     plant.step.contact_impulse.resize(0);
-    plant.step.contact_correction.resize(0);
     VecX dv;
     const bool is_pushed = push.impulse.size() > 0;
     if (is_pushed && respond(*plant.step.workspace, plant.input.settings, push.impulse, dv))
@@ -247,8 +251,16 @@ void add_contacts(Plant& plant, double h) {
     const bool is_bent = is_pushed && !plant.follow && !is_calm(*plant.system, plant.step.x_good, plant.state.motion.x);
     // Where this is too far for the linear response, the same push is solved as a force, nonlinearly.
     if (is_bent || !is_plausible(plant, h, &push)) solve_again_aside(plant, h, push);
-    if (shift.size() > 0 && respond(*plant.step.workspace, plant.input.settings, shift, dv)) move_by(plant, dv, h);
     plant.step.is_sound = is_sound(plant) && !is_far_out(plant);
+}
+
+VecX correct_position(Plant& plant, const VecX& impulses, double h) {
+    FROND_ASSERT(plant.step.workspace);
+    VecX dv;
+    if (!plant.step.is_sound || !respond(*plant.step.workspace, plant.input.settings, impulses, dv)) return {};
+    const VecX way = move_by(plant, dv, h);
+    plant.step.is_sound = is_sound(plant) && !is_far_out(plant);
+    return way;
 }
 
 void accept_step(Plant& plant, const Surroundings& surroundings, double h) {
@@ -294,7 +306,6 @@ void drop_step(Plant& plant) {
     }
     motion.history.valid = false;
     plant.step.contact_impulse.resize(0);
-    plant.step.contact_correction.resize(0);
     plant.state.stepped_by = 0;
     moved(plant);
     return_workspace(plant);

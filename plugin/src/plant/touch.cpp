@@ -60,18 +60,10 @@ bool find_compliance(Plant& plant, const Attachment& attachment, NodeCompliance&
     return make_compliance(*plant.step.workspace, plant.input.settings, pushes, compliance);
 }
 
-static void add_impulse(const Plant& plant, const PlantTouch& touch, const Vec3& impulse, VecX& sum) {
+void add_impulse(const Plant& plant, const PlantTouch& touch, const Vec3& impulse, VecX& sum) {
     FROND_ASSERT(impulse.allFinite());
     if (sum.size() == 0) sum = VecX::Zero(plant.state.motion.v.size());
     add_attachment_force(touch.attachment, plant.step.x_good, plant.rotation.conjugate() * impulse, sum);
-}
-
-void take_impulse(Plant& plant, const PlantTouch& touch, const Vec3& impulse) {
-    add_impulse(plant, touch, impulse, plant.step.contact_impulse);
-}
-
-void take_correction(Plant& plant, const PlantTouch& touch, const Vec3& impulse) {
-    add_impulse(plant, touch, impulse, plant.step.contact_correction);
 }
 
 }  // namespace frond

@@ -34,9 +34,7 @@ bool make_touch(const Plant& plant, const Attachment& attachment, PlantTouch& to
 // Finds the compliance to impulses along the world's axes; false if there is none. It is zero where all nodes of the
 // attachment are pinned.
 bool find_compliance(Plant& plant, const Attachment& attachment, NodeCompliance& compliance);
-// Adds an impulse at a touch [N s], world frame, to plant.contact_impulse.
-void take_impulse(Plant& plant, const PlantTouch& touch, const Vec3& impulse);
-// Does the same in plant.contact_correction, which moves the plant without giving it velocity.
-void take_correction(Plant& plant, const PlantTouch& touch, const Vec3& impulse);
+// Adds an impulse at a touch [N s], world frame, to impulses on the nodes, model frame; none are yet if `sum` is empty.
+void add_impulse(const Plant& plant, const PlantTouch& touch, const Vec3& impulse, VecX& sum);
 
 }  // namespace frond

@@ -46,12 +46,6 @@ struct ImpulseLimits {
     double tolerance = 1e-6;  // largest change of an impulse in a round, over the largest impulse [-]
 };
 
-// Result of a response, one a contact: impulses on a, the opposite on b; the search begins with the given ones.
-// Corrections move positions and give no velocity [N s].
-struct Pushes {
-    std::vector<Vec3> impulses, corrections;
-};
-
 struct ResponseSettings {
     ImpulseLimits limits;    // for FROND_RESPONSE_IMPULSE
     double stiffness = 1e3;  // for FROND_RESPONSE_PENALTY [N/m]
@@ -61,15 +55,16 @@ struct ResponseSettings {
 // A row of the table of responses.
 struct ResponseRow {
     const char* name;
-    // Null: nothing pushes. Empty corrections: none.
+    // Finds impulses on a, the opposite on b, one a contact [N s]; the search begins with the given ones. Null: nothing
+    // pushes.
     void (*find)(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
-                 Pushes& out);
+                 std::vector<Vec3>& impulses);
 };
 const ResponseRow& response_row(frond_response which);
 void push_by_impulse(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
-                     Pushes& out);
+                     std::vector<Vec3>& impulses);
 void push_by_penalty(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
-                     Pushes& out);
+                     std::vector<Vec3>& impulses);
 
 // Returns the inverse of a contact's own block of W, zero in directions in which nothing moves.
 Mat3 firm_inverse(const Mat3& block);

@@ -66,21 +66,22 @@ bool sweep(CorrectionSearch& search, const std::vector<int>& island, double tole
 
 }  // namespace
 
-void correct_positions(const std::vector<Touch>& touches, const CouplingTable& coupling,
-                       const ResponseSettings& settings, std::vector<Vec3>& corrections) {
+std::vector<Vec3> correct_positions(const std::vector<Touch>& touches, const CouplingTable& coupling,
+                                    const ImpulseLimits& limits) {
     constexpr int MOST = 40;         // rounds
     constexpr double UNSEEN = 1e-3;  // [m/s]
     const auto overlaps = [](const Touch& touch) { return touch.least_correction > 0; };
-    if (std::none_of(touches.begin(), touches.end(), overlaps)) return;
+    if (std::none_of(touches.begin(), touches.end(), overlaps)) return {};
     const size_t count = touches.size();
-    const int rounds = std::min(settings.limits.iterations, MOST);
+    const int rounds = std::min(limits.iterations, MOST);
     CorrectionSearch search = {touches, coupling, std::vector<double>(count, 0), std::vector<double>(count, 0),
                                std::vector<Row>(count)};
     for (const std::vector<int>& island : coupling.islands)
-        for (int round = 0; round < rounds && sweep(search, island, settings.limits.tolerance, UNSEEN); round++) {
+        for (int round = 0; round < rounds && sweep(search, island, limits.tolerance, UNSEEN); round++) {
         }
-    corrections.resize(count);
+    std::vector<Vec3> corrections(count);
     for (size_t i = 0; i < count; i++) corrections[i] = search.pushes[i] * touches[i].normal;
+    return corrections;
 }
 
 }  // namespace frond

@@ -3,12 +3,11 @@
 // A spring of stiffness k is implicit in time: p = h k (depth - h v) for the velocity v along the normal that remains
 // after the impulses of all springs, W p. That is a contact with a compliance of 1 / (h^2 k), so no k is too stiff:
 // with infinite k the bodies just stop and part. Rounds go from contact to contact, each spring with the others'
-// current impulses, and end early: the rest is left to the next steps. Plants that overlap part by position correction,
-// as with impulses.
+// current impulses, and end early: the rest is left to the next steps. Plants that overlap part by position correction.
 #include <algorithm>
 #include <cmath>
 
-#include "solve/position_correction.hpp"
+#include "solve/impulses.hpp"
 
 namespace frond {
 
@@ -61,16 +60,16 @@ Vec3 pushed(const Touch& touch, const ContactSpring& spring, Vec3 velocity, cons
 }  // namespace
 
 void push_by_penalty(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
-                     Pushes& out) {
+                     std::vector<Vec3>& impulses) {
     constexpr int ROUNDS = 8;  // in which springs feel each other
     std::vector<ContactSpring> springs(touches.size());
     std::vector<Vec3> velocities;
     for (const Touch& touch : touches) velocities.push_back(touch.velocity);
-    out.impulses.assign(touches.size(), Vec3::Zero());
+    impulses.assign(touches.size(), Vec3::Zero());
     for (int round = 0; round < ROUNDS; round++)
         for (size_t i = 0; i < touches.size(); i++) {
             const Touch& touch = touches[i];
-            Vec3& impulse = out.impulses[i];
+            Vec3& impulse = impulses[i];
             const bool waits = impulse.isZero(0) && velocities[i].dot(touch.normal) >= wanted_speed(touch, settings.h);
             if (waits && !touch.is_bond) continue;
             const std::vector<Coupling>& row = coupling.row(int(i));
@@ -79,8 +78,6 @@ void push_by_penalty(const std::vector<Touch>& touches, const CouplingTable& cou
             impulse += by;
             for (const Coupling& c : row) velocities[size_t(c.other)] += c.block.transpose() * by;
         }
-    out.corrections.clear();
-    correct_positions(touches, coupling, settings, out.corrections);
 }
 
 }  // namespace frond

@@ -1,5 +1,5 @@
 // The table of responses: one row for each name in FROND_RESPONSES; and the response by impulses.
-#include "solve/position_correction.hpp"
+#include "solve/impulses.hpp"
 
 namespace frond {
 
@@ -13,13 +13,10 @@ const ResponseRow& response_row(frond_response which) {
     return TABLE[which];
 }
 
-// Finds velocities first, then positions as if all rested without friction, so that parting adds no kinetic energy.
 void push_by_impulse(const std::vector<Touch>& touches, const CouplingTable& coupling, const ResponseSettings& settings,
-                     Pushes& out) {
-    out.corrections.clear();
+                     std::vector<Vec3>& impulses) {
     constexpr double MOVES = 1e-5;  // change of velocity that is neglected [m/s]
-    find_impulses(touches, coupling, settings.limits, out.impulses, MOVES);
-    correct_positions(touches, coupling, settings, out.corrections);
+    find_impulses(touches, coupling, settings.limits, impulses, MOVES);
 }
 
 }  // namespace frond

@@ -18,8 +18,10 @@ struct PlantContact {
     Vec3 normal;                  // exit direction of the first from the second
     double depth;                 // depth of the overlap [m]; below zero they are apart
     double lacking = 0;           // by how much the response found so far in this step left it too near [m]
+    double lacking_place = 0;     // likewise, the correction of positions
     double friction;              // combined coefficient of both [-]
     bool by_strips = false;       // found by the distance of their cores, not by overlapping tets
+    bool may_ask = true;          // for what is lacking, as far as no energy comes from it
     int missed = 0;               // substeps since the search last found it
     Vec3 impulse = Vec3::Zero();  // impulse on the first; the last substep's until this one's is known [N s]
 };
