@@ -71,8 +71,13 @@ std::vector<std::vector<Touch>> sweep_through_corn(frond_model corn) {
         });
         found.push_back(touches);
         // A ray between steps meets the whole plant.
-        btCollisionWorld::ClosestRayResultCallback ray(btVector3(btScalar(-2), btScalar(0.2), 0),
-                                                       btVector3(btScalar(2), btScalar(0.2), 0));
+        std::vector<frond_capsule> capsules(size_t(frond_plant_get_capsule_count(plant)));
+        EXPECT_EQ(frond_plant_get_capsules(plant, capsules.data(), int(capsules.size())), FROND_OK);
+        const frond_capsule& lowest = capsules[0];
+        const btVector3 aim(btScalar(0.5 * (lowest.begin.x + lowest.end.x)),
+                            btScalar(0.5 * (lowest.begin.y + lowest.end.y)),
+                            btScalar(0.5 * (lowest.begin.z + lowest.end.z)));
+        btCollisionWorld::ClosestRayResultCallback ray(aim - btVector3(2, 0, 0), aim + btVector3(2, 0, 0));
         ray.m_collisionFilterMask = -1;
         world.rayTest(ray.m_rayFromWorld, ray.m_rayToWorld, ray);
         EXPECT_TRUE(ray.hasHit()) << i;
