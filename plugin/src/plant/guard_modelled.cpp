@@ -84,11 +84,17 @@ void approach_modelled(Plant& plant, double most) {
     if (!find_frame(plant, rotation, shift)) return;
     const VecX from = plant.state.motion.x, to = modelled_in(plant, rotation, shift);
     const VecX way = (plant.follow ? wound_as(from, to) : to) - from;
-    const auto has_little_at = [&](double share) {
+    const auto stored_at = [&](double share) {
         plant.state.motion.x = from + share * way;
-        return stored_energy(plant).elastic - work_of_weight(plant, share * way) <= most;
+        return stored_energy(plant).potential;
     };
+    const auto has_little_at = [&](double share) { return stored_at(share) <= most; };
     if (!has_little_at(1)) set_plastic(plant, {});
+    // Linear tets hold energy where they are turned, even as modelled.
+    if (!has_little_at(1) && stored_at(0) <= stored_at(1)) {
+        plant.state.motion.x = from;
+        return;
+    }
     double enough = 1;
     for (double step = 0.5; step > std::ldexp(1, -HALVINGS); step /= 2)
         if (has_little_at(enough - step)) enough -= step;

@@ -320,9 +320,10 @@ bool is_where_held(const Motion& motion);
 // starts or stops tears at a plant, however short the way.
 bool is_carried(const Motion& motion, const VecX& x, const VecX& v);
 
-// Elastic energy, relative to the modelled shape's, and kinetic energy [J].
+// Potential energy of tissue and weight, relative to the modelled shape's, and kinetic energy [J]. The weight's is by
+// the gravity of the last step; none if there was none.
 struct StoredEnergy {
-    double elastic, kinetic;
+    double potential, kinetic;
 };
 StoredEnergy stored_energy(const Plant& plant);
 // Relaxes a plant until it stores no more than that. Pins that were moved since the last step are left to the next one.

@@ -13,7 +13,9 @@ namespace frond {
 StoredEnergy stored_energy(const Plant& plant) {
     const Mechanics& row = mechanics(plant.which, plant.nodes->order);
     const Elements& new_ones = elements_of(*plant.system);  // plastic strain leaves the modelled shape strained
-    return {row.energy(elements_of(plant), plant.state.motion.x) - row.energy(new_ones, new_ones.modelled),
+    const VecX& x = plant.state.motion.x;
+    const double lifted = -work_of_weight(plant, x - new_ones.modelled);
+    return {row.energy(elements_of(plant), x) - row.energy(new_ones, new_ones.modelled) + lifted,
             kinetic_energy(*plant.system, plant.state.motion.x, plant.state.motion.v)};
 }
 
@@ -42,12 +44,13 @@ void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
     // Shares of the energy that lifts the plant by its size: what counts as none, and what a step's check allows [-].
     constexpr double SHARE = 0.001, ALLOWED = 0.01;
     Motion& motion = plant.state.motion;
-    const double none = SHARE * lifting_energy(plant), bound = std::max(0.0, most.elastic) + none;
+    const double none = SHARE * lifting_energy(plant), bound = most.potential + none;
     const VecX given = motion.v, start = motion.x;
     SolveSettings settings = plant.input.settings;
     settings.integrator = FROND_INTEGRATOR_IMPLICIT_EULER;
     Loads loads;
-    if (plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
+    loads.gravity = plant.step.loads.gravity;
+    if (loads.gravity.isZero(0) && plant.model->stands_as_modelled) loads.gravity = Vec3(0, -GRAVITY, 0);
     if (pins_moved)
         hold_still(plant);
     else
@@ -55,14 +58,14 @@ void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
     plant.step.has_fibres = true;
     bool ok = true;
     int round = 0;
-    for (double now = stored_energy(plant).elastic; round < ROUNDS && ok && !(now <= bound); round++) {
+    for (double now = stored_energy(plant).potential; round < ROUNDS && ok && !(now <= bound); round++) {
         take_workspace(plant);
         const VecX before = motion.x;
         motion.v.setZero();
         plant.report = solve_step(*plant.step.workspace, settings, loads, STEP, motion);
         ok = plant.report.ok;
         hold_lengths(plant, STEP);
-        const double next = stored_energy(plant).elastic;
+        const double next = stored_energy(plant).potential;
         if (!(next < now) && !settings.careful) {
             // One solve overshoots: a search does not.
             motion.x = before;
@@ -77,11 +80,11 @@ void relax(Plant& plant, const StoredEnergy& most, bool pins_moved) {
         take_velocities(plant, settings, given);
         return_workspace(plant);
         const double most_left = bound + ALLOWED * lifting_energy(plant);
-        if (!(stored_energy(plant).elastic <= most_left)) approach_modelled(plant, most_left);
+        if (!(stored_energy(plant).potential <= most_left)) approach_modelled(plant, most_left);
     }
     // What could not be relaxed is taken from the motion.
     const StoredEnergy now = stored_energy(plant);
-    const double kinetic = std::max(0.0, most.kinetic + std::min(0.0, bound - now.elastic));
+    const double kinetic = std::max(0.0, most.kinetic + std::min(0.0, bound - now.potential));
     if (!(now.kinetic <= kinetic + none)) motion.v *= std::sqrt(kinetic / now.kinetic);
     motion.history.valid = false;
     motion.history.shaken = true;  // the first step damps the rest

@@ -60,16 +60,17 @@ void check_index(int index, size_t count, const char* what) {
     if (index < 0 || size_t(index) >= count) damaged(what);
 }
 
-// The mechanics that a plant has in the snapshot, which need not be its present ones.
+// The mechanics that a plant has in the snapshot, which need not be its present ones; nor need it have been broken.
 struct Becomes {
     std::shared_ptr<const System> system;
     const Mechanics* row;
     Eigen::Index numbers;  // number of coordinates
 };
-Becomes becomes(const Plant& plant, frond_mechanics which) {
+Becomes becomes(const Plant& plant, const SavedPlant& saved) {
+    const bool stays = saved.which == plant.which && saved.fragments.empty() == plant.state.fragments.empty();
     const auto system =
-        which == plant.which ? plant.system : make_system(plant.model, which, plant.input.mass, plant.nodes->order);
-    return {system, &mechanics(which, plant.nodes->order), 3 * Eigen::Index(elements_of(*system).node_count)};
+        stays ? plant.system : make_system(plant.model, saved.which, plant.input.mass, plant.nodes->order);
+    return {system, &mechanics(saved.which, plant.nodes->order), 3 * Eigen::Index(elements_of(*system).node_count)};
 }
 
 // Returns the number of Bullet's objects that stay; those that go have to be the last ones, or the others would change
@@ -106,8 +107,8 @@ void check_touches(World& world, const Snapshot& snapshot, const SavedTouches& t
             for (int i = 0; i < side.node_count; i++)
                 check_index(side.nodes[size_t(i)], size_t(nodes), "contacts of plants");
             check_index(side.piece, plant.model->capsules.size(), "contacts of plants");
-            const frond_mechanics which = snapshot.plants[size_t(saved.plants[k])].which;
-            if (!is_sound(c.attachments[k], int(becomes(plant, which).numbers / 3))) damaged("contacts of plants");
+            const Becomes become = becomes(plant, snapshot.plants[size_t(saved.plants[k])]);
+            if (!is_sound(c.attachments[k], int(become.numbers / 3))) damaged("contacts of plants");
             check_numbers(side.weights, "contacts of plants");
         }
         for (const Vec3& v : {c.between, c.point, c.normal, c.impulse}) check_numbers(v, "contacts of plants");
@@ -191,7 +192,7 @@ void check_plant(const SavedPlant& saved, const PlantBody& body, size_t object_c
              body.index);
     check_count(saved.grab_targets.size(), plant.input.grabs.size(), "grabs on a plant");
     check_fragments(saved, body);
-    const Becomes become = becomes(plant, saved.which);
+    const Becomes become = becomes(plant, saved);
     check_motion(saved, become);
     check_plastic(saved, become);
     check_pins(saved, plant);
