@@ -143,7 +143,7 @@ void Laws::check_lengths(const Standing& plant, const Loads& loads, bool is_touc
 }
 
 // What was dissipated may fall by the ledger's error, by a twentieth of what went through the plants, and by what lifts
-// them by a fiftieth of their size. Plants that were made in one another come apart slowly, as if they were lifted.
+// them by a fiftieth of their size. Plants that were made in one another or in bodies come apart slowly, as if they were lifted.
 void Laws::check_energy(const std::map<int, Standing>& plants, double dt) {
     constexpr double SHARE = 0.05, LIFT = 0.02, LEAST = 1e-9;  // [-], [-], [J]
     constexpr double PARTING = 0.1;                            // [m/s]
@@ -168,7 +168,7 @@ void Laws::check_energy(const std::map<int, Standing>& plants, double dt) {
         lift += LIFT * plant.size * weight_of(plant);
         weight += weight_of(plant);
     }
-    if (report.plant_contact_count > 0) parted += PARTING * weight * dt;
+    if (report.plant_contact_count + report.contact_count > 0) parted += PARTING * weight * dt;
     expect(Law::ENERGY, "energy out of nothing [J]", most - now.dissipated,
            now.error - error_at_most + SHARE * (turnover + kinetic) + lift + parted);
 }

@@ -57,6 +57,8 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.touch.depth = -contact.gap;
     row.impulse = &contact.impulse;
     row.pushed_on = &contact.pushed_on;
+    row.work = &contact.work;
+    contact.work = 0;
     contact.pushed_on = row.contact_body.velocity;
     rows.push_back(std::move(row));
 }
@@ -133,6 +135,7 @@ void add_row(Bond& bond, double h, std::vector<ContactRow>& rows) {
     constexpr double SHARE = 0.5, FASTEST = 10;  // [m/s]
     if (bond.plant->rest.asleep) return;
     bond.impulse.setZero();
+    bond.work = 0;
     bond.length = h;
     if (!bond.body) return;
     Plant& plant = *bond.plant->plant;
@@ -150,6 +153,7 @@ void add_row(Bond& bond, double h, std::vector<ContactRow>& rows) {
     if (row.touch.wanted.norm() > FASTEST) row.touch.wanted *= FASTEST / row.touch.wanted.norm();
     row.touch.bias_velocity = row.touch.friction = 0;
     row.impulse = &bond.impulse;
+    row.work = &bond.work;
     rows.push_back(std::move(row));
 }
 

@@ -17,7 +17,8 @@ struct ContactRow {
     ContactBody contact_body;           // the other side, if that is no plant
     Touch touch;
     Vec3* impulse;              // the contact's own
-    Vec3* pushed_on = nullptr;  // likewise; null where no body is on the other side
+    Vec3* pushed_on = nullptr;  // likewise; null where nothing asks for it
+    double* work = nullptr;     // likewise; null where no body is on the other side
 };
 
 // Makes the rows of an island for a step of h [s]; wakes sleeping bodies that plants push.

@@ -33,14 +33,19 @@ struct Given {
     std::vector<Vec3> impulses;
 };
 
-// Computes how fast bodies go on once they are pushed.
-void go_on(Given& given) {
-    for (ContactRow& at : given.rows) {
-        if (!at.pushed_on) continue;
-        *at.pushed_on = at.contact_body.velocity;
-        for (size_t i = 0; i < given.rows.size(); i++)
-            if (are_one_body(at, given.rows[i]))
-                *at.pushed_on -= compliance_between(at.contact_body, given.rows[i].contact_body) * given.impulses[i];
+// Computes how fast bodies go on once they are pushed, and their work on plants: impulses times mean velocities.
+void go_on(const World& world, Given& given) {
+    for (size_t i = 0; i < given.rows.size(); i++) {
+        ContactRow& at = given.rows[i];
+        if (!at.work) continue;
+        Vec3 after = at.contact_body.velocity;
+        for (size_t k = 0; k < given.rows.size(); k++)
+            if (are_one_body(at, given.rows[k]))
+                after -= compliance_between(at.contact_body, given.rows[k].contact_body) * given.impulses[k];
+        if (at.pushed_on) *at.pushed_on = after;
+        const bool is_slowed = pushes_back(world, *at.plants[0]);
+        *at.work = given.impulses[i].dot(is_slowed ? Vec3(0.5 * (at.contact_body.velocity + after))
+                                                   : at.contact_body.velocity);
     }
 }
 
@@ -164,7 +169,7 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
         again = stop_asking(island, coupled, impulses, h);
     }
     limit_gain(island, given);
-    go_on(given);
+    go_on(world, given);
     give_to_plants(island, given);
     return given;
 }

@@ -15,6 +15,7 @@ struct Bond {
     btCollisionObject* body;      // null once it has left the world: the bond then holds nothing
     Vec3 on_body;                 // held place, in the body's frame [m]
     Vec3 impulse = Vec3::Zero();  // impulse on the plant in the last substep [N s]
+    double work = 0;              // of the body on the plant in that substep [J]
     double length = 1;            // length of that substep [s]
     uint64_t handle = 0;          // handle in the C API
 };

@@ -44,15 +44,6 @@ bool is_stepped(const PlantBody& body) {
     return body.level.is_due && !body.plant->state.modal;
 }
 
-// Adds the work of an impulse [N s], as a force over the plant's step, at an attachment; world frame.
-void add_impulse(const PlantBody& body, const Attachment& attachment, const Vec3& impulse, double& work) {
-    const Plant& plant = *body.plant;
-    if (impulse.isZero(0) || !is_stepped(body)) return;
-    const Vec3 way =
-        attachment_place(attachment, plant.state.motion.x) - attachment_place(attachment, plant.step.x_good);
-    work += impulse.dot(plant.rotation * way) / body.level.pending;
-}
-
 // Adds the work of plants that were put elsewhere with their pins before they were solved: nothing but their height
 // changed.
 void add_jump(const Plant& plant, const VecX& before, double& work) {
@@ -95,15 +86,14 @@ void begin_work(World& world) {
 
 static void count_impulses(World& world) {
     Ledger& ledger = *world.ledger;
-    const auto add = [&](const PlantBody& body, const Attachment& attachment, const Vec3& impulse, double& work) {
-        add_impulse(body, attachment, impulse, work);
+    const auto add = [&](const PlantBody& body, const Vec3& impulse, double by_body, double& work) {
+        if (is_stepped(body)) work += by_body;
         ledger.plants[body.handle.id].impulse += impulse;
     };
     for (const Contact& contact : world.contacts)
-        add(*contact.plant, attachment_of(contact), contact.impulse, ledger.sums.bodies);
+        add(*contact.plant, contact.impulse, contact.work, ledger.sums.bodies);
     for (const Bond& bond : world.bonds)
-        if (bond.body && !bond.plant->rest.asleep)
-            add(*bond.plant, vertex_attachment(*bond.plant->plant, bond.vertex), bond.impulse, ledger.sums.bonds);
+        if (bond.body && !bond.plant->rest.asleep) add(*bond.plant, bond.impulse, bond.work, ledger.sums.bonds);
     for (const PlantContact& contact : world.plant_contacts) {
         ledger.plants[contact.plants[0]->handle.id].impulse += contact.impulse;
         ledger.plants[contact.plants[1]->handle.id].impulse -= contact.impulse;
