@@ -313,7 +313,8 @@ typedef struct frond_contact_tuning {
     int hash_table_size;       /* n of FROND_HASH_LAYOUT_PAPER, 0 .. 1e8; 0 (default): twice the number of entries */
     double hash_cell_size;     /* l [m], 0 .. 1e3; 0 (default) takes one and a half mean edges of the cages that touch,
                                 * and never less than an eighth of one */
-    int response_iterations;   /* rounds over all contacts at most, 1 .. 100000, default 200 */
+    int response_iterations;   /* rounds over all contacts at most, 1 .. 100000, default 200; fewer, but at least 10,
+                                * where rounds times the square of the contacts that move each other exceed 5e7 */
     double response_tolerance; /* stop when no impulse changes by more than this share of the largest [-], 0 .. 1,
                                 * default 1e-6 */
     double penalty_stiffness;  /* stiffness of FROND_RESPONSE_PENALTY per contact [N/m], 1e-6 .. 1e12, default 1000 */

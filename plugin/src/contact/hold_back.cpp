@@ -45,7 +45,7 @@ void find_hits_in_step(const World& world, const SweptBody& swept, double h,
     if (!btRigidBody::upcast(swept.object)) return;
     const ObjectMotion motion = pushed_motion(world, swept, h);
     for (PlantBody* body : swept.plants)
-        if (waits(*body->plant) && has_step(*body))
+        if (awaits_contacts(*body))
             find_hits(*body, motion_in_step(*body), *swept.object, motion, [&](const Hit& hit) { take(*body, hit); });
 }
 
@@ -79,9 +79,14 @@ struct Groups {
 void group_plants(World& world, Groups& groups) {
     for (size_t i = 0; i < world.plant_island_count; i++) {
         PlantSearch& memory = *world.plant_searches[i];
-        for (const PlantBody* body : memory.island) groups.sets.join(memory.island[0]->number, body->number);
-        const double share = way_until_crossing(memory);
-        if (share < 1) groups.hold(memory.island[0]->number, share);
+        int first = -1;
+        for (const PlantBody* body : memory.island) {
+            if (!awaits_contacts(*body)) continue;  // it goes where it goes
+            if (first < 0) first = body->number;
+            groups.sets.join(first, body->number);
+        }
+        const double share = first < 0 ? 1 : way_until_crossing(memory);
+        if (share < 1) groups.hold(first, share);
     }
 }
 
@@ -165,7 +170,7 @@ std::vector<HeldBody> hold_back_what_passes(World& world, double h) {
     std::vector<double> shares = groups.least();
     std::vector<std::vector<PlantBody*>> plants(shares.size());
     for (PlantBody* body : world.taking_part)
-        if (has_step(*body)) plants[size_t(groups.sets.find(body->number))].push_back(body);
+        if (awaits_contacts(*body)) plants[size_t(groups.sets.find(body->number))].push_back(body);
     for (size_t i = 0; i < shares.size(); i++)
         if (shares[i] < 1) shares[i] = go_share(plants[i], shares[i], h);
     std::vector<HeldBody> held;

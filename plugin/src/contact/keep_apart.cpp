@@ -71,7 +71,7 @@ std::vector<Miss> misses_of(const PlantSearch& memory, const std::vector<StripPa
     if (strayed) anew = find_strip_pairs(paths, 0);
     for (const StripPair& pair : strayed ? anew : memory.pairs) {
         const StripPath &a = paths[size_t(pair.a)], &b = paths[size_t(pair.b)];
-        if (!has_step(*a.body) || !has_step(*b.body)) continue;  // a response needs the steps of both
+        if (!awaits_contacts(*a.body) || !awaits_contacts(*b.body)) continue;  // a response changes both
         const StripCore core_a = a.core_before(pair.strip_a), core_b = b.core_before(pair.strip_b);
         const StripCore a_after = a.core_after(pair.strip_a), b_after = b.core_after(pair.strip_b);
         const double thick = a.strip(pair.strip_a).radius + b.strip(pair.strip_b).radius;

@@ -121,8 +121,17 @@ Change sweep(ImpulseSearch& search, double unfelt) {
     return change;
 }
 
+// Returns how many rounds an island may take. Its cost grows with the square of its contacts: rounds over many of them
+// end early, and the next step, which begins with their impulses, goes on.
+int most_rounds(size_t contacts, const ImpulseLimits& limits) {
+    constexpr double MOST_COUPLINGS = 5e7, FEWEST = 10;  // passed on in all rounds, some tenths of a second; rounds
+    const double all = double(contacts) * double(contacts);
+    return int(std::min(double(limits.iterations), std::max(FEWEST, MOST_COUPLINGS / all)));
+}
+
 // Does rounds until nothing changes.
 int solve_island(ImpulseSearch& search, const ImpulseLimits& limits, double unfelt, bool& converged) {
+    const int most = most_rounds(search.island.size(), limits);
     VecX way = VecX::Zero(search.impulses.size()), way_faster = way, from, from_velocities;
     double last = 0;  // squared norm of the last round's change
     for (int iteration = 1;; iteration++) {
@@ -130,7 +139,7 @@ int solve_island(ImpulseSearch& search, const ImpulseLimits& limits, double unfe
         from_velocities = search.velocities;
         const Change change = sweep(search, unfelt);
         converged = change.most <= limits.tolerance * change.largest || change.speed <= unfelt;
-        if (converged || iteration >= limits.iterations) return iteration;
+        if (converged || iteration >= most) return iteration;
         from = search.impulses - from;
         from_velocities = search.velocities - from_velocities;
         // Extrapolates along the accumulated direction, unless changes grow.

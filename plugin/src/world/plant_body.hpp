@@ -100,6 +100,10 @@ inline bool has_step(const PlantBody& body) {
     return body.level.is_due && !body.rest.asleep && !body.plant->state.modal &&
            body.plant->step.x_good.size() == body.plant->state.motion.x.size();
 }
+// Returns whether contacts may still change that step.
+inline bool awaits_contacts(const PlantBody& body) {
+    return has_step(body) && waits(*body.plant);
+}
 // Returns whether the object is an infinite plane.
 bool is_plane(const btCollisionObject& object);
 // Forgets a plant whose object the host deletes.
