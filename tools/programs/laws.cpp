@@ -143,7 +143,8 @@ void Laws::check_lengths(const Standing& plant, const Loads& loads, bool is_touc
 }
 
 // What was dissipated may fall by the ledger's error, by a twentieth of what went through the plants, and by what lifts
-// them by a fiftieth of their size. Plants that were made in one another or in bodies come apart slowly, as if they were lifted.
+// them by a fiftieth of their size. Plants that were made in one another or in bodies come apart slowly, as if they
+// were lifted.
 void Laws::check_energy(const std::map<int, Standing>& plants, double dt) {
     constexpr double SHARE = 0.05, LIFT = 0.02, LEAST = 1e-9;  // [-], [-], [J]
     constexpr double PARTING = 0.1;                            // [m/s]
