@@ -64,8 +64,7 @@ def test_episodes_repeat_by_seed_and_replay_from_a_snapshot(env):
     env.restore(saved)
     again = np.abs(run(10) - once)[:, :14].max()
     print(f"an episode repeats to {by_seed:.1e}, a replay's joints to {replay:.1e} and {again:.1e} rad, rad/s")
-    # Each replay is the same; beside the episode that went on, Bullet's contacts begin cold.
-    assert by_seed == 0 and replay == again and replay < 5e-3
+    assert by_seed == 0 and max(replay, again) < 1e-3
 
 
 def test_it_is_vectorised_by_processes():

@@ -23,7 +23,8 @@ struct ContactRow {
 
 // Makes the rows of an island for a step of h [s]; wakes sleeping bodies that plants push.
 std::vector<ContactRow> make_rows(const World& world, const ContactIsland& island, double h);
-// Makes the rows of an island for a correction of positions: those of plants alone; none if nothing has to part.
+// Makes the rows of an island for a correction of positions: of plants, and of bodies, which only bound it; none if no
+// plants have to part.
 std::vector<ContactRow> make_correction_rows(const World& world, const ContactIsland& island, double h);
 // Returns whether no row would push anything: all are apart and come no nearer in the step than they may. Then no
 // compliances are needed.
