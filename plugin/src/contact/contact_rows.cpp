@@ -33,10 +33,12 @@ double mass_of(const PlantBody* body) {
     return node_mass_of(*body->plant->system).sum();
 }
 
-// Adds the row of a contact with a body. Bodies have already moved, so overlaps are removed by velocities; of free
-// bodies, which keep them and may be deep in a stem after a fall, by so slow ones that nobody sees them bounce.
+// Adds the row of a contact with a body. Bodies have already moved, so overlaps are removed by velocities: by so slow
+// ones that nobody sees bodies bounce that are deep in a stem after a fall, but faster from what is led, a kinematic
+// body or a link with its motors.
 void add_row(const World& world, Contact& contact, double h, std::vector<ContactRow>& rows) {
-    constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 0.1, FASTEST_LED = 1;  // [m], [-], [m/s], [m/s]
+    constexpr double SLOP = 0.0005, SHARE = 0.2, FASTEST = 0.1;  // [m], [-], [m/s]
+    constexpr double FASTEST_LINK = 0.5, FASTEST_LED = 1;        // [m/s]
     Plant& plant = *contact.plant->plant;
     ContactRow row;
     row.plants[0] = contact.plant;
@@ -47,9 +49,10 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
     row.touch.velocity = row.touches[0].velocity - row.contact_body.velocity;
     // What a kinematic body has moved against in this step is to get out of its way at once.
     const double lag = contact.other->isKinematicObject() ? row.contact_body.velocity.norm() : 0;
-    row.touch.bias_velocity = contact.gap >= 0 ? -contact.gap / h
-                              : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST_LED + lag)
-                                               : parting_speed(-contact.gap, SLOP, h, SHARE, FASTEST);
+    row.touch.bias_velocity =
+        contact.gap >= 0 ? -contact.gap / h
+        : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST_LED + lag)
+                         : parting_speed(-contact.gap, SLOP, h, SHARE, row.contact_body.link ? FASTEST_LINK : FASTEST);
     if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
         row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);
     row.touch.bias_velocity += contact.shortfall.lacking / h;
