@@ -45,7 +45,7 @@ const Row ROWS[] = {
     {"twig", "urdf/sapling.urdf", FROND_MECHANICS_ROD, 1, 0, false, FROND_WIND_PROFILE_LOG, 9, 0xab65759330378ed7,
      0x4f924654a5c0ddc5},
     {"ball_on_tets", "corn/corn.obj", FROND_MECHANICS_TET_COROTATIONAL, 1, 0, true, FROND_WIND_PROFILE_LOG, 0,
-     0x2d3e3876e951d4c0, 0xd866de17850c1739},
+     0x7cd3482763adf12b, 0xd74093c5c3c91ccb},
     {"ball_on_rods", "corn/corn.obj", FROND_MECHANICS_ROD, 1, 0, true, FROND_WIND_PROFILE_LOG, 0, 0x27cc98fffe95409e,
      0x4c3d74d72111e074},
     {"pair", "corn/corn.obj", FROND_MECHANICS_ROD, 2, 0.25, false, FROND_WIND_PROFILE_LOG, 6, 0xdd3d3fbe8cda4a05,

@@ -167,7 +167,7 @@ void take_loads(Plant& plant, const Batch& step, int lane) {
 
 bool is_plausible(Plant& plant, const Batch& step, int lane, double h) {
     take_drags(step, lane, plant.step.loads.drags);
-    const bool plausible = is_plausible(plant, h, nullptr);
+    const bool plausible = is_plausible(plant, h);
     plant.step.loads.drags.clear();
     return plausible && !is_far_out(plant);
 }
@@ -190,6 +190,7 @@ bool take_step(Plant& plant, PlantBatch& space, int lane, const SolveSettings& s
     motion.v.swap(v);
     take_loads(plant, step, lane);
     plant.step.is_off_course = plant.step.starts_anew = false;
+    plant.step.push = nullptr;
     if (is_asked && !is_plausible(plant, step, lane, h)) {
         motion.x.swap(x);
         motion.v.swap(v);

@@ -1,42 +1,69 @@
-// In: the impulses that an island's movable bodies are to get. Out: the share of them by which the bodies gain no more
-// energy than the plants have.
+// In: rows whose impulses plants have taken, and the ways that these went. Out: impulses by which no movable body gains
+// more energy than its own took from the plants.
 //
-// Impulses between linear responses give none, but a plant's linear response to its own strain is not bounded by the
-// energy of that strain, and a chain of links turns a small wrong impulse into a fast spin.
+// Between linear responses impulses give no energy. But a plant whose step was solved again, or held back, went another
+// way than its linear response, and a chain of links turns a small wrong impulse into a fast spin.
 #include <algorithm>
 #include <cmath>
 
-#include "contact/contact_body.hpp"
-#include "world/world.hpp"
+#include "contact/coupled_rows.hpp"
 
 namespace frond {
 inline namespace FROND_BULLET_PRECISION {
 
-double stored_at_start(const Plant& plant) {
-    if (plant.step.x_good.size() != plant.state.motion.x.size()) return INFINITY;
-    const bool is_driven = plant.input.has_user_force || !plant.input.grabs.empty() ||
-                           !plant.input.pin_springs.empty() ||
-                           is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good);
-    if (is_driven) return INFINITY;
-    const Mechanics& row = mechanics(plant.which, plant.nodes->order);
-    const VecX &mass = node_mass_of(*plant.system), &v = plant.step.v_good;
-    double kinetic = 0;
-    for (Eigen::Index i = 0; i < mass.size() && 3 * i < v.size(); i++)
-        kinetic += 0.5 * mass[i] * point(v, int(i)).squaredNorm();
-    return row.energy(elements_of(plant), plant.step.x_good) + kinetic;
+namespace {
+
+bool is_movable(const ContactRow& row) {
+    return !row.plants[1] && (row.contact_body.rigid || row.contact_body.link);
 }
 
-double share_within(const std::vector<BodyPush>& pushes, const std::function<double()>& allowed) {
-    constexpr double NO_MATTER = 0.01;  // [J]
-    double first = 0, second = 0;       // of the energy in powers of the share [J]
-    for (const BodyPush& push : pushes) first += push.impulse.dot(push.body->velocity);
-    for (const BodyPush& at : pushes)
-        for (const BodyPush& by : pushes)
-            second += 0.5 * at.impulse.dot(compliance_between(*at.body, *by.body) * by.impulse);
-    if (first + second <= NO_MATTER) return 1;
-    const double most = NO_MATTER + allowed();
+// Returns the rows of one body, from `first` on.
+std::vector<size_t> rows_of_body(const std::vector<ContactRow>& rows, size_t first) {
+    std::vector<size_t> all;
+    for (size_t i = first; i < rows.size(); i++)
+        if (are_one_body(rows[first], rows[i])) all.push_back(i);
+    return all;
+}
+
+// Returns the share of impulses by which a body gains `most` [J], or all if they give less: it gains
+// first share + second share^2.
+double share_within(double first, double second, double most) {
     if (first + second <= most || !(second > 0)) return 1;
     return std::clamp((-first + std::sqrt(first * first + 4 * second * most)) / (2 * second), 0.0, 1.0);
+}
+
+double share_of_body(const std::vector<ContactRow>& rows, const std::vector<Vec3>& impulses,
+                     const std::vector<size_t>& body, double h) {
+    double first = 0, second = 0, taken = 0;
+    for (const size_t i : body) {
+        const Vec3 on_body = -impulses[i];
+        const ContactBody& at = rows[i].contact_body;
+        first += on_body.dot(at.velocity);
+        for (const size_t k : body)
+            second -= 0.5 * on_body.dot(compliance_between(at, rows[k].contact_body) * impulses[k]);
+        const Plant& plant = *rows[i].plants[0]->plant;
+        const Vec3 velocity = way_of_touch(plant, rows[i].touches[0]) / h;
+        taken += plant.step.push->share * on_body.dot(velocity - rows[i].touch.wanted);
+    }
+    return share_within(first, second, std::max(0.0, taken));
+}
+
+}  // namespace
+
+bool bound_gain(const std::vector<ContactRow>& rows, double h, std::vector<Vec3>& impulses) {
+    bool any = false;
+    std::vector<uint8_t> done(rows.size(), 0);
+    for (size_t first = 0; first < rows.size(); first++) {
+        if (done[first] || !is_movable(rows[first])) continue;
+        const std::vector<size_t> body = rows_of_body(rows, first);
+        const double share = share_of_body(rows, impulses, body, h);
+        any |= share < 1;
+        for (const size_t i : body) {
+            done[i] = 1;
+            if (share < 1) impulses[i] *= share;
+        }
+    }
+    return any;
 }
 
 }  // namespace FROND_BULLET_PRECISION

@@ -6,7 +6,6 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <array>
-#include <functional>
 #include <vector>
 
 #include "core/types.hpp"
@@ -44,10 +43,6 @@ struct BodyPush {
 };
 // Applies all impulses of an island's bodies.
 void take_impulses(const std::vector<BodyPush>& pushes);
-// Returns the share of impulses by which the bodies gain no more energy than is allowed [J].
-double share_within(const std::vector<BodyPush>& pushes, const std::function<double()>& allowed);
-// Returns the energy that a plant had when its step began, infinite if something drives it [J].
-double stored_at_start(const Plant& plant);
 
 }  // namespace FROND_BULLET_PRECISION
 }  // namespace frond

@@ -53,6 +53,7 @@ void add_row(const World& world, Contact& contact, double h, std::vector<Contact
         contact.gap >= 0 ? -contact.gap / h
         : lag > 0        ? parting_speed(-contact.gap, SLOP, h, 1, FASTEST_LED + lag)
                          : parting_speed(-contact.gap, SLOP, h, SHARE, row.contact_body.link ? FASTEST_LINK : FASTEST);
+    if (!contact.may_part) row.touch.bias_velocity = std::min(row.touch.bias_velocity, 0.0);
     if (const double rebound = rebound_speed(contact, row.touch, h); rebound > 0)
         row.touch.bias_velocity = std::max(row.touch.bias_velocity, rebound);
     row.touch.bias_velocity += contact.shortfall.lacking / h;

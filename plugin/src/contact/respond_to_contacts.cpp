@@ -33,7 +33,8 @@ struct Given {
     std::vector<Vec3> impulses;
 };
 
-// Computes how fast bodies go on once they are pushed, and their work on plants: impulses times mean velocities.
+// Computes how fast bodies go on once they are pushed, and their work on plants: impulses times mean velocities, to
+// which a bond adds that by which it comes back together.
 void go_on(const World& world, Given& given) {
     for (size_t i = 0; i < given.rows.size(); i++) {
         ContactRow& at = given.rows[i];
@@ -44,8 +45,8 @@ void go_on(const World& world, Given& given) {
                 after -= compliance_between(at.contact_body, given.rows[k].contact_body) * given.impulses[k];
         if (at.pushed_on) *at.pushed_on = after;
         const bool is_slowed = pushes_back(world, *at.plants[0]);
-        *at.work = given.impulses[i].dot(is_slowed ? Vec3(0.5 * (at.contact_body.velocity + after))
-                                                   : at.contact_body.velocity);
+        const Vec3 mean = is_slowed ? Vec3(0.5 * (at.contact_body.velocity + after)) : at.contact_body.velocity;
+        *at.work = given.impulses[i].dot(mean + at.touch.wanted);
     }
 }
 
@@ -58,8 +59,7 @@ void give_to_plants(const ContactIsland& island, Given& given) {
         for (size_t k = 0; k < 2; k++) {
             if (!rows[i].plants[k]) continue;
             Plant& plant = *rows[i].plants[k]->plant;
-            add_impulse(plant, rows[i].touches[k], k == 0 ? impulses[i] : Vec3(-impulses[i]),
-                        plant.step.contact_impulse);
+            add_impulse(plant, rows[i].touches[k], k == 0 ? impulses[i] : Vec3(-impulses[i]), push_of(plant).impulse);
         }
     }
     end_steps(island);
@@ -93,31 +93,9 @@ void take_inertias(const ContactIsland& island) {
     for (btMultiBody* body : bodies) take_present_inertia(*body);
 }
 
-// Shortens impulses by which movable bodies would gain more energy than the plants have, as long as nothing drives
-// them.
-void limit_gain(const ContactIsland& island, Given& given) {
-    std::vector<BodyPush> on_bodies;
-    for (size_t i = 0; i < given.rows.size(); i++) {
-        const ContactBody& body = given.rows[i].contact_body;
-        if (given.rows[i].plants[1] || given.impulses[i].isZero(0)) continue;
-        if (body.rigid || body.link) on_bodies.push_back({&body, -given.impulses[i]});
-    }
-    if (on_bodies.empty()) return;
-    const double share = share_within(on_bodies, [&] {
-        double stored = 0;
-        for (const PlantBody* body : island.plants) stored += stored_at_start(*body->plant);
-        for (const Contact* contact : island.with_bodies)
-            if (contact->other->isKinematicObject()) stored = INFINITY;
-        return stored;
-    });
-    if (share == 1) return;
-    for (size_t i = 0; i < given.rows.size(); i++)
-        if (!given.rows[i].plants[1] && (given.rows[i].contact_body.rigid || given.rows[i].contact_body.link))
-            given.impulses[i] *= share;
-}
-
-// Returns the energy that impulses between plants give to their steps [J]. Without asking for more it is none.
-double gain_between_plants(const CoupledRows& coupled, const std::vector<Vec3>& impulses) {
+// Returns the energy that plants and bodies gain by impulses, without the work of kinematic bodies [J]. It is none
+// where nothing parts faster than it came.
+double gain_by(const std::vector<Vec3>& impulses, const CoupledRows& coupled) {
     const std::vector<ContactRow>& rows = coupled.rows();
     const CouplingTable table = coupled.table();
     std::vector<Vec3> changes(rows.size(), Vec3::Zero());  // of the velocities
@@ -127,22 +105,27 @@ double gain_between_plants(const CoupledRows& coupled, const std::vector<Vec3>& 
                 changes[size_t(by.other)] += by.block.transpose() * impulses[i];
     double gain = 0;
     for (size_t i = 0; i < rows.size(); i++)
-        if (rows[i].plants[1]) gain += impulses[i].dot(rows[i].touch.velocity + 0.5 * changes[i]);
+        if (rows[i].plants[1] || !rows[i].contact_body.object->isKinematicObject())
+            gain += impulses[i].dot(rows[i].touch.velocity + 0.5 * changes[i]);
     return gain;
 }
 
-// Has the contacts of plants no longer ask for more if that would give energy to the plants: their steps are shortened
+// Has contacts ask for no more than that nothing comes nearer if the rest would give energy: steps are shortened
 // instead. Returns whether it did.
 bool stop_asking(const ContactIsland& island, const CoupledRows& coupled, const std::vector<Vec3>& impulses, double h) {
     const auto asks = [](const PlantContact* contact) { return contact->lacking > 0; };
-    if (std::none_of(island.with_plants.begin(), island.with_plants.end(), asks)) return false;
+    const auto parts = [](const Contact* contact) { return contact->may_part && contact->gap < 0; };
+    if (std::none_of(island.with_plants.begin(), island.with_plants.end(), asks) &&
+        std::none_of(island.with_bodies.begin(), island.with_bodies.end(), parts))
+        return false;
     double most = 0;
     for (const PlantBody* body : island.plants) most += parting_work(*body->plant, h);
-    if (gain_between_plants(coupled, impulses) <= most) return false;
+    if (gain_by(impulses, coupled) <= most) return false;
     for (PlantContact* contact : island.with_plants) {
         contact->lacking = 0;
         contact->may_ask = false;
     }
+    for (Contact* contact : island.with_bodies) contact->may_part &= contact->other->isKinematicObject();
     return true;
 }
 
@@ -168,7 +151,6 @@ Given respond_in(const World& world, const ResponseRow& response, const ContactI
         response.find(coupled.touches(), coupled.table(), settings, impulses);
         again = stop_asking(island, coupled, impulses, h);
     }
-    limit_gain(island, given);
     go_on(world, given);
     give_to_plants(island, given);
     return given;
@@ -227,6 +209,8 @@ void respond_to_contacts(World& world, double h) {
         }
         take_back(waiting);
     }
+    for (Given& of : given)
+        if (bound_gain(of.rows, h, of.impulses)) go_on(world, of);
     tell_what_is_behind(world, h);
     part_plants(world, h, waiting.touched);
     for (Given& of : given)

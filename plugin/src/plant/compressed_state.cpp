@@ -49,11 +49,11 @@ void compress(Plant& plant, double tolerance, bool keep_surface) {
     plant.state.motion = {};
     plant.state.trend = {};
     plant.step.loads = {};
+    plant.step.push = nullptr;
     plant.state.blown.setZero();
     plant.state.air = nullptr;
     plant.input.forces = nullptr;
-    for (VecX* numbers : {&plant.step.x_good, &plant.step.v_good, &plant.step.contact_impulse, &plant.view.cage_x})
-        drop(*numbers);
+    for (VecX* numbers : {&plant.step.x_good, &plant.step.v_good, &plant.view.cage_x}) drop(*numbers);
     plant.view.cage_stale = true;
     drop(plant.view.chain_positions);
     drop(plant.input.pin_springs);

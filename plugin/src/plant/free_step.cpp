@@ -30,6 +30,7 @@ void take_back(Plant& plant, const FreeStep& step) {
     plant.step.is_off_course = step.is_off_course;
     plant.report = step.report;
     plant.trouble = step.trouble;
+    plant.step.push = nullptr;
     if (plant.step.workspace) plant.step.workspace->retract_from = step.retract_from;
 }
 

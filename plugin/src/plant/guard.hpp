@@ -31,19 +31,14 @@ double work_of_weight(const Plant& plant, const VecX& way);
 // Returns the energy that lifts the plant by its own size [J].
 double lifting_energy(const Plant& plant);
 
-// What contacts do to a plant in a step.
-struct Push {
-    VecX impulse;          // on its nodes [N s]; empty: none
-    double most_work = 0;  // the most that they can have given [J]
-};
 // Sets is_off_course after a solve over h [s] from x_good and v_good, and returns whether the plant may go there: it
-// did not run away, nor gain energy that the loads and the push cannot have given. What stayed on its course is not
+// did not run away, nor gain energy that the loads and contacts cannot have given. What stayed on its course is not
 // asked for its energy, unless pins or contacts push it, it starts anew, as with forces of the host, or the step has
 // stages, of which one need not damp what another strained.
-bool keeps_course(Plant& plant, double h, const Push& push = {});
+bool keeps_course(Plant& plant, double h);
 // Returns whether no node ran away, and none left its course with energy that nothing can have given. A pressed plant
-// springs far in a solve without contacts, and its energy is meaningless there; `push`: null until they are known.
-bool is_plausible(Plant& plant, double h, const Push* push);
+// springs far in a solve without contacts, and its energy is meaningless there.
+bool is_plausible(Plant& plant, double h);
 
 // Translates a plant with its pins, between solves, if they were put farther away than `least` times its size.
 bool jump_with_pins(Plant& plant, double least);

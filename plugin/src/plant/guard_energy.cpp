@@ -36,18 +36,16 @@ double lifting_energy(const Plant& plant) {
     return node_mass_of(*plant.system).sum() * GRAVITY * double(plant.size);
 }
 
-// Returns whether the plant has more energy than it had and than the loads and the push can have given.
-static bool has_energy_from_nowhere(const Plant& plant, double h, const Push& push) {
+// Returns whether the plant has more energy than it had and than the loads and contacts can have given.
+static bool has_energy_from_nowhere(const Plant& plant, double h) {
     // Allowed error, as shares of the energy at the start and of that which lifts the plant by its size [-]. The air's
     // work on a chain that turns is known as well as its order alone.
     constexpr double SHARE = 0.01, LIFT = 0.01;
-    Vec3 impulse = Vec3::Zero();
-    for (int i = 0; i < push.impulse.size() / 3; i += plant.follow ? 2 : 1) impulse += point(push.impulse, i);
-    const LoadWork work = work_of_loads(plant, h, impulse);
+    const LoadWork work = work_of_loads(plant, h);
     const VecX way = way_of_step(plant);
-    const double by_push = push.impulse.size() > 0 ? std::min(push.most_work, push.impulse.dot(way) / h) : 0;
+    const double by_contacts = is_pushed(plant) ? std::min(plant.step.push->most_work, work.contacts) : 0;
     const VecX &x = plant.state.motion.x, &x_good = plant.step.x_good;
-    const double given = by_push + work.forces + work.grabs + work.air + work.pins + work.error +
+    const double given = by_contacts + work.forces + work.grabs + work.air + work.pins + work.error +
                          (plant.follow ? std::abs(work.air) : 0) + work_of_weight(plant, way) +
                          LIFT * lifting_energy(plant);
     const double after = kinetic_energy(*plant.system, x, plant.state.motion.v) + elastic_energy(plant, x);
@@ -57,16 +55,26 @@ static bool has_energy_from_nowhere(const Plant& plant, double h, const Push& pu
     return !(after <= given + (1 + SHARE) * before);
 }
 
-bool keeps_course(Plant& plant, double h, const Push& push) {
-    plant.step.is_off_course = ends_off_course(plant, h);
-    const bool is_asked = plant.step.is_off_course || plant.step.starts_anew || push.impulse.size() > 0 ||
-                          integrator(plant.step.settings.integrator).has_stages ||
-                          is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good);
-    return !(is_asked && has_energy_from_nowhere(plant, h, push)) && !has_run_away(plant);
+// Returns whether a spring that holds a pinned node was led anywhere in the step.
+static bool leads_springs(const Plant& plant) {
+    constexpr double FAR = 1e-4;  // over the plant's size [-]
+    const auto is_led = [&](const Spring& spring) {
+        const Vec3 way = spring.target - attachment_place(spring.attachment, plant.step.x_good);
+        return way.norm() > FAR * double(plant.size);
+    };
+    return std::any_of(plant.input.pin_springs.begin(), plant.input.pin_springs.end(), is_led);
 }
 
-bool is_plausible(Plant& plant, double h, const Push* push) {
-    if (push || !plant.state.is_touched) return keeps_course(plant, h, push ? *push : Push());
+bool keeps_course(Plant& plant, double h) {
+    plant.step.is_off_course = ends_off_course(plant, h);
+    const bool is_asked = plant.step.is_off_course || plant.step.starts_anew || is_pushed(plant) ||
+                          integrator(plant.step.settings.integrator).has_stages ||
+                          is_carried(plant.state.motion, plant.step.x_good, plant.step.v_good) || leads_springs(plant);
+    return !(is_asked && has_energy_from_nowhere(plant, h)) && !has_run_away(plant);
+}
+
+bool is_plausible(Plant& plant, double h) {
+    if (plant.step.push || !plant.state.is_touched) return keeps_course(plant, h);
     plant.step.is_off_course = ends_off_course(plant, h);
     return !has_run_away(plant);
 }

@@ -69,11 +69,12 @@ std::vector<uint8_t> held_nodes(const Plant& plant) {
 }
 
 // Returns the forces on all nodes but those that hold them, and damping proportional to stiffness.
-VecX forces_at_end(const Plant& plant, const VecX& elastic) {
+VecX forces_at_end(const Plant& plant, const VecX& elastic, double h) {
     const Motion& motion = plant.state.motion;
     const VecX& mass = node_mass_of(*plant.system);
     VecX force = elastic;
     if (plant.step.loads.force.size() > 0) force += plant.step.loads.force;
+    if (is_pushed(plant)) force += plant.step.push->share / h * plant.step.push->impulse;
     add_spring_force(grab_springs(plant), motion.x, force);
     add_drag_force(plant.step.loads.drags, motion.x, motion.v, force);
     for (int i = 0; i < mass.size(); i++)
@@ -91,16 +92,17 @@ VecX damping_per_second(const Plant& plant, const VecX& elastic) {
     return (elastic_force(plant, plant.state.motion.x + time * plant.state.motion.v) - elastic) / time;
 }
 
-// Returns the mean force on all held nodes together in the step, given the impulse of contacts.
-Vec3 mean_holding_force(const Plant& plant, double h, const Vec3& impulse) {
+// Returns the mean force on all held nodes together in the step.
+Vec3 mean_holding_force(const Plant& plant, double h) {
     const Motion& motion = plant.state.motion;
     const VecX& mass = node_mass_of(*plant.system);
     const int next = plant.follow ? 2 : 1;
-    Vec3 momentum = -impulse, loads = Vec3::Zero();
+    Vec3 momentum = Vec3::Zero(), loads = Vec3::Zero();
     for (int i = 0; i < mass.size(); i += next) {
         momentum += mass[i] * (point(motion.v, i) - point(plant.step.v_good, i));
         loads += mass[i] * (plant.step.loads.gravity - plant.step.settings.mass_damping * Vec3(point(motion.v, i)));
         if (plant.step.loads.force.size() > 0) loads += point(plant.step.loads.force, i);
+        if (is_pushed(plant)) momentum -= plant.step.push->share * point(plant.step.push->impulse, i);
     }
     for (const Spring& spring : grab_springs(plant))
         loads += spring.stiffness * (spring.target - attachment_place(spring.attachment, motion.x));
@@ -123,8 +125,7 @@ Vec3 mean_way(const Plant& plant, const std::vector<uint8_t>& held, const VecX& 
 
 // The damping of elements that differ counts by its mean; half of the largest counts as error, since the step took it
 // from a stiffness that is not known here.
-void add_pins(const Plant& plant, double h, const Vec3& impulse, const std::vector<uint8_t>& held, const VecX& way,
-              LoadWork& work) {
+void add_pins(const Plant& plant, double h, const std::vector<uint8_t>& held, const VecX& way, LoadWork& work) {
     const VecX elastic = elastic_force(plant, plant.state.motion.x),
                change = elastic - elastic_force(plant, plant.step.x_good);
     const VecX& mass = node_mass_of(*plant.system);
@@ -135,9 +136,9 @@ void add_pins(const Plant& plant, double h, const Vec3& impulse, const std::vect
         damping = 0.5 * (*low + *high);
         most = *high;
     }
-    const VecX force = forces_at_end(plant, elastic), per_second = damping_per_second(plant, elastic);
+    const VecX force = forces_at_end(plant, elastic, h), per_second = damping_per_second(plant, elastic);
     const Vec3 mean = mean_way(plant, held, way);
-    work.pins += mean_holding_force(plant, h, impulse).dot(mean);
+    work.pins += mean_holding_force(plant, h).dot(mean);
     for (int i = 0; i < int(held.size()); i++) {
         if (!held[size_t(i)]) continue;
         const bool is_turn = plant.follow && i % 2 == 1;
@@ -145,7 +146,8 @@ void add_pins(const Plant& plant, double h, const Vec3& impulse, const std::vect
         const Vec3 acceleration = (point(plant.state.motion.v, i) - point(plant.step.v_good, i)) / h;
         const Vec3 reaction = mass[i] * acceleration - point(force, i) - damping * point(per_second, i);
         work.pins += reaction.dot(own);
-        work.error += 0.5 * (std::abs(point(change, i).dot(own)) + most * std::abs(point(per_second, i).dot(own)));
+        work.error += 0.5 * (std::abs(point(change, i).dot(own)) + most * std::abs(point(per_second, i).dot(own)) +
+                             std::abs(mass[i] * acceleration.dot(own)));
     }
 }
 
@@ -183,14 +185,15 @@ VecX way_of_step(const Plant& plant) {
     return (plant.follow ? wound_as(plant.step.x_good, end) : end) - plant.step.x_good;
 }
 
-LoadWork work_of_loads(const Plant& plant, double h, const Vec3& impulse) {
+LoadWork work_of_loads(const Plant& plant, double h) {
     LoadWork work;
     const VecX way = way_of_step(plant);
     add_forces(plant, way, work);
     add_air(plant, work);
     add_grabs(plant, work);
+    if (is_pushed(plant)) work.contacts = plant.step.push->share / h * plant.step.push->impulse.dot(way);
     const std::vector<uint8_t> held = held_nodes(plant);
-    if (any_moves(held, way)) add_pins(plant, h, impulse, held, way, work);
+    if (any_moves(held, way)) add_pins(plant, h, held, way, work);
     return work;
 }
 

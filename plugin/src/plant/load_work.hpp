@@ -7,7 +7,7 @@ namespace frond {
 
 // All [J].
 struct LoadWork {
-    double forces = 0, grabs = 0, air = 0, pins = 0;
+    double forces = 0, grabs = 0, air = 0, pins = 0, contacts = 0;
     double error = 0, air_error = 0;  // estimates of the errors of their sum without the air, and of the air's
 };
 
@@ -17,7 +17,6 @@ VecX way_of_step(const Plant& plant);
 // Computes the work of the loads in a step of h [s] that the plant has just completed: each load's force at the step's
 // end times the displacement of what it acts on, as implicit Euler counts it. The estimated error is half the change of
 // the force over the step times the displacement, the difference to the trapezoidal rule.
-// `impulse`: sum of the impulses of contacts and bonds, model frame [N s].
-LoadWork work_of_loads(const Plant& plant, double h, const Vec3& impulse);
+LoadWork work_of_loads(const Plant& plant, double h);
 
 }  // namespace frond

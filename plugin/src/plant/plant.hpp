@@ -128,21 +128,28 @@ struct PlantState {
     std::vector<float> away;
 };
 
+// What contacts do to a plant in a step.
+struct ContactPush {
+    VecX impulse;          // on the nodes of the mechanics [N s]; empty: none
+    double share = 1;      // of it that the plant takes, less where it has turned away from what pushes it [-]
+    double most_work = 0;  // that it can have done [J]
+};
+
 // Scratch of the running step: nothing of it outlives the step but memory.
 struct PlantStep {
-    WorkspacePtr workspace;      // from the pool; refers to system and own elements
-    SolveSettings settings;      // the plant's without effects that are off
-    Loads loads;                 // kept to reuse their memory
-    VecX x_good, v_good;         // before the step; empty after a healthy batched one: in the history
-    VecX contact_impulse;        // impulses of contacts on the nodes of the mechanics [N s]; empty: none
-    bool is_watched = false;     // near something that it may go through
-    bool is_pressed = false;     // in contact with something that may move
-    bool is_sound = true;        // the solution can be the next state
-    bool is_off_course = false;  // something ended the step off course
-    bool may_yield = true;       // it may cause yielding, as far as is known
-    bool has_fibres = false;     // it pulls back fibres
-    bool starts_anew = false;    // it has no past, since the host changed something
-    bool looks_back = false;     // it continues from its history, if it can be batched
+    WorkspacePtr workspace;             // from the pool; refers to system and own elements
+    SolveSettings settings;             // the plant's without effects that are off
+    Loads loads;                        // kept to reuse their memory
+    VecX x_good, v_good;                // before the step; empty after a healthy batched one: in the history
+    std::unique_ptr<ContactPush> push;  // null until contacts are known
+    bool is_watched = false;            // near something that it may go through
+    bool is_pressed = false;            // in contact with something that may move
+    bool is_sound = true;               // the solution can be the next state
+    bool is_off_course = false;         // something ended the step off course
+    bool may_yield = true;              // it may cause yielding, as far as is known
+    bool has_fibres = false;            // it pulls back fibres
+    bool starts_anew = false;           // it has no past, since the host changed something
+    bool looks_back = false;            // it continues from its history, if it can be batched
 };
 
 // View: what follows the state for those who look at the plant.
@@ -215,7 +222,13 @@ SolveSettings settings_for(const Plant& plant, frond_effects effects);
 inline bool waits(const Plant& plant) {
     return plant.state.is_touched || plant.step.is_watched;
 }
-// Adds contact_impulse, if there is any, to the solved step of a plant in contact: only then does its energy show
+// Returns the push of a step's contacts, which are known from then on.
+ContactPush& push_of(Plant& plant);
+// Returns whether contacts push the plant in its step.
+inline bool is_pushed(const Plant& plant) {
+    return plant.step.push && plant.step.push->impulse.size() > 0;
+}
+// Adds the push of contacts, if there is any, to the solved step of a plant in contact: only then does its energy show
 // whether the step went wrong.
 void add_contacts(Plant& plant, double h);
 // Returns the work that parting it from what it overlaps may do on it in a step of h [s]: it lifts the plant slowly

@@ -67,9 +67,9 @@ static bool is_sound(const Plant& plant) {
            !has_run_away(plant);
 }
 
-// Solves again from the start of the step by minimising its potential, in which a push is a force: no iterate has more
-// than the start, so the first and any later one is a step that can be taken.
-static void minimise(Plant& plant, frond_integrator method, double h, const Push& push, bool from_rest) {
+// Solves again from the start of the step by minimising its potential, in which contacts push by forces: no iterate has
+// more than the start, so the first and any later one is a step that can be taken.
+static void minimise(Plant& plant, frond_integrator method, double h, bool from_rest) {
     constexpr int ITERATIONS = 30;
     constexpr int MOST_WORK = 400;  // evaluations of all forces, about the most that a search needs
     SolveSettings settings = plant.step.settings;
@@ -83,8 +83,8 @@ static void minimise(Plant& plant, frond_integrator method, double h, const Push
     motion.x = plant.step.x_good;
     motion.v = plant.step.v_good;
     const VecX force = plant.step.loads.force;
-    if (push.impulse.size() > 0) {
-        plant.step.loads.force = push.impulse / h;
+    if (is_pushed(plant)) {
+        plant.step.loads.force = plant.step.push->share / h * plant.step.push->impulse;
         if (force.size() > 0) plant.step.loads.force += force;
     }
     const SolveReport before = plant.report;
@@ -95,11 +95,11 @@ static void minimise(Plant& plant, frond_integrator method, double h, const Push
 }
 
 // Goes only as far along the step as the plant gains no energy that nothing can have given.
-static void hold_back(Plant& plant, double h, const Push* push) {
+static void hold_back(Plant& plant, double h) {
     constexpr double LEAST = 0.01;  // share of the step from which on it is rewound [-]
     Motion& motion = plant.state.motion;
     const VecX way = way_of_step(plant), v = motion.v;
-    for (double share = 0.5; plant.report.ok && !is_plausible(plant, h, push); share /= 2) {
+    for (double share = 0.5; plant.report.ok && !is_plausible(plant, h); share /= 2) {
         plant.report.ok = share > LEAST;
         motion.x = plant.step.x_good + share * way;
         motion.v = share * v;
@@ -108,25 +108,23 @@ static void hold_back(Plant& plant, double h, const Push* push) {
 
 // Solves again where one solve gave the plant energy that nothing can have given: by its own integrator, which keeps
 // vibrations, and if that fails too by implicit Euler. That gains no energy but by a push which no longer points where
-// it was to push, for the plant has turned: then it pushes less. `known`: null until contacts are known.
-static void solve_again(Plant& plant, double h, const Push* known) {
+// it was to push, for the plant has turned: then it pushes less.
+static void solve_again(Plant& plant, double h) {
     const frond_integrator own = plant.step.settings.integrator;
     // From rest, entangled rods that are bent by their leaves' tips would stay still and never part.
     const bool from_rest = !plant.state.is_entangled;
-    Push push = known ? *known : Push();
-    const Push* const pushes = known ? &push : nullptr;
     const bool was_solved = plant.report.ok;
     const VecX x_once = plant.state.motion.x, v_once = plant.state.motion.v;
     if (!plant.state.is_touched && own != FROND_INTEGRATOR_IMPLICIT_EULER && !integrator(own).trusts_start) {
-        minimise(plant, own, h, push, from_rest);
-        if (plant.report.ok && is_plausible(plant, h, pushes) && are_slack(plant)) return;
+        minimise(plant, own, h, from_rest);
+        if (plant.report.ok && is_plausible(plant, h) && are_slack(plant)) return;
     }
     plant.state.motion.history.valid = false;
-    minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, from_rest);
+    minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, from_rest);
     for (const double share : {0.25, 0.05, 0.0}) {
-        if (push.impulse.size() == 0 || !plant.report.ok || is_plausible(plant, h, pushes)) break;
-        push.impulse = share * known->impulse;
-        minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, push, true);
+        if (!is_pushed(plant) || !plant.report.ok || is_plausible(plant, h)) break;
+        plant.step.push->share = share;
+        minimise(plant, FROND_INTEGRATOR_IMPLICIT_EULER, h, true);
     }
     if (was_solved && !plant.report.converged && way_of_step(plant).isZero(0)) {
         // The search found no way at all, and would find none in the next step: a part of what one solve gave is one.
@@ -134,7 +132,7 @@ static void solve_again(Plant& plant, double h, const Push* known) {
         plant.state.motion.v = v_once;
         plant.report.ok = true;
     }
-    hold_back(plant, h, pushes);
+    hold_back(plant, h);
 }
 
 // Returns whether one solve predicts the displacements well. An unwound rotation vector has not turned far.
@@ -165,6 +163,7 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.trouble = 0;
     plant.view.lead = 0;
     plant.step.may_yield = true;
+    plant.step.push = nullptr;
 
     // Effects.
     take_workspace(plant);
@@ -187,12 +186,12 @@ void solve_plant(Plant& plant, const Surroundings& surroundings, double h) {
     plant.step.starts_anew =
         integrator(plant.input.settings.integrator).looks_back && !motion.history.valid && !motion.history.shaken;
     plant.report = solve_in_substeps(plant, h);
-    if (!plant.report.ok || !is_plausible(plant, h, nullptr)) solve_again(plant, h, nullptr);
+    if (!plant.report.ok || !is_plausible(plant, h)) solve_again(plant, h);
     finish_solving(plant, h);
 }
 
 void finish_solving(Plant& plant, double h) {
-    hold_lengths(plant, h);
+    hold_lengths_of_step(plant, h);
     // Chains have no fibres, so none of their nodes has moved since the plausibility check. A plant on its course is
     // not being stretched.
     plant.step.is_sound =
@@ -225,32 +224,37 @@ static VecX move_by(Plant& plant, const VecX& dv, double h) {
 // Solves a chain again in another workspace: the responses that follow in this step are by the factor of the step
 // without contacts, from which all contacts' velocities are. A chain that a push has thrown far may be stiffer there by
 // far, and the next push would be as much larger. A cage stiffens as it bends, which foretells what the next push does.
-static void solve_again_aside(Plant& plant, double h, const Push& push) {
-    if (!plant.follow) return solve_again(plant, h, &push);
+static void solve_again_aside(Plant& plant, double h) {
+    if (!plant.follow) return solve_again(plant, h);
     WorkspacePtr without = std::move(plant.step.workspace);
     take_workspace(plant);
-    solve_again(plant, h, &push);
+    solve_again(plant, h);
     return_workspace(plant);
     plant.step.workspace = std::move(without);
 }
 
+ContactPush& push_of(Plant& plant) {
+    if (!plant.step.push) plant.step.push = std::make_unique<ContactPush>();
+    return *plant.step.push;
+}
+
 void add_contacts(Plant& plant, double h) {
     FROND_ASSERT(plant.step.workspace);
-    if (!plant.step.is_sound) return;
-    Push push = {std::move(plant.step.contact_impulse)};
-    plant.step.contact_impulse.resize(0);
+    ContactPush& push = push_of(plant);
+    if (!plant.step.is_sound) return push.impulse.resize(0);
     VecX dv;
-    const bool is_pushed = push.impulse.size() > 0;
-    if (is_pushed && respond(*plant.step.workspace, plant.input.settings, push.impulse, dv))
+    const bool has_impulse = push.impulse.size() > 0;
+    if (has_impulse && respond(*plant.step.workspace, plant.input.settings, push.impulse, dv))
         add_response(*plant.step.workspace, dv, plant.state.motion);
     // What is pushed goes along with what pushes it, as far as the response is linear.
-    if (is_pushed) push.most_work = std::max(0.0, push.impulse.dot(plant.state.motion.v));
+    if (has_impulse) push.most_work = std::max(0.0, push.impulse.dot(plant.state.motion.v));
     retract_step(*plant.step.workspace, plant.state.motion);
-    if (is_pushed) push.most_work = std::min(push.most_work, std::max(0.0, push.impulse.dot(way_of_step(plant)) / h));
+    if (has_impulse) push.most_work = std::min(push.most_work, std::max(0.0, push.impulse.dot(way_of_step(plant)) / h));
     // Cages are not retracted: what turns in them is inflated.
-    const bool is_bent = is_pushed && !plant.follow && !is_calm(*plant.system, plant.step.x_good, plant.state.motion.x);
+    const bool is_bent =
+        has_impulse && !plant.follow && !is_calm(*plant.system, plant.step.x_good, plant.state.motion.x);
     // Where this is too far for the linear response, the same push is solved as a force, nonlinearly.
-    if (is_bent || !is_plausible(plant, h, &push)) solve_again_aside(plant, h, push);
+    if (is_bent || !is_plausible(plant, h)) solve_again_aside(plant, h);
     plant.step.is_sound = is_sound(plant) && !is_far_out(plant);
 }
 
@@ -305,7 +309,6 @@ void drop_step(Plant& plant) {
         motion.v = plant.step.v_good;
     }
     motion.history.valid = false;
-    plant.step.contact_impulse.resize(0);
     plant.state.stepped_by = 0;
     moved(plant);
     return_workspace(plant);

@@ -50,6 +50,11 @@ bool make_touch(const Plant& plant, const Attachment& attachment, PlantTouch& to
     return true;
 }
 
+Vec3 way_of_touch(const Plant& plant, const PlantTouch& touch) {
+    return plant.rotation * (attachment_place(touch.attachment, plant.state.motion.x) -
+                             attachment_place(touch.attachment, plant.step.x_good));
+}
+
 bool find_compliance(Plant& plant, const Attachment& attachment, NodeCompliance& compliance) {
     FROND_ASSERT(plant.step.workspace);
     const Mat3 to_model = plant.rotation.conjugate().toRotationMatrix();

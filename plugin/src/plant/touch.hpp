@@ -31,6 +31,8 @@ struct PlantTouch {
 };
 // False if the step failed.
 bool make_touch(const Plant& plant, const Attachment& attachment, PlantTouch& touch);
+// Returns how far it went in the step as it is now, world frame [m].
+Vec3 way_of_touch(const Plant& plant, const PlantTouch& touch);
 // Finds the compliance to impulses along the world's axes; false if there is none. It is zero where all nodes of the
 // attachment are pinned.
 bool find_compliance(Plant& plant, const Attachment& attachment, NodeCompliance& compliance);

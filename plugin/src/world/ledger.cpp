@@ -80,34 +80,26 @@ void begin_work(World& world) {
         const double change = has_changed ? recount(world, *body, entry) : 0;
         if (is_modal || was_modal) world.ledger->sums.calls += change;
         entry.x = body->plant->state.motion.x;
-        entry.impulse.setZero();
     }
 }
 
-static void count_impulses(World& world) {
-    Ledger& ledger = *world.ledger;
-    const auto add = [&](const PlantBody& body, const Vec3& impulse, double by_body, double& work) {
-        if (is_stepped(body)) work += by_body;
-        ledger.plants[body.handle.id].impulse += impulse;
-    };
+// Adds what bodies did on plants by contacts and bonds.
+static void count_bodies(World& world) {
+    frond_energy_ledger& sums = world.ledger->sums;
     for (const Contact& contact : world.contacts)
-        add(*contact.plant, contact.impulse, contact.work, ledger.sums.bodies);
+        if (is_stepped(*contact.plant)) sums.bodies += contact.work;
     for (const Bond& bond : world.bonds)
-        if (bond.body && !bond.plant->rest.asleep) add(*bond.plant, bond.impulse, bond.work, ledger.sums.bonds);
-    for (const PlantContact& contact : world.plant_contacts) {
-        ledger.plants[contact.plants[0]->handle.id].impulse += contact.impulse;
-        ledger.plants[contact.plants[1]->handle.id].impulse -= contact.impulse;
-    }
+        if (bond.body && !bond.plant->rest.asleep && is_stepped(*bond.plant)) sums.bonds += bond.work;
 }
 
 void count_work(World& world) {
-    count_impulses(world);
+    count_bodies(world);
     frond_energy_ledger& sums = world.ledger->sums;
     for (PlantBody* body : world.awake) {
         if (!is_stepped(*body)) continue;
         const Plant& plant = *body->plant;
         Ledger::Entry& entry = world.ledger->plants[body->handle.id];
-        const LoadWork work = work_of_loads(plant, body->level.pending, plant.rotation.conjugate() * entry.impulse);
+        const LoadWork work = work_of_loads(plant, body->level.pending);
         sums.forces += work.forces;
         sums.grabs += work.grabs;
         sums.air += work.air;

@@ -16,9 +16,8 @@ struct World;
 
 struct Ledger {
     struct Entry {
-        frond_energy energy = {};     // as last counted [J]
-        Vec3 impulse = Vec3::Zero();  // of contacts and bonds in the running step, world frame [N s]
-        VecX x;                       // positions before the running step, model frame [m]
+        frond_energy energy = {};  // as last counted [J]
+        VecX x;                    // positions before the running step, model frame [m]
         size_t fragments = 0;
         bool is_modal = false;                 // does not count
         std::shared_ptr<const System> system;  // of which `modelled` is the elastic energy in the modelled shape [J]
