@@ -330,6 +330,7 @@ void take_apart(const Batch& a, Workspace* const* workspaces) {
         Workspace* workspace = workspaces[lane];
         factors[lane] = workspace ? &workspace->linear.block.fronts : nullptr;
         if (!workspace) continue;
+        workspace->linear.has_factor = true;
         workspace->held = a.held;
         workspace->reach = a.reach;
         workspace->retract_from.resize(0);

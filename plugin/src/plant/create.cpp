@@ -274,7 +274,7 @@ void set_mechanics(Plant& plant, frond_mechanics which, bool smoothly) {
     if (by_modes && plant.follow) keep_only_modes(plant);
     const VecX smooth = cage_places(plant), smooth_rate = cage_velocities(plant);
     const StoredEnergy held = stored_energy(plant);
-    const bool pins_moved = way_of_pins(plant) > NO_WAY * double(plant.size);
+    const bool pins_moved = miss_of_pins(plant) > NO_WAY * double(plant.size);
     // Plastic states carry over between mechanics of tets, and between those of the chain.
     const bool keeps = mechanics(which).moves_chain == mechanics(plant.which).moves_chain;
     const std::vector<double> plastic = keeps ? plastic_of(plant) : std::vector<double>();

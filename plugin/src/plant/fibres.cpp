@@ -12,6 +12,7 @@
 
 #include "cage/tet_geometry.hpp"
 #include "core/timer.hpp"
+#include "plant/guard.hpp"
 #include "plant/plant.hpp"
 #include "solve/integrator.hpp"
 #include "solve/node_compliance.hpp"
@@ -236,11 +237,13 @@ bool are_slack(Plant& plant) {
 // Corrects positions first, in rounds, since pulls turn the fibres, which is of second order in the displacement.
 // Velocities are corrected separately: where a fibre becomes taut, bdf2 would have it rebound, and faster in the next
 // steps.
-static std::vector<Row> pull_back(Plant& plant, double h) {
+static std::vector<Row> pull_back(Plant& plant, double h, VecX& x_free, VecX& v_free) {
     update_chain(plant);
     if (plant.state.is_entangled || !plant.state.fibre_give.empty()) let_give(plant, h);
     const std::vector<Row> rows = find_rows(plant);
     if (rows.empty()) return rows;
+    x_free = plant.state.motion.x;
+    v_free = plant.state.motion.v;
     const Eigen::Index count = Eigen::Index(rows.size());
     const bool was_shaken = plant.state.motion.history.shaken;
     const double reach = reach_of(*plant.step.workspace);
@@ -279,17 +282,19 @@ static double energy_of(const std::vector<Row>& rows, const VecX& x) {
     return energy;
 }
 
-// Takes pulls back as far as they give the plant more energy than its fibres had when the step began: what has turned
-// far, they would crumple.
+// Takes pulls back as far as they give the plant more energy than its fibres had when the step began, or than lifts it
+// by its size: what has turned far, they would crumple.
 static void keep_energy(Plant& plant, const std::vector<Row>& rows, const VecX& x_free, const VecX& v_free) {
     constexpr double LEAST = 0.01;  // share of the pulls [-]
+    constexpr double LIFT = 0.01;   // error over the energy that lifts the plant by its size [-]
     Motion& motion = plant.state.motion;
-    if (rows.empty() || !plant.step.is_off_course || are_same(motion.x, x_free)) return;
+    if (rows.empty() || are_same(motion.x, x_free)) return;
     const auto energy = [&](const VecX& x, const VecX& v) {
         return mechanics(plant.which, plant.nodes->order).energy(elements_of(plant), x) +
                kinetic_energy(*plant.system, x, v);
     };
-    const double most = energy(x_free, v_free) + energy_of(rows, plant.step.x_good);
+    const double lift = lifting_energy(plant),
+                 most = energy(x_free, v_free) + std::min(energy_of(rows, plant.step.x_good), lift) + LIFT * lift;
     const VecX by_x = motion.x - x_free, by_v = motion.v - v_free;
     for (double share = 0.5; energy(motion.x, motion.v) > most; share /= 2) {
         if (share < LEAST) share = 0;
@@ -309,7 +314,8 @@ static bool may_pull(Plant& plant) {
 void hold_lengths(Plant& plant, double h) {
     if (!may_pull(plant)) return;
     const Timer timer;
-    pull_back(plant, h);
+    VecX x_free, v_free;
+    pull_back(plant, h, x_free, v_free);
     plant.ms_fibres += timer.ms();
     plant.report.ms_solve += timer.ms();
 }
@@ -317,8 +323,8 @@ void hold_lengths(Plant& plant, double h) {
 void hold_lengths_of_step(Plant& plant, double h) {
     if (!may_pull(plant)) return;
     const Timer timer;
-    const VecX x = plant.state.motion.x, v = plant.state.motion.v;
-    keep_energy(plant, pull_back(plant, h), x, v);
+    VecX x_free, v_free;
+    keep_energy(plant, pull_back(plant, h, x_free, v_free), x_free, v_free);
     plant.ms_fibres += timer.ms();
     plant.report.ms_solve += timer.ms();
 }

@@ -250,7 +250,9 @@ void take_back(Plant& plant, const FreeStep& step);
 // the first returns whether it would be no more strained than at either end.
 bool may_go_part_of_way(const Plant& plant, double share, double h);
 void go_part_of_way(Plant& plant, double share);
-// Returns how far the farthest of the pinned nodes is from where it is to be at the end of the step [m].
+// Returns how far the farthest of the pinned nodes is from where it is to be [m]; the second only if pins were changed
+// since the last step, else 0.
+double miss_of_pins(const Plant& plant);
 double way_of_pins(const Plant& plant);
 void accept_step(Plant& plant, const Surroundings& surroundings, double h);
 // Replaces the second half if the step was broken off: puts the plant back to where it was before the first one.

@@ -39,20 +39,11 @@ void half_solve(BlockFactor& factor, const std::vector<NodeBlock>& right_side, N
                      : half_solve(plan.fronts, factor.fronts, right_side, compliance);
 }
 
-void half_solve_block(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance) {
-    half_solve(scratch.block, right_side, compliance);
-}
-
 LinearResult solve_block(const BlockMatrix& A, const VecX& b, const LinearLimits&, LinearScratch& scratch, VecX& x) {
-    if (!factorize(scratch.block, A)) return {};
+    scratch.has_factor = factorize(scratch.block, A);
+    if (!scratch.has_factor) return {};
     solve(scratch.block, b, x);
     return checked_once(A, b, x, scratch);
-}
-
-LinearResult solve_block_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch& scratch,
-                               VecX& x) {
-    solve(scratch.block, b, x);
-    return unchecked(x);
 }
 
 }  // namespace frond

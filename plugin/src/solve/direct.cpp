@@ -109,10 +109,4 @@ LinearResult solve_direct(const BlockMatrix& A, const VecX& b, const LinearLimit
     return checked_once(A, b, x, scratch);
 }
 
-LinearResult solve_direct_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch& scratch,
-                                VecX& x) {
-    solve(*scratch.direct, b, x);
-    return unchecked(x);
-}
-
 }  // namespace frond

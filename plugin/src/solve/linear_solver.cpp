@@ -8,14 +8,25 @@ namespace frond {
 
 const LinearSolver& linear_solver(frond_linear_solver which) {
     static const LinearSolver TABLE[] = {
-        {"block", solve_block, solve_block_again, half_solve_block},
-        {"direct", solve_direct, solve_direct_again, nullptr},
-        {"pcg_jacobi", solve_pcg_jacobi, solve_pcg_jacobi, nullptr},
-        {"pcg_block_jacobi", solve_pcg_block_jacobi, solve_pcg_block_jacobi, nullptr},
-        {"pcg_incomplete_cholesky", solve_pcg_incomplete_cholesky, solve_pcg_incomplete_cholesky, nullptr},
+        {"block", solve_block},
+        {"direct", solve_direct},
+        {"pcg_jacobi", solve_pcg_jacobi},
+        {"pcg_block_jacobi", solve_pcg_block_jacobi},
+        {"pcg_incomplete_cholesky", solve_pcg_incomplete_cholesky},
     };
     static_assert(sizeof TABLE / sizeof TABLE[0] == FROND_LINEAR_SOLVER_COUNT, "every linear solver needs its row");
     return TABLE[which];
+}
+
+LinearResult solve_linear(frond_linear_solver which, const BlockMatrix& A, const VecX& b, const LinearLimits& limits,
+                          LinearScratch& scratch, VecX& x) {
+    scratch.has_factor = false;
+    return linear_solver(which).solve(A, b, limits, scratch, x);
+}
+
+bool make_factor(const BlockMatrix& A, LinearScratch& scratch) {
+    if (!scratch.has_factor) scratch.has_factor = factorize(scratch.block, A);
+    return scratch.has_factor;
 }
 
 double relative_residual(const BlockMatrix& A, const VecX& b, const VecX& x, VecX& residual) {
@@ -31,13 +42,6 @@ LinearResult checked_once(const BlockMatrix& A, const VecX& b, const VecX& x, Li
     result.iterations = 1;
     result.residual = relative_residual(A, b, x, scratch.residual);
     result.ok = result.converged = std::isfinite(result.residual);
-    return result;
-}
-
-LinearResult unchecked(const VecX& x) {
-    LinearResult result;
-    result.iterations = 1;
-    result.ok = result.converged = are_finite(x);
     return result;
 }
 

@@ -23,7 +23,8 @@ struct LinearResult {
 // Scratch, kept from solve to solve; each solver uses its own part.
 struct LinearScratch {
     BlockFactor block;
-    DirectFactorPtr direct;  // made at first use
+    bool has_factor = false;  // `block` is of the last solve's matrix
+    DirectFactorPtr direct;   // made at first use
     VecX product, residual, direction, preconditioned, inverse_diagonal;
     std::vector<double> inverse_blocks;  // inverses of diagonal blocks, 9 numbers a node
     std::vector<double> incomplete;      // factor on the matrix's own pattern, 9 numbers a block
@@ -33,21 +34,19 @@ struct LinearSolver {
     const char* name;
     LinearResult (*solve)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
                           VecX& x);
-    // Solves with the last solve's matrix without factorizing it again; direct solvers do not compute a residual
-    // either.
-    LinearResult (*again)(const BlockMatrix& A, const VecX& b, const LinearLimits& limits, LinearScratch& scratch,
-                          VecX& x);
-    // Does half of that for a right-hand side of few nodes, for a compliance; null: not available.
-    void (*half)(LinearScratch& scratch, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance);
 };
 const LinearSolver& linear_solver(frond_linear_solver which);
 
+// Solves by one of the solvers.
+LinearResult solve_linear(frond_linear_solver which, const BlockMatrix& A, const VecX& b, const LinearLimits& limits,
+                          LinearScratch& scratch, VecX& x);
+// Makes the block factor of the last solve's matrix, unless it is there: responses to contacts are many solves with one
+// matrix, whatever solved the step. False if there is none.
+bool make_factor(const BlockMatrix& A, LinearScratch& scratch);
+
 // The rows.
 LinearResult solve_block(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
-LinearResult solve_block_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
-void half_solve_block(LinearScratch&, const std::vector<NodeBlock>& right_side, NodeCompliance& compliance);
 LinearResult solve_direct(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
-LinearResult solve_direct_again(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_block_jacobi(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&, VecX& x);
 LinearResult solve_pcg_incomplete_cholesky(const BlockMatrix&, const VecX& b, const LinearLimits&, LinearScratch&,
@@ -55,8 +54,7 @@ LinearResult solve_pcg_incomplete_cholesky(const BlockMatrix&, const VecX& b, co
 
 // Returns |b - A x| / |b| and leaves b - A x in `residual`. Zero for b = 0 and x = 0.
 double relative_residual(const BlockMatrix& A, const VecX& b, const VecX& x, VecX& residual);
-// Return the result of a direct solve: with its residual, or only with whether x is finite.
+// Returns the result of a direct solve, with its residual.
 LinearResult checked_once(const BlockMatrix& A, const VecX& b, const VecX& x, LinearScratch& scratch);
-LinearResult unchecked(const VecX& x);
 
 }  // namespace frond

@@ -220,7 +220,7 @@ void hold(Newton& n) {
 bool solve_linear(Newton& n) {
     const SolveSettings& s = n.input.settings;
     const LinearResult result =
-        linear_solver(s.linear_solver).solve(n.w.A, n.w.rhs, {s.max_iterations, s.tolerance}, n.w.linear, n.w.dv);
+        solve_linear(s.linear_solver, n.w.A, n.w.rhs, {s.max_iterations, s.tolerance}, n.w.linear, n.w.dv);
     n.report.iterations += result.iterations;
     n.report.residual = result.residual;
     n.report.converged = result.converged;

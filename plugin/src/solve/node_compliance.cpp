@@ -15,13 +15,13 @@ bool make_compliance(Workspace& workspace, const SolveSettings& settings, const 
         FROND_ASSERT(push.node >= 0 && size_t(push.node) < workspace.held.size());
         if (!workspace.held[size_t(push.node)]) free.push_back(push);
     }
-    const LinearSolver& solver = linear_solver(settings.linear_solver);
-    if (solver.half && !responds_by_mass(workspace, settings)) {
-        solver.half(workspace.linear, free, compliance);
+    if (!responds_by_mass(workspace, settings)) {
+        if (!make_factor(workspace.A, workspace.linear)) return false;
+        half_solve(workspace.linear.block, free, compliance);
         return compliance.right.allFinite();
     }
 
-    // Does whole solves, direction by direction.
+    // A diagonal matrix has no half of a solve.
     std::sort(free.begin(), free.end(), [](const NodeBlock& a, const NodeBlock& b) { return a.node < b.node; });
     compliance.rows.clear();
     compliance.left.resize(3, 3 * Eigen::Index(free.size()));

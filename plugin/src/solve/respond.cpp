@@ -20,9 +20,9 @@ bool respond(Workspace& workspace, const SolveSettings& settings, const VecX& im
         divide_by_mass(w, w.rhs, dv);
         return dv.allFinite();
     }
-    const LinearResult result = linear_solver(settings.linear_solver)
-                                    .again(w.A, w.rhs, {settings.max_iterations, settings.tolerance}, w.linear, dv);
-    return result.ok && dv.allFinite();
+    if (!make_factor(w.A, w.linear)) return false;
+    solve(w.linear.block, w.rhs, dv);
+    return dv.allFinite();
 }
 
 double reach_of(const Workspace& workspace) {

@@ -27,7 +27,7 @@ bool solve_mass(Workspace& w, const StepInput& input, SolveReport& report) {
     add_inertia(w, 1);
     const SolveSettings& s = input.settings;
     const LinearResult result =
-        linear_solver(s.linear_solver).solve(w.A, w.force, {s.max_iterations, s.tolerance}, w.linear, w.dv);
+        solve_linear(s.linear_solver, w.A, w.force, {s.max_iterations, s.tolerance}, w.linear, w.dv);
     report.iterations += result.iterations;
     report.residual = result.residual;
     report.converged = result.converged;
