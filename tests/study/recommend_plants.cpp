@@ -189,11 +189,10 @@ void expect_kept(const Kind& kind, double first_height) {
         ASSERT_EQ(frond_recommend(model->handle, asked, 0, &advice), FROND_OK) << frond_last_error();
         EXPECT_LE(advice.error, asked);
         const double error = measured_error(kind, advice, force, period);
-        EXPECT_LE(error, 1.2 * advice.error) << "asked for " << asked;
-        std::printf(
-            "asked %.3f promised %.5f measured %.5f: %s, %s, capsules of %.4f m, %.0f steps a period, %.3g s/s\n",
-            asked, advice.error, error, frond_integrator_name(advice.plant.integrator),
-            frond_mass_name(advice.plant.tuning.mass), advice.capsule_height, period / advice.time_step, advice.cpu);
+        EXPECT_LE(error, 1.2 * advice.error)
+            << "asked for " << asked << ": " << frond_integrator_name(advice.plant.integrator) << ", "
+            << frond_mass_name(advice.plant.tuning.mass) << ", capsules of " << advice.capsule_height << " m, "
+            << period / advice.time_step << " steps a period";
     }
 }
 
@@ -233,7 +232,7 @@ TEST(RecommendPlants, KeepsItsErrorOnAForkThatCarriesItsWeight) {
                                            {0, {0, 0.6, 0}, {0.15, 1.1, 0}, 0.007, 0.003},
                                            {0, {0, 0.6, 0}, {-0.1, 0.9, 0.1}, 0.006, 0.003},
                                            {0, {0, 0.4, 0}, {0.05, 0.6, -0.2}, 0.005, 0.002}};
-    expect_kept({[=](double height) { return build_stems(stems, FROND_REST_STANDS_AS_MODELLED, height); }, true, 0.005},
+    expect_kept({[=](double height) { return build_stems(stems, FROND_REST_STANDS_AS_MODELLED, height); }, true, 0.006},
                 0.05);
 }
 

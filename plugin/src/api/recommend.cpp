@@ -56,8 +56,9 @@ struct Search {
         constexpr double ROUNDED = 1 - 1e-12;
         return std::min(MOST_STEPS, ROUNDED * cpu / this->cost(choice, cost, 1));
     }
+    // Returns the error, no less than that of exact steps, so that shorter steps keep it too.
     double error(const Choice& choice, const Cost& cost, double steps) const {
-        return sway_error(choice.sway, exact, cost.integrator, 1 / (steps * frequency));
+        return std::max(choice.least, sway_error(choice.sway, exact, cost.integrator, 1 / (steps * frequency)));
     }
 };
 
@@ -108,22 +109,18 @@ struct Found {
     double error = INFINITY;
 };
 
-// Finds the fewest steps in a period, within some per cent and up to `most`, with an error within the bound. More steps
-// are tried until their error is only that of the chain: it need not fall, since what a chain's capsules slow down an
-// integrator may speed up.
+// Finds the fewest steps in a period, within some per cent and up to `most`, with an error within the bound.
 Found fewest_steps(const Search& search, const Choice& choice, const Cost& cost, double bound, double most) {
-    constexpr double GROWTH = 1.4, NEAR = 1.02, SAME = 0.03;
+    constexpr double GROWTH = 1.4, NEAR = 1.02;
     Found found;
     double too_few = LEAST_STEPS;
-    for (double steps = LEAST_STEPS; steps <= most; steps *= GROWTH) {
+    for (double steps = LEAST_STEPS; steps <= most && found.steps == 0; steps *= GROWTH) {
         const double error = search.error(choice, cost, steps);
         found.error = std::min(found.error, error);
-        if (error <= bound) {
+        if (error <= bound)
             found.steps = steps;
-            break;
-        }
-        if (std::abs(error - choice.least) < SAME * choice.least) return found;
-        too_few = steps;
+        else
+            too_few = steps;
     }
     while (found.steps > NEAR * too_few) {
         const double middle = std::sqrt(found.steps * too_few), error = search.error(choice, cost, middle);
@@ -137,13 +134,14 @@ Found fewest_steps(const Search& search, const Choice& choice, const Cost& cost,
 
 // Returns the cheapest settings with an error within the bound.
 frond_advice cheapest(const Search& search, double bound) {
-    constexpr double FAR = 2;  // errors of chains, over the bound, that no steps make good for
     frond_advice best = {};
     best.cpu = INFINITY;
     double least = INFINITY;
     for (const Choice& choice : search.choices) {
-        const bool is_finest = &choice >= &search.choices.back() - 1;
-        if (choice.least > FAR * bound && !is_finest) continue;
+        if (choice.least > bound) {
+            least = std::min(least, choice.least);
+            continue;
+        }
         for (const Cost& cost : COSTS) {
             const double most = search.steps_for(choice, cost, best.cpu);
             const Found found = fewest_steps(search, choice, cost, bound, most);

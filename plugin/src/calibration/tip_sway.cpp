@@ -143,9 +143,23 @@ TipSway find_tip_sway(const std::shared_ptr<const Model>& model, frond_mass mass
 }
 
 double main_frequency(const TipSway& sway) {
-    Eigen::Index most = 0;
-    (sway.tip.colwise().norm().transpose().cwiseProduct(sway.start.cwiseAbs())).maxCoeff(&most);
-    return std::sqrt(sway.square[most]) / (2 * PI);
+    constexpr double CLOSE = 0.2;  // width in logarithms of frequencies' squares within which modes are combined [-]
+    // Shares are of the displacement along the force: none is below zero.
+    const Sways shares = (sway.direction.transpose() * sway.tip).transpose().cwiseProduct(sway.start);
+    double largest = 0, best = sway.square[0];
+    for (Eigen::Index k = 0; k < shares.size(); k++) {
+        double sum = 0, squares = 0;
+        for (Eigen::Index j = 0; j < shares.size(); j++) {
+            const double off = frond::log(std::max(1e-9, sway.square[j] / sway.square[k])) / CLOSE;
+            const double part = frond::exp(-off * off) * shares[j];
+            sum += part;
+            squares += part * sway.square[j];
+        }
+        if (!(sum > largest)) continue;
+        largest = sum;
+        best = squares / sum;
+    }
+    return std::sqrt(best) / (2 * PI);
 }
 
 }  // namespace frond

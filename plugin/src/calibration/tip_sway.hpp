@@ -36,7 +36,8 @@ int find_tip(const Model& model);
 // force, length one; null: the horizontal one in which the tip gives way most. Throws BAD_GEOMETRY if nothing can move.
 TipSway find_tip_sway(const std::shared_ptr<const Model>& model, frond_mass mass, const Vec3* direction = nullptr);
 
-// Returns the frequency of the mode that the tip shows most of [Hz].
+// Returns the frequency of the mode that the tip shows most of along the force, with those of nearly the same frequency
+// combined [Hz].
 double main_frequency(const TipSway& sway);
 
 // Returns the error of the tip of `sway`, stepped by h [s], against the exact motion of `exact`: rms over two periods

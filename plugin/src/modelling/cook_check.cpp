@@ -1,6 +1,7 @@
 // Checks of a model: whatever it was made of, plants that are made of it index within its arrays and divide by
 // nothing that is zero.
 #include <cmath>
+#include <cstdlib>
 
 #include "cage/tet_geometry.hpp"
 #include "core/convert.hpp"
@@ -151,9 +152,10 @@ void check_chain(const Model& model) {
 
 // Returns whether a part is named by the number of a stem, as surface_from_stems() names it.
 bool is_named_by_stem(const std::string& name, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (name == "stem_" + std::to_string(i)) return true;
-    return false;
+    constexpr size_t BEFORE = 5;  // length of "stem_"
+    if (name.size() <= BEFORE) return false;
+    const long number = std::strtol(name.c_str() + BEFORE, nullptr, 10);
+    return number >= 0 && size_t(number) < count && name == "stem_" + std::to_string(number);
 }
 
 void check_stems(const Model& model) {
