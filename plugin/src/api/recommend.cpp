@@ -14,15 +14,15 @@ using namespace frond;
 
 namespace {
 
-// CPU time of a step of rods by the number of capsules, of the plant alone in its world: straight lines through what
-// `frond study sway` measured for 5 to 40 capsules on an AMD EPYC, GNU 12.2.0 Release.
+// CPU time of a step of rods by the number of capsules, of the plant alone in its world: straight lines within a tenth
+// of what stems of 5 to 160 capsules took on an AMD EPYC, GNU 12.2.0 Release; consistent masses take up to 7 % more.
 struct Cost {
     frond_integrator integrator;
     double of_step, of_capsule;  // [s]
 };
-constexpr Cost COSTS[] = {{FROND_INTEGRATOR_IMPLICIT_EULER, 2.5e-6, 0.51e-6},
-                          {FROND_INTEGRATOR_BDF2, 3.0e-6, 0.52e-6},
-                          {FROND_INTEGRATOR_SDIRK2, 3.9e-6, 0.78e-6}};
+constexpr Cost COSTS[] = {{FROND_INTEGRATOR_IMPLICIT_EULER, 3.7e-6, 0.66e-6},
+                          {FROND_INTEGRATOR_BDF2, 3.8e-6, 0.68e-6},
+                          {FROND_INTEGRATOR_SDIRK2, 5.3e-6, 1.31e-6}};
 
 // Capsules from root to tip of the chains that are tried; the finest, with each capsule cut in two, is the reference.
 constexpr int PIECES[] = {5, 7, 10, 14, 20, 28, 40, 57, 80, 113, 160};
