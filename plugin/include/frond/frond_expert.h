@@ -191,8 +191,8 @@ typedef struct frond_advice {
  * against capsules of a 320th of the way to the tip. The chain of a mesh, of tets or of a URDF file is another plant
  * with each capsule_height, since it is measured anew, or has its own: what comes back is the height that it has, the
  * model need not be built anew, and the error is against the same capsules with FROND_MASS_CONSISTENT in exact steps.
- * CPU is by measured steps of rods (`frond study sway`). Takes as long as making
- * the rods of such a model a dozen times: some tenths of a second for a few stems. */
+ * CPU is by measured steps of rods. Takes as long as making the rods of such a model a dozen times: some tenths of a
+ * second for a few stems. */
 FROND_API frond_result frond_recommend(frond_model model, double error, double cpu, frond_advice* out);
 
 #ifdef __cplusplus
