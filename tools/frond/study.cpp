@@ -1,5 +1,4 @@
 // frond study: measures what accuracy costs in time.
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
